@@ -1,0 +1,1 @@
+//! Shapes, voxels, intersections, sketches and pictures.

@@ -1,0 +1,1 @@
+//! The search: enumeration, importance sampling, particles.

@@ -1,0 +1,1 @@
+//! Numbers in, numbers out: scalars, small vectors, random streams, distributions.

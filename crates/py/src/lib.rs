@@ -1,0 +1,12 @@
+//! The door between Python and the engine: the only crate that knows Python.
+//!
+//! One file for each room behind the door; this one only registers them.
+
+use pyo3::prelude::*;
+
+/// The compiled engine, imported by the package as `niwaki._engine`.
+#[pymodule]
+fn _engine(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    Ok(())
+}

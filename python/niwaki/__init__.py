@@ -1,0 +1,1 @@
+"""Niwaki grows procedural models into the shapes you ask for."""
