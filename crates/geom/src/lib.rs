@@ -3,6 +3,8 @@
 //! - [`vector`], [`bounds`]: points, rotations, boxes along the axes
 //! - [`mesh`], [`topology`], [`hull`], [`convex`]: surfaces and convex solids
 //! - [`shape`], [`words`], [`primitive`]: what a model emits
+//! - [`voxel`]: which cells of a grid a shape fills
+//! - [`tree`]: a bag of boxes that copies share
 //! - [`sketch`]: running scores of what was emitted
 
 pub mod bounds;
@@ -14,7 +16,9 @@ pub mod primitive;
 pub mod shape;
 pub mod sketch;
 pub mod topology;
+pub mod tree;
 pub mod vector;
+pub mod voxel;
 pub mod words;
 
 pub use bounds::Aabb;
@@ -23,6 +27,8 @@ pub use error::GeomError;
 pub use mesh::TriMesh;
 pub use primitive::Primitive;
 pub use shape::{Placement, Ring, Shape, Solid};
+pub use sketch::volume::{Target, VolumeMatch, volume_match};
 pub use sketch::{Sketch, SketchSpec};
 pub use vector::{Mat3, Vec3, vec3};
+pub use voxel::{Grid, Voxels};
 pub use words::Look;
