@@ -4,6 +4,7 @@
 //! - [`mesh`], [`topology`], [`hull`], [`convex`]: surfaces and convex solids
 //! - [`shape`], [`words`], [`primitive`]: what a model emits
 //! - [`voxel`]: which cells of a grid a shape fills
+//! - [`intersect`]: whether two shapes intersect
 //! - [`tree`]: a bag of boxes that copies share
 //! - [`sketch`]: running scores of what was emitted
 
@@ -11,6 +12,7 @@ pub mod bounds;
 pub mod convex;
 pub mod error;
 pub mod hull;
+pub mod intersect;
 pub mod mesh;
 pub mod primitive;
 pub mod shape;
@@ -24,9 +26,12 @@ pub mod words;
 pub use bounds::Aabb;
 pub use convex::Convex;
 pub use error::GeomError;
+pub use intersect::{Rule, intersects};
 pub use mesh::TriMesh;
 pub use primitive::Primitive;
 pub use shape::{Placement, Ring, Shape, Solid};
+pub use sketch::intersection::{NoSelfIntersection, no_self_intersection};
+pub use sketch::product::Sketches;
 pub use sketch::volume::{Target, VolumeMatch, volume_match};
 pub use sketch::{Sketch, SketchSpec};
 pub use vector::{Mat3, Vec3, vec3};

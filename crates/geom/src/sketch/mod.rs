@@ -4,8 +4,12 @@
 //! order of adding, and adding then removing gives the old sketch back.
 //!
 //! - [`volume`], over [`counters`]: fill a target's volume
+//! - [`intersection`]: parts must not run into each other
+//! - [`product`]: several sketches of one scene
 
 pub mod counters;
+pub mod intersection;
+pub mod product;
 pub mod volume;
 
 use crate::primitive::Primitive;

@@ -60,9 +60,9 @@ fn fill(bits: &mut Bits, first: i64, last: i64) {
     for z in 0..nz {
         for y in 0..ny {
             let edge = y == 0 || z == 0 || y + 1 == ny || z + 1 == nz;
-            for c in 0..columns {
+            for (c, end) in ends.iter().enumerate() {
                 let i = at(y, z, c);
-                outside[i] = if edge { free[i] } else { free[i] & ends[c] };
+                outside[i] = if edge { free[i] } else { free[i] & end };
             }
         }
     }
