@@ -1,5 +1,10 @@
 //! Random shapes for tests, from a small generator of their own, so that a seed is a scene for ever.
 
+// Each test file takes what it needs.
+#![allow(dead_code)]
+
+pub mod ship;
+
 use niwaki_geom::{Look, Mat3, Shape, TriMesh, Vec3, vec3};
 use std::f64::consts::TAU;
 use std::sync::Arc;
