@@ -91,7 +91,7 @@ fn leaves_equal<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Option<bool> {
         (Value::Range(a), Value::Range(b)) => a.equals(b),
         (Value::Vector(a), Value::Vector(b)) => scalars_equal(a.components(), b.components()),
         (Value::Rotation(a), Value::Rotation(b)) => scalars_equal(&a[..], &b[..]),
-        (Value::Shape(a), Value::Shape(b)) => Arc::ptr_eq(a, b),
+        (Value::Shape(a), Value::Shape(b)) => a == b,
         (Value::Dist(a), Value::Dist(b)) => Arc::ptr_eq(a, b),
         (Value::Future(a), Value::Future(b)) => a == b,
         (Value::Tuple(a), Value::Tuple(b)) if a.ptr_eq(b) => true,

@@ -27,9 +27,10 @@ pub use aggregate::{Class, ClassKind, Closure, Dict, Range, Record, Tuple, Vecto
 pub use compare::{equal, order};
 pub use index::{iter_get, iter_len};
 pub use list::List;
+pub use niwaki_geom::Shape;
 pub use print::{repr, str_of};
 pub use same::same;
-pub use standin::{Dist, Draw, Family, Param, Scalar, Shape};
+pub use standin::{Dist, Draw, Family, Param, Scalar};
 pub use text::Text;
 
 /// Largest number of elements, or of characters, that one value may have (2^26).
@@ -64,7 +65,7 @@ pub enum Value<S: Scalar = f64> {
     /// A rotation matrix, row by row.
     Rotation(Arc<[S; 9]>),
     /// A solid, ready to be emitted.
-    Shape(Arc<Shape>),
+    Shape(Shape),
     /// A distribution.
     Dist(Arc<Dist<S>>),
     /// A function with the values that it captured.

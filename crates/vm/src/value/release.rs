@@ -94,7 +94,7 @@ mod tests {
 
     #[test]
     fn a_chain_through_a_long_lists_inner_nodes_is_dropped_too() {
-        let deep = (0..30_000).fold(Value::Int(1), |inner, _| {
+        let deep = (0..30_000).fold(Value::<f64>::Int(1), |inner, _| {
             let mut items = vec![Value::Int(0); 40];
             items[3] = inner;
             Value::list(items)

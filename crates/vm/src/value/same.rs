@@ -8,6 +8,8 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
+use niwaki_geom::{Shape, Solid};
+
 use super::{List, Scalar, Value};
 
 /// Elements that one identity test may look at before it answers "different".
@@ -47,6 +49,14 @@ fn same_scalars<S: Scalar>(a: &[S], b: &[S]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same_scalar(*a, *b))
 }
 
+/// Shapes are small and hold no values; only a mesh is worth giving up on.
+fn same_shape(a: &Shape, b: &Shape) -> bool {
+    match (a.solid(), b.solid()) {
+        (Solid::Mesh(m), Solid::Mesh(n)) if !Arc::ptr_eq(m, n) => false,
+        _ => a == b,
+    }
+}
+
 #[inline]
 fn glance<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Glance {
     match (a, b) {
@@ -71,7 +81,7 @@ fn glance_behind<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Glance {
         (Value::Vector(a), Value::Vector(b)) => same_scalars(a.components(), b.components()).into(),
         (Value::Rotation(a), Value::Rotation(b)) => same_scalars(&a[..], &b[..]).into(),
         (Value::Range(a), Value::Range(b)) => ((a.start, a.stop, a.step) == (b.start, b.stop, b.step)).into(),
-        (Value::Shape(a), Value::Shape(b)) => Arc::ptr_eq(a, b).into(),
+        (Value::Shape(a), Value::Shape(b)) => same_shape(a, b).into(),
         (Value::Dist(a), Value::Dist(b)) => Arc::ptr_eq(a, b).into(),
         (Value::Tuple(a), Value::Tuple(b)) => look_if(a.ptr_eq(b), a.items().len() == b.items().len()),
         (Value::List(a), Value::List(b)) => look_if(a.ptr_eq(b), a.len() == b.len()),
