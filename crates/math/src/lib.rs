@@ -1,1 +1,25 @@
 //! Numbers in, numbers out: scalars, small vectors, random streams, distributions.
+//!
+//! | part | what it holds |
+//! | --- | --- |
+//! | [`scalar`] | what a number must be able to do, so that a run can compute with something richer than `f64` |
+//! | [`vector`] | points, directions and rotations of three dimensions |
+//! | [`streams`] | random bits as a function of seed, stream, address and visit |
+//! | [`rounding`] | the grid on which log scores are added and taken away exactly |
+//! | [`special`] | the few special functions that the kept crates lack |
+//! | [`distributions`] | the families a model may draw from: density, support, sampler, parameter checks |
+//!
+//! Nothing here knows shapes, programs, searches or Python.
+
+pub mod distributions;
+pub mod rounding;
+pub mod scalar;
+pub mod special;
+pub mod streams;
+pub mod vector;
+
+pub use distributions::{BadParameter, Dist, Draw, Family, Param, Support};
+pub use rounding::grid;
+pub use scalar::Scalar;
+pub use streams::{RngCore, Stream};
+pub use vector::{Mat3, Vec3, vec3};

@@ -1,0 +1,166 @@
+//! Reading parameters: each is looked at once, when a distribution is built, and refused in one way.
+
+use super::dist::Dist;
+use super::draw::{Draw, Param};
+use super::family::Family;
+use crate::scalar::Scalar;
+use std::fmt;
+
+/// A parameter that a family cannot use.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BadParameter {
+    /// The family.
+    pub family: Family,
+    /// The parameter's name.
+    pub parameter: &'static str,
+    /// What was given, as a person would write it.
+    pub found: String,
+    /// What would have been right.
+    pub expected: &'static str,
+}
+
+impl fmt::Display for BadParameter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let BadParameter { family, parameter, found, expected } = self;
+        write!(f, "`{parameter}` of {family} is {found}, expected {expected}")
+    }
+}
+
+impl std::error::Error for BadParameter {}
+
+/// The parameters of one distribution to be built.
+pub(super) struct Reader<'a, S: Scalar> {
+    family: Family,
+    params: &'a [Param<S>],
+}
+
+type Checked<T> = Result<T, BadParameter>;
+
+impl<'a, S: Scalar> Reader<'a, S> {
+    /// Fails when there are more or fewer parameters than the family has.
+    #[inline]
+    pub fn new(family: Family, params: &'a [Param<S>]) -> Checked<Self> {
+        let names = family.parameters();
+        if let Some(parameter) = names.get(params.len()) {
+            let (found, expected) = ("missing".to_string(), "a value");
+            return Err(BadParameter { family, parameter, found, expected });
+        }
+        if params.len() > names.len() {
+            let found = format!("followed by {} more", params.len() - names.len());
+            let expected = "no more parameters";
+            return Err(BadParameter { family, parameter: names[names.len() - 1], found, expected });
+        }
+        Ok(Reader { family, params })
+    }
+
+    /// The complaint about parameter `k`.
+    #[cold]
+    pub fn refuse<T>(&self, k: usize, expected: &'static str) -> Checked<T> {
+        let parameter = self.family.parameters()[k];
+        Err(BadParameter { family: self.family, parameter, found: self.params[k].to_string(), expected })
+    }
+
+    #[inline]
+    fn number(&self, k: usize) -> Option<S> {
+        match &self.params[k] {
+            Param::Real(x) => Some(*x),
+            Param::Int(i) => Some(S::from_f64(*i as f64)),
+            Param::Bool(b) => Some(S::from_f64(f64::from(u8::from(*b)))),
+            Param::Draw(d) => d.as_real(),
+            _ => None,
+        }
+    }
+
+    /// A number for which `accept` holds; `accept` must refuse NaN.
+    #[inline]
+    pub fn real_where(&self, k: usize, expected: &'static str, accept: impl Fn(f64) -> bool) -> Checked<S> {
+        match self.number(k) {
+            Some(x) if accept(x.value()) => Ok(x),
+            _ => self.refuse(k, expected),
+        }
+    }
+
+    /// A finite number.
+    #[inline]
+    pub fn finite(&self, k: usize) -> Checked<S> {
+        self.real_where(k, "a finite number", f64::is_finite)
+    }
+
+    /// A finite number above zero.
+    #[inline]
+    pub fn positive(&self, k: usize) -> Checked<S> {
+        self.real_where(k, "a finite number above zero", |x| x > 0.0 && x.is_finite())
+    }
+
+    /// A number from zero to one.
+    #[inline]
+    pub fn probability(&self, k: usize) -> Checked<S> {
+        self.real_where(k, "a number from 0 to 1", |x| (0.0..=1.0).contains(&x))
+    }
+
+    /// A whole number.
+    #[inline]
+    pub fn whole(&self, k: usize) -> Checked<i64> {
+        match &self.params[k] {
+            Param::Int(i) => Ok(*i),
+            Param::Bool(b) => Ok(i64::from(*b)),
+            Param::Draw(Draw::Int(i)) => Ok(*i),
+            _ => self.refuse(k, "a whole number"),
+        }
+    }
+
+    /// Finite numbers, at least one, for all of which `accept` holds.
+    pub fn vector_where(
+        &self,
+        k: usize,
+        expected: &'static str,
+        accept: impl Fn(f64) -> bool,
+    ) -> Checked<&'a [S]> {
+        let numbers: &[S] = match &self.params[k] {
+            Param::Vector(v) => v,
+            Param::Draw(Draw::Vector(v)) => v,
+            _ => return self.refuse(k, expected),
+        };
+        let fine = !numbers.is_empty() && numbers.iter().all(|x| x.is_finite() && accept(x.value()));
+        if fine { Ok(numbers) } else { self.refuse(k, expected) }
+    }
+
+    /// A square matrix of finite numbers with `n` rows.
+    pub fn square(&self, k: usize, n: usize, expected: &'static str) -> Checked<&'a [Vec<S>]> {
+        match &self.params[k] {
+            Param::Matrix(rows)
+                if rows.len() == n
+                    && rows.iter().all(|r| r.len() == n && r.iter().all(|x| x.is_finite())) =>
+            {
+                Ok(rows)
+            }
+            _ => self.refuse(k, expected),
+        }
+    }
+
+    /// Distributions.
+    pub fn dists(&self, k: usize, expected: &'static str) -> Checked<&'a [Dist<S>]> {
+        match &self.params[k] {
+            Param::Dists(dists) => Ok(dists),
+            _ => self.refuse(k, expected),
+        }
+    }
+
+    /// A finite value of any kind.
+    pub fn value(&self, k: usize) -> Checked<Draw<S>> {
+        let value = match &self.params[k] {
+            Param::Bool(b) => Draw::Bool(*b),
+            Param::Int(i) => Draw::Int(*i),
+            Param::Real(x) => Draw::Real(*x),
+            Param::Vector(v) => Draw::Vector(v.as_slice().into()),
+            Param::Draw(d) => d.clone(),
+            _ => return self.refuse(k, "a truth value, a number or a vector"),
+        };
+        let finite = match &value {
+            Draw::Real(x) => x.is_finite(),
+            Draw::Vector(v) => v.iter().all(|x| x.is_finite()),
+            _ => true,
+        };
+        if finite { Ok(value) } else { self.refuse(k, "a finite value") }
+    }
+}

@@ -1,0 +1,401 @@
+//! One value for all families: building (with checks), scoring, drawing.
+//!
+//! Families with a few numbers are kept inline, so that a choice allocates nothing; those with tables are
+//! behind an `Arc`. The mathematics is in the families' own files.
+
+use super::check::{BadParameter, Reader};
+use super::draw::{Draw, Param};
+use super::family::Family;
+use super::mixture::Mixture;
+use super::vectors::MultivariateGaussian;
+use super::weights::Weights;
+use super::{bell, circle, counts, interval, tails, truncated, vectors, waiting, whole};
+use crate::scalar::Scalar;
+use crate::streams::RngCore;
+use std::sync::Arc;
+
+/// A distribution with checked parameters.
+///
+/// ```
+/// use niwaki_math::{Dist, Draw, Family, Param, Stream};
+/// let d: Dist = Dist::new(Family::Gaussian, &[Param::Int(0), Param::Real(2.0)]).unwrap();
+/// let x = d.sample(&mut Stream::new(1, 0, 0, 0));
+/// assert!(d.log_density(&x) <= d.log_density(&Draw::Real(0.0)));
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[allow(missing_docs)] // The fields are the families' parameters, described at `Family`.
+pub enum Dist<S: Scalar = f64> {
+    /// See [`Family::Bernoulli`].
+    Bernoulli { p: S },
+    /// See [`Family::Categorical`].
+    Categorical(Arc<Weights<S>>),
+    /// See [`Family::DiscreteUniform`].
+    DiscreteUniform { lo: i64, hi: i64 },
+    /// See [`Family::Poisson`].
+    Poisson { rate: S },
+    /// See [`Family::Binomial`].
+    Binomial { n: i64, p: S },
+    /// See [`Family::Geometric`].
+    Geometric { p: S },
+    /// See [`Family::Uniform`].
+    Uniform { lo: S, hi: S },
+    /// See [`Family::Gaussian`].
+    Gaussian { mean: S, sd: S },
+    /// See [`Family::LogNormal`].
+    LogNormal { mean: S, sd: S },
+    /// See [`Family::Gamma`].
+    Gamma { shape: S, scale: S },
+    /// See [`Family::InverseGamma`].
+    InverseGamma { shape: S, scale: S },
+    /// See [`Family::Beta`].
+    Beta { a: S, b: S },
+    /// See [`Family::Exponential`].
+    Exponential { rate: S },
+    /// See [`Family::Laplace`].
+    Laplace { loc: S, scale: S },
+    /// See [`Family::Cauchy`].
+    Cauchy { loc: S, scale: S },
+    /// See [`Family::StudentT`].
+    StudentT { df: S, loc: S, scale: S },
+    /// See [`Family::VonMises`].
+    VonMises { mean: S, concentration: S },
+    /// See [`Family::TruncatedGaussian`].
+    TruncatedGaussian { mean: S, sd: S, lo: S, hi: S },
+    /// See [`Family::Dirichlet`].
+    Dirichlet(Arc<[S]>),
+    /// See [`Family::MultivariateGaussian`].
+    MultivariateGaussian(Arc<MultivariateGaussian<S>>),
+    /// See [`Family::Mixture`].
+    Mixture(Arc<Mixture<S>>),
+    /// See [`Family::Delta`].
+    Delta(Draw<S>),
+}
+
+// A distribution travels in registers and trees of nodes: it should not grow unnoticed.
+const _: () = assert!(size_of::<Dist<f64>>() <= 40);
+
+impl<S: Scalar> Dist<S> {
+    /// The distribution of this family with these parameters, or what is wrong with them.
+    pub fn new(family: Family, params: &[Param<S>]) -> Result<Dist<S>, BadParameter> {
+        let r = Reader::new(family, params)?;
+        Ok(match family {
+            Family::Bernoulli => Dist::Bernoulli { p: r.probability(0)? },
+            Family::Categorical => Dist::Categorical(Arc::new(Weights::read(&r, 0)?)),
+            Family::DiscreteUniform => {
+                let (lo, hi) = (r.whole(0)?, r.whole(1)?);
+                if lo > hi {
+                    return r.refuse(1, "a whole number no less than `lo`");
+                }
+                Dist::DiscreteUniform { lo, hi }
+            }
+            Family::Poisson => {
+                const EXPECTED: &str = "a number from 0 to 1e15";
+                Dist::Poisson {
+                    rate: r.real_where(0, EXPECTED, |x| (0.0..=counts::LARGEST_RATE).contains(&x))?,
+                }
+            }
+            Family::Binomial => {
+                let n = r.whole(0)?;
+                if n < 0 {
+                    return r.refuse(0, "a whole number, not negative");
+                }
+                Dist::Binomial { n, p: r.probability(1)? }
+            }
+            Family::Geometric => {
+                let p = r.real_where(0, "a number above 0 and up to 1", |x| x > 0.0 && x <= 1.0)?;
+                Dist::Geometric { p }
+            }
+            Family::Uniform => {
+                let (lo, hi) = interval(&r, 0)?;
+                Dist::Uniform { lo, hi }
+            }
+            Family::Gaussian => Dist::Gaussian { mean: r.finite(0)?, sd: r.positive(1)? },
+            Family::LogNormal => Dist::LogNormal { mean: r.finite(0)?, sd: r.positive(1)? },
+            Family::Gamma => Dist::Gamma { shape: r.positive(0)?, scale: r.positive(1)? },
+            Family::InverseGamma => Dist::InverseGamma { shape: r.positive(0)?, scale: r.positive(1)? },
+            Family::Beta => Dist::Beta { a: r.positive(0)?, b: r.positive(1)? },
+            Family::Exponential => Dist::Exponential { rate: r.positive(0)? },
+            Family::Laplace => Dist::Laplace { loc: r.finite(0)?, scale: r.positive(1)? },
+            Family::Cauchy => Dist::Cauchy { loc: r.finite(0)?, scale: r.positive(1)? },
+            Family::StudentT => {
+                Dist::StudentT { df: r.positive(0)?, loc: r.finite(1)?, scale: r.positive(2)? }
+            }
+            Family::VonMises => {
+                const EXPECTED: &str = "a finite number, not negative";
+                let concentration = r.real_where(1, EXPECTED, |x| x >= 0.0 && x.is_finite())?;
+                Dist::VonMises { mean: r.finite(0)?, concentration }
+            }
+            Family::TruncatedGaussian => {
+                let (mean, sd) = (r.finite(0)?, r.positive(1)?);
+                let (lo, hi) = interval(&r, 2)?;
+                Dist::TruncatedGaussian { mean, sd, lo, hi }
+            }
+            Family::Dirichlet => {
+                const EXPECTED: &str = "finite numbers above zero, at least one";
+                Dist::Dirichlet(r.vector_where(0, EXPECTED, |x| x > 0.0)?.into())
+            }
+            Family::MultivariateGaussian => {
+                Dist::MultivariateGaussian(Arc::new(MultivariateGaussian::read(&r)?))
+            }
+            Family::Mixture => Dist::Mixture(Arc::new(Mixture::read(&r)?)),
+            Family::Delta => Dist::Delta(r.value(0)?),
+        })
+    }
+
+    /// Log density of `x`, nats; minus infinity outside the support and for values of another kind.
+    ///
+    /// Kinds are Python's: 1 may stand for 1.0 or true, and 3.0 for 3.
+    #[inline]
+    pub fn log_density(&self, x: &Draw<S>) -> S {
+        let never = S::from_f64(f64::NEG_INFINITY);
+        let real = |density: &dyn Fn(S) -> S| match x.as_real() {
+            Some(x) if x.is_finite() => density(x),
+            _ => never,
+        };
+        let whole = |density: &dyn Fn(i64) -> S| x.as_int().map_or(never, density);
+        match self {
+            Dist::Bernoulli { p } => x.as_bool().map_or(never, |x| self::whole::bernoulli_log_density(*p, x)),
+            Dist::Categorical(w) => whole(&|k| w.log_probability(k)),
+            Dist::DiscreteUniform { lo, hi } => {
+                whole(&|k| S::from_f64(self::whole::discrete_uniform_log_density(*lo, *hi, k)))
+            }
+            Dist::Poisson { rate } => whole(&|k| counts::poisson_log_density(*rate, k)),
+            Dist::Binomial { n, p } => whole(&|k| counts::binomial_log_density(*n, *p, k)),
+            Dist::Geometric { p } => whole(&|k| self::whole::geometric_log_density(*p, k)),
+            Dist::Uniform { lo, hi } => real(&|x| interval::uniform_log_density(*lo, *hi, x)),
+            Dist::Gaussian { mean, sd } => real(&|x| bell::gaussian_log_density(*mean, *sd, x)),
+            Dist::LogNormal { mean, sd } => real(&|x| bell::log_normal_log_density(*mean, *sd, x)),
+            Dist::Gamma { shape, scale } => real(&|x| waiting::gamma_log_density(*shape, *scale, x)),
+            Dist::InverseGamma { shape, scale } => {
+                real(&|x| waiting::inverse_gamma_log_density(*shape, *scale, x))
+            }
+            Dist::Beta { a, b } => real(&|x| interval::beta_log_density(*a, *b, x)),
+            Dist::Exponential { rate } => real(&|x| waiting::exponential_log_density(*rate, x)),
+            Dist::Laplace { loc, scale } => real(&|x| tails::laplace_log_density(*loc, *scale, x)),
+            Dist::Cauchy { loc, scale } => real(&|x| tails::cauchy_log_density(*loc, *scale, x)),
+            Dist::StudentT { df, loc, scale } => {
+                real(&|x| tails::student_t_log_density(*df, *loc, *scale, x))
+            }
+            Dist::VonMises { mean, concentration } => {
+                real(&|x| circle::log_density(*mean, *concentration, x))
+            }
+            Dist::TruncatedGaussian { mean, sd, lo, hi } => {
+                real(&|x| truncated::log_density(*mean, *sd, *lo, *hi, x))
+            }
+            Dist::Dirichlet(a) => x.as_vector().map_or(never, |x| vectors::dirichlet_log_density(a, x)),
+            Dist::MultivariateGaussian(g) => x.as_vector().map_or(never, |x| g.log_density(x)),
+            Dist::Mixture(m) => m.log_density(x),
+            Dist::Delta(value) => {
+                if same(value, x) {
+                    S::from_f64(0.0)
+                } else {
+                    never
+                }
+            }
+        }
+    }
+
+    /// A draw, from bits of `rng` only.
+    #[inline]
+    pub fn sample(&self, rng: &mut (impl RngCore + ?Sized)) -> Draw<S> {
+        let real = |x: f64| Draw::Real(S::from_f64(x));
+        let vector = |x: Vec<f64>| Draw::Vector(x.into_iter().map(S::from_f64).collect());
+        match self {
+            Dist::Bernoulli { p } => Draw::Bool(whole::bernoulli_sample(p.value(), rng)),
+            Dist::Categorical(w) => Draw::Int(w.sample(rng) as i64),
+            Dist::DiscreteUniform { lo, hi } => Draw::Int(whole::discrete_uniform_sample(*lo, *hi, rng)),
+            Dist::Poisson { rate } => Draw::Int(counts::poisson_sample(rate.value(), rng)),
+            Dist::Binomial { n, p } => Draw::Int(counts::binomial_sample(*n, p.value(), rng)),
+            Dist::Geometric { p } => Draw::Int(whole::geometric_sample(p.value(), rng)),
+            Dist::Uniform { lo, hi } => real(interval::uniform_sample(lo.value(), hi.value(), rng)),
+            Dist::Gaussian { mean, sd } => real(bell::gaussian_sample(mean.value(), sd.value(), rng)),
+            Dist::LogNormal { mean, sd } => real(bell::log_normal_sample(mean.value(), sd.value(), rng)),
+            Dist::Gamma { shape, scale } => real(waiting::gamma_sample(shape.value(), scale.value(), rng)),
+            Dist::InverseGamma { shape, scale } => {
+                real(waiting::inverse_gamma_sample(shape.value(), scale.value(), rng))
+            }
+            Dist::Beta { a, b } => real(interval::beta_sample(a.value(), b.value(), rng)),
+            Dist::Exponential { rate } => real(waiting::exponential_sample(rate.value(), rng)),
+            Dist::Laplace { loc, scale } => real(tails::laplace_sample(loc.value(), scale.value(), rng)),
+            Dist::Cauchy { loc, scale } => real(tails::cauchy_sample(loc.value(), scale.value(), rng)),
+            Dist::StudentT { df, loc, scale } => {
+                real(tails::student_t_sample(df.value(), loc.value(), scale.value(), rng))
+            }
+            Dist::VonMises { mean, concentration } => {
+                real(circle::sample(mean.value(), concentration.value(), rng))
+            }
+            Dist::TruncatedGaussian { mean, sd, lo, hi } => {
+                real(truncated::sample(mean.value(), sd.value(), lo.value(), hi.value(), rng))
+            }
+            Dist::Dirichlet(a) => vector(vectors::dirichlet_sample(a, rng)),
+            Dist::MultivariateGaussian(g) => vector(g.sample(rng)),
+            Dist::Mixture(m) => m.sample(rng),
+            Dist::Delta(value) => value.clone(),
+        }
+    }
+
+    /// The family.
+    pub fn family(&self) -> Family {
+        match self {
+            Dist::Bernoulli { .. } => Family::Bernoulli,
+            Dist::Categorical(_) => Family::Categorical,
+            Dist::DiscreteUniform { .. } => Family::DiscreteUniform,
+            Dist::Poisson { .. } => Family::Poisson,
+            Dist::Binomial { .. } => Family::Binomial,
+            Dist::Geometric { .. } => Family::Geometric,
+            Dist::Uniform { .. } => Family::Uniform,
+            Dist::Gaussian { .. } => Family::Gaussian,
+            Dist::LogNormal { .. } => Family::LogNormal,
+            Dist::Gamma { .. } => Family::Gamma,
+            Dist::InverseGamma { .. } => Family::InverseGamma,
+            Dist::Beta { .. } => Family::Beta,
+            Dist::Exponential { .. } => Family::Exponential,
+            Dist::Laplace { .. } => Family::Laplace,
+            Dist::Cauchy { .. } => Family::Cauchy,
+            Dist::StudentT { .. } => Family::StudentT,
+            Dist::VonMises { .. } => Family::VonMises,
+            Dist::TruncatedGaussian { .. } => Family::TruncatedGaussian,
+            Dist::Dirichlet(_) => Family::Dirichlet,
+            Dist::MultivariateGaussian(_) => Family::MultivariateGaussian,
+            Dist::Mixture(_) => Family::Mixture,
+            Dist::Delta(_) => Family::Delta,
+        }
+    }
+
+    /// The parameters, in the order in which [`Dist::new`] takes them.
+    pub fn params(&self) -> Vec<Param<S>> {
+        let reals = |numbers: &[S]| numbers.iter().map(|x| Param::Real(*x)).collect();
+        match self {
+            Dist::Bernoulli { p } | Dist::Geometric { p } => reals(&[*p]),
+            Dist::Categorical(w) => vec![Param::Vector(w.given().to_vec())],
+            Dist::DiscreteUniform { lo, hi } => vec![Param::Int(*lo), Param::Int(*hi)],
+            Dist::Binomial { n, p } => vec![Param::Int(*n), Param::Real(*p)],
+            Dist::Poisson { rate } | Dist::Exponential { rate } => reals(&[*rate]),
+            Dist::Uniform { lo: a, hi: b }
+            | Dist::Gaussian { mean: a, sd: b }
+            | Dist::LogNormal { mean: a, sd: b }
+            | Dist::Gamma { shape: a, scale: b }
+            | Dist::InverseGamma { shape: a, scale: b }
+            | Dist::Beta { a, b }
+            | Dist::Laplace { loc: a, scale: b }
+            | Dist::Cauchy { loc: a, scale: b }
+            | Dist::VonMises { mean: a, concentration: b } => reals(&[*a, *b]),
+            Dist::StudentT { df, loc, scale } => reals(&[*df, *loc, *scale]),
+            Dist::TruncatedGaussian { mean, sd, lo, hi } => reals(&[*mean, *sd, *lo, *hi]),
+            Dist::Dirichlet(a) => vec![Param::Vector(a.to_vec())],
+            Dist::MultivariateGaussian(g) => {
+                vec![Param::Vector(g.mean.clone()), Param::Matrix(g.covariance.clone())]
+            }
+            Dist::Mixture(m) => {
+                vec![Param::Vector(m.weights.given().to_vec()), Param::Dists(m.components.clone())]
+            }
+            Dist::Delta(value) => vec![Param::Draw(value.clone())],
+        }
+    }
+}
+
+/// Parameters `k` and `k + 1` as the ends of an interval of finite length.
+fn interval<S: Scalar>(r: &Reader<'_, S>, k: usize) -> Result<(S, S), BadParameter> {
+    let (lo, hi) = (r.finite(k)?, r.finite(k + 1)?);
+    if !(lo.value() < hi.value() && (hi - lo).is_finite()) {
+        return r.refuse(k + 1, "a number above `lo`, at a finite distance");
+    }
+    Ok((lo, hi))
+}
+
+/// Equality as in Python: 1 is 1.0 is true.
+fn same<S: Scalar>(a: &Draw<S>, b: &Draw<S>) -> bool {
+    match (a, b) {
+        (Draw::Vector(a), Draw::Vector(b)) => a == b,
+        (Draw::Int(a), Draw::Int(b)) => a == b,
+        _ => matches!((a.as_real(), b.as_real()), (Some(a), Some(b)) if a == b),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! Parameters are refused with the right words; parameters lead back to the distribution.
+    use super::*;
+
+    fn refusal(family: Family, params: &[Param]) -> String {
+        Dist::new(family, params).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn refusals_say_which_parameter_what_was_found_and_what_was_expected() {
+        let real = Param::Real;
+        assert_eq!(
+            refusal(Family::Gaussian, &[real(0.0), real(-1.5)]),
+            "`sd` of gaussian is -1.5, expected a finite number above zero"
+        );
+        assert_eq!(
+            refusal(Family::Uniform, &[real(2.0), Param::Int(1)]),
+            "`hi` of uniform is 1, expected a number above `lo`, at a finite distance"
+        );
+        assert_eq!(refusal(Family::Beta, &[real(1.0)]), "`b` of beta is missing, expected a value");
+        assert_eq!(
+            refusal(Family::Bernoulli, &[real(0.5), real(1.0)]),
+            "`p` of bernoulli is followed by 1 more, expected no more parameters"
+        );
+        assert_eq!(
+            refusal(Family::Binomial, &[real(3.0), real(0.5)]),
+            "`n` of binomial is 3.0, expected a whole number"
+        );
+    }
+
+    #[test]
+    fn numbers_that_are_not_finite_are_refused_everywhere() {
+        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            for &family in Family::ALL {
+                for k in 0..family.parameters().len() {
+                    let mut params = super::super::testing::example(family).params();
+                    params[k] = match &params[k] {
+                        Param::Vector(v) => Param::Vector(vec![bad; v.len()]),
+                        Param::Matrix(m) => Param::Matrix(vec![vec![bad; m.len()]; m.len()]),
+                        Param::Dists(_) => continue,
+                        _ => Param::Real(bad),
+                    };
+                    let refused = Dist::new(family, &params).unwrap_err();
+                    assert_eq!((refused.family, refused.parameter), (family, family.parameters()[k]));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn parameters_lead_back_to_the_distribution() {
+        for &family in Family::ALL {
+            let d = super::super::testing::example(family);
+            assert_eq!(d.family(), family);
+            assert_eq!(Dist::new(family, &d.params()), Ok(d));
+        }
+    }
+
+    #[test]
+    fn values_of_another_kind_have_no_density() {
+        let vector = Draw::Vector([0.5, 0.5].into());
+        for &family in Family::ALL {
+            let d = super::super::testing::example(family);
+            let wrong = if matches!(d.sample(&mut super::super::testing::stream(0)), Draw::Vector(_)) {
+                Draw::Real(0.5)
+            } else {
+                vector.clone()
+            };
+            assert_eq!(d.log_density(&wrong), f64::NEG_INFINITY, "{family}");
+            if !matches!(wrong, Draw::Real(_)) {
+                assert_eq!(d.log_density(&Draw::Real(f64::NAN)), f64::NEG_INFINITY, "{family}");
+            }
+        }
+    }
+
+    #[test]
+    fn numbers_count_as_in_python() {
+        let coin = Dist::Bernoulli { p: 0.25 };
+        assert_eq!(coin.log_density(&Draw::Int(1)), 0.25_f64.ln());
+        assert_eq!(coin.log_density(&Draw::Int(2)), f64::NEG_INFINITY);
+        let gaussian = Dist::Gaussian { mean: 0.0, sd: 1.0 };
+        assert_eq!(gaussian.log_density(&Draw::Int(1)), gaussian.log_density(&Draw::Real(1.0)));
+        assert_eq!(Dist::Poisson { rate: 2.0 }.log_density(&Draw::Real(1.5)), f64::NEG_INFINITY);
+        assert_eq!(Dist::Delta(Draw::Real(1.0)).log_density(&Draw::Int(1)), 0.0);
+    }
+}

@@ -1,0 +1,130 @@
+//! What goes in and comes out of a distribution: parameters and drawn values.
+
+use super::dist::Dist;
+use crate::scalar::Scalar;
+use std::fmt;
+use std::sync::Arc;
+
+/// A value that a distribution can take.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Draw<S = f64> {
+    /// True or false.
+    Bool(bool),
+    /// A whole number.
+    Int(i64),
+    /// A real number.
+    Real(S),
+    /// A vector of reals, shape (n,).
+    Vector(Arc<[S]>),
+}
+
+impl<S: Scalar> Draw<S> {
+    /// As a truth value. Numbers count as in Python: 1 is true, 0 is false, others are neither.
+    #[inline]
+    pub fn as_bool(&self) -> Option<bool> {
+        match self {
+            Draw::Bool(b) => Some(*b),
+            Draw::Int(i @ (0 | 1)) => Some(*i == 1),
+            Draw::Real(x) if x.value() == 0.0 || x.value() == 1.0 => Some(x.value() == 1.0),
+            _ => None,
+        }
+    }
+
+    /// As a whole number. As in Python, true is 1, and 3.0 is 3.
+    #[inline]
+    pub fn as_int(&self) -> Option<i64> {
+        match self {
+            Draw::Int(i) => Some(*i),
+            Draw::Bool(b) => Some(i64::from(*b)),
+            // Above 2^53 a float no longer names one whole number.
+            Draw::Real(x) if x.value().fract() == 0.0 && x.value().abs() <= 9_007_199_254_740_992.0 => {
+                Some(x.value() as i64)
+            }
+            _ => None,
+        }
+    }
+
+    /// As a real number. As in Python, 3 is 3.0 and true is 1.0.
+    #[inline]
+    pub fn as_real(&self) -> Option<S> {
+        match self {
+            Draw::Real(x) => Some(*x),
+            Draw::Int(i) => Some(S::from_f64(*i as f64)),
+            Draw::Bool(b) => Some(S::from_f64(f64::from(u8::from(*b)))),
+            Draw::Vector(_) => None,
+        }
+    }
+
+    /// As a vector.
+    #[inline]
+    pub fn as_vector(&self) -> Option<&[S]> {
+        match self {
+            Draw::Vector(v) => Some(v),
+            _ => None,
+        }
+    }
+}
+
+/// A parameter of a distribution, as a model passes it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Param<S: Scalar = f64> {
+    /// A truth value; counts as 0 or 1 where a number is wanted.
+    Bool(bool),
+    /// A whole number; counts as a real where one is wanted.
+    Int(i64),
+    /// A real number.
+    Real(S),
+    /// Numbers in a row.
+    Vector(Vec<S>),
+    /// Rows of numbers.
+    Matrix(Vec<Vec<S>>),
+    /// Distributions.
+    Dists(Vec<Dist<S>>),
+    /// A value to be returned as it is.
+    Draw(Draw<S>),
+}
+
+/// Up to eight numbers of a row, for a message.
+fn row<S: Scalar>(f: &mut fmt::Formatter<'_>, numbers: &[S]) -> fmt::Result {
+    write!(f, "[")?;
+    for (k, x) in numbers.iter().take(8).enumerate() {
+        write!(f, "{}{:?}", if k > 0 { ", " } else { "" }, x.value())?;
+    }
+    write!(f, "{}]", if numbers.len() > 8 { ", ..." } else { "" })
+}
+
+/// As a person would write it, shortened where it is long.
+impl<S: Scalar> fmt::Display for Draw<S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Draw::Bool(b) => f.write_str(if *b { "True" } else { "False" }),
+            Draw::Int(i) => write!(f, "{i}"),
+            Draw::Real(x) => write!(f, "{:?}", x.value()),
+            Draw::Vector(v) => row(f, v),
+        }
+    }
+}
+
+/// As a person would write it, shortened where it is long.
+impl<S: Scalar> fmt::Display for Param<S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Param::Bool(b) => Draw::<S>::Bool(*b).fmt(f),
+            Param::Int(i) => write!(f, "{i}"),
+            Param::Real(x) => Draw::Real(*x).fmt(f),
+            Param::Vector(v) => row(f, v),
+            Param::Matrix(rows) if rows.len() <= 3 => {
+                write!(f, "[")?;
+                for (k, r) in rows.iter().enumerate() {
+                    write!(f, "{}", if k > 0 { ", " } else { "" })?;
+                    row(f, r)?;
+                }
+                write!(f, "]")
+            }
+            Param::Matrix(rows) => write!(f, "{} rows of numbers", rows.len()),
+            Param::Dists(dists) if dists.len() == 1 => write!(f, "one distribution"),
+            Param::Dists(dists) => write!(f, "{} distributions", dists.len()),
+            Param::Draw(d) => d.fmt(f),
+        }
+    }
+}

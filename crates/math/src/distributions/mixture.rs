@@ -1,0 +1,126 @@
+//! mixture: one of several distributions, chosen by weights.
+//!
+//!     density(x) = sum_k w_k density_k(x)
+//!
+//! All components must give the same kind of value, measured the same way: the density of a coin or a fixed
+//! value against a Gaussian has no meaning.
+
+use super::check::{BadParameter, Reader};
+use super::dist::Dist;
+use super::draw::Draw;
+use super::support::Support;
+use super::weights::Weights;
+use crate::scalar::Scalar;
+use crate::streams::RngCore;
+
+/// Weighted components.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mixture<S: Scalar = f64> {
+    /// Weights, one for each component.
+    pub weights: Weights<S>,
+    /// Components.
+    pub components: Vec<Dist<S>>,
+}
+
+impl<S: Scalar> Mixture<S> {
+    pub(super) fn read(reader: &Reader<'_, S>) -> Result<Self, BadParameter> {
+        const EXPECTED: &str = "as many distributions as there are weights";
+        let weights = Weights::read(reader, 0)?;
+        let components = reader.dists(1, EXPECTED)?;
+        if components.len() != weights.len() {
+            return reader.refuse(1, EXPECTED);
+        }
+        let measure = components[0].measure();
+        if components.iter().any(|c| c.measure() != measure) {
+            return reader.refuse(1, "distributions over values of one kind");
+        }
+        Ok(Mixture { weights, components: components.to_vec() })
+    }
+
+    /// `ln sum exp(ln w_k + ln density_k(x))`, relative to the largest term.
+    pub fn log_density(&self, x: &Draw<S>) -> S {
+        let term = |(k, c): (usize, &Dist<S>)| self.weights.log_probability(k as i64) + c.log_density(x);
+        let terms = || self.components.iter().enumerate().map(term);
+        let largest = terms().fold(f64::NEG_INFINITY, |m, t| m.max(t.value()));
+        if largest == f64::NEG_INFINITY {
+            return S::from_f64(largest);
+        }
+        let shift = S::from_f64(largest);
+        let sum = terms().filter(|t| t.value() > f64::NEG_INFINITY);
+        shift + sum.fold(S::from_f64(0.0), |sum, t| sum + (t - shift).exp()).ln()
+    }
+
+    /// A draw of a drawn component.
+    pub fn sample(&self, rng: &mut (impl RngCore + ?Sized)) -> Draw<S> {
+        self.components[self.weights.sample(rng)].sample(rng)
+    }
+
+    /// The components that can be chosen.
+    fn possible(&self) -> impl Iterator<Item = &Dist<S>> {
+        let chosen = |k: usize| self.weights.given()[k].value() > 0.0;
+        self.components.iter().enumerate().filter(move |(k, _)| chosen(*k)).map(|(_, c)| c)
+    }
+
+    /// The smallest support of the listed kinds that covers all components.
+    pub(super) fn support(&self) -> Support {
+        self.possible().map(Dist::support).reduce(Support::cover).unwrap_or(Support::Booleans)
+    }
+
+    /// Values of all components, each once.
+    pub(super) fn enumerate(&self) -> Option<Vec<Draw<S>>> {
+        let mut values: Vec<Draw<S>> = Vec::new();
+        for component in self.possible() {
+            for value in component.enumerate()? {
+                if !values.contains(&value) {
+                    values.push(value);
+                }
+            }
+        }
+        Some(values)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! Mixtures are sums, draw from their components, and refuse components of different kinds.
+    use super::super::testing::*;
+    use crate::{BadParameter, Dist, Draw, Family, Param};
+
+    fn mixture(weights: &[f64], components: Vec<Dist>) -> Result<Dist, BadParameter> {
+        Dist::new(Family::Mixture, &[Param::Vector(weights.to_vec()), Param::Dists(components)])
+    }
+
+    #[test]
+    fn draws_follow_the_density() {
+        let peaks = vec![dist(Family::Gaussian, &[-2.0, 0.5]), dist(Family::Gaussian, &[4.0, 1.0])];
+        continuous_agrees(&mixture(&[3.0, 1.0], peaks).unwrap(), -10.0, 16.0);
+        let counts = vec![Dist::DiscreteUniform { lo: 0, hi: 3 }, dist(Family::Poisson, &[6.0])];
+        discrete_agrees(&mixture(&[0.5, 0.5], counts).unwrap(), 0..=60);
+    }
+
+    #[test]
+    fn far_from_every_component_the_density_is_still_finite() {
+        let far = vec![dist(Family::Gaussian, &[0.0, 1.0]), dist(Family::Gaussian, &[1.0, 1.0])];
+        let d = mixture(&[0.5, 0.5], far).unwrap();
+        assert!((d.log_density(&Draw::Real(1000.0)) + 499_001.4).abs() < 1.0);
+        let gap = vec![dist(Family::Uniform, &[0.0, 1.0]), dist(Family::Uniform, &[2.0, 3.0])];
+        let d = mixture(&[0.0, 1.0], gap).unwrap();
+        assert_eq!(d.log_density(&Draw::Real(0.5)), f64::NEG_INFINITY);
+        assert_eq!(d.log_density(&Draw::Real(2.5)), 0.0);
+    }
+
+    #[test]
+    fn values_of_finite_mixtures_are_listed_once() {
+        let parts = vec![Dist::DiscreteUniform { lo: 0, hi: 2 }, Dist::DiscreteUniform { lo: 2, hi: 3 }];
+        let values = mixture(&[1.0, 1.0], parts).unwrap().enumerate().unwrap();
+        assert_eq!(values, (0..4).map(Draw::Int).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn kinds_do_not_mix() {
+        let delta = Dist::Delta(Draw::Real(0.0));
+        let spike = mixture(&[1.0, 1.0], vec![delta, dist(Family::Gaussian, &[0.0, 1.0])]);
+        assert_eq!(spike.unwrap_err().expected, "distributions over values of one kind");
+        assert_eq!(mixture(&[1.0], vec![]).unwrap_err().parameter, "components");
+    }
+}

@@ -1,0 +1,55 @@
+//! The families a model may draw from: density, support, sampler and parameter checks of each.
+//!
+//! | file | what it holds |
+//! | --- | --- |
+//! | `family` | the families' names and those of their parameters |
+//! | `draw` | what goes in and comes out: [`Param`], [`Draw`] |
+//! | `check` | reading parameters; the one way to say that one is wrong: [`BadParameter`] |
+//! | `dist` | [`Dist`]: one value for all families; building, scoring, drawing |
+//! | `support` | [`Support`], and listing the values of the finite discrete families |
+//! | `whole` | bernoulli, discrete_uniform, geometric |
+//! | `counts` | poisson, binomial |
+//! | `weights` | categorical, and the table of weights that mixtures share |
+//! | `bell` | gaussian, log_normal |
+//! | `truncated` | truncated_gaussian |
+//! | `waiting` | exponential, gamma, inverse_gamma |
+//! | `interval` | uniform, beta |
+//! | `tails` | laplace, cauchy, student_t |
+//! | `circle` | von_mises |
+//! | `vectors` | dirichlet, multivariate_gaussian |
+//! | `mixture` | mixture |
+//!
+//! Conventions. Densities are natural logarithms, in nats, with respect to counting (bool, int, delta) or
+//! length, area, ... (real, vector); minus infinity outside the support. A sampler computes in `f64` with
+//! bits from the given source only, so its draws do not depend on the scalar. Where a draw would fall off the
+//! range of `f64` (a log-normal that overflows, a gamma that underflows) it is the nearest finite number
+//! inside the support: a draw always has a density.
+
+mod bell;
+mod check;
+mod circle;
+mod counts;
+mod dist;
+mod draw;
+mod family;
+mod interval;
+mod mixture;
+mod support;
+mod tails;
+mod truncated;
+mod vectors;
+mod waiting;
+mod weights;
+mod whole;
+
+#[cfg(test)]
+mod testing;
+
+pub use check::BadParameter;
+pub use dist::Dist;
+pub use draw::{Draw, Param};
+pub use family::Family;
+pub use mixture::Mixture;
+pub use support::Support;
+pub use vectors::MultivariateGaussian;
+pub use weights::Weights;

@@ -1,0 +1,190 @@
+//! Vectors: dirichlet, multivariate_gaussian.
+
+use super::bell::HALF_LN_TAU;
+use super::check::{BadParameter, Reader};
+use super::waiting::log_gamma_draw;
+use crate::scalar::Scalar;
+use crate::streams::RngCore;
+use rand_distr::{Distribution, StandardNormal};
+
+/// How far the entries of a point of the simplex may sum from one: what adding a million of them can lose.
+const SUM_TOLERANCE: f64 = 1e-9;
+
+/// `sum (a_i - 1) ln x_i + ln gamma(sum a_i) - sum ln gamma(a_i)`, with respect to the first n - 1 entries.
+pub(super) fn dirichlet_log_density<S: Scalar>(concentrations: &[S], x: &[S]) -> S {
+    let never = S::from_f64(f64::NEG_INFINITY);
+    let sum: f64 = x.iter().map(|x| x.value()).sum();
+    let inside = x.len() == concentrations.len() && x.iter().all(|x| x.value() > 0.0);
+    // Written so that a NaN is outside.
+    if !(inside && (sum - 1.0).abs() <= SUM_TOLERANCE) {
+        return never;
+    }
+    let (mut total, mut log) = (S::from_f64(0.0), S::from_f64(0.0));
+    for (a, x) in concentrations.iter().zip(x) {
+        total = total + *a;
+        log = log + (*a - S::from_f64(1.0)) * x.ln() - a.ln_gamma();
+    }
+    log + total.ln_gamma()
+}
+
+/// Gamma draws over their sum, by their logarithms: small concentrations underflow.
+pub(super) fn dirichlet_sample<S: Scalar>(
+    concentrations: &[S],
+    rng: &mut (impl RngCore + ?Sized),
+) -> Vec<f64> {
+    let logs: Vec<f64> = concentrations.iter().map(|a| log_gamma_draw(a.value(), rng)).collect();
+    let largest = logs.iter().fold(f64::NEG_INFINITY, |m, l| m.max(*l));
+    let total: f64 = logs.iter().map(|l| (l - largest).exp()).sum();
+    logs.iter().map(|l| ((l - largest).exp() / total).max(f64::MIN_POSITIVE)).collect()
+}
+
+/// Parameters of a Gaussian vector, with the Cholesky factor that drawing and scoring both need.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MultivariateGaussian<S: Scalar = f64> {
+    /// Mean, shape (n,).
+    pub mean: Vec<S>,
+    /// Covariance, shape (n, n).
+    pub covariance: Vec<Vec<S>>,
+    /// Lower triangle with `factor factor' = covariance`; row i has i + 1 entries.
+    factor: Vec<Vec<S>>,
+    /// `-(n / 2) ln(2 pi) - sum ln factor_ii`.
+    log_peak: S,
+}
+
+impl<S: Scalar> MultivariateGaussian<S> {
+    pub(super) fn read(reader: &Reader<'_, S>) -> Result<Self, BadParameter> {
+        const SQUARE: &str = "as many rows and columns of finite numbers as `mean` has entries";
+        let mean = reader.vector_where(0, "finite numbers, at least one", |_| true)?.to_vec();
+        let n = mean.len();
+        let covariance = reader.square(1, n, SQUARE)?;
+        for i in 0..n {
+            for j in 0..i {
+                let (a, b) = (covariance[i][j].value(), covariance[j][i].value());
+                // A product such as A A' is symmetric only up to rounding.
+                if (a - b).abs() > 1e-10 * (covariance[i][i].value() * covariance[j][j].value()).abs().sqrt()
+                {
+                    return reader.refuse(1, "a symmetric matrix");
+                }
+            }
+        }
+        match cholesky(covariance) {
+            Some(factor) => {
+                let peak = S::from_f64(-HALF_LN_TAU * n as f64);
+                let log_peak = factor.iter().enumerate().fold(peak, |sum, (i, row)| sum - row[i].ln());
+                Ok(MultivariateGaussian { mean, covariance: covariance.to_vec(), factor, log_peak })
+            }
+            None => reader.refuse(1, "a positive definite matrix"),
+        }
+    }
+
+    /// `log_peak - |y|^2 / 2`, where `factor y = x - mean`.
+    pub fn log_density(&self, x: &[S]) -> S {
+        if x.len() != self.mean.len() || !x.iter().all(|x| x.is_finite()) {
+            return S::from_f64(f64::NEG_INFINITY);
+        }
+        let mut y: Vec<S> = Vec::with_capacity(x.len());
+        let mut square = S::from_f64(0.0);
+        for (i, row) in self.factor.iter().enumerate() {
+            let known = row.iter().zip(&y).fold(x[i] - self.mean[i], |rest, (l, y)| rest - *l * *y);
+            let entry = known / row[i];
+            square = square + entry * entry;
+            y.push(entry);
+        }
+        self.log_peak - S::from_f64(0.5) * square
+    }
+
+    /// `mean + factor z` with independent standard Gaussians `z`.
+    pub fn sample(&self, rng: &mut (impl RngCore + ?Sized)) -> Vec<f64> {
+        let z: Vec<f64> = self.mean.iter().map(|_| StandardNormal.sample(rng)).collect();
+        let entry = |(mean, row): (&S, &Vec<S>)| {
+            let x = row.iter().zip(&z).fold(mean.value(), |sum, (l, z)| sum + l.value() * z);
+            x.clamp(f64::MIN, f64::MAX)
+        };
+        self.mean.iter().zip(&self.factor).map(entry).collect()
+    }
+}
+
+/// Lower triangular factor of a symmetric matrix, or `None` when it is not positive definite.
+fn cholesky<S: Scalar>(matrix: &[Vec<S>]) -> Option<Vec<Vec<S>>> {
+    let mut factor: Vec<Vec<S>> = Vec::with_capacity(matrix.len());
+    for i in 0..matrix.len() {
+        let mut row: Vec<S> = Vec::with_capacity(i + 1);
+        for j in 0..=i {
+            let above: &[S] = if j < i { &factor[j] } else { &row };
+            let rest = row.iter().zip(above).take(j).fold(matrix[i][j], |rest, (a, b)| rest - *a * *b);
+            if j < i {
+                row.push(rest / factor[j][j]);
+            } else if rest.value() > 1e-14 * matrix[i][i].value() && rest.value() > 0.0 {
+                row.push(rest.sqrt());
+            } else {
+                // A pivot lost in rounding: the matrix is singular as far as can be told.
+                return None;
+            }
+        }
+        factor.push(row);
+    }
+    Some(factor)
+}
+
+#[cfg(test)]
+mod tests {
+    //! In two dimensions everything can be checked against one-dimensional families.
+    use super::super::testing::*;
+    use crate::{Dist, Draw, Family, Param};
+
+    fn vector(x: &[f64]) -> Draw {
+        Draw::Vector(x.into())
+    }
+
+    #[test]
+    fn a_dirichlet_of_two_is_a_beta() {
+        let d = Dist::new(Family::Dirichlet, &[Param::Vector(vec![2.0, 5.0])]).unwrap();
+        let beta = dist(Family::Beta, &[2.0, 5.0]);
+        for x in [0.01, 0.3, 0.9] {
+            assert!((d.log_density(&vector(&[x, 1.0 - x])) - beta.log_density(&Draw::Real(x))).abs() < 1e-12);
+        }
+        assert_eq!(d.log_density(&vector(&[0.4, 0.4])), f64::NEG_INFINITY);
+        assert_eq!(d.log_density(&vector(&[0.2, 0.3, 0.5])), f64::NEG_INFINITY);
+        assert_eq!(d.log_density(&vector(&[f64::NAN, 0.5])), f64::NEG_INFINITY);
+        let firsts: Vec<f64> = (0..DRAWS as u64).map(|k| entry(&d.sample(&mut stream(k)), 0)).collect();
+        follows(&beta, 0.0, 1.0, firsts);
+    }
+
+    #[test]
+    fn tiny_concentrations_draw_corners_with_a_density() {
+        let d = Dist::new(Family::Dirichlet, &[Param::Vector(vec![1e-4; 3])]).unwrap();
+        for k in 0..100 {
+            assert!(d.log_density(&d.sample(&mut stream(k))).is_finite());
+        }
+    }
+
+    #[test]
+    fn a_gaussian_vector_is_a_margin_and_a_conditional() {
+        let (mean, cov) = (vec![1.0, -2.0], vec![vec![4.0, 1.2], vec![1.2, 1.0]]);
+        let d = Dist::new(Family::MultivariateGaussian, &[Param::Vector(mean), Param::Matrix(cov)]).unwrap();
+        // x1 given x0 has mean -2 + 0.3 (x0 - 1) and variance 1 - 0.36.
+        let margin = dist(Family::Gaussian, &[1.0, 2.0]);
+        for (x, y) in [(0.0, 0.0), (5.0, -3.0), (1.0, -2.0)] {
+            let conditional = dist(Family::Gaussian, &[-2.0 + 0.3 * (x - 1.0), 0.8]);
+            let product = margin.log_density(&Draw::Real(x)) + conditional.log_density(&Draw::Real(y));
+            assert!((d.log_density(&vector(&[x, y])) - product).abs() < 1e-12);
+        }
+        let draws: Vec<Draw> = (0..DRAWS as u64).map(|k| d.sample(&mut stream(k))).collect();
+        follows(&margin, -23.0, 25.0, draws.iter().map(|x| entry(x, 0)).collect());
+        let residual = dist(Family::Gaussian, &[-2.3, 0.8]);
+        follows(&residual, -12.0, 8.0, draws.iter().map(|x| entry(x, 1) - 0.3 * entry(x, 0)).collect());
+    }
+
+    #[test]
+    fn covariances_that_are_none_are_refused() {
+        let build = |cov: Vec<Vec<f64>>| {
+            Dist::new(Family::MultivariateGaussian, &[Param::Vector(vec![0.0, 0.0]), Param::Matrix(cov)])
+        };
+        let expected = |cov| build(cov).unwrap_err().expected;
+        assert!(expected(vec![vec![1.0]]).contains("rows and columns"));
+        assert!(expected(vec![vec![1.0, f64::NAN], vec![0.0, 1.0]]).contains("finite"));
+        assert_eq!(expected(vec![vec![1.0, 0.5], vec![0.2, 1.0]]), "a symmetric matrix");
+        assert_eq!(expected(vec![vec![1.0, 2.0], vec![2.0, 1.0]]), "a positive definite matrix");
+        assert_eq!(expected(vec![vec![1.0, 1.0], vec![1.0, 1.0]]), "a positive definite matrix");
+    }
+}

@@ -1,0 +1,137 @@
+//! What a number must be able to do, so that a run can compute with something richer than `f64`.
+//!
+//! Plain runs use `f64`. A scalar that records what happens to it implements the same trait, and the
+//! densities, which are generic, then describe themselves. Decisions (inside the support or not, which
+//! series to use) look at [`Scalar::value`] and are not recorded.
+
+use crate::special;
+use std::fmt::Debug;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// A real number, or something that stands for one.
+pub trait Scalar:
+    Copy
+    + Debug
+    + PartialEq
+    + PartialOrd
+    + Send
+    + Sync
+    + 'static
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// The constant `x`.
+    fn from_f64(x: f64) -> Self;
+    /// The number itself, for decisions.
+    fn value(self) -> f64;
+    /// Square root.
+    fn sqrt(self) -> Self;
+    /// e to this power.
+    fn exp(self) -> Self;
+    /// Natural logarithm.
+    fn ln(self) -> Self;
+    /// `ln(1 + x)`, accurate near zero.
+    fn ln_1p(self) -> Self;
+    /// `exp(x) - 1`, accurate near zero.
+    fn exp_m1(self) -> Self;
+    /// Sine of radians.
+    fn sin(self) -> Self;
+    /// Cosine of radians.
+    fn cos(self) -> Self;
+    /// Tangent of radians.
+    fn tan(self) -> Self;
+    /// Angle with this sine, radians.
+    fn asin(self) -> Self;
+    /// Angle with this cosine, radians.
+    fn acos(self) -> Self;
+    /// Angle with this tangent, radians.
+    fn atan(self) -> Self;
+    /// Angle of the point `(x, self)`, radians in `[-pi, pi]`.
+    fn atan2(self, x: Self) -> Self;
+    /// Hyperbolic sine.
+    fn sinh(self) -> Self;
+    /// Hyperbolic cosine.
+    fn cosh(self) -> Self;
+    /// Hyperbolic tangent.
+    fn tanh(self) -> Self;
+    /// Distance from zero.
+    fn abs(self) -> Self;
+    /// This number to the power `y`.
+    fn powf(self, y: Self) -> Self;
+    /// This number to the whole power `n`.
+    fn powi(self, n: i32) -> Self;
+    /// Logarithm of the gamma function's absolute value.
+    fn ln_gamma(self) -> Self;
+    /// Error function.
+    fn erf(self) -> Self;
+    /// `exp(x^2) erfc(x)`: the Gaussian's tail without its underflow.
+    fn erfcx(self) -> Self;
+    /// `ln(exp(-|x|) I_0(x))`: the Bessel function that normalises the von Mises density, without overflow.
+    fn ln_bessel_i0e(self) -> Self;
+    /// The smaller of two.
+    fn min(self, other: Self) -> Self;
+    /// The larger of two.
+    fn max(self, other: Self) -> Self;
+    /// True when neither infinite nor NaN.
+    fn is_finite(self) -> bool;
+}
+
+/// The standard library's functions of one argument, under the same names.
+macro_rules! standard {
+    ($($name:ident)*) => { $( #[inline] fn $name(self) -> f64 { f64::$name(self) } )* };
+}
+
+impl Scalar for f64 {
+    #[inline]
+    fn from_f64(x: f64) -> f64 {
+        x
+    }
+    #[inline]
+    fn value(self) -> f64 {
+        self
+    }
+    standard! { sqrt exp ln ln_1p exp_m1 sin cos tan asin acos atan sinh cosh tanh abs }
+    #[inline]
+    fn atan2(self, x: f64) -> f64 {
+        f64::atan2(self, x)
+    }
+    #[inline]
+    fn powf(self, y: f64) -> f64 {
+        f64::powf(self, y)
+    }
+    #[inline]
+    fn powi(self, n: i32) -> f64 {
+        f64::powi(self, n)
+    }
+    #[inline]
+    fn ln_gamma(self) -> f64 {
+        libm::lgamma(self)
+    }
+    #[inline]
+    fn erf(self) -> f64 {
+        libm::erf(self)
+    }
+    #[inline]
+    fn erfcx(self) -> f64 {
+        puruspe::erfcx(self)
+    }
+    #[inline]
+    fn ln_bessel_i0e(self) -> f64 {
+        special::ln_bessel_i0e(self)
+    }
+    #[inline]
+    fn min(self, other: f64) -> f64 {
+        f64::min(self, other)
+    }
+    #[inline]
+    fn max(self, other: f64) -> f64 {
+        f64::max(self, other)
+    }
+    #[inline]
+    fn is_finite(self) -> bool {
+        f64::is_finite(self)
+    }
+}

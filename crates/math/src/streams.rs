@@ -1,0 +1,187 @@
+//! Random bits as a function of seed, stream, address and visit: no state is carried from draw to draw.
+//!
+//! Philox4x32-10 (Salmon, Moraes, Dror & Shaw 2011, section 3.3 and table 2) turns a 128-bit counter and a
+//! 64-bit key into 128 random bits. The counter is the address of the choice; the key is a hash of (seed,
+//! stream, visit, block number). A choice therefore draws the same bits whatever was drawn before it, on
+//! any thread, after any fork.
+
+use std::convert::Infallible;
+
+/// A source of random bits; `rand_core` calls it `Rng`.
+pub use rand_core::Rng as RngCore;
+use rand_core::TryRng;
+
+/// Multipliers of the two lanes (Salmon et al. 2011, table 2).
+const MULTIPLIER: [u32; 2] = [0xD251_1F53, 0xCD9E_8D57];
+/// Added to the key each round: the golden ratio and the square root of three, less one.
+const WEYL: [u32; 2] = [0x9E37_79B9, 0xBB67_AE85];
+
+/// Ten rounds of Philox4x32: 128 random bits from a counter and a key.
+#[inline]
+pub fn philox(counter: [u32; 4], key: [u32; 2]) -> [u32; 4] {
+    let ([mut a, mut b, mut c, mut d], [mut k, mut l]) = (counter, key);
+    for _ in 0..10 {
+        let left = u64::from(MULTIPLIER[0]) * u64::from(a);
+        let right = u64::from(MULTIPLIER[1]) * u64::from(c);
+        (a, b, c, d) = ((right >> 32) as u32 ^ b ^ k, right as u32, (left >> 32) as u32 ^ d ^ l, left as u32);
+        k = k.wrapping_add(WEYL[0]);
+        l = l.wrapping_add(WEYL[1]);
+    }
+    [a, b, c, d]
+}
+
+/// A bijection of 64 bits in which every input bit reaches every output bit (Stafford 2011, mix 13).
+#[inline]
+fn mix(mut x: u64) -> u64 {
+    x = (x ^ (x >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    x ^ (x >> 31)
+}
+
+/// The golden ratio in 64 bits: distinct inputs of [`mix`] stay distinct when it is added.
+const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
+
+/// The random bits of one choice, as many as it asks for.
+///
+/// ```
+/// use niwaki_math::Stream;
+/// let first = Stream::new(1, 0, 77, 0).uniform();
+/// assert_eq!(first, Stream::new(1, 0, 77, 0).uniform());
+/// assert_ne!(first, Stream::new(1, 0, 78, 0).uniform());
+/// ```
+#[derive(Clone, Debug)]
+pub struct Stream {
+    /// The address of the choice.
+    counter: [u32; 4],
+    /// Hash of seed, stream and visit; each block mixes its number in.
+    base: u64,
+    /// Number of the next block.
+    block: u64,
+    /// The last block; `words[used..]` is still to be given out.
+    words: [u32; 4],
+    used: usize,
+}
+
+impl Stream {
+    /// The bits of the choice at `address`, drawn for the `visit`-th time in `stream` (a particle, a chain).
+    #[inline]
+    pub fn new(seed: u64, stream: u64, address: u128, visit: u64) -> Stream {
+        let base = mix(mix(mix(seed ^ GOLDEN) ^ stream).wrapping_add(GOLDEN) ^ visit);
+        let counter =
+            [address as u32, (address >> 32) as u32, (address >> 64) as u32, (address >> 96) as u32];
+        Stream { counter, base, block: 0, words: [0; 4], used: 4 }
+    }
+
+    /// A number in the open interval (0, 1): 52 bits and a half, so that neither end is ever reached.
+    #[inline]
+    pub fn uniform(&mut self) -> f64 {
+        open_unit(self)
+    }
+
+    #[inline]
+    fn refill(&mut self) {
+        let key = mix(self.base.wrapping_add(self.block.wrapping_mul(GOLDEN)));
+        self.words = philox(self.counter, [key as u32, (key >> 32) as u32]);
+        self.block += 1;
+        self.used = 0;
+    }
+}
+
+impl TryRng for Stream {
+    type Error = Infallible;
+
+    #[inline]
+    fn try_next_u32(&mut self) -> Result<u32, Infallible> {
+        if self.used >= 4 {
+            self.refill();
+        }
+        let word = self.words[self.used];
+        self.used += 1;
+        Ok(word)
+    }
+
+    /// Two words of one block; a word left over from an odd number of `u32`s is skipped.
+    #[inline]
+    fn try_next_u64(&mut self) -> Result<u64, Infallible> {
+        if self.used > 2 {
+            self.refill();
+        }
+        let (low, high) = (self.words[self.used], self.words[self.used + 1]);
+        self.used += 2;
+        Ok(u64::from(high) << 32 | u64::from(low))
+    }
+
+    fn try_fill_bytes(&mut self, bytes: &mut [u8]) -> Result<(), Infallible> {
+        for chunk in bytes.chunks_mut(4) {
+            let word = self.try_next_u32()?.to_le_bytes();
+            chunk.copy_from_slice(&word[..chunk.len()]);
+        }
+        Ok(())
+    }
+}
+
+/// A number in the open interval (0, 1) from 64 bits of `rng`.
+#[inline]
+pub fn open_unit(rng: &mut (impl RngCore + ?Sized)) -> f64 {
+    const STEP: f64 = 1.0 / (1u64 << 52) as f64;
+    ((rng.next_u64() >> 12) as f64 + 0.5) * STEP
+}
+
+#[cfg(test)]
+mod tests {
+    //! Philox gives its published numbers; streams depend on all four of their coordinates and are uniform.
+    use super::*;
+
+    #[test]
+    fn philox_gives_its_published_numbers() {
+        // Random123, tests/kat_vectors, philox4x32 10.
+        assert_eq!(philox([0; 4], [0; 2]), [0x6627_e8d5, 0xe169_c58d, 0xbc57_ac4c, 0x9b00_dbd8]);
+        assert_eq!(philox([!0; 4], [!0; 2]), [0x408f_276d, 0x41c8_3b0e, 0xa20b_c7c6, 0x6d54_51fd]);
+        assert_eq!(
+            philox([0x243f_6a88, 0x85a3_08d3, 0x1319_8a2e, 0x0370_7344], [0xa409_3822, 0x299f_31d0]),
+            [0xd16c_fe09, 0x94fd_cceb, 0x5001_e420, 0x2412_6ea1]
+        );
+    }
+
+    #[test]
+    fn every_coordinate_changes_the_bits() {
+        let draw = |s, t, a, v| Stream::new(s, t, a, v).next_u64();
+        let mut seen = std::collections::HashSet::new();
+        for s in 0..6 {
+            for t in 0..6 {
+                for a in [0, 1, 1 << 40, 1 << 70, 1u128 << 100] {
+                    for v in 0..6 {
+                        assert!(seen.insert(draw(s, t, a, v)), "{s} {t} {a} {v}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_stream_does_not_repeat_its_blocks() {
+        let mut stream = Stream::new(3, 1, 4, 1);
+        let words: std::collections::HashSet<u64> = (0..10_000).map(|_| stream.next_u64()).collect();
+        assert_eq!(words.len(), 10_000);
+    }
+
+    #[test]
+    fn uniforms_fill_the_unit_interval_evenly() {
+        // Chi-square with 63 degrees of freedom, false alarm 1e-6: threshold 131.3. First draws of
+        // consecutive addresses, then consecutive draws of one stream.
+        let n = 64_000;
+        let mut stream = Stream::new(5, 0, 0, 0);
+        let first: Vec<f64> = (0..n).map(|k| Stream::new(5, 0, k, 0).uniform()).collect();
+        let along: Vec<f64> = (0..n).map(|_| stream.uniform()).collect();
+        for draws in [first, along] {
+            let mut counts = [0.0; 64];
+            for u in draws {
+                assert!(u > 0.0 && u < 1.0);
+                counts[(u * 64.0) as usize] += 1.0;
+            }
+            let expected = n as f64 / 64.0;
+            let statistic: f64 = counts.iter().map(|c: &f64| (c - expected).powi(2) / expected).sum();
+            assert!(statistic < 131.3, "{statistic}");
+        }
+    }
+}
