@@ -1,11 +1,30 @@
-//! The built-in functions of the language, by number.
+//! The built-in functions of the language, by number: one table, in the order of the files beside it.
+//!
+//! - [`arithmetic`]: conversions, rounding, small functions of numbers
+//! - [`mathematics`]: Python's `math`
+//! - [`sequences`]: making, ordering and folding sequences
+//! - [`strings`]: text, formatting and methods of built-in values
+//! - [`vectors`], [`shapes`]: points, directions, rotations, solids
+//! - [`dist`]: distributions from values
+//!
+//! The operators (`add`, `lt`, `index`, ...) are in the table as well, so that a function value can be made of any of them.
+//! Mathematics goes through [`Scalar`], so a recording scalar sees it.
 
+pub mod arithmetic;
 pub mod dist;
+pub mod mathematics;
+pub mod sequences;
+pub mod shapes;
+pub mod strings;
+pub mod vectors;
 
 use crate::fault::Fault;
-use crate::value::{Scalar, Value};
+use crate::value::{Scalar, Value, compare, index, ops};
 
 pub use dist::{draw_to_value, make_dist, value_to_draw};
+
+/// What a built-in function answers.
+pub type Answer<S> = Result<Value<S>, Fault>;
 
 /// A built-in function.
 pub struct Builtin<S: Scalar = f64> {
@@ -15,18 +34,263 @@ pub struct Builtin<S: Scalar = f64> {
     pub min_args: usize,
     /// Most arguments; `usize::MAX` for any number.
     pub max_args: usize,
-    /// What it does; the number of arguments is already checked.
-    pub run: fn(&[Value<S>]) -> Result<Value<S>, Fault>,
+    /// What it does. It trusts the number of arguments: see [`Builtin::call`].
+    pub run: fn(&[Value<S>]) -> Answer<S>,
+}
+
+impl<S: Scalar> Builtin<S> {
+    /// Checks the number of arguments, then runs.
+    pub fn call(&self, args: &[Value<S>]) -> Answer<S> {
+        if (self.min_args..=self.max_args).contains(&args.len()) {
+            return (self.run)(args);
+        }
+        let expected = match (self.min_args, self.max_args) {
+            (least, usize::MAX) => format!("at least {least}"),
+            (least, most) if least == most => least.to_string(),
+            (least, most) => format!("{least} to {most}"),
+        };
+        let (name, found) = (self.name, args.len());
+        Err(Fault::argument_count(format!("`{name}` takes {expected} arguments, found {found}")))
+    }
 }
 
 /// Number of a built-in function.
 pub fn builtin_id(name: &str) -> Option<u16> {
-    let _ = name;
-    todo!()
+    Table::<f64>::ALL.iter().position(|builtin| builtin.name == name).map(|at| at as u16)
 }
 
 /// The built-in function with a number from [`builtin_id`].
+///
+/// # Panics
+/// For any other number.
+#[inline]
 pub fn builtin<S: Scalar>(id: u16) -> &'static Builtin<S> {
-    let _ = id;
-    todo!()
+    &Table::<S>::ALL[usize::from(id)]
+}
+
+/// Every built-in function, by number.
+pub fn builtins<S: Scalar>() -> &'static [Builtin<S>] {
+    Table::<S>::ALL
+}
+
+/// Carries the table of each scalar.
+struct Table<S>(std::marker::PhantomData<S>);
+
+const ANY: usize = usize::MAX;
+
+macro_rules! table {
+    ($($name:literal $min:tt $max:tt $run:expr;)*) => {
+        impl<S: Scalar> Table<S> {
+            const ALL: &'static [Builtin<S>] =
+                &[$(Builtin { name: $name, min_args: $min, max_args: $max, run: $run }),*];
+        }
+    };
+}
+
+/// The elements of the one argument, or the arguments themselves.
+fn one_or_many<S: Scalar>(args: &[Value<S>]) -> Result<Vec<Value<S>>, Fault> {
+    match args {
+        [one] => index::iter_all(one),
+        many => Ok(many.to_vec()),
+    }
+}
+
+table! {
+    "add" 2 2 |a| ops::add(&a[0], &a[1]);
+    "sub" 2 2 |a| ops::sub(&a[0], &a[1]);
+    "mul" 2 2 |a| ops::mul(&a[0], &a[1]);
+    "div" 2 2 |a| ops::div(&a[0], &a[1]);
+    "floordiv" 2 2 |a| ops::floordiv(&a[0], &a[1]);
+    "mod" 2 2 |a| ops::mod_(&a[0], &a[1]);
+    "pow" 2 2 |a| ops::pow(&a[0], &a[1]);
+    "neg" 1 1 |a| ops::neg(&a[0]);
+    "pos" 1 1 |a| ops::pos(&a[0]);
+    "not" 1 1 |a| ops::not_(&a[0]);
+    "eq" 2 2 |a| ops::eq(&a[0], &a[1]);
+    "ne" 2 2 |a| ops::ne(&a[0], &a[1]);
+    "lt" 2 2 |a| ops::lt(&a[0], &a[1]);
+    "le" 2 2 |a| ops::le(&a[0], &a[1]);
+    "gt" 2 2 |a| ops::gt(&a[0], &a[1]);
+    "ge" 2 2 |a| ops::ge(&a[0], &a[1]);
+    "is_none" 1 1 |a| Ok(Value::Bool(matches!(a[0], Value::None)));
+    "in" 2 2 |a| index::contains(&a[1], &a[0]).map(Value::Bool);
+    "band" 2 2 |a| ops::band(&a[0], &a[1]);
+    "bor" 2 2 |a| ops::bor(&a[0], &a[1]);
+    "bxor" 2 2 |a| ops::bxor(&a[0], &a[1]);
+    "invert" 1 1 |a| ops::invert(&a[0]);
+    "shl" 2 2 |a| ops::shl(&a[0], &a[1]);
+    "shr" 2 2 |a| ops::shr(&a[0], &a[1]);
+    "index" 2 2 |a| index::index(&a[0], &a[1]);
+    "slice" 4 4 |a| index::slice(&a[0], &a[1], &a[2], &a[3]);
+    "append" 2 2 |a| ops::append(a[0].clone(), a[1].clone());
+    "len" 1 1 |a| index::len(&a[0]).map(|len| Value::Int(len as i64));
+
+    "int" 0 1 arithmetic::int;
+    "float" 0 1 arithmetic::float;
+    "bool" 0 1 |a| Ok(Value::Bool(a.first().is_some_and(ops::truth)));
+    "abs" 1 1 arithmetic::abs;
+    "round" 1 2 arithmetic::round;
+    "divmod" 2 2 |a| Ok(Value::tuple(vec![ops::floordiv(&a[0], &a[1])?, ops::mod_(&a[0], &a[1])?]));
+    "clip" 3 3 arithmetic::clip;
+    "lerp" 3 3 |a| ops::add(&a[0], &ops::mul(&ops::sub(&a[1], &a[0])?, &a[2])?);
+    "sign" 1 1 arithmetic::sign;
+
+    "sqrt" 1 1 mathematics::sqrt;
+    "exp" 1 1 mathematics::exp;
+    "log" 1 2 mathematics::log;
+    "log2" 1 1 mathematics::log2;
+    "log10" 1 1 mathematics::log10;
+    "log1p" 1 1 mathematics::log1p;
+    "expm1" 1 1 mathematics::expm1;
+    "sin" 1 1 mathematics::sin;
+    "cos" 1 1 mathematics::cos;
+    "tan" 1 1 mathematics::tan;
+    "asin" 1 1 mathematics::asin;
+    "acos" 1 1 mathematics::acos;
+    "atan" 1 1 mathematics::atan;
+    "atan2" 2 2 mathematics::atan2;
+    "sinh" 1 1 mathematics::sinh;
+    "cosh" 1 1 mathematics::cosh;
+    "tanh" 1 1 mathematics::tanh;
+    "hypot" 1 ANY mathematics::hypot;
+    "floor" 1 1 mathematics::floor;
+    "ceil" 1 1 mathematics::ceil;
+    "trunc" 1 1 mathematics::trunc;
+    "fabs" 1 1 mathematics::fabs;
+    "degrees" 1 1 mathematics::degrees;
+    "radians" 1 1 mathematics::radians;
+    "copysign" 2 2 mathematics::copysign;
+    "fmod" 2 2 mathematics::fmod;
+    "math_pow" 2 2 mathematics::math_pow;
+    "isfinite" 1 1 mathematics::isfinite;
+    "isnan" 1 1 mathematics::isnan;
+    "isinf" 1 1 mathematics::isinf;
+    "gcd" 0 ANY mathematics::gcd;
+    "factorial" 1 1 mathematics::factorial;
+    "comb" 2 2 mathematics::comb;
+    "lgamma" 1 1 mathematics::lgamma;
+    "erf" 1 1 mathematics::erf;
+
+    "sum" 1 2 sequences::sum;
+    "min" 1 ANY |a| sequences::extreme("min", &one_or_many(a)?, None);
+    "max" 1 ANY |a| sequences::extreme("max", &one_or_many(a)?, None);
+    "argmin_by" 2 2 |a| sequences::extreme("min", &index::iter_all(&a[0])?, Some(&index::iter_all(&a[1])?));
+    "argmax_by" 2 2 |a| sequences::extreme("max", &index::iter_all(&a[0])?, Some(&index::iter_all(&a[1])?));
+    "sorted" 1 2 sequences::sorted;
+    "sorted_by" 2 3 sequences::sorted_by;
+    "reversed" 1 1 sequences::reversed;
+    "any" 1 1 |a| Ok(Value::Bool(index::iter_all(&a[0])?.iter().any(ops::truth)));
+    "all" 1 1 |a| Ok(Value::Bool(index::iter_all(&a[0])?.iter().all(ops::truth)));
+    "enumerate" 1 2 sequences::enumerate;
+    "zip" 0 ANY sequences::zip;
+    "zip_strict" 0 ANY sequences::zip_strict;
+    "range" 1 3 sequences::range;
+    "to_list" 0 1 sequences::to_list;
+    "to_tuple" 0 1 sequences::to_tuple;
+
+    "str" 0 1 strings::str;
+    "repr" 1 1 strings::repr;
+    "format" 1 3 strings::format;
+    "fstr" 0 ANY strings::fstr;
+    "method" 2 ANY strings::method;
+
+    "vec" 2 4 vectors::vec;
+    "dot" 2 2 vectors::dot;
+    "cross" 2 2 vectors::cross;
+    "norm" 1 1 vectors::norm;
+    "normalize" 1 1 vectors::normalize;
+    "distance" 2 2 vectors::distance;
+    "rotation" 2 2 vectors::rotation;
+    "rotate" 3 3 vectors::rotate;
+
+    "box" 2 7 shapes::cuboid;
+    "cylinder" 3 8 shapes::cylinder;
+    "limb" 4 7 shapes::limb;
+    "mesh" 2 6 shapes::mesh;
+}
+
+/// `a < b` as a plain truth value, for ordering.
+pub(crate) fn less<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Result<bool, Fault> {
+    Ok(compare::order(a, b, "<")? == Some(std::cmp::Ordering::Less))
+}
+
+/// The fault of an argument of a kind that a function does not take.
+#[cold]
+pub(crate) fn unfit<S: Scalar>(name: &str, expected: &str, found: &Value<S>) -> Fault {
+    Fault::type_mismatch(format!("`{name}` takes {expected}, found {}", found.described()))
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+
+    pub type V = Value<f64>;
+
+    /// Calls a built-in function by name.
+    pub fn call(name: &str, args: &[V]) -> Answer<f64> {
+        let id = builtin_id(name).unwrap_or_else(|| panic!("`{name}` is in the table"));
+        builtin::<f64>(id).call(args)
+    }
+
+    /// The code of the fault that a call raises.
+    pub fn code(name: &str, args: &[V]) -> &'static str {
+        call(name, args).map_or_else(|fault| fault.code, |value| panic!("`{name}` answers {value:?}"))
+    }
+
+    pub fn ints(items: impl IntoIterator<Item = i64>) -> V {
+        V::list(items.into_iter().map(V::Int).collect())
+    }
+
+    pub fn reals(items: impl IntoIterator<Item = f64>) -> V {
+        V::list(items.into_iter().map(V::Real).collect())
+    }
+
+    #[test]
+    fn names_are_unique_and_numbers_lead_back() {
+        let all = builtins::<f64>();
+        for (at, builtin) in all.iter().enumerate() {
+            assert_eq!(builtin_id(builtin.name), Some(at as u16), "{}", builtin.name);
+            assert!(builtin.min_args <= builtin.max_args);
+        }
+        assert_eq!(builtin_id("no-such"), None);
+        assert_eq!(code("sqrt", &[]), "argument-count");
+    }
+
+    /// No kind of argument makes a function panic: every function, every kind, every number of arguments up to four.
+    #[test]
+    fn any_arguments_give_an_answer_or_a_fault() {
+        let samples = [
+            V::None,
+            V::Bool(true),
+            V::Int(-3),
+            V::Int(i64::MIN),
+            V::real(0.5),
+            V::real(f64::NAN),
+            V::real(f64::INFINITY),
+            V::real(-1e300),
+            V::str("x\u{e9}"),
+            V::tuple(vec![V::real(1.0), V::Int(2), V::Int(3)]),
+            ints([3, 1]),
+            V::list(vec![]),
+            V::vector(&[1.0, 0.0, 0.0]),
+            V::Rotation(std::sync::Arc::new([1.0; 9])),
+        ];
+        let mut dice: u64 = 1;
+        for builtin in builtins::<f64>() {
+            for count in builtin.min_args..=builtin.max_args.min(4) {
+                for _ in 0..400 {
+                    let args: Vec<V> = (0..count)
+                        .map(|_| {
+                            dice = dice.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+                            samples[(dice >> 33) as usize % samples.len()].clone()
+                        })
+                        .collect();
+                    if let Err(fault) = builtin.call(&args) {
+                        assert!(Fault::CODES.contains(&fault.code), "{fault:?}");
+                        assert!(!fault.message.is_empty());
+                    }
+                }
+            }
+        }
+    }
 }
