@@ -1,1 +1,24 @@
-//! The search: enumeration, importance sampling, particles.
+//! The search: algorithms that answer the machine's questions and decide.
+//!
+//! * [`task`]: what is asked for: a program, its arguments, the sketches that score its scene;
+//! * [`log`]: the choices of a run, shared between copies of a particle;
+//! * [`record`]: choices and score of one run, the same for every algorithm;
+//! * [`forward`]: draw every choice from its prior; [`replay`]: take every choice from a log, and name it;
+//! * [`enumeration`], [`rejection`], [`importance`]: exact and direct answers, the oracles for the rest;
+//! * [`particles`]: sequential Monte Carlo, in program order and in stochastic order.
+//!
+//! Not here: opcodes, shapes, Python.
+
+pub mod enumeration;
+pub mod failure;
+pub mod forward;
+pub mod importance;
+pub mod log;
+pub mod particles;
+pub mod record;
+pub mod rejection;
+pub mod replay;
+pub mod task;
+
+pub use failure::Failure;
+pub use task::Task;

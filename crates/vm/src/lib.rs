@@ -1,5 +1,18 @@
-//! The machine that runs a procedural model.
+//! The machine that runs a procedural model: a compiler from core form to bytecode, and an interpreter whose
+//! activation records are trace nodes.
+//!
+//! * [`core`]: what a model is after names are resolved, as text and as types;
+//! * [`passes`]: core form to bytecode;
+//! * [`code`]: bytecode, its verifier and disassembler;
+//! * [`value`]: what registers hold; [`builtins`]: the functions on values; [`fault`]: what goes wrong;
+//! * [`machine`]: runs a program up to its next question.
+//!
+//! Not here: random numbers, algorithms, Python.
 
 pub mod builtins;
+pub mod code;
+pub mod core;
 pub mod fault;
+pub mod machine;
+pub mod passes;
 pub mod value;

@@ -43,6 +43,18 @@ pub fn iter_get<S: Scalar>(value: &Value<S>, at: usize) -> Value<S> {
     }
 }
 
+/// `value[at]` without a copy, for a list or tuple and a whole number within it.
+#[inline]
+pub fn index_ref<'a, S: Scalar>(value: &'a Value<S>, at: &Value<S>) -> Option<&'a Value<S>> {
+    let Value::Int(at) = *at else { return None };
+    let at = usize::try_from(at).ok()?;
+    match value {
+        Value::List(list) => list.get(at),
+        Value::Tuple(tuple) => tuple.items().get(at),
+        _ => None,
+    }
+}
+
 /// Every element of a loop over a value, in order.
 pub fn iter_all<S: Scalar>(value: &Value<S>) -> Result<Vec<Value<S>>, Fault> {
     let count = iter_len(value)?;

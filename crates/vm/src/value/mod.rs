@@ -18,7 +18,7 @@ pub mod ops;
 pub mod print;
 mod release;
 pub mod same;
-pub mod standin;
+mod futures;
 pub mod text;
 
 use std::sync::Arc;
@@ -30,7 +30,7 @@ pub use list::List;
 pub use niwaki_geom::Shape;
 pub use print::{repr, str_of};
 pub use same::same;
-pub use standin::{Dist, Draw, Family, Param, Scalar};
+pub use niwaki_math::{Dist, Draw, Family, Param, Scalar};
 pub use text::Text;
 
 /// Largest number of elements, or of characters, that one value may have (2^26).
@@ -72,6 +72,8 @@ pub enum Value<S: Scalar = f64> {
     Function(Arc<Closure<S>>),
     /// A future, by the machine's number for it.
     Future(u32),
+    /// What a variable holds before it is assigned; no model ever sees it.
+    Unset,
 }
 
 // The machine copies values between registers all the time; a third word would cost every copy.
@@ -128,6 +130,7 @@ impl<S: Scalar> Value<S> {
             Value::Dist(_) => "distribution",
             Value::Function(_) => "function",
             Value::Future(_) => "future",
+            Value::Unset => "unassigned",
         }
     }
 

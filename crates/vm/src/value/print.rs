@@ -154,6 +154,7 @@ fn begin<'a, S: Scalar>(value: &'a Value<S>, out: &mut String) -> Result<Option<
         Value::Dist(dist) => out.push_str(&format!("<{} distribution>", dist.family().name())),
         Value::Function(closure) => out.push_str(&format!("<function {}>", closure.function)),
         Value::Future(n) => out.push_str(&format!("<future {n}>")),
+        Value::Unset => out.push_str("<unassigned>"),
     }
     Ok(None)
 }

@@ -1,0 +1,137 @@
+//! Exact enumeration: every value of every choice, by forking the run at each.
+//!
+//! `p(outcome, score) = sum over runs of exp(log_prior + log_score)`, an outcome being the program's value.
+
+use crate::forward::factor_name;
+use crate::record::{Record, check_factor};
+use crate::task::{Hosts, Task};
+use crate::Failure;
+use niwaki_geom::Shape;
+use niwaki_math::Dist;
+use niwaki_vm::builtins::draw_to_value;
+use niwaki_vm::fault::Fault;
+use niwaki_vm::machine::Stop;
+use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
+use niwaki_vm::machine::state::State;
+use niwaki_vm::value::{Value, repr};
+use std::collections::HashMap;
+
+/// The exact distribution of a program's value.
+pub struct Enumerated {
+    /// Outcomes in order of first appearance, with their unnormalised log probabilities, nats.
+    pub outcomes: Vec<(Value, f64)>,
+    /// Log of their sum: the evidence.
+    pub log_evidence: f64,
+    /// How many complete runs there are.
+    pub runs: usize,
+}
+
+/// A run up to its next open choice.
+struct Branch {
+    state: State,
+    record: Record,
+    next: Option<(Value, f64)>,
+}
+
+struct Ask<'a> {
+    record: &'a mut Record,
+    hosts: &'a dyn Hosts,
+    next: Option<(Value, f64)>,
+    open: Vec<(Value, f64)>,
+}
+
+impl Answers<f64> for Ask<'_> {
+    fn choice(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Answer<Value>, Fault> {
+        if let Some((value, log_density)) = self.next.take() {
+            self.record.choose(at.address, &value, log_density);
+            return Ok(Answer::Go(value));
+        }
+        let Some(draws) = dist.enumerate() else {
+            return Err(Fault::new(
+                "not-enumerable",
+                format!("the choice `{}` has no finite list of values", at.path()),
+            )
+            .with_help("use particles or importance sampling for continuous and unbounded choices"));
+        };
+        for draw in draws {
+            let log_density = dist.log_density(&draw);
+            if log_density > f64::NEG_INFINITY {
+                self.open.push((draw_to_value(draw), log_density));
+            }
+        }
+        Ok(Answer::Pause)
+    }
+
+    fn score(&mut self, at: &At<'_, f64>, factor: Factor, log: f64) -> Result<Answer<()>, Fault> {
+        self.record.factor(check_factor(log)?, &factor_name(at, factor));
+        Ok(if self.record.cause.is_some() { Answer::Pause } else { Answer::Go(()) })
+    }
+
+    fn emit(&mut self, _: &At<'_, f64>, shapes: &[Shape]) -> Result<Answer<()>, Fault> {
+        self.record.emit(shapes);
+        Ok(if self.record.cause.is_some() { Answer::Pause } else { Answer::Go(()) })
+    }
+
+    fn query(&mut self, _: &At<'_, f64>, _: &Value, _: &Value) -> Result<(), Fault> {
+        Ok(())
+    }
+
+    fn host(&mut self, constant: u16, args: &[Value]) -> Result<Value, Fault> {
+        self.hosts.call(constant, args)
+    }
+}
+
+/// Enumerates every run of the program, at most `max_runs`.
+///
+/// # Errors
+/// A choice that cannot be enumerated, more runs than allowed, or a fault of the program.
+pub fn enumerate(task: &Task, max_runs: usize) -> Result<Enumerated, Failure> {
+    let mut machine = task.machine();
+    let first = task.start(&machine, true)?;
+    let mut open = vec![Branch { state: first, record: Record::start(&task.sketches), next: None }];
+    let mut outcomes: Vec<(Value, Vec<f64>)> = Vec::new();
+    let mut index: HashMap<String, usize> = HashMap::new();
+    let mut runs = 0;
+    while let Some(mut branch) = open.pop() {
+        let hosts = &*task.hosts;
+        let mut ask = Ask { record: &mut branch.record, hosts, next: branch.next.take(), open: Vec::new() };
+        while ask.open.is_empty() && ask.record.cause.is_none() && !branch.state.has_ended() {
+            let Some(future) = branch.state.runnable().first().copied() else {
+                return Err(Box::new(machine.waiting_cycle(&branch.state)).into());
+            };
+            let stop = machine.resume(&mut branch.state, future, &mut ask)?;
+            debug_assert!(stop != Stop::Waiting || !branch.state.runnable().is_empty() || branch.state.has_ended());
+        }
+        let values = std::mem::take(&mut ask.open);
+        if branch.record.cause.is_some() {
+            continue;
+        }
+        // Reversed, so that outcomes appear in the order of the values.
+        for next in values.into_iter().rev() {
+            open.push(Branch { state: branch.state.clone(), record: branch.record.fork(), next: Some(next) });
+        }
+        if branch.state.has_ended() {
+            runs += 1;
+            if runs > max_runs {
+                return Err(Fault::new("too-many-runs", format!("the program has more than {max_runs} runs"))
+                    .with_help("enumerate a smaller program, or use particles")
+                    .into());
+            }
+            let value = branch.state.result();
+            let log_joint = branch.record.log_prior + branch.record.log_score();
+            let key = repr(&value)?;
+            let at = *index.entry(key).or_insert_with(|| {
+                outcomes.push((value, Vec::new()));
+                outcomes.len() - 1
+            });
+            outcomes[at].1.push(log_joint);
+        }
+    }
+    let outcomes: Vec<(Value, f64)> = outcomes.into_iter().map(|(v, logs)| (v, log_sum_exp(&logs))).collect();
+    let log_evidence = log_sum_exp(&outcomes.iter().map(|o| o.1).collect::<Vec<_>>());
+    Ok(Enumerated { outcomes, log_evidence, runs })
+}
+
+fn log_sum_exp(logs: &[f64]) -> f64 {
+    crate::importance::log_mean_exp(logs.iter().copied()) + (logs.len() as f64).ln()
+}

@@ -1,0 +1,47 @@
+//! Why a search gives no result.
+
+use niwaki_vm::fault::Fault;
+use niwaki_vm::machine::stack::RunFault;
+
+/// Why a search gives no result.
+#[derive(Clone, Debug)]
+pub enum Failure {
+    /// The program met a fault.
+    Run(Box<RunFault>),
+    /// A setting makes no sense, or the question suits the algorithm badly.
+    Setting(Fault),
+    /// Every particle is impossible.
+    Impossible {
+        /// The barrier at which the last one died, from 1.
+        barrier: usize,
+        /// What killed particles there: constraint and count, most frequent first.
+        causes: Vec<(String, usize)>,
+    },
+}
+
+impl std::fmt::Display for Failure {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Failure::Run(fault) => write!(f, "{fault}"),
+            Failure::Setting(fault) => write!(f, "{}", fault.message),
+            Failure::Impossible { barrier, causes } => {
+                let causes: Vec<String> = causes.iter().map(|(name, n)| format!("{name} ({n})")).collect();
+                write!(f, "every particle is impossible at barrier {barrier}: {}", causes.join(", "))
+            }
+        }
+    }
+}
+
+impl std::error::Error for Failure {}
+
+impl From<Box<RunFault>> for Failure {
+    fn from(fault: Box<RunFault>) -> Self {
+        Failure::Run(fault)
+    }
+}
+
+impl From<Fault> for Failure {
+    fn from(fault: Fault) -> Self {
+        Failure::Setting(fault)
+    }
+}

@@ -1,0 +1,105 @@
+//! Forward runs: every choice is drawn from its prior, from the random stream at its address.
+
+use crate::record::{Record, check_factor};
+use crate::task::{Hosts, Task};
+use crate::Failure;
+use niwaki_geom::Shape;
+use niwaki_math::{Dist, Stream};
+use niwaki_vm::builtins::draw_to_value;
+use niwaki_vm::fault::Fault;
+use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
+use niwaki_vm::value::Value;
+
+/// Draws choices from their priors and keeps the record.
+pub struct Forward<'a> {
+    /// The record so far.
+    pub record: &'a mut Record,
+    /// Seed of the run.
+    pub seed: u64,
+    /// Stream of the run: a particle's lineage, a sample's number.
+    pub stream: u64,
+    /// Host functions.
+    pub hosts: &'a dyn Hosts,
+    /// Whether emits, factors and observations pause the run.
+    pub barriers: bool,
+}
+
+impl Forward<'_> {
+    #[inline]
+    fn barrier(&self) -> Answer<()> {
+        if self.barriers || self.record.cause.is_some() { Answer::Pause } else { Answer::Go(()) }
+    }
+}
+
+/// What a person calls a factor.
+pub(crate) fn factor_name(at: &At<'_, f64>, factor: Factor) -> String {
+    let what = match factor {
+        Factor::Observe => "observe",
+        Factor::Factor => "factor",
+        Factor::Condition => "condition",
+    };
+    format!("`{what}` at line {}", at.site.span.line)
+}
+
+impl Answers<f64> for Forward<'_> {
+    #[inline]
+    fn choice(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Answer<Value>, Fault> {
+        let draw = dist.sample(&mut Stream::new(self.seed, self.stream, at.address, 0));
+        let log_density = dist.log_density(&draw);
+        let value = draw_to_value(draw);
+        self.record.choose(at.address, &value, log_density);
+        Ok(Answer::Go(value))
+    }
+
+    #[inline]
+    fn score(&mut self, at: &At<'_, f64>, factor: Factor, log: f64) -> Result<Answer<()>, Fault> {
+        let log = check_factor(log)?;
+        if log == f64::NEG_INFINITY {
+            self.record.factor(log, &factor_name(at, factor));
+        } else {
+            self.record.factor(log, "");
+        }
+        Ok(self.barrier())
+    }
+
+    fn emit(&mut self, _: &At<'_, f64>, shapes: &[Shape]) -> Result<Answer<()>, Fault> {
+        self.record.emit(shapes);
+        Ok(self.barrier())
+    }
+
+    fn query(&mut self, _: &At<'_, f64>, _: &Value, _: &Value) -> Result<(), Fault> {
+        Ok(())
+    }
+
+    fn host(&mut self, constant: u16, args: &[Value]) -> Result<Value, Fault> {
+        self.hosts.call(constant, args)
+    }
+}
+
+/// A finished run.
+pub struct Sample {
+    /// Its choices and score. A run that became impossible stopped there.
+    pub record: Record,
+    /// What the program returned (`None` when impossible).
+    pub value: Value,
+}
+
+/// One forward run, depth first; it stops early when its score becomes minus infinity.
+///
+/// # Errors
+/// A fault of the program.
+pub fn forward(task: &Task, seed: u64, stream: u64) -> Result<Sample, Failure> {
+    let mut machine = task.machine();
+    let mut state = task.start(&machine, true)?;
+    let mut record = Record::start(&task.sketches);
+    let hosts = &*task.hosts;
+    while !state.has_ended() && record.cause.is_none() {
+        let Some(next) = state.runnable().first().copied() else {
+            return Err(Box::new(machine.waiting_cycle(&state)).into());
+        };
+        let mut answers = Forward { record: &mut record, seed, stream, hosts, barriers: false };
+        machine.resume(&mut state, next, &mut answers)?;
+    }
+    let value = if state.has_ended() { state.result() } else { Value::None };
+    Ok(Sample { record, value })
+}

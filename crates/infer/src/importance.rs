@@ -1,0 +1,39 @@
+//! Likelihood weighting: independent forward runs, each weighted by its score.
+//!
+//! `p(value | score) ~ sum of exp(log_score_i) [value_i = value]`; the evidence is the mean weight.
+
+use crate::forward::{Sample, forward};
+use crate::{Failure, Task};
+use niwaki_vm::fault::Fault;
+use rayon::prelude::*;
+
+/// Independent weighted runs.
+pub struct Weighted {
+    /// The runs; the weight of each is its `log_score`.
+    pub samples: Vec<Sample>,
+    /// Log of the mean weight, nats: an unbiased estimate of the evidence (not of its log).
+    pub log_evidence: f64,
+}
+
+/// `n` forward runs in parallel.
+///
+/// # Errors
+/// A fault of the program; no runs asked for.
+pub fn importance(task: &Task, n: usize, seed: u64) -> Result<Weighted, Failure> {
+    if n == 0 {
+        return Err(Fault::new("no-samples", "zero samples were asked for").with_help("ask for at least one").into());
+    }
+    let samples = (0..n as u64).into_par_iter().map(|i| forward(task, seed, i)).collect::<Result<Vec<_>, _>>()?;
+    let log_evidence = log_mean_exp(samples.iter().map(|s| s.record.log_score()));
+    Ok(Weighted { samples, log_evidence })
+}
+
+/// The log of the mean of exponentials, added up in order.
+pub fn log_mean_exp(logs: impl Iterator<Item = f64> + Clone) -> f64 {
+    let (max, n) = logs.clone().fold((f64::NEG_INFINITY, 0usize), |(m, n), x| (m.max(x), n + 1));
+    if max == f64::NEG_INFINITY || n == 0 {
+        return f64::NEG_INFINITY;
+    }
+    let sum: f64 = logs.map(|x| (x - max).exp()).sum();
+    max + (sum / n as f64).ln()
+}

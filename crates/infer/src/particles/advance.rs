@@ -1,0 +1,85 @@
+//! One particle, and how it runs to its next barrier.
+
+use super::settings::{Order, Settings};
+use crate::Failure;
+use crate::forward::Forward;
+use crate::record::Record;
+use crate::task::Task;
+use niwaki_math::Stream;
+use niwaki_vm::machine::state::State;
+use niwaki_vm::machine::{Machine, Stop};
+
+/// Order choices have streams of their own: this visit of the particle's stream.
+const ORDER: u64 = 1;
+
+/// A particle.
+pub(super) struct Particle {
+    pub state: State,
+    pub record: Record,
+    /// Number of its random stream; no other particle has or had it.
+    pub lineage: u64,
+    /// How many order choices it has made.
+    pub picks: u64,
+    /// The score that its weight already counts.
+    pub weighed: f64,
+    /// Log weight since the last resampling.
+    pub log_weight: f64,
+}
+
+impl Particle {
+    /// Whether it still runs.
+    pub fn is_running(&self) -> bool {
+        !self.state.has_ended() && self.record.cause.is_none()
+    }
+
+    /// Runs to the next barrier, or to the end.
+    pub fn advance(&mut self, machine: &mut Machine<'_>, task: &Task, settings: &Settings) -> Result<(), Failure> {
+        while self.is_running() {
+            let runnable = self.state.runnable();
+            let future = match runnable.len() {
+                0 => return Err(Box::new(machine.waiting_cycle(&self.state)).into()),
+                1 => runnable[0],
+                n => {
+                    debug_assert_eq!(settings.order, Order::Stochastic);
+                    #[allow(unused_mut)]
+                    let mut which = self.pick(n, settings.seed);
+                    #[cfg(test)]
+                    if settings.is(super::tests::Mutant::WeightedOrder) {
+                        // Prefers the newest future without telling the weights.
+                        which = which.max(self.pick(n, settings.seed));
+                    }
+                    let future = self.state.runnable()[which];
+                    self.record.log.push_order(self.state.path_of(future), which);
+                    future
+                }
+            };
+            let mut answers = Forward {
+                record: &mut self.record,
+                seed: settings.seed,
+                stream: self.lineage,
+                hosts: &*task.hosts,
+                barriers: true,
+            };
+            if machine.resume(&mut self.state, future, &mut answers)? == Stop::Paused {
+                return Ok(());
+            }
+        }
+        Ok(())
+    }
+
+    /// A uniform draw among the runnable futures.
+    fn pick(&mut self, n: usize, seed: u64) -> usize {
+        self.picks += 1;
+        let u = Stream::new(seed, self.lineage, u128::from(self.picks), ORDER).uniform();
+        ((u * n as f64) as usize).min(n - 1)
+    }
+
+    /// Becomes a copy of `parent`, with a random stream of its own.
+    pub fn copy_from(&mut self, parent: &mut Particle, lineage: u64) {
+        self.state.clone_from(&parent.state);
+        self.record = parent.record.fork();
+        self.lineage = lineage;
+        self.picks = parent.picks;
+        self.weighed = parent.weighed;
+    }
+}

@@ -1,0 +1,30 @@
+//! Sequential Monte Carlo over the barriers that `emit`, `factor` and `observe` make.
+//!
+//! With `s(r_n)` the score of a run at its n-th barrier and `T` the temperature, particles target
+//! `F_n = p_n(x_n) s(r_n)^T` (dissertation 5.3, with `T = 1`). A step:
+//!
+//! 1. *Advance*: each particle that has not ended runs to its next barrier ([`advance`]). After each barrier
+//!    and whenever a future returns, the order policy picks the future that runs next.
+//! 2. *Weigh* ([`weights`]): `w *= (s(r_n) / s(r_{n-1}))^T`. One that has ended carries its last score.
+//! 3. *Resample* ([`resampling`]): at every barrier, or when the effective sample size is low; weights are reset.
+//!
+//! The evidence is the score of the empty scene times the product of the mean weights at each resampling, times
+//! the last mean weight; it is unbiased for `T = 1` and ratio weights, under any order policy (appendix C). The
+//! original weighed by the whole score `s(r_n)` at every step ([`Weights::Absolute`]): an undeclared sharpening
+//! that grows with the model, kept under its own name, without evidence.
+//!
+//! Random streams belong to a particle's lineage: at resampling the first copy keeps its parent's, every other
+//! copy gets a fresh one, and none is used again.
+
+mod advance;
+pub mod resampling;
+mod population;
+mod settings;
+mod weights;
+
+#[cfg(test)]
+mod tests;
+
+pub use population::{Outcome, Progress, Result, smc};
+pub use resampling::Resampling;
+pub use settings::{Order, Settings, When, Weights};

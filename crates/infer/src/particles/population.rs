@@ -1,0 +1,230 @@
+//! The population: the loop of advancing, weighing and resampling.
+
+use super::advance::Particle;
+use super::settings::{Order, Settings, Weights, When};
+use super::weights::normalise;
+use crate::record::Record;
+use crate::{Failure, Task};
+use niwaki_math::Stream;
+use niwaki_vm::machine::Limits;
+use niwaki_vm::value::Value;
+use rayon::prelude::*;
+use std::collections::HashMap;
+
+/// The stream of the resampling draws: no lineage has this number.
+const RESAMPLING: u64 = u64::MAX;
+
+/// Particles that one task of the thread pool advances.
+const BATCH: usize = 16;
+
+/// A particle of the final set.
+pub struct Outcome {
+    /// Its choices and score.
+    pub record: Record,
+    /// What the program returned (`None` for one that was interrupted or is impossible).
+    pub value: Value,
+    /// Its log weight, nats; equal weights after a last resampling.
+    pub log_weight: f64,
+    /// Whether it has ended.
+    pub has_ended: bool,
+    /// Its lineage: equal for particles that are copies of each other since the last barrier at most once.
+    pub lineage: u64,
+}
+
+/// What SMC found.
+pub struct Result {
+    /// The final set.
+    pub particles: Vec<Outcome>,
+    /// Estimate of the log evidence, nats; `None` for absolute weights.
+    pub log_evidence: Option<f64>,
+    /// How many barriers there were.
+    pub barriers: usize,
+    /// Barriers at which the population was resampled.
+    pub resampled: usize,
+    /// Ancestors at the first barrier that the final set descends from.
+    pub ancestors: usize,
+    /// Whether it was stopped before all particles had ended.
+    pub interrupted: bool,
+}
+
+/// How far a run is, for whoever watches it.
+#[derive(Clone, Copy, Debug)]
+pub struct Progress {
+    /// Barriers so far.
+    pub barriers: usize,
+    /// Particles that have ended.
+    pub ended: usize,
+    /// Best log score among the particles that are possible.
+    pub best: f64,
+}
+
+/// Runs a population of particles. `watch` is told after each barrier; when it answers false, the run stops and
+/// gives what it has.
+///
+/// # Errors
+/// Settings that make no sense, a fault of the program, or a population in which every particle is impossible.
+pub fn smc(
+    task: &Task,
+    settings: &Settings,
+    watch: &mut dyn FnMut(Progress) -> bool,
+) -> std::result::Result<Result, Failure> {
+    settings.check()?;
+    let n = settings.particles;
+    let task = &share_memory(task, n);
+    let machine = task.machine();
+    let first = task.start(&machine, settings.order == Order::DepthFirst)?;
+    let mut empty = Record::start(&task.sketches);
+    let empty_score = empty.log_score();
+    let mut particles: Vec<Particle> = (0..n as u64)
+        .map(|lineage| Particle {
+            state: first.clone(),
+            record: empty.fork(),
+            lineage,
+            picks: 0,
+            weighed: empty_score,
+            log_weight: 0.0,
+        })
+        .collect();
+    let mut lineages = n as u64;
+    let mut ancestor: Vec<usize> = (0..n).collect();
+    let mut log_evidence = settings.temper * empty_score;
+    let (mut barriers, mut resampled) = (0, 0);
+    let mut interrupted = false;
+
+    while particles.iter().any(Particle::is_running) {
+        advance(&mut particles, task, settings)?;
+        barriers += 1;
+        weigh(&mut particles, settings);
+
+        let logs: Vec<f64> = particles.iter().map(|p| p.log_weight).collect();
+        let Some(weights) = normalise(&logs) else { return Err(impossible(&particles, barriers)) };
+        let best = particles.iter().map(|p| p.record.log_score()).fold(f64::NEG_INFINITY, f64::max);
+        let ended = particles.iter().filter(|p| p.state.has_ended()).count();
+        if !watch(Progress { barriers, ended, best }) {
+            interrupted = true;
+            break;
+        }
+        let low = match settings.when {
+            _ if settings.weights == Weights::Absolute => true,
+            When::Always => true,
+            When::EffectiveBelow(share) => weights.effective < share * n as f64,
+        };
+        if low {
+            log_evidence += weights.log_mean;
+            resampled += 1;
+            let mut random = Stream::new(settings.seed, RESAMPLING, barriers as u128, 0);
+            let copies = settings.resampling.copies(&weights.relative, &mut random);
+            ancestor = resample(&mut particles, &copies, &ancestor, &mut lineages, settings);
+        }
+    }
+    if let Some(last) = normalise(&particles.iter().map(|p| p.log_weight).collect::<Vec<_>>()) {
+        log_evidence += last.log_mean;
+    }
+    ancestor.sort_unstable();
+    ancestor.dedup();
+    Ok(Result {
+        log_evidence: (settings.weights == Weights::Ratio && !interrupted).then_some(log_evidence),
+        barriers,
+        resampled,
+        ancestors: ancestor.len(),
+        interrupted,
+        particles: particles.into_iter().map(outcome).collect(),
+    })
+}
+
+/// The memory budget of a task is that of its whole population.
+fn share_memory(task: &Task, n: usize) -> Task {
+    let bytes = (task.limits.bytes / n).max(1 << 20);
+    Task { limits: Limits { bytes, ..task.limits }, ..task.clone() }
+}
+
+fn advance(particles: &mut [Particle], task: &Task, settings: &Settings) -> std::result::Result<(), Failure> {
+    let batch = |particles: &mut [Particle]| {
+        let mut machine = task.machine();
+        particles.iter_mut().try_for_each(|p| p.advance(&mut machine, task, settings))
+    };
+    if rayon::current_num_threads() == 1 {
+        return batch(particles);
+    }
+    // Of several faults, the one of the first particle is reported, whatever thread met its own first.
+    let faults: Vec<Failure> =
+        particles.par_chunks_mut(BATCH).map(batch).filter_map(std::result::Result::err).collect();
+    faults.into_iter().next().map_or(Ok(()), Err)
+}
+
+fn weigh(particles: &mut [Particle], settings: &Settings) {
+    for p in particles {
+        let score = p.record.log_score();
+        match settings.weights {
+            Weights::Ratio if score == f64::NEG_INFINITY => p.log_weight = f64::NEG_INFINITY,
+            Weights::Ratio => p.log_weight += settings.temper * (score - p.weighed),
+            Weights::Absolute => p.log_weight = settings.temper * score,
+        }
+        p.weighed = score;
+        #[cfg(test)]
+        if settings.is(super::tests::Mutant::ForgetsOldScore) {
+            p.weighed = 0.0;
+        }
+    }
+}
+
+/// Survivors stay where they are; their further copies take the places of those that get none. The ancestors of
+/// the new rows.
+fn resample(
+    particles: &mut [Particle],
+    copies: &[usize],
+    ancestor: &[usize],
+    lineages: &mut u64,
+    settings: &Settings,
+) -> Vec<usize> {
+    let mut from = ancestor.to_vec();
+    let mut free = copies.iter().enumerate().filter(|(_, c)| **c == 0).map(|(row, _)| row);
+    for (row, &count) in copies.iter().enumerate() {
+        for _ in 1..count {
+            let Some(to) = free.next() else { break };
+            let [parent, child] = pair(particles, row, to);
+            child.copy_from(parent, *lineages);
+            *lineages += 1;
+            from[to] = ancestor[row];
+        }
+    }
+    for (row, p) in particles.iter_mut().enumerate() {
+        p.log_weight = 0.0;
+        #[cfg(test)]
+        super::tests::corrupt(p, row, settings, copies);
+        #[cfg(not(test))]
+        let _ = (row, settings);
+    }
+    from
+}
+
+fn pair(particles: &mut [Particle], a: usize, b: usize) -> [&mut Particle; 2] {
+    if a < b {
+        let (left, right) = particles.split_at_mut(b);
+        [&mut left[a], &mut right[0]]
+    } else {
+        let (left, right) = particles.split_at_mut(a);
+        [&mut right[0], &mut left[b]]
+    }
+}
+
+fn impossible(particles: &[Particle], barrier: usize) -> Failure {
+    let mut counts: HashMap<&str, usize> = HashMap::new();
+    for p in particles {
+        *counts.entry(p.record.cause.as_deref().unwrap_or("weights")).or_insert(0) += 1;
+    }
+    let mut causes: Vec<(String, usize)> = counts.into_iter().map(|(c, n)| (c.to_string(), n)).collect();
+    causes.sort_by(|a, b| b.1.cmp(&a.1).then_with(|| a.0.cmp(&b.0)));
+    Failure::Impossible { barrier, causes }
+}
+
+fn outcome(p: Particle) -> Outcome {
+    let has_ended = p.state.has_ended();
+    Outcome {
+        value: if has_ended { p.state.result() } else { Value::None },
+        log_weight: p.log_weight,
+        has_ended,
+        lineage: p.lineage,
+        record: p.record,
+    }
+}

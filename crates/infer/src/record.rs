@@ -1,0 +1,117 @@
+//! What a run has chosen and scored so far, the same for every algorithm.
+//!
+//! `log_prior` is the sum of the log densities of its choices, `log_score` that of factors, observations and
+//! sketches; each term is rounded to a multiple of 2^-32, so that sums are exact and free of order.
+
+use crate::log::Log;
+use niwaki_geom::{Primitive, Shape};
+use niwaki_geom::sketch::{Sketch, SketchSpec};
+use niwaki_math::{Dist, grid};
+use niwaki_vm::builtins::value_to_draw;
+use niwaki_vm::fault::Fault;
+use niwaki_vm::value::Value;
+use std::sync::Arc;
+
+/// What a run has chosen and scored so far.
+#[derive(Default)]
+pub struct Record {
+    /// The choices.
+    pub log: Log,
+    /// Sum of the log densities of the choices, nats.
+    pub log_prior: f64,
+    /// Sum of factors and observations, nats.
+    pub log_factors: f64,
+    /// The sketches of the scene.
+    pub sketches: Vec<Box<dyn Sketch>>,
+    /// Sum of the sketches' log scores, nats.
+    pub log_sketches: f64,
+    /// How many primitives the scene has.
+    pub primitives: usize,
+    /// What made the run impossible.
+    pub cause: Option<String>,
+}
+
+impl Record {
+    /// The record of a run that has not begun: it has the score of the empty scene.
+    pub fn start(specs: &[Arc<dyn SketchSpec>]) -> Self {
+        let mut record = Record { sketches: specs.iter().map(|s| s.start()).collect(), ..Record::default() };
+        record.sum_sketches();
+        record
+    }
+
+    /// A copy; both share what neither changes.
+    pub fn fork(&mut self) -> Record {
+        Record {
+            log: self.log.fork(),
+            log_prior: self.log_prior,
+            log_factors: self.log_factors,
+            sketches: self.sketches.iter().map(|s| s.fork()).collect(),
+            log_sketches: self.log_sketches,
+            primitives: self.primitives,
+            cause: self.cause.clone(),
+        }
+    }
+
+    /// Factors, observations and sketches: nats, minus infinity when impossible.
+    #[inline]
+    pub fn log_score(&self) -> f64 {
+        self.log_factors + self.log_sketches
+    }
+
+    /// Adds a choice and its log density.
+    #[inline]
+    pub fn choose(&mut self, address: u128, value: &Value, log_density: f64) {
+        self.log_prior += grid(log_density);
+        self.log.push(address, value.clone());
+    }
+
+    /// Adds a factor.
+    #[inline]
+    pub fn factor(&mut self, log: f64, what: &str) {
+        self.log_factors += grid(log);
+        if log == f64::NEG_INFINITY && self.cause.is_none() {
+            self.cause = Some(what.to_string());
+        }
+    }
+
+    /// Adds a primitive to the scene. Once the score is minus infinity, the sketches behind are not asked.
+    pub fn emit(&mut self, shapes: &[Shape]) {
+        let primitive = Primitive::new(shapes);
+        self.primitives += 1;
+        for sketch in &mut self.sketches {
+            sketch.add(&primitive);
+            if sketch.log_score() == f64::NEG_INFINITY {
+                self.log_sketches = f64::NEG_INFINITY;
+                if self.cause.is_none() {
+                    self.cause = Some(sketch.name().to_string());
+                }
+                return;
+            }
+        }
+        self.sum_sketches();
+    }
+
+    fn sum_sketches(&mut self) {
+        self.log_sketches = self.sketches.iter().map(|s| grid(s.log_score())).sum();
+    }
+}
+
+/// The log density of a value, nats.
+///
+/// # Errors
+/// A value that no distribution can draw.
+pub fn log_density(dist: &Dist, value: &Value) -> Result<f64, Fault> {
+    Ok(dist.log_density(&value_to_draw(value)?))
+}
+
+/// A factor must be a number below plus infinity.
+///
+/// # Errors
+/// NaN or plus infinity.
+pub fn check_factor(log: f64) -> Result<f64, Fault> {
+    if log.is_nan() || log == f64::INFINITY {
+        return Err(Fault::new("non-finite-score", format!("a factor of {log} nats"))
+            .with_help("a log factor is a finite number, or minus infinity for what is impossible"));
+    }
+    Ok(log)
+}

@@ -1,0 +1,54 @@
+//! Rejection sampling: forward runs, kept with probability `exp(log_score - bound)`.
+
+use crate::forward::{Sample, forward};
+use crate::{Failure, Task};
+use niwaki_math::Stream;
+use niwaki_vm::fault::Fault;
+
+/// The stream of the acceptance draws: no run has this number.
+const ACCEPTANCE: u64 = u64::MAX;
+
+/// Exact samples.
+pub struct Accepted {
+    /// The samples.
+    pub samples: Vec<Sample>,
+    /// How many runs it took.
+    pub tries: u64,
+}
+
+/// `n` exact samples, where no run scores above `bound` nats (zero serves for conditions). Gives up after
+/// `max_tries` runs.
+///
+/// # Errors
+/// A run that scores above the bound, too many tries, or a fault of the program.
+pub fn rejection(task: &Task, n: usize, bound: f64, max_tries: u64, seed: u64) -> Result<Accepted, Failure> {
+    let mut samples = Vec::with_capacity(n);
+    let mut tries = 0;
+    while samples.len() < n {
+        if tries == max_tries {
+            let found = samples.len();
+            return Err(Fault::new(
+                "rejection-budget",
+                format!("{tries} runs gave {found} samples of the {n} asked for"),
+            )
+            .with_help("loosen the conditions, raise `max_tries`, or use particles")
+            .into());
+        }
+        let sample = forward(task, seed, tries)?;
+        let log_accept = sample.record.log_score() - bound;
+        if log_accept > 1e-9 {
+            return Err(Fault::new(
+                "rejection-bound",
+                format!("a run scores {} nats, above the bound of {bound}", sample.record.log_score()),
+            )
+            .with_help("give a bound that no run exceeds")
+            .into());
+        }
+        let u = Stream::new(seed, ACCEPTANCE, u128::from(tries), 0).uniform();
+        if u.ln() < log_accept {
+            samples.push(sample);
+        }
+        tries += 1;
+    }
+    Ok(Accepted { samples, tries })
+}

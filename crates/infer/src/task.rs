@@ -1,0 +1,62 @@
+//! What a search is asked: a program with its arguments, and the sketches that score its scene.
+
+use niwaki_geom::sketch::SketchSpec;
+use niwaki_vm::code::Program;
+use niwaki_vm::fault::Fault;
+use niwaki_vm::machine::state::State;
+use niwaki_vm::machine::{Limits, Machine};
+use niwaki_vm::value::Value;
+use std::sync::Arc;
+
+/// Pure functions of the host, by the number of the constant that names them.
+pub trait Hosts: Send + Sync {
+    /// Calls one.
+    ///
+    /// # Errors
+    /// Whatever it raises, as a fault.
+    fn call(&self, constant: u16, args: &[Value]) -> Result<Value, Fault>;
+}
+
+/// No host functions.
+pub struct NoHosts;
+
+impl Hosts for NoHosts {
+    fn call(&self, _: u16, _: &[Value]) -> Result<Value, Fault> {
+        Err(Fault::new("host-function", "this program has no host functions"))
+    }
+}
+
+/// What a search is asked.
+#[derive(Clone)]
+pub struct Task {
+    /// The compiled model.
+    pub program: Arc<Program>,
+    /// The arguments of its entry function.
+    pub args: Vec<Value>,
+    /// What its scene should be like; log scores add.
+    pub sketches: Vec<Arc<dyn SketchSpec>>,
+    /// Its host functions.
+    pub hosts: Arc<dyn Hosts>,
+    /// How much one run may use.
+    pub limits: Limits,
+}
+
+impl Task {
+    /// A task without arguments, sketches and host functions.
+    pub fn new(program: Arc<Program>) -> Self {
+        Task { program, args: vec![], sketches: vec![], hosts: Arc::new(NoHosts), limits: Limits::default() }
+    }
+
+    /// A machine for its program.
+    pub fn machine(&self) -> Machine<'_> {
+        Machine::new(&self.program, self.limits)
+    }
+
+    /// A run that has not begun.
+    ///
+    /// # Errors
+    /// The wrong number of arguments.
+    pub fn start(&self, machine: &Machine<'_>, depth_first: bool) -> Result<State, Fault> {
+        machine.start(&self.args, depth_first)
+    }
+}

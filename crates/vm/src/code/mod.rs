@@ -1,0 +1,362 @@
+//! Bytecode: what a compiled program is made of. Numbers in newtypes, layouts in one place.
+//!
+//! An operand is 16 bits: two of class, fourteen of index.
+//!
+//! | class | where it lives | who sees it |
+//! | --- | --- | --- |
+//! | node | a register of the activation, kept while it lives | values needed after a suspension site |
+//! | scratch | a register of the machine, gone at the next suspension | everything else; all of a pure function |
+//! | constant | the function's constant table | literals and data |
+//! | outer | a register of the enclosing loop node | what an iteration captures |
+
+mod disassemble;
+mod verify;
+
+pub use disassemble::disassemble;
+pub use verify::{VerifyError, verify};
+
+use crate::core::{Name, Span};
+use crate::value::{Class, Value};
+use niwaki_math::{Family, Scalar};
+
+/// Where an instruction finds or puts a value.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Operand(pub u16);
+
+/// The class of an [`Operand`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// A register of the activation.
+    Node,
+    /// A register of the machine.
+    Scratch,
+    /// A constant of the function.
+    Constant,
+    /// A register of the enclosing loop node.
+    Outer,
+}
+
+impl Operand {
+    /// The largest index that fits.
+    pub const MAX_INDEX: usize = (1 << 14) - 1;
+
+    /// An operand from its class and index.
+    pub fn new(place: Place, index: usize) -> Self {
+        debug_assert!(index <= Self::MAX_INDEX);
+        Operand(((place as u16) << 14) | index as u16)
+    }
+
+    /// Its class.
+    #[inline]
+    pub fn place(self) -> Place {
+        match self.0 >> 14 {
+            0 => Place::Node,
+            1 => Place::Scratch,
+            2 => Place::Constant,
+            _ => Place::Outer,
+        }
+    }
+
+    /// Its index within the class.
+    #[inline]
+    pub fn index(self) -> usize {
+        (self.0 & 0x3FFF) as usize
+    }
+
+    /// Whether an instruction may write it.
+    pub fn is_register(self) -> bool {
+        matches!(self.place(), Place::Node | Place::Scratch)
+    }
+}
+
+impl std::fmt::Debug for Operand {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let letter = match self.place() {
+            Place::Node => 'n',
+            Place::Scratch => 's',
+            Place::Constant => 'k',
+            Place::Outer => 'o',
+        };
+        write!(f, "{letter}{}", self.index())
+    }
+}
+
+/// A run of operands in the function's operand list.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Args {
+    /// First place in [`Function::operands`].
+    pub start: u32,
+    /// How many.
+    pub len: u16,
+}
+
+impl Args {
+    /// The empty run.
+    pub const NONE: Args = Args { start: 0, len: 0 };
+
+    /// The places in the operand list.
+    #[inline]
+    pub fn range(self) -> std::ops::Range<usize> {
+        self.start as usize..self.start as usize + self.len as usize
+    }
+}
+
+/// Number of a function in its program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct FunctionId(pub u32);
+
+/// Number of a suspension site in its function, in program order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct SiteId(pub u16);
+
+/// How an iteration of a lifted loop ended, as a small integer in a register.
+pub mod exit {
+    /// It fell off its end or met `continue`.
+    pub const NEXT: i64 = 0;
+    /// It met `break`.
+    pub const BREAK: i64 = 1;
+    /// It met `return`; the value follows the carried variables.
+    pub const RETURN: i64 = 2;
+}
+
+/// The two-operand operations with an instruction of their own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Binary {
+    Add,
+    Sub,
+    Mul,
+    Div,
+    FloorDiv,
+    Mod,
+    Pow,
+    Eq,
+    Ne,
+    Lt,
+    Le,
+    Gt,
+    Ge,
+    Index,
+    In,
+}
+
+/// One instruction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Op {
+    /// Copy a value.
+    Move { to: Operand, from: Operand },
+    /// A two-operand operation.
+    Binary { op: Binary, to: Operand, a: Operand, b: Operand },
+    /// Arithmetic negation.
+    Neg { to: Operand, a: Operand },
+    /// Python's `not`.
+    Not { to: Operand, a: Operand },
+    /// A built-in function by number.
+    Builtin { to: Operand, id: u16, args: Args },
+    /// A list of the arguments.
+    List { to: Operand, args: Args },
+    /// A tuple of the arguments.
+    Tuple { to: Operand, args: Args },
+    /// A dictionary: keys, then values.
+    Dict { to: Operand, args: Args },
+    /// A record of the numbered class.
+    Record { to: Operand, class: u16, args: Args },
+    /// A named field.
+    Field { to: Operand, a: Operand, name: u16 },
+    /// The elements of a sequence of exactly that length into registers.
+    Unpack { from: Operand, to: Args },
+    /// As `Unpack`, the middle as a list into the register numbered `star` of the run.
+    UnpackStar { from: Operand, to: Args, star: u16 },
+    /// A function value.
+    Closure { to: Operand, function: u16, args: Args },
+    /// A distribution value.
+    Dist { to: Operand, family: Family, args: Args },
+    /// A pure host function, by constant number of the program.
+    Host { to: Operand, constant: u16, args: Args },
+    /// Call of a pure function: no node, no site.
+    CallPure { to: Operand, function: u16, args: Args },
+    /// Go on elsewhere. Backward jumps count as steps.
+    Jump { target: u32 },
+    /// Jump when the value is true.
+    JumpIf { a: Operand, target: u32 },
+    /// Jump when the value is not true.
+    JumpUnless { a: Operand, target: u32 },
+    /// Jump unless `a < b` and the like, fused with the comparison.
+    JumpUnlessCompare { op: Binary, a: Operand, b: Operand, target: u32 },
+    /// Check that a value can be iterated over, and its length as an integer.
+    Length { to: Operand, a: Operand },
+    /// If `index < length`, put the element there into `to` and add one to `index`; else jump.
+    Next { to: Operand, over: Operand, index: Operand, length: Operand, target: u32 },
+    /// A fault unless the variable has been assigned.
+    CheckSet { a: Operand, name: u16 },
+    /// A fault with the message in `message` unless `a` is true.
+    Assert { a: Operand, message: Operand },
+    /// Suspend or not: what the numbered site says.
+    Site { site: SiteId },
+    /// Return from the function.
+    Return { a: Operand },
+    /// Return from an iteration: how it ended, carried values (and the returned value).
+    ReturnIteration { exit: i8, args: Args },
+}
+
+/// What happens at a suspension site.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SiteKind {
+    /// Call of a known effectful function.
+    Call {
+        /// Whom.
+        function: FunctionId,
+    },
+    /// Call of a function value, the first argument.
+    Apply,
+    /// A lifted loop; see [`Loop`].
+    Loop(Loop),
+    /// A random choice; the arguments are the parameters of a known family.
+    Sample {
+        /// Which family.
+        family: Family,
+    },
+    /// A random choice from a distribution value, the only argument.
+    SampleDist,
+    /// A random choice from element `args[1]` of the list of distributions `args[0]`.
+    SampleIndexed,
+    /// A factor by the density of a known family; the last argument is the value.
+    Observe {
+        /// Which family.
+        family: Family,
+    },
+    /// A factor by the density of a distribution value; the last argument is the value.
+    ObserveDist,
+    /// As `ObserveDist`, with element `args[1]` of the list of distributions `args[0]`.
+    ObserveIndexed,
+    /// A log factor.
+    Factor,
+    /// A factor of one or zero.
+    Condition,
+    /// A write to the query table: key and value.
+    Query,
+    /// One primitive: shapes, or lists of shapes.
+    Emit,
+    /// A deferred call of a known function. `detached`: nobody reads the handle.
+    Future {
+        /// Whom.
+        function: FunctionId,
+        /// Nobody reads the handle.
+        detached: bool,
+    },
+    /// A deferred call of a function value, the first argument.
+    FutureApply {
+        /// Nobody reads the handle.
+        detached: bool,
+    },
+    /// The value of a future.
+    Force,
+}
+
+/// A lifted loop: its iterations are activations of their own.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Loop {
+    /// The function of the loop node, which has registers and no code.
+    pub header: FunctionId,
+    /// The function of one iteration: element (for `for`), carried values; captures are its outer operands.
+    pub body: FunctionId,
+    /// What a `for` runs over.
+    pub over: Option<Operand>,
+    /// Carried values going in.
+    pub carried: Args,
+    /// Values captured by the loop node.
+    pub captures: Args,
+    /// Registers for the carried values coming out.
+    pub out: Args,
+    /// Register for the kind of exit, when the body contains `return`; the returned value goes into the next one.
+    pub exit: Option<(Operand, Operand)>,
+}
+
+/// A suspension site.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Site {
+    /// What happens.
+    pub kind: SiteKind,
+    /// Register for the result.
+    pub to: Operand,
+    /// Arguments.
+    pub args: Args,
+    /// Hash of qualified function, what is called, the name assigned to, and the occurrence among equals:
+    /// it does not depend on line numbers.
+    pub key: u128,
+    /// The readable component of an address.
+    pub label: Name,
+    /// Where it stands.
+    pub span: Span,
+    /// The instruction after it.
+    pub next: u32,
+}
+
+/// How activations of a function live.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mode {
+    /// It can reach no effect: no node, registers on the machine's scratch stack.
+    Pure,
+    /// It can suspend: a node.
+    Node,
+    /// A lifted loop: a node without code that holds what is run over and what its iterations capture.
+    Loop,
+    /// One iteration of a lifted loop: a node whose parent is the loop's node.
+    Iteration,
+}
+
+/// A compiled function.
+#[derive(Clone, Debug)]
+pub struct Function<S: Scalar = f64> {
+    /// Qualified name.
+    pub name: Name,
+    /// Number of the source file.
+    pub file: u32,
+    /// Where it is defined.
+    pub span: Span,
+    /// How its activations live.
+    pub mode: Mode,
+    /// Parameters that a caller gives.
+    pub params: u16,
+    /// Values of the last parameters when left out: constants, or (`Node`/`Scratch` index) a captured register.
+    pub defaults: Vec<Operand>,
+    /// Captured values, placed in the registers after the parameters.
+    pub captures: u16,
+    /// Registers of a node (of a loop node for an iteration's captures: see [`Loop`]).
+    pub node_registers: u16,
+    /// Scratch registers.
+    pub scratch_registers: u16,
+    /// The instructions.
+    pub code: Vec<Op>,
+    /// Where each instruction comes from.
+    pub spans: Vec<Span>,
+    /// Operand lists.
+    pub operands: Vec<Operand>,
+    /// Constants.
+    pub constants: Vec<Value<S>>,
+    /// Names of fields, methods and variables used by instructions.
+    pub names: Vec<Name>,
+    /// Suspension sites in program order.
+    pub sites: Vec<Site>,
+}
+
+/// A compiled program.
+#[derive(Clone, Debug)]
+pub struct Program<S: Scalar = f64> {
+    /// Source files.
+    pub files: Vec<String>,
+    /// Record classes.
+    pub classes: Vec<std::sync::Arc<Class>>,
+    /// Functions by number.
+    pub functions: Vec<Function<S>>,
+    /// Where a run starts.
+    pub entry: FunctionId,
+}
+
+impl<S: Scalar> Program<S> {
+    /// A function by its number.
+    #[inline]
+    pub fn function(&self, id: FunctionId) -> &Function<S> {
+        &self.functions[id.0 as usize]
+    }
+}

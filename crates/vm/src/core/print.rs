@@ -1,0 +1,166 @@
+//! Core form back to text, one statement a line: what a person reads, and what [`super::parse`] takes back.
+
+use super::*;
+use std::fmt::Write;
+
+/// The text of a module. Places are left out; `parse(print(m))` has the same meaning as `m`.
+pub fn print(module: &Module) -> String {
+    let mut out = String::from("(module");
+    for (i, file) in module.files.iter().enumerate() {
+        let _ = write!(out, "\n  (file {i} {file:?})");
+    }
+    for (i, class) in module.classes.iter().enumerate() {
+        let kind = if class.kind == ClassKind::NamedTuple { " namedtuple" } else { "" };
+        let fields: Vec<String> = class.fields.iter().map(|f| format!("{f:?}")).collect();
+        let _ = write!(out, "\n  (class {i} {:?} ({}){})", class.name, fields.join(" "), kind);
+    }
+    for (i, value) in &module.constants {
+        let _ = write!(out, "\n  (const {i} {})", expr(value));
+    }
+    for f in &module.functions {
+        let _ = write!(out, "\n  (fn {:?} (file {}) (params{})", f.name, f.file, vars(&f.params));
+        if !f.defaults.is_empty() {
+            let _ = write!(out, " (defaults{})", tail(&f.defaults));
+        }
+        if !f.captures.is_empty() {
+            let _ = write!(out, " (captures{})", vars(&f.captures));
+        }
+        block(&mut out, &f.body, 4);
+        out.push(')');
+    }
+    let _ = write!(out, "\n  (entry {:?}))", module.entry);
+    out
+}
+
+fn vars(names: &[Name]) -> String {
+    names.iter().map(|n| format!(" ${n}")).collect()
+}
+
+fn list(names: &[Name]) -> String {
+    format!("({})", vars(names).trim_start())
+}
+
+fn tail(items: &[Expr]) -> String {
+    items.iter().map(|e| format!(" {}", expr(e))).collect()
+}
+
+fn block(out: &mut String, stmts: &[Stmt], indent: usize) {
+    for s in stmts {
+        let _ = write!(out, "\n{:indent$}", "");
+        let nested = |out: &mut String, head: &str, body: &[Stmt]| {
+            let _ = write!(out, "\n{:1$}({head}", "", indent + 2);
+            block(out, body, indent + 4);
+            out.push(')');
+        };
+        match &s.kind {
+            StmtKind::Set(x, e) => drop(write!(out, "(set ${x} {})", expr(e))),
+            StmtKind::Unpack(xs, e) => drop(write!(out, "(unpack {} {})", list(xs), expr(e))),
+            StmtKind::UnpackStar(a, r, c, e) => {
+                drop(write!(out, "(unpack_star {} ${r} {} {})", list(a), list(c), expr(e)))
+            }
+            StmtKind::If(c, a, b) => {
+                let _ = write!(out, "(if {}", expr(c));
+                nested(out, "then", a);
+                nested(out, "else", b);
+                out.push(')');
+            }
+            StmtKind::For(x, e, body) => {
+                let _ = write!(out, "(for ${x} {}", expr(e));
+                nested(out, "body", body);
+                out.push(')');
+            }
+            StmtKind::While(c, body) => {
+                let _ = write!(out, "(while {}", expr(c));
+                nested(out, "body", body);
+                out.push(')');
+            }
+            StmtKind::Break => out.push_str("(break)"),
+            StmtKind::Continue => out.push_str("(continue)"),
+            StmtKind::Return(e) => drop(write!(out, "(return {})", expr(e))),
+            StmtKind::Do(e) => drop(write!(out, "(do {})", expr(e))),
+            StmtKind::Assert(c, m) => drop(write!(out, "(assert {} {})", expr(c), expr(m))),
+        }
+    }
+}
+
+fn expr(e: &Expr) -> String {
+    use ExprKind::*;
+    let two = |head: &str, a: &Expr, b: &Expr| format!("({head} {} {})", expr(a), expr(b));
+    match &e.kind {
+        Literal(l) => literal(l),
+        Data(k) => format!("(data {k})"),
+        Var(x) => format!("${x}"),
+        And(items) => format!("(and{})", tail(items)),
+        Or(items) => format!("(or{})", tail(items)),
+        Cond(c, a, b) => format!("(cond {} {} {})", expr(c), expr(a), expr(b)),
+        Call(f, args) => format!("(call {f:?}{})", tail(args)),
+        Closure(f, args) => format!("(closure {f:?}{})", tail(args)),
+        Apply(f, args) => format!("(apply {}{})", expr(f), tail(args)),
+        Sample(d) => format!("(sample {})", expr(d)),
+        Observe(d, v) => two("observe", d, v),
+        Factor(x) => format!("(factor {})", expr(x)),
+        Condition(x) => format!("(condition {})", expr(x)),
+        Query(k, v) => two("query", k, v),
+        Emit(args) => format!("(emit{})", tail(args)),
+        Force(x) => format!("(force {})", expr(x)),
+        Future(f, args) => format!("(future {f:?}{})", tail(args)),
+        FutureApply(f, args) => format!("(future_apply {}{})", expr(f), tail(args)),
+        Dist(f, args) => format!("(dist {f}{})", tail(args)),
+        Host(k, args) => format!("(host {k}{})", tail(args)),
+        Record(k, args) => format!("(record {k}{})", tail(args)),
+        Field(x, f) => format!("(field {} {f:?})", expr(x)),
+        List(args) => format!("(list{})", tail(args)),
+        Tuple(args) => format!("(tuple{})", tail(args)),
+        Dict(keys, args) => format!("(dict ({}){})", tail(keys).trim_start(), tail(args)),
+        Method(x, f, args) => format!("(method {} {f:?}{})", expr(x), tail(args)),
+        Op(f, args) => format!("({f}{})", tail(args)),
+    }
+}
+
+fn literal(l: &Literal) -> String {
+    match l {
+        Literal::None => "none".into(),
+        Literal::Bool(b) => b.to_string(),
+        Literal::Int(i) => i.to_string(),
+        Literal::Real(x) if x.is_nan() => "nan".into(),
+        Literal::Real(x) if x.is_infinite() => if *x > 0.0 { "inf" } else { "-inf" }.into(),
+        Literal::Real(x) => format!("{x:?}"),
+        Literal::Str(s) => {
+            let mut out = String::from("\"");
+            for c in s.chars() {
+                match c {
+                    '"' => out.push_str("\\\""),
+                    '\\' => out.push_str("\\\\"),
+                    c if (c as u32) < 0x20 => drop(write!(out, "\\u{:04x}", c as u32)),
+                    c => out.push(c),
+                }
+            }
+            out.push('"');
+            out
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::parse::parse;
+    use super::*;
+
+    #[test]
+    fn printing_what_was_parsed_is_a_fixed_point() {
+        let text = r#"(module (file 0 "m.py") (class 0 "P" ("x" "y")) (const 0 (list 1 2.5))
+          (fn "m" @1:1-9:2 (file 0) (params $a $b) (defaults 3) (captures $c)
+            (set $x @2:3-2:9 (add $a (lit @2:4-2:5 1e-3)))
+            (unpack ($p $q) (data 0))
+            (unpack_star ($p) $r ($s) (data 0))
+            (if (lt $x 2) (then (return $p)) (else (do (factor -inf))))
+            (for $i (range 3) (body (if (eq $i 1) (then (continue))) (break)))
+            (while (not $x) (body (set $x (cond $x 1 "a\n\"b\""))))
+            (assert true "m")
+            (do (query "k" (method (dict ("a") 1) "get" "a"))))
+          (entry "m"))"#;
+        let once = print(&parse(text).unwrap());
+        assert_eq!(once, print(&parse(&once).unwrap()));
+        assert!(once.contains("(set $x (cond $x 1 \"a\\u000a\\\"b\\\"\"))"));
+    }
+}

@@ -1,0 +1,104 @@
+//! Visiting core form: the parts of an expression, and the names that statements read and assign.
+
+use super::*;
+use std::collections::BTreeSet;
+
+/// A set of variables, in a fixed order so that compiling is deterministic.
+pub type Names = BTreeSet<Name>;
+
+impl Expr {
+    /// The direct parts, in order of evaluation.
+    pub fn parts(&self) -> Vec<&Expr> {
+        use ExprKind::*;
+        match &self.kind {
+            Literal(_) | Data(_) | Var(_) => vec![],
+            And(xs) | Or(xs) | Emit(xs) | List(xs) | Tuple(xs) => xs.iter().collect(),
+            Call(_, xs) | Closure(_, xs) | Future(_, xs) | Dist(_, xs) | Host(_, xs) | Record(_, xs) | Op(_, xs) => {
+                xs.iter().collect()
+            }
+            Cond(c, a, b) => vec![c, a, b],
+            Sample(x) | Factor(x) | Condition(x) | Force(x) | Field(x, _) => vec![x],
+            Observe(a, b) | Query(a, b) => vec![a, b],
+            Apply(f, xs) | FutureApply(f, xs) | Method(f, _, xs) => std::iter::once(&**f).chain(xs).collect(),
+            Dict(ks, xs) => ks.iter().chain(xs).collect(),
+        }
+    }
+
+    /// Calls `visit` on this expression and everything below it.
+    pub fn each<'a>(&'a self, visit: &mut dyn FnMut(&'a Expr)) {
+        visit(self);
+        for part in self.parts() {
+            part.each(visit);
+        }
+    }
+
+    /// Adds the variables it reads.
+    pub fn reads(&self, into: &mut Names) {
+        self.each(&mut |e| {
+            if let ExprKind::Var(x) = &e.kind {
+                into.insert(x.clone());
+            }
+        });
+    }
+}
+
+impl Stmt {
+    /// The expressions that stand directly in it (not those of nested statements).
+    pub fn expressions(&self) -> Vec<&Expr> {
+        match &self.kind {
+            StmtKind::Set(_, e)
+            | StmtKind::Unpack(_, e)
+            | StmtKind::UnpackStar(_, _, _, e)
+            | StmtKind::If(e, _, _)
+            | StmtKind::For(_, e, _)
+            | StmtKind::While(e, _)
+            | StmtKind::Return(e)
+            | StmtKind::Do(e) => vec![e],
+            StmtKind::Assert(c, m) => vec![c, m],
+            StmtKind::Break | StmtKind::Continue => vec![],
+        }
+    }
+
+    /// The nested blocks.
+    pub fn blocks(&self) -> Vec<&[Stmt]> {
+        match &self.kind {
+            StmtKind::If(_, a, b) => vec![a, b],
+            StmtKind::For(_, _, body) | StmtKind::While(_, body) => vec![body],
+            _ => vec![],
+        }
+    }
+
+    /// The variables that it assigns itself (not those of nested statements).
+    pub fn targets(&self) -> Vec<&Name> {
+        match &self.kind {
+            StmtKind::Set(x, _) | StmtKind::For(x, _, _) => vec![x],
+            StmtKind::Unpack(xs, _) => xs.iter().collect(),
+            StmtKind::UnpackStar(a, r, c, _) => a.iter().chain(std::iter::once(r)).chain(c).collect(),
+            _ => vec![],
+        }
+    }
+}
+
+/// Calls `visit` on every statement of a block, nested ones included.
+pub fn each_stmt<'a>(block: &'a [Stmt], visit: &mut dyn FnMut(&'a Stmt)) {
+    for s in block {
+        visit(s);
+        for inner in s.blocks() {
+            each_stmt(inner, visit);
+        }
+    }
+}
+
+/// The variables that a block assigns anywhere.
+pub fn assigned(block: &[Stmt]) -> Names {
+    let mut names = Names::new();
+    each_stmt(block, &mut |s| names.extend(s.targets().into_iter().cloned()));
+    names
+}
+
+/// Whether a block contains a `return`.
+pub fn returns(block: &[Stmt]) -> bool {
+    let mut found = false;
+    each_stmt(block, &mut |s| found |= matches!(s.kind, StmtKind::Return(_)));
+    found
+}

@@ -1,0 +1,90 @@
+//! What the machine asks, and who answers.
+//!
+//! The machine runs a program up to its next question and knows neither random numbers nor algorithms. An
+//! inference algorithm is the set of answers that it gives.
+
+use super::state::{NodeId, State};
+use crate::code::{Function, Program, Site};
+use crate::fault::Fault;
+use crate::value::Value;
+use niwaki_geom::Shape;
+use niwaki_math::{Dist, Scalar};
+
+/// An answer: go on, or pause here.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Answer<T> {
+    /// Go on with this.
+    Go(T),
+    /// Stop the run. A choice is asked again when the run is resumed; anything else counts as done.
+    Pause,
+}
+
+/// Which kind of factor a score comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Factor {
+    /// `observe`: the log density of a distribution at a value.
+    Observe,
+    /// `factor`: a number of nats.
+    Factor,
+    /// `condition`: zero or minus infinity.
+    Condition,
+}
+
+/// Where a question comes from.
+pub struct At<'a, S: Scalar> {
+    /// The address: a hash of the path of sites.
+    pub address: u128,
+    /// The site.
+    pub site: &'a Site,
+    /// The function it stands in.
+    pub function: &'a Function<S>,
+    pub(crate) node: NodeId,
+    pub(crate) state: &'a State<S>,
+    pub(crate) program: &'a Program<S>,
+}
+
+impl<S: Scalar> At<'_, S> {
+    /// The readable address. It walks the ancestors, so it is for records and messages, not for every choice.
+    ///
+    /// Under a stochastic order a future does not know its ancestors; its path then starts at the future.
+    pub fn path(&self) -> String {
+        let mut path = self.state.path(self.program, self.node);
+        if !path.is_empty() {
+            path.push('/');
+        }
+        path + &self.site.label
+    }
+}
+
+/// Whoever answers the machine's questions.
+pub trait Answers<S: Scalar> {
+    /// The value of a random choice.
+    ///
+    /// # Errors
+    /// A fault ends the run; it is reported with the model's call stack.
+    fn choice(&mut self, at: &At<'_, S>, dist: &Dist<S>) -> Result<Answer<Value<S>>, Fault>;
+
+    /// A factor of the score, in nats.
+    ///
+    /// # Errors
+    /// As for [`Answers::choice`].
+    fn score(&mut self, at: &At<'_, S>, factor: Factor, log: S) -> Result<Answer<()>, Fault>;
+
+    /// One primitive for the scene.
+    ///
+    /// # Errors
+    /// As for [`Answers::choice`].
+    fn emit(&mut self, at: &At<'_, S>, shapes: &[Shape]) -> Result<Answer<()>, Fault>;
+
+    /// A write to the query table.
+    ///
+    /// # Errors
+    /// As for [`Answers::choice`].
+    fn query(&mut self, at: &At<'_, S>, key: &Value<S>, value: &Value<S>) -> Result<(), Fault>;
+
+    /// A call of a pure host function.
+    ///
+    /// # Errors
+    /// As for [`Answers::choice`].
+    fn host(&mut self, constant: u16, args: &[Value<S>]) -> Result<Value<S>, Fault>;
+}

@@ -1,0 +1,172 @@
+//! The machine: runs a program up to its next question.
+//!
+//! Its verbs are few: [`Machine::start`] a run, [`Machine::resume`] one of its futures, fork (a `clone` of the
+//! [`State`]). It never recurses on the host stack, draws no random numbers and does not know who asks.
+//!
+//! * [`address`]: paths of sites as 128-bit hashes;
+//! * [`answers`]: what is asked, and the trait of those who answer;
+//! * [`state`]: nodes, registers, futures;
+//! * [`interpret`]: the loop over instructions;
+//! * [`suspend`]: what happens at a suspension site;
+//! * [`stack`]: the model's own call stack, for messages.
+
+pub mod address;
+pub mod answers;
+mod interpret;
+pub mod stack;
+pub mod state;
+mod suspend;
+
+use crate::code::{FunctionId, Operand, Program};
+use crate::fault::Fault;
+use crate::value::Value;
+use answers::Answers;
+use niwaki_geom::Shape;
+use niwaki_math::Scalar;
+use stack::RunFault;
+use state::{FutureId, NodeId, State, Status};
+
+/// How much a run may use.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// Calls, iterations and backward jumps, of one run.
+    pub steps: u64,
+    /// Bytes of nodes and registers, of one run.
+    pub bytes: usize,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Limits { steps: 20_000_000, bytes: 1 << 30 }
+    }
+}
+
+/// Why a run stopped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stop {
+    /// The answer was to pause.
+    Paused,
+    /// The future that ran has returned.
+    Returned,
+    /// The future that ran waits for another.
+    Waiting,
+}
+
+/// A call of a pure function in progress: where to go on when it returns.
+struct PureCall {
+    caller: FunctionId,
+    pc: usize,
+    scratch: usize,
+    to: Operand,
+    /// The result is a future that has returned already.
+    as_future: bool,
+}
+
+/// Where the machine is, for the call stack of a fault.
+struct Here {
+    node: NodeId,
+    function: FunctionId,
+    pc: usize,
+}
+
+/// Runs programs. It holds scratch space only, so one machine serves any number of states.
+pub struct Machine<'p, S: Scalar = f64> {
+    program: &'p Program<S>,
+    limits: Limits,
+    scratch: Vec<Value<S>>,
+    pure: Vec<PureCall>,
+    buffer: Vec<Value<S>>,
+    shapes: Vec<Shape>,
+    here: Here,
+}
+
+impl<'p, S: Scalar> Machine<'p, S> {
+    /// A machine for that program.
+    pub fn new(program: &'p Program<S>, limits: Limits) -> Self {
+        Machine {
+            program,
+            limits,
+            scratch: Vec::new(),
+            pure: Vec::new(),
+            buffer: Vec::new(),
+            shapes: Vec::new(),
+            here: Here { node: NodeId::NONE, function: program.entry, pc: 0 },
+        }
+    }
+
+    /// The program that it runs.
+    pub fn program(&self) -> &'p Program<S> {
+        self.program
+    }
+
+    /// The state of a run that has not begun: one runnable future, the call of the entry function.
+    ///
+    /// With `depth_first`, futures run where they are created.
+    ///
+    /// # Errors
+    /// The wrong number of arguments.
+    pub fn start(&self, args: &[Value<S>], depth_first: bool) -> Result<State<S>, Fault> {
+        let f = self.program.function(self.program.entry);
+        let needed = f.params as usize;
+        let optional = f.defaults.len();
+        if args.len() > needed || args.len() + optional < needed {
+            return Err(Fault::new(
+                "wrong-arity",
+                format!("`{}` takes {needed} arguments, {} given", f.name, args.len()),
+            ));
+        }
+        let mut state = State { depth_first, ..State::empty() };
+        let root = state.new_node(self.program, self.program.entry, NodeId::NONE, 0, address::ROOT);
+        let at = state.nodes[root.0 as usize].registers as usize;
+        // A pure entry function has its inputs in scratch: it is given them when it runs.
+        if f.mode == crate::code::Mode::Pure {
+            state.registers.extend(args.iter().cloned());
+        } else {
+            for (i, value) in args.iter().enumerate() {
+                state.registers[at + i] = value.clone();
+            }
+        }
+        for i in args.len()..needed {
+            let default = f.constants[f.defaults[i + optional - needed].index()].clone();
+            if f.mode == crate::code::Mode::Pure {
+                state.registers.push(default);
+            } else {
+                state.registers[at + i] = default;
+            }
+        }
+        let id = state.new_future(Status::Runnable(root), false);
+        state.runnable.push(id);
+        Ok(state)
+    }
+
+    /// Runs a runnable future until an answer pauses it, it returns, or it must wait.
+    ///
+    /// # Errors
+    /// A fault of the program, with the model's call stack. The state is then of no further use.
+    pub fn resume<A: Answers<S>>(
+        &mut self,
+        state: &mut State<S>,
+        future: FutureId,
+        answers: &mut A,
+    ) -> Result<Stop, Box<RunFault>> {
+        self.pure.clear();
+        match self.interpret(state, future, answers) {
+            Ok(stop) => Ok(stop),
+            Err(fault) => Err(Box::new(self.report(state, fault))),
+        }
+    }
+
+    /// Runs every future in the order of creation, until none is left. For answers that never pause.
+    ///
+    /// # Errors
+    /// A fault of the program, or futures that wait for each other.
+    pub fn finish<A: Answers<S>>(&mut self, state: &mut State<S>, answers: &mut A) -> Result<(), Box<RunFault>> {
+        while !state.has_ended() {
+            let Some(next) = state.runnable().first().copied() else {
+                return Err(Box::new(self.waiting_cycle(state)));
+            };
+            self.resume(state, next, answers)?;
+        }
+        Ok(())
+    }
+}

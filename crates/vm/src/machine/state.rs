@@ -1,0 +1,271 @@
+//! The state of a run: nodes, registers and futures. Forking it is `clone` (or `clone_from`, into the buffers
+//! of a state that is no longer needed).
+//!
+//! | node | |
+//! | --- | --- |
+//! | function, parent, site | whose activation this is, who called it and where |
+//! | registers | first of its registers in the state's register file |
+//! | iteration | of a loop node: the iteration that runs |
+//! | pc | where a suspended activation goes on |
+//! | path | hash of the path of sites from the root |
+//!
+//! A released node keeps its block of registers and waits in its function's free list, so that after the first
+//! iterations nothing is allocated.
+
+use super::address;
+use crate::code::{FunctionId, Mode, Program};
+use crate::value::Value;
+use niwaki_math::Scalar;
+
+/// Number of a node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct NodeId(pub u32);
+
+impl NodeId {
+    /// No node.
+    pub const NONE: NodeId = NodeId(u32::MAX);
+}
+
+/// Number of a future; the root call is future 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct FutureId(pub u32);
+
+/// An activation.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Node {
+    pub path: u128,
+    pub function: FunctionId,
+    pub parent: NodeId,
+    /// Site in the parent's function; of the first node of a future: the future's number.
+    pub site: u32,
+    pub registers: u32,
+    pub iteration: u32,
+    pub pc: u32,
+}
+
+/// Where a future stands.
+#[derive(Clone, Debug)]
+pub(crate) enum Status<S: Scalar> {
+    /// It can run, from this node.
+    Runnable(NodeId),
+    /// It waits at this node for another future.
+    Waiting(NodeId, FutureId),
+    /// It has returned.
+    Returned(Value<S>),
+    /// Its number is free to be used again.
+    Free,
+}
+
+/// A future of the program.
+#[derive(Clone, Debug)]
+pub(crate) struct Future<S: Scalar> {
+    pub status: Status<S>,
+    pub has_waiters: bool,
+    /// Nobody holds its handle: its number is free once it has returned.
+    pub detached: bool,
+}
+
+/// The state of one run of a program.
+#[derive(Debug)]
+pub struct State<S: Scalar = f64> {
+    pub(crate) nodes: Vec<Node>,
+    pub(crate) registers: Vec<Value<S>>,
+    /// First free node of each function; free nodes are linked by `parent`.
+    pub(crate) free: Vec<NodeId>,
+    pub(crate) futures: Vec<Future<S>>,
+    pub(crate) free_futures: Vec<u32>,
+    pub(crate) runnable: Vec<FutureId>,
+    pub(crate) unreturned: u32,
+    /// Futures run where they are created.
+    pub(crate) depth_first: bool,
+    pub(crate) steps: u64,
+}
+
+impl<S: Scalar> Clone for State<S> {
+    fn clone(&self) -> Self {
+        let mut copy = State::empty();
+        copy.clone_from(self);
+        copy
+    }
+
+    fn clone_from(&mut self, source: &Self) {
+        self.nodes.clone_from(&source.nodes);
+        self.registers.clone_from(&source.registers);
+        self.free.clone_from(&source.free);
+        self.futures.clone_from(&source.futures);
+        self.free_futures.clone_from(&source.free_futures);
+        self.runnable.clone_from(&source.runnable);
+        self.unreturned = source.unreturned;
+        self.depth_first = source.depth_first;
+        self.steps = source.steps;
+    }
+}
+
+impl<S: Scalar> State<S> {
+    /// A state of nothing.
+    pub(crate) fn empty() -> Self {
+        State {
+            nodes: Vec::new(),
+            registers: Vec::new(),
+            free: Vec::new(),
+            futures: Vec::new(),
+            free_futures: Vec::new(),
+            runnable: Vec::new(),
+            unreturned: 0,
+            depth_first: false,
+            steps: 0,
+        }
+    }
+
+    /// The futures that can run, in an order that is the same in every run.
+    pub fn runnable(&self) -> &[FutureId] {
+        &self.runnable
+    }
+
+    /// Whether every future, the root included, has returned.
+    pub fn has_ended(&self) -> bool {
+        self.unreturned == 0
+    }
+
+    /// The path of the activation in which a runnable future stands: an address for the choice of running it.
+    pub fn path_of(&self, future: FutureId) -> u128 {
+        match self.futures[future.0 as usize].status {
+            Status::Runnable(node) | Status::Waiting(node, _) => self.nodes[node.0 as usize].path,
+            _ => address::ROOT,
+        }
+    }
+
+    /// What the program returned, once it has ended, with futures replaced by their values.
+    pub fn result(&self) -> Value<S> {
+        match self.futures.first().map(|f| &f.status) {
+            Some(Status::Returned(value)) => self.resolve(value),
+            _ => Value::None,
+        }
+    }
+
+    /// The value with every handle of a returned future replaced by that future's value.
+    pub fn resolve(&self, value: &Value<S>) -> Value<S> {
+        let known = |id: u32| match self.futures.get(id as usize).map(|f| &f.status) {
+            Some(Status::Returned(v)) => Some(v.clone()),
+            _ => None,
+        };
+        if self.futures.len() > 1 { value.replace_futures(&known) } else { value.clone() }
+    }
+
+    /// Steps taken so far: calls, iterations and backward jumps.
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// Bytes that nodes and registers hold.
+    pub fn bytes(&self) -> usize {
+        self.nodes.len() * size_of::<Node>() + self.registers.len() * size_of::<Value<S>>()
+    }
+
+    /// A node for an activation of `function`; its registers are unassigned.
+    #[inline]
+    pub(crate) fn new_node(
+        &mut self,
+        program: &Program<S>,
+        function: FunctionId,
+        parent: NodeId,
+        site: u32,
+        path: u128,
+    ) -> NodeId {
+        if self.free.is_empty() {
+            self.free.resize(program.functions.len(), NodeId::NONE);
+        }
+        let made = Node { path, function, parent, site, registers: 0, iteration: 0, pc: 0 };
+        let free = self.free[function.0 as usize];
+        if free != NodeId::NONE {
+            let node = &mut self.nodes[free.0 as usize];
+            self.free[function.0 as usize] = node.parent;
+            *node = Node { registers: node.registers, ..made };
+            return free;
+        }
+        let at = self.registers.len();
+        let count = program.function(function).node_registers as usize;
+        self.registers.resize(at + count, Value::None);
+        self.nodes.push(Node { registers: at as u32, ..made });
+        NodeId((self.nodes.len() - 1) as u32)
+    }
+
+    /// Gives a node back. Its registers let go of what they hold.
+    #[inline]
+    pub(crate) fn release(&mut self, program: &Program<S>, id: NodeId) {
+        let node = &mut self.nodes[id.0 as usize];
+        let (function, at) = (node.function, node.registers as usize);
+        node.parent = self.free[function.0 as usize];
+        self.free[function.0 as usize] = id;
+        let count = program.function(function).node_registers as usize;
+        for value in &mut self.registers[at..at + count] {
+            *value = Value::None;
+        }
+    }
+
+    /// A new future.
+    pub(crate) fn new_future(&mut self, status: Status<S>, detached: bool) -> FutureId {
+        if !matches!(status, Status::Returned(_)) {
+            self.unreturned += 1;
+        }
+        let made = Future { status, has_waiters: false, detached };
+        let id = match self.free_futures.pop() {
+            Some(id) => {
+                self.futures[id as usize] = made;
+                id
+            }
+            None => {
+                self.futures.push(made);
+                (self.futures.len() - 1) as u32
+            }
+        };
+        FutureId(id)
+    }
+
+    /// A future has returned: those that waited for it can run.
+    pub(crate) fn returned(&mut self, id: FutureId, value: Value<S>) {
+        self.unreturned -= 1;
+        self.runnable.retain(|f| *f != id);
+        let future = &mut self.futures[id.0 as usize];
+        let (waited_for, detached) = (future.has_waiters, future.detached);
+        future.status = if detached { Status::Free } else { Status::Returned(value) };
+        if detached {
+            self.free_futures.push(id.0);
+        }
+        if waited_for {
+            for (i, future) in self.futures.iter_mut().enumerate() {
+                if let Status::Waiting(node, on) = future.status
+                    && on == id
+                {
+                    future.status = Status::Runnable(node);
+                    self.runnable.push(FutureId(i as u32));
+                }
+            }
+        }
+    }
+
+    /// The readable path of an activation, from the root or from the future that it belongs to.
+    pub(crate) fn path(&self, program: &Program<S>, node: NodeId) -> String {
+        let mut parts: Vec<String> = Vec::new();
+        let mut at = node;
+        while at != NodeId::NONE {
+            let n = &self.nodes[at.0 as usize];
+            if n.parent == NodeId::NONE {
+                break;
+            }
+            let parent = &self.nodes[n.parent.0 as usize];
+            if program.function(parent.function).mode == Mode::Loop {
+                // The component of a loop is made from the loop node's site and the iteration.
+                let above = &self.nodes[parent.parent.0 as usize];
+                let label = &program.function(above.function).sites[parent.site as usize].label;
+                parts.push(label.replacen("[]", &format!("[{}]", parent.iteration), 1));
+                at = parent.parent;
+            } else {
+                parts.push(program.function(parent.function).sites[n.site as usize].label.to_string());
+                at = n.parent;
+            }
+        }
+        parts.reverse();
+        parts.join("/")
+    }
+}

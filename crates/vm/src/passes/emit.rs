@@ -1,0 +1,257 @@
+//! The builder of one function: registers, labels, constants and the environment from variables to operands.
+
+use super::liveness::LoopHeads;
+use super::{CompileError, Unit, literal, place};
+use crate::code::{Args, Function, FunctionId, Mode, Op, Operand, Place, Site};
+use crate::core::{self, ExprKind, Literal, Name, Span};
+use crate::value::Value;
+use niwaki_math::Scalar;
+use std::collections::HashMap;
+
+pub(crate) type Result<T> = std::result::Result<T, CompileError>;
+
+/// What a variable stands for at a point of the program.
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) struct Binding {
+    pub at: Operand,
+    /// Some path leaves it unassigned.
+    pub maybe_unset: bool,
+}
+
+pub(crate) type Environment = HashMap<Name, Binding>;
+
+/// A place in the code, known later.
+#[derive(Clone, Copy)]
+pub(crate) struct Label(usize);
+
+/// What `break` and `continue` mean here.
+pub(crate) enum LoopContext {
+    /// A plain loop: registers of the loop variables, and where to go.
+    Plain { variables: Vec<(Name, Operand)>, next: Label, end: Label },
+    /// The body of a lifted loop: the iteration returns.
+    Lifted,
+}
+
+pub(crate) struct Builder<'u, 'm, S: Scalar> {
+    pub unit: &'u mut Unit<'m, S>,
+    pub heads: &'u LoopHeads,
+    pub name: Name,
+    pub file: u32,
+    pub mode: Mode,
+    pub code: Vec<Op>,
+    pub spans: Vec<Span>,
+    pub span: Span,
+    pub operands: Vec<Operand>,
+    pub constants: Vec<Value<S>>,
+    pub literals: Vec<(Literal, Operand)>,
+    pub data: HashMap<usize, Operand>,
+    pub names: Vec<Name>,
+    pub sites: Vec<Site>,
+    pub occurrences: HashMap<String, u32>,
+    pub labels: Vec<Option<usize>>,
+    pub registers: usize,
+    pub env: Environment,
+    pub loops: Vec<LoopContext>,
+    /// In an iteration: the carried variables, in order.
+    pub carried: Vec<Name>,
+    /// The variable that the statement in hand assigns.
+    pub target: Option<Name>,
+}
+
+impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
+    pub fn new(unit: &'u mut Unit<'m, S>, heads: &'u LoopHeads, name: Name, file: u32, mode: Mode) -> Self {
+        Builder {
+            unit,
+            heads,
+            name,
+            file,
+            mode,
+            code: vec![],
+            spans: vec![],
+            span: Span::default(),
+            operands: vec![],
+            constants: vec![],
+            literals: vec![],
+            data: HashMap::new(),
+            names: vec![],
+            sites: vec![],
+            occurrences: HashMap::new(),
+            labels: vec![],
+            registers: 0,
+            env: HashMap::new(),
+            loops: vec![],
+            carried: vec![],
+            target: None,
+        }
+    }
+
+    /// Lowers one function of the module.
+    pub fn function(unit: &mut Unit<'m, S>, f: &'m core::Function, mode: Mode) -> Result<Function<S>> {
+        let heads = LoopHeads::of(&f.body);
+        let mut b = Builder::new(unit, &heads, f.name.clone(), f.file, mode);
+        b.span = f.span;
+        for x in f.params.iter().chain(&f.captures) {
+            let at = b.register()?;
+            b.env.insert(x.clone(), Binding { at, maybe_unset: false });
+        }
+        let defaults = f.defaults.iter().map(|e| b.default(f, e)).collect::<Result<Vec<_>>>()?;
+        if b.block(&f.body)? {
+            let none = b.literal(&Literal::None);
+            b.op(Op::Return { a: none });
+        }
+        b.finish(f.params.len(), f.captures.len(), defaults, f.span)
+    }
+
+    fn default(&mut self, f: &core::Function, e: &core::Expr) -> Result<Operand> {
+        match &e.kind {
+            ExprKind::Literal(l) => Ok(self.literal(l)),
+            ExprKind::Data(k) => self.data(*k),
+            ExprKind::Var(x) => match f.captures.iter().position(|c| c == x) {
+                Some(i) => Ok(Operand::new(Place::Node, f.params.len() + i)),
+                None => Err(CompileError(format!("a default of `{}` reads `{x}`, which it does not capture", f.name))),
+            },
+            _ => Err(CompileError(format!("a default of `{}` must be an atom", f.name))),
+        }
+    }
+
+    /// Resolves labels, chooses places for the registers and hands the function over.
+    pub fn finish(
+        mut self,
+        params: usize,
+        captures: usize,
+        defaults: Vec<Operand>,
+        span: Span,
+    ) -> Result<Function<S>> {
+        for op in &mut self.code {
+            if let Op::Jump { target }
+            | Op::JumpIf { target, .. }
+            | Op::JumpUnless { target, .. }
+            | Op::JumpUnlessCompare { target, .. }
+            | Op::Next { target, .. } = op
+            {
+                let at = self.labels[*target as usize];
+                *target = at.ok_or_else(|| CompileError("a jump to nowhere".into()))? as u32;
+            }
+        }
+        let mut f = Function {
+            name: self.name,
+            file: self.file,
+            span,
+            mode: self.mode,
+            params: params as u16,
+            defaults,
+            captures: captures as u16,
+            node_registers: 0,
+            scratch_registers: 0,
+            code: self.code,
+            spans: self.spans,
+            operands: self.operands,
+            constants: self.constants,
+            names: self.names,
+            sites: self.sites,
+        };
+        place::place(&mut f, self.registers);
+        Ok(f)
+    }
+
+    pub fn op(&mut self, op: Op) {
+        self.code.push(op);
+        self.spans.push(self.span);
+    }
+
+    /// A fresh register, virtual until [`place`] decides.
+    pub fn register(&mut self) -> Result<Operand> {
+        if self.registers > Operand::MAX_INDEX {
+            return Err(CompileError(format!("`{}` is too large: split it into smaller functions", self.name)));
+        }
+        self.registers += 1;
+        Ok(Operand::new(Place::Node, self.registers - 1))
+    }
+
+    pub fn args(&mut self, operands: &[Operand]) -> Args {
+        let start = self.operands.len() as u32;
+        self.operands.extend_from_slice(operands);
+        Args { start, len: operands.len() as u16 }
+    }
+
+    pub fn label(&mut self) -> Label {
+        self.labels.push(None);
+        Label(self.labels.len() - 1)
+    }
+
+    pub fn bind(&mut self, label: Label) {
+        self.labels[label.0] = Some(self.code.len());
+    }
+
+    pub fn jump(&mut self, to: Label) {
+        self.op(Op::Jump { target: to.0 as u32 });
+    }
+
+    pub fn jump_target(to: Label) -> u32 {
+        to.0 as u32
+    }
+
+    /// Inserts instructions before the one at `at`; labels after it move along, a label on it stays.
+    pub fn insert(&mut self, at: usize, ops: Vec<Op>) {
+        let (n, span) = (ops.len(), self.span);
+        self.code.splice(at..at, ops);
+        self.spans.splice(at..at, std::iter::repeat_n(span, n));
+        for l in self.labels.iter_mut().flatten() {
+            if *l > at {
+                *l += n;
+            }
+        }
+    }
+
+    pub fn name(&mut self, name: &Name) -> u16 {
+        let at = self.names.iter().position(|n| n == name).unwrap_or_else(|| {
+            self.names.push(name.clone());
+            self.names.len() - 1
+        });
+        at as u16
+    }
+
+    pub fn constant(&mut self, value: Value<S>) -> Operand {
+        self.constants.push(value);
+        Operand::new(Place::Constant, (self.constants.len() - 1).min(Operand::MAX_INDEX))
+    }
+
+    pub fn literal(&mut self, l: &Literal) -> Operand {
+        let same = |a: &Literal, b: &Literal| match (a, b) {
+            (Literal::Real(x), Literal::Real(y)) => x.to_bits() == y.to_bits(),
+            _ => a == b,
+        };
+        if let Some((_, at)) = self.literals.iter().find(|(k, _)| same(k, l)) {
+            return *at;
+        }
+        let at = self.constant(literal(l));
+        self.literals.push((l.clone(), at));
+        at
+    }
+
+    pub fn data(&mut self, k: usize) -> Result<Operand> {
+        if let Some(at) = self.data.get(&k) {
+            return Ok(*at);
+        }
+        let value = self.unit.data.get(k).cloned();
+        let value = value.ok_or_else(|| CompileError(format!("constant {k} is missing")))?;
+        let at = self.constant(value);
+        self.data.insert(k, at);
+        Ok(at)
+    }
+
+    pub fn function_id(&self, name: &Name) -> Result<FunctionId> {
+        let id = self.unit.ids.get(name).copied();
+        id.ok_or_else(|| CompileError(format!("the function `{name}` is not defined")))
+    }
+
+    /// The definition of a function of the module.
+    pub fn definition(&self, id: FunctionId) -> &'m core::Function {
+        &self.unit.module.functions[id.0 as usize]
+    }
+
+    /// Whether a call of that function is a suspension site.
+    pub fn is_effectful(&self, name: &Name) -> bool {
+        self.unit.effects.function(name)
+    }
+}

@@ -1,0 +1,225 @@
+//! Lowering expressions: each returns the operand that holds its value.
+
+use super::CompileError;
+use super::emit::{Builder, Result};
+use crate::builtins::builtin_id;
+use crate::code::{Binary, Op, Operand};
+use crate::core::{Expr, ExprKind, Name};
+use niwaki_math::Scalar;
+
+/// The operations with an instruction of their own.
+fn binary(name: &str) -> Option<Binary> {
+    Some(match name {
+        "add" => Binary::Add,
+        "sub" => Binary::Sub,
+        "mul" => Binary::Mul,
+        "div" => Binary::Div,
+        "floordiv" => Binary::FloorDiv,
+        "mod" => Binary::Mod,
+        "pow" => Binary::Pow,
+        "eq" => Binary::Eq,
+        "ne" => Binary::Ne,
+        "lt" => Binary::Lt,
+        "le" => Binary::Le,
+        "gt" => Binary::Gt,
+        "ge" => Binary::Ge,
+        "index" => Binary::Index,
+        "in" => Binary::In,
+        _ => return None,
+    })
+}
+
+impl<S: Scalar> Builder<'_, '_, S> {
+    /// Lowers an expression.
+    pub fn expr(&mut self, e: &Expr) -> Result<Operand> {
+        let outside = self.span;
+        if e.span.line > 0 {
+            self.span = e.span;
+        }
+        let result = self.expr_here(e);
+        self.span = outside;
+        result
+    }
+
+    pub fn exprs(&mut self, items: &[Expr]) -> Result<Vec<Operand>> {
+        items.iter().map(|e| self.expr(e)).collect()
+    }
+
+    fn expr_here(&mut self, e: &Expr) -> Result<Operand> {
+        use ExprKind::*;
+        if self.mode != crate::code::Mode::Pure
+            && let Some(site) = self.site(e)?
+        {
+            return Ok(site);
+        }
+        match &e.kind {
+            Literal(l) => Ok(self.literal(l)),
+            Data(k) => self.data(*k),
+            Var(x) => self.variable(x),
+            And(items) => self.shortcut(items, true),
+            Or(items) => self.shortcut(items, false),
+            Cond(c, a, b) => self.conditional(c, a, b),
+            Op(name, args) => self.operation(name, args),
+            Call(name, args) => self.pure_call(name, args),
+            _ => self.construct(e),
+        }
+    }
+
+    /// Everything that takes its arguments, in order, and makes a value of them.
+    fn construct(&mut self, e: &Expr) -> Result<Operand> {
+        use ExprKind::*;
+        let mut operands = e.parts().into_iter().map(|p| self.expr(p)).collect::<Result<Vec<_>>>()?;
+        if let Method(_, name, _) = &e.kind {
+            let name = self.literal(&crate::core::Literal::Str(name.to_string()));
+            operands.insert(1, name);
+        }
+        let args = self.args(&operands);
+        let to = self.register()?;
+        let op = match &e.kind {
+            List(_) => crate::code::Op::List { to, args },
+            Tuple(_) => crate::code::Op::Tuple { to, args },
+            Dict(..) => crate::code::Op::Dict { to, args },
+            Record(class, _) => crate::code::Op::Record { to, class: *class as u16, args },
+            Field(_, name) => crate::code::Op::Field { to, a: operands[0], name: self.name(name) },
+            Method(..) => {
+                let id = builtin_id("method").ok_or_else(|| CompileError("methods are missing".into()))?;
+                crate::code::Op::Builtin { to, id, args }
+            }
+            Host(k, _) => crate::code::Op::Host { to, constant: *k as u16, args },
+            Closure(name, captures) => {
+                let id = self.function_id(name)?;
+                if captures.len() != self.definition(id).captures.len() {
+                    return Err(CompileError(format!("a closure of `{name}` with the wrong number of captures")));
+                }
+                crate::code::Op::Closure { to, function: id.0 as u16, args }
+            }
+            Dist(name, _) => crate::code::Op::Dist { to, family: super::sites::family(name)?, args },
+            _ => return Err(CompileError(format!("an effect in the pure function `{}`", self.name))),
+        };
+        self.op(op);
+        Ok(to)
+    }
+
+    fn variable(&mut self, x: &Name) -> Result<Operand> {
+        let Some(binding) = self.env.get(x).copied() else {
+            // Certainly unassigned: the check always fails, with the variable's name.
+            let unset = self.unset();
+            let name = self.name(x);
+            self.op(Op::CheckSet { a: unset, name });
+            return Ok(unset);
+        };
+        if binding.maybe_unset {
+            let name = self.name(x);
+            self.op(Op::CheckSet { a: binding.at, name });
+            self.env.insert(x.clone(), super::emit::Binding { maybe_unset: false, ..binding });
+        }
+        Ok(binding.at)
+    }
+
+    fn operation(&mut self, name: &Name, items: &[Expr]) -> Result<Operand> {
+        let operands = self.exprs(items)?;
+        let to = self.register()?;
+        let op = match (&**name, operands.as_slice()) {
+            (n, [a, b]) if binary(n).is_some() => {
+                let op = binary(n).unwrap_or(Binary::Add);
+                Op::Binary { op, to, a: *a, b: *b }
+            }
+            ("neg", [a]) => Op::Neg { to, a: *a },
+            ("not", [a]) => Op::Not { to, a: *a },
+            _ => {
+                let id = builtin_id(name).ok_or_else(|| CompileError(format!("unknown operation `{name}`")))?;
+                Op::Builtin { to, id, args: self.args(&operands) }
+            }
+        };
+        self.op(op);
+        Ok(to)
+    }
+
+    fn pure_call(&mut self, name: &Name, items: &[Expr]) -> Result<Operand> {
+        let id = self.function_id(name)?;
+        self.check_arity(name, items.len())?;
+        let operands = self.exprs(items)?;
+        let args = self.args(&operands);
+        let to = self.register()?;
+        self.op(Op::CallPure { to, function: id.0 as u16, args });
+        Ok(to)
+    }
+
+    /// A direct call passes the parameters and then the captures.
+    pub fn check_arity(&self, name: &Name, given: usize) -> Result<()> {
+        let f = self.definition(self.function_id(name)?);
+        let needed = f.params.len() + f.captures.len();
+        if needed != given {
+            return Err(CompileError(format!("`{name}` takes {needed} arguments and captures, {given} given")));
+        }
+        Ok(())
+    }
+
+    /// `and`, `or`: the value that decides, else the last.
+    fn shortcut(&mut self, items: &[Expr], is_and: bool) -> Result<Operand> {
+        let end = self.label();
+        let to = self.register()?;
+        let mut merges = Vec::new();
+        for (i, item) in items.iter().enumerate() {
+            let a = self.expr(item)?;
+            self.op(Op::Move { to, from: a });
+            if i == 0 {
+                merges.push(self.env.clone());
+            }
+            if i + 1 < items.len() {
+                let target = Self::jump_target(end);
+                self.op(if is_and { Op::JumpUnless { a: to, target } } else { Op::JumpIf { a: to, target } });
+            }
+        }
+        // Checks that ran in a later operand do not hold when an earlier one decided.
+        if let Some(first) = merges.pop() {
+            self.env = first;
+        }
+        self.bind(end);
+        Ok(to)
+    }
+
+    fn conditional(&mut self, c: &Expr, a: &Expr, b: &Expr) -> Result<Operand> {
+        let (other, end) = (self.label(), self.label());
+        self.branch_unless(c, other)?;
+        let to = self.register()?;
+        let env = self.env.clone();
+        let x = self.expr(a)?;
+        self.op(Op::Move { to, from: x });
+        self.jump(end);
+        self.bind(other);
+        self.env = env.clone();
+        let y = self.expr(b)?;
+        self.op(Op::Move { to, from: y });
+        self.bind(end);
+        self.env = env;
+        Ok(to)
+    }
+
+    /// Jumps to `other` unless the condition holds; a comparison is fused with its jump.
+    pub fn branch_unless(&mut self, c: &Expr, other: super::emit::Label) -> Result<()> {
+        let target = Self::jump_target(other);
+        if let ExprKind::Op(name, args) = &c.kind
+            && let (Some(op), [x, y]) = (binary(name), args.as_slice())
+            && matches!(op, Binary::Eq | Binary::Ne | Binary::Lt | Binary::Le | Binary::Gt | Binary::Ge)
+        {
+            let (a, b) = (self.expr(x)?, self.expr(y)?);
+            let outside = self.span;
+            if c.span.line > 0 {
+                self.span = c.span;
+            }
+            self.op(Op::JumpUnlessCompare { op, a, b, target });
+            self.span = outside;
+            return Ok(());
+        }
+        let a = self.expr(c)?;
+        self.op(Op::JumpUnless { a, target });
+        Ok(())
+    }
+
+    /// The constant that marks an unassigned variable.
+    pub fn unset(&mut self) -> Operand {
+        self.constant(crate::value::Value::Unset)
+    }
+}
+

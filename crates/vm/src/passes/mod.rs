@@ -1,0 +1,122 @@
+//! Core form to bytecode, in four steps:
+//!
+//! 1. [`effects`]: which functions can suspend (the others are pure);
+//! 2. [`liveness`]: what a loop must hand from one iteration to the next;
+//! 3. [`lower`]: one walk over each function; static single assignment with merges written by each arm; loops
+//!    that can suspend are *lifted* into functions of their own;
+//! 4. [`place`]: which registers live in the node and which are scratch, by liveness on bytecode.
+
+pub mod effects;
+mod emit;
+mod expressions;
+pub mod liveness;
+mod place;
+pub(crate) use place::reads_and_writes;
+mod sites;
+mod statements;
+
+use crate::code::{Function, FunctionId, Mode, Program, verify};
+use crate::core::{ExprKind, Literal, Module, Name};
+use crate::fault::Fault;
+use crate::value::Value;
+use effects::Effects;
+use emit::Builder;
+use niwaki_math::Scalar;
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// A model that cannot be compiled: a defect of the text or a limit of the machine.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CompileError(pub String);
+
+impl std::fmt::Display for CompileError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}", self.0)
+    }
+}
+
+impl std::error::Error for CompileError {}
+
+impl From<Fault> for CompileError {
+    fn from(fault: Fault) -> Self {
+        CompileError(fault.message.clone())
+    }
+}
+
+/// What all functions of a module share while they are lowered.
+pub(crate) struct Unit<'m, S: Scalar> {
+    pub module: &'m Module,
+    pub effects: Effects,
+    pub ids: HashMap<Name, FunctionId>,
+    pub data: Vec<Value<S>>,
+    /// Functions made so far; the module's own come first, lifted loops after them.
+    pub functions: Vec<Option<Function<S>>>,
+}
+
+/// Compiles a module. `data` are the constants that come beside the text.
+///
+/// # Errors
+/// Names that are not defined, wrong numbers of arguments to known functions, or a function too large for the
+/// machine (more than 16,384 registers).
+pub fn compile<S: Scalar>(module: &Module, data: Vec<Value<S>>) -> Result<Program<S>, CompileError> {
+    let mut unit = Unit {
+        module,
+        effects: Effects::of(module),
+        ids: HashMap::new(),
+        data,
+        functions: Vec::new(),
+    };
+    for (k, literal) in &module.constants {
+        let value = constant(literal)?;
+        if unit.data.len() <= *k {
+            unit.data.resize(k + 1, Value::None);
+        }
+        unit.data[*k] = value;
+    }
+    for (i, f) in module.functions.iter().enumerate() {
+        if unit.ids.insert(f.name.clone(), FunctionId(i as u32)).is_some() {
+            return Err(CompileError(format!("the function `{}` is defined twice", f.name)));
+        }
+    }
+    unit.functions.resize_with(module.functions.len(), || None);
+    for (i, f) in module.functions.iter().enumerate() {
+        let mode = if unit.effects.function(&f.name) { Mode::Node } else { Mode::Pure };
+        let compiled = Builder::function(&mut unit, f, mode)?;
+        unit.functions[i] = Some(compiled);
+    }
+    let entry = *unit
+        .ids
+        .get(&module.entry)
+        .ok_or_else(|| CompileError(format!("the entry `{}` is not defined", module.entry)))?;
+    let program = Program {
+        files: module.files.clone(),
+        classes: module.classes.iter().cloned().map(Arc::new).collect(),
+        functions: unit.functions.into_iter().flatten().collect(),
+        entry,
+    };
+    verify(&program).map_err(|e| CompileError(e.to_string()))?;
+    Ok(program)
+}
+
+/// The value of a literal.
+pub(crate) fn literal<S: Scalar>(l: &Literal) -> Value<S> {
+    match l {
+        Literal::None => Value::None,
+        Literal::Bool(b) => Value::Bool(*b),
+        Literal::Int(i) => Value::Int(*i),
+        Literal::Real(x) => Value::Real(S::from_f64(*x)),
+        Literal::Str(s) => Value::str(s),
+    }
+}
+
+/// The value of a constant written in the text: literals, lists, tuples and distributions of them.
+fn constant<S: Scalar>(e: &crate::core::Expr) -> Result<Value<S>, CompileError> {
+    let all = |items: &[crate::core::Expr]| items.iter().map(constant).collect::<Result<Vec<_>, _>>();
+    Ok(match &e.kind {
+        ExprKind::Literal(l) => literal(l),
+        ExprKind::List(items) => Value::list(all(items)?),
+        ExprKind::Tuple(items) => Value::tuple(all(items)?),
+        ExprKind::Dist(name, args) => Value::Dist(Arc::new(crate::builtins::make_dist(sites::family(name)?, &all(args)?)?)),
+        _ => return Err(CompileError("a constant must be made of literals".into())),
+    })
+}

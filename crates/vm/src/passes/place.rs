@@ -1,0 +1,233 @@
+//! Where each register lives, by liveness on bytecode.
+//!
+//! Only what is needed after a suspension site goes into the node, with the results of sites and the
+//! parameters of choices (a proposal draws and scores from node and site alone). Everything else is scratch.
+//! Moves into registers that nobody reads are dropped, and futures whose handle nobody reads are marked.
+
+use crate::code::{Args, Function, Mode, Op, Operand, Place, SiteKind};
+use niwaki_math::Scalar;
+
+/// A set of virtual registers.
+#[derive(Clone, PartialEq)]
+struct Bits(Vec<u64>);
+
+impl Bits {
+    fn empty(n: usize) -> Self {
+        Bits(vec![0; n.div_ceil(64)])
+    }
+    fn set(&mut self, o: Operand) {
+        if o.place() == Place::Node {
+            self.0[o.index() / 64] |= 1 << (o.index() % 64);
+        }
+    }
+    fn clear(&mut self, o: Operand) {
+        if o.place() == Place::Node {
+            self.0[o.index() / 64] &= !(1 << (o.index() % 64));
+        }
+    }
+    fn has(&self, o: Operand) -> bool {
+        o.place() == Place::Node && self.0[o.index() / 64] >> (o.index() % 64) & 1 == 1
+    }
+    fn join(&mut self, other: &Bits) {
+        self.0.iter_mut().zip(&other.0).for_each(|(a, b)| *a |= b);
+    }
+}
+
+/// The registers that an instruction reads, and those that it writes.
+pub(crate) fn reads_and_writes<S: Scalar>(f: &Function<S>, op: &Op) -> (Vec<Operand>, Vec<Operand>) {
+    let run = |a: Args| f.operands[a.range()].to_vec();
+    match *op {
+        Op::Move { to, from } => (vec![from], vec![to]),
+        Op::Binary { to, a, b, .. } => (vec![a, b], vec![to]),
+        Op::Neg { to, a } | Op::Not { to, a } | Op::Field { to, a, .. } | Op::Length { to, a } => (vec![a], vec![to]),
+        Op::Builtin { to, args, .. }
+        | Op::List { to, args }
+        | Op::Tuple { to, args }
+        | Op::Dict { to, args }
+        | Op::Record { to, args, .. }
+        | Op::Closure { to, args, .. }
+        | Op::Dist { to, args, .. }
+        | Op::Host { to, args, .. }
+        | Op::CallPure { to, args, .. } => (run(args), vec![to]),
+        Op::Unpack { from, to } | Op::UnpackStar { from, to, .. } => (vec![from], run(to)),
+        Op::Jump { .. } => (vec![], vec![]),
+        Op::JumpIf { a, .. } | Op::JumpUnless { a, .. } | Op::CheckSet { a, .. } | Op::Return { a } => (vec![a], vec![]),
+        Op::JumpUnlessCompare { a, b, .. } => (vec![a, b], vec![]),
+        Op::Next { to, over, index, length, .. } => (vec![over, index, length], vec![to, index]),
+        Op::Assert { a, message } => (vec![a, message], vec![]),
+        Op::ReturnIteration { args, .. } => (run(args), vec![]),
+        Op::Site { site } => {
+            let s = &f.sites[site.0 as usize];
+            let (mut reads, mut writes) = (run(s.args), vec![s.to]);
+            if let SiteKind::Loop(l) = &s.kind {
+                reads.extend(l.over.into_iter().chain(run(l.carried)).chain(run(l.captures)));
+                writes.extend(run(l.out).into_iter().chain(l.exit.into_iter().flat_map(|(a, b)| [a, b])));
+            }
+            (reads, writes)
+        }
+    }
+}
+
+fn successors(op: &Op, at: usize) -> (Option<usize>, Option<usize>) {
+    match *op {
+        Op::Jump { target } => (Some(target as usize), None),
+        Op::JumpIf { target, .. }
+        | Op::JumpUnless { target, .. }
+        | Op::JumpUnlessCompare { target, .. }
+        | Op::Next { target, .. } => (Some(at + 1), Some(target as usize)),
+        Op::Return { .. } | Op::ReturnIteration { .. } => (None, None),
+        _ => (Some(at + 1), None),
+    }
+}
+
+/// What is live after each instruction.
+fn live_after<S: Scalar>(f: &Function<S>, registers: usize) -> Vec<Bits> {
+    let n = f.code.len();
+    let effects: Vec<_> = f.code.iter().map(|op| reads_and_writes(f, op)).collect();
+    let mut before = vec![Bits::empty(registers); n + 1];
+    let mut after = vec![Bits::empty(registers); n];
+    loop {
+        let mut changed = false;
+        for at in (0..n).rev() {
+            let (one, two) = successors(&f.code[at], at);
+            let mut out = Bits::empty(registers);
+            for next in one.into_iter().chain(two) {
+                out.join(&before[next]);
+            }
+            let mut live = out.clone();
+            effects[at].1.iter().for_each(|w| live.clear(*w));
+            effects[at].0.iter().for_each(|r| live.set(*r));
+            changed |= live != before[at];
+            before[at] = live;
+            after[at] = out;
+        }
+        if !changed {
+            return after;
+        }
+    }
+}
+
+/// Chooses places for the `registers` virtual registers of a function.
+pub(crate) fn place<S: Scalar>(f: &mut Function<S>, registers: usize) {
+    drop_dead_moves(f, registers);
+    let inputs = f.params as usize + f.captures as usize;
+    let pure = f.mode == Mode::Pure;
+    let mut node = Bits::empty(registers);
+    if !pure {
+        (0..inputs).for_each(|i| node.set(Operand::new(Place::Node, i)));
+        let after = live_after(f, registers);
+        for (at, op) in f.code.iter().enumerate() {
+            let Op::Site { site } = *op else { continue };
+            node.join(&after[at]);
+            let s = f.sites[site.0 as usize].clone();
+            reads_and_writes(f, op).1.into_iter().for_each(|w| node.set(w));
+            let proposes = matches!(
+                s.kind,
+                SiteKind::Sample { .. } | SiteKind::SampleDist | SiteKind::SampleIndexed
+            );
+            if proposes {
+                f.operands[s.args.range()].iter().for_each(|o| node.set(*o));
+            }
+            let unread = !after[at].has(s.to);
+            match &mut f.sites[site.0 as usize].kind {
+                SiteKind::Future { detached, .. } | SiteKind::FutureApply { detached } => *detached = unread,
+                _ => {}
+            }
+        }
+    }
+    let (mut nodes, mut scratch) = (0, 0);
+    let map: Vec<Operand> = (0..registers)
+        .map(|i| {
+            let (place, count) = if node.has(Operand::new(Place::Node, i)) {
+                (Place::Node, &mut nodes)
+            } else {
+                (Place::Scratch, &mut scratch)
+            };
+            *count += 1;
+            Operand::new(place, *count - 1)
+        })
+        .collect();
+    f.node_registers = nodes as u16;
+    f.scratch_registers = scratch as u16;
+    for (at, op) in f.code.iter().enumerate() {
+        if let Op::Site { site } = *op {
+            f.sites[site.0 as usize].next = at as u32 + 1;
+        }
+    }
+    rewrite(f, |o| if o.place() == Place::Node { map[o.index()] } else { o });
+}
+
+/// Turns moves into registers that are never read into nothing: a jump to the next instruction costs a step of
+/// the interpreter, so they are removed and the jumps adjusted.
+fn drop_dead_moves<S: Scalar>(f: &mut Function<S>, registers: usize) {
+    loop {
+        let after = live_after(f, registers);
+        let dead = |at: usize, op: &Op| matches!(op, Op::Move { to, .. } if !after[at].has(*to));
+        let keep: Vec<bool> = f.code.iter().enumerate().map(|(at, op)| !dead(at, op)).collect();
+        if keep.iter().all(|k| *k) {
+            return;
+        }
+        let mut new_at: Vec<u32> = Vec::with_capacity(keep.len() + 1);
+        let mut count = 0;
+        for k in &keep {
+            new_at.push(count);
+            count += u32::from(*k);
+        }
+        new_at.push(count);
+        let mut kept = keep.iter();
+        f.code.retain(|_| *kept.next().unwrap_or(&true));
+        let mut kept = keep.iter();
+        f.spans.retain(|_| *kept.next().unwrap_or(&true));
+        for op in &mut f.code {
+            if let Op::Jump { target }
+            | Op::JumpIf { target, .. }
+            | Op::JumpUnless { target, .. }
+            | Op::JumpUnlessCompare { target, .. }
+            | Op::Next { target, .. } = op
+            {
+                *target = new_at[*target as usize];
+            }
+        }
+    }
+}
+
+fn rewrite<S: Scalar>(f: &mut Function<S>, map: impl Fn(Operand) -> Operand) {
+    f.operands.iter_mut().for_each(|o| *o = map(*o));
+    for o in &mut f.defaults {
+        // Defaults name captured inputs, which keep their numbers in either place.
+        *o = map(*o);
+    }
+    for s in &mut f.sites {
+        s.to = map(s.to);
+        if let SiteKind::Loop(l) = &mut s.kind {
+            l.over = l.over.map(&map);
+            l.exit = l.exit.map(|(a, b)| (map(a), map(b)));
+        }
+    }
+    for op in &mut f.code {
+        match op {
+            Op::Move { to, from } => (*to, *from) = (map(*to), map(*from)),
+            Op::Binary { to, a, b, .. } => (*to, *a, *b) = (map(*to), map(*a), map(*b)),
+            Op::Neg { to, a } | Op::Not { to, a } | Op::Field { to, a, .. } | Op::Length { to, a } => {
+                (*to, *a) = (map(*to), map(*a));
+            }
+            Op::Builtin { to, .. }
+            | Op::List { to, .. }
+            | Op::Tuple { to, .. }
+            | Op::Dict { to, .. }
+            | Op::Record { to, .. }
+            | Op::Closure { to, .. }
+            | Op::Dist { to, .. }
+            | Op::Host { to, .. }
+            | Op::CallPure { to, .. } => *to = map(*to),
+            Op::Unpack { from, .. } | Op::UnpackStar { from, .. } => *from = map(*from),
+            Op::JumpIf { a, .. } | Op::JumpUnless { a, .. } | Op::CheckSet { a, .. } | Op::Return { a } => *a = map(*a),
+            Op::JumpUnlessCompare { a, b, .. } => (*a, *b) = (map(*a), map(*b)),
+            Op::Next { to, over, index, length, .. } => {
+                (*to, *over, *index, *length) = (map(*to), map(*over), map(*index), map(*length));
+            }
+            Op::Assert { a, message } => (*a, *message) = (map(*a), map(*message)),
+            Op::Jump { .. } | Op::ReturnIteration { .. } | Op::Site { .. } => {}
+        }
+    }
+}

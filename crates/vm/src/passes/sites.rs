@@ -1,0 +1,158 @@
+//! Lowering the expressions that suspend: each becomes one site of the function.
+//!
+//! A site's *key* is a hash of the function's qualified name, what is called, the name assigned to and the
+//! occurrence among equals. Addresses, and so random streams, are made of keys: editing a comment or moving a
+//! line re-rolls nothing.
+
+use super::CompileError;
+use super::emit::{Builder, Result};
+use crate::code::{Args, Op, Operand, Site, SiteKind};
+use crate::core::{Expr, ExprKind, Name};
+use crate::machine::address;
+use niwaki_math::{Family, Scalar};
+
+/// A family by its name in core form.
+pub(crate) fn family(name: &str) -> Result<Family> {
+    Family::from_name(name).ok_or_else(|| CompileError(format!("unknown distribution `{name}`")))
+}
+
+/// The last part of a qualified name, without the marks of nested functions.
+pub(crate) fn short(name: &str) -> &str {
+    let last = name.rsplit('.').next().unwrap_or(name);
+    if last.starts_with("<lambda>") { "lambda" } else { last }
+}
+
+impl<S: Scalar> Builder<'_, '_, S> {
+    /// Lowers the expression if it is a suspension site.
+    pub fn site(&mut self, e: &Expr) -> Result<Option<Operand>> {
+        use ExprKind::*;
+        let target = self.target.clone();
+        let choice_label = |family: &Name| target.clone().filter(|t| !t.starts_with('%')).unwrap_or(family.clone());
+        let fixed = |s: &str| Name::from(s);
+        Ok(Some(match &e.kind {
+            Call(f, args) if self.is_effectful(f) => {
+                self.check_arity(f, args.len())?;
+                let operands = self.exprs(args)?;
+                let function = self.function_id(f)?;
+                self.add_site(SiteKind::Call { function }, f, (&e.label, short(f).into()), &operands)?
+            }
+            Apply(f, args) => {
+                let mut operands = vec![self.expr(f)?];
+                operands.extend(self.exprs(args)?);
+                let label = self.callee(f);
+                self.add_site(SiteKind::Apply, &fixed("apply"), (&e.label, label), &operands)?
+            }
+            Future(f, args) => {
+                let (def, function) = (f.clone(), self.function_id(f)?);
+                self.check_arity(f, args.len())?;
+                let operands = self.exprs(args)?;
+                let label = (&e.label, short(f).into());
+                self.add_site(SiteKind::Future { function, detached: false }, &def, label, &operands)?
+            }
+            FutureApply(f, args) => {
+                let mut operands = vec![self.expr(f)?];
+                operands.extend(self.exprs(args)?);
+                let label = self.callee(f);
+                self.add_site(SiteKind::FutureApply { detached: false }, &fixed("future"), (&e.label, label), &operands)?
+            }
+            Sample(d) => {
+                let (kind, what, operands) = self.distribution(d, true)?;
+                let label = choice_label(&what);
+                self.add_site(kind, &what, (&e.label, label), &operands)?
+            }
+            Observe(d, v) => {
+                let (kind, what, mut operands) = self.distribution(d, false)?;
+                operands.push(self.expr(v)?);
+                self.add_site(kind, &Name::from(format!("observe {what}")), (&e.label, fixed("observe")), &operands)?
+            }
+            Factor(x) => self.simple(SiteKind::Factor, "factor", &e.label, &[x])?,
+            Condition(x) => self.simple(SiteKind::Condition, "condition", &e.label, &[x])?,
+            Query(k, v) => self.simple(SiteKind::Query, "query", &e.label, &[k, v])?,
+            Force(x) => self.simple(SiteKind::Force, "force", &e.label, &[x])?,
+            Emit(items) => self.simple(SiteKind::Emit, "emit", &e.label, &items.iter().collect::<Vec<_>>())?,
+            _ => return Ok(None),
+        }))
+    }
+
+    fn simple(&mut self, kind: SiteKind, what: &str, given: &Option<Name>, items: &[&Expr]) -> Result<Operand> {
+        let operands = items.iter().map(|e| self.expr(e)).collect::<Result<Vec<_>>>()?;
+        self.add_site(kind, &Name::from(what), (given, Name::from(what)), &operands)
+    }
+
+    /// What an address calls a function value: the variable that holds it, or the function itself.
+    fn callee(&self, f: &Expr) -> Name {
+        match &f.kind {
+            ExprKind::Var(x) if !x.starts_with('%') => x.clone(),
+            ExprKind::Closure(name, _) => short(name).into(),
+            ExprKind::Field(_, name) => name.clone(),
+            _ => Name::from("apply"),
+        }
+    }
+
+    /// The site kind of a choice or observation, fused with the making of its distribution where possible.
+    fn distribution(&mut self, d: &Expr, sample: bool) -> Result<(SiteKind, Name, Vec<Operand>)> {
+        let pick = |a: SiteKind, b: SiteKind| if sample { a } else { b };
+        match &d.kind {
+            ExprKind::Dist(name, args) => {
+                let family = family(name)?;
+                let operands = self.exprs(args)?;
+                if let Some(made) = self.constant_distribution(family, &operands) {
+                    return Ok((pick(SiteKind::SampleDist, SiteKind::ObserveDist), name.clone(), vec![made]));
+                }
+                Ok((pick(SiteKind::Sample { family }, SiteKind::Observe { family }), name.clone(), operands))
+            }
+            ExprKind::Op(op, parts) if &**op == "index" && parts.len() == 2 => {
+                let operands = self.exprs(parts)?;
+                Ok((pick(SiteKind::SampleIndexed, SiteKind::ObserveIndexed), Name::from("dist"), operands))
+            }
+            _ => {
+                let at = self.expr(d)?;
+                Ok((pick(SiteKind::SampleDist, SiteKind::ObserveDist), Name::from("dist"), vec![at]))
+            }
+        }
+    }
+
+    /// A distribution whose parameters are all constants is made once, with its tables.
+    fn constant_distribution(&mut self, family: Family, operands: &[Operand]) -> Option<Operand> {
+        use crate::code::Place;
+        if operands.iter().any(|o| o.place() != Place::Constant) {
+            return None;
+        }
+        let values: Vec<_> = operands.iter().map(|o| self.constants[o.index()].clone()).collect();
+        let made = crate::builtins::make_dist(family, &values).ok()?;
+        Some(self.constant(crate::value::Value::Dist(std::sync::Arc::new(made))))
+    }
+
+    /// Adds a site; its result goes into a register of its own. `label` is the one given in the text, and the one
+    /// that names give.
+    pub fn add_site(
+        &mut self,
+        kind: SiteKind,
+        what: &Name,
+        label: (&Option<Name>, Name),
+        operands: &[Operand],
+    ) -> Result<Operand> {
+        let target = self.target.clone().unwrap_or_else(|| Name::from(""));
+        let args = if operands.is_empty() { Args::NONE } else { self.args(operands) };
+        let to = self.register()?;
+        let key = self.occurrence(&format!("{}|{what}|{target}", self.name));
+        let (given, named) = label;
+        let repeated = self.occurrence(&format!("label {named}")).1;
+        let label = match (given, repeated) {
+            (Some(given), _) => given.clone(),
+            (None, 0) => named,
+            (None, n) => Name::from(format!("{named}#{n}")),
+        };
+        let key = address::site_key(&key.0, key.1);
+        self.sites.push(Site { kind, to, args, key, label, span: self.span, next: 0 });
+        self.op(Op::Site { site: crate::code::SiteId((self.sites.len() - 1) as u16) });
+        Ok(to)
+    }
+
+    /// The text itself, and how many equal ones came before it in this function.
+    fn occurrence(&mut self, text: &str) -> (String, u32) {
+        let count = self.occurrences.entry(text.to_string()).or_insert(0);
+        *count += 1;
+        (text.to_string(), *count - 1)
+    }
+}

@@ -1,0 +1,402 @@
+//! Lowering statements. Every method answers whether control can go on after it.
+//!
+//! Assignment gives a variable a new register; where two arms meet, each arm writes the register of the
+//! merge. A loop that cannot suspend keeps its variables in registers that are written again in each round;
+//! one that can is lifted: its body becomes a function, one activation an iteration.
+
+use super::emit::{Binding, Builder, Environment, LoopContext, Result};
+use super::CompileError;
+use crate::code::{Function, FunctionId, Loop, Mode, Op, Operand, Place, SiteKind, exit};
+use crate::core::walk::{Names, assigned, returns};
+use crate::core::{Expr, Literal, Name, Stmt, StmtKind};
+use niwaki_math::Scalar;
+
+impl<S: Scalar> Builder<'_, '_, S> {
+    pub fn block(&mut self, block: &[Stmt]) -> Result<bool> {
+        for s in block {
+            if !self.stmt(s)? {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
+    fn stmt(&mut self, s: &Stmt) -> Result<bool> {
+        let outside = self.span;
+        if s.span.line > 0 {
+            self.span = s.span;
+        }
+        self.target = s.targets().first().map(|x| (*x).clone());
+        let goes_on = match &s.kind {
+            StmtKind::Set(x, e) => {
+                let at = self.expr(e)?;
+                self.assign(x, at);
+                true
+            }
+            StmtKind::Unpack(xs, e) => {
+                let from = self.expr(e)?;
+                let registers = xs.iter().map(|_| self.register()).collect::<Result<Vec<_>>>()?;
+                let to = self.args(&registers);
+                self.op(Op::Unpack { from, to });
+                xs.iter().zip(registers).for_each(|(x, at)| self.assign(x, at));
+                true
+            }
+            StmtKind::UnpackStar(a, r, c, e) => {
+                let from = self.expr(e)?;
+                let names: Vec<&Name> = a.iter().chain(std::iter::once(r)).chain(c).collect();
+                let registers = names.iter().map(|_| self.register()).collect::<Result<Vec<_>>>()?;
+                let to = self.args(&registers);
+                self.op(Op::UnpackStar { from, to, star: a.len() as u16 });
+                names.iter().zip(registers).for_each(|(x, at)| self.assign(x, at));
+                true
+            }
+            StmtKind::If(c, a, b) => self.branch(c, a, b)?,
+            StmtKind::For(x, over, body) => {
+                let lifted = self.mode != Mode::Pure && self.unit.effects.in_block(body);
+                if lifted { self.lifted(s, Some((x, over)), None, body)? } else { self.plain(s, Some((x, over)), None, body)? }
+            }
+            StmtKind::While(test, body) => {
+                let suspends = self.unit.effects.in_block(body) || self.unit.effects.in_expr(test);
+                if self.mode != Mode::Pure && suspends {
+                    self.lifted(s, None, Some(test), body)?
+                } else {
+                    self.plain(s, None, Some(test), body)?
+                }
+            }
+            StmtKind::Break => self.leave(true)?,
+            StmtKind::Continue => self.leave(false)?,
+            StmtKind::Return(e) => {
+                let a = self.expr(e)?;
+                self.return_value(a);
+                false
+            }
+            StmtKind::Do(e) => {
+                self.expr(e)?;
+                true
+            }
+            StmtKind::Assert(c, m) => {
+                let a = self.expr(c)?;
+                let message = self.expr(m)?;
+                self.op(Op::Assert { a, message });
+                true
+            }
+        };
+        self.span = outside;
+        self.target = None;
+        Ok(goes_on)
+    }
+
+    fn assign(&mut self, x: &Name, at: Operand) {
+        self.env.insert(x.clone(), Binding { at, maybe_unset: false });
+    }
+
+    fn return_value(&mut self, a: Operand) {
+        if self.mode == Mode::Iteration {
+            self.return_iteration(exit::RETURN, Some(a));
+        } else {
+            self.op(Op::Return { a });
+        }
+    }
+
+    /// Leaves an iteration with the carried variables as they are now.
+    fn return_iteration(&mut self, kind: i64, value: Option<Operand>) {
+        let carried = self.carried.clone();
+        let mut operands: Vec<Operand> = carried.iter().map(|x| self.current(x)).collect();
+        operands.extend(value);
+        let args = self.args(&operands);
+        self.op(Op::ReturnIteration { exit: kind as i8, args });
+    }
+
+    /// Where a variable is now, assigned or not.
+    fn current(&mut self, x: &Name) -> Operand {
+        match self.env.get(x) {
+            Some(b) => b.at,
+            None => self.unset(),
+        }
+    }
+
+    fn branch(&mut self, c: &Expr, a: &[Stmt], b: &[Stmt]) -> Result<bool> {
+        let (other, end) = (self.label(), self.label());
+        self.branch_unless(c, other)?;
+        let before = self.env.clone();
+        let a_goes_on = self.block(a)?;
+        let after_a = std::mem::replace(&mut self.env, before.clone());
+        let end_of_a = self.code.len();
+        if a_goes_on {
+            self.jump(end);
+        }
+        self.bind(other);
+        let b_goes_on = self.block(b)?;
+        match (a_goes_on, b_goes_on) {
+            (true, true) => {
+                let after_b = std::mem::take(&mut self.env);
+                self.merge(&after_a, &after_b, end_of_a)?;
+            }
+            (true, false) => self.env = after_a,
+            _ => {}
+        }
+        self.bind(end);
+        Ok(a_goes_on || b_goes_on)
+    }
+
+    /// One environment of two: where they differ, each arm writes the register of the merge. The first arm
+    /// ends with the jump at `end_of_a`, the second ends here.
+    fn merge(&mut self, a: &Environment, b: &Environment, end_of_a: usize) -> Result<()> {
+        let names: Names = a.keys().chain(b.keys()).cloned().collect();
+        let (mut moves_a, mut moves_b) = (Vec::new(), Vec::new());
+        for x in names {
+            let (p, q) = (a.get(&x).copied(), b.get(&x).copied());
+            if p == q {
+                self.env.extend(p.map(|p| (x, p)));
+                continue;
+            }
+            let maybe_unset = p.is_none_or(|p| p.maybe_unset) || q.is_none_or(|q| q.maybe_unset);
+            let at = match (p, q) {
+                (Some(p), Some(q)) if p.at == q.at => p.at,
+                _ => {
+                    let to = self.register()?;
+                    let unset = if p.is_none() || q.is_none() { Some(self.unset()) } else { None };
+                    moves_a.extend(p.map(|p| p.at).or(unset).map(|from| Op::Move { to, from }));
+                    moves_b.extend(q.map(|q| q.at).or(unset).map(|from| Op::Move { to, from }));
+                    to
+                }
+            };
+            self.env.insert(x, Binding { at, maybe_unset });
+        }
+        for op in moves_b {
+            self.op(op);
+        }
+        self.insert(end_of_a, moves_a);
+        Ok(())
+    }
+
+    /// `break` (or `continue`).
+    fn leave(&mut self, is_break: bool) -> Result<bool> {
+        match self.loops.last() {
+            None => return Err(CompileError("`break` or `continue` outside a loop".into())),
+            Some(LoopContext::Lifted) => {
+                self.return_iteration(if is_break { exit::BREAK } else { exit::NEXT }, None);
+            }
+            Some(LoopContext::Plain { variables, next, end }) => {
+                let (variables, to) = (variables.clone(), if is_break { *end } else { *next });
+                self.write_back(&variables)?;
+                self.jump(to);
+            }
+        }
+        Ok(false)
+    }
+
+    /// Writes the variables of a plain loop to their registers, all at once.
+    fn write_back(&mut self, variables: &[(Name, Operand)]) -> Result<()> {
+        let mut moves: Vec<(Operand, Operand)> = Vec::new();
+        for (x, to) in variables {
+            let from = self.current(x);
+            if from != *to {
+                moves.push((*to, from));
+            }
+        }
+        // A source that another move overwrites first is saved.
+        for i in 0..moves.len() {
+            if moves[..i].iter().any(|m| m.0 == moves[i].1) {
+                let saved = self.register()?;
+                let at = self.code.len();
+                self.op(Op::Move { to: saved, from: moves[i].1 });
+                debug_assert!(at < self.code.len());
+                moves[i].1 = saved;
+            }
+        }
+        for (to, from) in moves {
+            self.op(Op::Move { to, from });
+        }
+        Ok(())
+    }
+
+    /// A loop that cannot suspend: a plain jump.
+    fn plain(&mut self, s: &Stmt, each: Option<(&Name, &Expr)>, test: Option<&Expr>, body: &[Stmt]) -> Result<bool> {
+        let mut variables_set = assigned(body);
+        let mut iteration = None;
+        if let Some((x, over)) = each {
+            let over = self.expr(over)?;
+            let (held, length, index) = (self.register()?, self.register()?, self.register()?);
+            self.op(Op::Move { to: held, from: over });
+            self.op(Op::Length { to: length, a: held });
+            let zero = self.literal(&Literal::Int(0));
+            self.op(Op::Move { to: index, from: zero });
+            iteration = Some((x, held, index, length));
+            variables_set.insert(x.clone());
+        }
+        let live = self.heads.at(s).clone();
+        // Each variable that a round can hand to the next, or to what follows, has a register for the whole loop.
+        let mut variables = Vec::new();
+        let mut unset_before = Vec::new();
+        for x in variables_set.iter().filter(|x| live.contains(*x)) {
+            let to = self.register()?;
+            let from = self.current(x);
+            self.op(Op::Move { to, from });
+            unset_before.push(self.env.get(x).is_none_or(|b| b.maybe_unset));
+            variables.push((x.clone(), to));
+        }
+        for ((x, at), maybe_unset) in variables.iter().zip(&unset_before) {
+            self.env.insert(x.clone(), Binding { at: *at, maybe_unset: *maybe_unset });
+        }
+        let (head, end) = (self.label(), self.label());
+        self.bind(head);
+        let before = self.env.clone();
+        if let Some((x, over, index, length)) = iteration {
+            let to = self.register()?;
+            self.op(Op::Next { to, over, index, length, target: Self::jump_target(end) });
+            self.assign(x, to);
+        }
+        if let Some(test) = test {
+            let out = self.label();
+            self.branch_unless(test, out)?;
+            self.loop_body(body, &variables, head, end)?;
+            self.bind(out);
+        } else {
+            self.loop_body(body, &variables, head, end)?;
+        }
+        self.bind(end);
+        // After the loop its variables move on to registers of their own, so that those of the loop are scratch.
+        self.env = before;
+        for ((x, from), maybe_unset) in variables.iter().zip(unset_before) {
+            let at = self.register()?;
+            self.op(Op::Move { to: at, from: *from });
+            self.env.insert(x.clone(), Binding { at, maybe_unset });
+        }
+        Ok(true)
+    }
+
+    fn loop_body(
+        &mut self,
+        body: &[Stmt],
+        variables: &[(Name, Operand)],
+        next: super::emit::Label,
+        end: super::emit::Label,
+    ) -> Result<()> {
+        self.loops.push(LoopContext::Plain { variables: variables.to_vec(), next, end });
+        let goes_on = self.block(body)?;
+        self.loops.pop();
+        if goes_on {
+            self.write_back(variables)?;
+            self.jump(next);
+        }
+        Ok(())
+    }
+
+    /// A loop that can suspend.
+    fn lifted(&mut self, s: &Stmt, each: Option<(&Name, &Expr)>, test: Option<&Expr>, body: &[Stmt]) -> Result<bool> {
+        let over = match each {
+            Some((_, over)) => Some(self.expr(over)?),
+            None => None,
+        };
+        let live = self.heads.at(s).clone();
+        let mut set = assigned(body);
+        set.extend(each.map(|(x, _)| x.clone()));
+        let carried: Vec<Name> = set.iter().filter(|x| live.contains(*x)).cloned().collect();
+        let mut reads = Names::new();
+        test.into_iter().for_each(|t| t.reads(&mut reads));
+        crate::core::walk::each_stmt(body, &mut |s| s.expressions().into_iter().for_each(|e| e.reads(&mut reads)));
+        let captured: Vec<Name> =
+            reads.into_iter().filter(|x| !carried.contains(x) && self.env.contains_key(x)).collect();
+        let capture_at: Vec<Operand> = captured.iter().map(|x| self.env[x].at).collect();
+        let carried_at: Vec<Operand> = carried.iter().map(|x| self.current(x)).collect();
+        let label = each.map_or(Name::from("while"), |(x, _)| x.clone());
+        let what = Name::from(format!("loop {label}"));
+
+        let (header, function) = self.iteration(s, &label, &carried, &captured)?;
+        let out = carried.iter().map(|_| self.register()).collect::<Result<Vec<_>>>()?;
+        let exit = if returns(body) { Some((self.register()?, self.register()?)) } else { None };
+        let kind = SiteKind::Loop(Loop {
+            header,
+            body: function,
+            over,
+            carried: self.args(&carried_at),
+            captures: self.args(&capture_at),
+            out: self.args(&out),
+            exit,
+        });
+        self.target = None;
+        self.add_site(kind, &what, (&s.label, Name::from(format!("{label}[]"))), &[])?;
+        for (x, at) in carried.iter().zip(&out) {
+            // Whether the loop assigned it is known only at run time.
+            let maybe_unset = self.env.get(x).is_none_or(|b| b.maybe_unset);
+            self.env.insert(x.clone(), Binding { at: *at, maybe_unset });
+        }
+        if let Some((how, value)) = exit {
+            let on = self.label();
+            let is_return = self.literal(&Literal::Int(exit::RETURN));
+            self.op(Op::JumpUnlessCompare {
+                op: crate::code::Binary::Eq,
+                a: how,
+                b: is_return,
+                target: Self::jump_target(on),
+            });
+            self.return_value(value);
+            self.bind(on);
+        }
+        Ok(true)
+    }
+
+    /// Compiles the body of a lifted loop as a function of element and carried values.
+    fn iteration(&mut self, s: &Stmt, label: &Name, carried: &[Name], captured: &[Name]) -> Result<(FunctionId, FunctionId)> {
+        let (each, test, body) = match &s.kind {
+            StmtKind::For(x, _, body) => (Some(x), None, body),
+            StmtKind::While(test, body) => (None, Some(test), body),
+            _ => return Err(CompileError("an iteration of something that is not a loop".into())),
+        };
+        let n = self.occurrences.entry(format!("iteration {label}")).or_insert(0);
+        let name = Name::from(format!("{}/{label}#{n}", self.name));
+        *n += 1;
+        let heads = self.heads;
+        let mut b = Builder::new(&mut *self.unit, heads, name, self.file, Mode::Iteration);
+        b.span = s.span;
+        b.carried = carried.to_vec();
+        b.loops.push(LoopContext::Lifted);
+        let element = if each.is_some() { Some(b.register()?) } else { None };
+        for x in carried {
+            let at = b.register()?;
+            let maybe_unset = self.env.get(x).is_none_or(|b| b.maybe_unset);
+            b.env.insert(x.clone(), Binding { at, maybe_unset });
+        }
+        for (i, x) in captured.iter().enumerate() {
+            let at = Operand::new(Place::Outer, i + 1);
+            b.env.insert(x.clone(), Binding { at, maybe_unset: self.env[x].maybe_unset });
+        }
+        if let (Some(x), Some(at)) = (each, element) {
+            b.assign(x, at);
+        }
+        let out = b.label();
+        if let Some(test) = test {
+            b.branch_unless(test, out)?;
+        }
+        let at_test = b.env.clone();
+        if b.block(body)? {
+            b.return_iteration(exit::NEXT, None);
+        }
+        b.bind(out);
+        if test.is_some() {
+            b.env = at_test;
+            b.return_iteration(exit::BREAK, None);
+        }
+        let params = b.carried.len() + usize::from(element.is_some());
+        let function: Function<S> = b.finish(params, 0, vec![], s.span)?;
+        let header = Function {
+            name: function.name.clone(),
+            mode: Mode::Loop,
+            params: 0,
+            node_registers: captured.len() as u16 + 1,
+            scratch_registers: 0,
+            code: vec![],
+            spans: vec![],
+            operands: vec![],
+            constants: vec![],
+            names: vec![],
+            sites: vec![],
+            ..function.clone()
+        };
+        self.unit.functions.extend([Some(header), Some(function)]);
+        let last = self.unit.functions.len() as u32 - 1;
+        Ok((FunctionId(last - 1), FunctionId(last)))
+    }
+}
+
