@@ -4,8 +4,9 @@
 //! sketches; each term is rounded to a multiple of 2^-32, so that sums are exact and free of order.
 
 use crate::log::Log;
+use niwaki_geom::sketch::SketchSpec;
+use niwaki_geom::sketch::product::Sketches;
 use niwaki_geom::{Primitive, Shape};
-use niwaki_geom::sketch::{Sketch, SketchSpec};
 use niwaki_math::{Dist, grid};
 use niwaki_vm::builtins::value_to_draw;
 use niwaki_vm::fault::Fault;
@@ -22,7 +23,7 @@ pub struct Record {
     /// Sum of factors and observations, nats.
     pub log_factors: f64,
     /// The sketches of the scene.
-    pub sketches: Vec<Box<dyn Sketch>>,
+    pub sketches: Sketches,
     /// Sum of the sketches' log scores, nats.
     pub log_sketches: f64,
     /// How many primitives the scene has.
@@ -34,9 +35,8 @@ pub struct Record {
 impl Record {
     /// The record of a run that has not begun: it has the score of the empty scene.
     pub fn start(specs: &[Arc<dyn SketchSpec>]) -> Self {
-        let mut record = Record { sketches: specs.iter().map(|s| s.start()).collect(), ..Record::default() };
-        record.sum_sketches();
-        record
+        let sketches = Sketches::start(specs);
+        Record { log_sketches: sketches.log_score(), sketches, ..Record::default() }
     }
 
     /// A copy; both share what neither changes.
@@ -45,7 +45,7 @@ impl Record {
             log: self.log.fork(),
             log_prior: self.log_prior,
             log_factors: self.log_factors,
-            sketches: self.sketches.iter().map(|s| s.fork()).collect(),
+            sketches: self.sketches.fork(),
             log_sketches: self.log_sketches,
             primitives: self.primitives,
             cause: self.cause.clone(),
@@ -76,23 +76,16 @@ impl Record {
 
     /// Adds a primitive to the scene. Once the score is minus infinity, the sketches behind are not asked.
     pub fn emit(&mut self, shapes: &[Shape]) {
-        let primitive = Primitive::new(shapes);
         self.primitives += 1;
-        for sketch in &mut self.sketches {
-            sketch.add(&primitive);
-            if sketch.log_score() == f64::NEG_INFINITY {
-                self.log_sketches = f64::NEG_INFINITY;
-                if self.cause.is_none() {
-                    self.cause = Some(sketch.name().to_string());
-                }
-                return;
-            }
+        if self.sketches.is_empty() {
+            return;
         }
-        self.sum_sketches();
-    }
-
-    fn sum_sketches(&mut self) {
-        self.log_sketches = self.sketches.iter().map(|s| grid(s.log_score())).sum();
+        if let Some(name) = self.sketches.add(&Primitive::new(shapes)) {
+            self.log_sketches = f64::NEG_INFINITY;
+            self.cause.get_or_insert_with(|| name.to_string());
+        } else {
+            self.log_sketches = self.sketches.log_score();
+        }
     }
 }
 
@@ -101,7 +94,9 @@ impl Record {
 /// # Errors
 /// A value that no distribution can draw.
 pub fn log_density(dist: &Dist, value: &Value) -> Result<f64, Fault> {
-    Ok(dist.log_density(&value_to_draw(value)?))
+    let draw = value_to_draw(value)
+        .ok_or_else(|| Fault::new("type-mismatch", format!("no distribution draws {}", value.described())))?;
+    Ok(dist.log_density(&draw))
 }
 
 /// A factor must be a number below plus infinity.
