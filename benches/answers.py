@@ -1,4 +1,4 @@
-"""The evidence of both bench programs, worked out without sampling, so that each timed run is also checked."""
+"""The evidence of both bench programs, worked out without sampling: each timed run is checked against it."""
 
 import math
 

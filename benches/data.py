@@ -43,7 +43,7 @@ def pick(uniform: Callable[[], float], probabilities: list[float]) -> int:
 
 
 def hmm(steps: int = 100, states: int = 10, symbols: int = 10, seed: int = 11) -> dict[str, list]:
-    """A chain's tables and what was seen: initial (S,), transition (S, S), emission (S, O), observations (N,)."""
+    """Tables and what was seen: initial (S,), transition (S, S), emission (S, O), observations (N,)."""
     uniform = generator(seed)
     initial = flat_dirichlet(uniform, states)
     transition = [flat_dirichlet(uniform, states) for _ in range(states)]

@@ -2,8 +2,10 @@
 
     .venv/bin/python benches/figures.py MEASUREMENTS.jsonl FIGURE.png
 
-Each line of the file is a JSON object with `series` (a name), `particles`, `primitives` and `cpu_seconds` of one run.
-Lines that share a series and a size become one point: the median, with a band from the 10th to the 90th percentile.
+Each line of the file is a JSON object for one run: `series` (a name), `particles`, `primitives` and
+`cpu_seconds`.
+Lines that share a series and a size become one point: the median, with a band from the 10th to the 90th
+percentile.
 """
 
 import json
@@ -17,17 +19,19 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-LABELS = {"particles": "particles", "primitives": "primitives in the finished model"}
-
 
 def cost(runs: list[dict], path: Path, dots_per_inch: int = 120) -> None:
     """Draw CPU seconds against particles and against primitives, both axes logarithmic.
 
-    A dotted line through the first point of each series shows what growing in proportion would be.
+    The second panel takes the runs with the most particles alone. A dotted line through the first point of
+    each series shows what growing in proportion would be.
     """
-    figure, panels = plt.subplots(1, len(LABELS), figsize=(10, 4), sharey=True, layout="constrained")
-    for panel, (size, label) in zip(panels, LABELS.items(), strict=True):
-        for color, (name, points) in zip(colors(), grouped(runs, size).items(), strict=False):
+    most = max(run["particles"] for run in runs)
+    chosen = {"particles": runs, "primitives": [run for run in runs if run["particles"] == most]}
+    labels = {"particles": "particles", "primitives": f"primitives in the finished model, {most} particles"}
+    figure, panels = plt.subplots(1, len(labels), figsize=(10, 4), sharey=True, layout="constrained")
+    for panel, (size, label) in zip(panels, labels.items(), strict=True):
+        for color, (name, points) in zip(colors(), grouped(chosen[size], size).items(), strict=False):
             sizes = np.array(sorted(points))
             low, middle, high = np.array([np.percentile(points[s], (10, 50, 90)) for s in sizes]).T
             panel.plot(sizes, middle, "o-", color=color, label=name, markersize=4)

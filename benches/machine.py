@@ -2,10 +2,10 @@
 
     make bench                                 # or: .venv/bin/python benches/machine.py [SECONDS] [SEED]
 
-Two programs, each in three systems, one after the other on one thread in one run: a hidden Markov chain of 100
-steps with 1000 particles, and a recursive branching program with 300. All resample at every factor. The rate
-is particle-steps per second of the process's CPU time. A particle-step is a call that draws choices and meets
-a factor; particles that ended take none.
+Two programs, each in three systems, one after the other on one thread in one run: a hidden Markov chain of
+100 steps with 1000 particles, and a recursive branching program with 300. All resample at every factor. The
+rate is particle-steps per second of the process's CPU time. A particle-step is a call that draws choices and
+meets a factor; particles that ended take none.
 
 Every run of every system gives an estimate of the evidence, and the mean of the estimates must be the answer
 that `answers.py` works out without sampling: a fast wrong answer fails.
@@ -34,14 +34,15 @@ HERE = Path(__file__).resolve().parent
 CACHE = HERE / ".cache"
 WEBPPL = CACHE / "webppl"
 PARTICLES = {"hmm": 1000, "branching": 300}
-# Standard errors that the mean of the evidence estimates may lie from the answer. 4.9 for a normal mean is a false
-# alarm in a million; the estimates are skewed and a peer may give only four, so count on one in ten thousand.
+# Standard errors that the mean of the evidence estimates may lie from the answer. 4.9 for a normal mean is a
+# false alarm in a million; the estimates are skewed and a peer may give only four, so count on one in ten
+# thousand.
 ALLOWED = 4.9
 
 
 @dataclass(frozen=True)
 class Measurement:
-    """One system on one program: particle-steps, the CPU seconds they took, log evidence of each run (nats)."""
+    """One system on one program: particle-steps, their CPU seconds, log evidence of each run (nats)."""
 
     system: str
     program: str
@@ -69,7 +70,7 @@ class Measurement:
 def main(seconds: float = 3.0, seed: int = 1) -> int:
     """Measure, print, and return 1 when an answer is wrong."""
     chain = data.write(CACHE / "data")
-    prepare_webppl()
+    webppl = prepare_webppl()
     limit = prepare_limit()
     console, wrong = Console(), 0
     table = Table("program", "rows", "system", "steps/s", "/ WebPPL", "/ limit", "runs", "off, s.e.")
@@ -78,7 +79,7 @@ def main(seconds: float = 3.0, seed: int = 1) -> int:
         file = str(chain) if program == "hmm" else "-"
         arguments = [program, file, str(particles), str(seconds), str(seed)]
         measured = [
-            peer("node", str(HERE / "webppl" / "bench.js"), str(WEBPPL / "node_modules" / "webppl"), *arguments),
+            peer("node", str(HERE / "webppl" / "bench.js"), str(webppl), *arguments),
             peer(str(limit), *arguments),
         ]
         try:
@@ -108,9 +109,9 @@ def main(seconds: float = 3.0, seed: int = 1) -> int:
 def niwaki_rate(program: str, particles: int, seconds: float, seed: int) -> Measurement:
     """Our own side: particles over the same program, on one thread, for `seconds` of CPU time.
 
-    To be filled when the package has its search: import `loop` of `models.hmm` or `tree` of `models.branching`,
-    run it once to warm up, then again with seed, seed + 1, ... until `seconds` have passed, adding up the steps
-    and keeping the log evidence of each run.
+    To be filled when the package has its search: import `loop` of `models.hmm` or `tree` of
+    `models.branching`, run it once to warm up, then again with seed, seed + 1, ... until `seconds` have
+    passed, adding up the steps and keeping the log evidence of each run.
     """
     raise NotImplementedError("the search is not there yet")
 
@@ -121,22 +122,25 @@ def peer(*command: str) -> Measurement:
     return Measurement(**json.loads(line))
 
 
-def prepare_webppl() -> None:
-    """Install WebPPL at the version that its lock file pins, once."""
+def prepare_webppl() -> Path:
+    """Install WebPPL at the version that its lock file pins, once, and return its folder."""
+    installed = WEBPPL / "node_modules" / "webppl"
     stamp, lock = WEBPPL / "installed", (HERE / "webppl" / "package-lock.json").read_text()
     if stamp.exists() and stamp.read_text() == lock:
-        return
+        return installed
     WEBPPL.mkdir(parents=True, exist_ok=True)
     for name in ("package.json", "package-lock.json"):
         shutil.copy(HERE / "webppl" / name, WEBPPL / name)
     run("npm", "ci", "--silent", "--no-fund", "--no-audit", "--ignore-scripts", folder=WEBPPL)
     stamp.write_text(lock)
+    return installed
 
 
 def prepare_limit() -> Path:
     """Build the filters written by hand and return the program."""
     target = CACHE / "limit"
-    run("cargo", "build", "--release", "--locked", "--quiet", "--target-dir", str(target), folder=HERE / "limit")
+    build = "cargo build --release --locked --quiet --target-dir".split()
+    run(*build, str(target), folder=HERE / "limit")
     return target / "release" / "limit"
 
 
