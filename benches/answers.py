@@ -28,7 +28,7 @@ def branching() -> float:
     return (4 * quadrature(121) - quadrature(61)) / 3
 
 
-def quadrature(size: int) -> float:
+def quadrature(size: int, deepest: int = DEEPEST) -> float:
     """Log evidence of the branching program with tables of `size` by `size`, nats.
 
     What a segment and all that grows from it are worth depends on its depth and on where it starts seen from
@@ -44,10 +44,10 @@ def quadrature(size: int) -> float:
     turns, turn_weights = 0.3 * nodes, weights / weights.sum()
     nodes, weights = np.polynomial.legendre.leggauss(7)
     lengths, length_weights = 1.0 + 0.5 * nodes, weights / weights.sum()
-    reach = 1.5 * (DEEPEST + 1)
+    reach = 1.5 * (deepest + 1)
     r, a = np.meshgrid(np.linspace(0, reach, size), np.linspace(-math.pi, math.pi, size), indexing="ij")
     later = np.ones_like(r)
-    for depth in range(DEEPEST, -1, -1):
+    for depth in range(deepest, -1, -1):
         if depth == 0:
             r, a = np.zeros((1, 1)), np.zeros((1, 1))
         now = np.zeros_like(r)
@@ -58,7 +58,7 @@ def quadrature(size: int) -> float:
                 angle = a + turn - away
                 error = (end - (depth + 1)) / 1.5
                 value = np.exp(0.35 - 0.5 * error**2)
-                if depth < DEEPEST:
+                if depth < deepest:
                     fork = read(later, end, angle + 0.5, reach) * read(later, end, angle - 0.5, reach)
                     value = value * (0.7 * fork + 0.3 * read(later, end, angle, reach))
                 now += turn_weight * length_weight * value
