@@ -3,6 +3,7 @@
 import ast
 import re
 import subprocess
+import sys
 import tomllib
 from functools import cache
 from pathlib import Path
@@ -63,6 +64,18 @@ def test_no_file_names_a_machine_or_the_host_of_a_registry():
         if word in text.replace(CARGO_INDEX, "")
     ]
     assert not found
+
+
+def test_no_file_speaks_of_what_only_its_authors_can_look_up():
+    pattern = re.compile(r"\b(issue|ticket|pull request|PR) #?\d+", re.I)
+    assert not [f"{name}: {match[0]}" for name, text in texts() for match in pattern.finditer(text)]
+
+
+def test_import_loads_nothing_that_is_not_always_needed():
+    heavy = ["trimesh", "PIL", "typer", "rich", "matplotlib", "scipy"]
+    program = f"import sys, niwaki; print([name for name in {heavy} if name in sys.modules])"
+    shown = subprocess.run([sys.executable, "-c", program], check=True, capture_output=True, text=True).stdout
+    assert shown.strip() == "[]"
 
 
 def test_locks_pin_every_requirement_with_a_hash():
