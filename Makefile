@@ -1,0 +1,103 @@
+# Every command of the house. From a fresh clone it needs Python 3.11 or later and a Rust toolchain;
+# everything else lands in .venv, at the versions that requirements/*.txt pin.
+#
+#   make demo     grow the gallery's models; pictures and files go to out/
+#   make test     the engine's tests, then the package's
+#   make lint     formatting, clippy, ruff, mypy and the door's stub, warnings as errors
+#   make bench    rates beside WebPPL and a hand-written limit, on one thread (needs node and npm)
+#   make soak     the long tests, with fresh printed seeds
+#   make docs     the manual, into docs/_build/html, and the engine's pages, into target/doc
+#   make format   rewrite the sources in the house's style
+#   make locks    pin the newest versions of what pyproject.toml asks for
+#   make clean    remove everything that these targets made
+
+SHELL := bash
+.SHELLFLAGS := -euo pipefail -c
+.DELETE_ON_ERROR:
+
+PYTHON ?= $(shell for p in python3 python3.13 python3.12 python3.11; do \
+  $$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $$p && break; done)
+VENV := .venv
+PY := $(VENV)/bin/python
+STAMPS := $(VENV)/stamps
+PIP := $(PY) -m pip --disable-pip-version-check --quiet
+
+# maturin sets these for the build scripts of the binding; setting them for every cargo command keeps
+# cargo from building the binding's dependencies once for the wheel and once more for the tests.
+export PYO3_PYTHON := $(CURDIR)/$(PY)
+export PYO3_BUILD_EXTENSION_MODULE := 1
+CARGO_FLAGS := --release --locked
+LIMIT := --manifest-path benches/limit/Cargo.toml --target-dir benches/.cache/limit
+
+RUST := $(shell find crates -name '*.rs' -o -name Cargo.toml) Cargo.toml Cargo.lock
+PYTHON_SOURCES := python tests benches docs/conf.py
+
+.PHONY: all demo test lint bench soak docs format locks clean
+all: $(STAMPS)/engine
+
+# ---- set-up: one stamp for each thing that is made, older than what depends on it
+
+$(STAMPS)/venv:
+	@test -n "$(PYTHON)" || { echo "no Python 3.11 or later found; name one: make PYTHON=/path/to/python3" >&2; exit 1; }
+	@command -v cargo >/dev/null || { echo "no cargo found; install a Rust toolchain first" >&2; exit 1; }
+	$(PYTHON) -m venv $(VENV)
+	@mkdir -p $(STAMPS) && touch $@
+
+$(STAMPS)/%: requirements/%.txt $(STAMPS)/venv
+	$(PIP) install --require-hashes -r $<
+	@touch $@
+
+# A change of Rust sources or of the package's metadata builds the engine again, in place.
+$(STAMPS)/engine: $(RUST) pyproject.toml $(STAMPS)/core $(STAMPS)/build
+	VIRTUAL_ENV=$(CURDIR)/$(VENV) $(VENV)/bin/maturin develop $(CARGO_FLAGS)
+	@touch $@
+
+# ---- what a person asks for
+
+demo: $(STAMPS)/engine
+	$(PY) -m niwaki.gallery.demo out
+
+test: $(STAMPS)/engine $(STAMPS)/test
+	cargo test $(CARGO_FLAGS) --workspace
+	$(PY) -m pytest
+
+lint: $(STAMPS)/engine $(STAMPS)/lint
+	cargo fmt --all --check
+	cargo fmt --manifest-path benches/limit/Cargo.toml --check
+	cargo clippy $(CARGO_FLAGS) --workspace --all-targets -- -D warnings
+	cargo clippy $(CARGO_FLAGS) $(LIMIT) --all-targets -- -D warnings
+	$(VENV)/bin/ruff format --check $(PYTHON_SOURCES)
+	$(VENV)/bin/ruff check $(PYTHON_SOURCES)
+	$(VENV)/bin/mypy
+	$(VENV)/bin/stubtest niwaki._engine
+
+bench: $(STAMPS)/engine $(STAMPS)/bench
+	$(PY) benches/machine.py
+
+soak: $(STAMPS)/engine $(STAMPS)/test
+	cargo test $(CARGO_FLAGS) --workspace -- --ignored
+	$(PY) -m pytest -m soak || { status=$$?; [ $$status -eq 5 ] && echo "no long test yet" || exit $$status; }
+
+docs: $(STAMPS)/engine $(STAMPS)/docs
+	$(VENV)/bin/sphinx-build -W --keep-going -q -b html docs docs/_build/html
+	RUSTDOCFLAGS="-D warnings" cargo doc $(CARGO_FLAGS) --workspace --exclude niwaki-py --no-deps
+	@echo "the manual: docs/_build/html/index.html; the engine: target/doc/niwaki_vm/index.html"
+
+format: $(STAMPS)/lint
+	cargo fmt --all
+	cargo fmt --manifest-path benches/limit/Cargo.toml
+	$(VENV)/bin/ruff format $(PYTHON_SOURCES)
+	$(VENV)/bin/ruff check --fix $(PYTHON_SOURCES)
+
+# uv writes locks that hold on Python 3.11 and later, with hashes and without the address of an index.
+locks: $(STAMPS)/venv
+	$(PIP) install uv
+	for extra in core build test lint docs bench; do \
+	  $(VENV)/bin/uv pip compile pyproject.toml $$([ $$extra = core ] || echo --extra $$extra -c requirements/core.txt) \
+	    --upgrade --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-header --no-annotate \
+	    --quiet -o requirements/$$extra.txt; \
+	done
+
+clean:
+	rm -rf $(VENV) target out docs/_build benches/.cache
+	find python tests benches \( -name __pycache__ -o -name '*.so' \) -prune -exec rm -rf {} +

@@ -1,0 +1,153 @@
+"""The house is in order: what is tracked is small, says where it belongs, and names nobody's machine."""
+
+import ast
+import re
+import subprocess
+import sys
+import tomllib
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+PICTURES = {".png", ".jpg", ".jpeg", ".gif", ".svg", ".webp"}
+PICTURE_LIMIT = 300_000  # bytes: a page of the manual still loads at once
+TOTAL_LIMIT = 10_000_000  # bytes: a clone takes seconds
+
+# Cut in two, so that this page does not find itself.
+FORBIDDEN = [
+    "/" + "home/",
+    "/" + "root/",
+    "/" + "work/",
+    "/" + "Users/",
+    "../" + "shared",
+    "pypi" + ".org",
+    "python" + "hosted",
+    "npm" + "js.",
+    "npm" + "js.org",
+    "static." + "crates",
+    "--index" + "-url",
+    "--find" + "-links",
+]
+# Cargo's name for its standard index is part of the format of every lock file, whichever mirror served it.
+CARGO_INDEX = "registry+https://github.com/rust-lang/" + "crates.io-index"
+
+
+@cache
+def tracked() -> list[Path]:
+    """Files that git knows, or would take: new ones count before they are committed."""
+    command = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
+    try:
+        listed = subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True).stdout
+    except (OSError, subprocess.CalledProcessError):
+        pytest.skip("not a git checkout")
+    return [ROOT / name for name in listed.split("\0") if name and (ROOT / name).is_file()]
+
+
+def texts() -> list[tuple[str, str]]:
+    """Path and text of each tracked file that is a text."""
+    found = []
+    for path in tracked():
+        try:
+            found.append((path.relative_to(ROOT).as_posix(), path.read_text(encoding="utf-8")))
+        except UnicodeDecodeError:
+            continue
+    return found
+
+
+def test_no_file_names_a_machine_or_the_host_of_a_registry():
+    found = [
+        f"{name}: {word}"
+        for name, text in texts()
+        for word in FORBIDDEN
+        if word in text.replace(CARGO_INDEX, "")
+    ]
+    assert not found
+
+
+def test_no_file_speaks_of_what_only_its_authors_can_look_up():
+    pattern = re.compile(r"\b(issue|ticket|pull request|PR) #?\d+", re.I)
+    assert not [f"{name}: {match[0]}" for name, text in texts() for match in pattern.finditer(text)]
+
+
+def test_import_loads_nothing_that_is_not_always_needed():
+    heavy = ["trimesh", "PIL", "typer", "rich", "matplotlib", "scipy"]
+    program = f"import sys, niwaki; print([name for name in {heavy} if name in sys.modules])"
+    shown = subprocess.run([sys.executable, "-c", program], check=True, capture_output=True, text=True).stdout
+    assert shown.strip() == "[]"
+
+
+def test_locks_pin_every_requirement_with_a_hash():
+    locks = sorted((ROOT / "requirements").glob("*.txt"))
+    extras = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["optional-dependencies"]
+    assert {lock.stem for lock in locks} == set(extras) - {"plots"} | {"core"}
+    for lock in locks:
+        entries = re.split(r"\n(?=\S)", lock.read_text().strip())
+        assert all("==" in entry and "--hash=sha256:" in entry for entry in entries), lock.name
+
+
+def test_locks_agree_with_one_another():
+    pins: dict[str, set[str]] = {}
+    for lock in (ROOT / "requirements").glob("*.txt"):
+        for name in re.findall(r"^([\w.-]+)==", lock.read_text(), re.M):
+            versions = re.findall(rf"^{re.escape(name)}==(.+?) *\\?$", lock.read_text(), re.M)
+            pins.setdefault(name, set()).add(" | ".join(versions))
+    assert {name: found for name, found in pins.items() if len(found) > 1} == {}
+
+
+def test_pictures_are_small_and_so_is_everything_together():
+    large = [
+        path.name for path in tracked() if path.suffix in PICTURES and path.stat().st_size > PICTURE_LIMIT
+    ]
+    assert not large
+    assert sum(path.stat().st_size for path in tracked()) < TOTAL_LIMIT
+
+
+def test_every_rust_file_opens_with_what_it_is_for():
+    sources = [path for path in tracked() if path.suffix == ".rs"]
+    assert sources
+    bare = [path for path in sources if not path.read_text().lstrip().startswith("//!")]
+    assert not [path.relative_to(ROOT).as_posix() for path in bare]
+
+
+def test_every_python_file_opens_with_what_it_is_for():
+    sources = [path for path in tracked() if path.suffix == ".py"]
+    bare = [path for path in sources if ast.get_docstring(ast.parse(path.read_text())) is None]
+    assert not [path.relative_to(ROOT).as_posix() for path in bare]
+
+
+def test_crates_import_only_the_rooms_above_them():
+    rooms = ["math", "geom", "vm", "infer", "py"]
+    for place, room in enumerate(rooms):
+        manifest = tomllib.loads((ROOT / "crates" / room / "Cargo.toml").read_text())
+        used = {
+            name.removeprefix("niwaki-") for name in manifest["dependencies"] if name.startswith("niwaki-")
+        }
+        assert used <= set(rooms[:place]), room
+        assert room == "py" or "pyo3" not in manifest["dependencies"], room
+
+
+def pages() -> list[Path]:
+    """The pages that a person reads."""
+    return [ROOT / "README.md", ROOT / "ARCHITECTURE.md", *sorted((ROOT / "docs").rglob("*.md"))]
+
+
+def test_the_pages_name_only_commands_that_exist():
+    targets = set(re.findall(r"^([a-z]+):", (ROOT / "Makefile").read_text(), re.M))
+    named = {
+        word for page in pages() for word in re.findall(r"(?:^    |`)make ([a-z]+)", page.read_text(), re.M)
+    }
+    assert {"demo", "test"} <= named <= targets
+
+
+def test_the_pages_link_to_files_that_exist():
+    for page in pages():
+        for link in re.findall(r"\]\(([^)#:]+)\)", page.read_text()):
+            assert (page.parent / link).exists(), f"{page.relative_to(ROOT)}: {link}"
+
+
+@pytest.mark.parametrize("page", pages(), ids=lambda page: page.stem)
+def test_the_programs_on_a_page_are_python(page: Path):
+    for program in re.findall(r"^```python\n(.*?)^```", page.read_text(), re.M | re.S):
+        ast.parse(program)
