@@ -21,9 +21,12 @@ pub struct Weighted {
 /// A fault of the program; no runs asked for.
 pub fn importance(task: &Task, n: usize, seed: u64) -> Result<Weighted, Failure> {
     if n == 0 {
-        return Err(Fault::new("no-samples", "zero samples were asked for").with_help("ask for at least one").into());
+        return Err(Fault::new("no-samples", "zero samples were asked for")
+            .with_help("ask for at least one")
+            .into());
     }
-    let samples = (0..n as u64).into_par_iter().map(|i| forward(task, seed, i)).collect::<Result<Vec<_>, _>>()?;
+    let samples =
+        (0..n as u64).into_par_iter().map(|i| forward(task, seed, i)).collect::<Result<Vec<_>, _>>()?;
     let log_evidence = log_mean_exp(samples.iter().map(|s| s.record.log_score()));
     Ok(Weighted { samples, log_evidence })
 }

@@ -33,7 +33,12 @@ impl Particle {
     }
 
     /// Runs to the next barrier, or to the end.
-    pub fn advance(&mut self, machine: &mut Machine<'_>, task: &Task, settings: &Settings) -> Result<(), Failure> {
+    pub fn advance(
+        &mut self,
+        machine: &mut Machine<'_>,
+        task: &Task,
+        settings: &Settings,
+    ) -> Result<(), Failure> {
         while self.is_running() {
             let runnable = self.state.runnable();
             let future = match runnable.len() {

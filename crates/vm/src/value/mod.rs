@@ -11,6 +11,7 @@
 pub mod aggregate;
 pub mod compare;
 pub mod format;
+mod futures;
 pub mod index;
 pub mod list;
 pub mod numbers;
@@ -18,7 +19,6 @@ pub mod ops;
 pub mod print;
 mod release;
 pub mod same;
-mod futures;
 pub mod text;
 
 use std::sync::Arc;
@@ -28,9 +28,9 @@ pub use compare::{equal, order};
 pub use index::{iter_get, iter_len};
 pub use list::List;
 pub use niwaki_geom::Shape;
+pub use niwaki_math::{Dist, Draw, Family, Param, Scalar};
 pub use print::{repr, str_of};
 pub use same::same;
-pub use niwaki_math::{Dist, Draw, Family, Param, Scalar};
 pub use text::Text;
 
 /// Largest number of elements, or of characters, that one value may have (2^26).
