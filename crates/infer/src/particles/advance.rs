@@ -46,12 +46,10 @@ impl Particle {
                 1 => runnable[0],
                 n => {
                     debug_assert_eq!(settings.order, Order::Stochastic);
-                    #[allow(unused_mut)]
-                    let mut which = self.pick(n, settings.seed);
+                    let which = self.pick(n, settings.seed);
                     #[cfg(test)]
                     if settings.is(super::tests::Mutant::WeightedOrder) {
-                        // Prefers the newest future without telling the weights.
-                        which = which.max(self.pick(n, settings.seed));
+                        self.log_weight -= (n as f64).ln();
                     }
                     let future = self.state.runnable()[which];
                     self.record.log.push_order(self.state.path_of(future), which);

@@ -23,7 +23,7 @@ pub enum Mutant {
     WeightsNotReset,
     /// A random stream belongs to a row of the population, not to a lineage.
     StreamByRow,
-    /// The order choice prefers new futures, and the weights do not know.
+    /// The probability of the order choice counts in the weight.
     WeightedOrder,
     /// A new barrier counts its whole score again.
     ForgetsOldScore,
