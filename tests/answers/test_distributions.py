@@ -101,14 +101,37 @@ POSITIVE = [1e-300, 1e-5, 0.2, 1.0, 3.7, 80.0]
 DISCRETE = [
     Case("bernoulli", [0.3], stats.bernoulli(0.3), stats.bernoulli(0.33), [0, 1], ("bool", False, True)),
     Case("bernoulli", [1e-3], stats.bernoulli(1e-3), stats.bernoulli(4e-3), [0, 1], ("bool", False, True)),
-    Case("categorical", [[2, 0, 1.5, 6]], table([2, 0, 1.5, 6]), table([2.3, 0, 1.2, 6]), range(4), ("int", 0, 3)),
-    Case("discrete_uniform", [-3, 8], stats.randint(-3, 9), stats.randint(-3, 10), range(-3, 9), ("int", -3, 8)),
+    Case(
+        "categorical",
+        [[2, 0, 1.5, 6]],
+        table([2, 0, 1.5, 6]),
+        table([2.3, 0, 1.2, 6]),
+        range(4),
+        ("int", 0, 3),
+    ),
+    Case(
+        "discrete_uniform", [-3, 8], stats.randint(-3, 9), stats.randint(-3, 10), range(-3, 9), ("int", -3, 8)
+    ),
     Case("poisson", [0.7], stats.poisson(0.7), stats.poisson(0.77), range(12), ("int", 0, None)),
     Case("poisson", [37.5], stats.poisson(37.5), stats.poisson(38.0), [0, 3, 37, 38, 150], ("int", 0, None)),
     Case("poisson", [4e3], stats.poisson(4e3), stats.poisson(4.012e3), [3500, 4000, 4100], ("int", 0, None)),
     Case("binomial", [9, 0.2], stats.binom(9, 0.2), stats.binom(9, 0.22), range(10), ("int", 0, 9)),
-    Case("binomial", [700, 0.6], stats.binom(700, 0.6), stats.binom(700, 0.605), [0, 300, 420, 700], ("int", 0, 700)),
-    Case("geometric", [0.15], stats.geom(0.15, loc=-1), stats.geom(0.16, loc=-1), [0, 1, 7, 300], ("int", 0, None)),
+    Case(
+        "binomial",
+        [700, 0.6],
+        stats.binom(700, 0.6),
+        stats.binom(700, 0.605),
+        [0, 300, 420, 700],
+        ("int", 0, 700),
+    ),
+    Case(
+        "geometric",
+        [0.15],
+        stats.geom(0.15, loc=-1),
+        stats.geom(0.16, loc=-1),
+        [0, 1, 7, 300],
+        ("int", 0, None),
+    ),
     Case(
         "mixture",
         [[1.0, 3.0], [("poisson", [2.0]), ("discrete_uniform", [4, 9])]],
@@ -122,14 +145,30 @@ DISCRETE = [
 CONTINUOUS = [
     Case("uniform", [-2.0, 3], stats.uniform(-2, 5), stats.uniform(-2, 5.2), [-2, 0, 3], ("real", -2.0, 3.0)),
     Case("gaussian", [1.5, 2], stats.norm(1.5, 2), stats.norm(1.5, 2.2), [-70, 0, 1.5, 9], LINE),
-    Case("log_normal", [0.4, 0.9], stats.lognorm(0.9, scale=math.exp(0.4)), stats.lognorm(1.0, scale=1.5), POSITIVE, HALF),
+    Case(
+        "log_normal",
+        [0.4, 0.9],
+        stats.lognorm(0.9, scale=math.exp(0.4)),
+        stats.lognorm(1.0, scale=1.5),
+        POSITIVE,
+        HALF,
+    ),
     Case("gamma", [0.02, 3.0], stats.gamma(0.02, scale=3), stats.gamma(0.03, scale=3), POSITIVE, HALF),
     Case("gamma", [4.5, 0.5], stats.gamma(4.5, scale=0.5), stats.gamma(4.8, scale=0.5), POSITIVE, HALF),
     Case("gamma", [900.0, 1.0], stats.gamma(900), stats.gamma(903), [700.0, 899.0, 1100.0], HALF),
-    Case("inverse_gamma", [2.5, 1.5], stats.invgamma(2.5, scale=1.5), stats.invgamma(2.5, scale=1.6), POSITIVE[1:], HALF),
+    Case(
+        "inverse_gamma",
+        [2.5, 1.5],
+        stats.invgamma(2.5, scale=1.5),
+        stats.invgamma(2.5, scale=1.6),
+        POSITIVE[1:],
+        HALF,
+    ),
     Case("beta", [0.4, 0.3], stats.beta(0.4, 0.3), stats.beta(0.44, 0.3), [1e-9, 0.2, 0.5, 0.999], UNIT),
     Case("beta", [3.0, 70.0], stats.beta(3, 70), stats.beta(3.1, 70), [1e-9, 0.03, 0.5, 0.999], UNIT),
-    Case("exponential", [2.5], stats.expon(scale=1 / 2.5), stats.expon(scale=1 / 2.3), [0.0, *POSITIVE], HALF),
+    Case(
+        "exponential", [2.5], stats.expon(scale=1 / 2.5), stats.expon(scale=1 / 2.3), [0.0, *POSITIVE], HALF
+    ),
     Case("laplace", [1.0, 0.6], stats.laplace(1, 0.6), stats.laplace(1, 0.66), [-40, 1, 1.1, 9], LINE),
     Case("cauchy", [-1.0, 0.5], stats.cauchy(-1, 0.5), stats.cauchy(-1, 0.55), HEAVY, LINE),
     Case("student_t", [2.5, 1.0, 3.0], stats.t(2.5, 1, 3), stats.t(2.5, 1, 3.3), HEAVY[1:], LINE),
@@ -313,7 +352,9 @@ def test_multivariate_gaussian() -> None:
         assert agree(_engine.log_density("multivariate_gaussian", params, x), float(reference.logpdf(x)))
     assert _engine.log_density("multivariate_gaussian", params, [0.0, 0.0]) == -INF
     assert _engine.support("multivariate_gaussian", params) == ("vector", 3, 3)
-    values = np.array(_engine.draw("multivariate_gaussian", [np.array(MEAN), np.array(COVARIANCE)], SEED, DRAWS))
+    values = np.array(
+        _engine.draw("multivariate_gaussian", [np.array(MEAN), np.array(COVARIANCE)], SEED, DRAWS)
+    )
 
     def directions(covariance: np.ndarray) -> list[float]:
         white = np.linalg.solve(np.linalg.cholesky(covariance), (values - MEAN).T)
@@ -347,7 +388,9 @@ def test_listed_values_have_all_the_probability(case: Case) -> None:
 
 def test_large_counts_and_degrees_of_freedom_keep_their_digits() -> None:
     # From Stirling's series and the Gaussian limit; SciPy itself loses digits here.
-    assert agree(_engine.log_density("poisson", [1e12], 10**12), -0.5 * math.log(2 * math.pi * 1e12) - 1e-12 / 12)
+    assert agree(
+        _engine.log_density("poisson", [1e12], 10**12), -0.5 * math.log(2 * math.pi * 1e12) - 1e-12 / 12
+    )
     assert agree(_engine.log_density("student_t", [1e14, 0, 1], 1.0), float(stats.norm.logpdf(1.0)))
 
 
