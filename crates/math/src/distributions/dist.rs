@@ -372,6 +372,54 @@ mod tests {
     }
 
     #[test]
+    fn draws_have_a_density_for_parameters_of_any_size() {
+        let mut rng = super::super::testing::stream(99);
+        let families = Family::ALL.iter().filter(|f| {
+            !matches!(
+                f,
+                Family::Categorical
+                    | Family::DiscreteUniform
+                    | Family::Dirichlet
+                    | Family::MultivariateGaussian
+                    | Family::Mixture
+                    | Family::Delta
+            )
+        });
+        for &family in families {
+            let mut built = 0;
+            while built < 2000 {
+                let params: Vec<Param> = family
+                    .parameters()
+                    .iter()
+                    .map(|name| {
+                        let size = 10.0_f64.powf(240.0 * (rng.uniform() - 0.5));
+                        match *name {
+                            "n" => Param::Int(10.0_f64.powf(18.0 * rng.uniform()) as i64),
+                            "p" => Param::Real(size.min(1.0 / size)),
+                            "mean" | "loc" | "lo" | "hi" => {
+                                Param::Real(if rng.uniform() < 0.5 { size } else { -size })
+                            }
+                            _ => Param::Real(size),
+                        }
+                    })
+                    .collect();
+                if let Ok(d) = Dist::new(family, &params) {
+                    built += 1;
+                    let x = d.sample(&mut rng);
+                    let log = d.log_density(&x);
+                    // The last float may be so far from where the draw belongs that not even the
+                    // logarithm of its density is a float.
+                    let last = |x: f64| x.abs() >= f64::MAX || x.abs() <= f64::MIN_POSITIVE;
+                    let lost = log == f64::NEG_INFINITY && matches!(x, Draw::Real(x) if last(x));
+                    assert!(log.is_finite() || lost, "{d:?} drew {x:?}: {log}");
+                } else {
+                    built += usize::from(rng.uniform() < 0.01);
+                }
+            }
+        }
+    }
+
+    #[test]
     fn values_of_another_kind_have_no_density() {
         let vector = Draw::Vector([0.5, 0.5].into());
         for &family in Family::ALL {

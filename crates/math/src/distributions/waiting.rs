@@ -23,8 +23,9 @@ pub(super) fn gamma_log_density<S: Scalar>(shape: S, scale: S, x: S) -> S {
     if x.value() <= 0.0 {
         return S::from_f64(f64::NEG_INFINITY);
     }
-    let y = x / scale;
-    (shape - S::from_f64(1.0)) * y.ln() - y - scale.ln() - shape.ln_gamma()
+    // Two logarithms: the quotient may underflow.
+    let log = x.ln() - scale.ln();
+    (shape - S::from_f64(1.0)) * log - x / scale - scale.ln() - shape.ln_gamma()
 }
 
 /// The logarithm of a gamma draw of scale one: small shapes draw numbers far below the smallest float.
@@ -56,8 +57,8 @@ pub(super) fn inverse_gamma_log_density<S: Scalar>(shape: S, scale: S, x: S) -> 
     if x.value() <= 0.0 {
         return S::from_f64(f64::NEG_INFINITY);
     }
-    let y = scale / x;
-    (shape + S::from_f64(1.0)) * y.ln() - y - scale.ln() - shape.ln_gamma()
+    let log = scale.ln() - x.ln();
+    (shape + S::from_f64(1.0)) * log - scale / x - scale.ln() - shape.ln_gamma()
 }
 
 /// `scale` over a gamma draw.
