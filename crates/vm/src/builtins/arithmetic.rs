@@ -26,7 +26,8 @@ pub(super) fn whole<S: Scalar>(name: &str, value: &Value<S>) -> Result<i64, Faul
 fn digits(text: &str) -> Option<String> {
     let text = text.trim();
     let between = |at: usize| {
-        let digit = |at: Option<usize>| at.and_then(|at| text.as_bytes().get(at)).is_some_and(u8::is_ascii_digit);
+        let digit =
+            |at: Option<usize>| at.and_then(|at| text.as_bytes().get(at)).is_some_and(u8::is_ascii_digit);
         digit(at.checked_sub(1)) && digit(Some(at + 1))
     };
     let misplaced = text.bytes().enumerate().any(|(at, byte)| byte == b'_' && !between(at));
@@ -117,9 +118,12 @@ pub fn sign<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
 /// A real number with the sign of another.
 pub(super) fn with_sign<S: Scalar>(x: S, sign: S) -> S {
     let (value, other) = (x.value(), sign.value());
-    exact_or(value.copysign(other), || {
-        if value.is_sign_negative() == other.is_sign_negative() { x } else { -x }
-    })
+    exact_or(
+        value.copysign(other),
+        || {
+            if value.is_sign_negative() == other.is_sign_negative() { x } else { -x }
+        },
+    )
 }
 
 #[cfg(test)]

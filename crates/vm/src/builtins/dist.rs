@@ -3,15 +3,114 @@
 use std::sync::Arc;
 
 use crate::fault::Fault;
-use crate::value::{Dist, Draw, Family, Scalar, Value};
+use crate::value::index::{iter_get, iter_len};
+use crate::value::numbers::Number;
+use crate::value::{Dist, Draw, Family, Param, Scalar, Value};
+
+/// Components that one mixture may have after those of its own mixtures were taken in.
+const COMPONENTS: usize = 1 << 16;
 
 /// A distribution of a family from its parameters in order.
+#[inline]
 pub fn make_dist<S: Scalar>(family: Family, args: &[Value<S>]) -> Result<Dist<S>, Fault> {
-    let _ = (family, args);
-    todo!()
+    let param = |at: usize| to_param(family, at, &args[at]);
+    let made = match (family, args.len()) {
+        (Family::Mixture, 2) => Dist::new(family, &flattened([param(0)?, param(1)?])?),
+        // One and two parameters, nearly all there is, go without an allocation.
+        (_, 1) => Dist::new(family, &[param(0)?]),
+        (_, 2) => Dist::new(family, &[param(0)?, param(1)?]),
+        (_, count) => Dist::new(family, &(0..count).map(param).collect::<Result<Vec<_>, _>>()?),
+    };
+    made.map_err(|bad| Fault::bad_parameter(bad.to_string()))
+}
+
+/// A parameter as the families read it: numbers, rows of numbers, distributions.
+#[inline]
+fn to_param<S: Scalar>(family: Family, at: usize, value: &Value<S>) -> Result<Param<S>, Fault> {
+    if family == Family::Delta {
+        return value_to_draw(value).map(Param::Draw).ok_or_else(|| unusable(family, at, value));
+    }
+    match value {
+        Value::Real(x) => Ok(Param::Real(*x)),
+        Value::Int(n) => Ok(Param::Int(*n)),
+        Value::Bool(b) => Ok(Param::Bool(*b)),
+        Value::Vector(v) => Ok(Param::Vector(v.components().to_vec())),
+        Value::Rotation(r) => Ok(Param::Matrix(r.chunks(3).map(<[S]>::to_vec).collect())),
+        Value::Tuple(_) | Value::List(_) | Value::Record(_) => {
+            in_a_row(value).ok_or_else(|| unusable(family, at, value))
+        }
+        _ => Err(unusable(family, at, value)),
+    }
+}
+
+#[cold]
+fn unusable<S: Scalar>(family: Family, at: usize, value: &Value<S>) -> Fault {
+    let name = family.parameters().get(at).unwrap_or(&"a parameter");
+    let mut message = format!("`{name}` of {} cannot be {}", family.name(), value.described());
+    if let Value::Tuple(_) | Value::List(_) = value {
+        message.push_str(" of such elements");
+    }
+    Fault::bad_parameter(message)
+}
+
+fn elements<S: Scalar>(value: &Value<S>) -> Option<impl Iterator<Item = Value<S>>> {
+    let count = iter_len(value).ok()?;
+    Some((0..count).map(move |at| iter_get(value, at)))
+}
+
+fn numbers<S: Scalar>(value: &Value<S>) -> Option<Vec<S>> {
+    match value {
+        Value::Vector(v) => Some(v.components().to_vec()),
+        Value::Tuple(_) | Value::List(_) | Value::Record(_) => {
+            elements(value)?.map(|item| Number::of(&item).map(Number::real)).collect()
+        }
+        _ => None,
+    }
+}
+
+fn in_a_row<S: Scalar>(value: &Value<S>) -> Option<Param<S>> {
+    match iter_get(value, 0) {
+        Value::Dist(_) => {
+            let dist = |item| if let Value::Dist(dist) = item { Some((*dist).clone()) } else { None };
+            elements(value)?.map(dist).collect::<Option<_>>().map(Param::Dists)
+        }
+        Value::Tuple(_) | Value::List(_) | Value::Vector(_) => {
+            elements(value)?.map(|row| numbers(&row)).collect::<Option<_>>().map(Param::Matrix)
+        }
+        _ => numbers(value).map(Param::Vector),
+    }
+}
+
+/// Takes the components of mixtures inside a mixture into it, with the product of the weights: the same
+/// distribution, but never nested, so that scoring and dropping one needs no host stack.
+fn flattened<S: Scalar>(params: [Param<S>; 2]) -> Result<[Param<S>; 2], Fault> {
+    let [Param::Vector(weights), Param::Dists(dists)] = &params else { return Ok(params) };
+    if weights.len() != dists.len() || !dists.iter().any(|dist| matches!(dist, Dist::Mixture(_))) {
+        return Ok(params);
+    }
+    let (mut flat_weights, mut flat) = (Vec::new(), Vec::new());
+    for (weight, dist) in weights.iter().zip(dists) {
+        match dist {
+            Dist::Mixture(inner) => {
+                let given = inner.weights.given();
+                let total = given.iter().fold(S::from_f64(0.0), |total, w| total + *w);
+                flat_weights.extend(given.iter().map(|w| *weight * *w / total));
+                flat.extend(inner.components.iter().cloned());
+            }
+            other => {
+                flat_weights.push(*weight);
+                flat.push(other.clone());
+            }
+        }
+        if flat.len() > COMPONENTS {
+            return Err(Fault::memory_budget(format!("a mixture of more than {COMPONENTS} distributions")));
+        }
+    }
+    Ok([Param::Vector(flat_weights), Param::Dists(flat)])
 }
 
 /// A draw as a value; a vector becomes a tuple.
+#[inline]
 pub fn draw_to_value<S: Scalar>(draw: Draw<S>) -> Value<S> {
     match draw {
         Draw::Bool(b) => Value::Bool(b),
@@ -22,17 +121,80 @@ pub fn draw_to_value<S: Scalar>(draw: Draw<S>) -> Value<S> {
 }
 
 /// A value as a draw; `None` for a value that no distribution yields.
+#[inline]
 pub fn value_to_draw<S: Scalar>(value: &Value<S>) -> Option<Draw<S>> {
-    let numbers = |items: &mut dyn Iterator<Item = &Value<S>>| -> Option<Arc<[S]>> {
-        items.map(|item| crate::value::numbers::Number::of(item).map(|n| n.real())).collect()
-    };
     match value {
         Value::Bool(b) => Some(Draw::Bool(*b)),
         Value::Int(n) => Some(Draw::Int(*n)),
         Value::Real(x) => Some(Draw::Real(*x)),
-        Value::Vector(v) => Some(Draw::Vector(v.components().into())),
-        Value::Tuple(tuple) => numbers(&mut tuple.items().iter()).map(Draw::Vector),
-        Value::List(list) => numbers(&mut list.iter()).map(Draw::Vector),
-        _ => None,
+        other => numbers(other).map(|xs| Draw::Vector(Arc::from(xs))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::builtins::tests::{V, ints, reals};
+
+    fn fault(family: Family, args: &[V]) -> (&'static str, String) {
+        let fault = make_dist(family, args).expect_err("a parameter is wrong");
+        (fault.code, fault.message.clone())
+    }
+
+    #[test]
+    fn parameters_are_read_from_any_sequence() {
+        assert_eq!(
+            make_dist(Family::Gaussian, &[V::Int(0), V::real(2.0)]),
+            Ok(Dist::Gaussian { mean: 0.0, sd: 2.0 })
+        );
+        let weights = make_dist(Family::Categorical, &[ints([1, 3])]).expect("two weights");
+        assert!((weights.log_density(&Draw::Int(1)) - 0.75_f64.ln()).abs() < 1e-15);
+        let square = V::list(vec![reals([1.0, 0.0]), V::tuple(vec![V::Int(0), V::Int(1)])]);
+        assert!(make_dist(Family::MultivariateGaussian, &[V::vector(&[0.0, 0.0]), square]).is_ok());
+        let delta = make_dist(Family::Delta, &[reals([1.0])]).expect("a vector");
+        assert_eq!(delta, Dist::Delta(Draw::Vector([1.0].into())));
+    }
+
+    #[test]
+    fn what_is_wrong_is_said() {
+        let (code, message) = fault(Family::Gaussian, &[V::Int(0), V::real(-1.0)]);
+        assert_eq!(code, "bad-parameter");
+        assert_eq!(message, "`sd` of gaussian is -1.0, expected a finite number above zero");
+        assert_eq!(fault(Family::Gaussian, &[V::Int(0), V::None]).1, "`sd` of gaussian cannot be None");
+        let words = V::list(vec![V::str("a")]);
+        assert_eq!(
+            fault(Family::Categorical, &[words]).1,
+            "`weights` of categorical cannot be a list of such elements"
+        );
+        assert_eq!(fault(Family::Gaussian, &[]).0, "bad-parameter");
+    }
+
+    #[test]
+    fn mixtures_of_mixtures_are_flat_and_bounded() {
+        let gaussian = |mean: f64| V::Dist(Arc::new(Dist::Gaussian { mean, sd: 1.0 }));
+        let mix = |a: V, b: V| make_dist(Family::Mixture, &[ints([1, 3]), V::list(vec![a, b])]);
+        let inner = mix(gaussian(0.0), gaussian(1.0)).expect("two components");
+        let outer = mix(V::Dist(Arc::new(inner.clone())), gaussian(2.0)).expect("three components");
+        let x = Draw::Real(0.3);
+        let by_hand = 0.25 * inner.log_density(&x).exp()
+            + 0.75 * Dist::Gaussian { mean: 2.0, sd: 1.0 }.log_density(&x).exp();
+        assert!((outer.log_density(&x).exp() - by_hand).abs() < 1e-15);
+        let mut doubled = inner;
+        for _ in 0..40 {
+            let twice = V::Dist(Arc::new(doubled.clone()));
+            match mix(twice.clone(), twice) {
+                Ok(dist) => doubled = dist,
+                Err(fault) => return assert_eq!(fault.code, "memory-budget"),
+            }
+        }
+        panic!("a mixture of 2^41 components was accepted");
+    }
+
+    #[test]
+    fn draws_and_values_lead_to_each_other() {
+        for draw in [Draw::Bool(true), Draw::Int(-4), Draw::Real(0.5), Draw::Vector([0.25, 0.75].into())] {
+            assert_eq!(value_to_draw(&draw_to_value(draw.clone())), Some(draw));
+        }
+        assert_eq!(value_to_draw(&V::str("a")), None);
     }
 }

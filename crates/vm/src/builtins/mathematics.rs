@@ -164,7 +164,10 @@ pub fn fmod<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
             print::float(b)
         )));
     }
-    Ok(Value::Real(exact_or(a % b, || if b.is_infinite() { x } else { x - y * S::from_f64((a / b).trunc()) })))
+    Ok(Value::Real(exact_or(
+        a % b,
+        || if b.is_infinite() { x } else { x - y * S::from_f64((a / b).trunc()) },
+    )))
 }
 
 /// `math.pow(x, y)`: always a float, where `**` of ints is an int.
@@ -262,7 +265,8 @@ mod tests {
 
     #[test]
     fn what_math_refuses_is_refused() {
-        let domain = [("sqrt", -1.0), ("log", 0.0), ("log", -1.0), ("log1p", -1.0), ("log2", 0.0), ("asin", 1.1)];
+        let domain =
+            [("sqrt", -1.0), ("log", 0.0), ("log", -1.0), ("log1p", -1.0), ("log2", 0.0), ("asin", 1.1)];
         for (name, x) in domain {
             assert_eq!(code(name, &[V::real(x)]), "math-domain", "{name}({x})");
         }
@@ -307,7 +311,7 @@ mod tests {
         assert_eq!(call("gcd", &[V::Int(-12), V::Int(18), V::Int(8)]), Ok(V::Int(2)));
         assert_eq!(call("factorial", &[V::Int(20)]), Ok(V::Int(2_432_902_008_176_640_000)));
         assert_eq!(code("factorial", &[V::Int(21)]), "integer-overflow");
-        assert_eq!(call("comb", &[V::Int(66), V::Int(33)]), Ok(V::Int(7_219_428_434_016_265_735)));
+        assert_eq!(call("comb", &[V::Int(66), V::Int(33)]), Ok(V::Int(7_219_428_434_016_265_740)));
         assert_eq!(code("comb", &[V::Int(68), V::Int(34)]), "integer-overflow");
         assert_eq!(code("comb", &[V::Int(i64::MAX), V::Int(1 << 40)]), "integer-overflow");
         assert_eq!(call("isnan", &[V::real(f64::NAN)]), Ok(V::Bool(true)));

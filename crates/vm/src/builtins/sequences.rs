@@ -61,7 +61,8 @@ pub fn sorted_by<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
 /// A merge sort of our own: it only asks `<`, may stop at a fault, and is at ease with NaN, where the standard
 /// library's sort may panic.
 fn stable_order<S: Scalar>(keys: &[Value<S>], reverse: bool) -> Result<Vec<usize>, Fault> {
-    let before = |a: usize, b: usize| if reverse { less(&keys[b], &keys[a]) } else { less(&keys[a], &keys[b]) };
+    let before =
+        |a: usize, b: usize| if reverse { less(&keys[b], &keys[a]) } else { less(&keys[a], &keys[b]) };
     let mut order: Vec<usize> = (0..keys.len()).collect();
     let mut merged = Vec::with_capacity(order.len());
     let mut width = 1;

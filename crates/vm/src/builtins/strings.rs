@@ -68,7 +68,9 @@ pub fn method<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let found = match value {
         Value::Str(own) => of_text(own, name, rest),
         Value::Dict(dict) => of_dict(dict, name, rest),
-        Value::List(_) | Value::Tuple(_) | Value::Record(_) | Value::Range(_) => of_sequence(value, name, rest),
+        Value::List(_) | Value::Tuple(_) | Value::Record(_) | Value::Range(_) => {
+            of_sequence(value, name, rest)
+        }
         _ => None,
     };
     found.unwrap_or_else(|| {
@@ -118,10 +120,8 @@ fn of_dict<S: Scalar>(dict: &Arc<Dict<S>>, name: &str, rest: &[Value<S>]) -> Opt
 }
 
 fn of_text<S: Scalar>(own: &Text, name: &str, rest: &[Value<S>]) -> Option<Answer<S>> {
-    let strings: Vec<&str> = rest
-        .iter()
-        .map_while(|arg| if let Value::Str(text) = arg { Some(&**text) } else { None })
-        .collect();
+    let strings: Vec<&str> =
+        rest.iter().map_while(|arg| if let Value::Str(text) = arg { Some(&**text) } else { None }).collect();
     let list = |parts: Vec<&str>| Ok(Value::list(parts.into_iter().map(Value::str).collect()));
     Some(match (name, &strings[..], rest) {
         ("upper", _, []) => text(own.to_uppercase()),
@@ -176,10 +176,10 @@ fn joined<S: Scalar>(between: &str, parts: &Value<S>) -> Answer<S> {
 
 /// True for a name that some built-in value has as a method.
 pub fn is_method(name: &str) -> bool {
-    const NAMES: &str = "index count upper lower strip split join replace startswith endswith get keys values items";
+    const NAMES: &str =
+        "index count upper lower strip split join replace startswith endswith get keys values items";
     NAMES.split(' ').any(|own| own == name)
 }
-
 
 #[cfg(test)]
 mod tests {

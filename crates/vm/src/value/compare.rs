@@ -92,7 +92,7 @@ fn leaves_equal<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Option<bool> {
         (Value::Vector(a), Value::Vector(b)) => scalars_equal(a.components(), b.components()),
         (Value::Rotation(a), Value::Rotation(b)) => scalars_equal(&a[..], &b[..]),
         (Value::Shape(a), Value::Shape(b)) => a == b,
-        (Value::Dist(a), Value::Dist(b)) => Arc::ptr_eq(a, b),
+        (Value::Dist(a), Value::Dist(b)) => Arc::ptr_eq(a, b) || a == b,
         (Value::Future(a), Value::Future(b)) => a == b,
         (Value::Tuple(a), Value::Tuple(b)) if a.ptr_eq(b) => true,
         (Value::List(a), Value::List(b)) if a.ptr_eq(b) => true,

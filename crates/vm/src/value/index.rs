@@ -39,6 +39,10 @@ pub fn iter_get<S: Scalar>(value: &Value<S>, at: usize) -> Value<S> {
         Value::Str(text) if at < text.chars_len() => Value::str(text.char_at(at)),
         Value::Dict(dict) => dict.keys().get(at).cloned().unwrap_or_default(),
         Value::Vector(v) => v.components().get(at).copied().map(Value::Real).unwrap_or_default(),
+        Value::Rotation(r) => match r.chunks(3).nth(at) {
+            Some(row) => Value::tuple(row.iter().copied().map(Value::Real).collect()),
+            None => Value::None,
+        },
         _ => as_tuple(value).and_then(|items| items.get(at)).cloned().unwrap_or_default(),
     }
 }
@@ -80,6 +84,7 @@ fn length<S: Scalar>(value: &Value<S>) -> Option<usize> {
         Value::Str(text) => Some(text.chars_len()),
         Value::Dict(dict) => Some(dict.len()),
         Value::Vector(v) => Some(v.components().len()),
+        Value::Rotation(_) => Some(3),
         _ => as_tuple(value).map(<[Value<S>]>::len),
     }
 }

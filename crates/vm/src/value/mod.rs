@@ -28,9 +28,9 @@ pub use compare::{equal, order};
 pub use index::{iter_get, iter_len};
 pub use list::List;
 pub use niwaki_geom::Shape;
+pub use niwaki_math::{Dist, Draw, Family, Param, Scalar};
 pub use print::{repr, str_of};
 pub use same::same;
-pub use niwaki_math::{Dist, Draw, Family, Param, Scalar};
 pub use text::Text;
 
 /// Largest number of elements, or of characters, that one value may have (2^26).

@@ -217,3 +217,74 @@ pub fn round_int(n: i64, digits: i64) -> Result<i64, Fault> {
     i64::try_from((down + i128::from(up)) * unit)
         .map_err(|_| Fault::integer_overflow(format!("round({n}, {digits}) does not fit in 64 bits")))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Expected quotients were worked out with CPython 3.11, which rounds the exact quotient.
+    #[test]
+    fn true_division_of_whole_numbers_rounds_once() {
+        let cases = [
+            (1, 3, 1.0 / 3.0),
+            (9_007_199_254_740_993, 2, 4_503_599_627_370_496.0),
+            (i64::MAX, i64::MAX - 1, 1.0),
+            (9_223_372_036_854_775_807, 3, 3.074_457_345_618_258_6e18),
+            (-9_007_199_254_740_995, 3, -3_002_399_751_580_331.5),
+            (1, i64::MAX, 1.084_202_172_485_504_4e-19),
+            (i64::MIN, -1, 9_223_372_036_854_775_808.0),
+            (0, i64::MIN, 0.0),
+        ];
+        for (a, b, expected) in cases {
+            assert_eq!(divide_ints(a, b), Ok(expected), "{a} / {b}");
+        }
+        assert_eq!(divide_ints(1, 0).map_err(|fault| fault.code), Err("division-by-zero"));
+    }
+
+    #[test]
+    fn floor_division_and_remainder_fit_together() {
+        for (a, b, quotient, rest) in
+            [(7, 2, 3, 1), (-7, 2, -4, 1), (7, -2, -4, -1), (-7, -2, 3, -1), (6, -3, -2, 0), (0, 5, 0, 0)]
+        {
+            assert_eq!((floor_divide_ints(a, b), mod_ints(a, b)), (Ok(quotient), Ok(rest)), "{a} {b}");
+            let (x, y) = (a as f64, b as f64);
+            assert_eq!(floor_divide_reals(x, y), Ok(quotient as f64), "{a} {b}");
+            assert_eq!(mod_reals(x, y), Ok(rest as f64), "{a} {b}");
+        }
+        assert_eq!(floor_divide_ints(i64::MIN, -1).map_err(|fault| fault.code), Err("integer-overflow"));
+        assert_eq!(mod_ints(i64::MIN, -1), Ok(0));
+        assert_eq!(mod_reals(-1e-20, 1.0), Ok(1.0), "as in Python: rounded up to the divisor");
+        assert_eq!(floor_divide_reals(1.0, 0.1), Ok(9.0));
+        assert_eq!(mod_reals(5.5, f64::INFINITY), Ok(5.5));
+        assert_eq!(mod_reals(-5.5, f64::INFINITY), Ok(f64::INFINITY));
+        assert_eq!(mod_reals(-4.0, 2.0).map(f64::to_bits), Ok(0.0_f64.to_bits()));
+        assert_eq!(mod_reals(4.0, -2.0).map(f64::to_bits), Ok((-0.0_f64).to_bits()));
+    }
+
+    #[test]
+    fn powers_stay_whole_until_the_exponent_is_negative() {
+        let pow = |a, b| pow_ints::<f64>(a, b).map_err(|fault| fault.code);
+        assert_eq!(pow(2, 62), Ok(Value::Int(1 << 62)));
+        assert_eq!(pow(2, 63), Err("integer-overflow"));
+        assert_eq!(pow(-2, 63), Ok(Value::Int(i64::MIN)));
+        assert_eq!(pow(-1, i64::MAX), Ok(Value::Int(-1)));
+        assert_eq!(pow(0, 1 << 40), Ok(Value::Int(0)));
+        assert_eq!(pow(3, 1 << 40), Err("integer-overflow"));
+        assert_eq!(pow(2, -2), Ok(Value::Real(0.25)));
+        assert_eq!(pow(0, 0), Ok(Value::Int(1)));
+        assert_eq!(pow(0, -1), Err("division-by-zero"));
+        let real = |a: f64, b: f64| pow_reals(a, b).map_err(|fault| fault.code);
+        assert_eq!(real(-8.0, 0.5), Err("math-domain"));
+        assert_eq!(real(-8.0, 3.0), Ok(-512.0));
+        assert_eq!(real(1e200, 2.0), Err("float-overflow"));
+        assert_eq!(real(f64::NEG_INFINITY, 0.5), Ok(f64::INFINITY));
+        assert_eq!(real(0.0, -1.0), Err("division-by-zero"));
+    }
+
+    #[test]
+    fn reals_become_ints_when_they_fit() {
+        assert_eq!(to_int(-9_223_372_036_854_775_808.0), Ok(i64::MIN));
+        assert!(to_int(9_223_372_036_854_775_808.0).is_err());
+        assert!(to_int(f64::NAN).is_err());
+    }
+}

@@ -278,6 +278,9 @@ fn add_others<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
                     (Value::List(_), Value::Int(_) | Value::Real(_)) => {
                         fault.with_help("write `xs + [x]` to make a list with one more element")
                     }
+                    (Value::Vector(_), Value::Tuple(_) | Value::List(_)) => {
+                        fault.with_help("write `vec(x, y, z)` for the second one too")
+                    }
                     (Value::Str(_), _) => fault.with_help("write `str(x)` or an f-string to make text of it"),
                     _ => fault,
                 })
@@ -303,7 +306,6 @@ fn sub_others<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
 #[cold]
 fn mul_others<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
     match (a, b) {
-        (Value::Vector(v), Value::Vector(w)) => componentwise("multiply", v, w, |x, y| x * y),
         (Value::Rotation(r), Value::Vector(v)) => rotate(r, v),
         (Value::Rotation(r), Value::Rotation(s)) => Ok(Value::Rotation(Arc::new(matrix_product(r, s)))),
         _ => match (Number::of(a), Number::of(b)) {
@@ -396,5 +398,116 @@ pub fn append<S: Scalar>(xs: Value<S>, item: Value<S>) -> Answer<S> {
             Ok(Value::List(list))
         }
         other => Err(Fault::type_mismatch(format!("cannot append to {}", other.described()))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    type V = Value<f64>;
+
+    fn ints(items: &[i64]) -> V {
+        V::list(items.iter().copied().map(V::Int).collect())
+    }
+
+    fn message(answer: Answer<f64>) -> String {
+        answer.map_or_else(|fault| fault.message.clone(), |value| panic!("an answer: {value:?}"))
+    }
+
+    fn code(answer: Answer<f64>) -> &'static str {
+        answer.map_or_else(|fault| fault.code, |value| panic!("an answer: {value:?}"))
+    }
+
+    /// What an operator gives, with its kind: `==` alone does not tell 1 from 1.0.
+    fn shown(answer: Answer<f64>) -> String {
+        answer.map_or_else(|fault| fault.code.to_string(), |value| format!("{value:?}"))
+    }
+
+    #[test]
+    fn every_pair_of_kinds_of_number_gives_pythons_kind() {
+        let (t, i, x) = (V::Bool(true), V::Int(3), V::real(0.5));
+        assert_eq!(shown(add(&t, &t)), "2");
+        assert_eq!(shown(add(&t, &i)), "4");
+        assert_eq!(shown(add(&i, &x)), "3.5");
+        assert_eq!(shown(sub(&t, &x)), "0.5");
+        assert_eq!(shown(mul(&t, &i)), "3");
+        assert_eq!(shown(div(&i, &t)), "3.0");
+        assert_eq!(shown(div(&V::Int(6), &V::Int(3))), "2.0");
+        assert_eq!(shown(floordiv(&V::real(7.5), &i)), "2.0");
+        assert_eq!(shown(floordiv(&V::Int(-7), &V::Int(2))), "-4");
+        assert_eq!(shown(mod_(&V::real(-7.5), &i)), "1.5");
+        assert_eq!(shown(pow(&i, &V::Int(2))), "9");
+        assert_eq!(shown(pow(&i, &V::Int(-1))), "0.3333333333333333");
+        assert_eq!(shown(neg(&t)), "-1");
+        assert_eq!(shown(pos(&t)), "1");
+        assert_eq!(shown(invert(&i)), "-4");
+        assert_eq!(shown(band(&t, &V::Bool(false))), "False");
+        assert_eq!(shown(bor(&t, &i)), "3");
+        assert_eq!(shown(shr(&V::Int(-5), &V::Int(1))), "-3");
+        assert_eq!(shown(shl(&V::Int(1), &V::Int(62))), "4611686018427387904");
+        assert_eq!(shown(shl(&V::Int(1), &V::Int(63))), "integer-overflow");
+        assert_eq!(shown(shl(&V::Int(-1), &V::Int(63))), "-9223372036854775808");
+        assert_eq!(shown(shl(&V::Int(0), &V::Int(1000))), "0");
+    }
+
+    #[test]
+    fn whole_numbers_overflow_with_a_fault() {
+        let (most, least, one) = (V::Int(i64::MAX), V::Int(i64::MIN), V::Int(1));
+        assert_eq!(message(add(&most, &one)), "9223372036854775807 + 1 does not fit in 64 bits");
+        assert_eq!(code(sub(&least, &one)), "integer-overflow");
+        assert_eq!(code(mul(&most, &V::Int(2))), "integer-overflow");
+        assert_eq!(code(neg(&least)), "integer-overflow");
+        assert_eq!(code(div(&one, &V::Int(0))), "division-by-zero");
+        assert_eq!(code(mod_(&V::real(1.0), &V::Int(0))), "division-by-zero");
+    }
+
+    #[test]
+    fn sequences_add_and_repeat() {
+        assert_eq!(add(&ints(&[1]), &ints(&[2, 3])), Ok(ints(&[1, 2, 3])));
+        assert_eq!(mul(&ints(&[1, 2]), &V::Int(2)), Ok(ints(&[1, 2, 1, 2])));
+        assert_eq!(mul(&V::Int(-1), &ints(&[1])), Ok(ints(&[])));
+        assert_eq!(mul(&V::str("ab"), &V::Bool(true)), Ok(V::str("ab")));
+        assert_eq!(add(&V::tuple(vec![V::Int(1)]), &V::tuple(vec![])), Ok(V::tuple(vec![V::Int(1)])));
+        assert_eq!(code(mul(&ints(&[1, 2]), &V::Int(1 << 40))), "memory-budget");
+        assert_eq!(message(add(&ints(&[1]), &V::Int(2))), "cannot add a list and an int");
+        assert_eq!(message(mul(&ints(&[1]), &V::real(2.0))), "cannot multiply a list by a float");
+        assert_eq!(message(sub(&V::str("a"), &V::None)), "cannot subtract None from a str");
+    }
+
+    #[test]
+    fn vectors_scale_and_add_but_do_not_broadcast() {
+        let v = V::vector(&[1.0, 2.0, 3.0]);
+        assert_eq!(add(&v, &v), Ok(V::vector(&[2.0, 4.0, 6.0])));
+        assert_eq!(mul(&V::Int(2), &v), mul(&v, &V::real(2.0)));
+        assert_eq!(div(&v, &V::Int(2)), Ok(V::vector(&[0.5, 1.0, 1.5])));
+        assert_eq!(neg(&v), Ok(V::vector(&[-1.0, -2.0, -3.0])));
+        assert_eq!(code(add(&v, &V::real(1.0))), "type-mismatch");
+        assert_eq!(code(mul(&v, &v)), "type-mismatch");
+        assert_eq!(code(add(&v, &V::vector(&[1.0, 2.0]))), "type-mismatch");
+        assert_eq!(code(div(&v, &V::Int(0))), "division-by-zero");
+        assert_eq!(code(div(&V::Int(1), &v)), "type-mismatch");
+    }
+
+    #[test]
+    fn comparisons_name_their_sign() {
+        let nan = V::real(f64::NAN);
+        for compare in [lt, le, gt, ge, eq] {
+            assert_eq!(compare(&nan, &nan), Ok(V::Bool(false)));
+        }
+        assert_eq!(ne(&nan, &nan), Ok(V::Bool(true)));
+        assert_eq!(le(&V::Int(1), &V::real(1.0)), Ok(V::Bool(true)));
+        assert_eq!(ge(&ints(&[1, 2]), &ints(&[1])), Ok(V::Bool(true)));
+        assert_eq!(message(le(&V::None, &V::Int(1))), "`<=` has no meaning between None and an int");
+        assert_eq!(eq(&V::None, &V::Int(1)), Ok(V::Bool(false)));
+    }
+
+    #[test]
+    fn zero_and_empty_are_false() {
+        let falses =
+            [V::None, V::Int(0), V::real(-0.0), V::str(""), ints(&[]), V::tuple(vec![]), V::Bool(false)];
+        assert!(!falses.iter().any(truth));
+        let trues = [V::real(f64::NAN), V::str(" "), ints(&[0]), V::vector(&[0.0, 0.0])];
+        assert!(trues.iter().all(truth));
     }
 }

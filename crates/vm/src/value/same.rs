@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use niwaki_geom::{Shape, Solid};
 
-use super::{List, Scalar, Value};
+use super::{Dist, Draw, List, Param, Scalar, Value};
 
 /// Elements that one identity test may look at before it answers "different".
 pub const BUDGET: usize = 4096;
@@ -57,6 +57,32 @@ fn same_shape(a: &Shape, b: &Shape) -> bool {
     }
 }
 
+/// Distributions hold numbers and, in a mixture, further distributions (one level: mixtures are flat).
+fn same_dist<S: Scalar>(a: &Dist<S>, b: &Dist<S>) -> bool {
+    let same_draw = |a: &Draw<S>, b: &Draw<S>| match (a, b) {
+        (Draw::Real(a), Draw::Real(b)) => same_scalar(*a, *b),
+        (Draw::Vector(a), Draw::Vector(b)) => same_scalars(a, b),
+        _ => a == b,
+    };
+    let same_param = |(a, b): (&Param<S>, &Param<S>)| match (a, b) {
+        (Param::Real(a), Param::Real(b)) => same_scalar(*a, *b),
+        (Param::Vector(a), Param::Vector(b)) => same_scalars(a, b),
+        (Param::Matrix(a), Param::Matrix(b)) => {
+            a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same_scalars(a, b))
+        }
+        (Param::Dists(a), Param::Dists(b)) => {
+            a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same_dist(a, b))
+        }
+        (Param::Draw(a), Param::Draw(b)) => same_draw(a, b),
+        _ => a == b,
+    };
+    if a.family() != b.family() {
+        return false;
+    }
+    let (a, b) = (a.params(), b.params());
+    a.len() == b.len() && a.iter().zip(&b).all(same_param)
+}
+
 #[inline]
 fn glance<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Glance {
     match (a, b) {
@@ -82,7 +108,7 @@ fn glance_behind<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Glance {
         (Value::Rotation(a), Value::Rotation(b)) => same_scalars(&a[..], &b[..]).into(),
         (Value::Range(a), Value::Range(b)) => ((a.start, a.stop, a.step) == (b.start, b.stop, b.step)).into(),
         (Value::Shape(a), Value::Shape(b)) => same_shape(a, b).into(),
-        (Value::Dist(a), Value::Dist(b)) => Arc::ptr_eq(a, b).into(),
+        (Value::Dist(a), Value::Dist(b)) => (Arc::ptr_eq(a, b) || same_dist(a, b)).into(),
         (Value::Tuple(a), Value::Tuple(b)) => look_if(a.ptr_eq(b), a.items().len() == b.items().len()),
         (Value::List(a), Value::List(b)) => look_if(a.ptr_eq(b), a.len() == b.len()),
         (Value::Dict(a), Value::Dict(b)) => look_if(Arc::ptr_eq(a, b), a.len() == b.len()),

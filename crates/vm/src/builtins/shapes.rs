@@ -1,0 +1,243 @@
+//! Shapes from values: the words `box`, `cylinder`, `limb` and `mesh`, their arguments in the order of their signatures.
+//!
+//! A scene is made of plain numbers: what a recording scalar remembers ends here.
+
+use std::any::Any;
+use std::cell::RefCell;
+use std::sync::Arc;
+
+use niwaki_geom::{GeomError, Look, Mat3, Shape, TriMesh, Vec3, vec3};
+
+use super::arithmetic::{real, whole};
+use super::vectors::three;
+use super::{Answer, unfit};
+use crate::fault::Fault;
+use crate::value::index::{iter_all, iter_get, iter_len};
+use crate::value::{Scalar, Value, same};
+
+/// One word's arguments; those left out are `None`.
+struct Arguments<'a, S: Scalar> {
+    word: &'static str,
+    args: &'a [Value<S>],
+}
+
+impl<S: Scalar> Arguments<'_, S> {
+    fn given(&self, at: usize) -> Option<&Value<S>> {
+        self.args.get(at).filter(|arg| !matches!(arg, Value::None))
+    }
+
+    fn needed(&self, at: usize) -> Result<&Value<S>, Fault> {
+        self.given(at).ok_or_else(|| {
+            Fault::bad_argument(format!("argument {} of `{}` cannot be None", at + 1, self.word))
+        })
+    }
+
+    fn number(&self, at: usize) -> Result<f64, Fault> {
+        real(self.word, self.needed(at)?).map(Scalar::value)
+    }
+
+    fn number_or(&self, at: usize, default: f64) -> Result<f64, Fault> {
+        self.given(at).map_or(Ok(default), |arg| real(self.word, arg).map(Scalar::value))
+    }
+
+    fn point(&self, at: usize) -> Result<Vec3, Fault> {
+        point(self.word, self.needed(at)?)
+    }
+
+    fn direction(&self, at: usize) -> Result<Option<Vec3>, Fault> {
+        self.given(at).map(|arg| point(self.word, arg)).transpose()
+    }
+
+    fn rotation(&self, at: usize) -> Result<Option<Mat3>, Fault> {
+        let Some(arg) = self.given(at) else { return Ok(None) };
+        if let Value::Rotation(r) = arg {
+            let r = r.map(Scalar::value);
+            return Ok(Some(Mat3::from_rows([[r[0], r[1], r[2]], [r[3], r[4], r[5]], [r[6], r[7], r[8]]])));
+        }
+        let rows = matches!(arg, Value::Tuple(_) | Value::List(_)) && iter_len(arg)? == 3;
+        if !rows {
+            return Err(unfit(self.word, "a rotation such as `rotation(axis, angle)`", arg));
+        }
+        let row = |at: usize| three(self.word, &iter_get(arg, at)).map(|row| row.map(Scalar::value));
+        Ok(Some(Mat3::from_rows([row(0)?, row(1)?, row(2)?])))
+    }
+
+    fn look(&self, rotation: Option<usize>, bevel: Option<usize>, color: usize) -> Result<Look, Fault> {
+        let rotation = rotation.map_or(Ok(None), |at| self.rotation(at))?;
+        let bevel = bevel.and_then(|at| self.given(at)).map(|arg| real(self.word, arg).map(Scalar::value));
+        let color =
+            self.given(color).map(|arg| three(self.word, arg).map(|c| c.map(|part| part.value() as f32)));
+        Ok(Look { rotation, bevel: bevel.transpose()?, color: color.transpose()? })
+    }
+}
+
+fn point<S: Scalar>(word: &str, value: &Value<S>) -> Result<Vec3, Fault> {
+    three(word, value).map(|[x, y, z]| vec3(x.value(), y.value(), z.value()))
+}
+
+fn shape<S: Scalar>(made: Result<Shape, GeomError>) -> Answer<S> {
+    made.map(Value::Shape).map_err(refused)
+}
+
+/// The faults of the shapes' room keep their sentences.
+fn refused(error: GeomError) -> Fault {
+    Fault::bad_shape(error.message)
+}
+
+/// 0, 1 or 2 for `"x"`, `"y"`, `"z"`.
+fn letter<S: Scalar>(word: &str, value: &Value<S>) -> Result<usize, Fault> {
+    let at = match value {
+        Value::Str(text) => ["x", "y", "z"].iter().position(|letter| *letter == &**text),
+        _ => None,
+    };
+    at.ok_or_else(|| {
+        let shown = crate::value::repr(value).unwrap_or_default();
+        Fault::bad_shape(format!("an axis of `{word}` is {shown}, expected \"x\", \"y\" or \"z\""))
+    })
+}
+
+/// `box(center, size, rotation, taper, taper_axis, bevel, color)`.
+pub fn cuboid<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
+    let given = Arguments { word: "box", args };
+    let (center, size) = (given.point(0)?, given.point(1)?);
+    let taper = given.number_or(3, 1.0)?;
+    let axis = given.given(4).map_or(Ok(2), |arg| letter("box", arg))?;
+    shape(Shape::tapered_box(center, size, taper, axis, &given.look(Some(2), Some(5), 6)?))
+}
+
+/// `cylinder(center, radius, length, axis, top_radius, rotation, bevel, color)`.
+pub fn cylinder<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
+    let given = Arguments { word: "cylinder", args };
+    let axis = match given.given(3) {
+        None => Vec3::AXES[1],
+        Some(name @ Value::Str(_)) => Vec3::AXES[letter("cylinder", name)?],
+        Some(direction) => point("cylinder", direction)?,
+    };
+    let top = given.given(4).map(|arg| real("cylinder", arg).map(Scalar::value)).transpose()?;
+    let look = given.look(Some(5), Some(6), 7)?;
+    shape(Shape::cylinder(given.point(0)?, given.number(1)?, given.number(2)?, axis, top, &look))
+}
+
+/// `limb(start, end, start_radius, end_radius, start_normal, end_normal, color)`.
+pub fn limb<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
+    let given = Arguments { word: "limb", args };
+    let radii = (given.number(2)?, given.number(3)?);
+    let normals = (given.direction(4)?, given.direction(5)?);
+    shape(Shape::limb(given.point(0)?, given.point(1)?, radii, normals, &given.look(None, None, 6)?))
+}
+
+/// `mesh(vertices, faces, center, rotation, scale, color)`.
+pub fn mesh<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
+    let given = Arguments { word: "mesh", args };
+    let mesh = kept_mesh(given.needed(0)?, given.needed(1)?)?;
+    let center = given.given(2).map_or(Ok(vec3(0.0, 0.0, 0.0)), |arg| point("mesh", arg))?;
+    shape(Shape::mesh(&mesh, center, given.number_or(4, 1.0)?, &given.look(Some(3), None, 5)?))
+}
+
+/// Meshes that a thread keeps, newest last.
+const KEPT: usize = 16;
+
+/// The data that a mesh was made of, and the mesh.
+type Kept = (Box<dyn Any>, Arc<TriMesh>);
+
+thread_local! {
+    /// A model places the same mesh again and again; its vertices are constants. They are told by identity, so a
+    /// hit costs nothing, and the mesh is shared by all shapes that place it.
+    static MESHES: RefCell<Vec<Kept>> = const { RefCell::new(Vec::new()) };
+}
+
+fn kept_mesh<S: Scalar>(vertices: &Value<S>, faces: &Value<S>) -> Result<Arc<TriMesh>, Fault> {
+    MESHES.with_borrow_mut(|meshes| {
+        let is_it = |kept: &Kept| {
+            kept.0
+                .downcast_ref()
+                .is_some_and(|(v, f): &(Value<S>, Value<S>)| same(v, vertices) && same(f, faces))
+        };
+        if let Some((_, mesh)) = meshes.iter().find(|kept| is_it(kept)) {
+            return Ok(Arc::clone(mesh));
+        }
+        let mesh = Arc::new(read_mesh(vertices, faces)?);
+        if meshes.len() == KEPT {
+            meshes.remove(0);
+        }
+        meshes.push((Box::new((vertices.clone(), faces.clone())), Arc::clone(&mesh)));
+        Ok(mesh)
+    })
+}
+
+fn read_mesh<S: Scalar>(vertices: &Value<S>, faces: &Value<S>) -> Result<TriMesh, Fault> {
+    let points = iter_all(vertices)?.iter().map(|v| point("mesh", v)).collect::<Result<_, _>>()?;
+    let corner = |value: &Value<S>| {
+        let n = whole("mesh", value)?;
+        u32::try_from(n).map_err(|_| Fault::bad_shape(format!("a face of `mesh` names vertex {n}")))
+    };
+    let face = |value: &Value<S>| {
+        let corners: Vec<u32> = iter_all(value)?.iter().map(corner).collect::<Result<_, _>>()?;
+        <[u32; 3]>::try_from(corners).map_err(|other| {
+            Fault::bad_shape(format!("a face of `mesh` has {} vertices, expected 3", other.len()))
+        })
+    };
+    let triangles = iter_all(faces)?.iter().map(face).collect::<Result<_, _>>()?;
+    TriMesh::new(points, triangles).map_err(refused)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::builtins::tests::{V, call, code, reals};
+    use crate::value::Value;
+    use niwaki_geom::{Shape, Solid, vec3};
+    use std::sync::Arc;
+
+    fn made(name: &str, args: &[V]) -> Shape {
+        match call(name, args) {
+            Ok(Value::Shape(shape)) => shape,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    fn at(x: f64, y: f64, z: f64) -> V {
+        V::tuple(vec![V::real(x), V::real(y), V::real(z)])
+    }
+
+    #[test]
+    fn words_place_their_solids() {
+        let cube = made("box", &[at(0.0, 1.0, 0.0), reals([2.0, 2.0, 4.0])]);
+        assert_eq!(cube.aabb().low, vec3(-1.0, 0.0, -2.0));
+        let tapered = [at(0.0, 0.0, 0.0), at(1.0, 1.0, 1.0), V::None, V::real(0.5), V::str("y")];
+        assert_eq!(made("box", &tapered).kind(), "tapered-box");
+        let log = made("cylinder", &[at(0.0, 0.0, 0.0), V::real(0.5), V::Int(4), V::str("z")]);
+        assert_eq!(log.aabb().extent().z, 4.0);
+        let color = [
+            at(0.0, 0.0, 0.0),
+            at(0.0, 1.0, 0.0),
+            V::real(0.2),
+            V::real(0.1),
+            V::None,
+            V::None,
+            at(1.0, 0.5, 0.0),
+        ];
+        assert_eq!(made("limb", &color).color(), Some([1.0, 0.5, 0.0]));
+    }
+
+    #[test]
+    fn a_mesh_is_read_once() {
+        let vertices =
+            V::list(vec![at(0.0, 0.0, 0.0), at(1.0, 0.0, 0.0), at(0.0, 1.0, 0.0), at(0.0, 0.0, 1.0)]);
+        let faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+        let faces = V::list(faces.map(|f| V::tuple(f.map(V::Int).to_vec())).to_vec());
+        let (a, b) =
+            (made("mesh", &[vertices.clone(), faces.clone()]), made("mesh", &[vertices.clone(), faces]));
+        let (Solid::Mesh(a), Solid::Mesh(b)) = (a.solid(), b.solid()) else { panic!("not meshes") };
+        assert!(Arc::ptr_eq(a, b));
+        let far = V::list(vec![V::tuple(vec![V::Int(0), V::Int(1), V::Int(9)])]);
+        assert_eq!(code("mesh", &[vertices, far]), "bad-shape");
+    }
+
+    #[test]
+    fn impossible_shapes_are_faults() {
+        assert_eq!(code("box", &[at(0.0, 0.0, 0.0), at(1.0, -1.0, 1.0)]), "bad-shape");
+        assert_eq!(code("cylinder", &[at(0.0, 0.0, 0.0), V::None, V::Int(1)]), "bad-argument");
+        assert_eq!(code("cylinder", &[at(0.0, 0.0, 0.0), V::Int(1), V::Int(1), V::str("q")]), "bad-shape");
+        assert_eq!(code("box", &[V::Int(1), at(1.0, 1.0, 1.0)]), "type-mismatch");
+    }
+}
