@@ -209,18 +209,11 @@ impl Mat3 {
         if from.dot(to) > -0.5 {
             return Mat3::between_near(from, to);
         }
-        // Near the opposite direction `k` explodes: turn half round first, then by the little that is left.
-        let axis = from.any_perpendicular();
+        // Near the opposite direction `k` explodes: half a turn about the same axis first, then back by what is
+        // too much. Only the opposite itself may take any axis.
+        let axis = from.cross(to).unit().unwrap_or_else(|| from.any_perpendicular());
         let half_turn = Mat3 { columns: Vec3::AXES.map(|v| axis * (2.0 * axis.dot(v)) - v) };
-        let rest = Mat3::between_near(-from, to);
-        // Only the opposite itself may use an arbitrary axis; elsewhere the smallest turn has its own.
-        match from.cross(to).unit() {
-            Some(own) => {
-                let half_turn = Mat3 { columns: Vec3::AXES.map(|v| own * (2.0 * own.dot(v)) - v) };
-                rest.after(&half_turn)
-            }
-            None => rest.after(&half_turn),
-        }
+        Mat3::between_near(-from, to).after(&half_turn)
     }
 
     fn between_near(from: Vec3, to: Vec3) -> Mat3 {

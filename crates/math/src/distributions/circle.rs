@@ -9,7 +9,7 @@ use std::f64::consts::{PI, TAU};
 /// Written relative to its peak, `-2 k sin^2((x - mean) / 2) - ln(2 pi exp(-k) I_0(k))`, so that a large `k`
 /// loses no digits.
 pub(super) fn log_density<S: Scalar>(mean: S, concentration: S, x: S) -> S {
-    if !(x.value().abs() <= PI) {
+    if x.value().abs() > PI || x.value().is_nan() {
         return S::from_f64(f64::NEG_INFINITY);
     }
     let sin = ((x - mean) * S::from_f64(0.5)).sin();

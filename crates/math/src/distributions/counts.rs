@@ -4,8 +4,10 @@
 //! ("Fast and accurate computation of binomial probabilities", 2000) has no such terms: with the deviance
 //! `D(x, m) = x ln(x / m) + m - x` and the error `e` of Stirling's formula,
 //!
-//!     ln poisson(k; r)     = -e(k) - D(k, r) - ln(2 pi k) / 2
-//!     ln binomial(k; n, p) = e(n) - e(k) - e(n - k) - D(k, n p) - D(n - k, n (1 - p)) + ln(n / (2 pi k (n - k))) / 2
+//! ```text
+//! ln poisson(k; r)     = -e(k) - D(k, r) - ln(2 pi k) / 2
+//! ln binomial(k; n, p) = e(n) - e(k) - e(n - k) - D(k, n p) - D(n - k, n (1 - p)) + ln(n / (2 pi k (n - k))) / 2
+//! ```
 
 use crate::scalar::Scalar;
 use crate::streams::RngCore;

@@ -84,11 +84,17 @@ pub enum Param<S: Scalar = f64> {
     Draw(Draw<S>),
 }
 
+/// A number as Python writes it.
+fn number<S: Scalar>(f: &mut fmt::Formatter<'_>, x: S) -> fmt::Result {
+    if x.value().is_nan() { f.write_str("nan") } else { write!(f, "{:?}", x.value()) }
+}
+
 /// Up to eight numbers of a row, for a message.
 fn row<S: Scalar>(f: &mut fmt::Formatter<'_>, numbers: &[S]) -> fmt::Result {
     write!(f, "[")?;
     for (k, x) in numbers.iter().take(8).enumerate() {
-        write!(f, "{}{:?}", if k > 0 { ", " } else { "" }, x.value())?;
+        write!(f, "{}", if k > 0 { ", " } else { "" })?;
+        number(f, *x)?;
     }
     write!(f, "{}]", if numbers.len() > 8 { ", ..." } else { "" })
 }
@@ -99,7 +105,7 @@ impl<S: Scalar> fmt::Display for Draw<S> {
         match self {
             Draw::Bool(b) => f.write_str(if *b { "True" } else { "False" }),
             Draw::Int(i) => write!(f, "{i}"),
-            Draw::Real(x) => write!(f, "{:?}", x.value()),
+            Draw::Real(x) => number(f, *x),
             Draw::Vector(v) => row(f, v),
         }
     }

@@ -1,6 +1,8 @@
 //! mixture: one of several distributions, chosen by weights.
 //!
-//!     density(x) = sum_k w_k density_k(x)
+//! ```text
+//! density(x) = sum_k w_k density_k(x)
+//! ```
 //!
 //! All components must give the same kind of value, measured the same way: the density of a coin or a fixed
 //! value against a Gaussian has no meaning.

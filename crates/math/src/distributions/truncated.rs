@@ -3,8 +3,10 @@
 //! In standard units `z = (x - mean) / sd` the bounds are `a < b`. With both on one side (say `0 <= a`) nothing
 //! is computed relative to the peak, which may be `exp(-1e300)` away, but relative to the near bound:
 //!
-//!     density = exp(-(z - a)(z + a) / 2) / (sqrt(2 pi) sd M),     M = exp(a^2 / 2) (Phi(b) - Phi(a))
-//!     M = (erfcx(a / sqrt 2) - exp(-(b - a)(a + b) / 2) erfcx(b / sqrt 2)) / 2
+//! ```text
+//! density = exp(-(z - a)(z + a) / 2) / (sqrt(2 pi) sd M),     M = exp(a^2 / 2) (Phi(b) - Phi(a))
+//! M = (erfcx(a / sqrt 2) - exp(-(b - a)(a + b) / 2) erfcx(b / sqrt 2)) / 2
+//! ```
 //!
 //! and `M` by quadrature where that difference would cancel. Drawing: Robert 1995, "Simulation of truncated
 //! normal variables", sections 2.1 and 2.2, with offsets from the near bound. Bounds below the mean are mirrored.

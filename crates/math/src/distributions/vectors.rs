@@ -107,14 +107,14 @@ impl<S: Scalar> MultivariateGaussian<S> {
 /// Lower triangular factor of a symmetric matrix, or `None` when it is not positive definite.
 fn cholesky<S: Scalar>(matrix: &[Vec<S>]) -> Option<Vec<Vec<S>>> {
     let mut factor: Vec<Vec<S>> = Vec::with_capacity(matrix.len());
-    for i in 0..matrix.len() {
+    for (i, given) in matrix.iter().enumerate() {
         let mut row: Vec<S> = Vec::with_capacity(i + 1);
         for j in 0..=i {
             let above: &[S] = if j < i { &factor[j] } else { &row };
-            let rest = row.iter().zip(above).take(j).fold(matrix[i][j], |rest, (a, b)| rest - *a * *b);
+            let rest = row.iter().zip(above).take(j).fold(given[j], |rest, (a, b)| rest - *a * *b);
             if j < i {
                 row.push(rest / factor[j][j]);
-            } else if rest.value() > 1e-14 * matrix[i][i].value() && rest.value() > 0.0 {
+            } else if rest.value() > 1e-14 * given[i].value() && rest.value() > 0.0 {
                 row.push(rest.sqrt());
             } else {
                 // A pivot lost in rounding: the matrix is singular as far as can be told.
