@@ -1,1 +1,3 @@
 //! Shapes, voxels, intersections, sketches and pictures.
+
+pub mod render;
