@@ -2,7 +2,7 @@
 //!
 //! Arrays are copied at the door and the interpreter is released while rays fly.
 
-use niwaki_geom::render::{self, Backdrop, Camera, Look, Surface, View};
+use niwaki_geom::render::{self, Backdrop, Camera, Shot, Surface, View};
 use numpy::{IntoPyArray, PyArray3, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -25,23 +25,30 @@ pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
                     ghost_color=None))]
 #[expect(clippy::too_many_arguments, reason = "keyword settings of one picture")]
 fn render_meshes<'py>(
-    py: Python<'py>, meshes: Vec<Mesh<'py>>, ghost: Option<Mesh<'py>>, camera: Option<Eye>, width: usize,
-    height: usize, samples: usize, backdrop: Option<([f32; 3], [f32; 3])>, floor: Option<f32>,
+    py: Python<'py>,
+    meshes: Vec<Mesh<'py>>,
+    ghost: Option<Mesh<'py>>,
+    camera: Option<Eye>,
+    width: usize,
+    height: usize,
+    samples: usize,
+    backdrop: Option<([f32; 3], [f32; 3])>,
+    floor: Option<f32>,
     ghost_color: Option<[f32; 3]>,
 ) -> PyResult<Bound<'py, PyArray3<u8>>> {
     let surfaces = meshes.iter().map(surface).collect::<PyResult<Vec<_>>>()?;
     let ghost = ghost.as_ref().map(surface).transpose()?;
-    let look = Look {
+    let shot = Shot {
         width,
         height,
         samples,
         camera: camera.map(|(eye, target, up, fov_y)| Camera { eye, target, up, fov_y }),
         floor,
         backdrop: backdrop.map_or(Backdrop::Clear, |(top, bottom)| Backdrop::Roll { top, bottom }),
-        ghost_color: ghost_color.unwrap_or(Look::default().ghost_color),
+        ghost_color: ghost_color.unwrap_or(Shot::default().ghost_color),
     };
     let bytes = py
-        .detach(|| render::render(&surfaces, ghost.as_ref(), &look))
+        .detach(|| render::render(&surfaces, ghost.as_ref(), &shot))
         .map_err(|error| PyValueError::new_err(error.to_string()))?;
     bytes.into_pyarray(py).reshape([height, width, 4])
 }
@@ -50,7 +57,11 @@ fn render_meshes<'py>(
 #[pyfunction]
 #[pyo3(signature = (points, *, azimuth=None, elevation=None, fov_y=None, margin=None, aspect=4.0 / 3.0))]
 fn frame_camera(
-    points: Vertices<'_>, azimuth: Option<f32>, elevation: Option<f32>, fov_y: Option<f32>, margin: Option<f32>,
+    points: Vertices<'_>,
+    azimuth: Option<f32>,
+    elevation: Option<f32>,
+    fov_y: Option<f32>,
+    margin: Option<f32>,
     aspect: f32,
 ) -> PyResult<Eye> {
     let usual = View::default();

@@ -108,31 +108,47 @@ impl Bvh {
     /// The nearest hit nearer than `reach`.
     pub fn hit(&self, origin: V3, direction: V3, reach: f32) -> Option<Hit> {
         let mut nearest = Hit { t: reach, triangle: u32::MAX, u: 0.0, v: 0.0 };
-        self.walk(origin, direction, |triangles, names, limit| {
-            for (triangle, &name) in triangles.iter().zip(names) {
-                if let Some((t, u, v)) = meet(triangle, origin, direction) {
-                    // Equal distances go to the smaller number, so that the answer does not depend on the tree.
-                    if t < nearest.t || (t == nearest.t && name < nearest.triangle) {
-                        nearest = Hit { t, triangle: name, u, v };
+        self.walk(
+            origin,
+            direction,
+            |triangles, names, limit| {
+                for (triangle, &name) in triangles.iter().zip(names) {
+                    if let Some((t, u, v)) = meet(triangle, origin, direction) {
+                        // Equal distances go to the smaller number, so that the answer does not depend on the tree.
+                        if t < nearest.t || (t == nearest.t && name < nearest.triangle) {
+                            nearest = Hit { t, triangle: name, u, v };
+                        }
                     }
                 }
-            }
-            *limit = nearest.t;
-            false
-        }, reach);
+                *limit = nearest.t;
+                false
+            },
+            reach,
+        );
         (nearest.triangle != u32::MAX).then_some(nearest)
     }
 
     /// Is anything nearer than `reach`?
     pub fn blocked(&self, origin: V3, direction: V3, reach: f32) -> bool {
-        self.walk(origin, direction, |triangles, _, _| {
-            triangles.iter().any(|triangle| matches!(meet(triangle, origin, direction), Some((t, ..)) if t < reach))
-        }, reach)
+        self.walk(
+            origin,
+            direction,
+            |triangles, _, _| {
+                triangles
+                    .iter()
+                    .any(|triangle| matches!(meet(triangle, origin, direction), Some((t, ..)) if t < reach))
+            },
+            reach,
+        )
     }
 
     /// Visits leaves in the ray's way, nearest first, until `leaf` answers true.
     fn walk(
-        &self, origin: V3, direction: V3, mut leaf: impl FnMut(&[Triangle], &[u32], &mut f32) -> bool, reach: f32,
+        &self,
+        origin: V3,
+        direction: V3,
+        mut leaf: impl FnMut(&[Triangle], &[u32], &mut f32) -> bool,
+        reach: f32,
     ) -> bool {
         if self.nodes.is_empty() {
             return false;
@@ -224,9 +240,8 @@ fn build(nodes: &mut Vec<Node>, items: &mut [Item], first: usize, depth: usize) 
 
 /// The axis and plane of least expected cost, or nothing when all centres coincide.
 fn split(items: &[Item]) -> Option<(usize, f32)> {
-    let centres = items
-        .iter()
-        .fold(Bounds::EMPTY, |b, item| b.with(Bounds { lo: item.centre, hi: item.centre }));
+    let centres =
+        items.iter().fold(Bounds::EMPTY, |b, item| b.with(Bounds { lo: item.centre, hi: item.centre }));
     let mut best = None;
     let mut least = f32::INFINITY;
     for axis in 0..3 {
@@ -287,7 +302,8 @@ mod tests {
     #[test]
     fn agrees_with_brute_force() {
         let mut seed = 7;
-        let mut point = |s: f32| v3(noise(&mut seed) - 0.5, noise(&mut seed) - 0.5, noise(&mut seed) - 0.5) * s;
+        let mut point =
+            |s: f32| v3(noise(&mut seed) - 0.5, noise(&mut seed) - 0.5, noise(&mut seed) - 0.5) * s;
         let corners: Vec<[V3; 3]> = (0..400)
             .map(|_| {
                 let c = point(4.0);
@@ -297,7 +313,8 @@ mod tests {
         let tree = Bvh::new(&corners);
         let mut met = 0;
         for _ in 0..2000 {
-            let (origin, direction) = (point(10.0), point(2.0));
+            let origin = point(10.0);
+            let direction = point(3.0) - origin;
             let plain = corners
                 .iter()
                 .zip(0..)

@@ -122,9 +122,17 @@ mod tests {
     #[test]
     fn framing_is_tight_and_complete() {
         let corners: Vec<[f32; 3]> = (0..8)
-            .map(|k| [if k & 1 == 0 { -9.0 } else { 9.0 }, if k & 2 == 0 { -1.0 } else { 2.0 }, if k & 4 == 0 { -10.0 } else { 5.0 }])
+            .map(|k| {
+                [
+                    if k & 1 == 0 { -9.0 } else { 9.0 },
+                    if k & 2 == 0 { -1.0 } else { 2.0 },
+                    if k & 4 == 0 { -10.0 } else { 5.0 },
+                ]
+            })
             .collect();
-        for (azimuth, elevation, aspect) in [(38.0, 24.0, 1.33), (200.0, 60.0, 0.5), (0.0, 90.0, 1.0), (90.0, 0.0, 2.0)] {
+        for (azimuth, elevation, aspect) in
+            [(38.0, 24.0, 1.33), (200.0, 60.0, 0.5), (0.0, 90.0, 1.0), (90.0, 0.0, 2.0)]
+        {
             let view = View { azimuth, elevation, ..View::default() };
             let lens = Camera::framing(&corners, view, aspect).lens(aspect);
             let seen: Vec<_> = corners.iter().map(|&c| lens.project(c.into())).collect();

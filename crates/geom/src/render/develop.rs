@@ -6,7 +6,7 @@
 use super::smooth::{Grain, smooth};
 use super::trace::{Pixel, Stage};
 use super::v3::{V3, v3};
-use super::{Backdrop, Look, tone};
+use super::{Backdrop, Shot, tone};
 use rayon::prelude::*;
 
 /// Darkest that a shadow makes the floor, as a share of its light.
@@ -26,28 +26,28 @@ impl Layer {
 }
 
 /// Develops traced pixels.
-pub fn develop(stage: &Stage, pixels: &[Pixel], look: &Look) -> Vec<u8> {
-    let width = look.width;
+pub fn develop(stage: &Stage, pixels: &[Pixel], shot: &Shot) -> Vec<u8> {
+    let width = shot.width;
     let body_light = smooth(&grains(pixels, |p| p.body_grain), width);
     let floor_light = smooth(&grains(pixels, |p| p.floor_grain), width);
-    let ghost = tone::linear(look.ghost_color);
+    let ghost = tone::linear(shot.ghost_color);
     let mut bytes = vec![0u8; 4 * pixels.len()];
     bytes.par_chunks_mut(4 * width).enumerate().for_each(|(row, line)| {
-        let below = (row as f32 + 0.5) / look.height as f32;
+        let below = (row as f32 + 0.5) / shot.height as f32;
         for (column, out) in line.chunks_exact_mut(4).enumerate() {
             let k = row * width + column;
             let pixel = &pixels[k];
-            let share = pixel.body.count / look.samples as f32;
+            let share = pixel.body.count / shot.samples as f32;
             let shade = shade(stage, pixel, floor_light[k]);
-            let mut layer = backdrop(look.backdrop, below, shade);
+            let mut layer = backdrop(shot.backdrop, below, shade);
             if share > 0.0 {
                 layer = layer.under(tone::film(scene_light(stage, pixel, body_light[k])), share);
             }
             if pixel.shell.count > 0.0 {
-                let n = look.samples as f32;
+                let n = shot.samples as f32;
                 let seen = pixel.shell.seen / n;
                 layer = layer.under(ghost, pixel.shell.opacity / n);
-                let line = outline(pixels, width, look.height, column, row);
+                let line = outline(pixels, width, shot.height, column, row);
                 layer = layer.under(ghost * 0.55, 0.72 * line * seen);
             }
             let straight = if layer.alpha > 0.0 { layer.color / layer.alpha } else { V3::ZERO };

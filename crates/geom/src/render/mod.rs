@@ -56,7 +56,7 @@ pub enum Backdrop {
 
 /// How to draw.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Look {
+pub struct Shot {
     /// Pixels across.
     pub width: usize,
     /// Pixels down.
@@ -73,9 +73,9 @@ pub struct Look {
     pub ghost_color: [f32; 3],
 }
 
-impl Default for Look {
-    fn default() -> Look {
-        Look {
+impl Default for Shot {
+    fn default() -> Shot {
+        Shot {
             width: 640,
             height: 480,
             samples: 16,
@@ -111,10 +111,14 @@ pub enum RenderError {
 impl std::fmt::Display for RenderError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            RenderError::Size { name, found } => write!(f, "{name} is {found}; it must be from 1 to {LARGEST}"),
+            RenderError::Size { name, found } => {
+                write!(f, "{name} is {found}; it must be from 1 to {LARGEST}")
+            }
             RenderError::BadMesh { surface: Some(k), reason } => write!(f, "mesh {k}: {reason}"),
             RenderError::BadMesh { surface: None, reason } => write!(f, "the ghost: {reason}"),
-            RenderError::BadCamera => write!(f, "the camera needs finite numbers and a target away from its eye"),
+            RenderError::BadCamera => {
+                write!(f, "the camera needs finite numbers and a target away from its eye")
+            }
         }
     }
 }
@@ -128,18 +132,18 @@ pub const LARGEST: usize = 16_384;
 /// straight (not premultiplied) alpha.
 ///
 /// ```
-/// use niwaki_geom::render::{render, Look, Surface};
+/// use niwaki_geom::render::{render, Shot, Surface};
 /// let triangle = Surface {
 ///     vertices: vec![[0., 0., 0.], [1., 0., 0.], [0., 1., 0.]],
 ///     faces: vec![[0, 1, 2]],
 ///     color: [0.8, 0.3, 0.2],
 ///     ..Surface::default()
 /// };
-/// let look = Look { width: 32, height: 24, samples: 4, ..Look::default() };
-/// assert_eq!(render(&[triangle], None, &look).unwrap().len(), 32 * 24 * 4);
+/// let shot = Shot { width: 32, height: 24, samples: 4, ..Shot::default() };
+/// assert_eq!(render(&[triangle], None, &shot).unwrap().len(), 32 * 24 * 4);
 /// ```
-pub fn render(surfaces: &[Surface], ghost: Option<&Surface>, look: &Look) -> Result<Vec<u8>, RenderError> {
-    for (name, found) in [("width", look.width), ("height", look.height), ("samples", look.samples)] {
+pub fn render(surfaces: &[Surface], ghost: Option<&Surface>, shot: &Shot) -> Result<Vec<u8>, RenderError> {
+    for (name, found) in [("width", shot.width), ("height", shot.height), ("samples", shot.samples)] {
         if found == 0 || found > LARGEST {
             return Err(RenderError::Size { name, found });
         }
@@ -150,10 +154,10 @@ pub fn render(surfaces: &[Surface], ghost: Option<&Surface>, look: &Look) -> Res
     if let Some(ghost) = ghost {
         check(ghost).map_err(|reason| RenderError::BadMesh { surface: None, reason })?;
     }
-    let stage = trace::Stage::new(surfaces, ghost, look).ok_or(RenderError::BadCamera)?;
-    let mut pixels = vec![trace::Pixel::default(); look.width * look.height];
-    pixels.par_chunks_mut(look.width).enumerate().for_each(|(row, line)| stage.trace_row(row, line));
-    Ok(develop::develop(&stage, &pixels, look))
+    let stage = trace::Stage::new(surfaces, ghost, shot).ok_or(RenderError::BadCamera)?;
+    let mut pixels = vec![trace::Pixel::default(); shot.width * shot.height];
+    pixels.par_chunks_mut(shot.width).enumerate().for_each(|(row, line)| stage.trace_row(row, line));
+    Ok(develop::develop(&stage, &pixels, shot))
 }
 
 fn check(surface: &Surface) -> Result<(), String> {

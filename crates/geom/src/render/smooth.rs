@@ -46,7 +46,14 @@ pub fn smooth(grains: &[Grain], width: usize) -> Vec<(V3, f32)> {
     out
 }
 
-fn around(grains: &[Grain], width: usize, height: usize, column: usize, row: usize, here: &Grain) -> (V3, f32) {
+fn around(
+    grains: &[Grain],
+    width: usize,
+    height: usize,
+    column: usize,
+    row: usize,
+    here: &Grain,
+) -> (V3, f32) {
     let (mut blocked, mut sky_weight) = (V3::ZERO, 0.0);
     let (mut sun, mut sun_weight) = (0.0, 0.0);
     for dy in -SKY..=SKY {

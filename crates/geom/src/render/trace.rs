@@ -15,7 +15,7 @@ use super::camera::{Camera, View};
 use super::light::{Directions, Light};
 use super::smooth::Grain;
 use super::v3::{V3, v3};
-use super::{Look, Surface, corners, tone};
+use super::{Shot, Surface, corners, tone};
 
 /// Share of the paint's colour that a blocking part sends back: one bounce, roughly.
 const BOUNCE: f32 = 0.42;
@@ -88,11 +88,11 @@ pub struct Pixel {
 
 impl Stage {
     /// Builds the trees; nothing when the camera is unusable.
-    pub fn new(surfaces: &[Surface], ghost: Option<&Surface>, look: &Look) -> Option<Stage> {
+    pub fn new(surfaces: &[Surface], ghost: Option<&Surface>, shot: &Shot) -> Option<Stage> {
         let parts: Vec<[V3; 3]> = surfaces.iter().flat_map(corners).collect();
         let shell: Vec<[V3; 3]> = ghost.into_iter().flat_map(corners).collect();
-        let aspect = look.width as f32 / look.height as f32;
-        let camera = look.camera.unwrap_or_else(|| {
+        let aspect = shot.width as f32 / shot.height as f32;
+        let camera = shot.camera.unwrap_or_else(|| {
             let points: Vec<[f32; 3]> = parts.iter().chain(&shell).flatten().map(|&p| p.into()).collect();
             Camera::framing(&points, View::default(), aspect)
         });
@@ -103,26 +103,31 @@ impl Stage {
         }
         // The scene's extent sets offsets, reaches and the shadow's fade; a picture of a ghost alone uses its extent.
         let extent = if parts.is_empty() { &shell } else { &parts };
-        let (lo, hi) = extent.iter().flatten().fold((V3::splat(f32::MAX), V3::splat(f32::MIN)), |(lo, hi), &p| {
-            (lo.min(p), hi.max(p))
-        });
+        let (lo, hi) = extent
+            .iter()
+            .flatten()
+            .fold((V3::splat(f32::MAX), V3::splat(f32::MIN)), |(lo, hi), &p| (lo.min(p), hi.max(p)));
         let (lo, hi) = if extent.is_empty() { (V3::splat(-1.0), V3::splat(1.0)) } else { (lo, hi) };
         Some(Stage {
             tree: Bvh::new(&parts),
             ghost: Bvh::new(&shell),
             normals: surfaces.iter().flat_map(corner_normals).collect(),
-            owner: surfaces.iter().zip(0..).flat_map(|(s, k)| std::iter::repeat_n(k, s.faces.len())).collect(),
+            owner: surfaces
+                .iter()
+                .zip(0..)
+                .flat_map(|(s, k)| std::iter::repeat_n(k, s.faces.len()))
+                .collect(),
             paints: surfaces.iter().map(|s| (tone::linear(s.color), s.gloss.clamp(0.0, 1.0))).collect(),
             ghost_normals: ghost.into_iter().flat_map(corner_normals).collect(),
             lens,
             light: Light::studio(lens.forward),
-            directions: Directions::new(look.samples),
-            floor: look.floor.unwrap_or(lo.y),
+            directions: Directions::new(shot.samples),
+            floor: shot.floor.unwrap_or(lo.y),
             middle: (lo + hi) * 0.5,
             radius: ((hi - lo).norm() * 0.5).max(1e-6),
-            samples: look.samples,
-            width: look.width,
-            height: look.height,
+            samples: shot.samples,
+            width: shot.width,
+            height: shot.height,
         })
     }
 
@@ -192,7 +197,14 @@ impl Stage {
     /// Adds the factors of a part's colour.
     #[expect(clippy::too_many_arguments, reason = "one sample's coordinates")]
     fn light_body(
-        &self, pixel: &mut Pixel, column: usize, row: usize, s: usize, direction: V3, point: V3, normal: V3,
+        &self,
+        pixel: &mut Pixel,
+        column: usize,
+        row: usize,
+        s: usize,
+        direction: V3,
+        point: V3,
+        normal: V3,
         owner: usize,
     ) {
         let _ = (column, row, s, point);
@@ -214,7 +226,16 @@ impl Stage {
 
     /// Adds what this sample sees of sun and sky from a point.
     #[expect(clippy::too_many_arguments, reason = "one sample's coordinates")]
-    fn grain(&self, grain: &mut Grain, column: usize, row: usize, s: usize, point: V3, normal: V3, distance: f32) {
+    fn grain(
+        &self,
+        grain: &mut Grain,
+        column: usize,
+        row: usize,
+        s: usize,
+        point: V3,
+        normal: V3,
+        distance: f32,
+    ) {
         let start = point + normal * (3e-4 * self.radius);
         grain.normal = grain.normal + normal;
         grain.point = grain.point + point;

@@ -1,0 +1,76 @@
+//! Boxes along the axes: the first answer to every question about where something is.
+
+use crate::vector::{Vec3, vec3};
+
+/// A closed box along the axes. The empty box has `low` above `high`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Aabb {
+    /// Smallest coordinates.
+    pub low: Vec3,
+    /// Largest coordinates.
+    pub high: Vec3,
+}
+
+impl Aabb {
+    /// The box that holds nothing.
+    pub const EMPTY: Aabb = Aabb {
+        low: vec3(f64::INFINITY, f64::INFINITY, f64::INFINITY),
+        high: vec3(f64::NEG_INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY),
+    };
+
+    /// The smallest box around `points`.
+    pub fn around(points: impl IntoIterator<Item = Vec3>) -> Aabb {
+        points.into_iter().fold(Aabb::EMPTY, |b, p| Aabb { low: b.low.min(p), high: b.high.max(p) })
+    }
+
+    /// The smallest box around both.
+    #[inline]
+    pub fn union(&self, other: &Aabb) -> Aabb {
+        Aabb { low: self.low.min(other.low), high: self.high.max(other.high) }
+    }
+
+    /// True when the closed boxes share a point.
+    #[inline]
+    pub fn meets(&self, other: &Aabb) -> bool {
+        self.low.x <= other.high.x
+            && other.low.x <= self.high.x
+            && self.low.y <= other.high.y
+            && other.low.y <= self.high.y
+            && self.low.z <= other.high.z
+            && other.low.z <= self.high.z
+    }
+
+    /// True when `other` lies inside, border included.
+    pub fn contains(&self, other: &Aabb) -> bool {
+        self.union(other) == *self
+    }
+
+    /// The box moved outwards by `by` on all six sides.
+    pub fn grown(&self, by: f64) -> Aabb {
+        let by = vec3(by, by, by);
+        Aabb { low: self.low - by, high: self.high + by }
+    }
+
+    /// Lengths of the sides (negative infinity when empty).
+    #[inline]
+    pub fn extent(&self) -> Vec3 {
+        self.high - self.low
+    }
+
+    /// The middle.
+    pub fn center(&self) -> Vec3 {
+        (self.low + self.high) * 0.5
+    }
+
+    /// True when there is no point inside.
+    pub fn is_empty(&self) -> bool {
+        self.low.x > self.high.x
+    }
+
+    /// Half the surface: what a tree of boxes tries to keep small.
+    #[inline]
+    pub fn half_area(&self) -> f64 {
+        let e = self.extent();
+        e.x * e.y + e.y * e.z + e.z * e.x
+    }
+}

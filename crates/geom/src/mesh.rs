@@ -1,0 +1,87 @@
+//! Triangle meshes: checked once, then shared.
+
+use crate::bounds::Aabb;
+use crate::error::GeomError;
+use crate::vector::Vec3;
+use std::collections::HashMap;
+
+/// Triangles over shared vertices. Every index is in range and every coordinate finite.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TriMesh {
+    vertices: Vec<Vec3>,
+    triangles: Vec<[u32; 3]>,
+}
+
+impl TriMesh {
+    /// A mesh of `vertices` (scene units) and `triangles` (three indices each).
+    ///
+    /// # Errors
+    /// `empty-mesh` without a triangle, `non-finite-mesh` and `mesh-index` for the first bad entry.
+    pub fn new(vertices: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Result<TriMesh, GeomError> {
+        if vertices.is_empty() || triangles.is_empty() {
+            let (v, t) = (vertices.len(), triangles.len());
+            return Err(GeomError::new(
+                "empty-mesh",
+                format!("a mesh needs a triangle, found {v} vertices and {t} faces"),
+            ));
+        }
+        if let Some(i) = vertices.iter().position(|v| !v.is_finite()) {
+            let message = format!("vertex {i} is {:?}, expected finite coordinates", vertices[i].to_array());
+            return Err(GeomError::new("non-finite-mesh", message));
+        }
+        let count = vertices.len();
+        if let Some(i) = triangles.iter().position(|t| t.iter().any(|v| *v as usize >= count)) {
+            let message = format!("face {i} is {:?}, but there are only {count} vertices", triangles[i]);
+            return Err(GeomError::new("mesh-index", message));
+        }
+        Ok(TriMesh { vertices, triangles })
+    }
+
+    /// The vertices.
+    pub fn vertices(&self) -> &[Vec3] {
+        &self.vertices
+    }
+
+    /// Three vertex indices for each triangle, counter-clockwise seen from outside.
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+
+    /// Corners of each triangle.
+    pub fn corners(&self) -> impl Iterator<Item = [Vec3; 3]> + '_ {
+        self.triangles.iter().map(|t| t.map(|v| self.vertices[v as usize]))
+    }
+
+    /// The smallest box around all vertices that a triangle uses.
+    pub fn aabb(&self) -> Aabb {
+        Aabb::around(self.corners().flatten())
+    }
+
+    /// The mesh with every vertex moved by `f`.
+    pub fn map(&self, f: impl Fn(Vec3) -> Vec3) -> TriMesh {
+        TriMesh { vertices: self.vertices.iter().map(|v| f(*v)).collect(), triangles: self.triangles.clone() }
+    }
+
+    /// Number of edges not shared by exactly two triangles, after merging equal vertices: zero for a closed mesh.
+    pub fn open_edges(&self) -> usize {
+        let mut first: HashMap<[u64; 3], u32> = HashMap::new();
+        // Adding zero turns -0.0 into 0.0, so that the two are one vertex.
+        let key = |v: Vec3| v.to_array().map(|c| (c + 0.0).to_bits());
+        let merged: Vec<u32> = self
+            .vertices
+            .iter()
+            .enumerate()
+            .map(|(i, v)| *first.entry(key(*v)).or_insert(i as u32))
+            .collect();
+        let mut uses: HashMap<(u32, u32), usize> = HashMap::new();
+        for t in &self.triangles {
+            let t = t.map(|v| merged[v as usize]);
+            for (a, b) in [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])] {
+                if a != b {
+                    *uses.entry((a.min(b), a.max(b))).or_insert(0) += 1;
+                }
+            }
+        }
+        uses.values().filter(|n| **n != 2).count()
+    }
+}

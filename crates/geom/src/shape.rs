@@ -1,0 +1,357 @@
+//! A shape: a solid, where it is, and how it looks. Made once, never changed, shared by counting references.
+//!
+//! Solids are centred at the origin and *placed*: first turned, then moved. Scores use the light geometry that is
+//! computed here, once, when the shape is made: inscribed polygons with few sides, sharp edges. Pictures make a
+//! finer mesh from the same solid.
+
+use crate::bounds::Aabb;
+use crate::convex::Convex;
+use crate::error::GeomError;
+use crate::hull::hull;
+use crate::mesh::TriMesh;
+use crate::topology::Topology;
+use crate::vector::{Mat3, Vec3, vec3};
+use std::sync::{Arc, OnceLock};
+
+/// Sides of a cylinder unless said otherwise (dissertation chapter 5's light geometry).
+pub const CYLINDER_SIDES: usize = 8;
+/// Sides of a limb unless said otherwise.
+pub const LIMB_SIDES: usize = 10;
+
+/// A round end of a limb: a regular polygon in the plane through `center` with unit `normal`.
+///
+/// The first vertex lies where the smallest turn from +y to the normal takes +z, so that a ring is a function of its
+/// centre, normal and radius, and two limbs that name the same ring share its vertices to the bit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ring {
+    /// Middle, scene units.
+    pub center: Vec3,
+    /// Unit direction across the ring, from the start of the limb to its end.
+    pub normal: Vec3,
+    /// Distance of the vertices from the middle.
+    pub radius: f64,
+}
+
+impl Ring {
+    /// The `sides` vertices, counter-clockwise seen against the normal.
+    pub fn vertices(&self, sides: usize) -> impl Iterator<Item = Vec3> + '_ {
+        let turn = Mat3::between(1, self.normal);
+        ring(sides).map(move |(sin, cos)| self.center + turn.apply(vec3(sin, 0.0, cos) * self.radius))
+    }
+}
+
+/// What a shape is made of, centred at the origin (a limb and a mesh: where their coordinates say).
+#[derive(Clone, Debug, PartialEq)]
+pub enum Solid {
+    /// Full side lengths.
+    Box {
+        /// Along x, y and z.
+        size: Vec3,
+    },
+    /// A box whose +z face is scaled about its middle.
+    TaperedBox {
+        /// Along x, y and z.
+        size: Vec3,
+        /// Scale of the +z face in x and y.
+        taper: f64,
+    },
+    /// A prism along +y over an inscribed polygon whose first vertex points to +z.
+    Cylinder {
+        /// Distance of the vertices from the axis.
+        radius: f64,
+        /// Along y.
+        length: f64,
+        /// Of the polygon.
+        sides: usize,
+    },
+    /// A cylinder with two radii.
+    TaperedCylinder {
+        /// At the -y end.
+        radius: f64,
+        /// At the +y end.
+        top_radius: f64,
+        /// Along y.
+        length: f64,
+        /// Of the polygon.
+        sides: usize,
+    },
+    /// Convex hull of two rings: a bent, tapered segment. Limbs that share a ring only touch, as long as each lies
+    /// on its own side of the ring's plane.
+    Limb {
+        /// First ring.
+        start: Ring,
+        /// Second ring.
+        end: Ring,
+        /// Of both rings.
+        sides: usize,
+    },
+    /// Any closed mesh.
+    Mesh(Arc<TriMesh>),
+}
+
+/// First turn, then move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placement {
+    /// A rotation.
+    pub rotation: Mat3,
+    /// Scene units.
+    pub translation: Vec3,
+}
+
+impl Placement {
+    /// Left where it is.
+    pub const IDENTITY: Placement = Placement { rotation: Mat3::IDENTITY, translation: Vec3::ZERO };
+
+    /// From the solid's own coordinates to the world's.
+    #[inline]
+    pub fn apply(&self, p: Vec3) -> Vec3 {
+        self.rotation.apply(p) + self.translation
+    }
+}
+
+#[derive(Debug)]
+struct Inner {
+    solid: Solid,
+    placement: Placement,
+    bevel: Option<f64>,
+    color: Option<[f32; 3]>,
+    aabb: Aabb,
+    convex: Option<Convex>,
+    world: OnceLock<TriMesh>,
+}
+
+/// A placed solid with its look. Cloning shares it.
+#[derive(Clone, Debug)]
+pub struct Shape(Arc<Inner>);
+
+impl PartialEq for Shape {
+    fn eq(&self, other: &Shape) -> bool {
+        let (a, b) = (&*self.0, &*other.0);
+        Arc::ptr_eq(&self.0, &other.0)
+            || (a.aabb == b.aabb
+                && a.placement == b.placement
+                && a.bevel == b.bevel
+                && a.color == b.color
+                && a.solid == b.solid)
+    }
+}
+
+impl Shape {
+    /// Places `solid` in the world and computes what scores need.
+    ///
+    /// # Errors
+    /// `bad-shape` for sizes that are not positive and finite, a placement that is not a rotation, or a flat limb.
+    pub fn new(
+        solid: Solid,
+        placement: Placement,
+        bevel: Option<f64>,
+        color: Option<[f32; 3]>,
+    ) -> Result<Shape, GeomError> {
+        check_solid(&solid)?;
+        if !placement.translation.is_finite() {
+            return bad(format!(
+                "the centre is {:?}, expected finite numbers",
+                placement.translation.to_array()
+            ));
+        }
+        let defect = placement.rotation.defect();
+        if defect.is_nan() || defect > 1e-6 {
+            return bad(format!("the rotation is not a rotation: it is off by {defect}"));
+        }
+        if let Some(b) = bevel.filter(|b| !(*b >= 0.0 && b.is_finite())) {
+            return bad(format!("the bevel is {b}, expected zero or more"));
+        }
+        if let Some(c) = color.filter(|c| !c.iter().all(|c| c.is_finite())) {
+            return bad(format!("the color is {c:?}, expected three finite numbers"));
+        }
+        let (convex, aabb) = match &solid {
+            Solid::Mesh(mesh) => (None, Aabb::around(mesh.corners().flatten().map(|p| placement.apply(p)))),
+            solid => {
+                let Some(convex) = convex(solid, &placement) else {
+                    return bad(format!("{} has no inside", kind(solid)));
+                };
+                let aabb = Aabb::around(convex.corners().iter().copied());
+                (Some(convex), aabb)
+            }
+        };
+        // Beyond this, squares and products of lengths lose all meaning.
+        let reach = aabb.union(&Aabb { low: Vec3::ZERO, high: Vec3::ZERO }).extent().norm();
+        if reach.is_nan() || reach > 1e12 {
+            return bad("the shape is farther than 1e12 from the origin".to_string());
+        }
+        Ok(Shape(Arc::new(Inner { solid, placement, bevel, color, aabb, convex, world: OnceLock::new() })))
+    }
+
+    /// The solid, in its own coordinates.
+    pub fn solid(&self) -> &Solid {
+        &self.0.solid
+    }
+
+    /// Where it is.
+    pub fn placement(&self) -> &Placement {
+        &self.0.placement
+    }
+
+    /// Rounding of edges in pictures and exports, as a share of the half lengths.
+    pub fn bevel(&self) -> Option<f64> {
+        self.0.bevel
+    }
+
+    /// Linear colour in `[0, 1]`.
+    pub fn color(&self) -> Option<[f32; 3]> {
+        self.0.color
+    }
+
+    /// `box`, `tapered-box`, `cylinder`, `tapered-cylinder`, `limb` or `mesh`.
+    pub fn kind(&self) -> &'static str {
+        kind(&self.0.solid)
+    }
+
+    /// The smallest box around the light geometry, world space.
+    #[inline]
+    pub fn aabb(&self) -> &Aabb {
+        &self.0.aabb
+    }
+
+    /// The convex solid; `None` for a mesh.
+    #[inline]
+    pub fn convex(&self) -> Option<&Convex> {
+        self.0.convex.as_ref()
+    }
+
+    /// The light geometry as triangles in the world; made when first asked for.
+    pub fn world_mesh(&self) -> &TriMesh {
+        self.0.world.get_or_init(|| {
+            let mesh = match (&self.0.solid, &self.0.convex) {
+                (Solid::Mesh(mesh), _) => Ok(mesh.map(|p| self.0.placement.apply(p))),
+                (_, Some(convex)) => {
+                    TriMesh::new(convex.vertices().to_vec(), convex.topology().triangles.clone())
+                }
+                (_, None) => Err(GeomError::new("bad-shape", "a solid without geometry")),
+            };
+            mesh.expect("checked when the shape was made")
+        })
+    }
+
+    /// Smallest length of the solid: the scale on which touching is told from overlapping.
+    pub fn thickness(&self) -> f64 {
+        let e = self.0.aabb.extent();
+        let boxed = e.x.min(e.y).min(e.z);
+        self.0.convex.as_ref().map_or(boxed, |c| boxed.min(c.width()))
+    }
+}
+
+fn kind(solid: &Solid) -> &'static str {
+    match solid {
+        Solid::Box { .. } => "box",
+        Solid::TaperedBox { .. } => "tapered-box",
+        Solid::Cylinder { .. } => "cylinder",
+        Solid::TaperedCylinder { .. } => "tapered-cylinder",
+        Solid::Limb { .. } => "limb",
+        Solid::Mesh(_) => "mesh",
+    }
+}
+
+fn bad<T>(message: String) -> Result<T, GeomError> {
+    Err(GeomError::new("bad-shape", message))
+}
+
+fn check_solid(solid: &Solid) -> Result<(), GeomError> {
+    let positive = |what: &str, x: f64| match x > 0.0 && x.is_finite() {
+        true => Ok(()),
+        false => bad(format!("the {what} of a {} is {x}, expected a positive number", kind(solid))),
+    };
+    let not_negative = |what: &str, x: f64| if x == 0.0 { Ok(()) } else { positive(what, x) };
+    let polygon = |sides: usize| match (3..=1024).contains(&sides) {
+        true => Ok(()),
+        false => bad(format!("a {} has {sides} sides, expected 3 to 1024", kind(solid))),
+    };
+    let sized = |size: Vec3| size.to_array().into_iter().try_for_each(|s| positive("size", s));
+    match solid {
+        Solid::Box { size } => sized(*size),
+        Solid::TaperedBox { size, taper } => sized(*size).and_then(|()| not_negative("taper", *taper)),
+        Solid::Cylinder { radius, length, sides } => {
+            positive("radius", *radius)?;
+            positive("length", *length)?;
+            polygon(*sides)
+        }
+        Solid::TaperedCylinder { radius, top_radius, length, sides } => {
+            positive("radius", *radius)?;
+            not_negative("top radius", *top_radius)?;
+            positive("length", *length)?;
+            polygon(*sides)
+        }
+        Solid::Limb { start, end, sides } => {
+            for ring in [start, end] {
+                positive("radius", ring.radius)?;
+                let unit = (ring.normal.norm() - 1.0).abs() < 1e-6;
+                if !ring.center.is_finite() || !unit {
+                    return bad(format!(
+                        "a limb's ring is {ring:?}, expected a finite centre and a unit normal"
+                    ));
+                }
+            }
+            polygon(*sides)
+        }
+        Solid::Mesh(_) => Ok(()),
+    }
+}
+
+fn convex(solid: &Solid, placement: &Placement) -> Option<Convex> {
+    match solid {
+        Solid::Box { size } => Convex::cuboid(cuboid(*size, 1.0, placement), &placement.rotation),
+        Solid::TaperedBox { size, taper } => {
+            let vertices = cuboid(*size, *taper, placement);
+            if *taper > 0.0 { Convex::new(vertices, Topology::cuboid()) } else { hulled(vertices) }
+        }
+        Solid::Cylinder { radius, length, sides } => prism(*radius, *radius, *length, *sides, placement),
+        Solid::TaperedCylinder { radius, top_radius, length, sides } => {
+            prism(*radius, *top_radius, *length, *sides, placement)
+        }
+        Solid::Limb { start, end, sides } => {
+            let points = start.vertices(*sides).chain(end.vertices(*sides));
+            hulled(points.map(|p| placement.apply(p)).collect())
+        }
+        Solid::Mesh(_) => None,
+    }
+}
+
+fn hulled(vertices: Vec<Vec3>) -> Option<Convex> {
+    let topology = hull(&vertices)?;
+    Convex::new(vertices, Arc::new(topology))
+}
+
+fn cuboid(size: Vec3, taper: f64, placement: &Placement) -> Vec<Vec3> {
+    let half = size * 0.5;
+    (0..8)
+        .map(|i| {
+            let sign = |bit: usize| if i >> bit & 1 == 1 { 1.0 } else { -1.0 };
+            let end = if i >> 2 == 1 { taper } else { 1.0 };
+            placement.apply(vec3(sign(0) * half.x * end, sign(1) * half.y * end, sign(2) * half.z))
+        })
+        .collect()
+}
+
+fn prism(bottom: f64, top: f64, length: f64, sides: usize, placement: &Placement) -> Option<Convex> {
+    let half = 0.5 * length;
+    let mut vertices = Vec::with_capacity(2 * sides + 2);
+    vertices.extend(ring(sides).map(|(sin, cos)| placement.apply(vec3(sin * bottom, -half, cos * bottom))));
+    if top == 0.0 {
+        vertices.push(placement.apply(vec3(0.0, half, 0.0)));
+        return hulled(vertices);
+    }
+    vertices.extend(ring(sides).map(|(sin, cos)| placement.apply(vec3(sin * top, half, cos * top))));
+    vertices.extend([-half, half].map(|y| placement.apply(vec3(0.0, y, 0.0))));
+    Convex::new(vertices, Topology::prism(sides))
+}
+
+/// Sine and cosine of `2 pi k / sides`. Exact on the axes, where flush attachment needs it.
+fn ring(sides: usize) -> impl Iterator<Item = (f64, f64)> {
+    const H: f64 = std::f64::consts::FRAC_1_SQRT_2;
+    const OCTAGON: [(f64, f64); 8] =
+        [(0.0, 1.0), (H, H), (1.0, 0.0), (H, -H), (0.0, -1.0), (-H, -H), (-1.0, 0.0), (-H, H)];
+    (0..sides).map(move |k| match 8 * k % sides {
+        0 => OCTAGON[8 * k / sides],
+        _ => (std::f64::consts::TAU * k as f64 / sides as f64).sin_cos(),
+    })
+}

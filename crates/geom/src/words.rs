@@ -1,0 +1,185 @@
+//! Shapes as a model says them: `box`, `cylinder`, `limb` and `mesh`, with centres, axes and defaults.
+
+use crate::error::GeomError;
+use crate::mesh::TriMesh;
+use crate::shape::{CYLINDER_SIDES, LIMB_SIDES, Placement, Ring, Shape, Solid};
+use crate::vector::{Mat3, Vec3, vec3};
+use std::sync::Arc;
+
+/// What every shape word takes besides its measures.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Look {
+    /// Turn about the centre, after the shape was laid along its axis.
+    pub rotation: Option<Mat3>,
+    /// Rounding of edges in pictures.
+    pub bevel: Option<f64>,
+    /// Linear colour in `[0, 1]`.
+    pub color: Option<[f32; 3]>,
+}
+
+impl Shape {
+    /// A box around `center` with full side lengths `size`.
+    ///
+    /// # Errors
+    /// `bad-shape`, as for [`Shape::new`].
+    pub fn cuboid(center: Vec3, size: Vec3, look: &Look) -> Result<Shape, GeomError> {
+        place(Solid::Box { size }, center, Mat3::IDENTITY, look)
+    }
+
+    /// A box whose face at the + end of coordinate `axis` (0, 1 or 2) is scaled by `taper` in the other two.
+    ///
+    /// # Errors
+    /// `bad-shape`, as for [`Shape::new`], and for an axis above 2.
+    pub fn tapered_box(
+        center: Vec3,
+        size: Vec3,
+        taper: f64,
+        axis: usize,
+        look: &Look,
+    ) -> Result<Shape, GeomError> {
+        if axis > 2 {
+            return Err(GeomError::new("bad-shape", format!("the taper axis is {axis}, expected 0, 1 or 2")));
+        }
+        if taper == 1.0 {
+            return Shape::cuboid(center, size, look);
+        }
+        // The solid tapers along its own z; the size is meant in the coordinates before `look.rotation`.
+        let laid = Mat3::between(2, Vec3::AXES[axis]);
+        let size = match axis {
+            0 => vec3(size.z, size.y, size.x),
+            1 => vec3(size.x, size.z, size.y),
+            _ => size,
+        };
+        place(Solid::TaperedBox { size, taper }, center, laid, look)
+    }
+
+    /// A cylinder around `center` along `axis` (any length), its `top_radius` at the end that `axis` points to.
+    ///
+    /// # Errors
+    /// `bad-shape`, as for [`Shape::new`], and for an axis without direction.
+    pub fn cylinder(
+        center: Vec3,
+        radius: f64,
+        length: f64,
+        axis: Vec3,
+        top_radius: Option<f64>,
+        look: &Look,
+    ) -> Result<Shape, GeomError> {
+        let sides = CYLINDER_SIDES;
+        let solid = match top_radius {
+            Some(top_radius) if top_radius != radius => {
+                Solid::TaperedCylinder { radius, top_radius, length, sides }
+            }
+            _ => Solid::Cylinder { radius, length, sides },
+        };
+        place(solid, center, Mat3::between(1, direction(axis, "axis")?), look)
+    }
+
+    /// A bent, tapered segment between two round ends; a normal left out is the direction from start to end.
+    ///
+    /// # Errors
+    /// `bad-shape`, as for [`Shape::new`], and when start and end coincide without normals.
+    pub fn limb(
+        start: Vec3,
+        end: Vec3,
+        radii: (f64, f64),
+        normals: (Option<Vec3>, Option<Vec3>),
+        look: &Look,
+    ) -> Result<Shape, GeomError> {
+        let normal = |given: Option<Vec3>| direction(given.unwrap_or(end - start), "normal");
+        let start = Ring { center: start, normal: normal(normals.0)?, radius: radii.0 };
+        let end = Ring { center: end, normal: normal(normals.1)?, radius: radii.1 };
+        let solid = Solid::Limb { start, end, sides: LIMB_SIDES };
+        place(solid, Vec3::ZERO, Mat3::IDENTITY, look)
+    }
+
+    /// A mesh, scaled about its own origin, turned and moved to `center`.
+    ///
+    /// # Errors
+    /// `bad-shape`, as for [`Shape::new`], and for a scale that is not positive.
+    pub fn mesh(mesh: &Arc<TriMesh>, center: Vec3, scale: f64, look: &Look) -> Result<Shape, GeomError> {
+        if !(scale > 0.0 && scale.is_finite()) {
+            return Err(GeomError::new(
+                "bad-shape",
+                format!("the scale is {scale}, expected a positive number"),
+            ));
+        }
+        let mesh = if scale == 1.0 { mesh.clone() } else { Arc::new(mesh.map(|p| p * scale)) };
+        place(Solid::Mesh(mesh), center, Mat3::IDENTITY, look)
+    }
+}
+
+fn place(solid: Solid, center: Vec3, laid: Mat3, look: &Look) -> Result<Shape, GeomError> {
+    let rotation = look.rotation.map_or(laid, |r| r.after(&laid));
+    Shape::new(solid, Placement { rotation, translation: center }, look.bevel, look.color)
+}
+
+fn direction(v: Vec3, what: &str) -> Result<Vec3, GeomError> {
+    let message = || format!("the {what} is {:?}, expected a direction", v.to_array());
+    v.unit().ok_or_else(|| GeomError::new("bad-shape", message()))
+}
+
+#[cfg(test)]
+mod tests {
+    //! Shapes lie where their words say, and impossible ones are refused.
+    use super::*;
+
+    const PLAIN: Look = Look { rotation: None, bevel: None, color: None };
+
+    #[test]
+    fn a_cylinder_laid_along_z_has_vertices_on_the_axes() {
+        let c = Shape::cylinder(vec3(1.0, 2.0, 3.0), 0.5, 4.0, vec3(0.0, 0.0, 2.0), None, &PLAIN).unwrap();
+        assert_eq!(c.aabb().low, vec3(0.5, 1.5, 1.0));
+        assert_eq!(c.aabb().high, vec3(1.5, 2.5, 5.0));
+        assert_eq!(c.convex().unwrap().normals().len(), 5);
+        assert_eq!(c.convex().unwrap().edges().len(), 5);
+        assert_eq!(c.world_mesh().open_edges(), 0);
+    }
+
+    #[test]
+    fn the_tapered_end_points_along_the_axis() {
+        let size = vec3(2.0, 4.0, 6.0);
+        for axis in 0..3 {
+            let b = Shape::tapered_box(Vec3::ZERO, size, 0.5, axis, &PLAIN).unwrap();
+            assert_eq!(b.aabb().extent(), size);
+            let top = b.convex().unwrap().corners().iter().filter(|p| p[axis] > 0.0);
+            let other = (axis + 1) % 3;
+            assert!(top.into_iter().all(|p| p[other].abs() == 0.25 * size[other]));
+        }
+    }
+
+    #[test]
+    fn a_cone_and_a_pyramid_close() {
+        let cone = Shape::cylinder(Vec3::ZERO, 1.0, 1.0, vec3(0.0, 1.0, 0.0), Some(0.0), &PLAIN).unwrap();
+        let pyramid = Shape::tapered_box(Vec3::ZERO, vec3(1.0, 1.0, 1.0), 0.0, 2, &PLAIN).unwrap();
+        for shape in [cone, pyramid] {
+            assert_eq!(shape.world_mesh().open_edges(), 0);
+        }
+    }
+
+    #[test]
+    fn limbs_that_name_the_same_ring_share_its_vertices() {
+        let (a, b, c) = (vec3(0.0, 0.0, 0.0), vec3(0.1, 2.0, 0.0), vec3(0.7, 3.8, 0.5));
+        let n = vec3(0.2, 1.0, 0.1);
+        let low = Shape::limb(a, b, (0.5, 0.4), (None, Some(n)), &PLAIN).unwrap();
+        let high = Shape::limb(b, c, (0.4, 0.3), (Some(n), None), &PLAIN).unwrap();
+        assert_eq!(low.convex().unwrap().corners()[10..], high.convex().unwrap().corners()[..10]);
+        assert_eq!(low.world_mesh().open_edges(), 0);
+    }
+
+    #[test]
+    fn impossible_shapes_are_refused() {
+        let size = vec3(1.0, -1.0, 1.0);
+        let error = Shape::cuboid(Vec3::ZERO, size, &PLAIN).unwrap_err();
+        assert_eq!(error.to_string(), "the size of a box is -1, expected a positive number");
+        assert!(Shape::cuboid(vec3(f64::NAN, 0.0, 0.0), vec3(1.0, 1.0, 1.0), &PLAIN).is_err());
+        assert!(Shape::cylinder(Vec3::ZERO, 1.0, 1.0, Vec3::ZERO, None, &PLAIN).is_err());
+        assert!(Shape::limb(Vec3::ZERO, Vec3::ZERO, (1.0, 1.0), (None, None), &PLAIN).is_err());
+        let skew = Look {
+            rotation: Some(Mat3::from_rows([[1.0, 1.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])),
+            ..PLAIN
+        };
+        assert!(Shape::cuboid(Vec3::ZERO, vec3(1.0, 1.0, 1.0), &skew).is_err());
+        assert!(TriMesh::new(vec![], vec![]).is_err());
+    }
+}
