@@ -42,6 +42,11 @@ FILE_MESSAGES: dict[str, tuple[str, str, str]] = {
         "its extent is {extent}",
         "give it a volume, such as by thickening or extruding it",
     ),
+    "setting": (
+        "`{name}` cannot be {found!r}",
+        "found {found!r}, expected {expected}",
+        "choose one of these",
+    ),
     "scene-empty": (
         "there is nothing to {verb}",
         "the scene has no parts",

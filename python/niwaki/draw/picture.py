@@ -13,7 +13,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
-from numpy.typing import NDArray
 from PIL import Image
 
 from niwaki import _engine
@@ -92,7 +91,7 @@ def picture(
         raise FileError("scene-empty", verb="draw")
     width, height = size
     meshes = surfaces(scene)
-    ghost = None if target is None else (target.vertices, target.faces, _smooth(target), (1.0, 1.0, 1.0), 0.0)
+    ghost = None if target is None else _ghost(target)
     if camera is None:
         seen = surfaces(frame) if frame is not None else meshes
         clouds = [mesh[0] for mesh in seen] + ([] if target is None else [target.vertices])
@@ -163,5 +162,7 @@ def write_whole(place: Path, data: bytes) -> Path:
     return place
 
 
-def _smooth(target: Target) -> NDArray[np.float64] | None:
-    return target.normals
+def _ghost(target: Target) -> tuple[Any, ...]:
+    """The target's mesh with normals that are smooth where it is smooth."""
+    vertices, faces, normals = _engine.Shape.mesh(target.vertices, target.faces).fine_mesh()
+    return (vertices, faces, normals, (1.0, 1.0, 1.0), 0.0)
