@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 
 type Vertices<'py> = PyReadonlyArray2<'py, f64>;
 type Faces<'py> = PyReadonlyArray2<'py, i64>;
-type Mesh<'py> = (Vertices<'py>, Faces<'py>, Option<Vertices<'py>>, [f32; 3], f32);
+type Mesh<'py> = (Vertices<'py>, Faces<'py>, Option<Vertices<'py>>, [f32; 3], [f32; 3]);
 type Eye = ([f32; 3], [f32; 3], [f32; 3], f32);
 
 /// Registers this room.
@@ -19,7 +19,7 @@ pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     Ok(())
 }
 
-/// Draws meshes `(vertices (n, 3), faces (m, 3), normals or None, sRGB colour, gloss)` as `(height, width, 4)` bytes.
+/// Draws meshes `(vertices (n, 3), faces (m, 3), normals or None, sRGB colour, (gloss, rough, pitch))` as `(height, width, 4)` bytes.
 #[pyfunction(name = "render")]
 #[pyo3(signature = (meshes, ghost=None, *, camera=None, width=640, height=480, samples=16, backdrop=None, floor=None,
                     ghost_color=None))]
@@ -75,7 +75,7 @@ fn frame_camera(
     Ok((camera.eye, camera.target, camera.up, camera.fov_y))
 }
 
-fn surface((vertices, faces, normals, color, gloss): &Mesh<'_>) -> PyResult<Surface> {
+fn surface((vertices, faces, normals, color, [gloss, rough, pitch]): &Mesh<'_>) -> PyResult<Surface> {
     let count = faces.as_array().nrows();
     let mut corners = Vec::with_capacity(count);
     for face in faces.as_array().rows() {
@@ -91,6 +91,8 @@ fn surface((vertices, faces, normals, color, gloss): &Mesh<'_>) -> PyResult<Surf
         normals: normals.as_ref().map_or(Ok(Vec::new()), |n| triples(n, "normals"))?,
         color: *color,
         gloss: *gloss,
+        rough: *rough,
+        pitch: *pitch,
     })
 }
 

@@ -21,16 +21,30 @@ Color = tuple[float, float, float]
 WARM_GREYS: tuple[Color, ...] = ((0.80, 0.78, 0.74), (0.74, 0.72, 0.69), (0.69, 0.68, 0.66))
 GRAPHITES: tuple[Color, ...] = ((0.33, 0.35, 0.38), (0.40, 0.41, 0.43), (0.27, 0.29, 0.32))
 ACCENTS: tuple[Color, ...] = ((0.80, 0.37, 0.20), (0.84, 0.45, 0.24))
-BARKS: tuple[Color, ...] = ((0.45, 0.33, 0.25), (0.42, 0.30, 0.22))
-PINES: tuple[Color, ...] = ((0.34, 0.49, 0.27), (0.29, 0.44, 0.25), (0.40, 0.54, 0.29))
+BARKS: tuple[Color, ...] = ((0.44, 0.35, 0.29),)
+PINES: tuple[Color, ...] = ((0.36, 0.47, 0.28), (0.32, 0.43, 0.28), (0.41, 0.50, 0.30))
 
 
 @dataclass(frozen=True)
 class Paint:
-    """An sRGB colour in [0, 1] and how it shines, from 0 (chalk) to 1 (lacquer)."""
+    """How a part looks.
+
+    Attributes
+    ----------
+    color
+        sRGB in [0, 1].
+    gloss
+        From 0 (chalk) to 1 (lacquer).
+    rough
+        From 0 (smooth) to 1 (foliage); in pictures only.
+    pitch
+        Size of the bumps of a rough surface, scene units.
+    """
 
     color: Color
     gloss: float
+    rough: float = 0.0
+    pitch: float = 0.0
 
 
 def paints(scene: Scene) -> list[list[Paint]]:
@@ -43,24 +57,24 @@ def paints(scene: Scene) -> list[list[Paint]]:
 def _paint(part: Part, shape: Shape, garden: bool, extent: float) -> Paint:
     own = shape.color
     limb = shape.kind == "limb"
-    if own is not None:
-        return Paint(own, 0.06 if limb else 0.12 if garden else 0.35)
     dice = zlib.crc32(part.address.encode())
     if garden:
-        return Paint(_vary(BARKS if limb else PINES, dice, 0.10), 0.05 if limb else 0.12)
+        color = own or (_vary(BARKS, dice, 0.012, 0.0) if limb else _vary(PINES, dice, 0.04, 0.012))
+        return Paint(color, 0.05, 0.35, 0.012 * extent) if limb else Paint(color, 0.08, 0.8, 0.016 * extent)
+    if own is not None:
+        return Paint(own, 0.35)
     low, high = shape.bounds
     sizes = sorted(b - a for a, b in zip(low, high, strict=True))
     if shape.kind.endswith("cylinder"):
-        return Paint(_vary(GRAPHITES, dice, 0.05), 0.5)
-    thin = sizes[0] < 0.035 * extent
-    if thin or dice % 7 == 0:
-        return Paint(_vary(ACCENTS, dice, 0.05), 0.35)
-    return Paint(_vary(WARM_GREYS, dice, 0.05), 0.35)
+        return Paint(_vary(GRAPHITES, dice, 0.05, 0.0), 0.5)
+    if sizes[0] < 0.035 * extent or dice % 7 == 0:
+        return Paint(_vary(ACCENTS, dice, 0.03, 0.004), 0.35)
+    return Paint(_vary(WARM_GREYS, dice, 0.05, 0.004), 0.35)
 
 
-def _vary(colors: tuple[Color, ...], dice: int, by: float) -> Color:
-    """One of `colors`, a little lighter or darker and turned by a degree or two."""
+def _vary(colors: tuple[Color, ...], dice: int, by: float, turn: float) -> Color:
+    """One of `colors`, made lighter or darker by up to `by` and turned in hue by up to `turn`."""
     hue, light, saturation = colorsys.rgb_to_hls(*colors[(dice >> 3) % len(colors)])
-    lift = ((dice >> 8) % 256 / 255.0 - 0.5) * by
-    turn = ((dice >> 16) % 256 / 255.0 - 0.5) * 0.02
-    return colorsys.hls_to_rgb((hue + turn) % 1.0, min(max(light + lift, 0.0), 1.0), saturation)
+    light += ((dice >> 8) % 256 / 127.5 - 1.0) * by
+    hue += ((dice >> 16) % 256 / 127.5 - 1.0) * turn
+    return colorsys.hls_to_rgb(hue % 1.0, min(max(light, 0.0), 1.0), saturation)

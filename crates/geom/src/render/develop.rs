@@ -10,7 +10,7 @@ use super::{Backdrop, Shot, tone};
 use rayon::prelude::*;
 
 /// Darkest that a shadow makes the floor, as a share of its light.
-const DEEPEST: f32 = 0.30;
+const DEEPEST: f32 = 0.20;
 
 /// Linear colour times opacity, and opacity.
 #[derive(Clone, Copy, Default)]
@@ -47,8 +47,8 @@ pub fn develop(stage: &Stage, pixels: &[Pixel], shot: &Shot) -> Vec<u8> {
                 let n = shot.samples as f32;
                 let seen = pixel.shell.seen / n;
                 layer = layer.under(ghost, pixel.shell.opacity / n);
-                let line = outline(pixels, width, shot.height, column, row);
-                layer = layer.under(ghost * 0.55, 0.72 * line * seen);
+                let line = outline(pixels, shot, column, row);
+                layer = layer.under(ghost * 0.5, 0.85 * line * seen);
             }
             let straight = if layer.alpha > 0.0 { layer.color / layer.alpha } else { V3::ZERO };
             out[0] = tone::byte(straight.x);
@@ -101,19 +101,20 @@ fn backdrop(backdrop: Backdrop, below: f32, shade: V3) -> Layer {
 
 /// How much of an edge of the ghost runs through a pixel, in `[0, 1]`: its silhouette, its creases, and where one
 /// of its sheets ends before another.
-fn outline(pixels: &[Pixel], width: usize, height: usize, column: usize, row: usize) -> f32 {
+fn outline(pixels: &[Pixel], shot: &Shot, column: usize, row: usize) -> f32 {
+    let (width, height, samples) = (shot.width, shot.height, shot.samples as f32);
     let here = &pixels[row * width + column].shell;
     let normal = here.normal.unit();
     let depth = here.depth / here.count;
-    let mut edge = 0.0f32;
+    let mut edge = 1.0 - here.count / samples;
     for (dx, dy) in [(-1i32, 0i32), (1, 0), (0, -1), (0, 1)] {
         let (x, y) = (column as i32 + dx, row as i32 + dy);
         if x < 0 || y < 0 || x >= width as i32 || y >= height as i32 {
             continue;
         }
         let there = &pixels[y as usize * width + x as usize].shell;
+        edge = edge.max(1.0 - there.count / samples);
         if there.count == 0.0 {
-            edge = 1.0;
             continue;
         }
         let crease = ((0.94 - normal.dot(there.normal.unit())) / 0.10).clamp(0.0, 1.0);

@@ -34,9 +34,9 @@ impl Light {
         Light {
             sun: (v3(0.0, 1.0, 0.0) * 1.05 - right * 0.72 - ahead * 0.30).unit(),
             spread: 0.11,
-            strength: v3(2.05, 1.90, 1.66),
-            zenith: v3(0.86, 0.98, 1.20),
-            nadir: v3(0.40, 0.37, 0.34),
+            strength: v3(2.45, 2.26, 2.00),
+            zenith: v3(0.90, 0.97, 1.10),
+            nadir: v3(0.36, 0.335, 0.31),
         }
     }
 

@@ -3,14 +3,16 @@
 //! In four steps: **trace** (`trace.rs`: each pixel keeps sums over its samples: paint, light, what blocks the
 //! light), **smooth** (`smooth.rs`), **develop** (`develop.rs`: light through a filmic curve, the backdrop with its
 //! shadow, the ghost over it), bytes. The same bits come out on any number of threads: a pixel depends on its
-//! coordinates only. Deliberately absent: textures, transparency of parts, more than one bounce.
+//! coordinates only. Deliberately absent: images on surfaces, transparency of parts, more than one bounce.
 //!
 //! - `camera.rs`  cameras, and the view that frames a box
 //! - `bvh.rs`     the nearest triangle
 //! - `light.rs`   sun, sky, directions to sample
+//! - `bump.rs`    roughness
 //! - `tone.rs`    filmic curve, sRGB
 //! - `v3.rs`      three `f32`
 
+mod bump;
 mod bvh;
 mod camera;
 mod develop;
@@ -38,6 +40,10 @@ pub struct Surface {
     pub color: [f32; 3],
     /// From 0 (chalk) to 1 (lacquer).
     pub gloss: f32,
+    /// How rough it looks, from 0 (smooth) to 1 (foliage): bumps that only light sees.
+    pub rough: f32,
+    /// Size of those bumps, scene units.
+    pub pitch: f32,
 }
 
 /// What stands behind the scene.
@@ -175,8 +181,8 @@ fn check(surface: &Surface) -> Result<(), String> {
     if let Some(k) = surface.normals.iter().position(|v| !finite(v)) {
         return Err(format!("normal {k} is not finite"));
     }
-    if !finite(&surface.color) || !surface.gloss.is_finite() {
-        return Err("its colour or gloss is not finite".into());
+    if !finite(&surface.color) || !(surface.gloss + surface.rough + surface.pitch).is_finite() {
+        return Err("its colour, gloss, roughness or pitch is not finite".into());
     }
     Ok(())
 }

@@ -2,15 +2,20 @@
 
 use super::v3::{V3, v3};
 
-/// Scale between scene light and the curve's input.
-const EXPOSURE: f32 = 0.62;
+/// Brightness that becomes paper white.
+const WHITE: f32 = 2.9;
+/// Strength of the toe: 0 leaves the shadows as light has them.
+const TOE: f32 = 0.35;
 
-/// A filmic curve: a gentle toe, a shoulder that lets highlights keep their colour (the rational fit of
-/// Narkowicz 2015). Linear in, linear out, in `[0, 1]`.
+/// A filmic curve: the shoulder of Reinhard et al. 2002, eq. 4, then a gentle S in the square root, where the eye sees
+/// steps as equal. Linear in, linear out, in `[0, 1]`.
 pub fn film(light: V3) -> V3 {
     let curve = |x: f32| {
-        let x = x.max(0.0) * EXPOSURE;
-        (x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14)).clamp(0.0, 1.0)
+        let x = x.max(0.0);
+        let root = (x * (1.0 + x / (WHITE * WHITE)) / (1.0 + x)).min(1.0).sqrt();
+        let bent = root * root * (3.0 - 2.0 * root);
+        let root = root + TOE * (bent - root);
+        root * root
     };
     v3(curve(light.x), curve(light.y), curve(light.z))
 }

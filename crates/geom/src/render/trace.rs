@@ -10,6 +10,7 @@
 //! with `sun` (the share of the sun that is seen) and `blocked` (sky light that something hides) taken after
 //! smoothing, and `seen` the share of the sky that is left.
 
+use super::bump;
 use super::bvh::Bvh;
 use super::camera::{Camera, View};
 use super::light::{Directions, Light};
@@ -20,13 +21,21 @@ use super::{Shot, Surface, corners, tone};
 /// Share of the paint's colour that a blocking part sends back: one bounce, roughly.
 const BOUNCE: f32 = 0.42;
 
+/// A surface's look.
+struct Paint {
+    color: V3,
+    gloss: f32,
+    rough: f32,
+    pitch: f32,
+}
+
 /// Everything that rays can meet.
 pub struct Stage {
     tree: Bvh,
     ghost: Bvh,
     normals: Vec<[V3; 3]>,
     owner: Vec<u32>,
-    paints: Vec<(V3, f32)>,
+    paints: Vec<Paint>,
     ghost_normals: Vec<[V3; 3]>,
     lens: super::camera::Lens,
     pub(super) light: Light,
@@ -117,7 +126,15 @@ impl Stage {
                 .zip(0..)
                 .flat_map(|(s, k)| std::iter::repeat_n(k, s.faces.len()))
                 .collect(),
-            paints: surfaces.iter().map(|s| (tone::linear(s.color), s.gloss.clamp(0.0, 1.0))).collect(),
+            paints: surfaces
+                .iter()
+                .map(|s| Paint {
+                    color: tone::linear(s.color),
+                    gloss: s.gloss.clamp(0.0, 1.0),
+                    rough: if s.pitch > 0.0 { s.rough.clamp(0.0, 1.0) } else { 0.0 },
+                    pitch: s.pitch,
+                })
+                .collect(),
             ghost_normals: ghost.into_iter().flat_map(corner_normals).collect(),
             lens,
             light: Light::studio(lens.forward),
@@ -164,7 +181,8 @@ impl Stage {
                     normal = if normal.dot(direction) > 0.35 { -normal } else { lean(normal, direction) };
                 }
                 let point = eye + direction * hit.t;
-                self.light_body(pixel, column, row, s, direction, point, normal, self.owner[face] as usize);
+                let paint = &self.paints[self.owner[face] as usize];
+                self.light_body(&mut pixel.body, paint, direction, point, normal);
                 self.grain(&mut pixel.body_grain, column, row, s, point, normal, hit.t);
             }
             _ if floor.is_finite() && eye.y > self.floor => {
@@ -189,34 +207,28 @@ impl Stage {
             shell.depth += hit.t / self.radius;
             if hit.t < front || !matches!(front, t if t.is_finite()) {
                 shell.seen += 1.0;
-                shell.opacity += 0.10 + 0.38 * (1.0 - facing).powi(3);
+                shell.opacity += 0.055 + 0.42 * (1.0 - facing).powi(3);
             }
         }
     }
 
     /// Adds the factors of a part's colour.
-    #[expect(clippy::too_many_arguments, reason = "one sample's coordinates")]
-    fn light_body(
-        &self,
-        pixel: &mut Pixel,
-        column: usize,
-        row: usize,
-        s: usize,
-        direction: V3,
-        point: V3,
-        normal: V3,
-        owner: usize,
-    ) {
-        let _ = (column, row, s, point);
-        let (paint, gloss) = self.paints[owner];
+    fn light_body(&self, body: &mut Body, look: &Paint, direction: V3, point: V3, smooth: V3) {
         let light = &self.light;
-        let facing = normal.dot(light.sun).max(0.0);
+        let (mut normal, mut paint) = (smooth, look.color);
+        if look.rough > 0.0 {
+            // Bumps turn the normal, and hollows are darker than ridges.
+            let (height, slope) = bump::field(point / look.pitch);
+            normal = (smooth - (slope - smooth * slope.dot(smooth)) * (0.5 * look.rough)).unit();
+            paint = paint * (1.0 + 0.45 * look.rough * height);
+        }
+        let facing = if smooth.dot(light.sun) > 0.0 { normal.dot(light.sun).max(0.0) } else { 0.0 };
         let half = (light.sun - direction).unit();
         let grazing = (1.0 + direction.dot(normal)).clamp(0.0, 1.0);
-        let fresnel = gloss * (0.05 + 0.55 * grazing.powi(4));
+        let fresnel = look.gloss * (0.05 + 0.55 * grazing.powi(4));
         let mirrored = direction - normal * (2.0 * direction.dot(normal));
-        let highlight = if facing > 0.0 { 0.45 * gloss * normal.dot(half).max(0.0).powi(48) } else { 0.0 };
-        let body = &mut pixel.body;
+        let highlight =
+            if facing > 0.0 { 0.45 * look.gloss * normal.dot(half).max(0.0).powi(48) } else { 0.0 };
         body.count += 1.0;
         body.paint = body.paint + paint;
         body.sunlit = body.sunlit + (paint * facing + V3::splat(highlight)).tint(light.strength);
@@ -246,7 +258,7 @@ impl Stage {
         if let Some(hit) = self.tree.hit(start, direction, reach) {
             // Far blockers matter less than the picture of a closed room would have it: they are lit themselves.
             let near = 1.0 - hit.t / reach;
-            let other = self.paints[self.owner[hit.triangle as usize] as usize].0;
+            let other = self.paints[self.owner[hit.triangle as usize] as usize].color;
             let back = other.tint(self.light.open_sky(-direction)) * BOUNCE;
             grain.blocked = grain.blocked + (self.light.sky(direction) - back) * (near * (2.0 - near));
         } else if direction.y < 0.0 && start.y > self.floor {
