@@ -3,7 +3,6 @@
 //! One file for each room behind the door; this one only registers them.
 
 mod pictures;
-mod shapes;
 
 use pyo3::prelude::*;
 
@@ -12,6 +11,5 @@ use pyo3::prelude::*;
 fn _engine(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     pictures::register(module)?;
-    shapes::register(module)?;
     Ok(())
 }

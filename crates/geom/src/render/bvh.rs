@@ -4,7 +4,7 @@
 //! by the test of Möller & Trumbore 1997. Our own hundred lines rather than the `bvh` crate, which would bring
 //! `nalgebra` with it. The tree and the answers depend on the triangles only, never on threads.
 
-use super::v3::{V3, v3};
+use super::v3::{V3, least, most, v3};
 
 /// Bins for each axis; more than this no longer makes better trees.
 const BINS: usize = 16;
@@ -155,9 +155,13 @@ impl Bvh {
         }
         let inverse = v3(1.0 / direction.x, 1.0 / direction.y, 1.0 / direction.z);
         let mut limit = reach;
+        let root = entry(&self.nodes[0], origin, inverse);
+        if root >= limit {
+            return false; // most rays from the floor; they need no stack
+        }
         let mut stack = [(0u32, 0.0f32); STACK];
         let mut height = 1;
-        stack[0] = (0, entry(&self.nodes[0], origin, inverse));
+        stack[0] = (0, root);
         while height > 0 {
             height -= 1;
             let (index, near) = stack[height];
@@ -196,9 +200,9 @@ fn entry(node: &Node, origin: V3, inverse: V3) -> f32 {
     let a = (node.lo - origin).tint(inverse);
     let b = (node.hi - origin).tint(inverse);
     let (lo, hi) = (a.min(b), a.max(b));
-    let near = lo.x.max(lo.y).max(lo.z).max(0.0);
+    let near = most(most(lo.x, lo.y), most(lo.z, 0.0));
     // A little slack keeps rays from slipping between boxes that touch.
-    let far = hi.x.min(hi.y).min(hi.z) * 1.000_001;
+    let far = least(least(hi.x, hi.y), hi.z) * 1.000_001;
     if near <= far { near } else { f32::INFINITY }
 }
 

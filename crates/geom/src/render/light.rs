@@ -58,7 +58,7 @@ impl Light {
 pub struct Directions {
     disc: Vec<[f32; 2]>,
     pixel: Vec<[f32; 2]>,
-    count: usize,
+    turns: usize,
 }
 
 impl Directions {
@@ -69,13 +69,14 @@ impl Directions {
             let k = k as f64 + 0.5;
             [(0.754_877_666_246_692_7 * k).fract(), (0.569_840_290_998_053_2 * k).fract()]
         };
+        let turns = count.div_ceil(2); // samples take turns at sky and sun
         let disc = BAYER
             .iter()
-            .flat_map(|&turn| (0..count).map(move |s| s * TILE * TILE + turn))
+            .flat_map(|&turn| (0..turns).map(move |s| s * TILE * TILE + turn))
             .map(|k| concentric(lattice(k)))
             .collect();
         let pixel = (0..count).map(|k| lattice(k).map(|c| c as f32)).collect();
-        Directions { disc, pixel, count }
+        Directions { disc, pixel, turns }
     }
 
     /// Where in the pixel sample `s` lies, each coordinate in `[0, 1)`.
@@ -83,21 +84,21 @@ impl Directions {
         self.pixel[s]
     }
 
-    /// A point of the unit disc for sample `s` of a pixel.
-    pub fn on_disc(&self, column: usize, row: usize, s: usize) -> [f32; 2] {
-        self.disc[((row % TILE) * TILE + column % TILE) * self.count + s]
+    /// A point of the unit disc for a pixel's sample number `turn`.
+    fn on_disc(&self, column: usize, row: usize, turn: usize) -> [f32; 2] {
+        self.disc[((row % TILE) * TILE + column % TILE) * self.turns + turn]
     }
 
     /// A direction about `normal`, cosine-weighted.
-    pub fn about(&self, normal: V3, column: usize, row: usize, s: usize) -> V3 {
-        let [x, y] = self.on_disc(column, row, s);
+    pub fn about(&self, normal: V3, column: usize, row: usize, turn: usize) -> V3 {
+        let [x, y] = self.on_disc(column, row, turn);
         let (tangent, bitangent) = normal.frame();
         tangent * x + bitangent * y + normal * (1.0 - x * x - y * y).max(0.0).sqrt()
     }
 
     /// A direction towards the sun's disc.
-    pub fn sunward(&self, light: &Light, column: usize, row: usize, s: usize) -> V3 {
-        let [x, y] = self.on_disc(column, row, s);
+    pub fn sunward(&self, light: &Light, column: usize, row: usize, turn: usize) -> V3 {
+        let [x, y] = self.on_disc(column, row, turn);
         let (tangent, bitangent) = light.sun.frame();
         (light.sun + (tangent * x + bitangent * y) * light.spread).unit()
     }
@@ -123,7 +124,7 @@ mod tests {
     #[test]
     fn open_sky_is_the_mean_of_the_sky() {
         let light = Light::studio(v3(0.0, 0.0, -1.0));
-        let directions = Directions::new(64);
+        let directions = Directions::new(128);
         for normal in [v3(0., 1., 0.), v3(0.6, -0.8, 0.), v3(0.48, 0.6, -0.64)] {
             let mut sum = V3::ZERO;
             for k in 0..TILE * TILE {

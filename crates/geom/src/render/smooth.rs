@@ -16,6 +16,8 @@ pub struct Grain {
     pub point: V3,
     /// Width of the pixel on the surface, scene units.
     pub footprint: f32,
+    /// Samples that met the surface.
+    pub count: f32,
     /// Mean sky light that is blocked.
     pub blocked: V3,
     /// Samples behind `blocked`.
@@ -29,7 +31,7 @@ pub struct Grain {
 /// Half-width of the neighbourhood for the sky, pixels.
 const SKY: i32 = 4;
 /// Half-width for the sun, whose shadows have edges worth keeping.
-const SUN: i32 = 2;
+const SUN: i32 = 3;
 
 /// For every pixel the smoothed `(blocked, sun)`.
 pub fn smooth(grains: &[Grain], width: usize) -> Vec<(V3, f32)> {
@@ -38,7 +40,7 @@ pub fn smooth(grains: &[Grain], width: usize) -> Vec<(V3, f32)> {
     out.par_chunks_mut(width.max(1)).enumerate().for_each(|(row, line)| {
         for (column, answer) in line.iter_mut().enumerate() {
             let here = &grains[row * width + column];
-            if here.sky_weight > 0.0 {
+            if here.count > 0.0 {
                 *answer = around(grains, width, height, column, row, here);
             }
         }
@@ -67,7 +69,7 @@ fn around(
                 continue;
             }
             let there = &grains[y as usize * width + x as usize];
-            if there.sky_weight == 0.0 {
+            if there.count == 0.0 {
                 continue;
             }
             let agree = here.normal.dot(there.normal).max(0.0).powi(16);
@@ -110,6 +112,7 @@ mod tests {
                     point: v3((k % width) as f32, 0.0, (k / width) as f32),
                     footprint: 1.0,
                     blocked: V3::splat(if left { 0.0 } else { 1.0 }),
+                    count: 16.0,
                     sky_weight: 16.0,
                     sun: (k % 2) as f32,
                     sun_weight: 16.0,

@@ -252,39 +252,50 @@ impl Stage {
         grain.normal = grain.normal + normal;
         grain.point = grain.point + point;
         grain.footprint += 2.0 * self.lens.half_height * distance / self.height as f32;
-        grain.sky_weight += 1.0;
-        let direction = self.directions.about(normal, column, row, s);
+        grain.count += 1.0;
+        // Samples take turns: one asks the sky, the next the sun. Smoothing makes up for it.
+        let (turn, both) = (s / 2, self.samples == 1);
+        if both || s % 2 == 0 {
+            grain.sky_weight += 1.0;
+            grain.blocked = grain.blocked + self.blocked_sky(start, normal, column, row, turn);
+        }
+        if (both || s % 2 == 1) && normal.dot(self.light.sun) > 0.0 {
+            grain.sun_weight += 1.0;
+            let sunward = self.directions.sunward(&self.light, column, row, turn);
+            if !self.tree.blocked(start, sunward, f32::INFINITY) {
+                grain.sun += 1.0;
+            }
+        }
+    }
+
+    /// The sky light from one direction about the normal that something hides, less what that sends back.
+    fn blocked_sky(&self, start: V3, normal: V3, column: usize, row: usize, turn: usize) -> V3 {
+        let direction = self.directions.about(normal, column, row, turn);
         let reach = 1.3 * self.radius;
         if let Some(hit) = self.tree.hit(start, direction, reach) {
             // Far blockers matter less than the picture of a closed room would have it: they are lit themselves.
             let near = 1.0 - hit.t / reach;
             let other = self.paints[self.owner[hit.triangle as usize] as usize].color;
             let back = other.tint(self.light.open_sky(-direction)) * BOUNCE;
-            grain.blocked = grain.blocked + (self.light.sky(direction) - back) * (near * (2.0 - near));
-        } else if direction.y < 0.0 && start.y > self.floor {
+            return (self.light.sky(direction) - back) * (near * (2.0 - near));
+        }
+        if direction.y < 0.0 && start.y > self.floor {
             // The floor below a part lies in the part's own shadow: less light comes up the closer it is.
             let height = (start.y - self.floor) / (0.35 * self.radius);
-            let dark = 0.75 / (1.0 + height * height);
-            grain.blocked = grain.blocked + self.light.sky(direction) * (dark * -direction.y);
+            return self.light.sky(direction) * (-0.75 * direction.y / (1.0 + height * height));
         }
-        if normal.dot(self.light.sun) > 0.0 {
-            grain.sun_weight += 1.0;
-            let sunward = self.directions.sunward(&self.light, column, row, s);
-            if !self.tree.blocked(start, sunward, f32::INFINITY) {
-                grain.sun += 1.0;
-            }
-        }
+        V3::ZERO
     }
 }
 
 /// Sums to means.
 fn finish(grain: &mut Grain) {
-    if grain.sky_weight > 0.0 {
-        let n = grain.sky_weight;
+    if grain.count > 0.0 {
+        let n = grain.count;
         grain.normal = grain.normal.unit();
         grain.point = grain.point / n;
         grain.footprint /= n;
-        grain.blocked = grain.blocked / n;
+        grain.blocked = grain.blocked / grain.sky_weight.max(1.0);
     }
     grain.sun = if grain.sun_weight > 0.0 { grain.sun / grain.sun_weight } else { 1.0 };
 }

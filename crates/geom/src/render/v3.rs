@@ -57,12 +57,12 @@ impl V3 {
 
     /// Component-wise minimum.
     pub fn min(self, o: V3) -> V3 {
-        v3(self.x.min(o.x), self.y.min(o.y), self.z.min(o.z))
+        v3(least(self.x, o.x), least(self.y, o.y), least(self.z, o.z))
     }
 
     /// Component-wise maximum.
     pub fn max(self, o: V3) -> V3 {
-        v3(self.x.max(o.x), self.y.max(o.y), self.z.max(o.z))
+        v3(most(self.x, o.x), most(self.y, o.y), most(self.z, o.z))
     }
 
     /// From `self` at `t = 0` to `o` at `t = 1`.
@@ -91,6 +91,16 @@ impl V3 {
             v3(b, sign + self.y * self.y * a, -self.y),
         )
     }
+}
+
+/// The smaller number; unlike `f32::min` it need not care for NaN, and so is one instruction.
+pub fn least(a: f32, b: f32) -> f32 {
+    if a < b { a } else { b }
+}
+
+/// The larger number, likewise.
+pub fn most(a: f32, b: f32) -> f32 {
+    if a > b { a } else { b }
 }
 
 impl From<[f32; 3]> for V3 {
