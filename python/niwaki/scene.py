@@ -16,6 +16,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from niwaki import _engine
+
 if TYPE_CHECKING:
     from PIL.Image import Image
 
@@ -69,7 +71,7 @@ class Scene:
     @property
     def bounds(self) -> NDArray[np.float64]:
         """Low and high corner of the smallest box around all shapes, (2, 3); zeros for an empty scene."""
-        boxes = np.array([shape.bounds for part in self.parts for shape in part.shapes], dtype=np.float64)
+        boxes = np.array([shape.aabb() for part in self.parts for shape in part.shapes], dtype=np.float64)
         if len(boxes) == 0:
             return np.zeros((2, 3))
         return np.stack([boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)])
@@ -96,7 +98,7 @@ class Scene:
         vertices, faces, count = [np.zeros((0, 3))], [np.zeros((0, 3), dtype=np.int64)], 0
         for part in self.parts:
             for shape in part.shapes:
-                v, f = shape.fine_mesh()[:2] if fine else shape.light_mesh()
+                v, f = _engine.fine_mesh(shape)[:2] if fine else (shape.vertices(), shape.faces())
                 vertices.append(v)
                 faces.append(f + count)
                 count += len(v)

@@ -1,8 +1,11 @@
 //! Shapes, voxels, intersections, sketches and pictures.
 //!
 //! - [`vector`], [`bounds`]: points, rotations, boxes along the axes
-//! - [`mesh`], [`topology`], [`hull`], [`convex`]: surfaces and convex solids
+//! - [`mesh`], [`topology`], [`hull`], [`limb`], [`convex`]: surfaces and convex solids
 //! - [`shape`], [`words`], [`primitive`]: what a model emits
+//! - [`voxel`]: which cells of a grid a shape fills
+//! - [`intersect`]: whether two shapes intersect
+//! - [`tree`]: a bag of boxes that copies share
 //! - [`sketch`]: running scores of what was emitted
 //! - [`fine`], [`render`]: meshes with many sides, and pictures of them
 
@@ -11,21 +14,30 @@ pub mod convex;
 pub mod error;
 pub mod fine;
 pub mod hull;
+pub mod intersect;
+pub mod limb;
 pub mod mesh;
 pub mod primitive;
 pub mod render;
 pub mod shape;
 pub mod sketch;
 pub mod topology;
+pub mod tree;
 pub mod vector;
+pub mod voxel;
 pub mod words;
 
 pub use bounds::Aabb;
 pub use convex::Convex;
 pub use error::GeomError;
+pub use intersect::{Rule, intersects};
 pub use mesh::TriMesh;
 pub use primitive::Primitive;
 pub use shape::{Placement, Ring, Shape, Solid};
+pub use sketch::intersection::{NoSelfIntersection, no_self_intersection};
+pub use sketch::product::Sketches;
+pub use sketch::volume::{Target, VolumeMatch, volume_match};
 pub use sketch::{Sketch, SketchSpec};
 pub use vector::{Mat3, Vec3, vec3};
+pub use voxel::{Grid, Voxels};
 pub use words::Look;

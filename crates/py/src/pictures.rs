@@ -2,8 +2,11 @@
 //!
 //! Arrays are copied at the door and the interpreter is released while rays fly.
 
+use crate::geometry::PyShape;
 use niwaki_geom::render::{self, Backdrop, Camera, Shot, Surface, View};
-use numpy::{IntoPyArray, PyArray3, PyArrayMethods, PyReadonlyArray2};
+use niwaki_geom::{Vec3, fine};
+use numpy::ndarray::Array2;
+use numpy::{IntoPyArray, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -12,10 +15,14 @@ type Faces<'py> = PyReadonlyArray2<'py, i64>;
 type Mesh<'py> = (Vertices<'py>, Faces<'py>, Option<Vertices<'py>>, [f32; 3], [f32; 3]);
 type Eye = ([f32; 3], [f32; 3], [f32; 3], f32);
 
+/// `(vertices (n, 3), faces (m, 3), normals (n, 3))`.
+type Arrays<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<i64>>, Bound<'py, PyArray2<f64>>);
+
 /// Registers this room.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(render_meshes, module)?)?;
     module.add_function(wrap_pyfunction!(frame_camera, module)?)?;
+    module.add_function(wrap_pyfunction!(fine_mesh, module)?)?;
     Ok(())
 }
 
@@ -73,6 +80,15 @@ fn frame_camera(
     };
     let camera = Camera::framing(&triples(&points, "points")?, view, aspect);
     Ok((camera.eye, camera.target, camera.up, camera.fov_y))
+}
+
+/// The mesh of pictures and exports: `(vertices (n, 3), faces (m, 3), unit normals (n, 3))`, world space.
+#[pyfunction]
+fn fine_mesh<'py>(py: Python<'py>, shape: &PyShape) -> Arrays<'py> {
+    let mesh = py.detach(|| fine::fine_mesh(&shape.0));
+    let points = |p: &[Vec3]| Array2::from_shape_fn((p.len(), 3), |(i, k)| p[i][k]).into_pyarray(py);
+    let faces = Array2::from_shape_fn((mesh.faces.len(), 3), |(i, k)| i64::from(mesh.faces[i][k]));
+    (points(&mesh.vertices), faces.into_pyarray(py), points(&mesh.normals))
 }
 
 fn surface((vertices, faces, normals, color, [gloss, rough, pitch]): &Mesh<'_>) -> PyResult<Surface> {

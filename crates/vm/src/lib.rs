@@ -1,1 +1,5 @@
 //! The machine that runs a procedural model.
+
+pub mod builtins;
+pub mod fault;
+pub mod value;

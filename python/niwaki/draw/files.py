@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from niwaki import _engine
 from niwaki.draw.palette import Paint, paints
 from niwaki.draw.picture import write_whole
 from niwaki.file_errors import FileError
@@ -112,7 +113,7 @@ def _groups(scene: Scene) -> list[tuple[Part, list[Group]]]:
     for part, part_paints in zip(scene.parts, paints(scene), strict=True):
         groups: dict[Paint, list[tuple[NDArray[Any], NDArray[Any], NDArray[Any]]]] = {}
         for shape, paint in zip(part.shapes, part_paints, strict=True):
-            groups.setdefault(paint, []).append(shape.fine_mesh())
+            groups.setdefault(paint, []).append(_engine.fine_mesh(shape))
         merged: list[Group] = []
         for paint, meshes in groups.items():
             starts = np.cumsum([0, *(len(vertices) for vertices, _, _ in meshes)])

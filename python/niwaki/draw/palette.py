@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import colorsys
 import zlib
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -55,7 +56,7 @@ def paints(scene: Scene) -> list[list[Paint]]:
 
 
 def _paint(part: Part, shape: Shape, garden: bool, extent: float) -> Paint:
-    own = shape.color
+    own = None if shape.color is None else _triple(shape.color)
     limb = shape.kind == "limb"
     dice = zlib.crc32(part.address.encode())
     if garden:
@@ -63,7 +64,7 @@ def _paint(part: Part, shape: Shape, garden: bool, extent: float) -> Paint:
         return Paint(color, 0.05, 0.35, 0.012 * extent) if limb else Paint(color, 0.08, 0.8, 0.016 * extent)
     if own is not None:
         return Paint(own, 0.35)
-    low, high = shape.bounds
+    low, high = shape.aabb()
     sizes = sorted(b - a for a, b in zip(low, high, strict=True))
     if shape.kind.endswith("cylinder"):
         return Paint(_vary(GRAPHITES, dice, 0.05, 0.0), 0.5)
@@ -78,3 +79,8 @@ def _vary(colors: tuple[Color, ...], dice: int, by: float, turn: float) -> Color
     light += ((dice >> 8) % 256 / 127.5 - 1.0) * by
     hue += ((dice >> 16) % 256 / 127.5 - 1.0) * turn
     return colorsys.hls_to_rgb(hue % 1.0, min(max(light, 0.0), 1.0), saturation)
+
+
+def _triple(color: Sequence[float]) -> Color:
+    red, green, blue = color
+    return (red, green, blue)

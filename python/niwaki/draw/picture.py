@@ -118,7 +118,7 @@ def surfaces(scene: Scene) -> list[tuple[Any, ...]]:
     meshes = []
     for part, part_paints in zip(scene.parts, paints(scene), strict=True):
         for shape, paint in zip(part.shapes, part_paints, strict=True):
-            vertices, faces, normals = shape.fine_mesh()
+            vertices, faces, normals = _engine.fine_mesh(shape)
             meshes.append((vertices, faces, normals, paint.color, (paint.gloss, paint.rough, paint.pitch)))
     return meshes
 
@@ -164,5 +164,5 @@ def write_whole(place: Path, data: bytes) -> Path:
 
 def _ghost(target: Target) -> tuple[Any, ...]:
     """The target's mesh with normals that are smooth where it is smooth."""
-    vertices, faces, normals = _engine.Shape.mesh(target.vertices, target.faces).fine_mesh()
+    vertices, faces, normals = _engine.fine_mesh(_engine.Shape.mesh(target.vertices, target.faces))
     return (vertices, faces, normals, (1.0, 1.0, 1.0), (0.0, 0.0, 0.0))

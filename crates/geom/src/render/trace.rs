@@ -255,11 +255,11 @@ impl Stage {
         grain.count += 1.0;
         // Samples take turns: one asks the sky, the next the sun. Smoothing makes up for it.
         let (turn, both) = (s / 2, self.samples == 1);
-        if both || s % 2 == 0 {
+        if both || s.is_multiple_of(2) {
             grain.sky_weight += 1.0;
             grain.blocked = grain.blocked + self.blocked_sky(start, normal, column, row, turn);
         }
-        if (both || s % 2 == 1) && normal.dot(self.light.sun) > 0.0 {
+        if (both || !s.is_multiple_of(2)) && normal.dot(self.light.sun) > 0.0 {
             grain.sun_weight += 1.0;
             let sunward = self.directions.sunward(&self.light, column, row, turn);
             if !self.tree.blocked(start, sunward, f32::INFINITY) {

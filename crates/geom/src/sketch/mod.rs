@@ -2,8 +2,18 @@
 //!
 //! What a sketch keeps is a sum of integers or an order statistic, so its score is the same to the bit whatever the
 //! order of adding, and adding then removing gives the old sketch back.
+//!
+//! - [`volume`], over [`counters`]: fill a target's volume
+//! - [`intersection`]: parts must not run into each other
+//! - [`product`]: several sketches of one scene
+
+pub mod counters;
+pub mod intersection;
+pub mod product;
+pub mod volume;
 
 use crate::primitive::Primitive;
+use crate::tree::BoxTree;
 
 /// A running score of a bag of primitives.
 pub trait Sketch: Send + Sync {
@@ -27,4 +37,12 @@ pub trait SketchSpec: Send + Sync {
     fn name(&self) -> &'static str;
     /// The sketch of the empty scene.
     fn start(&self) -> Box<dyn Sketch>;
+}
+
+/// Equality of bags: every item of one is in the other as often.
+pub(crate) fn same_bag(a: &BoxTree<Primitive>, b: &BoxTree<Primitive>) -> bool {
+    let mut rest = a.clone();
+    let mut same = a.len() == b.len();
+    b.each(|aabb, primitive| same = same && rest.remove(aabb, |p| p == primitive).is_some());
+    same
 }

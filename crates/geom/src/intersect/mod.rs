@@ -1,0 +1,85 @@
+//! Do two shapes intersect? Touching never counts, so that parts can be built flush.
+//!
+//! - [`axes`]: convex solids, by separating axes
+//! - [`triangles`]: surfaces, triangle by triangle
+//! - [`inside`]: containment in a closed mesh
+//!
+//! Two rules. *Solid*: the insides overlap by more than a millionth of the thinner solid; one inside the other
+//! counts. *Surface*: the surfaces cross, as the original tests it; containment and overlap of equal cross-sections
+//! are not seen. Use it to compare with the published figures.
+
+pub mod axes;
+pub mod inside;
+pub mod triangles;
+
+use crate::primitive::Primitive;
+use crate::shape::Shape;
+use std::cmp::Ordering;
+use triangles::Crossing;
+
+/// What counts as an intersection.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rule {
+    /// Insides overlap.
+    Solid,
+    /// Surfaces cross (dissertation chapter 5's test).
+    Surface,
+}
+
+/// Share of the thinner solid's thickness by which solids must overlap.
+pub const SOLID_TOLERANCE: f64 = 1e-6;
+/// Below this share, convex solids are apart under the surface rule without looking at triangles.
+const APART: f64 = 1e-9;
+
+/// True when any shape of one intersects any shape of the other.
+pub fn primitives_intersect(a: &Primitive, b: &Primitive, rule: Rule) -> bool {
+    a.shapes().iter().any(|s| b.shapes().iter().any(|t| intersects(s, t, rule)))
+}
+
+/// True when the shapes intersect. The answer is the same to the bit for (b, a).
+pub fn intersects(a: &Shape, b: &Shape, rule: Rule) -> bool {
+    if !a.aabb().meets(b.aabb()) {
+        return false;
+    }
+    // One order for each pair, so that rounding cannot make the answer depend on who came first.
+    let (a, b) = if ordered(a, b) == Ordering::Greater { (b, a) } else { (a, b) };
+    let thickness = a.thickness().min(b.thickness());
+    match (rule, a.convex(), b.convex()) {
+        (Rule::Solid, Some(p), Some(q)) => {
+            let tolerance = SOLID_TOLERANCE * thickness;
+            if axes::boxes_apart(a.aabb(), b.aabb(), tolerance) {
+                return false;
+            }
+            (p.is_aligned_box() && q.is_aligned_box()) || axes::overlap(p, q, tolerance)
+        }
+        (Rule::Solid, _, _) => {
+            let tolerance = SOLID_TOLERANCE * thickness;
+            !axes::boxes_apart(a.aabb(), b.aabb(), tolerance)
+                && (triangles::cross(a, b, Crossing::Deeper(tolerance)) || inside::overlap(a, b))
+        }
+        (Rule::Surface, Some(p), Some(q)) => {
+            let tolerance = APART * thickness;
+            !axes::boxes_apart(a.aabb(), b.aabb(), tolerance)
+                && !axes::faces_apart(p, q, tolerance)
+                && triangles::cross(a, b, Crossing::Original)
+        }
+        (Rule::Surface, _, _) => triangles::cross(a, b, Crossing::Original),
+    }
+}
+
+/// Any total order that tells different shapes apart; equal ones need none.
+fn ordered(a: &Shape, b: &Shape) -> Ordering {
+    let key = |s: &Shape| {
+        let b = s.aabb();
+        [b.low.x, b.low.y, b.low.z, b.high.x, b.high.y, b.high.z]
+    };
+    let compare = |p: &[f64], q: &[f64]| {
+        p.iter().zip(q).map(|(p, q)| p.total_cmp(q)).find(|o| o.is_ne()).unwrap_or(p.len().cmp(&q.len()))
+    };
+    compare(&key(a), &key(b)).then_with(|| {
+        let flat = |s: &Shape| -> Vec<f64> {
+            s.world_mesh().corners().flatten().flat_map(|p| p.to_array()).collect()
+        };
+        compare(&flat(a), &flat(b))
+    })
+}

@@ -1,0 +1,187 @@
+//! How many shapes fill each cell, as bit-sliced binary counters in bricks that copies share.
+//!
+//! A brick is 64 by 8 by 8 cells: 64 words, one bit for each cell. Plane `k` holds bit `k` of every cell's count.
+//! Adding a set of cells is a ripple carry, removing one a ripple borrow, 64 cells for each word operation:
+//!
+//! ```text
+//! carry = cells;   plane, carry = plane ^ carry, plane & carry      (then the next plane)
+//! borrow = cells;  plane, borrow = plane ^ borrow, !plane & borrow
+//! ```
+//!
+//! Planes appear when a count needs them and go when the last one of it is gone, and a brick without counts is not
+//! stored, so that equal counts are equal data.
+
+use crate::voxel::{CellBox, Voxels};
+use std::sync::Arc;
+
+/// Cells along x, y and z in one brick.
+pub const BRICK: [usize; 3] = [64, 8, 8];
+
+/// One bit for each cell of a brick; word `8 * z + y`.
+pub type Plane = [u64; 64];
+
+/// Cells of a grid as planes, brick by brick, x fastest.
+pub fn bricks_of(dims: [usize; 3]) -> [usize; 3] {
+    std::array::from_fn(|a| dims[a].div_ceil(BRICK[a]))
+}
+
+/// What a change did to the number of filled cells.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Change {
+    /// Cells that became filled, less those that became empty.
+    pub filled: i64,
+    /// The same, among the cells of the target.
+    pub inside: i64,
+}
+
+type Brick = Vec<Plane>;
+
+/// A count for every cell of a grid. Cloning shares all bricks.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Counters {
+    bricks: Arc<Vec<Option<Arc<Brick>>>>,
+    across: [usize; 3],
+}
+
+impl Counters {
+    /// All zero.
+    pub fn new(dims: [usize; 3]) -> Counters {
+        let across = bricks_of(dims);
+        Counters { bricks: Arc::new(vec![None; across.iter().product()]), across }
+    }
+
+    /// Adds one to every cell of `voxels`; `target` tells which filled cells are wanted.
+    pub fn add(&mut self, voxels: &Voxels, target: &[Plane]) -> Change {
+        let bricks = Arc::make_mut(&mut self.bricks);
+        let mut change = Change::default();
+        visit(&voxels.cells, self.across, |index, column, words| {
+            let brick = Arc::make_mut(bricks[index].get_or_insert_with(Arc::default));
+            for (word, y, z) in words {
+                let cells = voxels.word(column, y, z);
+                let (mut carry, mut before) = (cells, 0);
+                for plane in brick.iter_mut() {
+                    let old = plane[word];
+                    before |= old;
+                    plane[word] = old ^ carry;
+                    carry &= old;
+                }
+                if carry != 0 {
+                    brick.push([0; 64]);
+                    let top = brick.len() - 1;
+                    brick[top][word] = carry;
+                }
+                let new = cells & !before;
+                change.filled += i64::from(new.count_ones());
+                change.inside += i64::from((new & target[index][word]).count_ones());
+            }
+            if brick.is_empty() {
+                bricks[index] = None;
+            }
+        });
+        change
+    }
+
+    /// Takes one from every cell of `voxels`, all of which must have one.
+    pub fn remove(&mut self, voxels: &Voxels, target: &[Plane]) -> Change {
+        let bricks = Arc::make_mut(&mut self.bricks);
+        let mut change = Change::default();
+        visit(&voxels.cells, self.across, |index, column, words| {
+            let Some(brick) = &mut bricks[index] else { return };
+            let brick = Arc::make_mut(brick);
+            for (word, y, z) in words {
+                let cells = voxels.word(column, y, z);
+                let (mut borrow, mut after) = (cells, 0);
+                for plane in brick.iter_mut() {
+                    let old = plane[word];
+                    plane[word] = old ^ borrow;
+                    borrow &= !old;
+                    after |= plane[word];
+                }
+                debug_assert_eq!(borrow, 0, "a cell was emptied that nothing filled");
+                let gone = cells & !after;
+                change.filled -= i64::from(gone.count_ones());
+                change.inside -= i64::from((gone & target[index][word]).count_ones());
+            }
+            while brick.last().is_some_and(|top| top.iter().all(|w| *w == 0)) {
+                brick.pop();
+            }
+            if brick.is_empty() {
+                bricks[index] = None;
+            }
+        });
+        change
+    }
+
+    /// Count of one cell.
+    pub fn get(&self, cell: [usize; 3]) -> u32 {
+        let [x, y, z] = cell;
+        let index = ((z / 8) * self.across[1] + y / 8) * self.across[0] + x / 64;
+        let planes = self.bricks[index].as_ref().map_or(&[][..], |b| &b[..]);
+        let bit = |(k, plane): (usize, &Plane)| ((plane[z % 8 * 8 + y % 8] >> (x % 64) & 1) as u32) << k;
+        planes.iter().enumerate().map(bit).sum()
+    }
+
+    /// Bricks that this and `other` share in memory.
+    pub fn shared_with(&self, other: &Counters) -> usize {
+        let pairs = self.bricks.iter().zip(other.bricks.iter());
+        pairs.filter(|(a, b)| matches!((a, b), (Some(a), Some(b)) if Arc::ptr_eq(a, b))).count()
+    }
+}
+
+/// Walks the bricks that `cells` touch: index of the brick, its place along x, and its words with their rows (y, z).
+fn visit(cells: &CellBox, across: [usize; 3], mut f: impl FnMut(usize, usize, Words)) {
+    let range = |a: usize| cells.low[a] / BRICK[a]..=cells.high[a] / BRICK[a];
+    for bz in range(2) {
+        for by in range(1) {
+            for bx in range(0) {
+                let within = |a: usize, b: usize| {
+                    let first = cells.low[a].max(b * BRICK[a]);
+                    (first, cells.high[a].min(b * BRICK[a] + BRICK[a] - 1))
+                };
+                let (y, z) = (within(1, by), within(2, bz));
+                f(
+                    (bz * across[1] + by) * across[0] + bx,
+                    bx,
+                    Words { first_y: y.0, last_y: y.1, y: y.0, z: z.0, last_z: z.1 },
+                );
+            }
+        }
+    }
+}
+
+struct Words {
+    first_y: usize,
+    last_y: usize,
+    last_z: usize,
+    y: usize,
+    z: usize,
+}
+
+impl Iterator for Words {
+    type Item = (usize, usize, usize);
+    #[inline]
+    fn next(&mut self) -> Option<(usize, usize, usize)> {
+        if self.z > self.last_z {
+            return None;
+        }
+        let row = (self.z % 8 * 8 + self.y % 8, self.y, self.z);
+        if self.y == self.last_y {
+            (self.y, self.z) = (self.first_y, self.z + 1);
+        } else {
+            self.y += 1;
+        }
+        Some(row)
+    }
+}
+
+/// The cells of `voxels` as planes, brick by brick.
+pub fn planes_of(voxels: &Voxels, dims: [usize; 3]) -> Vec<Plane> {
+    let across = bricks_of(dims);
+    let mut planes = vec![[0; 64]; across.iter().product()];
+    visit(&voxels.cells, across, |index, column, words| {
+        for (word, y, z) in words {
+            planes[index][word] = voxels.word(column, y, z);
+        }
+    });
+    planes
+}

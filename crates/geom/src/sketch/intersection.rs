@@ -1,0 +1,94 @@
+//! No self-intersection: the number of pairs of primitives that intersect must be zero.
+//!
+//! Pieces of one primitive are not tested against each other. A tree of boxes that copies share finds the few
+//! primitives near a new one, so that the price does not grow with what is far away.
+
+use super::{Sketch, SketchSpec, same_bag};
+use crate::intersect::{Rule, primitives_intersect};
+use crate::primitive::Primitive;
+use crate::tree::BoxTree;
+use std::sync::Arc;
+
+struct IntersectionSpec {
+    rule: Rule,
+}
+
+/// Forbids scenes in which two primitives intersect by `rule`.
+pub fn no_self_intersection(rule: Rule) -> Arc<dyn SketchSpec> {
+    Arc::new(IntersectionSpec { rule })
+}
+
+impl SketchSpec for IntersectionSpec {
+    fn name(&self) -> &'static str {
+        "no_self_intersection"
+    }
+
+    fn start(&self) -> Box<dyn Sketch> {
+        Box::new(NoSelfIntersection::new(self.rule))
+    }
+}
+
+/// The primitives so far and how many pairs of them intersect.
+#[derive(Clone, Debug)]
+pub struct NoSelfIntersection {
+    rule: Rule,
+    boxes: BoxTree<Primitive>,
+    pairs: u64,
+}
+
+impl NoSelfIntersection {
+    /// The empty scene.
+    pub fn new(rule: Rule) -> NoSelfIntersection {
+        NoSelfIntersection { rule, boxes: BoxTree::default(), pairs: 0 }
+    }
+
+    /// Number of pairs of primitives that intersect.
+    pub fn pairs(&self) -> u64 {
+        self.pairs
+    }
+
+    fn pairs_with(&self, primitive: &Primitive) -> u64 {
+        let mut pairs = 0;
+        self.boxes.visit(primitive.aabb(), |_, p| {
+            pairs += u64::from(primitives_intersect(p, primitive, self.rule))
+        });
+        pairs
+    }
+}
+
+impl PartialEq for NoSelfIntersection {
+    fn eq(&self, other: &NoSelfIntersection) -> bool {
+        (self.rule, self.pairs) == (other.rule, other.pairs) && same_bag(&self.boxes, &other.boxes)
+    }
+}
+
+impl Sketch for NoSelfIntersection {
+    fn name(&self) -> &'static str {
+        "no_self_intersection"
+    }
+
+    fn add(&mut self, primitive: &Primitive) {
+        self.pairs += self.pairs_with(primitive);
+        self.boxes.insert(*primitive.aabb(), primitive.clone());
+    }
+
+    fn remove(&mut self, primitive: &Primitive) -> bool {
+        if self.boxes.remove(primitive.aabb(), |p| p == primitive).is_none() {
+            return false;
+        }
+        self.pairs -= self.pairs_with(primitive);
+        true
+    }
+
+    fn log_score(&self) -> f64 {
+        if self.pairs == 0 { 0.0 } else { f64::NEG_INFINITY }
+    }
+
+    fn fork(&self) -> Box<dyn Sketch> {
+        Box::new(self.clone())
+    }
+
+    fn measures(&self) -> Vec<(&'static str, f64)> {
+        vec![("intersecting_pairs", self.pairs as f64)]
+    }
+}

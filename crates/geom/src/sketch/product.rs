@@ -1,0 +1,168 @@
+//! Several sketches of one scene: scores multiply, so their logs add.
+//!
+//! The order is the order of asking: when one says that the scene is forbidden, those after it are not asked, and
+//! wait with what they have not seen. They catch up as soon as the ones before allow the scene again, so the state
+//! that a scene leads to does not depend on the way there.
+
+use super::{Sketch, SketchSpec};
+use crate::primitive::Primitive;
+use std::sync::Arc;
+
+/// An ordered list of sketches, scored together.
+#[derive(Default)]
+pub struct Sketches {
+    members: Vec<Member>,
+}
+
+struct Member {
+    sketch: Box<dyn Sketch>,
+    /// Primitives of the scene that the sketch has not seen yet.
+    waiting: Vec<Primitive>,
+}
+
+impl Member {
+    fn fork(&self) -> Member {
+        Member { sketch: self.sketch.fork(), waiting: self.waiting.clone() }
+    }
+}
+
+impl Clone for Sketches {
+    fn clone(&self) -> Sketches {
+        self.fork()
+    }
+}
+
+impl Sketches {
+    /// The empty scene as `specs` see it, in order.
+    pub fn start(specs: &[Arc<dyn SketchSpec>]) -> Sketches {
+        let member = |spec: &Arc<dyn SketchSpec>| Member { sketch: spec.start(), waiting: Vec::new() };
+        Sketches { members: specs.iter().map(member).collect() }
+    }
+
+    /// Number of sketches.
+    pub fn len(&self) -> usize {
+        self.members.len()
+    }
+
+    /// True when nothing is scored.
+    pub fn is_empty(&self) -> bool {
+        self.members.is_empty()
+    }
+
+    /// The sketches, in order. One after the first that forbids the scene may not have seen all of it.
+    pub fn iter(&self) -> impl Iterator<Item = &dyn Sketch> {
+        self.members.iter().map(|m| &*m.sketch)
+    }
+
+    /// Adds a primitive to the scene; returns the name of the first sketch that forbids it now.
+    pub fn add(&mut self, primitive: &Primitive) -> Option<&'static str> {
+        self.members.iter_mut().for_each(|m| m.waiting.push(primitive.clone()));
+        self.catch_up()
+    }
+
+    /// Takes a primitive out of the scene; false, and nothing changed, when the scene has none like it.
+    pub fn remove(&mut self, primitive: &Primitive) -> bool {
+        for (i, member) in self.members.iter_mut().enumerate() {
+            if let Some(at) = member.waiting.iter().position(|p| p == primitive) {
+                member.waiting.remove(at);
+            } else if !member.sketch.remove(primitive) {
+                // All members hold the same scene, so the first one knows.
+                debug_assert_eq!(i, 0, "sketches of one scene disagree about it");
+                return false;
+            }
+        }
+        self.catch_up();
+        true
+    }
+
+    /// Name of the first sketch that forbids the scene.
+    pub fn forbidden_by(&self) -> Option<&'static str> {
+        self.iter().find(|s| s.log_score() == f64::NEG_INFINITY).map(|s| s.name())
+    }
+
+    /// Sum of the log scores, each rounded to a multiple of 2^-32, so that the sum is exact in any order.
+    pub fn log_score(&self) -> f64 {
+        let mut sum = 0.0;
+        for member in &self.members {
+            let score = member.sketch.log_score();
+            if score == f64::NEG_INFINITY {
+                return score;
+            }
+            sum += grid(score);
+        }
+        sum
+    }
+
+    /// A copy that shares what neither changes.
+    pub fn fork(&self) -> Sketches {
+        Sketches { members: self.members.iter().map(Member::fork).collect() }
+    }
+
+    /// Named numbers of all sketches, in order.
+    pub fn measures(&self) -> Vec<(&'static str, f64)> {
+        self.iter().flat_map(|s| s.measures()).collect()
+    }
+
+    /// Shows each sketch what waits for it, up to the first that forbids the scene.
+    fn catch_up(&mut self) -> Option<&'static str> {
+        for member in &mut self.members {
+            for primitive in member.waiting.drain(..) {
+                member.sketch.add(&primitive);
+            }
+            if member.sketch.log_score() == f64::NEG_INFINITY {
+                return Some(member.sketch.name());
+            }
+        }
+        None
+    }
+}
+
+/// The nearest multiple of 2^-32, for scores below a million nats; infinities pass.
+fn grid(x: f64) -> f64 {
+    const SHIFT: f64 = 1.5 * 1_048_576.0;
+    if x.abs() < 524_288.0 { (x + SHIFT) - SHIFT } else { x.round() }
+}
+
+#[cfg(test)]
+mod tests {
+    //! Forbidden scenes stop the later sketches, which catch up when the scene is allowed again.
+    use super::*;
+    use crate::{Look, Rule, Shape, Target, no_self_intersection, vec3, volume_match};
+
+    fn cube(x: f64) -> Primitive {
+        let shape = Shape::cuboid(vec3(x, 0.0, 0.0), vec3(1.0, 1.0, 1.0), &Look::default()).unwrap();
+        Primitive::new([shape])
+    }
+
+    #[test]
+    fn rounding_is_to_multiples_of_two_to_the_minus_32() {
+        let x = -86.02f64;
+        assert_eq!(grid(x), (x * 4294967296.0).round() / 4294967296.0);
+        assert_eq!(grid(f64::NEG_INFINITY), f64::NEG_INFINITY);
+    }
+
+    #[test]
+    fn later_sketches_wait_and_catch_up() {
+        let mesh = cube(0.0).shapes()[0].world_mesh().clone();
+        let target = Arc::new(Target::new(mesh, 0.1).unwrap());
+        let specs = [no_self_intersection(Rule::Solid), volume_match(target, 0.02).unwrap()];
+        let mut scene = Sketches::start(&specs);
+        let empty = scene.log_score();
+        assert_eq!(scene.add(&cube(0.0)), None);
+        let one = scene.log_score();
+        assert!(one > empty);
+        assert_eq!(scene.add(&cube(0.5)), Some("no_self_intersection"));
+        assert_eq!(scene.log_score(), f64::NEG_INFINITY);
+        assert_eq!(scene.add(&cube(1.5)), Some("no_self_intersection"));
+        assert!(!scene.remove(&cube(7.0)));
+        assert!(scene.remove(&cube(0.5)));
+        let mut plain = Sketches::start(&specs);
+        plain.add(&cube(1.5));
+        plain.add(&cube(0.0));
+        assert_eq!(scene.log_score(), plain.log_score());
+        assert!(scene.remove(&cube(1.5)));
+        assert_eq!(scene.log_score(), one);
+        assert!(scene.remove(&cube(0.0)));
+        assert_eq!(scene.log_score(), empty);
+    }
+}

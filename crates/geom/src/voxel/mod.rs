@@ -1,0 +1,112 @@
+//! Which cells of a grid a solid fills.
+//!
+//! A cell counts as filled when its closed cube meets the closed solid: surface cells are found conservatively, then
+//! what they enclose is filled. Each shape is voxelised and filled alone, so that a union never depends on order
+//! (differs: the original's fill sees the accumulated grid).
+//!
+//! - [`grid`]: the domain and its cells; world to grid coordinates
+//! - [`surface`], [`fill`]: triangle meshes, the plain way
+//! - [`slabs`]: convex solids, row by row; must agree with the plain way
+
+pub mod fill;
+pub mod grid;
+pub mod slabs;
+pub mod surface;
+
+pub use grid::Grid;
+
+use crate::shape::Shape;
+use surface::Bits;
+
+/// Cells from `low` to `high`, both included.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CellBox {
+    /// Smallest indices.
+    pub low: [usize; 3],
+    /// Largest indices.
+    pub high: [usize; 3],
+}
+
+/// The cells of a grid that a shape fills.
+#[derive(Clone, Debug)]
+pub struct Voxels {
+    /// The box around them.
+    pub cells: CellBox,
+    kind: Kind,
+}
+
+#[derive(Clone, Debug)]
+enum Kind {
+    /// Every cell of the box.
+    Block,
+    /// For each (y, z) of the box, y fastest, the first and last x; nothing when first is above last.
+    Rows(Vec<(u32, u32)>),
+    /// Any set.
+    Bits(Bits),
+}
+
+impl Voxels {
+    /// Cells of `grid` that `shape` fills; `None` when it fills none.
+    pub fn of(shape: &Shape, grid: &Grid) -> Option<Voxels> {
+        match shape.convex() {
+            Some(convex) if convex.is_aligned_box() => {
+                let cells = grid.cells_of(shape.aabb())?;
+                Some(Voxels { cells, kind: Kind::Block })
+            }
+            Some(convex) => {
+                let cells = grid.cells_of(shape.aabb())?;
+                Some(Voxels { cells, kind: Kind::Rows(slabs::rows(convex, grid, &cells)) })
+            }
+            None => Voxels::of_mesh(shape.world_mesh(), grid),
+        }
+    }
+
+    /// Cells that a closed mesh fills, the plain way.
+    pub fn of_mesh(mesh: &crate::mesh::TriMesh, grid: &Grid) -> Option<Voxels> {
+        let bits = fill::solid(mesh, grid)?;
+        let high = std::array::from_fn(|a| grid.dims()[a] - 1);
+        Some(Voxels { cells: bits.cells_within(&CellBox { low: [0; 3], high })?, kind: Kind::Bits(bits) })
+    }
+
+    /// Cells `64 * column ..` of row (y, z), the lowest x in the lowest bit. (y, z) must lie in the box.
+    #[inline]
+    pub fn word(&self, column: usize, y: usize, z: usize) -> u64 {
+        let (first, last) = match &self.kind {
+            Kind::Block => (self.cells.low[0], self.cells.high[0]),
+            Kind::Rows(rows) => {
+                let [_, y0, z0] = self.cells.low;
+                let (first, last) = rows[(z - z0) * (self.cells.high[1] - y0 + 1) + (y - y0)];
+                (first as usize, last as usize)
+            }
+            Kind::Bits(bits) => {
+                return bits.word(column, y, z) & run(column, self.cells.low[0], self.cells.high[0]);
+            }
+        };
+        run(column, first, last)
+    }
+
+    /// True when the cell is filled.
+    pub fn contains(&self, cell: [usize; 3]) -> bool {
+        let within = (0..3).all(|a| (self.cells.low[a]..=self.cells.high[a]).contains(&cell[a]));
+        within && self.word(cell[0] / 64, cell[1], cell[2]) >> (cell[0] % 64) & 1 == 1
+    }
+
+    /// Number of filled cells.
+    pub fn count(&self) -> usize {
+        let CellBox { low, high } = self.cells;
+        let rows = (low[2]..=high[2]).flat_map(|z| (low[1]..=high[1]).map(move |y| (y, z)));
+        let words = rows.flat_map(|(y, z)| (low[0] / 64..=high[0] / 64).map(move |c| (c, y, z)));
+        words.map(|(c, y, z)| self.word(c, y, z).count_ones() as usize).sum()
+    }
+}
+
+/// Bits of the word `column` that stand for `first..=last`.
+#[inline]
+fn run(column: usize, first: usize, last: usize) -> u64 {
+    let base = column * 64;
+    let (first, end) = (first.max(base), (last + 1).min(base + 64));
+    if first >= end {
+        return 0;
+    }
+    (u64::MAX >> (64 - (end - first))) << (first - base)
+}

@@ -1,0 +1,159 @@
+//! Conservative surface voxels: every cell whose closed cube a triangle touches.
+//!
+//! Triangle against box by separating axes (Akenine-Moeller 2001): the box's three normals, the triangle's, and the
+//! nine products of edges, in grid coordinates where the cell is a unit cube.
+
+use super::CellBox;
+use super::grid::{Grid, TOUCH};
+use crate::mesh::TriMesh;
+use crate::vector::{Vec3, vec3};
+
+/// Tolerance of the tests against the triangle's plane and edges, cells.
+pub const PLANE: f64 = 1e-5;
+
+/// A dense set of cells in a box, x in the bits of words. Unlike a grid, the box may start below zero.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bits {
+    low: [i64; 3],
+    dims: [usize; 3],
+    columns: usize,
+    pub(super) words: Vec<u64>,
+}
+
+impl Bits {
+    /// The empty set over cells `low..=high`. The first x is rounded down to a whole word.
+    pub fn empty(low: [i64; 3], high: [i64; 3]) -> Bits {
+        let low = [low[0].div_euclid(64) * 64, low[1], low[2]];
+        let dims: [usize; 3] = std::array::from_fn(|a| (high[a] - low[a] + 1).max(0) as usize);
+        let columns = dims[0].div_ceil(64);
+        Bits { low, dims, columns, words: vec![0; columns * dims[1] * dims[2]] }
+    }
+
+    /// Words of one row.
+    pub(super) fn columns(&self) -> usize {
+        self.columns
+    }
+
+    /// Rows along y and z.
+    pub(super) fn rows(&self) -> [usize; 2] {
+        [self.dims[1], self.dims[2]]
+    }
+
+    /// First cell of the box.
+    pub(super) fn low(&self) -> [i64; 3] {
+        self.low
+    }
+
+    fn place(&self, x: i64, y: i64, z: i64) -> Option<(usize, u32)> {
+        let [x, y, z] = [x - self.low[0], y - self.low[1], z - self.low[2]];
+        let inside = x >= 0 && y >= 0 && z >= 0;
+        if !inside || x as usize >= self.dims[0] || y as usize >= self.dims[1] || z as usize >= self.dims[2] {
+            return None;
+        }
+        let row = z as usize * self.dims[1] + y as usize;
+        Some((row * self.columns + x as usize / 64, x as u32 % 64))
+    }
+
+    /// True when the cell is in the set.
+    pub fn get(&self, x: i64, y: i64, z: i64) -> bool {
+        self.place(x, y, z).is_some_and(|(word, bit)| self.words[word] >> bit & 1 == 1)
+    }
+
+    /// Puts a cell into the set; cells outside of the box are left out.
+    pub fn set(&mut self, x: i64, y: i64, z: i64) {
+        if let Some((word, bit)) = self.place(x, y, z) {
+            self.words[word] |= 1 << bit;
+        }
+    }
+
+    /// Cells `64 * column ..` of a row.
+    #[inline]
+    pub fn word(&self, column: usize, y: usize, z: usize) -> u64 {
+        self.place(column as i64 * 64, y as i64, z as i64).map_or(0, |(word, _)| self.words[word])
+    }
+
+    /// The part of the box inside `limits`; `None` when there is none.
+    pub fn cells_within(&self, limits: &CellBox) -> Option<CellBox> {
+        let mut cells = *limits;
+        for a in 0..3 {
+            let last = self.low[a] + self.dims[a] as i64 - 1;
+            if last < limits.low[a] as i64 || self.low[a] > limits.high[a] as i64 {
+                return None;
+            }
+            cells.low[a] = cells.low[a].max(self.low[a].max(0) as usize);
+            cells.high[a] = cells.high[a].min(last as usize);
+        }
+        Some(cells)
+    }
+}
+
+/// Corners of a triangle in grid coordinates, with the cells of its box.
+pub(super) fn in_grid(corners: [Vec3; 3], grid: &Grid) -> ([Vec3; 3], [i64; 3], [i64; 3]) {
+    let t = corners.map(|p| grid.to_grid(p));
+    let low = t[0].min(t[1]).min(t[2]);
+    let high = t[0].max(t[1]).max(t[2]);
+    let first = low.to_array().map(|x| (x - TOUCH).floor() as i64);
+    let last = high.to_array().map(|x| (x + TOUCH).floor() as i64);
+    (t, first, last)
+}
+
+/// Sets every cell of `bits` that a triangle of `mesh` touches.
+pub fn mark(mesh: &TriMesh, grid: &Grid, bits: &mut Bits) {
+    let end: [i64; 3] = std::array::from_fn(|a| bits.low[a] + bits.dims[a] as i64 - 1);
+    for corners in mesh.corners() {
+        let (t, first, last) = in_grid(corners, grid);
+        let axes = separating_axes(&t);
+        for z in first[2].max(bits.low[2])..=last[2].min(end[2]) {
+            for y in first[1].max(bits.low[1])..=last[1].min(end[1]) {
+                for x in first[0].max(bits.low[0])..=last[0].min(end[0]) {
+                    let middle = vec3(x as f64 + 0.5, y as f64 + 0.5, z as f64 + 0.5);
+                    if axes.iter().all(|axis| axis.meets(middle)) {
+                        bits.set(x, y, z);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A direction, with the triangle's extent along it, widened by a unit cube's half extent.
+pub(super) struct Axis {
+    direction: Vec3,
+    low: f64,
+    high: f64,
+}
+
+impl Axis {
+    #[inline]
+    fn meets(&self, middle: Vec3) -> bool {
+        let along = self.direction.dot(middle);
+        self.low <= along && along <= self.high
+    }
+}
+
+/// The triangle's normal and the nine products of its edges with the cube's (the cube's own normals are the box
+/// of candidate cells). Directions that vanish separate nothing and are left out.
+pub(super) fn separating_axes(t: &[Vec3; 3]) -> Vec<Axis> {
+    let edges = [t[1] - t[0], t[2] - t[1], t[0] - t[2]];
+    let products = edges.iter().flat_map(|e| Vec3::AXES.map(|a| a.cross(*e)));
+    std::iter::once(edges[0].cross(edges[1]))
+        .chain(products)
+        .filter_map(Vec3::unit)
+        .map(|direction| {
+            let along = t.map(|p| direction.dot(p));
+            let half = 0.5 * (direction.x.abs() + direction.y.abs() + direction.z.abs()) + PLANE;
+            let low = along[0].min(along[1]).min(along[2]) - half;
+            let high = along[0].max(along[1]).max(along[2]) + half;
+            Axis { direction, low, high }
+        })
+        .collect()
+}
+
+/// True when the triangle (grid coordinates) touches the closed cell.
+pub fn touches(t: &[Vec3; 3], cell: [i64; 3]) -> bool {
+    let low = t[0].min(t[1]).min(t[2]);
+    let high = t[0].max(t[1]).max(t[2]);
+    let boxed = (0..3).all(|a| low[a] - TOUCH <= (cell[a] + 1) as f64 && high[a] + TOUCH >= cell[a] as f64);
+    let middle = vec3(cell[0] as f64 + 0.5, cell[1] as f64 + 0.5, cell[2] as f64 + 0.5);
+    boxed && separating_axes(t).iter().all(|axis| axis.meets(middle))
+}

@@ -1,0 +1,224 @@
+//! Intersection of solids agrees with a search for a common point, touching never counts, and the number of
+//! intersecting pairs is that of all pairs, in any order.
+//!
+//! The search knows nothing of separating axes: it minimises the depth `max over faces of (distance outside)` over
+//! all points by the ellipsoid method (Groetschel, Lovasz & Schrijver 1988, 3.1). Negative means a common inside.
+
+mod scenes;
+
+use niwaki_geom::{
+    Look, Mat3, NoSelfIntersection, Primitive, Rule, Shape, Sketch, TriMesh, Vec3, intersects, vec3,
+};
+use scenes::{Dice, any_shape, torus};
+use std::sync::Arc;
+
+/// Planes of a convex shape's triangles: unit outward normal and offset.
+fn planes(shape: &Shape) -> Vec<(Vec3, f64)> {
+    let plane = |[a, b, c]: [Vec3; 3]| (b - a).cross(c - a).unit().map(|n| (n, n.dot(a)));
+    shape.world_mesh().corners().filter_map(plane).collect()
+}
+
+/// Least over all points of how far the point is outside of the worst plane, to about 1e-6.
+fn least_outside(planes: &[(Vec3, f64)], start: Vec3, radius: f64) -> f64 {
+    let mut x = start;
+    let mut p = Vec3::AXES.map(|a| a * (radius * radius));
+    let mut best = f64::INFINITY;
+    for _ in 0..500 {
+        let outside = |(n, d): &(Vec3, f64)| n.dot(x) - d;
+        let worst = planes.iter().max_by(|a, b| outside(a).total_cmp(&outside(b))).unwrap();
+        best = best.min(outside(worst));
+        let g = worst.0;
+        let pg = vec3(p[0].dot(g), p[1].dot(g), p[2].dot(g));
+        let scale = g.dot(pg).sqrt();
+        if scale < 1e-8 {
+            break;
+        }
+        let step = pg * (1.0 / scale);
+        x = x - step * 0.25;
+        for row in 0..3 {
+            p[row] = (p[row] - step * (step[row] * 0.5)) * 1.125;
+        }
+    }
+    best
+}
+
+fn depth(a: &Shape, b: &Shape) -> f64 {
+    let all: Vec<(Vec3, f64)> = planes(a).into_iter().chain(planes(b)).collect();
+    let around = a.aabb().union(b.aabb());
+    least_outside(&all, around.center(), around.extent().norm())
+}
+
+fn convex(dice: &mut Dice) -> Shape {
+    loop {
+        let shape = any_shape(dice, 1.8);
+        if shape.convex().is_some() {
+            return shape;
+        }
+    }
+}
+
+#[test]
+fn convex_solids_agree_with_a_search_for_a_common_point() {
+    let mut dice = Dice::new(5);
+    let (mut apart, mut overlapping) = (0, 0);
+    for pair in 0..4000 {
+        let (a, b) = (convex(&mut dice), convex(&mut dice));
+        let depth = depth(&a, &b);
+        let found = intersects(&a, &b, Rule::Solid);
+        assert_eq!(found, intersects(&b, &a, Rule::Solid), "pair {pair}");
+        assert_eq!(intersects(&a, &b, Rule::Surface), intersects(&b, &a, Rule::Surface), "pair {pair}");
+        if depth.abs() > 1e-5 {
+            assert_eq!(found, depth < 0.0, "pair {pair}: {depth}\n{a:?}\n{b:?}");
+            *(if found { &mut overlapping } else { &mut apart }) += 1;
+        }
+    }
+    assert!(apart > 800 && overlapping > 800, "{apart} {overlapping}");
+}
+
+#[test]
+fn the_surface_rule_sees_all_overlaps_but_containment() {
+    let mut dice = Dice::new(6);
+    let (mut missed, mut seen) = (0, 0);
+    for _ in 0..4000 {
+        let (a, b) = (convex(&mut dice), convex(&mut dice));
+        let (solid, surface) = (intersects(&a, &b, Rule::Solid), intersects(&a, &b, Rule::Surface));
+        assert!(solid || !surface);
+        let holds = |p: &Shape, q: &Shape| {
+            let planes = planes(p);
+            q.convex().unwrap().corners().iter().all(|c| planes.iter().all(|(n, d)| n.dot(*c) < d + 1e-6))
+        };
+        if solid && !holds(&a, &b) && !holds(&b, &a) && depth(&a, &b) < -1e-3 {
+            seen += usize::from(surface);
+            missed += usize::from(!surface);
+        }
+    }
+    assert!(seen > 800 && missed == 0, "{seen} {missed}");
+}
+
+#[test]
+fn meshes_agree_with_the_convex_solids_they_copy() {
+    let mut dice = Dice::new(8);
+    let copy = |s: &Shape| {
+        let mesh = Arc::new(s.world_mesh().clone());
+        Shape::mesh(&mesh, Vec3::ZERO, 1.0, &Look::default()).unwrap()
+    };
+    let (mut apart, mut overlapping) = (0, 0);
+    for pair in 0..1500 {
+        let (a, b) = (convex(&mut dice), convex(&mut dice));
+        // A pyramid's tip folds two faces into lines; thin slivers of overlap are below the samples' depth.
+        if depth(&a, &b).abs() < 5e-3 {
+            continue;
+        }
+        let found = intersects(&a, &b, Rule::Solid);
+        for (p, q) in [(copy(&a), b.clone()), (a.clone(), copy(&b)), (copy(&a), copy(&b))] {
+            assert_eq!(intersects(&p, &q, Rule::Solid), found, "pair {pair}");
+            assert_eq!(intersects(&q, &p, Rule::Solid), found, "pair {pair}");
+        }
+        *(if found { &mut overlapping } else { &mut apart }) += 1;
+    }
+    assert!(apart > 300 && overlapping > 300, "{apart} {overlapping}");
+}
+
+fn cube(center: Vec3, size: f64, rotation: Option<Mat3>) -> Shape {
+    Shape::cuboid(center, vec3(size, size, size), &Look { rotation, ..Look::default() }).unwrap()
+}
+
+#[test]
+fn touching_is_not_intersecting() {
+    for k in 0..200 {
+        // The same scene anywhere and turned any way: flush to within rounding.
+        let mut dice = Dice::new(k);
+        let turn = Mat3::rotation(dice.point(1.0).unit().unwrap(), dice.uniform(0.0, 7.0));
+        let (turn, at) =
+            if k % 2 == 0 { (Mat3::IDENTITY, dice.point(10.0)) } else { (turn, dice.point(10.0)) };
+        let place = |p: Vec3| at + turn.apply(p);
+        let a = cube(place(Vec3::ZERO), 2.0, Some(turn));
+        let face = cube(place(vec3(1.5, 0.3, 0.2)), 1.0, Some(turn));
+        let edge = cube(place(vec3(1.5, 1.5, 0.2)), 1.0, Some(turn));
+        let corner = cube(place(vec3(1.5, 1.5, 1.5)), 1.0, Some(turn));
+        let look = Look { rotation: Some(turn), ..Look::default() };
+        let rod = Shape::cylinder(place(vec3(1.5, 0.0, 0.0)), 0.5, 3.0, Vec3::AXES[2], None, &look).unwrap();
+        for other in [&face, &edge, &corner, &rod] {
+            for rule in [Rule::Solid, Rule::Surface] {
+                assert!(!intersects(&a, other, rule), "{k} {rule:?} {other:?}");
+            }
+        }
+        let crossing = cube(place(vec3(1.4, 0.3, 0.2)), 1.0, Some(turn));
+        assert!(intersects(&a, &crossing, Rule::Solid) && intersects(&a, &crossing, Rule::Surface));
+    }
+}
+
+#[test]
+fn containment_and_equal_cross_sections_are_seen_by_the_solid_rule_only() {
+    let a = cube(Vec3::ZERO, 2.0, None);
+    let inner = cube(vec3(0.1, 0.2, 0.3), 0.5, None);
+    let shifted = cube(vec3(1.0, 0.0, 0.0), 2.0, None);
+    for other in [&inner, &shifted, &a.clone()] {
+        assert!(intersects(&a, other, Rule::Solid));
+        assert!(!intersects(&a, other, Rule::Surface));
+    }
+    let mesh = |s: &Shape| {
+        Shape::mesh(&Arc::new(s.world_mesh().clone()), Vec3::ZERO, 1.0, &Look::default()).unwrap()
+    };
+    for other in [&inner, &shifted, &a] {
+        assert!(intersects(&mesh(&a), &mesh(other), Rule::Solid));
+    }
+}
+
+#[test]
+fn a_ball_in_the_hole_of_a_ring_is_free() {
+    let ring = Shape::mesh(&Arc::new(torus(2.0, 0.5, 32, 12)), Vec3::ZERO, 1.0, &Look::default()).unwrap();
+    assert!(!intersects(&ring, &cube(Vec3::ZERO, 1.5, None), Rule::Solid));
+    assert!(intersects(&ring, &cube(vec3(0.0, 0.0, 2.0), 0.3, None), Rule::Solid), "inside the tube");
+    assert!(intersects(&ring, &cube(vec3(0.0, 0.0, 1.0), 1.5, None), Rule::Solid), "through the tube");
+    let inside_out: Vec<[u32; 3]> =
+        ring.world_mesh().triangles().iter().map(|[a, b, c]| [*a, *c, *b]).collect();
+    let mesh = Arc::new(TriMesh::new(ring.world_mesh().vertices().to_vec(), inside_out).unwrap());
+    let turned = Shape::mesh(&mesh, Vec3::ZERO, 1.0, &Look::default()).unwrap();
+    assert!(intersects(&turned, &cube(vec3(0.0, 0.0, 2.0), 0.3, None), Rule::Solid));
+}
+
+#[test]
+fn a_chain_of_bent_limbs_only_touches() {
+    let mut dice = Dice::new(2);
+    let (mut at, mut way, mut radius) = (Vec3::ZERO, vec3(0.0, 1.0, 0.0), 1.0);
+    let mut sketch = NoSelfIntersection::new(Rule::Solid);
+    for _ in 0..12 {
+        let next_way = (way + dice.point(0.25)).unit().unwrap();
+        let (end, thinner) = (at + next_way * (3.5 * radius), radius * 0.85);
+        let limb =
+            Shape::limb(at, end, (radius, thinner), (Some(way), Some(next_way)), &Look::default()).unwrap();
+        sketch.add(&Primitive::new([limb]));
+        (at, way, radius) = (end, next_way, thinner);
+    }
+    assert_eq!(sketch.pairs(), 0);
+}
+
+#[test]
+fn pairs_are_counted_in_any_order_and_copies_are_apart() {
+    let mut dice = Dice::new(9);
+    for rule in [Rule::Solid, Rule::Surface] {
+        let mut shape = || any_shape(&mut dice, 4.0);
+        let primitives: Vec<Primitive> = (0..40).map(|_| Primitive::new([shape(), shape()])).collect();
+        let meets = |a: &Primitive, b: &Primitive| {
+            a.shapes().iter().any(|s| b.shapes().iter().any(|t| intersects(s, t, rule)))
+        };
+        let mut expected = 0;
+        let (mut forward, mut backward) = (NoSelfIntersection::new(rule), NoSelfIntersection::new(rule));
+        for (i, p) in primitives.iter().enumerate() {
+            let fork = forward.clone();
+            forward.add(p);
+            expected += primitives[..i].iter().filter(|q| meets(q, p)).count() as u64;
+            assert_eq!(forward.pairs(), expected);
+            let mut undone = forward.clone();
+            assert!(undone.remove(p) && undone == fork);
+        }
+        assert!(expected > 20, "{expected}");
+        primitives.iter().rev().for_each(|p| backward.add(p));
+        assert!(forward == backward);
+        primitives.iter().for_each(|p| assert!(forward.remove(p)));
+        assert!(forward == NoSelfIntersection::new(rule));
+        assert_eq!(forward.log_score(), 0.0);
+        assert_eq!(backward.log_score(), f64::NEG_INFINITY);
+    }
+}

@@ -1,0 +1,132 @@
+//! A fault: why a running model could not go on, as data.
+//!
+//! The code is the key of the message table on the Python side; the message is already complete and speaks
+//! the language of the model ("list index 5 is out of range: the list has 3 elements"). Where it happened (the model's own call
+//! stack) is known to the machine, not here.
+//!
+//! A fault is one pointer wide, so that `Result<Value, Fault>` is no larger than a value: every arithmetic
+//! instruction returns one.
+
+use std::fmt;
+use std::ops::Deref;
+
+/// Why a running model could not go on. Its fields are read through [`Details`].
+#[derive(Clone, PartialEq, Eq)]
+pub struct Fault(Box<Details>);
+
+/// What a fault says.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Details {
+    /// Kebab-case key of the kind of fault (`list-index`, `division-by-zero`, ...).
+    pub code: &'static str,
+    /// One sentence, lower case, with found and expected.
+    pub message: String,
+    /// The cure, where there is one that fits.
+    pub help: Option<String>,
+}
+
+impl Deref for Fault {
+    type Target = Details;
+    fn deref(&self) -> &Details {
+        &self.0
+    }
+}
+
+impl fmt::Debug for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.code, self.message)
+    }
+}
+
+impl std::error::Error for Fault {}
+
+macro_rules! kinds {
+    ($($(#[$doc:meta])* $name:ident = $code:literal;)*) => {
+        impl Fault {
+            $($(#[$doc])*
+            #[cold]
+            pub fn $name(message: impl Into<String>) -> Fault { Fault::new($code, message) })*
+
+            /// Every code that a pure operation can raise.
+            pub const CODES: &'static [&'static str] = &[$($code),*];
+        }
+    };
+}
+
+kinds! {
+    /// An operation met a value of a kind that it does not work on.
+    type_mismatch = "type-mismatch";
+    /// A position outside a list, tuple, string, range or vector.
+    list_index = "list-index";
+    /// `/`, `//`, `%` or a negative power met zero.
+    division_by_zero = "division-by-zero";
+    /// A whole number left 64 bits.
+    integer_overflow = "integer-overflow";
+    /// A real number left the range of floats where Python raises `OverflowError`.
+    float_overflow = "float-overflow";
+    /// A value of the right kind that the operation refuses.
+    bad_argument = "bad-argument";
+    /// More or fewer arguments than the operation takes.
+    argument_count = "argument-count";
+    /// `a, b = xs` with another number of elements.
+    unpack_length = "unpack-length";
+    /// A distribution's parameter.
+    bad_parameter = "bad-parameter";
+    /// A shape's measure.
+    bad_shape = "bad-shape";
+    /// A value larger than a run may hold.
+    memory_budget = "memory-budget";
+    /// A comparison that visits more elements than a run may spend on one step.
+    step_budget = "step-budget";
+    /// A dictionary has no such key.
+    missing_key = "missing-key";
+    /// A record or vector has no such field.
+    missing_field = "missing-field";
+    /// A built-in value has no such method.
+    missing_method = "missing-method";
+    /// A call of something that is not a function.
+    not_callable = "not-callable";
+    /// A mathematical function outside its domain.
+    math_domain = "math-domain";
+    /// Text that does not read as a number, or is not found.
+    bad_text = "bad-text";
+    /// A format specification that does not parse or does not fit the value.
+    bad_format = "bad-format";
+    /// A list method looked for an element that is not there.
+    missing_element = "missing-element";
+}
+
+impl Fault {
+    /// A fault of any kind.
+    #[cold]
+    pub fn new(code: &'static str, message: impl Into<String>) -> Fault {
+        Fault(Box::new(Details { code, message: message.into(), help: None }))
+    }
+
+    /// The same fault with a cure.
+    #[cold]
+    pub fn with_help(mut self, help: impl Into<String>) -> Fault {
+        self.0.help = Some(help.into());
+        self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_fault_is_one_pointer_and_its_fields_are_in_reach() {
+        assert_eq!(std::mem::size_of::<Fault>(), 8);
+        let fault = Fault::list_index("list index 5 is out of range").with_help("use a smaller index");
+        assert_eq!(fault.code, "list-index");
+        assert_eq!(fault.help.as_deref(), Some("use a smaller index"));
+        assert_eq!(fault.to_string(), "list-index: list index 5 is out of range");
+    }
+}

@@ -1,0 +1,296 @@
+//! The flat aggregates: tuples, records, dictionaries, closures, ranges and vectors.
+//!
+//! Each is one allocation behind one thin pointer (a tuple of up to four needs no second one). Those that hold values
+//! hand their children to [`release`](super::release) when dropped, so that nesting costs no host stack.
+
+use std::sync::Arc;
+
+use super::{Scalar, Value, compare, release};
+
+/// An immutable tuple.
+#[derive(Clone)]
+pub struct Tuple<S: Scalar = f64>(pub(super) Arc<TupleBody<S>>);
+
+/// The elements of a tuple. Points, pairs and colours are most of the tuples of a model: they live in place.
+pub(super) enum TupleBody<S: Scalar> {
+    Two([Value<S>; 2]),
+    Three([Value<S>; 3]),
+    Four([Value<S>; 4]),
+    Other(Vec<Value<S>>),
+}
+
+impl<S: Scalar> TupleBody<S> {
+    pub(super) fn items_mut(&mut self) -> &mut [Value<S>] {
+        match self {
+            TupleBody::Two(items) => items,
+            TupleBody::Three(items) => items,
+            TupleBody::Four(items) => items,
+            TupleBody::Other(items) => items,
+        }
+    }
+}
+
+impl<S: Scalar> Drop for TupleBody<S> {
+    fn drop(&mut self) {
+        release::release(self.items_mut());
+    }
+}
+
+impl<S: Scalar> Tuple<S> {
+    /// The elements.
+    #[inline]
+    pub fn items(&self) -> &[Value<S>] {
+        match &*self.0 {
+            TupleBody::Two(items) => items,
+            TupleBody::Three(items) => items,
+            TupleBody::Four(items) => items,
+            TupleBody::Other(items) => items,
+        }
+    }
+
+    /// True when both are the same tuple in memory.
+    #[inline]
+    pub fn ptr_eq(&self, other: &Tuple<S>) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+
+    /// A tuple of two.
+    pub fn pair(first: Value<S>, second: Value<S>) -> Tuple<S> {
+        Tuple(Arc::new(TupleBody::Two([first, second])))
+    }
+}
+
+impl<S: Scalar> From<Vec<Value<S>>> for Tuple<S> {
+    fn from(items: Vec<Value<S>>) -> Tuple<S> {
+        let items = match <[Value<S>; 2]>::try_from(items) {
+            Ok(two) => return Tuple(Arc::new(TupleBody::Two(two))),
+            Err(items) => items,
+        };
+        let items = match <[Value<S>; 3]>::try_from(items) {
+            Ok(three) => return Tuple(Arc::new(TupleBody::Three(three))),
+            Err(items) => items,
+        };
+        Tuple(Arc::new(match <[Value<S>; 4]>::try_from(items) {
+            Ok(four) => TupleBody::Four(four),
+            Err(items) => TupleBody::Other(items),
+        }))
+    }
+}
+
+/// How a class of records behaves beyond its fields.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ClassKind {
+    /// A frozen dataclass: compared by class and fields.
+    Dataclass,
+    /// A `NamedTuple`: also a tuple (indexed, iterated, compared as one).
+    NamedTuple,
+}
+
+/// A class of records.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Class {
+    /// Its number in the program.
+    pub id: u32,
+    /// Its name in the source.
+    pub name: String,
+    /// Field names in order.
+    pub fields: Vec<String>,
+    /// Whether its instances are tuples too.
+    pub kind: ClassKind,
+}
+
+/// An instance of a class.
+pub struct Record<S: Scalar = f64> {
+    /// The class.
+    pub class: Arc<Class>,
+    /// One value for each field, in order.
+    pub fields: Vec<Value<S>>,
+}
+
+impl<S: Scalar> Record<S> {
+    /// The value of a field.
+    pub fn field(&self, name: &str) -> Option<&Value<S>> {
+        let at = self.class.fields.iter().position(|field| field == name)?;
+        self.fields.get(at)
+    }
+}
+
+impl<S: Scalar> Drop for Record<S> {
+    fn drop(&mut self) {
+        release::release(&mut self.fields);
+    }
+}
+
+/// A function value: the number of its code and what it captured.
+pub struct Closure<S: Scalar = f64> {
+    /// Number of the function in the program.
+    pub function: u32,
+    /// Captured values, in the order of the function's captures.
+    pub captures: Vec<Value<S>>,
+}
+
+impl<S: Scalar> Drop for Closure<S> {
+    fn drop(&mut self) {
+        release::release(&mut self.captures);
+    }
+}
+
+/// A dictionary: distinct keys in order of writing, and their values.
+pub struct Dict<S: Scalar = f64> {
+    pub(super) keys: Vec<Value<S>>,
+    pub(super) values: Vec<Value<S>>,
+    /// Hash and position of each key, sorted by hash; empty for a dictionary short enough to search.
+    index: Vec<(u64, u32)>,
+}
+
+impl<S: Scalar> Dict<S> {
+    /// Below this many keys a search is as fast as an index.
+    const SEARCHED: usize = 8;
+
+    /// A dictionary from pairs; a later pair with an equal key replaces the value of an earlier one, as in Python.
+    /// The keys must be hashable: anything but lists and dictionaries.
+    pub fn new(pairs: Vec<(Value<S>, Value<S>)>) -> Dict<S> {
+        let mut dict = Dict { keys: Vec::new(), values: Vec::new(), index: Vec::new() };
+        let mut hashed: Vec<(u64, usize)> =
+            pairs.iter().enumerate().map(|(at, (key, _))| (compare::hash(key), at)).collect();
+        hashed.sort_unstable();
+        // `first[i]` is the earliest pair whose key equals that of pair i.
+        let mut first: Vec<usize> = (0..pairs.len()).collect();
+        for group in hashed.chunk_by(|a, b| a.0 == b.0) {
+            for (later, &(_, at)) in group.iter().enumerate() {
+                let twin = group[..later].iter().find(|&&(_, earlier)| pairs[earlier].0 == pairs[at].0);
+                first[at] = twin.map_or(at, |&(_, earlier)| first[earlier]);
+            }
+        }
+        let mut place = vec![0; pairs.len()];
+        for (at, (key, value)) in pairs.into_iter().enumerate() {
+            if first[at] == at {
+                place[at] = dict.keys.len();
+                dict.keys.push(key);
+                dict.values.push(value);
+            } else {
+                dict.values[place[first[at]]] = value;
+            }
+        }
+        if dict.keys.len() > Self::SEARCHED {
+            let hashes = dict.keys.iter().enumerate();
+            dict.index = hashes.map(|(at, key)| (compare::hash(key), at as u32)).collect();
+            dict.index.sort_unstable();
+        }
+        dict
+    }
+
+    /// Number of keys.
+    pub fn len(&self) -> usize {
+        self.keys.len()
+    }
+
+    /// True without keys.
+    pub fn is_empty(&self) -> bool {
+        self.keys.is_empty()
+    }
+
+    /// The keys, in order.
+    pub fn keys(&self) -> &[Value<S>] {
+        &self.keys
+    }
+
+    /// The values, in the order of the keys.
+    pub fn values(&self) -> &[Value<S>] {
+        &self.values
+    }
+
+    /// The value of a key.
+    pub fn get(&self, key: &Value<S>) -> Option<&Value<S>> {
+        if self.index.is_empty() {
+            let at = self.keys.iter().position(|own| own == key)?;
+            return self.values.get(at);
+        }
+        let hash = compare::hash(key);
+        let from = self.index.partition_point(|&(own, _)| own < hash);
+        let twins = self.index[from..].iter().take_while(|&&(own, _)| own == hash);
+        let at = twins.map(|&(_, at)| at as usize).find(|&at| self.keys[at] == *key)?;
+        self.values.get(at)
+    }
+}
+
+impl<S: Scalar> Drop for Dict<S> {
+    fn drop(&mut self) {
+        release::release(&mut self.keys);
+        release::release(&mut self.values);
+    }
+}
+
+/// `range(start, stop, step)`, with its length worked out.
+#[derive(Clone, Copy, Debug)]
+pub struct Range {
+    /// First number.
+    pub start: i64,
+    /// Where it ends, exclusive.
+    pub stop: i64,
+    /// Difference between neighbours; never zero.
+    pub step: i64,
+    /// How many numbers.
+    pub len: usize,
+}
+
+impl Range {
+    /// A range, or `None` for a step of zero or more numbers than an `i64` counts.
+    pub fn new(start: i64, stop: i64, step: i64) -> Option<Range> {
+        let (start_, stop_, step_) = (i128::from(start), i128::from(stop), i128::from(step));
+        let len = match step {
+            0 => return None,
+            1.. => (stop_ - start_ + step_ - 1) / step_,
+            _ => (start_ - stop_ - step_ - 1) / -step_,
+        };
+        let len = i64::try_from(len.max(0)).ok()? as usize;
+        Some(Range { start, stop, step, len })
+    }
+
+    /// The number at a position inside the range.
+    pub fn at(&self, position: usize) -> i64 {
+        self.start.wrapping_add(self.step.wrapping_mul(position as i64))
+    }
+
+    /// True when both yield the same numbers.
+    pub fn equals(&self, other: &Range) -> bool {
+        self.len == other.len
+            && (self.len == 0 || self.start == other.start)
+            && (self.len < 2 || self.step == other.step)
+    }
+}
+
+/// Two to four real components.
+#[derive(Clone, Copy, Debug)]
+pub struct Vector<S: Scalar = f64> {
+    components: [S; 4],
+    len: u8,
+}
+
+impl<S: Scalar> Vector<S> {
+    /// A vector of up to four components; what goes beyond is cut off.
+    pub fn new(components: &[S]) -> Vector<S> {
+        let mut own = [S::from_f64(0.0); 4];
+        let len = components.len().min(4);
+        own[..len].copy_from_slice(&components[..len]);
+        Vector { components: own, len: len as u8 }
+    }
+
+    /// The components.
+    #[inline]
+    pub fn components(&self) -> &[S] {
+        &self.components[..usize::from(self.len)]
+    }
+
+    /// Each component through a function.
+    #[inline]
+    pub fn map(&self, f: impl FnMut(S) -> S) -> Vector<S> {
+        Vector { components: self.components.map(f), len: self.len }
+    }
+
+    /// The component called `x`, `y`, `z` or `w`.
+    pub fn field(&self, name: &str) -> Option<S> {
+        let at = ["x", "y", "z", "w"].iter().position(|own| *own == name)?;
+        self.components().get(at).copied()
+    }
+}

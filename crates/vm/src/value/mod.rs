@@ -1,0 +1,169 @@
+//! Values: what registers hold.
+//!
+//! A value is 16 bytes: a tag and either the number itself or one thin pointer to something shared that never changes.
+//! [`List`] is a persistent trie of our own ([`list`]); tuples, records, dictionaries and closures are flat.
+//! Nothing in this room recurses on the host stack: dropping ([`release`]), identity ([`same`]), Python's
+//! `==` and `<` ([`compare`]), hashing and printing ([`print`]) all keep their own stack, so a chain of a million
+//! nested tuples is an ordinary value (facts of the spike: a plain drop of such a chain overflowed).
+//!
+//! The scalar type is a parameter: `f64` when a model runs, a recording scalar when its gradient is wanted.
+
+pub mod aggregate;
+pub mod compare;
+pub mod format;
+pub mod index;
+pub mod list;
+pub mod numbers;
+pub mod ops;
+pub mod print;
+mod release;
+pub mod same;
+pub mod standin;
+pub mod text;
+
+use std::sync::Arc;
+
+pub use aggregate::{Class, ClassKind, Closure, Dict, Range, Record, Tuple, Vector};
+pub use compare::{equal, order};
+pub use index::{iter_get, iter_len};
+pub use list::List;
+pub use niwaki_geom::Shape;
+pub use print::{repr, str_of};
+pub use same::same;
+pub use standin::{Dist, Draw, Family, Param, Scalar};
+pub use text::Text;
+
+/// Largest number of elements, or of characters, that one value may have (2^26).
+pub const MAX_ELEMENTS: usize = 1 << 26;
+
+/// A value of the modelling language.
+#[derive(Clone, Default)]
+pub enum Value<S: Scalar = f64> {
+    /// `None`.
+    #[default]
+    None,
+    /// `True`, `False`.
+    Bool(bool),
+    /// A 64-bit whole number.
+    Int(i64),
+    /// A real number.
+    Real(S),
+    /// A string.
+    Str(Text),
+    /// A tuple.
+    Tuple(Tuple<S>),
+    /// A persistent list.
+    List(List<S>),
+    /// A dictionary with constant keys.
+    Dict(Arc<Dict<S>>),
+    /// An instance of a frozen dataclass or a `NamedTuple`.
+    Record(Arc<Record<S>>),
+    /// `range(start, stop, step)`.
+    Range(Arc<Range>),
+    /// Two to four real components.
+    Vector(Arc<Vector<S>>),
+    /// A rotation matrix, row by row.
+    Rotation(Arc<[S; 9]>),
+    /// A solid, ready to be emitted.
+    Shape(Shape),
+    /// A distribution.
+    Dist(Arc<Dist<S>>),
+    /// A function with the values that it captured.
+    Function(Arc<Closure<S>>),
+    /// A future, by the machine's number for it.
+    Future(u32),
+}
+
+// The machine copies values between registers all the time; a third word would cost every copy.
+const _: () = assert!(std::mem::size_of::<Value<f64>>() == 16);
+const _: () = assert!(std::mem::size_of::<Result<Value<f64>, crate::fault::Fault>>() == 16);
+const _: () = {
+    const fn shared_between_threads<T: Send + Sync>() {}
+    shared_between_threads::<Value<f64>>()
+};
+
+impl<S: Scalar> Value<S> {
+    /// A real number from an `f64`.
+    #[inline]
+    pub fn real(x: f64) -> Value<S> {
+        Value::Real(S::from_f64(x))
+    }
+
+    /// A string.
+    pub fn str(text: &str) -> Value<S> {
+        Value::Str(Text::from(text))
+    }
+
+    /// A tuple.
+    pub fn tuple(items: Vec<Value<S>>) -> Value<S> {
+        Value::Tuple(Tuple::from(items))
+    }
+
+    /// A list.
+    pub fn list(items: Vec<Value<S>>) -> Value<S> {
+        Value::List(List::from_vec(items))
+    }
+
+    /// A vector of two to four components (no more, no fewer).
+    pub fn vector(components: &[S]) -> Value<S> {
+        Value::Vector(Arc::new(Vector::new(components)))
+    }
+
+    /// The name of the value's kind, as Python says it.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Value::None => "None",
+            Value::Bool(_) => "bool",
+            Value::Int(_) => "int",
+            Value::Real(_) => "float",
+            Value::Str(_) => "str",
+            Value::Tuple(_) => "tuple",
+            Value::List(_) => "list",
+            Value::Dict(_) => "dict",
+            Value::Record(_) => "record",
+            Value::Range(_) => "range",
+            Value::Vector(_) => "vector",
+            Value::Rotation(_) => "rotation",
+            Value::Shape(_) => "shape",
+            Value::Dist(_) => "distribution",
+            Value::Function(_) => "function",
+            Value::Future(_) => "future",
+        }
+    }
+
+    /// The value's kind with an article, for messages: "a list", "an int", "a `Leaf`".
+    pub fn described(&self) -> String {
+        match self {
+            Value::None => "None".into(),
+            Value::Bool(_) => "a bool".into(),
+            Value::Int(_) => "an int".into(),
+            Value::Record(record) => format!("a `{}`", record.class.name),
+            other => format!("a {}", other.kind()),
+        }
+    }
+
+    /// True when the value holds other values: what the work lists of this room are for.
+    #[inline]
+    pub fn holds_values(&self) -> bool {
+        matches!(
+            self,
+            Value::Tuple(_) | Value::List(_) | Value::Dict(_) | Value::Record(_) | Value::Function(_)
+        )
+    }
+}
+
+impl<S: Scalar> std::fmt::Debug for Value<S> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match repr(self) {
+            Ok(text) => f.write_str(&text),
+            Err(_) => f.write_str("<a value too large to print>"),
+        }
+    }
+}
+
+/// Python's `==`, for tests and tables; a comparison beyond its budget counts as different.
+impl<S: Scalar> PartialEq for Value<S> {
+    fn eq(&self, other: &Value<S>) -> bool {
+        equal(self, other).unwrap_or(false)
+    }
+}

@@ -1,0 +1,219 @@
+//! Numbers as Python computes them: true division of whole numbers, floor division and remainder, powers,
+//! conversions and rounding.
+//!
+//! Sources: Python language reference 6.7 (binary arithmetic); the float algorithms follow the documented identities
+//! `x == (x // y) * y + x % y` and `sign(x % y) == sign(y)`.
+
+use std::any::TypeId;
+
+use super::{Scalar, Value};
+use crate::fault::Fault;
+
+/// A value that is a number: what int, bool and float have in common.
+#[derive(Clone, Copy, Debug)]
+pub enum Number<S> {
+    /// int or bool.
+    Int(i64),
+    /// float.
+    Real(S),
+}
+
+impl<S: Scalar> Number<S> {
+    /// The number in a value, if it is one.
+    #[inline]
+    pub fn of(value: &Value<S>) -> Option<Number<S>> {
+        match value {
+            Value::Int(n) => Some(Number::Int(*n)),
+            Value::Real(x) => Some(Number::Real(*x)),
+            Value::Bool(b) => Some(Number::Int(i64::from(*b))),
+            _ => None,
+        }
+    }
+
+    /// The number as a real, rounded to nearest as Python's `float()` does.
+    #[inline]
+    pub fn real(self) -> S {
+        match self {
+            Number::Int(n) => S::from_f64(n as f64),
+            Number::Real(x) => x,
+        }
+    }
+}
+
+/// The exact `f64` answer where the scalar is an `f64`; elsewhere the same answer as smooth arithmetic, so that a
+/// recording scalar sees how it depends on its inputs.
+#[inline]
+pub fn exact_or<S: Scalar>(exact: f64, smooth: impl FnOnce() -> S) -> S {
+    if TypeId::of::<S>() == TypeId::of::<f64>() { S::from_f64(exact) } else { smooth() }
+}
+
+#[cold]
+fn by_zero(what: &str) -> Fault {
+    Fault::division_by_zero(format!("{what} by zero"))
+}
+
+#[cold]
+pub(super) fn overflow(sign: &str, a: i64, b: i64) -> Fault {
+    Fault::integer_overflow(format!("{a} {sign} {b} does not fit in 64 bits"))
+        .with_help("whole numbers have 64 bits here; use a real number such as `1.0` if it may grow")
+}
+
+/// `a / b` of whole numbers: the float nearest to the true quotient.
+pub fn divide_ints(a: i64, b: i64) -> Result<f64, Fault> {
+    const EXACT: u64 = 1 << 53;
+    if b == 0 {
+        return Err(by_zero("division"));
+    }
+    let (up, down) = (a.unsigned_abs(), b.unsigned_abs());
+    if up <= EXACT && down <= EXACT {
+        return Ok(a as f64 / b as f64);
+    }
+    // 63 bits or more of the quotient, with what is left in the last bit, round as the true quotient does.
+    let shift = u128::from(up).leading_zeros() - 1;
+    let scaled = u128::from(up) << shift;
+    let quotient = scaled / u128::from(down) | u128::from(scaled % u128::from(down) != 0);
+    let size = quotient as f64 * f64::powi(2.0, -(shift as i32));
+    Ok(if (a < 0) == (b < 0) { size } else { -size })
+}
+
+/// `a // b` of whole numbers.
+#[inline]
+pub fn floor_divide_ints(a: i64, b: i64) -> Result<i64, Fault> {
+    if b == 0 {
+        return Err(by_zero("floor division"));
+    }
+    let Some(quotient) = a.checked_div(b) else { return Err(overflow("//", a, b)) };
+    Ok(if a % b != 0 && (a < 0) != (b < 0) { quotient - 1 } else { quotient })
+}
+
+/// `a % b` of whole numbers: has the sign of `b`.
+#[inline]
+pub fn mod_ints(a: i64, b: i64) -> Result<i64, Fault> {
+    if b == 0 {
+        return Err(by_zero("remainder of a division"));
+    }
+    let rest = a.wrapping_rem(b);
+    Ok(if rest != 0 && (rest < 0) != (b < 0) { rest + b } else { rest })
+}
+
+/// `a / b` of reals.
+#[inline]
+pub fn divide_reals<S: Scalar>(a: S, b: S) -> Result<S, Fault> {
+    if b.value() == 0.0 {
+        return Err(by_zero("division"));
+    }
+    Ok(a / b)
+}
+
+/// Quotient and remainder of reals, rounded towards minus infinity.
+fn floor_parts(a: f64, b: f64) -> (f64, f64) {
+    let mut rest = a % b;
+    let mut quotient = (a - rest) / b;
+    if rest == 0.0 {
+        rest = 0.0_f64.copysign(b);
+    } else if (b < 0.0) != (rest < 0.0) {
+        rest += b;
+        quotient -= 1.0;
+    }
+    if quotient == 0.0 {
+        return (0.0_f64.copysign(a / b), rest);
+    }
+    let floor = quotient.floor();
+    (if quotient - floor > 0.5 { floor + 1.0 } else { floor }, rest)
+}
+
+/// `a // b` of reals.
+pub fn floor_divide_reals<S: Scalar>(a: S, b: S) -> Result<S, Fault> {
+    if b.value() == 0.0 {
+        return Err(by_zero("floor division"));
+    }
+    Ok(S::from_f64(floor_parts(a.value(), b.value()).0))
+}
+
+/// `a % b` of reals: has the sign of `b`.
+pub fn mod_reals<S: Scalar>(a: S, b: S) -> Result<S, Fault> {
+    if b.value() == 0.0 {
+        return Err(by_zero("remainder of a division"));
+    }
+    let (quotient, rest) = floor_parts(a.value(), b.value());
+    Ok(exact_or(rest, || a - b * S::from_f64(quotient)))
+}
+
+/// `base ** exponent` of whole numbers: an int, or a float for a negative exponent.
+pub fn pow_ints<S: Scalar>(base: i64, exponent: i64) -> Result<Value<S>, Fault> {
+    if exponent < 0 {
+        return pow_reals(S::from_f64(base as f64), S::from_f64(exponent as f64)).map(Value::Real);
+    }
+    let power = match (base, u32::try_from(exponent)) {
+        (0 | 1, Err(_)) => Some(base),
+        (-1, _) => Some(if exponent % 2 == 0 { 1 } else { -1 }),
+        (_, Ok(exponent)) => base.checked_pow(exponent),
+        (_, Err(_)) => None,
+    };
+    power.map(Value::Int).ok_or_else(|| overflow("**", base, exponent))
+}
+
+/// `base ** exponent` of reals.
+pub fn pow_reals<S: Scalar>(base: S, exponent: S) -> Result<S, Fault> {
+    let (b, e) = (base.value(), exponent.value());
+    if b == 0.0 && e < 0.0 {
+        return Err(Fault::division_by_zero("0.0 cannot be raised to a negative power"));
+    }
+    if b < 0.0 && b.is_finite() && e.is_finite() && e.fract() != 0.0 {
+        let message = format!("a negative number ({b:?}) has no real power with the exponent {e:?}");
+        return Err(Fault::math_domain(message).with_help("write `abs(x) ** y`, or keep the base positive"));
+    }
+    let power = base.powf(exponent);
+    if power.value().is_infinite() && b.is_finite() && e.is_finite() {
+        return Err(Fault::float_overflow(format!("{b:?} ** {e:?} is too large for a float")));
+    }
+    Ok(power)
+}
+
+/// `int(x)` and the like: a whole real as an int.
+pub fn to_int(x: f64) -> Result<i64, Fault> {
+    // Both ends are exact floats; the upper one is excluded because i64::MAX is not.
+    if (-9_223_372_036_854_775_808.0..9_223_372_036_854_775_808.0).contains(&x) {
+        return Ok(x as i64);
+    }
+    let message = if x.is_nan() {
+        "a NaN cannot be made an int".to_string()
+    } else if x.is_infinite() {
+        "an infinite float cannot be made an int".to_string()
+    } else {
+        format!("{x:?} does not fit in a 64-bit int")
+    };
+    Err(Fault::integer_overflow(message))
+}
+
+/// `round(x, digits)` of a real: to the nearest decimal, ties to even as seen by the exact binary value.
+pub fn round_real(x: f64, digits: i64) -> f64 {
+    if !x.is_finite() || digits > 323 {
+        return x;
+    }
+    if digits < -308 {
+        return 0.0_f64.copysign(x);
+    }
+    if digits < 0 {
+        // Through the integer part's decimal text: exact, and rare enough not to matter.
+        let scale = f64::powi(10.0, -digits as i32);
+        return (x / scale).round_ties_even() * scale;
+    }
+    // Formatting rounds the exact binary value, ties to even, and reads back to the nearest float.
+    format!("{x:.*}", digits as usize).parse().unwrap_or(x)
+}
+
+/// `round(n, digits)` of a whole number for negative digits: to tens, hundreds, ..., ties to even.
+pub fn round_int(n: i64, digits: i64) -> Result<i64, Fault> {
+    if digits >= 0 {
+        return Ok(n);
+    }
+    if digits < -19 {
+        return Ok(0);
+    }
+    let unit = 10_i128.pow(-digits as u32);
+    let (down, rest) = (i128::from(n).div_euclid(unit), i128::from(n).rem_euclid(unit));
+    let up = rest * 2 > unit || (rest * 2 == unit && down % 2 != 0);
+    i64::try_from((down + i128::from(up)) * unit)
+        .map_err(|_| Fault::integer_overflow(format!("round({n}, {digits}) does not fit in 64 bits")))
+}

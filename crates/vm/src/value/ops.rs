@@ -1,0 +1,400 @@
+//! The arithmetic and comparison of values: one function for each operator of the language.
+//!
+//! Real with real and int with int come first and stay small enough to be inlined into the machine's dispatch; all
+//! else (strings, sequences, vectors, faults) is behind a call that is marked cold.
+
+use std::cmp::Ordering;
+use std::sync::Arc;
+
+use super::numbers::{self, Number};
+use super::{MAX_ELEMENTS, Scalar, Text, Value, Vector, compare};
+use crate::fault::Fault;
+
+/// What an operator answers.
+pub type Answer<S> = Result<Value<S>, Fault>;
+
+/// `a + b`.
+#[inline]
+pub fn add<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
+    match (a, b) {
+        (Value::Real(a), Value::Real(b)) => Ok(Value::Real(*a + *b)),
+        (Value::Int(x), Value::Int(y)) => match x.checked_add(*y) {
+            Some(sum) => Ok(Value::Int(sum)),
+            None => Err(numbers::overflow("+", *x, *y)),
+        },
+        _ => add_others(a, b),
+    }
+}
+
+/// `a - b`.
+#[inline]
+pub fn sub<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
+    match (a, b) {
+        (Value::Real(a), Value::Real(b)) => Ok(Value::Real(*a - *b)),
+        (Value::Int(x), Value::Int(y)) => match x.checked_sub(*y) {
+            Some(rest) => Ok(Value::Int(rest)),
+            None => Err(numbers::overflow("-", *x, *y)),
+        },
+        _ => sub_others(a, b),
+    }
+}
+
+/// `a * b`.
+#[inline]
+pub fn mul<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
+    match (a, b) {
+        (Value::Real(a), Value::Real(b)) => Ok(Value::Real(*a * *b)),
+        (Value::Int(x), Value::Int(y)) => match x.checked_mul(*y) {
+            Some(product) => Ok(Value::Int(product)),
+            None => Err(numbers::overflow("*", *x, *y)),
+        },
+        _ => mul_others(a, b),
+    }
+}
+
+/// `a / b`.
+#[inline]
+pub fn div<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
+    match (a, b) {
+        (Value::Real(a), Value::Real(b)) => numbers::divide_reals(*a, *b).map(Value::Real),
+        _ => div_others(a, b),
+    }
+}
+
+/// `a // b`.
+#[inline]
+pub fn floordiv<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
+    match (Number::of(a), Number::of(b)) {
+        (Some(Number::Int(a)), Some(Number::Int(b))) => numbers::floor_divide_ints(a, b).map(Value::Int),
+        (Some(a), Some(b)) => numbers::floor_divide_reals(a.real(), b.real()).map(Value::Real),
+        _ => Err(mismatch("floor-divide", a, "by", b)),
+    }
+}
+
+/// `a % b`.
+#[inline]
+pub fn mod_<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
+    match (Number::of(a), Number::of(b)) {
+        (Some(Number::Int(a)), Some(Number::Int(b))) => numbers::mod_ints(a, b).map(Value::Int),
+        (Some(a), Some(b)) => numbers::mod_reals(a.real(), b.real()).map(Value::Real),
+        _ if matches!(a, Value::Str(_)) => {
+            Err(mismatch("take the remainder of", a, "by", b).with_help("write an f-string: `f\"{x:.2f}\"`"))
+        }
+        _ => Err(mismatch("take the remainder of", a, "by", b)),
+    }
+}
+
+/// `a ** b`.
+pub fn pow<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
+    match (Number::of(a), Number::of(b)) {
+        (Some(Number::Int(a)), Some(Number::Int(b))) => numbers::pow_ints(a, b),
+        (Some(a), Some(b)) => numbers::pow_reals(a.real(), b.real()).map(Value::Real),
+        _ => Err(mismatch("raise", a, "to the power of", b)),
+    }
+}
+
+/// `-a`.
+#[inline]
+pub fn neg<S: Scalar>(a: &Value<S>) -> Answer<S> {
+    match a {
+        Value::Real(a) => Ok(Value::Real(-*a)),
+        Value::Int(n) => match n.checked_neg() {
+            Some(n) => Ok(Value::Int(n)),
+            None => Err(numbers::overflow("-", 0, *n)),
+        },
+        Value::Bool(b) => Ok(Value::Int(-i64::from(*b))),
+        Value::Vector(v) => Ok(Value::Vector(Arc::new(v.map(|x| -x)))),
+        other => Err(no_sign("negate", other)),
+    }
+}
+
+/// `+a`.
+#[inline]
+pub fn pos<S: Scalar>(a: &Value<S>) -> Answer<S> {
+    match a {
+        Value::Real(_) | Value::Int(_) | Value::Vector(_) => Ok(a.clone()),
+        Value::Bool(b) => Ok(Value::Int(i64::from(*b))),
+        other => Err(no_sign("put a plus sign before", other)),
+    }
+}
+
+/// Python's truth of a value: zero and empty are false.
+#[inline]
+pub fn truth<S: Scalar>(a: &Value<S>) -> bool {
+    match a {
+        Value::Bool(b) => *b,
+        Value::Int(n) => *n != 0,
+        Value::Real(x) => x.value() != 0.0,
+        Value::None => false,
+        Value::Str(text) => !text.is_empty(),
+        Value::Tuple(tuple) => !tuple.items().is_empty(),
+        Value::List(list) => !list.is_empty(),
+        Value::Dict(dict) => !dict.is_empty(),
+        Value::Range(range) => range.len > 0,
+        _ => true,
+    }
+}
+
+/// `not a`.
+#[inline]
+pub fn not_<S: Scalar>(a: &Value<S>) -> Answer<S> {
+    Ok(Value::Bool(!truth(a)))
+}
+
+macro_rules! comparisons {
+    ($($(#[$doc:meta])* $name:ident $sign:tt => $pattern:pat,)*) => { $(
+        $(#[$doc])*
+        #[inline]
+        pub fn $name<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
+            Ok(Value::Bool(match (a, b) {
+                (Value::Real(a), Value::Real(b)) => a.value() $sign b.value(),
+                (Value::Int(a), Value::Int(b)) => a $sign b,
+                _ => matches!(compare::order(a, b, stringify!($sign))?, Some($pattern)),
+            }))
+        }
+    )* };
+}
+
+comparisons! {
+    /// `a < b`.
+    lt < => Ordering::Less,
+    /// `a <= b`.
+    le <= => Ordering::Less | Ordering::Equal,
+    /// `a > b`.
+    gt > => Ordering::Greater,
+    /// `a >= b`.
+    ge >= => Ordering::Greater | Ordering::Equal,
+}
+
+/// `a == b`.
+#[inline]
+pub fn eq<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
+    compare::equal(a, b).map(Value::Bool)
+}
+
+/// `a != b`.
+#[inline]
+pub fn ne<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
+    compare::equal(a, b).map(|equal| Value::Bool(!equal))
+}
+
+macro_rules! bit_operators {
+    ($($(#[$doc:meta])* $name:ident $sign:tt;)*) => { $(
+        $(#[$doc])*
+        pub fn $name<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
+            match (a, b) {
+                (Value::Bool(a), Value::Bool(b)) => Ok(Value::Bool(a $sign b)),
+                _ => match (Number::of(a), Number::of(b)) {
+                    (Some(Number::Int(a)), Some(Number::Int(b))) => Ok(Value::Int(a $sign b)),
+                    _ => Err(mismatch(concat!("apply `", stringify!($sign), "` to"), a, "and", b)),
+                },
+            }
+        }
+    )* };
+}
+
+bit_operators! {
+    /// `a & b`.
+    band &;
+    /// `a | b`.
+    bor |;
+    /// `a ^ b`.
+    bxor ^;
+}
+
+/// `~a`.
+pub fn invert<S: Scalar>(a: &Value<S>) -> Answer<S> {
+    match Number::of(a) {
+        Some(Number::Int(n)) => Ok(Value::Int(!n)),
+        _ => Err(no_sign("invert the bits of", a)),
+    }
+}
+
+/// `a << b`.
+pub fn shl<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
+    let (n, by) = shift_operands(a, b, "<<")?;
+    let wide = if by < 64 { Some(i128::from(n) << by) } else { (n == 0).then_some(0) };
+    let fits = wide.and_then(|wide| i64::try_from(wide).ok());
+    fits.map(Value::Int).ok_or_else(|| numbers::overflow("<<", n, by))
+}
+
+/// `a >> b`.
+pub fn shr<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
+    let (n, by) = shift_operands(a, b, ">>")?;
+    Ok(Value::Int(n >> by.min(63)))
+}
+
+fn shift_operands<S: Scalar>(a: &Value<S>, b: &Value<S>, sign: &str) -> Result<(i64, i64), Fault> {
+    match (Number::of(a), Number::of(b)) {
+        (Some(Number::Int(n)), Some(Number::Int(by))) if by >= 0 => Ok((n, by)),
+        (Some(Number::Int(_)), Some(Number::Int(by))) => {
+            Err(Fault::bad_argument(format!("a shift by {by} bits: the count cannot be negative")))
+        }
+        _ => Err(mismatch(&format!("apply `{sign}` to"), a, "and", b)),
+    }
+}
+
+#[cold]
+fn mismatch<S: Scalar>(verb: &str, a: &Value<S>, between: &str, b: &Value<S>) -> Fault {
+    Fault::type_mismatch(format!("cannot {verb} {} {between} {}", a.described(), b.described()))
+}
+
+#[cold]
+fn no_sign<S: Scalar>(verb: &str, a: &Value<S>) -> Fault {
+    Fault::type_mismatch(format!("cannot {verb} {}", a.described()))
+}
+
+fn fits(count: usize) -> Result<(), Fault> {
+    if count <= MAX_ELEMENTS {
+        return Ok(());
+    }
+    Err(Fault::memory_budget(format!("{count} elements are more than one value may hold ({MAX_ELEMENTS})")))
+}
+
+#[cold]
+fn add_others<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
+    match (a, b) {
+        (Value::Vector(v), Value::Vector(w)) => componentwise("add", v, w, |x, y| x + y),
+        (Value::List(xs), Value::List(ys)) => {
+            fits(xs.len() + ys.len())?;
+            let mut both = xs.clone();
+            both.extend(ys);
+            Ok(Value::List(both))
+        }
+        (Value::Tuple(xs), Value::Tuple(ys)) => {
+            fits(xs.items().len() + ys.items().len())?;
+            Ok(Value::tuple([xs.items(), ys.items()].concat()))
+        }
+        (Value::Str(s), Value::Str(t)) => {
+            fits(s.len() + t.len())?;
+            Ok(Value::Str(Text::from([&**s, &**t].concat())))
+        }
+        _ => match (Number::of(a), Number::of(b)) {
+            (Some(Number::Int(a)), Some(Number::Int(b))) => add(&Value::Int(a), &Value::Int(b)),
+            (Some(a), Some(b)) => Ok(Value::Real(a.real() + b.real())),
+            _ => {
+                let fault = mismatch("add", a, "and", b);
+                Err(match (a, b) {
+                    (Value::List(_), Value::Int(_) | Value::Real(_)) => {
+                        fault.with_help("write `xs + [x]` to make a list with one more element")
+                    }
+                    (Value::Str(_), _) => fault.with_help("write `str(x)` or an f-string to make text of it"),
+                    _ => fault,
+                })
+            }
+        },
+    }
+}
+
+#[cold]
+fn sub_others<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
+    match (a, b) {
+        (Value::Vector(v), Value::Vector(w)) => componentwise("subtract", v, w, |x, y| x - y),
+        _ => match (Number::of(a), Number::of(b)) {
+            (Some(Number::Int(a)), Some(Number::Int(b))) => sub(&Value::Int(a), &Value::Int(b)),
+            (Some(a), Some(b)) => Ok(Value::Real(a.real() - b.real())),
+            _ => {
+                Err(Fault::type_mismatch(format!("cannot subtract {} from {}", b.described(), a.described())))
+            }
+        },
+    }
+}
+
+#[cold]
+fn mul_others<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
+    match (a, b) {
+        (Value::Vector(v), Value::Vector(w)) => componentwise("multiply", v, w, |x, y| x * y),
+        (Value::Rotation(r), Value::Vector(v)) => rotate(r, v),
+        (Value::Rotation(r), Value::Rotation(s)) => Ok(Value::Rotation(Arc::new(matrix_product(r, s)))),
+        _ => match (Number::of(a), Number::of(b)) {
+            (Some(Number::Int(a)), Some(Number::Int(b))) => mul(&Value::Int(a), &Value::Int(b)),
+            (Some(a), Some(b)) => Ok(Value::Real(a.real() * b.real())),
+            (Some(x), None) => times(b, x).unwrap_or_else(|| Err(mismatch("multiply", a, "by", b))),
+            (None, Some(x)) => times(a, x).unwrap_or_else(|| Err(mismatch("multiply", a, "by", b))),
+            (None, None) => Err(mismatch("multiply", a, "by", b)),
+        },
+    }
+}
+
+/// A vector times a number, a sequence repeated; `None` when the two do not go together.
+fn times<S: Scalar>(value: &Value<S>, by: Number<S>) -> Option<Answer<S>> {
+    if let Value::Vector(v) = value {
+        let by = by.real();
+        return Some(Ok(Value::Vector(Arc::new(v.map(|x| x * by)))));
+    }
+    let Number::Int(count) = by else { return None };
+    let count = usize::try_from(count).unwrap_or(0);
+    let repeat = |items: Vec<Value<S>>| -> Result<Vec<Value<S>>, Fault> {
+        fits(items.len().saturating_mul(count))?;
+        Ok(std::iter::repeat_n(items, count).flatten().collect())
+    };
+    match value {
+        Value::List(list) => Some(repeat(list.iter().cloned().collect()).map(Value::list)),
+        Value::Tuple(tuple) => Some(repeat(tuple.items().to_vec()).map(Value::tuple)),
+        Value::Str(text) => {
+            Some(fits(text.len().saturating_mul(count)).map(|()| Value::Str(Text::from(text.repeat(count)))))
+        }
+        _ => None,
+    }
+}
+
+#[cold]
+fn div_others<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
+    match (Number::of(a), Number::of(b), a) {
+        (Some(Number::Int(a)), Some(Number::Int(b)), _) => numbers::divide_ints(a, b).map(Value::real),
+        (Some(a), Some(b), _) => numbers::divide_reals(a.real(), b.real()).map(Value::Real),
+        (None, Some(b), Value::Vector(v)) => {
+            let by = b.real();
+            if by.value() == 0.0 {
+                return Err(Fault::division_by_zero("division of a vector by zero"));
+            }
+            Ok(Value::Vector(Arc::new(v.map(|x| x / by))))
+        }
+        _ => Err(mismatch("divide", a, "by", b)),
+    }
+}
+
+/// A vector from two of equal length, component by component.
+fn componentwise<S: Scalar>(verb: &str, v: &Vector<S>, w: &Vector<S>, f: impl Fn(S, S) -> S) -> Answer<S> {
+    let (v, w) = (v.components(), w.components());
+    if v.len() != w.len() {
+        let (v, w) = (v.len(), w.len());
+        return Err(Fault::type_mismatch(format!("cannot {verb} vectors of {v} and {w} components")));
+    }
+    let mut parts = [S::from_f64(0.0); 4];
+    for (part, (x, y)) in parts.iter_mut().zip(v.iter().zip(w)) {
+        *part = f(*x, *y);
+    }
+    Ok(Value::vector(&parts[..v.len()]))
+}
+
+/// A rotation applied to a vector of three components.
+fn rotate<S: Scalar>(r: &[S; 9], v: &Vector<S>) -> Answer<S> {
+    let &[x, y, z] = v.components() else {
+        let found = v.components().len();
+        let message = format!("a rotation turns vectors of 3 components, not of {found}");
+        return Err(Fault::type_mismatch(message));
+    };
+    let row = |i: usize| r[i] * x + r[i + 1] * y + r[i + 2] * z;
+    Ok(Value::vector(&[row(0), row(3), row(6)]))
+}
+
+/// The rotation `r` after `s`.
+fn matrix_product<S: Scalar>(r: &[S; 9], s: &[S; 9]) -> [S; 9] {
+    std::array::from_fn(|at| {
+        let (row, column) = (at / 3 * 3, at % 3);
+        r[row] * s[column] + r[row + 1] * s[column + 3] + r[row + 2] * s[column + 6]
+    })
+}
+
+/// `xs + [x]` without the second list.
+pub fn append<S: Scalar>(xs: Value<S>, item: Value<S>) -> Answer<S> {
+    match xs {
+        Value::List(mut list) => {
+            fits(list.len() + 1)?;
+            list.append(item);
+            Ok(Value::List(list))
+        }
+        other => Err(Fault::type_mismatch(format!("cannot append to {}", other.described()))),
+    }
+}

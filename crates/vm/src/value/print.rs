@@ -1,0 +1,220 @@
+//! `repr` and `str` as Python writes them, with a stack of our own and a limit on the length.
+
+use super::{List, MAX_ELEMENTS, Scalar, Value};
+use crate::fault::Fault;
+
+/// Python's `repr` of a float: the shortest digits that read back, an exponent below 1e-4 and from 1e16.
+pub fn float(x: f64) -> String {
+    if !x.is_finite() {
+        return if x.is_nan() {
+            "nan".into()
+        } else if x > 0.0 {
+            "inf".into()
+        } else {
+            "-inf".into()
+        };
+    }
+    let size = x.abs();
+    if size == 0.0 || (1e-4..1e16).contains(&size) {
+        return format!("{x:?}");
+    }
+    // Rust writes 1e16 and 1.5e-7; Python signs the exponent and gives it two digits.
+    let text = format!("{x:e}");
+    let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    let sign = if exponent < 0 { '-' } else { '+' };
+    format!("{digits}e{sign}{:02}", exponent.abs())
+}
+
+/// Python's `repr` of a string: single quotes unless it holds single ones and no double ones.
+pub fn quoted(text: &str) -> String {
+    let quote = if text.contains('\'') && !text.contains('"') { '"' } else { '\'' };
+    let mut out = String::with_capacity(text.len() + 2);
+    out.push(quote);
+    for c in text.chars() {
+        match c {
+            '\n' => out.push_str("\\n"),
+            '\r' => out.push_str("\\r"),
+            '\t' => out.push_str("\\t"),
+            '\\' => out.push_str("\\\\"),
+            c if c == quote => {
+                out.push('\\');
+                out.push(c);
+            }
+            c if c.is_control() && (c as u32) < 0x100 => out.push_str(&format!("\\x{:02x}", c as u32)),
+            c => out.push(c),
+        }
+    }
+    out.push(quote);
+    out
+}
+
+/// Python's `str(value)`.
+pub fn str_of<S: Scalar>(value: &Value<S>) -> Result<String, Fault> {
+    match value {
+        Value::Str(text) => Ok(text.to_string()),
+        other => repr(other),
+    }
+}
+
+/// An aggregate on its way out.
+struct Open<'a, S: Scalar> {
+    items: Items<'a, S>,
+    next: usize,
+    close: &'static str,
+}
+
+enum Items<'a, S: Scalar> {
+    Flat(&'a [Value<S>]),
+    List(&'a List<S>),
+    /// Values, with a label before each.
+    Labelled(Labels<'a, S>, &'a [Value<S>]),
+}
+
+enum Labels<'a, S: Scalar> {
+    Keys(&'a [Value<S>]),
+    Fields(&'a [String]),
+}
+
+/// Python's `repr(value)`.
+pub fn repr<S: Scalar>(value: &Value<S>) -> Result<String, Fault> {
+    let mut out = String::new();
+    let mut stack: Vec<Open<'_, S>> = Vec::new();
+    let mut current = Some(value);
+    loop {
+        if out.len() > MAX_ELEMENTS {
+            return Err(Fault::memory_budget("the text of this value has more than 67108864 characters"));
+        }
+        if let Some(value) = current.take() {
+            stack.extend(begin(value, &mut out)?);
+        }
+        let Some(open) = stack.last_mut() else { return Ok(out) };
+        let at = open.next;
+        open.next += 1;
+        let item = match &open.items {
+            Items::Flat(items) | Items::Labelled(_, items) => items.get(at),
+            Items::List(list) => list.get(at),
+        };
+        let Some(item) = item else {
+            out.push_str(open.close);
+            stack.pop();
+            continue;
+        };
+        if at > 0 {
+            out.push_str(", ");
+        }
+        match &open.items {
+            Items::Labelled(Labels::Fields(names), _) => {
+                out.push_str(names.get(at).map_or("", |name| name));
+                out.push('=');
+            }
+            Items::Labelled(Labels::Keys(keys), _) => {
+                // Keys hold no dictionaries: this goes no deeper.
+                out.push_str(&keys.get(at).map_or(Ok(String::new()), repr)?);
+                out.push_str(": ");
+            }
+            _ => {}
+        }
+        current = Some(item);
+    }
+}
+
+/// Writes a value without parts, or the beginning of one with parts.
+fn begin<'a, S: Scalar>(value: &'a Value<S>, out: &mut String) -> Result<Option<Open<'a, S>>, Fault> {
+    let open = |items, close| Ok(Some(Open { items, next: 0, close }));
+    let scalars = |xs: &[S]| xs.iter().map(|x| float(x.value())).collect::<Vec<_>>().join(", ");
+    match value {
+        Value::None => out.push_str("None"),
+        Value::Bool(b) => out.push_str(if *b { "True" } else { "False" }),
+        Value::Int(n) => out.push_str(&n.to_string()),
+        Value::Real(x) => out.push_str(&float(x.value())),
+        Value::Str(text) => out.push_str(&quoted(text)),
+        Value::Tuple(tuple) => {
+            out.push('(');
+            return open(Items::Flat(tuple.items()), if tuple.items().len() == 1 { ",)" } else { ")" });
+        }
+        Value::List(list) => {
+            out.push('[');
+            return open(Items::List(list), "]");
+        }
+        Value::Dict(dict) => {
+            out.push('{');
+            return open(Items::Labelled(Labels::Keys(dict.keys()), dict.values()), "}");
+        }
+        Value::Record(record) => {
+            out.push_str(&record.class.name);
+            out.push('(');
+            return open(Items::Labelled(Labels::Fields(&record.class.fields), &record.fields), ")");
+        }
+        Value::Range(r) if r.step == 1 => out.push_str(&format!("range({}, {})", r.start, r.stop)),
+        Value::Range(r) => out.push_str(&format!("range({}, {}, {})", r.start, r.stop, r.step)),
+        Value::Vector(v) => out.push_str(&format!("vec({})", scalars(v.components()))),
+        Value::Rotation(r) => out.push_str(&format!("rotation[{}]", scalars(&r[..]))),
+        Value::Shape(shape) => out.push_str(&format!("<{}>", shape.kind())),
+        Value::Dist(dist) => out.push_str(&format!("<{} distribution>", dist.family().name())),
+        Value::Function(closure) => out.push_str(&format!("<function {}>", closure.function)),
+        Value::Future(n) => out.push_str(&format!("<future {n}>")),
+    }
+    Ok(None)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::value::{Class, ClassKind, Dict, Record};
+    use std::sync::Arc;
+
+    type V = Value<f64>;
+
+    #[test]
+    fn floats_read_as_pythons() {
+        let cases = [
+            (1.0, "1.0"),
+            (1e16, "1e+16"),
+            (9_999_999_999_999_998.0, "9999999999999998.0"),
+            (1.5e300, "1.5e+300"),
+            (1e-4, "0.0001"),
+            (0.000_012_5, "1.25e-05"),
+            (5e-324, "5e-324"),
+            (-0.0, "-0.0"),
+            (0.1 + 0.2, "0.30000000000000004"),
+            (f64::NEG_INFINITY, "-inf"),
+            (f64::NAN, "nan"),
+            (123_456.789, "123456.789"),
+        ];
+        for (x, text) in cases {
+            assert_eq!(float(x), text);
+        }
+    }
+
+    #[test]
+    fn aggregates_read_as_pythons() {
+        let class = Class {
+            id: 0,
+            name: "Leaf".into(),
+            fields: vec!["x".into(), "tags".into()],
+            kind: ClassKind::Dataclass,
+        };
+        let leaf =
+            Record { class: Arc::new(class), fields: vec![V::real(2.0), V::tuple(vec![V::str("a'b")])] };
+        let dict = Dict::new(vec![(V::str("k"), V::list(vec![])), (V::Int(2), V::None)]);
+        let value = V::list(vec![
+            V::Record(Arc::new(leaf)),
+            V::Dict(Arc::new(dict)),
+            V::tuple(vec![]),
+            V::Bool(true),
+        ]);
+        let expected = "[Leaf(x=2.0, tags=(\"a'b\",)), {'k': [], 2: None}, (), True]";
+        assert_eq!(repr(&value).as_deref(), Ok(expected));
+        assert_eq!(str_of(&V::str("a\nb")).as_deref(), Ok("a\nb"));
+        assert_eq!(repr(&V::str("a\n'\"\\\u{7}")).as_deref(), Ok("'a\\n\\'\"\\\\\\x07'"));
+    }
+
+    #[test]
+    fn a_chain_of_a_million_prints_and_a_doubling_one_is_refused() {
+        let chain = (0..1_000_000).fold(V::Int(1), |inner, _| V::list(vec![inner]));
+        assert_eq!(repr(&chain).map(|text| text.len()), Ok(2_000_001));
+        let doubled = (0..60).fold(V::Int(1), |inner, _| V::tuple(vec![inner.clone(), inner]));
+        assert_eq!(repr(&doubled).map_err(|fault| fault.code), Err("memory-budget"));
+    }
+}

@@ -1,0 +1,185 @@
+//! Identity of bits: the test that lets a run skip a call or stop.
+//!
+//! The same tag and bits: NaN is itself, -0.0 is not 0.0, 1 is not 1.0 and not True. Aggregates by pointer,
+//! then element by element on a stack of our own, skipping what two lists share. "Different" is always a legal answer (the run
+//! then does more work), so the walk has a budget, and shapes and distributions may give up early. Python's `==` is
+//! another question: see [`compare`](super::compare).
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use niwaki_geom::{Shape, Solid};
+
+use super::{List, Scalar, Value};
+
+/// Elements that one identity test may look at before it answers "different".
+pub const BUDGET: usize = 4096;
+
+/// True when the two values cannot be told apart.
+#[inline]
+pub fn same<S: Scalar>(a: &Value<S>, b: &Value<S>) -> bool {
+    match glance(a, b) {
+        Glance::Same => true,
+        Glance::Different => false,
+        Glance::Look => same_within(a, b, BUDGET),
+    }
+}
+
+/// What can be said without looking inside.
+#[derive(PartialEq)]
+enum Glance {
+    Same,
+    Different,
+    Look,
+}
+
+impl From<bool> for Glance {
+    fn from(same: bool) -> Glance {
+        if same { Glance::Same } else { Glance::Different }
+    }
+}
+
+/// True when both scalars have the same bits.
+#[inline]
+fn same_scalar<S: Scalar>(a: S, b: S) -> bool {
+    a.value().to_bits() == b.value().to_bits()
+}
+
+fn same_scalars<S: Scalar>(a: &[S], b: &[S]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same_scalar(*a, *b))
+}
+
+/// Shapes are small and hold no values; only a mesh is worth giving up on.
+fn same_shape(a: &Shape, b: &Shape) -> bool {
+    match (a.solid(), b.solid()) {
+        (Solid::Mesh(m), Solid::Mesh(n)) if !Arc::ptr_eq(m, n) => false,
+        _ => a == b,
+    }
+}
+
+#[inline]
+fn glance<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Glance {
+    match (a, b) {
+        (Value::Real(a), Value::Real(b)) => same_scalar(*a, *b).into(),
+        (Value::Int(a), Value::Int(b)) => (a == b).into(),
+        (Value::Bool(a), Value::Bool(b)) => (a == b).into(),
+        (Value::None, Value::None) => Glance::Same,
+        (Value::Future(a), Value::Future(b)) => (a == b).into(),
+        _ => glance_behind(a, b),
+    }
+}
+
+/// The same for what lies behind a pointer.
+fn glance_behind<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Glance {
+    let look_if = |same_pointer: bool, look: bool| match (same_pointer, look) {
+        (true, _) => Glance::Same,
+        (false, true) => Glance::Look,
+        (false, false) => Glance::Different,
+    };
+    match (a, b) {
+        (Value::Str(a), Value::Str(b)) => (a == b).into(),
+        (Value::Vector(a), Value::Vector(b)) => same_scalars(a.components(), b.components()).into(),
+        (Value::Rotation(a), Value::Rotation(b)) => same_scalars(&a[..], &b[..]).into(),
+        (Value::Range(a), Value::Range(b)) => ((a.start, a.stop, a.step) == (b.start, b.stop, b.step)).into(),
+        (Value::Shape(a), Value::Shape(b)) => same_shape(a, b).into(),
+        (Value::Dist(a), Value::Dist(b)) => Arc::ptr_eq(a, b).into(),
+        (Value::Tuple(a), Value::Tuple(b)) => look_if(a.ptr_eq(b), a.items().len() == b.items().len()),
+        (Value::List(a), Value::List(b)) => look_if(a.ptr_eq(b), a.len() == b.len()),
+        (Value::Dict(a), Value::Dict(b)) => look_if(Arc::ptr_eq(a, b), a.len() == b.len()),
+        (Value::Record(a), Value::Record(b)) => {
+            look_if(Arc::ptr_eq(a, b), a.class.id == b.class.id && a.fields.len() == b.fields.len())
+        }
+        (Value::Function(a), Value::Function(b)) => {
+            look_if(Arc::ptr_eq(a, b), a.function == b.function && a.captures.len() == b.captures.len())
+        }
+        _ => Glance::Different,
+    }
+}
+
+/// [`same`] with a budget of elements.
+#[cold]
+pub fn same_within<'a, S: Scalar>(a: &'a Value<S>, b: &'a Value<S>, mut budget: usize) -> bool {
+    let mut work = vec![(a, b)];
+    while let Some((a, b)) = work.pop() {
+        // Only pairs that need a look are on the stack.
+        let mut meet = |a: &'a Value<S>, b: &'a Value<S>| -> ControlFlow<()> {
+            if budget == 0 {
+                return ControlFlow::Break(());
+            }
+            budget -= 1;
+            match glance(a, b) {
+                Glance::Same => {}
+                Glance::Different => return ControlFlow::Break(()),
+                Glance::Look => work.push((a, b)),
+            }
+            ControlFlow::Continue(())
+        };
+        let mut meet_all =
+            |a: &'a [Value<S>], b: &'a [Value<S>]| a.iter().zip(b).try_for_each(|(a, b)| meet(a, b));
+        let outcome = match (a, b) {
+            (Value::Tuple(a), Value::Tuple(b)) => meet_all(a.items(), b.items()),
+            (Value::List(a), Value::List(b)) => List::visit_unshared(a, b, &mut |_, a, b| meet(a, b)),
+            (Value::Record(a), Value::Record(b)) => meet_all(&a.fields, &b.fields),
+            (Value::Function(a), Value::Function(b)) => meet_all(&a.captures, &b.captures),
+            (Value::Dict(a), Value::Dict(b)) => match meet_all(a.keys(), b.keys()) {
+                ControlFlow::Continue(()) => meet_all(a.values(), b.values()),
+                stop => stop,
+            },
+            _ if glance(a, b) == Glance::Same => ControlFlow::Continue(()),
+            _ => ControlFlow::Break(()),
+        };
+        if outcome.is_break() {
+            return false;
+        }
+    }
+    true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::value::{Closure, Text};
+
+    #[test]
+    fn bits_decide_not_equality() {
+        let same = |a: Value, b: Value| same(&a, &b);
+        assert!(same(Value::real(f64::NAN), Value::real(f64::NAN)));
+        assert!(!same(Value::real(-0.0), Value::real(0.0)));
+        assert!(!same(Value::Int(1), Value::real(1.0)));
+        assert!(!same(Value::Int(1), Value::Bool(true)));
+        assert!(same(Value::str("a"), Value::Str(Text::from("a"))));
+        assert!(same(Value::None, Value::None));
+        assert!(!same(Value::tuple(vec![]), Value::list(vec![])));
+        assert!(same(Value::tuple(vec![]), Value::tuple(vec![])));
+    }
+
+    #[test]
+    fn aggregates_are_compared_inside() {
+        let deep = |x: f64| {
+            let list = Value::list((0..100).map(|i| Value::real(i as f64 * x)).collect());
+            let closure = Closure { function: 3, captures: vec![list, Value::str("k")] };
+            Value::<f64>::tuple(vec![Value::Int(1), Value::Function(Arc::new(closure))])
+        };
+        assert!(same(&deep(1.0), &deep(1.0)));
+        assert!(!same(&deep(1.0), &deep(-1.0)));
+    }
+
+    #[test]
+    fn beyond_the_budget_is_different_unless_shared() {
+        let long = Value::<f64>::list((0..100_000).map(Value::Int).collect());
+        let again = Value::list((0..100_000).map(Value::Int).collect());
+        assert!(!same(&long, &again));
+        assert!(same_within(&long, &again, usize::MAX));
+        let Value::List(mut touched) = long.clone() else { unreachable!() };
+        touched.set(5, Value::Int(5));
+        assert!(same(&long, &Value::List(touched)), "all but one leaf is shared");
+    }
+
+    #[test]
+    fn a_chain_of_a_million_needs_no_host_stack() {
+        let chain = || (0..1_000_000).fold(Value::<f64>::Int(1), |inner, _| Value::tuple(vec![inner]));
+        let (a, b) = (chain(), chain());
+        assert!(same_within(&a, &b, usize::MAX));
+        assert!(!same(&a, &b));
+    }
+}

@@ -1,0 +1,89 @@
+//! Strings: shared, one pointer wide, counted in code points as Python counts them.
+
+use std::ops::Deref;
+use std::sync::Arc;
+
+/// An immutable string.
+#[derive(Clone, Debug)]
+pub struct Text(Arc<Body>);
+
+#[derive(Debug)]
+struct Body {
+    text: Box<str>,
+    /// Number of code points; equal to the number of bytes exactly when the text is ASCII, which makes indexing O(1).
+    chars: usize,
+}
+
+impl Text {
+    /// Length in code points.
+    pub fn chars_len(&self) -> usize {
+        self.0.chars
+    }
+
+    /// The code point at a position inside the text, as a string.
+    pub fn char_at(&self, at: usize) -> &str {
+        self.span(at, at + 1)
+    }
+
+    /// Code points `from..to` (both at most the length).
+    pub fn span(&self, from: usize, to: usize) -> &str {
+        if from >= to {
+            return "";
+        }
+        if self.0.chars == self.0.text.len() {
+            return &self.0.text[from..to];
+        }
+        let byte = |at: usize| self.0.text.char_indices().nth(at).map_or(self.0.text.len(), |(byte, _)| byte);
+        &self.0.text[byte(from)..byte(to)]
+    }
+
+    /// True when both are the same string in memory.
+    pub fn ptr_eq(&self, other: &Text) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
+impl Deref for Text {
+    type Target = str;
+    fn deref(&self) -> &str {
+        &self.0.text
+    }
+}
+
+impl From<String> for Text {
+    fn from(text: String) -> Text {
+        let chars = text.chars().count();
+        Text(Arc::new(Body { text: text.into_boxed_str(), chars }))
+    }
+}
+
+impl From<&str> for Text {
+    fn from(text: &str) -> Text {
+        Text::from(text.to_string())
+    }
+}
+
+impl PartialEq for Text {
+    fn eq(&self, other: &Text) -> bool {
+        self.ptr_eq(other) || **self == **other
+    }
+}
+
+impl Eq for Text {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn positions_are_code_points() {
+        let plain = Text::from("abc");
+        assert_eq!((plain.chars_len(), plain.char_at(1), plain.span(1, 3)), (3, "b", "bc"));
+        let wide = Text::from("a\u{e9}\u{1f333}z");
+        assert_eq!(
+            (wide.chars_len(), wide.char_at(2), wide.span(1, 4)),
+            (4, "\u{1f333}", "\u{e9}\u{1f333}z")
+        );
+        assert_eq!(wide.span(3, 1), "");
+    }
+}
