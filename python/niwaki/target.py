@@ -91,7 +91,11 @@ class Target:
             raise FileError("file-missing", path, absolute=place.absolute(), folder=Path.cwd())
         if suffix not in FORMATS:
             raise FileError(
-                "file-format", path, suffix=place.suffix or "no suffix", done="read", formats=", ".join(FORMATS)
+                "file-format",
+                path,
+                suffix=place.suffix or "no suffix",
+                done="read",
+                formats=", ".join(FORMATS),
             )
         if place.stat().st_size == 0:
             raise FileError("file-unreadable", path, suffix=suffix, reason="the file holds no bytes")

@@ -49,7 +49,11 @@ def export(scene: Scene, path: str | PathLike[str]) -> Path:
     suffix = place.suffix.lower()
     if suffix not in FORMATS:
         raise FileError(
-            "file-format", place, suffix=place.suffix or "no suffix", done="written", formats=", ".join(FORMATS)
+            "file-format",
+            place,
+            suffix=place.suffix or "no suffix",
+            done="written",
+            formats=", ".join(FORMATS),
         )
     if len(scene) == 0:
         raise FileError("scene-empty", place, verb="write")
@@ -100,7 +104,9 @@ def glb(scene: Scene) -> bytes:
     }
     text = json.dumps(document, separators=(",", ":"), ensure_ascii=True).encode()
     text += b" " * (-len(text) % 4)
-    chunks = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(buffer), b"BIN\0") + buffer
+    chunks = (
+        struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(buffer), b"BIN\0") + buffer
+    )
     return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
 
 

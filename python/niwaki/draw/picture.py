@@ -35,6 +35,9 @@ BACKDROPS: dict[str, tuple[Rgb, Rgb] | None] = {
     "clear": None,
 }
 
+#: Largest width, height and number of samples.
+LARGEST = 16_384
+
 IMAGE_FORMATS = (".png", ".jpg", ".jpeg", ".webp")
 
 
@@ -90,6 +93,11 @@ def picture(
     if len(scene) == 0 and target is None:
         raise FileError("scene-empty", verb="draw")
     width, height = size
+    for name, number in (("width", width), ("height", height), ("samples", samples)):
+        if not 1 <= number <= LARGEST:
+            raise FileError(
+                "setting", name=name, found=number, expected=f"a whole number from 1 to {LARGEST}"
+            )
     meshes = surfaces(scene)
     ghost = None if target is None else _ghost(target)
     if camera is None:
@@ -140,7 +148,11 @@ def save_image(draw: Any, path: str | PathLike[str]) -> Path:
     place = Path(path)
     if place.suffix.lower() not in IMAGE_FORMATS:
         raise FileError(
-            "file-format", place, suffix=place.suffix or "no suffix", done="drawn", formats=", ".join(IMAGE_FORMATS)
+            "file-format",
+            place,
+            suffix=place.suffix or "no suffix",
+            done="drawn",
+            formats=", ".join(IMAGE_FORMATS),
         )
     image: Image.Image = draw()
     out = io.BytesIO()

@@ -50,7 +50,9 @@ def sheet(
     if not scenes:
         raise FileError("scene-empty", verb="draw")
     if captions is not None and len(captions) != len(scenes):
-        raise FileError("setting", name="captions", found=len(captions), expected=f"one for each of {len(scenes)} scenes")
+        raise FileError(
+            "setting", name="captions", found=len(captions), expected=f"one for each of {len(scenes)} scenes"
+        )
     if columns is not None and columns < 1:
         raise FileError("setting", name="columns", found=columns, expected="at least 1")
     across = columns or _columns(len(scenes))
@@ -63,7 +65,11 @@ def sheet(
     colors = BACKDROPS.get(backdrop)
     dark = backdrop == "slate"
     paper = (0, 0, 0, 0) if colors is None else (*(round(255 * c) for c in colors[1]), 255)
-    line = (0, 0, 0, 0) if colors is None else (*((c - 14 if dark else min(c + 14, 255)) for c in paper[:3]), 255)
+    line = (
+        (0, 0, 0, 0)
+        if colors is None
+        else (*((c - 14 if dark else min(c + 14, 255)) for c in paper[:3]), 255)
+    )
     page = Image.new("RGBA", (across * (width + gap) - gap, down * (height + strip + gap) - gap), line)
     pen = ImageDraw.Draw(page)
     font = ImageFont.load_default(letters)

@@ -27,7 +27,12 @@ def ship() -> Target:
     hull = [(-5.2, 1.0, -0.65, 0.75), (-4.4, 1.5, -0.95, 1.05), (1.6, 1.5, -1.0, 1.1), (3.6, 1.1, -0.8, 0.75)]
     hull.append((5.4, 0.45, -0.45, 0.15))
     fuselage = _loft([_rectangle(w, low, high, z) for z, w, low, high in hull])
-    slab = _loft([_rectangle(w, 0.9, high, z) for z, w, high in [(-4.0, 0.75, 1.45), (-0.2, 0.75, 1.75), (0.9, 0.5, 1.3)]])
+    slab = _loft(
+        [
+            _rectangle(w, 0.9, high, z)
+            for z, w, high in [(-4.0, 0.75, 1.45), (-0.2, 0.75, 1.75), (0.9, 0.5, 1.3)]
+        ]
+    )
     parts = [fuselage, slab]
     for side in (1.0, -1.0):
         # Wings: sections across x as (x, front z, back z, middle y, half thickness).
@@ -82,7 +87,7 @@ TARGETS: dict[str, Callable[[], Target]] = {"ship": ship, "crescent": crescent, 
 
 
 def write_all(folder: str | PathLike[str]) -> list[Path]:
-    """Writes every target into a folder as an OBJ file, one group for each closed part's triangles merged."""
+    """Writes every target into a folder as an OBJ file and returns their paths."""
     place = Path(folder)
     place.mkdir(parents=True, exist_ok=True)
     written = []
@@ -147,7 +152,10 @@ def _tube(points: Sequence[ArrayLike], radii: Sequence[float], sides: int = 20, 
         a, b, c, d = padded[i : i + 4]
         last = i == len(p) - 2
         for t in np.linspace(0.0, 1.0, between + 1)[: between + 1 if last else between]:
-            path.append(0.5 * (2 * b + (c - a) * t + (2 * a - 5 * b + 4 * c - d) * t**2 + (3 * (b - c) + d - a) * t**3))
+            path.append(
+                0.5
+                * (2 * b + (c - a) * t + (2 * a - 5 * b + 4 * c - d) * t**2 + (3 * (b - c) + d - a) * t**3)
+            )
             widths.append(radii[i] * (1 - t) + radii[i + 1] * t)
     line = np.array(path)
     along = np.gradient(line, axis=0)
@@ -155,11 +163,11 @@ def _tube(points: Sequence[ArrayLike], radii: Sequence[float], sides: int = 20, 
     return _loft([_ring(c, n, r, r, sides) for c, n, r in zip(line, along, widths, strict=True)])
 
 
-def _cloud(center: ArrayLike, radii: tuple[float, float, float], sides: int = 28, rings: int = 11) -> Mesh:
+def _cloud(center: ArrayLike, radii: tuple[float, float, float], sides: int = 28, rings: int = 13) -> Mesh:
     """A flattened ball, flatter below than above."""
     rx, ry, rz = radii
     sections = []
-    for latitude in np.linspace(-0.5 * np.pi, 0.5 * np.pi, rings + 2)[1:-1]:
+    for latitude in 0.5 * np.pi * np.sin(np.linspace(-0.48 * np.pi, 0.48 * np.pi, rings + 2)):
         height = np.sin(latitude) * ry * (0.55 if latitude < 0 else 1.15)
         turn = 2.0 * np.pi * np.arange(sides) / sides
         ring = [np.cos(turn) * rx, np.full(sides, height), np.sin(turn) * rz]
