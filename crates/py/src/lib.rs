@@ -4,6 +4,7 @@
 
 mod distributions;
 mod geometry;
+mod pictures;
 
 use pyo3::prelude::*;
 
@@ -13,5 +14,6 @@ fn _engine(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     distributions::register(module)?;
     geometry::register(module)?;
+    pictures::register(module)?;
     Ok(())
 }
