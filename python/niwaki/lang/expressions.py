@@ -141,7 +141,10 @@ def check_captures(body: Body, scope: Scope, node: ast.AST) -> None:
 
     Python's function would see the new value, ours has kept the old one.
     """
+    own = [default for default in scope.defaults.values() if isinstance(default, Variable)]
     for needed in scope.needed:
+        if needed in own:
+            continue
         for when, assignment in needed.assigned:
             if scope.defined.may_precede(when) and assignment is not needed.owner.node:
                 body.refuse("captured-then-changed", node, body.span(assignment), name=needed.name, function=scope.name)

@@ -1,16 +1,12 @@
+"""The one table of all messages, by code."""
+
 from __future__ import annotations
-from dataclasses import dataclass
 
-@dataclass(frozen=True)
-class Message:
-    code: str
-    title: str
-    label: str = ""
-    second: str = ""
-    why: str = ""
-    help: str = ""
+from niwaki.lang.texts.faults import FAULTS
+from niwaki.lang.texts.inputs import INPUTS
+from niwaki.lang.texts.language import LANGUAGE
+from niwaki.lang.texts.message import Message
 
-class _All(dict):
-    def __missing__(self, k):
-        return Message(k, k)
-MESSAGES = _All()
+MESSAGES: dict[str, Message] = {message.code: message for message in (*LANGUAGE, *FAULTS, *INPUTS)}
+
+__all__ = ["FAULTS", "INPUTS", "LANGUAGE", "MESSAGES", "Message"]

@@ -265,5 +265,6 @@ def definition(body: Body, node: ast.FunctionDef) -> None:
         return
     assert isinstance(known, Variable)
     if known in scope.needed:
-        body.refuse("rebound-recursion", node, made_here(body, known), name=node.name)
+        other = next((part for _, part in known.assigned if part is not node), node)
+        body.refuse("rebound-recursion", node, body.span(other), name=node.name)
     body.put(body.form("set", [known.core, closure(body, scope, node)], None))
