@@ -1,20 +1,24 @@
 //! Shapes, voxels, intersections, sketches and pictures.
 //!
 //! - [`vector`], [`bounds`]: points, rotations, boxes along the axes
-//! - [`mesh`], [`topology`], [`hull`], [`convex`]: surfaces and convex solids
+//! - [`mesh`], [`topology`], [`hull`], [`limb`], [`convex`]: surfaces and convex solids
 //! - [`shape`], [`words`], [`primitive`]: what a model emits
 //! - [`voxel`]: which cells of a grid a shape fills
 //! - [`intersect`]: whether two shapes intersect
 //! - [`tree`]: a bag of boxes that copies share
 //! - [`sketch`]: running scores of what was emitted
+//! - [`fine`], [`render`]: meshes with many sides, and pictures of them
 
 pub mod bounds;
 pub mod convex;
 pub mod error;
+pub mod fine;
 pub mod hull;
 pub mod intersect;
+pub mod limb;
 pub mod mesh;
 pub mod primitive;
+pub mod render;
 pub mod shape;
 pub mod sketch;
 pub mod topology;

@@ -3,6 +3,8 @@
 //! One file for each room behind the door; this one only registers them.
 
 mod distributions;
+mod geometry;
+mod pictures;
 
 use pyo3::prelude::*;
 
@@ -11,5 +13,7 @@ use pyo3::prelude::*;
 fn _engine(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     distributions::register(module)?;
+    geometry::register(module)?;
+    pictures::register(module)?;
     Ok(())
 }

@@ -98,10 +98,10 @@ pub fn len<S: Scalar>(value: &Value<S>) -> Result<usize, Fault> {
 /// `x[i]`.
 #[inline]
 pub fn index<S: Scalar>(value: &Value<S>, at: &Value<S>) -> Result<Value<S>, Fault> {
-    if let (Value::List(list), Value::Int(n)) = (value, at) {
-        if let Some(item) = place(*n, list.len()).and_then(|at| list.get(at)) {
-            return Ok(item.clone());
-        }
+    if let (Value::List(list), Value::Int(n)) = (value, at)
+        && let Some(item) = place(*n, list.len()).and_then(|at| list.get(at))
+    {
+        return Ok(item.clone());
     }
     index_others(value, at)
 }

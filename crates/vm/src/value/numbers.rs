@@ -71,7 +71,8 @@ pub fn divide_ints(a: i64, b: i64) -> Result<f64, Fault> {
     // 63 bits or more of the quotient, with what is left in the last bit, round as the true quotient does.
     let shift = u128::from(up).leading_zeros() - 1;
     let scaled = u128::from(up) << shift;
-    let quotient = scaled / u128::from(down) | u128::from(scaled % u128::from(down) != 0);
+    let rest = u128::from(scaled % u128::from(down) != 0);
+    let quotient = (scaled / u128::from(down)) | rest;
     let size = quotient as f64 * f64::powi(2.0, -(shift as i32));
     Ok(if (a < 0) == (b < 0) { size } else { -size })
 }

@@ -1,0 +1,113 @@
+"""One function on its way to core form: the statements made so far, its scope, and fresh variables.
+
+Expressions of Python may need statements in core form (a comprehension is a loop). Such statements are appended to the
+current block *before* the expression that needs them. `in_order` keeps Python's order of evaluation while that
+happens: what has been computed already and could notice is moved into temporaries first.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, NoReturn
+
+from niwaki.errors import ModelError
+from niwaki.lang.core import Expr, Form
+from niwaki.lang.scope import Scope, Scopes
+from niwaki.lang.source import SourceFile, Span, span_of
+
+if TYPE_CHECKING:
+    from niwaki.lang.names import Namespace
+    from niwaki.lang.program import Program, Unit
+
+Block = list[Expr]
+
+
+class Body:
+    """The state of lowering one function."""
+
+    def __init__(self, program: Program, unit: Unit, scope: Scope) -> None:
+        self.program = program
+        self.unit = unit
+        self.scope = scope
+        self.block: Block = []
+        self.target = ""
+
+    @property
+    def file(self) -> SourceFile:
+        """The file that the function is written in."""
+        return self.unit.file
+
+    @property
+    def scopes(self) -> Scopes:
+        """The scopes of the top-level function around."""
+        return self.unit.scopes
+
+    @property
+    def namespace(self) -> Namespace:
+        """What names mean outside of the function."""
+        return self.unit.namespace
+
+    def span(self, node: ast.AST) -> Span:
+        """A node's place in the file."""
+        return span_of(node, self.file)
+
+    def refuse(self, code: str, node: ast.AST, second: Span | None = None, **values: Any) -> NoReturn:
+        """Stop with a message about a place."""
+        raise ModelError(code, self.span(node), second, **values)
+
+    def form(self, head: str, args: Sequence[Expr], node: ast.AST | None = None) -> Form:
+        """A form with its place, and its site's label if it is one."""
+        label = self.unit.labels.get(node, "") if node is not None else ""
+        return Form(head, list(args), self.span(node) if node is not None else None, label)
+
+    def temporary(self, name: str | None = None) -> str:
+        """A fresh variable, named after the variable that the statement assigns, if any."""
+        return f"${self.target if name is None else name}%{self.scopes.number()}"
+
+    def put(self, statement: Expr) -> None:
+        """Append a statement."""
+        self.block.append(statement)
+
+    def kept(self, value: Expr, node: ast.AST | None = None) -> Expr:
+        """The value as something that can be used twice: an atom, or a temporary set to it."""
+        if isinstance(value, str):
+            return value
+        variable = self.temporary()
+        self.put(self.form("set", [variable, value], None))
+        return variable
+
+    def within(self, make: Callable[[], Expr]) -> tuple[Block, Expr]:
+        """What `make` appends, kept apart from the current block, and what it returns."""
+        outer, self.block = self.block, []
+        try:
+            value = make()
+            return self.block, value
+        finally:
+            self.block = outer
+
+    def in_order(self, makers: Sequence[Callable[[], Expr]], keep: bool = False) -> list[Expr]:
+        """Make values one after the other as Python would; `keep` when they will be used in another order."""
+        values: list[Expr] = []
+        for make in makers:
+            start = len(self.block)
+            value = make()
+            if len(self.block) > start:
+                spills: Block = []
+                for number, earlier in enumerate(values):
+                    if not stable(earlier):
+                        variable = self.temporary()
+                        spills.append(Form("set", [variable, earlier]))
+                        values[number] = variable
+                self.block[start:start] = spills
+            values.append(value)
+        if keep and sum(not stable(value) for value in values) > 1:
+            values = [value if stable(value) else self.kept(value) for value in values]
+        return values
+
+
+def stable(value: Expr) -> bool:
+    """Whether a value stays the same, and cannot fail or be noticed, when it is computed later."""
+    if isinstance(value, str):
+        return True
+    return value.head in ("data", "closure") and all(stable(arg) for arg in value.args)

@@ -1,0 +1,297 @@
+"""Built-ins and words that take functions or generators, or that are shorthands: each becomes simpler forms."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import Any
+
+from niwaki import words
+from niwaki.lang import vocabulary
+from niwaki.lang.arguments import bind, no_keywords
+from niwaki.lang.body import Body
+from niwaki.lang.core import Expr, Form, literal
+from niwaki.lang.expressions import closure, expression, expressions, keep_defaults, static
+from niwaki.lang.names import MISSING
+from niwaki.lang.scope import Scope
+from niwaki.words.models import underlying
+
+TABLE: dict[Any, Callable[[Body, ast.Call], Expr]] = {}
+
+
+def lowers(*functions: Any) -> Callable[[Callable[[Body, ast.Call], Expr]], Callable[[Body, ast.Call], Expr]]:
+    """Register how calls of a live function are lowered."""
+
+    def register(lower: Callable[[Body, ast.Call], Expr]) -> Callable[[Body, ast.Call], Expr]:
+        TABLE.update(dict.fromkeys(functions, lower))
+        return lower
+
+    return register
+
+
+def iterable(body: Body, node: ast.expr) -> Expr:
+    """An argument that may be a generator, which becomes the list of its values."""
+    from niwaki.lang.comprehensions import collect
+
+    return collect(body, node) if isinstance(node, ast.GeneratorExp) else expression(body, node)
+
+
+def _operate(body: Body, node: ast.Call, name: str) -> Expr:
+    from niwaki.lang.calls import operate
+
+    return operate(body, node, vocabulary.OPERATIONS[getattr(__import__("builtins"), name)])
+
+
+def _generator(node: ast.Call) -> ast.GeneratorExp | None:
+    first = node.args[0] if node.args else None
+    return first if isinstance(first, ast.GeneratorExp) else None
+
+
+def _keyword(node: ast.Call, name: str) -> ast.expr | None:
+    return next((keyword.value for keyword in node.keywords if keyword.arg == name), None)
+
+
+@lowers(any, all)
+def decide(body: Body, node: ast.Call) -> Expr:
+    """`any(generator)`, `all(generator)` stop early; of a list they are operations."""
+    from niwaki.lang.comprehensions import decide as loop
+
+    assert isinstance(node.func, (ast.Name, ast.Attribute))
+    name = body.span(node.func).text.rpartition(".")[2]
+    generator = _generator(node)
+    if generator is None or len(node.args) != 1 or node.keywords:
+        return _operate(body, node, name)
+    return loop(body, generator, name == "any")
+
+
+@lowers(sum, list, tuple, enumerate, reversed)
+def over(body: Body, node: ast.Call) -> Expr:
+    """`sum(generator)`, `list(generator)`, ...: of the list of its values."""
+    generator = _generator(node)
+    name = body.span(node.func).text.rpartition(".")[2]
+    if generator is None:
+        return _operate(body, node, name)
+    start = [keyword.value for keyword in node.keywords if keyword.arg == "start"]
+    if len(start) != len(node.keywords) or len(node.args) + len(start) > 2:
+        return _operate(body, node, name)
+    makers = [partial(iterable, body, generator), *(partial(expression, body, arg) for arg in (*node.args[1:], *start))]
+    values = body.in_order(makers)
+    if name == "list":
+        return values[0]
+    head = {"tuple": "to_tuple"}.get(name, name)
+    return body.form(head, values, node)
+
+
+@lowers(zip)
+def zip_(body: Body, node: ast.Call) -> Expr:
+    """`zip(xs, ys)`; `strict=True` is checked when it runs."""
+    strict = _keyword(node, "strict")
+    if any(keyword.arg != "strict" for keyword in node.keywords):
+        no_keywords(body, node, "zip")
+    values = body.in_order([partial(iterable, body, arg) for arg in node.args])
+    if isinstance(strict, ast.Constant) and strict.value is True:
+        return body.form("zip_strict", values, node)
+    if strict is not None and not isinstance(strict, ast.Constant):
+        body.refuse("unsupported-syntax", strict)
+    return body.form("zip", values, node)
+
+
+@lowers(dict)
+def dict_(body: Body, node: ast.Call) -> Expr:
+    """`dict(a=1, b=2)`."""
+    if node.args:
+        body.refuse("dict-key", node.args[0])
+    keys = Form("", [literal(keyword.arg) for keyword in node.keywords])
+    return Form("dict", [keys, *expressions(body, [keyword.value for keyword in node.keywords])])
+
+
+@lowers(map)
+def map_(body: Body, node: ast.Call) -> Expr:
+    """`map(f, xs)`, `map(f, xs, ys)`: a list, made at once."""
+    from niwaki.lang.comprehensions import mapped
+
+    no_keywords(body, node, "map")
+    if len(node.args) < 2:
+        body.refuse("wrong-number-of-arguments", node, name="map", expected="at least 2 arguments", found=str(len(node.args)))
+    function, items = function_and_items(body, node.args[0], node.args[1:])
+    many = len(node.args) - 1
+
+    def use(variable: str) -> Sequence[Expr]:
+        if many == 1:
+            return [function([variable], node)]
+        return [function([Form("index", [variable, str(n)]) for n in range(many)], node)]
+
+    return mapped(body, items, "map", node, use)
+
+
+@lowers(filter)
+def filter_(body: Body, node: ast.Call) -> Expr:
+    """`filter(f, xs)`: a list, made at once; `filter(None, xs)` keeps what is true."""
+    from niwaki.lang.comprehensions import mapped
+
+    no_keywords(body, node, "filter")
+    if len(node.args) != 2:
+        body.refuse("wrong-number-of-arguments", node, name="filter", expected="2 arguments", found=str(len(node.args)))
+    test = node.args[0]
+    if isinstance(test, ast.Constant) and test.value is None:
+        items = iterable(body, node.args[1])
+        function: Callable[[Sequence[Expr], ast.AST], Expr] = lambda args, _: args[0]  # noqa: E731
+    else:
+        function, items = function_and_items(body, test, node.args[1:])
+    result = body.temporary()
+    body.put(Form("set", [result, Form("list", [])]))
+
+    def use(variable: str) -> Sequence[Expr]:
+        keep = Form("set", [result, Form("append", [result, variable])])
+        body.put(Form("if", [function([variable], node), Form("then", [keep]), Form("else", [])]))
+        return []
+
+    mapped(body, items, "filter", node, use)
+    body.block = [part for part in body.block]
+    return result
+
+
+@lowers(sorted)
+def sorted_(body: Body, node: ast.Call) -> Expr:
+    """`sorted(xs, key=f, reverse=True)`; the keys are computed once each, in order."""
+    from niwaki.lang.comprehensions import mapped
+
+    if len(node.args) != 1:
+        body.refuse("wrong-number-of-arguments", node, name="sorted", expected="1 argument", found=str(len(node.args)))
+    _only(body, node, ("key", "reverse"))
+    key, reverse = _keyword(node, "key"), _keyword(node, "reverse")
+    if key is None or (isinstance(key, ast.Constant) and key.value is None):
+        makers = [partial(iterable, body, node.args[0])]
+        if reverse is not None:
+            makers.append(partial(expression, body, reverse))
+        return body.form("sorted", body.in_order(makers), node)
+    items, function, flag = _with_key(body, node, key, reverse)
+    keys = mapped(body, items, "sorted", node, lambda variable: [function([variable], node)])
+    return body.form("sorted_by", [items, keys, *([flag] if flag is not None else [])], node)
+
+
+@lowers(min, max)
+def extreme(body: Body, node: ast.Call) -> Expr:
+    """`min(xs)`, `min(a, b)`, `min(xs, key=f)`, `min(xs, default=d)`."""
+    from niwaki.lang.comprehensions import mapped
+
+    name = body.span(node.func).text.rpartition(".")[2]
+    _only(body, node, ("key", "default"))
+    key, default = _keyword(node, "key"), _keyword(node, "default")
+    if not node.args or (default is not None and len(node.args) != 1):
+        body.refuse("wrong-number-of-arguments", node, name=name, expected="1 argument", found=str(len(node.args)))
+    if key is None and default is None:
+        return body.form(name, body.in_order([partial(iterable, body, arg) for arg in node.args]), node)
+    one = len(node.args) == 1
+    items: Expr
+    other: Expr | None = None
+    if key is None:
+        assert default is not None
+        items, other = body.in_order([partial(iterable, body, node.args[0]), partial(expression, body, default)])
+        items = body.kept(items)
+        best: Expr = body.form(name, [items], node)
+    else:
+        whole = node.args[0] if one else ast.copy_location(ast.List(list(node.args), ast.Load()), node)
+        items, function, other = _with_key(body, node, key, default, whole)
+        keys = mapped(body, items, name, node, lambda variable: [function([variable], node)])
+        best = body.form("argmin_by" if name == "min" else "argmax_by", [items, keys], node)
+    if other is None:
+        return best
+    empty = Form("eq", [Form("len", [items]), "0"])
+    return Form("cond", [empty, other, best], body.span(node))
+
+
+def _only(body: Body, node: ast.Call, names: Sequence[str]) -> None:
+    for keyword in node.keywords:
+        if keyword.arg not in names:
+            name = body.span(node.func).text
+            hint = f"its keywords are {', '.join(names)}"
+            body.refuse("unknown-keyword", keyword, name=name, keyword=keyword.arg, suggestion=hint)
+
+
+Caller = Callable[[Sequence[Expr], ast.AST], Expr]
+
+
+def _with_key(
+    body: Body, node: ast.Call, key: ast.expr, extra: ast.expr | None, whole: ast.expr | None = None
+) -> tuple[Expr, Caller, Expr | None]:
+    """The items and an extra keyword's value as atoms, and what calls the key function."""
+    items = body.kept(iterable(body, node.args[0] if whole is None else whole))
+    function = caller(body, key)
+    return items, function, body.kept(expression(body, extra)) if extra is not None else None
+
+
+def function_and_items(body: Body, function: ast.expr, nodes: Sequence[ast.expr]) -> tuple[Caller, Expr]:
+    """What calls `function`, and the items that it is called with: of several lists, their `zip`."""
+    call = caller(body, function)
+    values = body.in_order([partial(iterable, body, node) for node in nodes])
+    return call, values[0] if len(values) == 1 else Form("zip", values)
+
+
+def caller(body: Body, node: ast.expr) -> Caller:
+    """What calls a function argument that is used at once: directly when it is known, else as a value."""
+    scope = body.scopes.of.get(node) if isinstance(node, ast.Lambda) else None
+    if isinstance(node, ast.Name):
+        found = body.scopes.find(node.id, body.scope)
+        scope = found if isinstance(found, Scope) else None
+    if scope is not None:
+        if isinstance(node, ast.Lambda):
+            keep_defaults(body, scope)
+        kept = closure(body, scope, node, immediate=True)
+        if len(scope.parameters) == 1 and not scope.defaults:
+            name, captures = literal(body.unit.names[scope]), [needed.core for needed in scope.needed]
+            return lambda args, at: _named(body, "call", [name, *args, *captures], at)
+        return lambda args, at: _named(body, "apply", [kept, *args], at)
+    value = underlying(static(body, node))
+    operation = vocabulary.OPERATIONS.get(value) if value is not MISSING and getattr(value, "__hash__", None) else None
+    if operation is not None:
+        head = operation.head
+        return lambda args, at: Form(head, list(args), body.span(at))
+    function = body.kept(expression(body, node))
+    return lambda args, at: _named(body, "apply", [function, *args], at)
+
+
+def _named(body: Body, head: str, args: Sequence[Expr], node: ast.AST) -> Form:
+    form = body.form(head, args, None)
+    form.span, form.label = body.span(node), body.unit.labels.get((node, "call"), "")
+    return form
+
+
+@lowers(words.choose)
+def choose(body: Body, node: ast.Call) -> Expr:
+    """`choose(values, weights)`: an index is drawn, and the value looked up."""
+    parameters = vocabulary.parameters_of(words.choose)
+    values, weights = bind(body, node, node.args, node.keywords, parameters, "choose")
+    assert values is not None
+    values = body.kept(values)
+    if weights is None:
+        last = Form("sub", [Form("len", [values]), "1"])
+        dist = Form("dist", ["discrete_uniform", "0", last], body.span(node))
+    else:
+        dist = Form("dist", ["categorical", weights], body.span(node))
+    return body.form("index", [values, body.form("sample", [dist], node)], None)
+
+
+@lowers(words.future)
+def future(body: Body, node: ast.Call) -> Expr:
+    """`future(f, *args)`: directly when `f` is known."""
+    from types import FunctionType
+
+    from niwaki.lang.calls import applied, nested, user_function
+
+    if not node.args:
+        body.refuse("wrong-number-of-arguments", node, name="future", expected="at least 1 argument", found="0")
+    no_keywords(body, node, "future")
+    function, args = node.args[0], node.args[1:]
+    if isinstance(function, ast.Lambda):
+        keep_defaults(body, body.scopes.of[function])
+        return nested(body, node, body.scopes.of[function], "future", args, [])
+    if isinstance(function, ast.Name):
+        found = body.scopes.find(function.id, body.scope)
+        if isinstance(found, Scope):
+            return nested(body, node, found, "future", args, [])
+    value = underlying(static(body, function))
+    if isinstance(value, FunctionType) and value not in vocabulary.ALL_WORDS:
+        return user_function(body, node, value, "future", args, [])
+    return applied(body, node, "future_apply", function, args)

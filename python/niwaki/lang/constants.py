@@ -1,0 +1,37 @@
+"""Which live objects may cross to the engine as data, and the copies that keep them from changing afterwards."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from niwaki.lang.core import is_literal
+from niwaki.words.shapes import ShapeRecord
+from niwaki.words.vectors import Vec
+
+NUMERIC = "biuf"
+
+
+def owned(value: Any) -> Any:
+    """Scalars of NumPy as Python's; truth values, integers and reals of a subclass as the plain type."""
+    if isinstance(value, np.generic):
+        return value.item()
+    return value
+
+
+def is_data(value: Any) -> bool:
+    """Whether a value is plain data: numbers, strings, tuples, lists, dicts with constant keys, arrays, vectors, shapes."""
+    if isinstance(value, np.ndarray):
+        return value.dtype.kind in NUMERIC
+    if isinstance(value, (Vec, ShapeRecord)) or type(value).__name__ == "Shape":
+        return True
+    if type(value) in (list, tuple):
+        return all(map(is_data, value))
+    if type(value) is dict:
+        return all(map(is_literal, value)) and all(map(is_data, value.values()))
+    if isinstance(value, np.generic):
+        return value.dtype.kind in NUMERIC
+    if type(value) is int:
+        return -(2**63) <= value < 2**63
+    return is_literal(value)

@@ -1,0 +1,160 @@
+"""The core form: what crosses from Python to the engine, as text; and the writer of it.
+
+Grammar (each `(HEAD ...)` may carry a span atom right after its head, `@L:C-L:C`, from 1, end excluded)
+
+    module  := (module file* class* fn* (entry "NAME"))
+    file    := (file K "path")                        K numbers the files
+    class   := (class K "Name" ("field" ...))          K numbers the record classes; not a constant's number
+    fn      := (fn "NAME" SPAN (file K) (params $v ...) (defaults ATOM ...) (captures $v ...) STMT ...)
+    STMT    := (set $v E) | (unpack ($v ...) E) | (unpack_star ($v ...) $v ($v ...) E)
+             | (if E (then STMT ...) (else STMT ...)) | (for $v E (body STMT ...)) | (while E (body STMT ...))
+             | (break) | (continue) | (return E) | (do E) | (assert E E)
+    E       := ATOM | $v | (data K) | (and E E+) | (or E E+) | (cond C A B)
+             | (call "NAME" E ...) | (closure "NAME" E ...) | (apply E E ...)
+             | (sample E) | (observe E E) | (factor E) | (condition E) | (query E E) | (emit E ...) | (force E)
+             | (future "NAME" E ...) | (future_apply E E ...)
+             | (dist FAMILY E ...) | (host K E ...) | (record K E ...) | (field E "name")
+             | (list E ...) | (tuple E ...) | (dict (KEY ...) E ...) | (fstr PART ...) | (method E "name" E ...)
+             | (OP E ...)
+    PART    := STRING | (format E "spec" "conversion")
+    ATOM    := integer | float | inf | -inf | nan | true | false | none | JSON string | (data K) | $v (a capture)
+    (data K) and (host K) refer to the table of constants that travels beside the text (`Core.constants`).
+
+Variables. `$name` is the user's variable. `$name%N` is one that the front end made (or a second variable of the same
+name); its readable name is what stands before the `%`, and may be empty: `$%N`. Numbers are unique within one
+top-level function and the functions nested in it.
+
+Functions. NAME is the qualified name: `ship`, nested `ship.wing`, a lambda `ship.lambda`, a second one of a name
+`ship.#2.lambda`; the part after the last dot is the function's own name.
+
+Captures. A nested function that is only ever bound by its one `def` is called directly:
+`(call "f" arguments ... captures ...)` and `(future "f" arguments ... captures ...)` pass the parameters and then the
+captured values, in the order of `captures`; so `call` and `future` always have as many arguments as the function has
+params and captures together. Used as a value it is `(closure "f" captures ...)`, rebuilt wherever it is used. So nested
+functions may call themselves and one another in any order, and no closure ever holds itself.
+
+Order. Arguments stand in the order of evaluation; where keywords were written in another order, the front end has put
+them into temporaries.
+
+Sites. The readable address of a choice is a path of components joined by "/". The core form can carry each site's
+static component as an atom `#component` after the span (`lower(..., labels=True)`); without them the same
+components follow from the text, as `niwaki.lang.sites` explains.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any, Union
+
+from niwaki.lang.source import SourceFile, Span
+
+
+@dataclass
+class Form:
+    """One `(HEAD @SPAN #LABEL args...)`; arguments are forms or finished atoms."""
+
+    head: str
+    args: list[Expr]
+    span: Span | None = None
+    label: str = ""
+
+
+Expr = Union[Form, str]
+
+TREES = frozenset({"fn", "if", "for", "while", "then", "else", "body", "module"})
+
+
+def literal(value: Any) -> str:
+    """A number, truth value, None or string as an atom."""
+    if value is None:
+        return "none"
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, int):
+        return str(int(value))
+    if isinstance(value, float):
+        if math.isnan(value):
+            return "nan"
+        if math.isinf(value):
+            return "inf" if value > 0 else "-inf"
+        return repr(float(value))
+    return json.dumps(value)
+
+
+def is_literal(value: Any) -> bool:
+    """Whether `literal` can write it."""
+    return value is None or type(value) in (bool, int, float, str)
+
+
+def write(form: Expr, spans: bool = True, labels: bool = False) -> str:
+    """An expression on one line."""
+    if isinstance(form, str):
+        return form
+    head = [form.head] if form.head else []
+    parts = [*head, *_marks(form, spans, labels), *(write(arg, spans, labels) for arg in form.args)]
+    return f"({' '.join(parts)})"
+
+
+def _marks(form: Form, spans: bool, labels: bool) -> list[str]:
+    marks = [f"@{form.span}"] if spans and form.span is not None else []
+    return [*marks, f"#{form.label}"] if labels and form.label else marks
+
+
+def write_tree(form: Expr, indent: int = 0, spans: bool = True, labels: bool = False) -> str:
+    """Statements one to a line, bodies indented."""
+    pad = "  " * indent
+    if isinstance(form, str) or form.head not in TREES:
+        return pad + write(form, spans, labels)
+    head = [form.head, *_marks(form, spans, labels)]
+    split = 0
+    if form.head in ("fn", "if", "for", "while"):
+        split = next((n for n, arg in enumerate(form.args) if _breaks(form.head, arg)), len(form.args))
+    lines = [pad + "(" + " ".join(head + [write(arg, spans, labels) for arg in form.args[:split]])]
+    lines += [write_tree(arg, indent + 1, spans, labels) for arg in form.args[split:]]
+    return "\n".join(lines) + ")"
+
+
+def _breaks(head: str, arg: Expr) -> bool:
+    inline = ("file", "params", "defaults", "captures")
+    if head == "fn":
+        return isinstance(arg, Form) and arg.head not in inline
+    return isinstance(arg, Form) and arg.head in ("then", "else", "body")
+
+
+@dataclass(frozen=True)
+class Core:
+    """A lowered model: the text, and the things that travel beside it.
+
+    Attributes
+    ----------
+    text : str
+        The core form.
+    constants : list
+        What `(data K)` and `(host K)` refer to: K is the index.
+    classes : list
+        What `(record K ...)` makes.
+    files : list of SourceFile
+        What `(file K)` refers to.
+    entry : str
+        The model's qualified name.
+    parameters : tuple of str
+        The entry's parameters, for whoever passes arguments.
+    required : int
+        How many of them have no default.
+    """
+
+    text: str
+    constants: Sequence[Any]
+    classes: Sequence[type]
+    files: Sequence[SourceFile]
+    entry: str
+    parameters: tuple[str, ...] = ()
+    required: int = 0
+    form: Form = field(default_factory=lambda: Form("module", []), repr=False)
+
+    def write(self, spans: bool = True, labels: bool = False) -> str:
+        """The text again, with or without spans and the sites' labels."""
+        return write_tree(self.form, 0, spans, labels) + "\n"

@@ -1,0 +1,47 @@
+"""Draws and densities in a plain-Python run: the engine's own, so that both runs speak of the same numbers."""
+
+from __future__ import annotations
+
+import hashlib
+from typing import Any
+
+from niwaki.words.distributions import Distribution
+
+HALF_GRID = 1.5 * 2.0**20
+
+
+def grid(log_score: float) -> float:
+    """The nearest multiple of 2^-32, so that sums do not depend on their order; infinities pass."""
+    return (log_score + HALF_GRID) - HALF_GRID
+
+
+def hashed(address: str) -> int:
+    """A 128-bit number for a readable address."""
+    return int.from_bytes(hashlib.blake2b(address.encode(), digest_size=16).digest(), "little")
+
+
+def parameters(dist: Distribution) -> list[Any]:
+    """The parameters as the engine takes them: distributions as (family, parameters)."""
+    return [_parameter(part) for part in dist.parameters]
+
+
+def _parameter(value: Any) -> Any:
+    if isinstance(value, Distribution):
+        return (value.family, parameters(value))
+    if isinstance(value, (list, tuple)):
+        return [_parameter(part) for part in value]
+    return value.tolist() if hasattr(value, "tolist") else value
+
+
+def log_density(dist: Distribution, value: Any) -> float:
+    """The log density of a value (nats), on the grid."""
+    from niwaki import _engine
+
+    return grid(float(_engine.log_density(dist.family, parameters(dist), value)))
+
+
+def draw(dist: Distribution, seed: int, address: str) -> Any:
+    """The value that a seed gives at an address."""
+    from niwaki import _engine
+
+    return _engine.draw_at(dist.family, parameters(dist), seed, 0, hashed(address), 0)

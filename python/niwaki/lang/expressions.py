@@ -1,0 +1,357 @@
+"""Expressions to core form, one function for each kind of syntax node, found in one table.
+
+What may not be evaluated (the arms of `and`, `or`, `if ... else`) is lowered apart; if an arm needs statements, the
+whole expression becomes an `if` statement that sets a temporary.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Sequence
+from functools import partial
+from types import ModuleType
+from typing import Any, TypeVar
+
+from niwaki.lang import vocabulary
+from niwaki.lang.body import Block, Body, stable
+from niwaki.lang.core import Expr, Form, literal
+from niwaki.lang.names import MISSING, is_record_class, nearest
+from niwaki.lang.refuse import refuse
+from niwaki.lang.scope import Scope, Variable
+
+Node = TypeVar("Node", bound=ast.AST)
+TABLE: dict[type[ast.AST], Callable[[Body, Any], Expr]] = {}
+
+
+def lowers(*kinds: type[ast.AST]) -> Callable[[Callable[[Body, Node], Expr]], Callable[[Body, Node], Expr]]:
+    """Register the function that lowers a kind of node."""
+
+    def register(function: Callable[[Body, Node], Expr]) -> Callable[[Body, Node], Expr]:
+        TABLE.update(dict.fromkeys(kinds, function))
+        return function
+
+    return register
+
+
+def expression(body: Body, node: ast.expr) -> Expr:
+    """Any expression."""
+    lower = TABLE.get(type(node))
+    if lower is None:
+        refuse(body, node)
+    return lower(body, node)
+
+
+def expressions(body: Body, nodes: Sequence[ast.expr]) -> list[Expr]:
+    """Several expressions, evaluated from left to right."""
+    return body.in_order([partial(expression, body, node) for node in nodes])
+
+
+@lowers(ast.Constant)
+def constant(body: Body, node: ast.Constant) -> Expr:
+    """A number, a truth value, a string or None."""
+    value = node.value
+    if isinstance(value, (bytes, complex)) or value is ...:
+        body.refuse("unknown-constant", node, name=body.span(node).text, found=_kind(value))
+    if isinstance(value, int) and not -(2**63) <= value < 2**63:
+        body.refuse("integer-too-large", node, found=str(value))
+    return literal(value)
+
+
+def _kind(value: Any) -> str:
+    return {"bytes": "a bytes string", "complex": "a complex number"}.get(type(value).__name__, "an ellipsis")
+
+
+@lowers(ast.Name)
+def name(body: Body, node: ast.Name) -> Expr:
+    """A variable, or what the name means outside of the model."""
+    found = body.scopes.find(node.id, body.scope)
+    if isinstance(found, Variable):
+        return variable(body, node, found)
+    if isinstance(found, Scope):
+        return closure(body, found, node)
+    return outside(body, node, resolve(body, node))
+
+
+def variable(body: Body, node: ast.Name, found: Variable) -> Expr:
+    """A local or captured variable; refused when it certainly has no value yet."""
+    moment = body.scopes.moments.get(node)
+    if found.owner is body.scope.function and moment is not None and found.assigned:
+        if not any(when.may_precede(moment) for when, _ in found.assigned):
+            first = found.assigned[0][1]
+            body.refuse("used-before-assigned", node, body.span(first), name=node.id)
+    return found.core
+
+
+def resolve(body: Body, node: ast.Name) -> Any:
+    """The live object that a global name means."""
+    value = body.namespace.find(node.id)
+    if value is MISSING:
+        local = [*(name for scope in body.scopes.of.values() for name in (*scope.variables, *scope.nested))]
+        close = nearest(node.id, [*body.namespace.names(), *local])
+        known = f"did you mean `{close[0]}`?" if close else f"give `{node.id}` a value before the model is defined, or as an argument"
+        body.refuse("unknown-name", node, name=node.id, suggestion=known)
+    return value
+
+
+def outside(body: Body, node: ast.expr, value: Any) -> Expr:
+    """A live object used as a value."""
+    text = body.span(node).text
+    function = vocabulary.ALL_WORDS | set(vocabulary.OPERATIONS) | {map, filter, sorted, dict}
+    if _hashable(value) and (value in vocabulary.NOT_IN_A_MODEL or value in vocabulary.FORBIDDEN_BUILTINS):
+        forbidden(body, node, value)
+    if (_hashable(value) and value in function) or is_record_class(value):
+        body.refuse("word-as-value", node, name=text)
+    if isinstance(value, ModuleType):
+        body.refuse("module-as-value", node, name=text)
+    return with_place(body.program.constant(value, body.span(node), text), body, node)
+
+
+def with_place(form: Expr, body: Body, node: ast.AST) -> Expr:
+    """The form with the span of the place that uses it."""
+    if isinstance(form, Form) and form.head in ("dist", "record"):
+        form.span = body.span(node)
+    return form
+
+
+def forbidden(body: Body, node: ast.AST, value: Any) -> None:
+    """Refuse a built-in that a model cannot use."""
+    if value in vocabulary.NOT_IN_A_MODEL:
+        code, cure = vocabulary.NOT_IN_A_MODEL[value]
+        body.refuse(code, node, name=value.__name__, cure=cure)
+    body.refuse("forbidden-function", node, name=value.__name__)
+
+
+def _hashable(value: Any) -> bool:
+    try:
+        hash(value)
+    except TypeError:
+        return False
+    return True
+
+
+def closure(body: Body, scope: Scope, node: ast.AST, immediate: bool = False) -> Expr:
+    """A nested function as a value, with the values it captures; refused when one of them changes afterwards."""
+    if not immediate:
+        check_captures(body, scope, node)
+    return Form("closure", [literal(body.unit.names[scope]), *(needed.core for needed in scope.needed)])
+
+
+def check_captures(body: Body, scope: Scope, node: ast.AST) -> None:
+    """A variable that a function value reads must not be assigned again after the function is defined.
+
+    Python's function would see the new value, ours has kept the old one.
+    """
+    own = [default for default in scope.defaults.values() if isinstance(default, Variable)]
+    for needed in scope.needed:
+        if needed in own:
+            continue
+        for when, assignment in needed.assigned:
+            if scope.defined.may_precede(when) and assignment is not needed.owner.node:
+                body.refuse("captured-then-changed", node, body.span(assignment), name=needed.name, function=scope.name)
+
+
+@lowers(ast.Lambda)
+def lambda_(body: Body, node: ast.Lambda) -> Expr:
+    """A lambda as a value."""
+    scope = body.scopes.of[node]
+    keep_defaults(body, scope)
+    return closure(body, scope, node)
+
+
+def keep_defaults(body: Body, scope: Scope) -> None:
+    """Default values are computed where the function is defined, and kept in variables for its calls."""
+    for default in scope.defaults.values():
+        if isinstance(default, Variable):
+            node = default.assigned[0][1]
+            assert isinstance(node, ast.expr)
+            body.put(body.form("set", [default.core, expression(body, node)], node))
+
+
+@lowers(ast.BinOp)
+def binary(body: Body, node: ast.BinOp) -> Expr:
+    """Arithmetic; the span is the whole operation, since either side may be at fault."""
+    head = vocabulary.BINARY.get(type(node.op).__name__)
+    if head is None:
+        body.refuse("unsupported-syntax", node)
+    return body.form(head, expressions(body, [node.left, node.right]), node)
+
+
+@lowers(ast.UnaryOp)
+def unary(body: Body, node: ast.UnaryOp) -> Expr:
+    """`-x`, `+x`, `not x`, `~x`; the sign of a number is part of it."""
+    if isinstance(node.op, ast.USub) and isinstance(node.operand, ast.Constant):
+        if type(node.operand.value) in (int, float):
+            return constant(body, ast.copy_location(ast.Constant(-node.operand.value), node))
+    return body.form(vocabulary.UNARY[type(node.op).__name__], [expression(body, node.operand)], node)
+
+
+@lowers(ast.BoolOp)
+def boolean(body: Body, node: ast.BoolOp) -> Expr:
+    """`a and b and c`, `a or b`: the first operand that decides."""
+    head = "and" if isinstance(node.op, ast.And) else "or"
+    return short_circuit(body, head, [partial(expression, body, value) for value in node.values], node)
+
+
+def short_circuit(body: Body, head: str, makers: Sequence[Callable[[], Expr]], node: ast.AST) -> Expr:
+    """Operands of `and` and `or`; as nested `if` statements when a later one needs statements."""
+    first = makers[0]()
+    if len(makers) == 1:
+        return first
+    block, rest = body.within(lambda: short_circuit(body, head, makers[1:], node))
+    if not block:
+        same = isinstance(rest, Form) and rest.head == head and len(makers) > 2
+        return body.form(head, [first, *(rest.args if same and isinstance(rest, Form) else [rest])], node)
+    result = body.temporary()
+    body.put(Form("set", [result, first]))
+    more: Block = [*block, Form("set", [result, rest])]
+    arms = [Form("then", more), Form("else", [])] if head == "and" else [Form("then", []), Form("else", more)]
+    body.put(body.form("if", [result, *arms], None))
+    return result
+
+
+@lowers(ast.IfExp)
+def conditional(body: Body, node: ast.IfExp) -> Expr:
+    """`a if test else b`."""
+    test = expression(body, node.test)
+    then_block, then = body.within(lambda: expression(body, node.body))
+    else_block, other = body.within(lambda: expression(body, node.orelse))
+    if not then_block and not else_block:
+        return body.form("cond", [test, then, other], node)
+    result = body.temporary()
+    arms = [
+        Form("then", [*then_block, Form("set", [result, then])]),
+        Form("else", [*else_block, Form("set", [result, other])]),
+    ]
+    body.put(body.form("if", [test, *arms], node.test))
+    return result
+
+
+@lowers(ast.Compare)
+def compare(body: Body, node: ast.Compare) -> Expr:
+    """Comparisons; `a < b < c` computes `b` once and stops at the first that fails."""
+    left, *rest = [node.left, *node.comparators]
+    if len(rest) == 1:
+        return _comparison(body, node, node.ops[0], partial(expression, body, left), rest[0], keep=False)[0]
+    middle: list[Expr] = []
+
+    def step(number: int) -> Expr:
+        first = partial(expression, body, left) if number == 0 else (lambda: middle[-1])
+        last = number == len(rest) - 1
+        form, right = _comparison(body, node, node.ops[number], first, rest[number], keep=not last)
+        middle.append(right)
+        return form
+
+    return short_circuit(body, "and", [partial(step, number) for number in range(len(rest))], node)
+
+
+def _comparison(
+    body: Body, node: ast.Compare, op: ast.cmpop, left: Callable[[], Expr], right: ast.expr, keep: bool
+) -> tuple[Expr, Expr]:
+    """One comparison and its right side, which the next one may need again."""
+    none = isinstance(right, ast.Constant) and right.value is None
+    if isinstance(op, (ast.Is, ast.IsNot)):
+        if not none:
+            body.refuse("compares-identity", node, word="is" if isinstance(op, ast.Is) else "is not")
+        test = body.form("is_none", [left()], node)
+        return (test if isinstance(op, ast.Is) else body.form("not", [test], node)), "none"
+
+    def second() -> Expr:
+        value = expression(body, right)
+        return body.kept(value) if keep else value
+
+    a, b = body.in_order([left, second])
+    if isinstance(op, ast.NotIn):
+        return body.form("not", [body.form("in", [a, b], node)], node), b
+    return body.form(vocabulary.COMPARE[type(op).__name__], [a, b], node), b
+
+
+@lowers(ast.List, ast.Tuple)
+def sequence(body: Body, node: ast.List | ast.Tuple) -> Expr:
+    """A list or a tuple; `[*a, *b]` is refused with its cure."""
+    for part in node.elts:
+        if isinstance(part, ast.Starred):
+            body.refuse("star-in-a-list", part)
+    return body.form("list" if isinstance(node, ast.List) else "tuple", expressions(body, node.elts), None)
+
+
+@lowers(ast.Dict)
+def dictionary(body: Body, node: ast.Dict) -> Expr:
+    """A dict with constant keys."""
+    keys = []
+    for key, value in zip(node.keys, node.values, strict=True):
+        atom = expression(body, key) if isinstance(key, (ast.Constant, ast.UnaryOp)) else None
+        if not isinstance(atom, str):
+            body.refuse("dict-key", key if key is not None else value)
+        keys.append(atom)
+    return body.form("dict", [Form("", list(keys)), *expressions(body, node.values)], None)
+
+
+@lowers(ast.Subscript)
+def subscript(body: Body, node: ast.Subscript) -> Expr:
+    """`xs[i]`, `xs[a:b:c]`, and `array[i, j]` for data."""
+    if isinstance(node.slice, ast.Slice):
+        parts = [node.slice.lower, node.slice.upper, node.slice.step]
+        makers = [partial(expression, body, part) if part is not None else (lambda: "none") for part in parts]
+        return body.form("slice", body.in_order([partial(expression, body, node.value), *makers]), node)
+    indices = node.slice.elts if isinstance(node.slice, ast.Tuple) else [node.slice]
+    for index in indices:
+        if isinstance(index, (ast.Slice, ast.Starred)):
+            body.refuse("unsupported-syntax", index)
+    value, *places = expressions(body, [node.value, *indices])
+    for place in places:
+        value = body.form("index", [value, place], node)
+    return value
+
+
+@lowers(ast.Attribute)
+def attribute(body: Body, node: ast.Attribute) -> Expr:
+    """A name in a module, or a field of a value."""
+    value = static(body, node)
+    if value is not MISSING:
+        return outside(body, node, value)
+    return body.form("field", [expression(body, node.value), literal(node.attr)], node)
+
+
+def static(body: Body, node: ast.expr) -> Any:
+    """The live object that `module.name` means, or MISSING for anything that is only known when the model runs."""
+    if isinstance(node, ast.Name):
+        return resolve(body, node) if body.scopes.find(node.id, body.scope) is None else MISSING
+    if not isinstance(node, ast.Attribute):
+        return MISSING
+    owner = static(body, node.value)
+    if not isinstance(owner, ModuleType):
+        return MISSING
+    try:
+        return getattr(owner, node.attr)
+    except AttributeError:
+        close = nearest(node.attr, dir(owner))
+        known = f"did you mean `{close[0]}`?" if close else f"`{owner.__name__}` has no such name"
+        body.refuse("unknown-name", node, name=f"{owner.__name__}.{node.attr}", suggestion=known)
+
+
+@lowers(ast.JoinedStr)
+def formatted(body: Body, node: ast.JoinedStr) -> Expr:
+    """An f-string."""
+    holes = [part for part in node.values if isinstance(part, ast.FormattedValue)]
+    values = iter(expressions(body, [hole.value for hole in holes]))
+    parts: list[Expr] = []
+    for part in node.values:
+        if isinstance(part, ast.Constant):
+            parts.append(literal(part.value))
+        elif isinstance(part, ast.FormattedValue):
+            conversion = chr(part.conversion) if part.conversion > 0 else ""
+            parts.append(body.form("format", [next(values), literal(_spec(body, part)), literal(conversion)], None))
+    return body.form("fstr", parts, node)
+
+
+def _spec(body: Body, node: ast.FormattedValue) -> str:
+    spec = node.format_spec
+    if spec is None:
+        return ""
+    assert isinstance(spec, ast.JoinedStr)
+    if not all(isinstance(part, ast.Constant) for part in spec.values):
+        body.refuse("unsupported-syntax", node)
+    return "".join(str(part.value) for part in spec.values if isinstance(part, ast.Constant))
+
+
+__all__ = ["expression", "expressions", "lowers", "stable"]

@@ -1,0 +1,138 @@
+"""A model function that tells where it is: the user's own code, compiled from their file with each site named.
+
+`f(x)` becomes `__nw__.call("f", f, x)`, `for i in xs` becomes `for i in __nw__.loop("i[]", xs)`; nothing else changes,
+and every node keeps its line and columns, so that a debugger and a traceback show the file that the user wrote.
+`__nw__` is a cell of the function's closure: the user's module is not touched.
+"""
+
+from __future__ import annotations
+
+import ast
+import copy
+from types import CellType, CodeType, FunctionType
+from typing import Any
+from weakref import WeakKeyDictionary
+
+from niwaki.lang.program import Program
+
+HOOK = "__nw__"
+INNER = "__nw_def__"
+_codes: WeakKeyDictionary[FunctionType, CodeType] = WeakKeyDictionary()
+
+
+def instrumented(function: FunctionType, hook: Any) -> FunctionType:
+    """The function with its sites named; `hook` answers `call`, `loop`, `forever` and `leave`."""
+    if function not in _codes:
+        _codes[function] = _compile(function)
+    code = _codes[function]
+    cells = dict(zip(function.__code__.co_freevars, function.__closure__ or (), strict=True))
+    closure = tuple(CellType(hook) if name == HOOK else cells[name] for name in code.co_freevars)
+    made = FunctionType(code, function.__globals__, function.__name__, function.__defaults__, closure)
+    made.__kwdefaults__ = function.__kwdefaults__
+    made.__qualname__ = function.__qualname__
+    return made
+
+
+def _compile(function: FunctionType) -> CodeType:
+    unit = Program().unit(function)
+    memo: dict[int, Any] = {}
+    clone = copy.deepcopy(unit.node, memo)
+    labels: dict[Any, Any] = {}
+    for key, label in unit.labels.items():
+        if isinstance(key, tuple):
+            pair = labels.setdefault(memo[id(key[0])], ["", ""])
+            pair[0 if key[1] == "loop" else 1] = label
+        else:
+            labels[memo[id(key)]] = label
+    node = _Namer(labels, clone).visit(clone)
+    node.args.defaults = [ast.copy_location(ast.Constant(None), default) for default in node.args.defaults]
+    node.args.kw_defaults = [d and ast.copy_location(ast.Constant(None), d) for d in node.args.kw_defaults]
+    if isinstance(node, ast.FunctionDef):
+        node.name, node.decorator_list = INNER, []
+        inner: list[ast.stmt] = [node]
+    else:
+        inner = [ast.Expr(node)]
+    names = [HOOK, *function.__code__.co_freevars]
+    arguments = ast.arguments(posonlyargs=[], args=[ast.arg(name) for name in names], kwonlyargs=[], kw_defaults=[], defaults=[])
+    factory = ast.FunctionDef("__factory__", arguments, inner, [], lineno=1, col_offset=0)
+    module = ast.fix_missing_locations(ast.Module([factory], []))
+    outer = _inner(compile(module, unit.file.path, "exec", dont_inherit=True), "__factory__")
+    return _renamed(_inner(outer, node.name if isinstance(node, ast.FunctionDef) else "<lambda>"), function)
+
+
+def _renamed(code: CodeType, function: FunctionType) -> CodeType:
+    """The code under the user's names again, with everything nested in it.
+
+    While it is compiled the function must not have its own name: a call of itself would find the factory's variable.
+    """
+    name, qualified = function.__name__, function.__qualname__
+
+    def rename(part: CodeType) -> CodeType:
+        shown = "<lambda>" if name == "<lambda>" else INNER
+        path = part.co_qualname.removeprefix(f"__factory__.<locals>.{shown}")
+        parts = tuple(rename(inner) if isinstance(inner, CodeType) else inner for inner in part.co_consts)
+        own = name if part.co_name == INNER else part.co_name
+        return part.replace(co_name=own, co_qualname=qualified + path, co_consts=parts)
+
+    return rename(code)
+
+
+def _inner(code: CodeType, name: str) -> CodeType:
+    return next(part for part in code.co_consts if isinstance(part, CodeType) and part.co_name == name)
+
+
+class _Namer(ast.NodeTransformer):
+    """Rewrites calls, loops and `break`."""
+
+    def __init__(self, labels: dict[Any, Any], root: ast.AST) -> None:
+        self.labels = labels
+        self.root = root
+
+    def _hook(self, name: str, args: list[ast.expr], keywords: list[ast.keyword], at: ast.AST) -> ast.Call:
+        hook = ast.Attribute(ast.Name(HOOK, ast.Load()), name, ast.Load())
+        made = ast.copy_location(ast.Call(hook, args, keywords), at)
+        return ast.fix_missing_locations(made)
+
+    def visit_Call(self, node: ast.Call) -> ast.AST:
+        label = self.labels.get(node, "")
+        self.generic_visit(node)
+        shown = ast.Constant(tuple(label) if isinstance(label, list) else label)
+        return self._hook("call", [shown, node.func, *node.args], node.keywords, node)
+
+    def visit_For(self, node: ast.For) -> ast.AST:
+        label = self.labels.get(node, "")
+        self.generic_visit(node)
+        node.iter = self._hook("loop", [ast.Constant(label), node.iter], [], node.iter)
+        return node
+
+    def visit_While(self, node: ast.While) -> ast.AST:
+        label = self.labels.get(node, "")
+        self.generic_visit(node)
+        if node.orelse:
+            return node
+        leave = ast.Expr(self._hook("leave", [], [], node.test))
+        test = ast.If(ast.UnaryOp(ast.Not(), node.test), [leave, ast.Break()], [])
+        items = self._hook("forever", [ast.Constant(label)], [], node.test)
+        loop = ast.For(ast.Name("__nw_step__", ast.Store()), items, [ast.copy_location(test, node.test), *node.body], [])
+        return ast.fix_missing_locations(ast.copy_location(loop, node))
+
+    def visit_comprehension(self, node: ast.comprehension) -> ast.AST:
+        label = self.labels.get(node, "")
+        self.generic_visit(node)
+        node.iter = self._hook("loop", [ast.Constant(label), node.iter], [], node.iter)
+        return node
+
+    def visit_Break(self, node: ast.Break) -> Any:
+        leave = ast.copy_location(ast.Expr(self._hook("leave", [], [], node)), node)
+        return [leave, node]
+
+    def visit_arg(self, node: ast.arg) -> ast.AST:
+        node.annotation = None
+        return node
+
+    def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:
+        node.returns = None
+        if node is self.root:
+            node.decorator_list = []
+        self.generic_visit(node)
+        return node

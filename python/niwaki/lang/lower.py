@@ -1,0 +1,100 @@
+"""A model to core form: its function, every function it can call, and the constants they read.
+
+The pipeline: `source` finds the text, `scope` the owners of names, `sites` the names of choices; `statements`,
+`expressions`, `comprehensions` and `calls` write forms; `core` prints them.
+"""
+
+from __future__ import annotations
+
+import ast
+from types import FunctionType
+
+from niwaki.errors import ModelError
+from niwaki.lang import calls, comprehensions  # noqa: F401  (they register themselves)
+from niwaki.lang.body import Body
+from niwaki.lang.core import Core, Expr, Form, literal, write_tree
+from niwaki.lang.expressions import expression
+from niwaki.lang.names import record_fields
+from niwaki.lang.program import Program, Unit
+from niwaki.lang.scope import Scope, Variable, functions
+from niwaki.lang.source import head_span, span_of
+from niwaki.lang.statements import statement
+
+
+def lower(function: FunctionType, labels: bool = False) -> Core:
+    """The core form of a model's function and of everything it can call.
+
+    Parameters
+    ----------
+    function
+        The Python function.
+    labels
+        Whether the text names each site, `#component`.
+    """
+    program = Program()
+    entry = program.unit(function)
+    lowered: list[Expr] = []
+    while program.waiting:
+        unit = program.waiting.pop(0)
+        lowered += [_function(program, unit, scope) for scope in functions(unit.scopes)]
+    module: list[Expr] = [Form("file", [str(n), literal(file.path)]) for n, file in enumerate(program.files)]
+    for number, record in enumerate(program.classes):
+        fields = Form("", [literal(field) for field in record_fields(record)])
+        module.append(Form("class", [str(number), literal(record.__name__), fields]))
+    module += [*lowered, Form("entry", [literal(entry.name)])]
+    form = Form("module", module)
+    parameters = entry.scopes.root.parameters
+    defaults = len(function.__defaults__ or ()) + len(function.__kwdefaults__ or {})
+    return Core(
+        write_tree(form, 0, True, labels) + "\n",
+        program.constants,
+        program.classes,
+        program.files,
+        entry.name,
+        tuple(parameters),
+        len(parameters) - defaults,
+        form,
+    )
+
+
+def _function(program: Program, unit: Unit, scope: Scope) -> Form:
+    """One `fn`."""
+    node = scope.node
+    assert isinstance(node, (ast.FunctionDef, ast.Lambda))
+    _check_signature(unit, node)
+    body = Body(program, unit, scope)
+    if isinstance(node, ast.Lambda):
+        block, value = body.within(lambda: expression(body, node.body))
+        body.block = [*block, body.form("return", [value], node.body)]
+    else:
+        for part in node.body:
+            statement(body, part)
+    head = [
+        literal(unit.names[scope]),
+        f"@{head_span(node, unit.file)}",
+        Form("file", [str(program.file_number(unit.file))]),
+        Form("params", [scope.variables[name].core for name in scope.parameters]),
+        Form("defaults", _defaults(body, unit, scope)),
+        Form("captures", [needed.core for needed in scope.needed]),
+    ]
+    return Form("fn", [*head, *body.block])
+
+
+def _defaults(body: Body, unit: Unit, scope: Scope) -> list[Expr]:
+    if scope is unit.scopes.root:
+        return [atom for _, atom in sorted(calls.live_defaults(body.program, unit).items(), key=lambda pair: pair[0])]
+    return [
+        default.core if isinstance(default, Variable) else expression(body, default)
+        for default in scope.defaults.values()
+    ]
+
+
+def _check_signature(unit: Unit, node: ast.FunctionDef | ast.Lambda) -> None:
+    """Refuse `*args`, `**kwargs`, and required parameters after optional ones."""
+    extra = node.args.vararg or node.args.kwarg
+    if extra is not None:
+        raise ModelError("star-parameters", span_of(extra, unit.file), name=extra.arg)
+    required = {arg.arg for arg, value in zip(node.args.kwonlyargs, node.args.kw_defaults, strict=True) if value is None}
+    if required and (node.args.defaults):
+        late = next(arg for arg in node.args.kwonlyargs if arg.arg in required)
+        raise ModelError("required-after-optional", span_of(late, unit.file), name=late.arg)

@@ -1,0 +1,12 @@
+"""The one table of all messages, by code."""
+
+from __future__ import annotations
+
+from niwaki.lang.texts.faults import FAULTS
+from niwaki.lang.texts.inputs import INPUTS
+from niwaki.lang.texts.language import LANGUAGE
+from niwaki.lang.texts.message import Message
+
+MESSAGES: dict[str, Message] = {message.code: message for message in (*LANGUAGE, *FAULTS, *INPUTS)}
+
+__all__ = ["FAULTS", "INPUTS", "LANGUAGE", "MESSAGES", "Message"]

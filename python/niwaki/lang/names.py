@@ -1,0 +1,88 @@
+"""What a name means outside of a model: the module's globals, the cells of a closure, Python's built-ins.
+
+Only this file and `constants` look at live Python objects.
+"""
+
+from __future__ import annotations
+
+import builtins
+import dataclasses
+import difflib
+import sys
+import sysconfig
+from collections.abc import Iterable
+from types import FunctionType, ModuleType
+from typing import Any
+
+MISSING: Any = type("Missing", (), {"__repr__": lambda self: "missing"})()
+
+
+class Namespace:
+    """The names that a top-level function sees besides its own."""
+
+    def __init__(self, function: FunctionType) -> None:
+        self.globals = function.__globals__
+        cells = function.__closure__ or ()
+        self.cells = dict(zip(function.__code__.co_freevars, cells, strict=True))
+
+    def find(self, name: str) -> Any:
+        """The live object, or MISSING."""
+        if name in self.cells:
+            try:
+                return self.cells[name].cell_contents
+            except ValueError:
+                return MISSING
+        if name in self.globals:
+            return self.globals[name]
+        return getattr(builtins, name, MISSING)
+
+    def names(self) -> list[str]:
+        """Every name that could have been meant."""
+        return [*self.cells, *self.globals, *(name for name in dir(builtins) if name.islower())]
+
+    def has_field(self, name: str) -> bool:
+        """Whether some record class in sight has a field of this name."""
+        return any(is_record_class(value) and name in record_fields(value) for value in self.globals.values())
+
+
+def nearest(name: str, among: Iterable[str], count: int = 1) -> list[str]:
+    """The names that look most like `name`."""
+    known = sorted({other for other in among if not other.startswith("__")})
+    return difflib.get_close_matches(name, known, n=count, cutoff=0.6)
+
+
+def is_named_tuple(value: Any) -> bool:
+    """Whether it is a class made by NamedTuple."""
+    return isinstance(value, type) and issubclass(value, tuple) and hasattr(value, "_fields")
+
+
+def is_record_class(value: Any) -> bool:
+    """Whether it is a class whose instances are records."""
+    return isinstance(value, type) and (is_named_tuple(value) or dataclasses.is_dataclass(value))
+
+
+def record_fields(value: Any) -> tuple[str, ...]:
+    """The names of a record class's fields, in order."""
+    if is_named_tuple(value):
+        return tuple(value._fields)
+    return tuple(field.name for field in dataclasses.fields(value))
+
+
+def is_library(function: FunctionType) -> bool:
+    """Whether a function belongs to Python's library or to an installed package rather than to the user."""
+    module = (function.__module__ or "").partition(".")[0]
+    if module == "niwaki":
+        return (function.__module__ or "").startswith(("niwaki.words", "niwaki.lang"))
+    if module in sys.stdlib_module_names and module != "__main__":
+        return True
+    path = function.__code__.co_filename
+    return any(path.startswith(sysconfig.get_path(kind)) for kind in ("purelib", "platlib"))
+
+
+def is_random(value: Any, module: Any = None) -> bool:
+    """Whether it is one of the random number generators of Python or NumPy."""
+    if isinstance(value, ModuleType):
+        return value.__name__ in ("random", "numpy.random", "secrets")
+    owner = type(getattr(value, "__self__", None))
+    own = getattr(value, "__module__", "") or ""
+    return own.startswith(("numpy.random", "random")) or f"{owner.__module__}".startswith(("random", "numpy.random"))

@@ -1,0 +1,336 @@
+"""A model as ordinary Python: the oracle for the engine, and what a debugger steps through.
+
+The user's own function runs (see `instrument`); this file keeps what happens: the path of calls and loops, choices by
+readable address, scores, shapes and answers. Futures run where they are created.
+"""
+
+from __future__ import annotations
+
+import difflib
+import math
+import secrets
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from types import FunctionType
+from typing import Any
+
+from niwaki.errors import Call, InputError, ModelFault, NiwakiError, place
+from niwaki.lang import densities, vocabulary
+from niwaki.lang.instrument import instrumented
+from niwaki.lang.names import is_library
+from niwaki.words.distributions import Distribution
+from niwaki.words.effects import flatten
+from niwaki.words.models import Model, underlying
+from niwaki.words.running import current
+
+LAZY = (zip, map, filter, enumerate, reversed, type({}.keys()), type({}.values()), type({}.items()), type(reversed([])))
+
+
+@dataclass(frozen=True)
+class Run:
+    """What one run of a model did.
+
+    Attributes
+    ----------
+    value
+        What the model returned.
+    choices : dict of str to value
+        Every choice by its address, in the order made.
+    log_prior : float
+        Sum of the choices' log densities, nats.
+    log_score : float
+        Sum of factors, observations and conditions, nats.
+    scene : list of (str, list of shapes)
+        The primitives, by the address of their `emit`.
+    queries : dict
+        Answers by key.
+    """
+
+    value: Any
+    choices: dict[str, Any]
+    log_prior: float
+    log_score: float
+    scene: list[tuple[str, list[Any]]] = field(default_factory=list)
+    queries: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def log_joint(self) -> float:
+        """Prior and score together, nats."""
+        return self.log_prior + self.log_score
+
+
+def run_python(
+    model: Model[..., Any] | Callable[..., Any],
+    *args: Any,
+    seed: int | None = None,
+    choices: Mapping[str, Any] | None = None,
+    **kwargs: Any,
+) -> Run:
+    """Run a model once as plain Python.
+
+    Parameters
+    ----------
+    model
+        A model, or a function written in the modelling language.
+    args, kwargs
+        Its arguments.
+    seed
+        Decides every choice that `choices` does not; fresh when neither is given.
+    choices
+        The values of choices by address. Without a seed it must name every choice that the run makes.
+
+    Returns
+    -------
+    Run
+        Value, choices, score, scene and queries.
+    """
+    function = underlying(model)
+    if not isinstance(function, FunctionType):
+        raise InputError("model-of-a-value", found=repr(model))
+    if seed is None and choices is None:
+        seed = secrets.randbits(63)
+    state = PlainRun(seed, choices)
+    token = current.set(state)
+    try:
+        value = state.enter(function, args, kwargs)
+    except NiwakiError:
+        raise
+    except Exception as error:
+        raise state.fault(error) from error
+    finally:
+        current.reset(token)
+    return Run(value, state.made, state.log_prior, state.log_score, state.scene, state.answers)
+
+
+class PlainRun:
+    """The state of a plain run; answers both the words (`Runner`) and the instrumented code."""
+
+    def __init__(self, seed: int | None, choices: Mapping[str, Any] | None) -> None:
+        self.seed = seed
+        self.given = choices
+        self.path: list[str] = []
+        self.loops: list[int] = []
+        self.pending = ""
+        self.made: dict[str, Any] = {}
+        self.log_prior = 0.0
+        self.log_score = 0.0
+        self.scene: list[tuple[str, list[Any]]] = []
+        self.answers: dict[str, Any] = {}
+        self.answered: dict[str, str] = {}
+        self.functions: dict[FunctionType, FunctionType] = {}
+        self.codes: set[Any] = set()
+
+    # what the instrumented code asks
+
+    def call(self, label: str | tuple[str, str], function: Any, /, *args: Any, **kwargs: Any) -> Any:
+        """A call at a site."""
+        function = underlying(function)
+        depth, loops = len(self.path), len(self.loops)
+        if isinstance(function, FunctionType) and self.is_model_code(function):
+            assert isinstance(label, str)
+            self.path.append(label)
+            value = self.enter(function, args, kwargs)
+        elif isinstance(label, tuple):
+            value = self.with_function(label, function, args, kwargs)
+        else:
+            self.pending = label
+            value = function(*args, **kwargs)
+        del self.path[depth:], self.loops[loops:]
+        return list(value) if isinstance(value, LAZY) else value
+
+    def is_model_code(self, function: FunctionType) -> bool:
+        """Whether a function is the user's: to be run with its sites named."""
+        return function.__code__ in self.codes or not (function in vocabulary.ALL_WORDS or is_library(function))
+
+    def enter(self, function: FunctionType, args: Sequence[Any], kwargs: Mapping[str, Any]) -> Any:
+        """Run a function of the user."""
+        if function.__code__ not in self.codes:
+            if function not in self.functions:
+                made = instrumented(function, self)
+                self.functions[function] = made
+                self.know(made.__code__)
+            function = self.functions[function]
+        return function(*args, **kwargs)
+
+    def know(self, code: Any) -> None:
+        """Remember instrumented code, with the functions nested in it."""
+        self.codes.add(code)
+        for part in code.co_consts:
+            if hasattr(part, "co_consts"):
+                self.know(part)
+
+    def with_function(self, label: tuple[str, str], word: Any, args: Sequence[Any], kwargs: dict[str, Any]) -> Any:
+        """`map`, `filter`, `sorted`, `min` and `max`, whose function is called once for each item, in order."""
+        loop, callee = label
+        if word in (map, filter):
+            function, *lists = args
+            if function is None:
+                return list(filter(None, lists[0]))
+            rows = zip(*lists, strict=False)
+            results = [(row[0], self.call(callee, function, *row)) for row in self.loop(loop, rows)]
+            return [made for _, made in results] if word is map else [item for item, keep in results if keep]
+        function = kwargs.pop("key", None)
+        if function is None:
+            return word(*args, **kwargs)
+        items = list(args[0]) if len(args) == 1 else list(args)
+        keys = [self.call(callee, function, item) for item in self.loop(loop, items)]
+        if not items and word is not sorted:
+            return word([], **kwargs)
+        order = word(range(len(items)), key=keys.__getitem__, **{k: v for k, v in kwargs.items() if k != "default"})
+        return [items[place] for place in order] if word is sorted else items[order]
+
+    def loop(self, label: str, items: Iterable[Any]) -> Iterator[Any]:
+        """The items of a loop, each with its place in the path."""
+        depth, loops = len(self.path), len(self.loops)
+        self.loops.append(depth)
+        for number, item in enumerate(items):
+            del self.path[depth:], self.loops[loops + 1 :]
+            self.path.append(label.replace("[]", f"[{number}]"))
+            yield item
+        del self.path[depth:], self.loops[loops:]
+
+    def forever(self, label: str) -> Iterator[int]:
+        """The steps of a `while`."""
+
+        def count() -> Iterator[int]:
+            number = 0
+            while True:
+                yield number
+                number += 1
+
+        return self.loop(label, count())
+
+    def leave(self) -> None:
+        """A `break`."""
+        del self.path[self.loops.pop() :]
+
+    # what the words ask
+
+    def address(self, fallback: str) -> str:
+        """The address of the site that is being called."""
+        label, self.pending = self.pending or fallback, ""
+        return "/".join([*self.path, label])
+
+    def sample(self, dist: Any) -> Any:
+        """Make a choice."""
+        address = self.address("sample")
+        self.check(dist)
+        assert address not in self.made
+        if self.given is not None and address in self.given:
+            value = self.given[address]
+        elif self.seed is None:
+            near = difflib.get_close_matches(address, list(self.given or ()), n=3, cutoff=0.0)
+            raise InputError("missing-choice", address=address, nearest=", ".join(f'"{name}"' for name in near) or "none")
+        else:
+            value = densities.draw(dist, self.seed, address)
+        self.log_prior += densities.log_density(dist, value)
+        self.made[address] = value
+        return value
+
+    def observe(self, dist: Any, value: Any) -> Any:
+        """Score a seen value."""
+        self.address("observe")
+        self.check(dist)
+        self.log_score += densities.log_density(dist, value)
+        return value
+
+    def check(self, dist: Any) -> None:
+        """A draw needs a distribution."""
+        if not isinstance(dist, Distribution):
+            raise TypeError(f"expected a distribution such as Gaussian(0, 1), found {dist!r}")
+
+    def factor(self, log_score: float) -> None:
+        """Add to the score."""
+        self.address("factor")
+        if math.isnan(log_score) or log_score == math.inf:
+            raise ModelFault("non-finite-score", f"a factor is {log_score}", stack=self.stack())
+        self.log_score += densities.grid(float(log_score))
+
+    def condition(self, holds: Any) -> None:
+        """Forbid the run unless `holds`."""
+        self.address("condition")
+        if not holds:
+            self.log_score = -math.inf
+
+    def query(self, key: Any, value: Any) -> None:
+        """Record an answer."""
+        address = self.address("query")
+        if key in self.answers:
+            other = self.answered[key]
+            raise ModelFault("query-twice", f"the query {key!r} is written twice, at {other} and at {address}", stack=self.stack())
+        self.answers[key], self.answered[key] = value, address
+
+    def emit(self, shapes: Sequence[Any]) -> None:
+        """Add a primitive to the scene."""
+        self.scene.append((self.address("emit"), flatten(shapes)))
+
+    def future(self, function: Callable[..., Any], args: Sequence[Any]) -> Any:
+        """Run a call now, and give its value."""
+        label, self.pending = self.pending or "apply", ""
+        depth, loops = len(self.path), len(self.loops)
+        function = underlying(function)
+        if isinstance(function, FunctionType) and self.is_model_code(function):
+            self.path.append(label)
+            value = self.enter(function, args, {})
+        else:
+            value = function(*args)
+        del self.path[depth:], self.loops[loops:]
+        return value
+
+    def force(self, value: Any) -> Any:
+        """A future is its value already."""
+        return value
+
+    # faults
+
+    def stack(self, error: BaseException | None = None) -> list[Call]:
+        """The model's own calls, outermost first."""
+        import sys
+
+        calls: list[Call] = []
+        if error is not None:
+            trace = error.__traceback__
+            while trace is not None:
+                calls += self._line(trace.tb_frame.f_code, trace.tb_lasti)
+                trace = trace.tb_next
+            return calls
+        frame = sys._getframe(1)
+        while frame is not None:
+            calls += self._line(frame.f_code, frame.f_lasti)
+            frame = frame.f_back  # type: ignore[assignment]
+        return calls[::-1]
+
+    def _line(self, code: Any, instruction: int) -> list[Call]:
+        if code not in self.codes or instruction < 0:
+            return []
+        line, end_line, column, end_column = list(code.co_positions())[instruction // 2]
+        if line is None or column is None:
+            return []
+        name = code.co_qualname.replace(".<locals>", "").replace("<lambda>", "lambda")
+        return [Call(name, place(code.co_filename, line, column + 1, end_line or line, (end_column or column) + 1))]
+
+    def fault(self, error: Exception) -> ModelFault:
+        """A Python exception as a fault with a code."""
+        code = next((code for kind, code in CODES if isinstance(error, kind)), "model-failed")
+        if isinstance(error, ValueError) and "unpack" in str(error):
+            code = "unpack-length"
+        text = str(error)
+        if isinstance(error, KeyError):
+            text = f"the dict has no key {error.args[0]!r}" if error.args else ""
+        replay = f"seed={self.seed}" if self.seed is not None else ""
+        return ModelFault(code, text, stack=self.stack(error), replay=replay)
+
+
+CODES: tuple[tuple[type[BaseException], str], ...] = (
+    (ZeroDivisionError, "division-by-zero"),
+    (IndexError, "list-index"),
+    (KeyError, "missing-key"),
+    (AssertionError, "assertion-failed"),
+    (RecursionError, "too-deep"),
+    (OverflowError, "number-too-large"),
+    (UnboundLocalError, "no-value-yet"),
+    (NameError, "no-value-yet"),
+    (AttributeError, "no-such-field"),
+    (TypeError, "type-mismatch"),
+    (ValueError, "bad-value"),
+)

@@ -1,0 +1,181 @@
+"""The names of sites: what each choice, call and loop adds to the readable address of what happens below it.
+
+    ship/      a call of a function, a call of a value, a future: the callee's own name (the part after the last dot;
+               `lambda`), a called variable's name, `apply` for any other called value
+    i[3]/      an iteration of `for i in ...` (of the first name of a pattern), also in a comprehension;
+               `while[3]`; `map[3]`, `filter[3]`, `sorted[3]`, `min[3]`, `max[3]` where those call a function
+    zc         a choice: the name that the enclosing assignment gives first, else the distribution's family
+    observe    and likewise `factor`, `condition`, `query`, `emit`
+
+The model that is run adds nothing: the address of its own choice `zc` is "zc".
+
+Equal names within one activation (one call, or one iteration of a loop) get `#1`, `#2` for the second, third
+occurrence in the order of evaluation of the source: `zc#1`, `wing#1`, `i[3]#1`. Three kinds are counted apart, since
+they cannot be confused: what ends an address, calls, and loops. Every site counts, whether or not its call can reach an
+effect. A loop's own head belongs to the activation around it, the test of a `while` to each of its iterations.
+
+Here a label is written with empty brackets for a loop, `i[]#1`; the index goes into the brackets when it runs.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections import Counter
+from collections.abc import Iterable
+from types import FunctionType, ModuleType
+from typing import TYPE_CHECKING, Any
+
+from niwaki import words
+from niwaki.lang import vocabulary
+from niwaki.lang.names import MISSING, is_library
+from niwaki.lang.scope import Scope, Variable, default_expressions
+from niwaki.words.models import underlying
+
+if TYPE_CHECKING:
+    from niwaki.lang.program import Unit
+
+CALLS_A_FUNCTION = {map: "map", filter: "filter", sorted: "sorted", min: "min", max: "max"}
+
+
+def labels_of(unit: Unit) -> dict[Any, str]:
+    """The label of every site of a unit: by syntax node, or by (node, "loop") and (node, "call") for `map` and the like."""
+    namer = _Namer(unit)
+    for scope in unit.scopes.of.values():
+        if scope.is_function:
+            assert isinstance(scope.node, (ast.FunctionDef, ast.Lambda))
+            namer.activation(scope, scope.node.body if isinstance(scope.node.body, list) else [scope.node.body])
+    return namer.labels
+
+
+class _Namer:
+    def __init__(self, unit: Unit) -> None:
+        self.unit = unit
+        self.labels: dict[Any, str] = {}
+        self.scope: Scope = unit.scopes.root
+        self.counts: Counter[tuple[str, str]] = Counter()
+        self.target = ""
+
+    def activation(self, scope: Scope, parts: Iterable[ast.AST], target: str = "") -> None:
+        """Name the sites of a function's body or of an iteration, with fresh counts."""
+        outer = self.scope, self.counts, self.target
+        self.scope, self.counts, self.target = scope, Counter(), target
+        for part in parts:
+            self.visit(part)
+        self.scope, self.counts, self.target = outer
+
+    def label(self, key: Any, kind: str, name: str) -> None:
+        seen = self.counts[kind, name]
+        self.counts[kind, name] += 1
+        self.labels[key] = f"{name}#{seen}" if seen else name
+
+    def visit(self, node: ast.AST) -> None:
+        match node:
+            case ast.Assign() | ast.AnnAssign() | ast.AugAssign():
+                targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+                self.target = next((t.id for t in targets if isinstance(t, ast.Name)), "")
+                if node.value is not None:
+                    self.visit(node.value)
+                self.target = ""
+            case ast.For():
+                self.visit(node.iter)
+                self.label(node, "loop", f"{first_name(node.target)}[]")
+                self.activation(self.scope, node.body)
+            case ast.While():
+                self.label(node, "loop", "while[]")
+                self.activation(self.scope, [node.test, *node.body])
+            case ast.ListComp() | ast.GeneratorExp() | ast.SetComp():
+                self.generators(node, 0, self.scope)
+            case ast.FunctionDef() | ast.Lambda():
+                for default in default_expressions(node).values():
+                    self.visit(default)
+            case ast.Call():
+                self.call(node)
+            case _:
+                for child in ast.iter_child_nodes(node):
+                    self.visit(child)
+
+    def generators(self, node: ast.ListComp | ast.GeneratorExp | ast.SetComp, number: int, scope: Scope) -> None:
+        if number == len(node.generators):
+            self.visit(node.elt)
+            return
+        part = node.generators[number]
+        self.visit(part.iter)
+        self.label(part, "loop", f"{first_name(part.target)}[]")
+        outer = self.scope, self.counts
+        self.scope, self.counts = self.unit.scopes.of.get(node, scope), Counter()
+        for test in part.ifs:
+            self.visit(test)
+        self.generators(node, number + 1, self.scope)
+        self.scope, self.counts = outer
+
+    def call(self, node: ast.Call) -> None:
+        value = self.meaning(node.func)
+        hashable = getattr(value, "__hash__", None) is not None
+        if not isinstance(node.func, ast.Name):
+            self.visit(node.func)
+        for arg in (*node.args, *(keyword.value for keyword in node.keywords)):
+            self.visit(arg)
+        if hashable and value in vocabulary.DRAWS:
+            self.label(node, "end", self.target or vocabulary.DRAWS[value].family)
+        elif value is words.sample:
+            self.label(node, "end", self.target or self.family(node.args[0] if node.args else None))
+        elif value is words.choose:
+            weighted = len(node.args) > 1 or bool(node.keywords)
+            self.label(node, "end", self.target or ("categorical" if weighted else "discrete_uniform"))
+        elif hashable and value in vocabulary.EFFECTS:
+            self.label(node, "end", vocabulary.EFFECTS[value])
+        elif value is words.future:
+            self.label(node, "call", self.callee(node.args[0]) if node.args else "apply")
+        elif hashable and value in CALLS_A_FUNCTION:
+            self.label((node, "loop"), "loop", f"{CALLS_A_FUNCTION[value]}[]")
+            key = next((keyword.value for keyword in node.keywords if keyword.arg == "key"), None)
+            function = key if key is not None else (node.args[0] if node.args else None)
+            self.labels[(node, "call")] = self.callee(function) if function is not None else "apply"
+        elif self.is_site(node.func, value):
+            self.label(node, "call", self.callee(node.func))
+
+    def is_site(self, node: ast.expr, value: Any) -> bool:
+        """Whether a call runs the user's code: a built-in, a word that computes or a record's class does not."""
+        if value is not MISSING:
+            return isinstance(value, FunctionType) and value not in vocabulary.ALL_WORDS and not is_library(value)
+        if isinstance(node, ast.Attribute):
+            return self.unit.namespace.has_field(node.attr)
+        return True
+
+    def family(self, dist: ast.expr | None) -> str:
+        """The family of a distribution that can be read off, else `sample`."""
+        if isinstance(dist, ast.Call):
+            made = self.meaning(dist.func)
+            return made.family if isinstance(made, type) and issubclass(made, words.Distribution) else "sample"
+        value = self.meaning(dist) if dist is not None else MISSING
+        return value.family if isinstance(value, words.Distribution) else "sample"
+
+    def callee(self, node: ast.expr) -> str:
+        """What a called thing adds to an address."""
+        if isinstance(node, ast.Lambda):
+            return "lambda"
+        if isinstance(node, ast.Name):
+            found = self.unit.scopes.find(node.id, self.scope)
+            if isinstance(found, (Scope, Variable)):
+                return found.name
+        value = self.meaning(node)
+        if isinstance(value, FunctionType) and not is_library(value):
+            return value.__name__.replace("<lambda>", "lambda")
+        return "apply"
+
+    def meaning(self, node: ast.expr) -> Any:
+        """The live object that a name outside of the model means, or MISSING."""
+        if isinstance(node, ast.Name):
+            if self.unit.scopes.find(node.id, self.scope) is not None:
+                return MISSING
+            return underlying(self.unit.namespace.find(node.id))
+        if isinstance(node, ast.Attribute):
+            owner = self.meaning(node.value)
+            if isinstance(owner, ModuleType):
+                return underlying(getattr(owner, node.attr, MISSING))
+        return MISSING
+
+
+def first_name(target: ast.AST) -> str:
+    """The first name of a loop's target."""
+    return next((part.id for part in ast.walk(target) if isinstance(part, ast.Name)), "")

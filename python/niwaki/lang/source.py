@@ -1,0 +1,128 @@
+"""Where a model is written: its file, its text and the places in it.
+
+A :class:`Span` is a piece of a source file, counted as editors count it (lines and columns from 1, the end excluded).
+:func:`find_function` gives the syntax tree of a live function, cut out of the tree of its whole file, so that every
+node already carries the file's own lines and columns.
+"""
+
+from __future__ import annotations
+
+import ast
+import linecache
+from dataclasses import dataclass
+from types import FunctionType
+
+
+@dataclass(frozen=True)
+class SourceFile:
+    """A file's name and its lines (without line ends)."""
+
+    path: str
+    lines: tuple[str, ...]
+
+    def line(self, number: int) -> str:
+        """The text of a line counted from 1, or nothing beyond the end."""
+        return self.lines[number - 1] if 0 < number <= len(self.lines) else ""
+
+
+@dataclass(frozen=True)
+class Span:
+    """A piece of a file: from (line, column) up to, not including, (end_line, end_column); all from 1."""
+
+    file: SourceFile
+    line: int
+    column: int
+    end_line: int
+    end_column: int
+
+    def __str__(self) -> str:
+        return f"{self.line}:{self.column}-{self.end_line}:{self.end_column}"
+
+    @property
+    def text(self) -> str:
+        """The source text of the span; of the first line only when it runs over several."""
+        line = self.file.line(self.line)
+        if self.end_line == self.line:
+            return line[self.column - 1 : self.end_column - 1]
+        return line[self.column - 1 :]
+
+
+_files: dict[str, tuple[SourceFile, ast.Module]] = {}
+
+
+def _parsed(path: str, module_globals: dict[str, object]) -> tuple[SourceFile, ast.Module] | None:
+    """The file's lines and tree; read again when the text has changed since."""
+    lines = tuple(line.rstrip("\r\n") for line in linecache.getlines(path, module_globals))
+    if not lines:
+        return None
+    known = _files.get(path)
+    if known is None or known[0].lines != lines:
+        try:
+            tree = ast.parse("\n".join(lines) + "\n", filename=path)
+        except SyntaxError:
+            return None
+        known = _files[path] = (SourceFile(path, lines), tree)
+    return known
+
+
+def span_of(node: ast.AST, file: SourceFile) -> Span:
+    """The span of a syntax node. The tree counts columns in UTF-8 bytes, we count characters."""
+    line, column = getattr(node, "lineno", 1), getattr(node, "col_offset", 0)
+    end_line = getattr(node, "end_lineno", None) or line
+    end_column = getattr(node, "end_col_offset", None)
+    if end_column is None:
+        end_column = column + 1
+    return Span(
+        file, line, _characters(file.line(line), column) + 1, end_line, _characters(file.line(end_line), end_column) + 1
+    )
+
+
+def _characters(line: str, offset: int) -> int:
+    if line.isascii():
+        return offset
+    return len(line.encode()[:offset].decode(errors="replace"))
+
+
+def head_span(node: ast.FunctionDef | ast.Lambda, file: SourceFile) -> Span:
+    """The first line of a definition, `def name(...)`, without its body."""
+    whole = span_of(node, file)
+    if isinstance(node, ast.Lambda):
+        return whole
+    first = span_of(node.body[0], file)
+    line = file.line(whole.line)
+    if first.line == whole.line:
+        line = line[: first.column - 1]
+    end = line.rfind(":") if line.rstrip().endswith(":") else len(line.rstrip())
+    return Span(file, whole.line, whole.column, whole.line, max(end, whole.column) + 1)
+
+
+def find_function(function: FunctionType) -> tuple[SourceFile, ast.FunctionDef | ast.Lambda] | None:
+    """The syntax tree of a live function, or None when its source cannot be read."""
+    code = function.__code__
+    parsed = _parsed(code.co_filename, function.__globals__)
+    if parsed is None:
+        return None
+    file, tree = parsed
+    if code.co_name == "<lambda>":
+        return _find_lambda(function, file, tree)
+    for node in ast.walk(tree):
+        if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)) and node.name == code.co_name:
+            first = min([node.lineno, *(decorator.lineno for decorator in node.decorator_list)])
+            if first == code.co_firstlineno:
+                return file, node  # type: ignore[return-value]
+    return None
+
+
+def _find_lambda(function: FunctionType, file: SourceFile, tree: ast.Module) -> tuple[SourceFile, ast.Lambda] | None:
+    """Several lambdas may share a line: ours is the smallest whose body holds every instruction's position."""
+    code = function.__code__
+    places = [(p[0], p[2]) for p in code.co_positions() if p[0] is not None and p[2] is not None and p[3] != 0]
+    best: ast.Lambda | None = None
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.Lambda) or node.lineno != code.co_firstlineno:
+            continue
+        body = node.body
+        start, end = (body.lineno, body.col_offset), (body.end_lineno or body.lineno, body.end_col_offset or 0)
+        if all(start <= place <= end for place in places) and (best is None or node.col_offset > best.col_offset):
+            best = node
+    return (file, best) if best is not None else None

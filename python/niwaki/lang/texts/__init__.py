@@ -1,0 +1,7 @@
+"""The texts of all messages, by who finds the error.
+
+message    the shape of an entry
+language   the compiler: a model breaks a rule
+faults     the engine and the plain run: a model failed while it ran
+inputs     files, settings and arguments
+"""

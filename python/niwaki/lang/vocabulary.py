@@ -1,0 +1,201 @@
+"""What the functions that a model may call are named in core form: built-ins, `math`, and our own words.
+
+A table; nothing is decided here. An `Op` says which operation a Python function becomes and which arguments it takes.
+"""
+
+from __future__ import annotations
+
+import builtins
+import inspect
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from niwaki import words
+from niwaki.lang.core import is_literal
+from niwaki.words.distributions import FAMILIES, Distribution
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A parameter; `default` is REQUIRED, OMITTED (leave it out of the core form), or a value."""
+
+    name: str
+    default: Any
+
+
+REQUIRED: Any = type("Required", (), {"__repr__": lambda self: "required"})()
+OMITTED: Any = type("Omitted", (), {"__repr__": lambda self: "omitted"})()
+
+
+@dataclass(frozen=True)
+class Op:
+    """An operation of the core form with its parameters; `variadic` takes any number more, by position."""
+
+    head: str
+    parameters: tuple[Parameter, ...] = ()
+    variadic: bool = False
+    keywords: bool = True
+
+
+def _op(head: str, names: str = "", optional: str = "", variadic: bool = False, keywords: bool = False) -> Op:
+    needed = [Parameter(name, REQUIRED) for name in names.split()]
+    return Op(head, (*needed, *(Parameter(name, OMITTED) for name in optional.split())), variadic, keywords)
+
+
+def parameters_of(function: Any) -> tuple[Parameter, ...]:
+    """The parameters of a live function or class, with their defaults."""
+    found = inspect.signature(function).parameters.values()
+    return tuple(Parameter(p.name, REQUIRED if p.default is p.empty else p.default) for p in found)
+
+
+BUILTINS: dict[Any, Op] = {
+    len: _op("len", "xs"),
+    abs: _op("abs", "x"),
+    round: _op("round", "number", "ndigits", keywords=True),
+    reversed: _op("reversed", "xs"),
+    enumerate: _op("enumerate", "iterable", "start", keywords=True),
+    zip: _op("zip", variadic=True),
+    range: _op("range", "start", "stop step"),
+    list: _op("to_list", "xs"),
+    tuple: _op("to_tuple", "xs"),
+    int: _op("int", "x"),
+    float: _op("float", "x"),
+    bool: _op("bool", "x"),
+    str: _op("str", "x"),
+    repr: _op("repr", "x"),
+    sum: _op("sum", "xs", "start", keywords=True),
+    min: _op("min", "xs", variadic=True),
+    max: _op("max", "xs", variadic=True),
+    any: _op("any", "xs"),
+    all: _op("all", "xs"),
+    pow: _op("pow", "base exp", keywords=True),
+    divmod: _op("divmod", "a b"),
+}
+
+_ONE = "sqrt exp log2 log10 log1p expm1 sin cos tan asin acos atan sinh cosh tanh floor ceil trunc fabs degrees radians"
+_ONE += " isfinite isnan isinf factorial lgamma erf"
+
+MATH: dict[Any, Op] = {
+    **{getattr(math, name): _op(name, "x") for name in _ONE.split()},
+    **{getattr(math, name): _op(name, "x y") for name in "atan2 copysign fmod comb pow".split()},
+    math.gcd: _op("gcd", "a b"),
+    math.hypot: _op("hypot", "x", variadic=True),
+    math.log: _op("log", "x", "base"),
+}
+
+_VECTORS = (words.vec, words.dot, words.cross, words.norm, words.normalize, words.distance, words.rotate, words.rotation)
+_NUMBERS = (words.clip, words.lerp, words.sign)
+_SHAPES = (words.box, words.cylinder, words.limb, words.mesh)
+
+
+def _word(function: Any, omit: bool) -> Op:
+    given = parameters_of(function)
+    if omit:
+        given = tuple(Parameter(p.name, OMITTED if p.default is None else p.default) for p in given)
+    return Op(function.__name__, given)
+
+
+WORDS: dict[Any, Op] = {
+    **{function: _word(function, True) for function in (*_VECTORS, *_NUMBERS)},
+    **{function: _word(function, False) for function in _SHAPES},
+}
+
+OPERATIONS: dict[Any, Op] = {**BUILTINS, **MATH, **WORDS}
+
+EFFECTS: dict[Any, str] = {
+    words.sample: "sample",
+    words.observe: "observe",
+    words.factor: "factor",
+    words.condition: "condition",
+    words.query: "query",
+    words.emit: "emit",
+    words.force: "force",
+}
+
+_NAMES = {"bernoulli": "flip"}
+DRAWS: dict[Any, type[Distribution]] = {
+    getattr(words, _NAMES.get(family.family, family.family)): family
+    for family in FAMILIES
+    if hasattr(words, _NAMES.get(family.family, family.family))
+}
+
+ALL_WORDS: frozenset[Any] = frozenset({*WORDS, *EFFECTS, *DRAWS, *FAMILIES, words.choose, words.future})
+
+METHODS: dict[str, tuple[int, int]] = {
+    "index": (1, 1),
+    "count": (1, 1),
+    "upper": (0, 0),
+    "lower": (0, 0),
+    "strip": (0, 1),
+    "split": (0, 1),
+    "join": (1, 1),
+    "replace": (2, 2),
+    "startswith": (1, 1),
+    "endswith": (1, 1),
+    "get": (1, 2),
+    "keys": (0, 0),
+    "values": (0, 0),
+    "items": (0, 0),
+}
+
+CHANGERS: dict[str, str] = {
+    "append": "{target} = {target} + [{argument}]",
+    "extend": "{target} = {target} + {argument}",
+    "insert": "{target} = {target}[:i] + [value] + {target}[i:]",
+    "pop": "{target} = {target}[:-1]",
+    "remove": "{target} = [x for x in {target} if x != {argument}]",
+    "clear": "{target} = []",
+    "sort": "{target} = sorted({target})",
+    "reverse": "{target} = {target}[::-1]",
+    "update": "a dict with all its keys, `{{...}}`",
+    "setdefault": "`{target}.get(key, default)`",
+    "popitem": "a dict with all its keys, `{{...}}`",
+    "add": "a list, `{target} = {target} + [{argument}]`",
+    "discard": "{target} = [x for x in {target} if x != {argument}]",
+    "fill": "a new list",
+    "resize": "a new list",
+}
+
+BINARY: dict[str, str] = {
+    "Add": "add",
+    "Sub": "sub",
+    "Mult": "mul",
+    "Div": "div",
+    "FloorDiv": "floordiv",
+    "Mod": "mod",
+    "Pow": "pow",
+    "BitAnd": "band",
+    "BitOr": "bor",
+    "BitXor": "bxor",
+    "LShift": "shl",
+    "RShift": "shr",
+}
+
+UNARY: dict[str, str] = {"USub": "neg", "UAdd": "pos", "Not": "not", "Invert": "invert"}
+
+COMPARE: dict[str, str] = {"Eq": "eq", "NotEq": "ne", "Lt": "lt", "LtE": "le", "Gt": "gt", "GtE": "ge", "In": "in"}
+
+NOT_IN_A_MODEL: dict[Any, tuple[str, str]] = {
+    print: ("prints", "take the line out; to watch a run, step through `niwaki.run_python(model, seed=1)` in a debugger"),
+    isinstance: ("asks-for-a-type", "give records a field that says what they are, and compare that"),
+    issubclass: ("asks-for-a-type", "give records a field that says what they are, and compare that"),
+    type: ("asks-for-a-type", "give records a field that says what they are, and compare that"),
+    set: ("set-value", "use a list, and `in` to look for a value"),
+    frozenset: ("set-value", "use a list, and `in` to look for a value"),
+}
+
+FORBIDDEN_BUILTINS: frozenset[Any] = frozenset(
+    getattr(builtins, name)
+    for name in (
+        "open input eval exec compile globals locals vars dir id hash iter next getattr setattr delattr hasattr super "
+        "object memoryview bytes bytearray complex slice callable format ord chr hex oct bin ascii breakpoint help exit "
+        "property classmethod staticmethod"
+    ).split()
+    if hasattr(builtins, name)
+)
+
+
+def plain_default(value: Any) -> bool:
+    """Whether a word's default can be written into the core form."""
+    return is_literal(value) or (isinstance(value, tuple) and all(map(is_literal, value)))

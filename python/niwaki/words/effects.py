@@ -1,0 +1,116 @@
+"""What a model may do besides compute: score itself, record an answer, add to the scene, leave work for later."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any, TypeVar
+
+from niwaki.words.distributions import Distribution
+from niwaki.words.running import runner
+
+T = TypeVar("T")
+
+
+def observe(dist: Distribution, value: T) -> T:
+    """Say that `value` was seen where the model would draw from `dist`; adds its log density to the score.
+
+    Parameters
+    ----------
+    dist
+        A distribution value such as `Gaussian(0, 1)`.
+    value
+        What was seen.
+
+    Returns
+    -------
+    The observed value.
+    """
+    seen: T = runner("observe").observe(dist, value)
+    return seen
+
+
+def factor(log_score: float) -> None:
+    """Add `log_score` (nats) to the log score of this run.
+
+    Parameters
+    ----------
+    log_score
+        Positive to favour the run, negative to disfavour it, `-inf` to forbid it.
+    """
+    runner("factor").factor(log_score)
+
+
+def condition(holds: bool) -> None:
+    """Forbid every run in which `holds` is false.
+
+    Parameters
+    ----------
+    holds
+        A truth value.
+    """
+    runner("condition").condition(holds)
+
+
+def query(key: str, value: Any) -> None:
+    """Record an answer under a key; written once in a run, and only read from outside.
+
+    Parameters
+    ----------
+    key
+        The answer's name.
+    value
+        The answer.
+    """
+    runner("query").query(key, value)
+
+
+def emit(*shapes: Any) -> None:
+    """Add shapes to the scene. All shapes of one `emit` are one primitive and are not tested against one another.
+
+    Parameters
+    ----------
+    shapes
+        Shapes, or lists and tuples of shapes.
+    """
+    runner("emit").emit(shapes)
+
+
+def future(function: Callable[..., T], *args: Any) -> T:
+    """Leave a call for later; in which order calls left for later run has no meaning.
+
+    Parameters
+    ----------
+    function
+        A model function.
+    args
+        Its arguments, by position.
+
+    Returns
+    -------
+    A promise of the function's value, to be given to `force`.
+    """
+    promise: T = runner("future").future(function, args)
+    return promise
+
+
+def force(promise: T) -> T:
+    """The value of a future, waiting for it if it has not returned.
+
+    Parameters
+    ----------
+    promise
+        What `future` gave.
+    """
+    value: T = runner("force").force(promise)
+    return value
+
+
+def flatten(shapes: Sequence[Any]) -> list[Any]:
+    """The shapes of one `emit` in order, with lists and tuples opened."""
+    flat: list[Any] = []
+    for shape in shapes:
+        if isinstance(shape, (list, tuple)):
+            flat += flatten(shape)
+        else:
+            flat.append(shape)
+    return flat

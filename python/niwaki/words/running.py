@@ -1,0 +1,36 @@
+"""Which run a word belongs to: inside a plain-Python run the words ask the runner, outside they are an error.
+
+The compiled engine never calls these functions; it knows the words by name.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from contextvars import ContextVar
+from typing import Any, Protocol
+
+
+class Runner(Protocol):
+    """What a plain-Python run answers; one method for each effect."""
+
+    def sample(self, dist: Any) -> Any: ...
+    def observe(self, dist: Any, value: Any) -> Any: ...
+    def factor(self, log_score: float) -> None: ...
+    def condition(self, holds: Any) -> None: ...
+    def query(self, key: Any, value: Any) -> None: ...
+    def emit(self, shapes: Sequence[Any]) -> None: ...
+    def future(self, function: Callable[..., Any], args: Sequence[Any]) -> Any: ...
+    def force(self, value: Any) -> Any: ...
+
+
+current: ContextVar[Runner | None] = ContextVar("niwaki_runner", default=None)
+
+
+def runner(word: str) -> Runner:
+    """The run that is going on, or an error that names the word."""
+    found = current.get()
+    if found is None:
+        from niwaki.errors import InputError
+
+        raise InputError("outside-a-model", word=word)
+    return found

@@ -1,0 +1,160 @@
+"""Shapes, the things that `emit` adds to a scene. Right-handed, y up, metres unless the model says otherwise.
+
+A point is a 3-tuple, a list or a `vec`. A colour is `(r, g, b)` in [0, 1]. A rotation is three rows of three numbers,
+as `rotation(axis, angle)` gives. In a plain-Python run a shape is the engine's own `Shape`; where the engine is not
+there, a record of the same arguments.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Union
+
+from niwaki.words.vectors import VecLike
+
+Rotation = Sequence[Sequence[float]]
+Color = Sequence[float]
+Axis = Union[str, VecLike]
+
+
+@dataclass(frozen=True)
+class ShapeRecord:
+    """A shape as its constructor's name and arguments, in the order of the signature."""
+
+    kind: str
+    arguments: tuple[Any, ...]
+
+
+def _make(kind: str, *arguments: Any) -> Any:
+    plain = tuple(_plain(argument) for argument in arguments)
+    try:
+        from niwaki._engine import Shape
+    except ImportError:
+        return ShapeRecord(kind, plain)
+    return getattr(Shape, kind)(*plain)
+
+
+def _plain(value: Any) -> Any:
+    """Tuples of numbers for points, whatever they were written as."""
+    if isinstance(value, str) or not hasattr(value, "__iter__"):
+        return value
+    return tuple(_plain(part) for part in value)
+
+
+def box(
+    center: VecLike,
+    size: VecLike,
+    rotation: Rotation | None = None,
+    taper: float = 1.0,
+    taper_axis: str = "z",
+    bevel: float | None = None,
+    color: Color | None = None,
+) -> Any:
+    """A box.
+
+    Parameters
+    ----------
+    center
+        Its middle.
+    size
+        Its three side lengths, greater than 0.
+    rotation
+        Turns it about its middle.
+    taper
+        How much the end towards `taper_axis` is scaled; 1 for a plain box.
+    taper_axis
+        "x", "y" or "z".
+    bevel
+        Width of the bevelled edges, drawn only.
+    color
+        `(r, g, b)` in [0, 1].
+    """
+    return _make("box", center, size, rotation, taper, taper_axis, bevel, color)
+
+
+def cylinder(
+    center: VecLike,
+    radius: float,
+    length: float,
+    axis: Axis = "y",
+    top_radius: float | None = None,
+    rotation: Rotation | None = None,
+    bevel: float | None = None,
+    color: Color | None = None,
+) -> Any:
+    """A cylinder, or a cone cut off when `top_radius` is given.
+
+    Parameters
+    ----------
+    center
+        Its middle.
+    radius
+        Radius of the start, greater than 0.
+    length
+        Length along its axis, greater than 0.
+    axis
+        "x", "y", "z" or a direction.
+    top_radius
+        Radius of the far end; `radius` when left out.
+    rotation
+        Turns it about its middle.
+    bevel
+        Width of the bevelled edges, drawn only.
+    color
+        `(r, g, b)` in [0, 1].
+    """
+    return _make("cylinder", center, radius, length, axis, top_radius, rotation, bevel, color)
+
+
+def limb(
+    start: VecLike,
+    end: VecLike,
+    start_radius: float,
+    end_radius: float,
+    start_normal: VecLike | None = None,
+    end_normal: VecLike | None = None,
+    color: Color | None = None,
+) -> Any:
+    """A tapering, bending segment between two rings; limbs that share a ring only touch.
+
+    Parameters
+    ----------
+    start, end
+        Centres of the rings.
+    start_radius, end_radius
+        Their radii, greater than 0.
+    start_normal, end_normal
+        Their directions; from `start` to `end` when left out.
+    color
+        `(r, g, b)` in [0, 1].
+    """
+    return _make("limb", start, end, start_radius, end_radius, start_normal, end_normal, color)
+
+
+def mesh(
+    vertices: Any,
+    faces: Any,
+    center: VecLike = (0.0, 0.0, 0.0),
+    rotation: Rotation | None = None,
+    scale: float = 1.0,
+    color: Color | None = None,
+) -> Any:
+    """A closed mesh of triangles.
+
+    Parameters
+    ----------
+    vertices
+        (n, 3) numbers; data from outside of the model.
+    faces
+        (m, 3) indices into `vertices`, counter-clockwise seen from outside; data from outside of the model.
+    center
+        Where the mesh's origin goes.
+    rotation
+        Turns it about its origin.
+    scale
+        Factor on all lengths, greater than 0.
+    color
+        `(r, g, b)` in [0, 1].
+    """
+    return _make("mesh", vertices, faces, center, rotation, scale, color)

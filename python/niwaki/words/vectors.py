@@ -1,0 +1,153 @@
+"""Vectors of two to four numbers, for points and directions; `+ - *` and `/` work as in geometry books.
+
+Right-handed, y up; angles in radians.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Union
+
+
+@dataclass(frozen=True)
+class Vec:
+    """A vector; made by `vec(x, y)`, `vec(x, y, z)` or `vec(x, y, z, w)`."""
+
+    parts: tuple[float, ...]
+
+    @property
+    def x(self) -> float:
+        """The first part."""
+        return self.parts[0]
+
+    @property
+    def y(self) -> float:
+        """The second part."""
+        return self.parts[1]
+
+    @property
+    def z(self) -> float:
+        """The third part."""
+        return self._part(2, "z")
+
+    @property
+    def w(self) -> float:
+        """The fourth part."""
+        return self._part(3, "w")
+
+    def _part(self, index: int, name: str) -> float:
+        if index >= len(self.parts):
+            raise AttributeError(f"a vector of {len(self.parts)} numbers has no `{name}`")
+        return self.parts[index]
+
+    def __len__(self) -> int:
+        return len(self.parts)
+
+    def __iter__(self) -> Iterator[float]:
+        return iter(self.parts)
+
+    def __getitem__(self, index: int) -> float:
+        return self.parts[index]
+
+    def __add__(self, other: Vec) -> Vec:
+        return Vec(tuple(a + b for a, b in zip(self.parts, _same(self, other), strict=True)))
+
+    def __sub__(self, other: Vec) -> Vec:
+        return Vec(tuple(a - b for a, b in zip(self.parts, _same(self, other), strict=True)))
+
+    def __mul__(self, factor: float) -> Vec:
+        return Vec(tuple(a * _number(factor) for a in self.parts))
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, divisor: float) -> Vec:
+        return Vec(tuple(a / _number(divisor) for a in self.parts))
+
+    def __neg__(self) -> Vec:
+        return Vec(tuple(-a for a in self.parts))
+
+    def __pos__(self) -> Vec:
+        return self
+
+    def __repr__(self) -> str:
+        return f"vec({', '.join(map(repr, self.parts))})"
+
+
+VecLike = Union[Vec, Sequence[float]]
+
+
+def _number(value: object) -> float:
+    if not isinstance(value, (int, float)):
+        raise TypeError(f"a vector is scaled by a number, not by {value!r}")
+    return value
+
+
+def _same(left: Vec, right: object) -> tuple[float, ...]:
+    if not isinstance(right, Vec) or len(right) != len(left):
+        raise TypeError(f"{left!r} and {right!r} are not vectors of one length")
+    return right.parts
+
+
+def _vec(value: VecLike) -> Vec:
+    return value if isinstance(value, Vec) else Vec(tuple(float(part) for part in value))
+
+
+def vec(x: float, y: float, z: float | None = None, w: float | None = None) -> Vec:
+    """A vector of two, three or four numbers.
+
+    Parameters
+    ----------
+    x, y, z, w
+        The parts; leave out `w`, or `z` and `w`, for a shorter vector.
+    """
+    return Vec(tuple(float(part) for part in (x, y, z, w) if part is not None))
+
+
+def dot(a: VecLike, b: VecLike) -> float:
+    """The scalar product of two vectors of one length."""
+    a, b = _vec(a), _vec(b)
+    total = 0.0
+    for left, right in zip(a.parts, _same(a, b), strict=True):
+        total += left * right
+    return total
+
+
+def cross(a: VecLike, b: VecLike) -> Vec:
+    """The vector product of two vectors of three numbers, right-handed."""
+    ax, ay, az = _vec(a).parts
+    bx, by, bz = _vec(b).parts
+    return Vec((ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx))
+
+
+def norm(v: VecLike) -> float:
+    """The length of a vector."""
+    return math.sqrt(dot(v, v))
+
+
+def normalize(v: VecLike) -> Vec:
+    """The vector of length one in the same direction."""
+    return _vec(v) / norm(v)
+
+
+def distance(a: VecLike, b: VecLike) -> float:
+    """The distance between two points."""
+    return norm(_vec(a) - _vec(b))
+
+
+def rotation(axis: VecLike, angle: float) -> tuple[tuple[float, ...], ...]:
+    """The matrix that turns by `angle` radians about `axis`, right-handed; three rows of three."""
+    x, y, z = normalize(axis).parts
+    c, s = math.cos(angle), math.sin(angle)
+    t = 1.0 - c
+    return (
+        (t * x * x + c, t * x * y - s * z, t * x * z + s * y),
+        (t * x * y + s * z, t * y * y + c, t * y * z - s * x),
+        (t * x * z - s * y, t * y * z + s * x, t * z * z + c),
+    )
+
+
+def rotate(v: VecLike, axis: VecLike, angle: float) -> Vec:
+    """The vector `v` turned by `angle` radians about `axis`, right-handed."""
+    return Vec(tuple(dot(row, v) for row in rotation(axis, angle)))
