@@ -6,7 +6,6 @@ import math
 
 import numpy as np
 import pytest
-
 from niwaki import _engine as engine
 
 CUBE = engine.Shape.box((0, 0, 0), (1, 1, 1))
