@@ -119,7 +119,7 @@ fn face_normal(face: &[u32], vertices: &[Vec3]) -> Option<Vec3> {
 
 fn push_direction(directions: &mut Vec<Vec3>, new: Vec3) {
     // Parallel to within 1e-10 radians, either way round.
-    if !directions.iter().any(|d| d.dot(new).abs() > 0.5 && d.cross(new).dot(d.cross(new)) < 1e-20) {
+    if !directions.iter().any(|d| d.dot(new).abs() > 0.999_999 && d.cross(new).dot(d.cross(new)) < 1e-20) {
         directions.push(new);
     }
 }

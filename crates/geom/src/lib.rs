@@ -1,7 +1,7 @@
 //! Shapes, voxels, intersections, sketches and pictures.
 //!
 //! - [`vector`], [`bounds`]: points, rotations, boxes along the axes
-//! - [`mesh`], [`topology`], [`hull`], [`convex`]: surfaces and convex solids
+//! - [`mesh`], [`topology`], [`hull`], [`limb`], [`convex`]: surfaces and convex solids
 //! - [`shape`], [`words`], [`primitive`]: what a model emits
 //! - [`voxel`]: which cells of a grid a shape fills
 //! - [`intersect`]: whether two shapes intersect
@@ -13,6 +13,7 @@ pub mod convex;
 pub mod error;
 pub mod hull;
 pub mod intersect;
+pub mod limb;
 pub mod mesh;
 pub mod primitive;
 pub mod shape;

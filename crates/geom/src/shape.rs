@@ -8,6 +8,7 @@ use crate::bounds::Aabb;
 use crate::convex::Convex;
 use crate::error::GeomError;
 use crate::hull::hull;
+use crate::limb::band;
 use crate::mesh::TriMesh;
 use crate::topology::Topology;
 use crate::vector::{Mat3, Vec3, vec3};
@@ -310,7 +311,11 @@ fn convex(solid: &Solid, placement: &Placement) -> Option<Convex> {
         }
         Solid::Limb { start, end, sides } => {
             let points = start.vertices(*sides).chain(end.vertices(*sides));
-            hulled(points.map(|p| placement.apply(p)).collect())
+            let vertices: Vec<Vec3> = points.map(|p| placement.apply(p)).collect();
+            match band(&vertices, *sides) {
+                Some(topology) => Convex::new(vertices, Arc::new(topology)),
+                None => hulled(vertices),
+            }
         }
         Solid::Mesh(_) => None,
     }

@@ -2,11 +2,14 @@
 //!
 //! One file for each room behind the door; this one only registers them.
 
+mod geometry;
+
 use pyo3::prelude::*;
 
 /// The compiled engine, imported by the package as `niwaki._engine`.
 #[pymodule]
 fn _engine(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    geometry::register(module)?;
     Ok(())
 }

@@ -4,6 +4,7 @@
 //! The winding number of a closed mesh around a point is the sum of its triangles' solid angles over 4 pi (van Oosterom
 //! & Strackee 1983): zero outside, and not zero inside whichever way the mesh is turned.
 
+use crate::mesh::TriMesh;
 use crate::shape::Shape;
 use crate::vector::Vec3;
 
@@ -12,7 +13,12 @@ const DEPTH: f64 = 1e-3;
 
 /// True when `point` is inside the closed surface of `shape`.
 pub fn contains(shape: &Shape, point: Vec3) -> bool {
-    let angle: f64 = shape.world_mesh().corners().map(|t| solid_angle(t.map(|p| p - point))).sum();
+    inside_mesh(shape.world_mesh(), point)
+}
+
+/// True when a closed mesh goes around `point`.
+pub fn inside_mesh(mesh: &TriMesh, point: Vec3) -> bool {
+    let angle: f64 = mesh.corners().map(|t| solid_angle(t.map(|p| p - point))).sum();
     angle.abs() > std::f64::consts::TAU
 }
 

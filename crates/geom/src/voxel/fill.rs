@@ -5,16 +5,22 @@
 
 use super::grid::Grid;
 use super::surface::{Bits, in_grid, mark};
+use crate::intersect::inside::inside_mesh;
 use crate::mesh::TriMesh;
+use crate::vector::Vec3;
 
 /// Above this many cells a mesh is cut to the domain before it is filled.
 const MOST_CELLS: f64 = 16_777_216.0;
 
 /// Cells that a closed mesh fills. Cells outside of the grid may be among them; `None` when all are outside.
 ///
-/// A mesh that is far larger than the domain is cut to the domain and one layer around it; a region that reaches
-/// the cut is then empty, and an error of no consequence for meshes anyone has shown us: parts cut there are open.
+/// A mesh that is far larger than the domain is cut to the domain and one layer around it. What reaches the cut is
+/// then outside or inside as the mesh's winding number says.
 pub fn solid(mesh: &TriMesh, grid: &Grid) -> Option<Bits> {
+    solid_up_to(MOST_CELLS, mesh, grid)
+}
+
+fn solid_up_to(most_cells: f64, mesh: &TriMesh, grid: &Grid) -> Option<Bits> {
     let (mut low, mut high) = ([i64::MAX; 3], [i64::MIN; 3]);
     for corners in mesh.corners() {
         let (_, first, last) = in_grid(corners, grid);
@@ -26,8 +32,9 @@ pub fn solid(mesh: &TriMesh, grid: &Grid) -> Option<Bits> {
     if (0..3).any(|a| high[a] < 0 || low[a] >= grid.dims()[a] as i64) {
         return None;
     }
-    let cells: f64 = (0..3).map(|a| (high[a] - low[a] + 1) as f64).product();
-    if cells > MOST_CELLS {
+    let cells: f64 = (0..3).map(|a| high[a] as f64 - low[a] as f64 + 1.0).product();
+    let cut = cells > most_cells;
+    if cut {
         for a in 0..3 {
             low[a] = low[a].max(-1);
             high[a] = high[a].min(grid.dims()[a] as i64);
@@ -35,68 +42,100 @@ pub fn solid(mesh: &TriMesh, grid: &Grid) -> Option<Bits> {
     }
     let mut bits = Bits::empty(low, high);
     mark(mesh, grid, &mut bits);
-    fill(&mut bits, low[0], high[0]);
+    let region = Region::new(&bits, low[0], high[0]);
+    let mut outside = region.layer.clone();
+    if cut {
+        outside.fill(0);
+        let mut inside = outside.clone();
+        // Free cells next to each other have no surface between their middles: one answer serves a whole region.
+        while let Some((word, bit)) = region.first_of_layer_beyond(&outside, &inside) {
+            let middle = region.cell(&bits, word, bit).map(|i| i as f64 + 0.5);
+            let known =
+                if inside_mesh(mesh, grid.to_world(Vec3::from(middle))) { &mut inside } else { &mut outside };
+            known[word] |= 1 << bit;
+            region.flood(known);
+        }
+    } else {
+        region.flood(&mut outside);
+    }
+    for (word, (free, outside)) in bits.words.iter_mut().zip(region.free.iter().zip(outside)) {
+        *word |= free & !outside;
+    }
     Some(bits)
 }
 
-/// Fills what the set encloses; x of its box runs from `first` to `last`.
-fn fill(bits: &mut Bits, first: i64, last: i64) {
-    let [ny, nz] = bits.rows();
-    let columns = bits.columns();
-    let base = bits.low()[0];
-    // Cells of the box in each word, and those in its outer layer along x.
-    let mut inside = vec![0u64; columns];
-    let mut ends = vec![0u64; columns];
-    for x in first..=last {
-        let at = (x - base) as usize;
-        inside[at / 64] |= 1 << (at % 64);
-        if x == first || x == last {
-            ends[at / 64] |= 1 << (at % 64);
+/// The cells of a box that no surface touches, and those of them in its outer layer.
+struct Region {
+    free: Vec<u64>,
+    layer: Vec<u64>,
+    /// Words along x, rows along y and along z.
+    dims: [usize; 3],
+}
+
+impl Region {
+    /// Of the box of `bits`, whose x runs from `first` to `last` (its words may reach farther).
+    fn new(bits: &Bits, first: i64, last: i64) -> Region {
+        let ([ny, nz], columns) = (bits.rows(), bits.columns());
+        let mut within = vec![0u64; columns];
+        let mut ends = vec![0u64; columns];
+        for x in first..=last {
+            let at = (x - bits.low()[0]) as usize;
+            within[at / 64] |= 1 << (at % 64);
+            if x == first || x == last {
+                ends[at / 64] |= 1 << (at % 64);
+            }
         }
-    }
-    let at = |y: usize, z: usize, c: usize| (z * ny + y) * columns + c;
-    let free: Vec<u64> = bits.words.iter().enumerate().map(|(i, w)| inside[i % columns] & !w).collect();
-    let mut outside = vec![0u64; free.len()];
-    for z in 0..nz {
-        for y in 0..ny {
+        let free: Vec<u64> = bits.words.iter().enumerate().map(|(i, w)| within[i % columns] & !w).collect();
+        let in_layer = |(i, free): (usize, &u64)| {
+            let (y, z) = (i / columns % ny, i / columns / ny);
             let edge = y == 0 || z == 0 || y + 1 == ny || z + 1 == nz;
-            for (c, end) in ends.iter().enumerate() {
-                let i = at(y, z, c);
-                outside[i] = if edge { free[i] } else { free[i] & end };
+            if edge { *free } else { free & ends[i % columns] }
+        };
+        let layer = free.iter().enumerate().map(in_layer).collect();
+        Region { free, layer, dims: [columns, ny, nz] }
+    }
+
+    /// A cell of the layer in neither set.
+    fn first_of_layer_beyond(&self, one: &[u64], other: &[u64]) -> Option<(usize, u32)> {
+        let rest = |i: usize| self.layer[i] & !one[i] & !other[i];
+        (0..self.layer.len()).find(|i| rest(*i) != 0).map(|i| (i, rest(i).trailing_zeros()))
+    }
+
+    fn cell(&self, bits: &Bits, word: usize, bit: u32) -> [i64; 3] {
+        let [columns, ny, _] = self.dims;
+        let [x, y, z] = bits.low();
+        let row = word / columns;
+        [x + (word % columns * 64) as i64 + i64::from(bit), y + (row % ny) as i64, z + (row / ny) as i64]
+    }
+
+    /// Spreads `seen` through free cells, 6-connected.
+    fn flood(&self, seen: &mut [u64]) {
+        let [columns, ny, nz] = self.dims;
+        let rows = ny * nz;
+        let mut changed = true;
+        while changed {
+            changed = false;
+            for step in 0..2 * rows {
+                // Up the rows, then down again: most regions settle in one or two rounds.
+                let row = if step < rows { step } else { 2 * rows - 1 - step };
+                let (y, z) = (row % ny, row / ny);
+                for step in 0..2 * columns {
+                    let c = if step < columns { step } else { 2 * columns - 1 - step };
+                    let i = row * columns + c;
+                    let mut near = seen[i];
+                    let mut take = |there: bool, j: usize| near |= if there { seen[j] } else { 0 };
+                    take(y > 0, i.wrapping_sub(columns));
+                    take(y + 1 < ny, i + columns);
+                    take(z > 0, i.wrapping_sub(ny * columns));
+                    take(z + 1 < nz, i + ny * columns);
+                    near |= if c > 0 { seen[i - 1] >> 63 } else { 0 };
+                    near |= if c + 1 < columns { seen[i + 1] << 63 } else { 0 };
+                    let all = spread(near & self.free[i], self.free[i]);
+                    changed |= all != seen[i];
+                    seen[i] = all;
+                }
             }
         }
-    }
-    let rows = ny * nz;
-    let mut changed = true;
-    while changed {
-        changed = false;
-        for step in 0..2 * rows {
-            // Down the rows, then up again: most regions settle in one or two rounds.
-            let row = if step < rows { step } else { 2 * rows - 1 - step };
-            let (y, z) = (row % ny, row / ny);
-            for step in 0..2 * columns {
-                let c = if step < columns { step } else { 2 * columns - 1 - step };
-                let i = at(y, z, c);
-                let mut seen = outside[i];
-                let mut take = |there: bool, j: usize| seen |= if there { outside[j] } else { 0 };
-                take(y > 0, i.wrapping_sub(columns));
-                take(y + 1 < ny, i + columns);
-                take(z > 0, i.wrapping_sub(ny * columns));
-                take(z + 1 < nz, i + ny * columns);
-                if c > 0 {
-                    seen |= outside[i - 1] >> 63;
-                }
-                if c + 1 < columns {
-                    seen |= outside[i + 1] << 63;
-                }
-                let spread = spread(seen & free[i], free[i]);
-                changed |= spread != outside[i];
-                outside[i] = spread;
-            }
-        }
-    }
-    for (i, word) in bits.words.iter_mut().enumerate() {
-        *word |= inside[i % columns] & free[i] & !outside[i];
     }
 }
 
@@ -115,13 +154,34 @@ fn spread(seen: u64, free: u64) -> u64 {
 
 #[cfg(test)]
 mod tests {
-    //! Spreading stops at walls.
-    use super::spread;
+    //! Spreading stops at walls, and a mesh cut to the domain fills the same cells.
+    use super::{solid_up_to, spread};
+    use crate::{Grid, Look, Mat3, Shape, vec3};
 
     #[test]
     fn bits_spread_through_free_runs_only() {
         assert_eq!(spread(0b0000_0100, 0b1101_1110), 0b0001_1110);
         assert_eq!(spread(1, u64::MAX), u64::MAX);
         assert_eq!(spread(1 << 63, u64::MAX << 7), u64::MAX << 7);
+    }
+
+    #[test]
+    fn a_mesh_cut_to_the_domain_fills_the_same_cells() {
+        let cube = |size: f64, angle: f64| {
+            let look = Look { rotation: Some(Mat3::rotation(vec3(0.6, 0.0, 0.8), angle)), ..Look::default() };
+            Shape::cuboid(vec3(0.3, 0.2, 0.1), vec3(size, size, size), &look).unwrap()
+        };
+        let grid = Grid::around(cube(1.0, 0.0).aabb(), 0.1).unwrap();
+        for (size, angle) in [(9.0, 0.3), (2.0, 0.8), (1.3, 0.5), (0.6, 1.0)] {
+            let mesh = cube(size, angle);
+            let [cut, whole] = [0.0, 1e9].map(|most| solid_up_to(most, mesh.world_mesh(), &grid).unwrap());
+            let [nx, ny, nz] = grid.dims().map(|n| n as i64);
+            let cells = (0..nx * ny * nz).map(|i| [i % nx, i / nx % ny, i / nx / ny]);
+            let filled = cells.filter(|[x, y, z]| {
+                assert_eq!(cut.get(*x, *y, *z), whole.get(*x, *y, *z), "{size}");
+                cut.get(*x, *y, *z)
+            });
+            assert!(filled.count() > 100);
+        }
     }
 }

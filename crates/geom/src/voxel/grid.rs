@@ -81,6 +81,11 @@ impl Grid {
         vec3(q.x / self.cell.x, q.y / self.cell.y, q.z / self.cell.z)
     }
 
+    /// From grid to world coordinates.
+    pub fn to_world(&self, p: Vec3) -> Vec3 {
+        self.domain.low + p.scale(self.cell)
+    }
+
     /// Cells that a closed world box touches; `None` when it is outside.
     #[inline]
     pub fn cells_of(&self, bounds: &Aabb) -> Option<CellBox> {

@@ -3,6 +3,7 @@
 // Each test file takes what it needs.
 #![allow(dead_code)]
 
+pub mod building;
 pub mod ship;
 
 use niwaki_geom::{Look, Mat3, Shape, TriMesh, Vec3, vec3};

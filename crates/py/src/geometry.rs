@@ -1,0 +1,386 @@
+//! Shapes, targets and sketches, as Python sees them.
+//!
+//! Every error is a `ValueError` with an attribute `code` (`bad-shape`, `empty-mesh`, `mesh-index`, ...), for which
+//! Python's table of messages has the words.
+
+use niwaki_geom::{
+    GeomError, Look, Mat3, Primitive, Rule, Shape, SketchSpec, Sketches, Target, TriMesh, Vec3,
+    no_self_intersection, volume_match,
+};
+use numpy::ndarray::{Array2, Array3};
+use numpy::{IntoPyArray, PyArray2, PyArray3, PyReadonlyArray2};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::sync::Arc;
+
+type Triple = [f64; 3];
+type Rows = [[f64; 3]; 3];
+
+/// A `ValueError` that carries its code.
+pub fn value_error(py: Python<'_>, error: &GeomError) -> PyErr {
+    let raised = PyValueError::new_err(error.message.clone());
+    match raised.value(py).setattr("code", error.code) {
+        Ok(()) => raised,
+        Err(other) => other,
+    }
+}
+
+fn bad_shape(message: String) -> GeomError {
+    GeomError::new("bad-shape", message)
+}
+
+/// A mesh from arrays, every entry checked.
+pub fn mesh_from(
+    vertices: &PyReadonlyArray2<f64>,
+    faces: &PyReadonlyArray2<i64>,
+) -> Result<TriMesh, GeomError> {
+    let (vertices, faces) = (vertices.as_array(), faces.as_array());
+    if vertices.is_empty() || faces.is_empty() {
+        let message = format!(
+            "a mesh needs a triangle, found {} vertices and {} faces",
+            vertices.nrows(),
+            faces.nrows()
+        );
+        return Err(GeomError::new("empty-mesh", message));
+    }
+    for (what, columns) in [("vertices", vertices.ncols()), ("faces", faces.ncols())] {
+        if columns != 3 {
+            return Err(GeomError::new("mesh-index", format!("{what} have {columns} columns, expected 3")));
+        }
+    }
+    let points = vertices.rows().into_iter().map(|r| Vec3::from([r[0], r[1], r[2]])).collect();
+    let index = |i: &i64| u32::try_from(*i).ok().filter(|i| (*i as usize) < vertices.nrows());
+    let mut triangles = Vec::with_capacity(faces.nrows());
+    for (i, row) in faces.rows().into_iter().enumerate() {
+        let corners: Option<Vec<u32>> = row.iter().map(index).collect();
+        let Some([a, b, c]) = corners.as_deref() else {
+            let (row, count) = (row.to_vec(), vertices.nrows());
+            return Err(GeomError::new(
+                "mesh-index",
+                format!("face {i} is {row:?}, but there are {count} vertices"),
+            ));
+        };
+        triangles.push([*a, *b, *c]);
+    }
+    TriMesh::new(points, triangles)
+}
+
+fn vertices_of<'py>(py: Python<'py>, mesh: &TriMesh) -> Bound<'py, PyArray2<f64>> {
+    let points = mesh.vertices();
+    Array2::from_shape_fn((points.len(), 3), |(i, a)| points[i][a]).into_pyarray(py)
+}
+
+fn faces_of<'py>(py: Python<'py>, mesh: &TriMesh) -> Bound<'py, PyArray2<i64>> {
+    let faces = mesh.triangles();
+    Array2::from_shape_fn((faces.len(), 3), |(i, k)| i64::from(faces[i][k])).into_pyarray(py)
+}
+
+/// An axis by name, or any direction.
+#[derive(FromPyObject)]
+enum AxisWord {
+    #[pyo3(transparent)]
+    Name(String),
+    #[pyo3(transparent)]
+    Direction(Triple),
+}
+
+fn named_axis(name: &str) -> Result<usize, GeomError> {
+    let message = || bad_shape(format!("the axis is {name:?}, expected \"x\", \"y\" or \"z\""));
+    ["x", "y", "z"].iter().position(|a| *a == name).ok_or_else(message)
+}
+
+fn look(rotation: Option<Rows>, bevel: Option<f64>, color: Option<[f32; 3]>) -> Look {
+    Look { rotation: rotation.map(Mat3::from_rows), bevel, color }
+}
+
+/// A placed solid with its look; never changes.
+#[pyclass(frozen, eq, name = "Shape", module = "niwaki._engine", from_py_object)]
+#[derive(Clone, PartialEq)]
+pub struct PyShape(pub Shape);
+
+#[pymethods]
+impl PyShape {
+    /// A box; ``taper`` scales the face at the + end of ``taper_axis``.
+    #[staticmethod]
+    #[pyo3(signature = (center, size, rotation=None, taper=1.0, taper_axis="z", bevel=None, color=None))]
+    #[expect(clippy::too_many_arguments, reason = "the words of the modelling language")]
+    fn r#box(
+        py: Python<'_>,
+        center: Triple,
+        size: Triple,
+        rotation: Option<Rows>,
+        taper: f64,
+        taper_axis: &str,
+        bevel: Option<f64>,
+        color: Option<[f32; 3]>,
+    ) -> PyResult<PyShape> {
+        let look = look(rotation, bevel, color);
+        named_axis(taper_axis)
+            .and_then(|axis| Shape::tapered_box(center.into(), size.into(), taper, axis, &look))
+            .map(PyShape)
+            .map_err(|e| value_error(py, &e))
+    }
+
+    /// A cylinder along ``axis`` ("x", "y", "z" or a direction), ``top_radius`` at its + end.
+    #[staticmethod]
+    #[pyo3(signature = (center, radius, length, axis=AxisWord::Direction([0.0, 1.0, 0.0]), top_radius=None, rotation=None, bevel=None, color=None))]
+    #[expect(clippy::too_many_arguments, reason = "the words of the modelling language")]
+    fn cylinder(
+        py: Python<'_>,
+        center: Triple,
+        radius: f64,
+        length: f64,
+        axis: AxisWord,
+        top_radius: Option<f64>,
+        rotation: Option<Rows>,
+        bevel: Option<f64>,
+        color: Option<[f32; 3]>,
+    ) -> PyResult<PyShape> {
+        let look = look(rotation, bevel, color);
+        let axis = match axis {
+            AxisWord::Name(name) => named_axis(&name).map(|a| Vec3::AXES[a]),
+            AxisWord::Direction(direction) => Ok(direction.into()),
+        };
+        axis.and_then(|axis| Shape::cylinder(center.into(), radius, length, axis, top_radius, &look))
+            .map(PyShape)
+            .map_err(|e| value_error(py, &e))
+    }
+
+    /// A bent, tapered segment between two round ends.
+    #[staticmethod]
+    #[pyo3(signature = (start, end, start_radius, end_radius, start_normal=None, end_normal=None, color=None))]
+    #[expect(clippy::too_many_arguments, reason = "the words of the modelling language")]
+    fn limb(
+        py: Python<'_>,
+        start: Triple,
+        end: Triple,
+        start_radius: f64,
+        end_radius: f64,
+        start_normal: Option<Triple>,
+        end_normal: Option<Triple>,
+        color: Option<[f32; 3]>,
+    ) -> PyResult<PyShape> {
+        let normals = (start_normal.map(Vec3::from), end_normal.map(Vec3::from));
+        Shape::limb(start.into(), end.into(), (start_radius, end_radius), normals, &look(None, None, color))
+            .map(PyShape)
+            .map_err(|e| value_error(py, &e))
+    }
+
+    /// A closed triangle mesh: ``vertices`` (n, 3) float64, ``faces`` (m, 3) int64.
+    #[staticmethod]
+    #[pyo3(signature = (vertices, faces, center=[0.0; 3], rotation=None, scale=1.0, color=None))]
+    #[expect(clippy::too_many_arguments, reason = "the words of the modelling language")]
+    fn mesh(
+        py: Python<'_>,
+        vertices: PyReadonlyArray2<f64>,
+        faces: PyReadonlyArray2<i64>,
+        center: Triple,
+        rotation: Option<Rows>,
+        scale: f64,
+        color: Option<[f32; 3]>,
+    ) -> PyResult<PyShape> {
+        mesh_from(&vertices, &faces)
+            .and_then(|mesh| Shape::mesh(&Arc::new(mesh), center.into(), scale, &look(rotation, None, color)))
+            .map(PyShape)
+            .map_err(|e| value_error(py, &e))
+    }
+
+    /// ``box``, ``tapered-box``, ``cylinder``, ``tapered-cylinder``, ``limb`` or ``mesh``.
+    #[getter]
+    fn kind(&self) -> &'static str {
+        self.0.kind()
+    }
+
+    /// Linear colour in [0, 1], or None.
+    #[getter]
+    fn color(&self) -> Option<[f32; 3]> {
+        self.0.color()
+    }
+
+    /// Smallest and largest corner of the box around the light geometry, scene units.
+    fn aabb(&self) -> (Triple, Triple) {
+        (self.0.aabb().low.to_array(), self.0.aabb().high.to_array())
+    }
+
+    /// Vertices of the light geometry, world space, (n, 3) float64.
+    fn vertices<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        vertices_of(py, self.0.world_mesh())
+    }
+
+    /// Triangles of the light geometry, (m, 3) int64, counter-clockwise from outside.
+    fn faces<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<i64>> {
+        faces_of(py, self.0.world_mesh())
+    }
+
+    fn __repr__(&self) -> String {
+        let center = self.0.aabb().center();
+        format!("<{} at ({:.4}, {:.4}, {:.4})>", self.0.kind(), center.x, center.y, center.z)
+    }
+}
+
+/// A mesh to match, voxelised once.
+#[pyclass(frozen, name = "Target", module = "niwaki._engine")]
+pub struct PyTarget(pub Arc<Target>);
+
+#[pymethods]
+impl PyTarget {
+    /// From ``vertices`` (n, 3) float64 and ``faces`` (m, 3) int64; ``voxel`` in scene units.
+    #[new]
+    fn new(
+        py: Python<'_>,
+        vertices: PyReadonlyArray2<f64>,
+        faces: PyReadonlyArray2<i64>,
+        voxel: f64,
+    ) -> PyResult<PyTarget> {
+        mesh_from(&vertices, &faces)
+            .and_then(|mesh| Target::new(mesh, voxel))
+            .map(|target| PyTarget(Arc::new(target)))
+            .map_err(|e| value_error(py, &e))
+    }
+
+    /// Cells along x, y and z.
+    #[getter]
+    fn dims(&self) -> (usize, usize, usize) {
+        self.0.grid().dims().into()
+    }
+
+    /// Number of filled cells.
+    #[getter]
+    fn filled(&self) -> usize {
+        self.0.filled()
+    }
+
+    /// Smallest and largest corner of the gridded box, scene units.
+    #[getter]
+    fn domain(&self) -> (Triple, Triple) {
+        let domain = self.0.grid().domain();
+        (domain.low.to_array(), domain.high.to_array())
+    }
+
+    /// Number of triangles.
+    #[getter]
+    fn triangles(&self) -> usize {
+        self.0.mesh().triangles().len()
+    }
+
+    /// Number of edges not shared by exactly two triangles: zero for a closed mesh.
+    #[getter]
+    fn open_edges(&self) -> usize {
+        self.0.mesh().open_edges()
+    }
+
+    /// Vertices as given, (n, 3) float64.
+    fn vertices<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        vertices_of(py, self.0.mesh())
+    }
+
+    /// Triangles as given, (m, 3) int64.
+    fn faces<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<i64>> {
+        faces_of(py, self.0.mesh())
+    }
+
+    /// Which cells are filled, (x, y, z) bool.
+    fn cells<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray3<bool>> {
+        Array3::from_shape_fn(self.0.grid().dims(), |(x, y, z)| self.0.contains([x, y, z])).into_pyarray(py)
+    }
+}
+
+/// What to score: makes the sketch of the empty scene.
+#[pyclass(frozen, name = "SketchSpec", module = "niwaki._engine", from_py_object)]
+#[derive(Clone)]
+pub struct PySketchSpec(pub Arc<dyn SketchSpec>);
+
+#[pymethods]
+impl PySketchSpec {
+    /// The name that messages use.
+    #[getter]
+    fn name(&self) -> &'static str {
+        self.0.name()
+    }
+}
+
+/// Scores a scene by how well it fills ``target``; ``sigma`` is the standard deviation of both its terms.
+#[pyfunction(name = "volume_match")]
+#[pyo3(signature = (target, sigma=0.02))]
+fn py_volume_match(py: Python<'_>, target: &PyTarget, sigma: f64) -> PyResult<PySketchSpec> {
+    volume_match(target.0.clone(), sigma).map(PySketchSpec).map_err(|e| value_error(py, &e))
+}
+
+/// Forbids scenes whose primitives intersect, by ``rule`` "solid" or "surface".
+#[pyfunction(name = "no_self_intersection")]
+#[pyo3(signature = (rule="solid"))]
+fn py_no_self_intersection(py: Python<'_>, rule: &str) -> PyResult<PySketchSpec> {
+    let rule = match rule {
+        "solid" => Rule::Solid,
+        "surface" => Rule::Surface,
+        _ => {
+            let message = format!("the rule is {rule:?}, expected \"solid\" or \"surface\"");
+            return Err(value_error(py, &GeomError::new("bad-rule", message)));
+        }
+    };
+    Ok(PySketchSpec(no_self_intersection(rule)))
+}
+
+/// The running score of a scene that one adds to and takes from.
+#[pyclass(name = "Sketch", module = "niwaki._engine")]
+pub struct PySketch(Sketches);
+
+fn primitive(shapes: Vec<PyShape>) -> Primitive {
+    Primitive::new(shapes.into_iter().map(|s| s.0).collect::<Vec<Shape>>())
+}
+
+#[pymethods]
+impl PySketch {
+    /// The empty scene as ``specs`` see it, in order.
+    #[new]
+    fn new(specs: Vec<PySketchSpec>) -> PySketch {
+        let specs: Vec<Arc<dyn SketchSpec>> = specs.into_iter().map(|s| s.0).collect();
+        PySketch(Sketches::start(&specs))
+    }
+
+    /// Adds one primitive; the name of the sketch that forbids the scene now, or None.
+    fn add(&mut self, shapes: Vec<PyShape>) -> Option<&'static str> {
+        self.0.add(&primitive(shapes))
+    }
+
+    /// Takes one primitive out; a ``ValueError`` when the scene has none like it.
+    fn remove(&mut self, py: Python<'_>, shapes: Vec<PyShape>) -> PyResult<()> {
+        if self.0.remove(&primitive(shapes)) {
+            return Ok(());
+        }
+        Err(value_error(py, &GeomError::new("not-in-scene", "the scene has no such primitive")))
+    }
+
+    /// Sum of the log scores, nats.
+    fn log_score(&self) -> f64 {
+        self.0.log_score()
+    }
+
+    /// Share of cells equal in scene and target; None without a target.
+    fn similarity(&self) -> Option<f64> {
+        self.0.measures().into_iter().find(|(name, _)| *name == "similarity").map(|(_, value)| value)
+    }
+
+    /// Named numbers behind the score.
+    fn measures<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let measures = PyDict::new(py);
+        self.0.measures().into_iter().try_for_each(|(name, value)| measures.set_item(name, value))?;
+        Ok(measures)
+    }
+
+    /// A copy that shares what neither changes.
+    fn fork(&self) -> PySketch {
+        PySketch(self.0.fork())
+    }
+}
+
+/// Puts this room into the module.
+pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_class::<PyShape>()?;
+    module.add_class::<PyTarget>()?;
+    module.add_class::<PySketchSpec>()?;
+    module.add_class::<PySketch>()?;
+    module.add_function(wrap_pyfunction!(py_volume_match, module)?)?;
+    module.add_function(wrap_pyfunction!(py_no_self_intersection, module)?)
+}
