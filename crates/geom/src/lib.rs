@@ -7,15 +7,18 @@
 //! - [`intersect`]: whether two shapes intersect
 //! - [`tree`]: a bag of boxes that copies share
 //! - [`sketch`]: running scores of what was emitted
+//! - [`fine`], [`render`]: meshes with many sides, and pictures of them
 
 pub mod bounds;
 pub mod convex;
 pub mod error;
+pub mod fine;
 pub mod hull;
 pub mod intersect;
 pub mod limb;
 pub mod mesh;
 pub mod primitive;
+pub mod render;
 pub mod shape;
 pub mod sketch;
 pub mod topology;

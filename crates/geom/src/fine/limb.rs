@@ -1,0 +1,68 @@
+//! A limb: two rings, a smooth side, and a dome over its end.
+//!
+//! Normals on the side point straight away from the axis *in the ring's plane*, so that two limbs that share a ring
+//! agree there and a branch of many limbs looks like one skin. The dome is hidden by the next limb, and rounds off
+//! the last.
+
+use super::{FineMesh, ROUND, unit_or};
+use crate::shape::Ring;
+use crate::vector::Vec3;
+
+/// Height of the dome over the end, in radii of the end.
+pub const DOME: f64 = 0.4;
+/// Rings of the dome.
+const LATITUDES: usize = 5;
+/// Steeper sides (radius lost for each unit of length) are shaded as the cones that they are.
+const STEEP: f64 = 0.5;
+
+/// The limb between two rings.
+pub fn domed(start: &Ring, end: &Ring) -> FineMesh {
+    let mut mesh = FineMesh::default();
+    let slope = (start.radius - end.radius) / (end.center - start.center).norm().max(1e-12);
+    let lift = if slope.abs() > STEEP { slope } else { 0.0 };
+    let low = row(&mut mesh, start, |out| (start.center + out * start.radius, out + start.normal * lift));
+    let high = row(&mut mesh, end, |out| (end.center + out * end.radius, out + end.normal * lift));
+    join(&mut mesh, &low, &high);
+
+    // The base is flat.
+    let base = row(&mut mesh, start, |out| (start.center + out * start.radius, start.normal * -1.0));
+    let middle = mesh.point(start.center, start.normal * -1.0);
+    for k in 0..ROUND {
+        mesh.face([middle, base[(k + 1) % ROUND], base[k]]);
+    }
+
+    // The dome is half of a flattened sphere; its normals are its gradient's.
+    let mut below = high;
+    for latitude in 1..LATITUDES {
+        let (sin, cos) = (std::f64::consts::FRAC_PI_2 * latitude as f64 / LATITUDES as f64).sin_cos();
+        let above = row(&mut mesh, end, |out| {
+            let place = out * cos + end.normal * (sin * DOME);
+            (end.center + place * end.radius, out * cos + end.normal * (sin / DOME))
+        });
+        join(&mut mesh, &below, &above);
+        below = above;
+    }
+    let top = mesh.point(end.center + end.normal * (DOME * end.radius), end.normal);
+    for k in 0..ROUND {
+        mesh.face([top, below[k], below[(k + 1) % ROUND]]);
+    }
+    mesh
+}
+
+/// A row of vertices made from the ring's outward directions.
+fn row(mesh: &mut FineMesh, ring: &Ring, make: impl Fn(Vec3) -> (Vec3, Vec3)) -> Vec<u32> {
+    let unit = Ring { center: Vec3::ZERO, normal: ring.normal, radius: 1.0 };
+    unit.vertices(ROUND)
+        .map(|out| {
+            let (place, normal) = make(out);
+            mesh.point(place, unit_or(normal, out))
+        })
+        .collect()
+}
+
+fn join(mesh: &mut FineMesh, below: &[u32], above: &[u32]) {
+    for k in 0..ROUND {
+        let next = (k + 1) % ROUND;
+        mesh.quad([below[k], below[next], above[next], above[k]]);
+    }
+}

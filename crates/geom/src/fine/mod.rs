@@ -1,0 +1,149 @@
+//! The same shapes with many sides: meshes for pictures and exports.
+//!
+//! Scores use `Shape::world_mesh`; here the solid is built again with rounded edges, round cylinders and smooth
+//! normals (the high resolution of chapter 5's figures). The mesh of a box, cylinder or limb is closed; where a flat
+//! face meets a round rim they share vertices, because their normals agree there.
+//!
+//! - `boxes.rs`   rounded boxes, tapered or not
+//! - `revolve.rs` cylinders and cones with rounded rims
+//! - `limb.rs`    two rings and a domed end
+//! - `crease.rs`  normals of any mesh, sharp where it is sharp
+
+mod boxes;
+mod crease;
+mod limb;
+mod revolve;
+
+use crate::shape::{Shape, Solid};
+use crate::vector::Vec3;
+
+/// Sides of everything round.
+pub const ROUND: usize = 48;
+/// Segments of a rounded edge for each quarter turn.
+pub const ARC: usize = 6;
+/// Rounding of boxes whose shape names none, as a share of the smallest half length.
+pub const BOX_BEVEL: f64 = 0.16;
+/// Rounding of cylinders' rims, as a share of the smaller of the radius and the half length.
+pub const RIM_BEVEL: f64 = 0.12;
+
+/// Triangles with a unit normal at every vertex.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FineMesh {
+    /// Scene units.
+    pub vertices: Vec<Vec3>,
+    /// As many as vertices.
+    pub normals: Vec<Vec3>,
+    /// Counter-clockwise seen from outside.
+    pub faces: Vec<[u32; 3]>,
+}
+
+impl FineMesh {
+    /// Adds a vertex and returns its number.
+    fn point(&mut self, position: Vec3, normal: Vec3) -> u32 {
+        self.vertices.push(position);
+        self.normals.push(normal);
+        (self.vertices.len() - 1) as u32
+    }
+
+    /// Adds a triangle unless two of its corners are one place.
+    fn face(&mut self, [a, b, c]: [u32; 3]) {
+        let [p, q, r] = [a, b, c].map(|i| self.vertices[i as usize]);
+        if p != q && q != r && r != p {
+            self.faces.push([a, b, c]);
+        }
+    }
+
+    /// Adds the quadrilateral `a b c d`, counter-clockwise.
+    fn quad(&mut self, [a, b, c, d]: [u32; 4]) {
+        self.face([a, b, c]);
+        self.face([a, c, d]);
+    }
+}
+
+/// The fine mesh of a shape, in the world.
+pub fn fine_mesh(shape: &Shape) -> FineMesh {
+    let bevel = |usual: f64| shape.bevel().unwrap_or(usual).clamp(0.0, 1.0);
+    let mut mesh = match shape.solid() {
+        Solid::Box { size } => boxes::rounded(*size, 1.0, bevel(BOX_BEVEL)),
+        Solid::TaperedBox { size, taper } => boxes::rounded(*size, *taper, bevel(BOX_BEVEL)),
+        Solid::Cylinder { radius, length, .. } => {
+            revolve::rounded(*radius, *radius, *length, bevel(RIM_BEVEL))
+        }
+        Solid::TaperedCylinder { radius, top_radius, length, .. } => {
+            revolve::rounded(*radius, *top_radius, *length, bevel(RIM_BEVEL))
+        }
+        Solid::Limb { start, end, .. } => limb::domed(start, end),
+        Solid::Mesh(mesh) => crease::creased(mesh, crease::SHARP),
+    };
+    let placement = shape.placement();
+    for p in &mut mesh.vertices {
+        *p = placement.apply(*p);
+    }
+    for n in &mut mesh.normals {
+        *n = placement.rotation.apply(*n);
+    }
+    mesh
+}
+
+/// `v` as a unit vector; `or` when it has no direction.
+fn unit_or(v: Vec3, or: Vec3) -> Vec3 {
+    v.unit().unwrap_or(or)
+}
+
+#[cfg(test)]
+mod tests {
+    //! Claim: every fine mesh is closed, has unit normals that agree with its faces, lies within the solid's box
+    //! (a limb's dome excepted) and fills nearly the solid's volume.
+    use super::*;
+    use crate::mesh::TriMesh;
+    use crate::vector::vec3;
+    use crate::words::Look;
+
+    fn check(shape: &Shape, volume: f64, tolerance: f64) {
+        let fine = fine_mesh(shape);
+        let mesh = TriMesh::new(fine.vertices.clone(), fine.faces.clone()).unwrap();
+        assert_eq!(mesh.open_edges(), 0, "{}", shape.kind());
+        let six: f64 = mesh.corners().map(|[a, b, c]| a.dot(b.cross(c))).sum();
+        assert!((six / 6.0 / volume - 1.0).abs() < tolerance, "{}: {} for {volume}", shape.kind(), six / 6.0);
+        for face in &fine.faces {
+            let [a, b, c] = face.map(|i| fine.vertices[i as usize]);
+            let across = (b - a).cross(c - a);
+            for &i in face {
+                assert!((fine.normals[i as usize].norm() - 1.0).abs() < 1e-9);
+                assert!(fine.normals[i as usize].dot(across) > -1e-9, "{}", shape.kind());
+            }
+        }
+    }
+
+    #[test]
+    fn all_kinds() {
+        let plain = Look::default();
+        let sharp = Look { bevel: Some(0.0), ..plain };
+        let (o, size) = (vec3(1.0, 2.0, 3.0), vec3(2.0, 1.0, 4.0));
+        check(&Shape::cuboid(o, size, &plain).unwrap(), 8.0, 0.02);
+        check(&Shape::cuboid(o, size, &sharp).unwrap(), 8.0, 1e-9);
+        check(
+            &Shape::cuboid(o, vec3(1.0, 1.0, 1.0), &Look { bevel: Some(1.0), ..plain }).unwrap(),
+            std::f64::consts::FRAC_PI_6,
+            0.03,
+        );
+        check(&Shape::tapered_box(o, size, 0.5, 2, &sharp).unwrap(), 8.0 * 7.0 / 12.0, 1e-9);
+        check(&Shape::tapered_box(o, size, 0.5, 0, &plain).unwrap(), 8.0 * 7.0 / 12.0, 0.03);
+        check(&Shape::tapered_box(o, size, 0.0, 1, &plain).unwrap(), 8.0 / 3.0, 0.05);
+        let (pi, z) = (std::f64::consts::PI, vec3(0.0, 0.0, 1.0));
+        check(&Shape::cylinder(o, 1.0, 3.0, z, None, &plain).unwrap(), 3.0 * pi, 0.02);
+        check(&Shape::cylinder(o, 1.0, 3.0, z, Some(0.2), &plain).unwrap(), 1.24 * pi, 0.02);
+        check(&Shape::cylinder(o, 1.0, 3.0, z, Some(0.0), &sharp).unwrap(), pi, 0.02);
+        let limb = Shape::limb(o, o + vec3(0.1, 2.0, 0.0), (0.5, 0.4), (None, None), &plain).unwrap();
+        check(&limb, 0.61 / 3.0 * pi * 2.0 + 2.0 / 3.0 * pi * 0.4 * 0.4 * 0.4 * limb::DOME, 0.02);
+    }
+
+    #[test]
+    fn rounded_boxes_stay_inside_the_box() {
+        let shape = Shape::tapered_box(Vec3::ZERO, vec3(2.0, 1.0, 4.0), 0.4, 2, &Look::default()).unwrap();
+        let b = shape.aabb();
+        for v in fine_mesh(&shape).vertices {
+            assert_eq!((v.min(b.high), v.max(b.low)), (v, v));
+        }
+    }
+}

@@ -1,0 +1,193 @@
+//! Pictures: triangle meshes to RGBA bytes, by casting rays.
+//!
+//! In four steps: **trace** (`trace.rs`: each pixel keeps sums over its samples: paint, light, what blocks the
+//! light), **smooth** (`smooth.rs`), **develop** (`develop.rs`: light through a filmic curve, the backdrop with its
+//! shadow, the ghost over it), bytes. The same bits come out on any number of threads: a pixel depends on its
+//! coordinates only. Deliberately absent: images on surfaces, transparency of parts, more than one bounce.
+//!
+//! - `camera.rs`  cameras, and the view that frames a box
+//! - `bvh.rs`     the nearest triangle
+//! - `light.rs`   sun, sky, directions to sample
+//! - `bump.rs`    roughness
+//! - `tone.rs`    filmic curve, sRGB
+//! - `v3.rs`      three `f32`
+
+mod bump;
+mod bvh;
+mod camera;
+mod develop;
+mod light;
+mod smooth;
+mod tone;
+mod trace;
+mod v3;
+
+pub use camera::{Camera, View};
+
+use rayon::prelude::*;
+use v3::V3;
+
+/// A triangle mesh with paint on it.
+#[derive(Clone, Debug, Default)]
+pub struct Surface {
+    /// Corners in scene units.
+    pub vertices: Vec<[f32; 3]>,
+    /// Triangles as indices of corners.
+    pub faces: Vec<[u32; 3]>,
+    /// One for each vertex (smooth), one for each face (flat), or none (the faces' own).
+    pub normals: Vec<[f32; 3]>,
+    /// Paint, sRGB in `[0, 1]`.
+    pub color: [f32; 3],
+    /// From 0 (chalk) to 1 (lacquer).
+    pub gloss: f32,
+    /// How rough it looks, from 0 (smooth) to 1 (foliage): bumps that only light sees.
+    pub rough: f32,
+    /// Size of those bumps, scene units.
+    pub pitch: f32,
+}
+
+/// What stands behind the scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Backdrop {
+    /// Nothing: the shadow and the scene lie over zero alpha.
+    Clear,
+    /// A seamless studio roll, from `top` to `bottom` of the picture; sRGB in `[0, 1]`.
+    Roll {
+        /// Colour at the picture's upper edge.
+        top: [f32; 3],
+        /// Colour at its lower edge.
+        bottom: [f32; 3],
+    },
+}
+
+/// How to draw.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shot {
+    /// Pixels across.
+    pub width: usize,
+    /// Pixels down.
+    pub height: usize,
+    /// Rays for each pixel; also shadow rays and sky rays.
+    pub samples: usize,
+    /// Where from; `None` frames the scene and its ghost.
+    pub camera: Option<Camera>,
+    /// Height of the floor that catches shadows; `None` is the scene's lowest point.
+    pub floor: Option<f32>,
+    /// What stands behind.
+    pub backdrop: Backdrop,
+    /// Colour of the ghost; sRGB in `[0, 1]`.
+    pub ghost_color: [f32; 3],
+}
+
+impl Default for Shot {
+    fn default() -> Shot {
+        Shot {
+            width: 640,
+            height: 480,
+            samples: 16,
+            camera: None,
+            floor: None,
+            backdrop: Backdrop::Roll { top: [0.97, 0.965, 0.955], bottom: [0.90, 0.895, 0.885] },
+            ghost_color: [0.36, 0.58, 0.80],
+        }
+    }
+}
+
+/// Why a picture cannot be drawn.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum RenderError {
+    /// Width, height or samples is zero, or more than `LARGEST`.
+    Size {
+        /// Which setting.
+        name: &'static str,
+        /// What it was.
+        found: usize,
+    },
+    /// A vertex or normal is not finite, or a face names a vertex that is not there.
+    BadMesh {
+        /// Which surface, in the order given; `None` is the ghost.
+        surface: Option<usize>,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// The camera stands on its target, or a number in it is not finite.
+    BadCamera,
+}
+
+impl std::fmt::Display for RenderError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            RenderError::Size { name, found } => {
+                write!(f, "{name} is {found}; it must be from 1 to {LARGEST}")
+            }
+            RenderError::BadMesh { surface: Some(k), reason } => write!(f, "mesh {k}: {reason}"),
+            RenderError::BadMesh { surface: None, reason } => write!(f, "the ghost: {reason}"),
+            RenderError::BadCamera => {
+                write!(f, "the camera needs finite numbers and a target away from its eye")
+            }
+        }
+    }
+}
+
+impl std::error::Error for RenderError {}
+
+/// Largest width, height and number of samples.
+pub const LARGEST: usize = 16_384;
+
+/// Draws `surfaces` and, as a shell of tinted glass, `ghost`; returns `4 * width * height` bytes, rows from the top,
+/// straight (not premultiplied) alpha.
+///
+/// ```
+/// use niwaki_geom::render::{render, Shot, Surface};
+/// let triangle = Surface {
+///     vertices: vec![[0., 0., 0.], [1., 0., 0.], [0., 1., 0.]],
+///     faces: vec![[0, 1, 2]],
+///     color: [0.8, 0.3, 0.2],
+///     ..Surface::default()
+/// };
+/// let shot = Shot { width: 32, height: 24, samples: 4, ..Shot::default() };
+/// assert_eq!(render(&[triangle], None, &shot).unwrap().len(), 32 * 24 * 4);
+/// ```
+pub fn render(surfaces: &[Surface], ghost: Option<&Surface>, shot: &Shot) -> Result<Vec<u8>, RenderError> {
+    for (name, found) in [("width", shot.width), ("height", shot.height), ("samples", shot.samples)] {
+        if found == 0 || found > LARGEST {
+            return Err(RenderError::Size { name, found });
+        }
+    }
+    for (k, surface) in surfaces.iter().enumerate() {
+        check(surface).map_err(|reason| RenderError::BadMesh { surface: Some(k), reason })?;
+    }
+    if let Some(ghost) = ghost {
+        check(ghost).map_err(|reason| RenderError::BadMesh { surface: None, reason })?;
+    }
+    let stage = trace::Stage::new(surfaces, ghost, shot).ok_or(RenderError::BadCamera)?;
+    let mut pixels = vec![trace::Pixel::default(); shot.width * shot.height];
+    pixels.par_chunks_mut(shot.width).enumerate().for_each(|(row, line)| stage.trace_row(row, line));
+    Ok(develop::develop(&stage, &pixels, shot))
+}
+
+fn check(surface: &Surface) -> Result<(), String> {
+    let finite = |v: &[f32; 3]| v.iter().all(|c| c.is_finite());
+    let (vertices, faces, normals) = (surface.vertices.len(), surface.faces.len(), surface.normals.len());
+    if let Some(k) = surface.vertices.iter().position(|v| !finite(v)) {
+        return Err(format!("vertex {k} is not finite"));
+    }
+    if let Some(k) = surface.faces.iter().position(|f| f.iter().any(|&i| i as usize >= vertices)) {
+        return Err(format!("face {k} names a vertex beyond the last of {vertices}"));
+    }
+    if ![0, vertices, faces].contains(&normals) {
+        return Err(format!("{normals} normals for {vertices} vertices and {faces} faces"));
+    }
+    if let Some(k) = surface.normals.iter().position(|v| !finite(v)) {
+        return Err(format!("normal {k} is not finite"));
+    }
+    if !finite(&surface.color) || !(surface.gloss + surface.rough + surface.pitch).is_finite() {
+        return Err("its colour, gloss, roughness or pitch is not finite".into());
+    }
+    Ok(())
+}
+
+/// Corners of the faces, ready for a tree.
+fn corners(surface: &Surface) -> impl Iterator<Item = [V3; 3]> + '_ {
+    surface.faces.iter().map(|face| face.map(|i| V3::from(surface.vertices[i as usize])))
+}

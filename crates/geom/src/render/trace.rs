@@ -1,0 +1,324 @@
+//! The first step of a picture: rays through pixels, and sums of what they meet.
+//!
+//! A pixel does not keep colours but the factors of colours, summed over its samples, because the sampled light is
+//! smoothed before it meets the paint:
+//!
+//! ```text
+//! scene light = sun * sunlit + open - blocked * paint + shine * seen
+//! ```
+//!
+//! with `sun` (the share of the sun that is seen) and `blocked` (sky light that something hides) taken after
+//! smoothing, and `seen` the share of the sky that is left.
+
+use super::bump;
+use super::bvh::Bvh;
+use super::camera::{Camera, View};
+use super::light::{Directions, Light};
+use super::smooth::Grain;
+use super::v3::{V3, v3};
+use super::{Shot, Surface, corners, tone};
+
+/// Share of the paint's colour that a blocking part sends back: one bounce, roughly.
+const BOUNCE: f32 = 0.42;
+
+/// A surface's look.
+struct Paint {
+    color: V3,
+    gloss: f32,
+    rough: f32,
+    pitch: f32,
+}
+
+/// Everything that rays can meet.
+pub struct Stage {
+    tree: Bvh,
+    ghost: Bvh,
+    normals: Vec<[V3; 3]>,
+    owner: Vec<u32>,
+    paints: Vec<Paint>,
+    ghost_normals: Vec<[V3; 3]>,
+    lens: super::camera::Lens,
+    pub(super) light: Light,
+    directions: Directions,
+    floor: f32,
+    middle: V3,
+    radius: f32,
+    samples: usize,
+    width: usize,
+    height: usize,
+}
+
+/// Sums over the samples of a pixel that met parts.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Body {
+    /// Samples.
+    pub count: f32,
+    /// Paint, linear.
+    pub paint: V3,
+    /// Light of the unblocked sun off paint and lacquer.
+    pub sunlit: V3,
+    /// Light of the unblocked sky off paint.
+    pub open: V3,
+    /// Light of the sky off lacquer.
+    pub shine: V3,
+}
+
+/// Sums over the samples that met the ghost, whatever is in front.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Shell {
+    /// Samples.
+    pub count: f32,
+    /// Samples with nothing in front.
+    pub seen: f32,
+    /// Opacity of the glass where it is seen.
+    pub opacity: f32,
+    /// Normals.
+    pub normal: V3,
+    /// Distances from the eye over the scene's radius.
+    pub depth: f32,
+}
+
+/// What a pixel keeps.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Pixel {
+    /// Parts.
+    pub body: Body,
+    /// Light on parts.
+    pub body_grain: Grain,
+    /// Samples that met the floor.
+    pub floor: f32,
+    /// Light on the floor.
+    pub floor_grain: Grain,
+    /// How much of the floor's shadow to show: 1 below the scene, 0 far away.
+    pub fade: f32,
+    /// The ghost.
+    pub shell: Shell,
+}
+
+impl Stage {
+    /// Builds the trees; nothing when the camera is unusable.
+    pub fn new(surfaces: &[Surface], ghost: Option<&Surface>, shot: &Shot) -> Option<Stage> {
+        let parts: Vec<[V3; 3]> = surfaces.iter().flat_map(corners).collect();
+        let shell: Vec<[V3; 3]> = ghost.into_iter().flat_map(corners).collect();
+        let aspect = shot.width as f32 / shot.height as f32;
+        let camera = shot.camera.unwrap_or_else(|| {
+            let points: Vec<[f32; 3]> = parts.iter().chain(&shell).flatten().map(|&p| p.into()).collect();
+            Camera::framing(&points, View::default(), aspect)
+        });
+        let lens = camera.lens(aspect);
+        let numbers = [lens.eye.x + lens.eye.y + lens.eye.z, lens.right.norm(), lens.half_height];
+        if numbers.iter().any(|n| !n.is_finite()) || lens.right.norm() < 0.5 || lens.half_height <= 0.0 {
+            return None;
+        }
+        // The scene's extent sets offsets, reaches and the shadow's fade; a picture of a ghost alone uses its extent.
+        let extent = if parts.is_empty() { &shell } else { &parts };
+        let (lo, hi) = extent
+            .iter()
+            .flatten()
+            .fold((V3::splat(f32::MAX), V3::splat(f32::MIN)), |(lo, hi), &p| (lo.min(p), hi.max(p)));
+        let (lo, hi) = if extent.is_empty() { (V3::splat(-1.0), V3::splat(1.0)) } else { (lo, hi) };
+        Some(Stage {
+            tree: Bvh::new(&parts),
+            ghost: Bvh::new(&shell),
+            normals: surfaces.iter().flat_map(corner_normals).collect(),
+            owner: surfaces
+                .iter()
+                .zip(0..)
+                .flat_map(|(s, k)| std::iter::repeat_n(k, s.faces.len()))
+                .collect(),
+            paints: surfaces
+                .iter()
+                .map(|s| Paint {
+                    color: tone::linear(s.color),
+                    gloss: s.gloss.clamp(0.0, 1.0),
+                    rough: if s.pitch > 0.0 { s.rough.clamp(0.0, 1.0) } else { 0.0 },
+                    pitch: s.pitch,
+                })
+                .collect(),
+            ghost_normals: ghost.into_iter().flat_map(corner_normals).collect(),
+            lens,
+            light: Light::studio(lens.forward),
+            directions: Directions::new(shot.samples),
+            floor: shot.floor.unwrap_or(lo.y),
+            middle: (lo + hi) * 0.5,
+            radius: ((hi - lo).norm() * 0.5).max(1e-6),
+            samples: shot.samples,
+            width: shot.width,
+            height: shot.height,
+        })
+    }
+
+    /// Fills one row of pixels.
+    pub fn trace_row(&self, row: usize, line: &mut [Pixel]) {
+        for (column, pixel) in line.iter_mut().enumerate() {
+            for s in 0..self.samples {
+                let [dx, dy] = self.directions.in_pixel(s);
+                let x = 2.0 * (column as f32 + dx) / self.width as f32 - 1.0;
+                let y = 1.0 - 2.0 * (row as f32 + dy) / self.height as f32;
+                self.sample(pixel, column, row, s, self.lens.direction(x, y).unit());
+            }
+            finish(&mut pixel.body_grain);
+            finish(&mut pixel.floor_grain);
+            pixel.fade /= pixel.floor.max(1.0);
+        }
+    }
+
+    fn sample(&self, pixel: &mut Pixel, column: usize, row: usize, s: usize, direction: V3) {
+        let eye = self.lens.eye;
+        let hit = self.tree.hit(eye, direction, f32::INFINITY);
+        let fall = (self.floor - eye.y) / direction.y;
+        let floor = if fall > 0.0 && fall.is_finite() { fall } else { f32::INFINITY };
+        let mut front = floor;
+        match hit {
+            // What lies below the floor is still drawn, so that a low camera or a raised floor hides nothing.
+            Some(hit) if hit.t <= floor || eye.y < self.floor => {
+                front = hit.t;
+                let face = hit.triangle as usize;
+                let [a, b, c] = self.normals[face];
+                let mut normal = (a * (1.0 - hit.u - hit.v) + b * hit.u + c * hit.v).unit();
+                if normal.dot(direction) > 0.0 {
+                    // Seen from behind, or a smooth normal that leans over the edge: bring it back to the eye's side.
+                    normal = if normal.dot(direction) > 0.35 { -normal } else { lean(normal, direction) };
+                }
+                let point = eye + direction * hit.t;
+                let paint = &self.paints[self.owner[face] as usize];
+                self.light_body(&mut pixel.body, paint, direction, point, normal);
+                self.grain(&mut pixel.body_grain, column, row, s, point, normal, hit.t);
+            }
+            _ if floor.is_finite() && eye.y > self.floor => {
+                let point = eye + direction * floor;
+                pixel.floor += 1.0;
+                let from = v3(point.x - self.middle.x, 0.0, point.z - self.middle.z).norm();
+                let fade = 1.0 - ((from / self.radius - 1.2) / 2.2).clamp(0.0, 1.0);
+                pixel.fade += fade * fade * (3.0 - 2.0 * fade);
+                if fade > 0.0 {
+                    self.grain(&mut pixel.floor_grain, column, row, s, point, v3(0.0, 1.0, 0.0), floor);
+                }
+            }
+            _ => {}
+        }
+        if let Some(hit) = self.ghost.hit(eye, direction, f32::INFINITY) {
+            let [a, b, c] = self.ghost_normals[hit.triangle as usize];
+            let normal = (a * (1.0 - hit.u - hit.v) + b * hit.u + c * hit.v).unit();
+            let facing = normal.dot(direction).abs();
+            let shell = &mut pixel.shell;
+            shell.count += 1.0;
+            shell.normal = shell.normal + normal;
+            shell.depth += hit.t / self.radius;
+            if hit.t < front || !matches!(front, t if t.is_finite()) {
+                shell.seen += 1.0;
+                shell.opacity += 0.055 + 0.42 * (1.0 - facing).powi(3);
+            }
+        }
+    }
+
+    /// Adds the factors of a part's colour.
+    fn light_body(&self, body: &mut Body, look: &Paint, direction: V3, point: V3, smooth: V3) {
+        let light = &self.light;
+        let (mut normal, mut paint) = (smooth, look.color);
+        if look.rough > 0.0 {
+            // Bumps turn the normal, and hollows are darker than ridges.
+            let (height, slope) = bump::field(point / look.pitch);
+            normal = (smooth - (slope - smooth * slope.dot(smooth)) * (0.5 * look.rough)).unit();
+            paint = paint * (1.0 + 0.45 * look.rough * height);
+        }
+        let facing = if smooth.dot(light.sun) > 0.0 { normal.dot(light.sun).max(0.0) } else { 0.0 };
+        let half = (light.sun - direction).unit();
+        let grazing = (1.0 + direction.dot(normal)).clamp(0.0, 1.0);
+        let fresnel = look.gloss * (0.05 + 0.55 * grazing.powi(4));
+        let mirrored = direction - normal * (2.0 * direction.dot(normal));
+        let highlight =
+            if facing > 0.0 { 0.45 * look.gloss * normal.dot(half).max(0.0).powi(48) } else { 0.0 };
+        body.count += 1.0;
+        body.paint = body.paint + paint;
+        body.sunlit = body.sunlit + (paint * facing + V3::splat(highlight)).tint(light.strength);
+        body.open = body.open + paint.tint(light.open_sky(normal));
+        body.shine = body.shine + light.sky(mirrored) * fresnel;
+    }
+
+    /// Adds what this sample sees of sun and sky from a point.
+    #[expect(clippy::too_many_arguments, reason = "one sample's coordinates")]
+    fn grain(
+        &self,
+        grain: &mut Grain,
+        column: usize,
+        row: usize,
+        s: usize,
+        point: V3,
+        normal: V3,
+        distance: f32,
+    ) {
+        let start = point + normal * (3e-4 * self.radius);
+        grain.normal = grain.normal + normal;
+        grain.point = grain.point + point;
+        grain.footprint += 2.0 * self.lens.half_height * distance / self.height as f32;
+        grain.count += 1.0;
+        // Samples take turns: one asks the sky, the next the sun. Smoothing makes up for it.
+        let (turn, both) = (s / 2, self.samples == 1);
+        if both || s.is_multiple_of(2) {
+            grain.sky_weight += 1.0;
+            grain.blocked = grain.blocked + self.blocked_sky(start, normal, column, row, turn);
+        }
+        if (both || !s.is_multiple_of(2)) && normal.dot(self.light.sun) > 0.0 {
+            grain.sun_weight += 1.0;
+            let sunward = self.directions.sunward(&self.light, column, row, turn);
+            if !self.tree.blocked(start, sunward, f32::INFINITY) {
+                grain.sun += 1.0;
+            }
+        }
+    }
+
+    /// The sky light from one direction about the normal that something hides, less what that sends back.
+    fn blocked_sky(&self, start: V3, normal: V3, column: usize, row: usize, turn: usize) -> V3 {
+        let direction = self.directions.about(normal, column, row, turn);
+        let reach = 1.3 * self.radius;
+        if let Some(hit) = self.tree.hit(start, direction, reach) {
+            // Far blockers matter less than the picture of a closed room would have it: they are lit themselves.
+            let near = 1.0 - hit.t / reach;
+            let other = self.paints[self.owner[hit.triangle as usize] as usize].color;
+            let back = other.tint(self.light.open_sky(-direction)) * BOUNCE;
+            return (self.light.sky(direction) - back) * (near * (2.0 - near));
+        }
+        if direction.y < 0.0 && start.y > self.floor {
+            // The floor below a part lies in the part's own shadow: less light comes up the closer it is.
+            let height = (start.y - self.floor) / (0.35 * self.radius);
+            return self.light.sky(direction) * (-0.75 * direction.y / (1.0 + height * height));
+        }
+        V3::ZERO
+    }
+}
+
+/// Sums to means.
+fn finish(grain: &mut Grain) {
+    if grain.count > 0.0 {
+        let n = grain.count;
+        grain.normal = grain.normal.unit();
+        grain.point = grain.point / n;
+        grain.footprint /= n;
+        grain.blocked = grain.blocked / grain.sky_weight.max(1.0);
+    }
+    grain.sun = if grain.sun_weight > 0.0 { grain.sun / grain.sun_weight } else { 1.0 };
+}
+
+/// A normal turned just far enough to be seen edge-on.
+fn lean(normal: V3, direction: V3) -> V3 {
+    (normal - direction * (normal.dot(direction) + 1e-3)).unit()
+}
+
+/// The normals at the corners of each face.
+fn corner_normals(surface: &Surface) -> Vec<[V3; 3]> {
+    let smooth = surface.normals.len() == surface.vertices.len() && !surface.normals.is_empty();
+    let flat = !smooth && surface.normals.len() == surface.faces.len();
+    surface
+        .faces
+        .iter()
+        .enumerate()
+        .map(|(k, face)| {
+            if smooth {
+                return face.map(|i| V3::from(surface.normals[i as usize]));
+            }
+            let [a, b, c] = face.map(|i| V3::from(surface.vertices[i as usize]));
+            [if flat { V3::from(surface.normals[k]) } else { (b - a).cross(c - a).unit() }; 3]
+        })
+        .collect()
+}
