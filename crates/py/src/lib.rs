@@ -3,6 +3,7 @@
 //! One file for each room behind the door; this one only registers them.
 
 mod geometry;
+mod pictures;
 
 use pyo3::prelude::*;
 
@@ -11,5 +12,6 @@ use pyo3::prelude::*;
 fn _engine(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     geometry::register(module)?;
+    pictures::register(module)?;
     Ok(())
 }
