@@ -1,0 +1,86 @@
+"""Colours for parts whose shapes have none of their own.
+
+Two palettes: *machine* (warm greys, graphite for what is round, a burnt orange accent) and *garden* (bark for
+limbs, pine greens for the rest), taken when a scene holds limbs. Each part's tone varies a little with its
+address and with nothing else, so that a part keeps its colour when others change.
+"""
+
+from __future__ import annotations
+
+import colorsys
+import zlib
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from niwaki._engine import Shape
+    from niwaki.scene import Part, Scene
+
+Color = tuple[float, float, float]
+
+WARM_GREYS: tuple[Color, ...] = ((0.80, 0.78, 0.74), (0.74, 0.72, 0.69), (0.69, 0.68, 0.66))
+GRAPHITES: tuple[Color, ...] = ((0.33, 0.35, 0.38), (0.40, 0.41, 0.43), (0.27, 0.29, 0.32))
+ACCENTS: tuple[Color, ...] = ((0.80, 0.37, 0.20), (0.84, 0.45, 0.24))
+BARKS: tuple[Color, ...] = ((0.44, 0.35, 0.29),)
+PINES: tuple[Color, ...] = ((0.36, 0.47, 0.28), (0.32, 0.43, 0.28), (0.41, 0.50, 0.30))
+
+
+@dataclass(frozen=True)
+class Paint:
+    """How a part looks.
+
+    Attributes
+    ----------
+    color
+        sRGB in [0, 1].
+    gloss
+        From 0 (chalk) to 1 (lacquer).
+    rough
+        From 0 (smooth) to 1 (foliage); in pictures only.
+    pitch
+        Size of the bumps of a rough surface, scene units.
+    """
+
+    color: Color
+    gloss: float
+    rough: float = 0.0
+    pitch: float = 0.0
+
+
+def paints(scene: Scene) -> list[list[Paint]]:
+    """Choose the paint of each shape of each part, in order."""
+    garden = any(shape.kind == "limb" for part in scene.parts for shape in part.shapes)
+    extent = scene.size.max() if len(scene) else 1.0
+    return [[_paint(part, shape, garden, extent) for shape in part.shapes] for part in scene.parts]
+
+
+def _paint(part: Part, shape: Shape, garden: bool, extent: float) -> Paint:
+    own = None if shape.color is None else _triple(shape.color)
+    limb = shape.kind == "limb"
+    dice = zlib.crc32(part.address.encode())
+    if garden:
+        color = own or (_vary(BARKS, dice, 0.012, 0.0) if limb else _vary(PINES, dice, 0.04, 0.012))
+        return Paint(color, 0.05, 0.35, 0.012 * extent) if limb else Paint(color, 0.08, 0.8, 0.016 * extent)
+    if own is not None:
+        return Paint(own, 0.35)
+    low, high = shape.aabb()
+    sizes = sorted(b - a for a, b in zip(low, high, strict=True))
+    if shape.kind.endswith("cylinder"):
+        return Paint(_vary(GRAPHITES, dice, 0.05, 0.0), 0.5)
+    if sizes[0] < 0.035 * extent or dice % 7 == 0:
+        return Paint(_vary(ACCENTS, dice, 0.03, 0.004), 0.35)
+    return Paint(_vary(WARM_GREYS, dice, 0.05, 0.004), 0.35)
+
+
+def _vary(colors: tuple[Color, ...], dice: int, by: float, turn: float) -> Color:
+    """One of `colors`, made lighter or darker by up to `by` and turned in hue by up to `turn`."""
+    hue, light, saturation = colorsys.rgb_to_hls(*colors[(dice >> 3) % len(colors)])
+    light += ((dice >> 8) % 256 / 127.5 - 1.0) * by
+    hue += ((dice >> 16) % 256 / 127.5 - 1.0) * turn
+    return colorsys.hls_to_rgb(hue % 1.0, min(max(light, 0.0), 1.0), saturation)
+
+
+def _triple(color: Sequence[float]) -> Color:
+    red, green, blue = color
+    return (red, green, blue)

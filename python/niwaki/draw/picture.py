@@ -1,0 +1,180 @@
+"""A scene as a picture, its target as a ghost of tinted glass around it.
+
+Drawn by the engine's own ray caster: a soft sun, sky light, a floor that catches the shadow. The same scene
+gives the same pixels on any number of threads.
+"""
+
+from __future__ import annotations
+
+import io
+import os
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal, get_args
+
+import numpy as np
+from PIL import Image
+
+from niwaki import _engine
+from niwaki.draw.palette import paints
+from niwaki.file_errors import FileError
+
+if TYPE_CHECKING:
+    from niwaki.scene import Scene
+    from niwaki.target import Target
+
+Backdrop = Literal["studio", "white", "slate", "clear"]
+Rgb = tuple[float, float, float]
+Camera = tuple[Rgb, Rgb, Rgb, float]
+
+#: Upper and lower colour of each backdrop, sRGB; None is transparent.
+BACKDROPS: dict[str, tuple[Rgb, Rgb] | None] = {
+    "studio": ((0.965, 0.96, 0.95), (0.885, 0.878, 0.865)),
+    "white": ((1.0, 1.0, 1.0), (1.0, 1.0, 1.0)),
+    "slate": ((0.27, 0.29, 0.32), (0.19, 0.205, 0.23)),
+    "clear": None,
+}
+
+#: Largest width, height and number of samples.
+LARGEST = 16_384
+
+IMAGE_FORMATS = (".png", ".jpg", ".jpeg", ".webp")
+
+
+def picture(
+    scene: Scene,
+    target: Target | None = None,
+    *,
+    size: tuple[int, int] = (960, 720),
+    samples: int = 16,
+    azimuth: float = 38.0,
+    elevation: float = 24.0,
+    fov: float = 26.0,
+    margin: float = 0.08,
+    camera: Camera | None = None,
+    backdrop: Backdrop = "studio",
+    lift: float = 0.0,
+    frame: Scene | None = None,
+) -> Image.Image:
+    """Draws a scene.
+
+    Parameters
+    ----------
+    scene
+        What to draw.
+    target
+        Drawn as a ghost, when given; it counts for the framing.
+    size
+        Width and height in pixels.
+    samples
+        Rays for each pixel; 4 for a draft, 16 for a page, 64 for print.
+    azimuth, elevation
+        Where the camera stands, degrees: 0, 0 looks from +z; azimuth 90 from +x; elevation 90 from above.
+    fov
+        Vertical field of view, degrees.
+    margin
+        Empty border as a share of the picture.
+    camera
+        Eye, target, up and vertical field of view; replaces the five above.
+    backdrop
+        "studio", "white", "slate" or "clear" (transparent, with the shadow in the alpha channel).
+    lift
+        How far the scene floats above the floor, as a share of its height.
+    frame
+        Another scene whose framing to take, so that pictures of several can be compared.
+
+    Returns
+    -------
+    PIL.Image.Image
+        RGBA.
+    """
+    if backdrop not in get_args(Backdrop):
+        raise FileError("setting", name="backdrop", found=backdrop, expected=", ".join(get_args(Backdrop)))
+    if len(scene) == 0 and target is None:
+        raise FileError("scene-empty", verb="draw")
+    width, height = size
+    for name, number in (("width", width), ("height", height), ("samples", samples)):
+        if not 1 <= number <= LARGEST:
+            raise FileError(
+                "setting", name=name, found=number, expected=f"a whole number from 1 to {LARGEST}"
+            )
+    meshes = surfaces(scene)
+    ghost = None if target is None else _ghost(target)
+    if camera is None:
+        seen = surfaces(frame) if frame is not None else meshes
+        clouds = [mesh[0] for mesh in seen] + ([] if target is None else [target.vertices])
+        points = np.concatenate(clouds)
+        camera = _engine.frame_camera(
+            points, azimuth=azimuth, elevation=elevation, fov_y=fov, margin=margin, aspect=width / height
+        )
+    low, high = scene.bounds if len(scene) else target.bounds  # type: ignore[union-attr]
+    pixels = _engine.render(
+        meshes,
+        ghost,
+        camera=camera,
+        width=width,
+        height=height,
+        samples=samples,
+        backdrop=BACKDROPS[backdrop],
+        floor=float(low[1] - lift * (high[1] - low[1])),
+    )
+    return Image.fromarray(pixels, "RGBA")
+
+
+def surfaces(scene: Scene) -> list[tuple[Any, ...]]:
+    """Make the fine meshes of all shapes with their paint, as the engine's `render` takes them."""
+    meshes = []
+    for part, part_paints in zip(scene.parts, paints(scene), strict=True):
+        for shape, paint in zip(part.shapes, part_paints, strict=True):
+            vertices, faces, normals = _engine.fine_mesh(shape)
+            meshes.append((vertices, faces, normals, paint.color, (paint.gloss, paint.rough, paint.pitch)))
+    return meshes
+
+
+def png(image: Image.Image) -> bytes:
+    """Return the image as the bytes of a PNG file."""
+    out = io.BytesIO()
+    image.save(out, "PNG")
+    return out.getvalue()
+
+
+def save(scene: Scene, path: str | PathLike[str], target: Target | None = None, **settings: Any) -> Path:
+    """Draws a scene into a file; `settings` are those of `picture`."""
+    return save_image(lambda: picture(scene, target, **settings), path)
+
+
+def save_image(draw: Any, path: str | PathLike[str]) -> Path:
+    """Write the image that `draw()` makes, whole or not at all; its name is checked before drawing."""
+    place = Path(path)
+    if place.suffix.lower() not in IMAGE_FORMATS:
+        raise FileError(
+            "file-format",
+            place,
+            suffix=place.suffix or "no suffix",
+            done="drawn",
+            formats=", ".join(IMAGE_FORMATS),
+        )
+    image: Image.Image = draw()
+    out = io.BytesIO()
+    kind = Image.registered_extensions()[place.suffix.lower()]
+    image.convert("RGB" if kind == "JPEG" else "RGBA").save(out, kind)
+    return write_whole(place, out.getvalue())
+
+
+def write_whole(place: Path, data: bytes) -> Path:
+    """Write bytes under a temporary name beside the file, then rename: readers see all of it or nothing."""
+    temporary = place.with_name(f".{place.name}.{os.getpid()}.part")
+    try:
+        temporary.write_bytes(data)
+        os.replace(temporary, place)
+    except OSError as error:
+        raise FileError("file-unwritable", place, reason=error.strerror or str(error)) from error
+    finally:
+        temporary.unlink(missing_ok=True)
+    return place
+
+
+def _ghost(target: Target) -> tuple[Any, ...]:
+    """Make the target's mesh with normals that are smooth where it is smooth."""
+    vertices, faces, normals = _engine.fine_mesh(_engine.Shape.mesh(target.vertices, target.faces))
+    return (vertices, faces, normals, (1.0, 1.0, 1.0), (0.0, 0.0, 0.0))

@@ -1,0 +1,118 @@
+"""Several pictures on one page, each with a small caption: the way to compare results.
+
+All scenes are framed alike, so that a larger one looks larger.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from PIL import Image, ImageDraw, ImageFont
+
+from niwaki.draw.picture import BACKDROPS, picture, save_image
+from niwaki.file_errors import FileError
+from niwaki.scene import Scene
+
+if TYPE_CHECKING:
+    from niwaki.target import Target
+
+
+def sheet(
+    scenes: Sequence[Scene],
+    captions: Sequence[str] | None = None,
+    target: Target | None = None,
+    *,
+    columns: int | None = None,
+    size: tuple[int, int] = (480, 360),
+    ghost: bool = True,
+    **settings: Any,
+) -> Image.Image:
+    """Draws scenes side by side.
+
+    Parameters
+    ----------
+    scenes
+        What to draw, in reading order.
+    captions
+        A line of text for each; none when left out.
+    target
+        Drawn as a ghost in each picture, unless `ghost` is false: then it only frames.
+    columns
+        Pictures in a row; as square a page as possible when left out.
+    size
+        Width and height of each picture in pixels.
+    settings
+        As for `niwaki.draw.picture.picture`.
+    """
+    if not scenes:
+        raise FileError("scene-empty", verb="draw")
+    if captions is not None and len(captions) != len(scenes):
+        raise FileError(
+            "setting", name="captions", found=len(captions), expected=f"one for each of {len(scenes)} scenes"
+        )
+    if columns is not None and columns < 1:
+        raise FileError("setting", name="columns", found=columns, expected="at least 1")
+    across = columns or _columns(len(scenes))
+    down = -(-len(scenes) // across)
+    width, height = size
+    letters = max(11, round(height / 22))
+    strip = round(letters * 2.2) if captions else 0
+    gap = max(2, round(height / 120))
+    backdrop = settings.get("backdrop", "studio")
+    colors = BACKDROPS.get(backdrop)
+    dark = backdrop == "slate"
+    paper = (0, 0, 0, 0) if colors is None else (*(round(255 * c) for c in colors[1]), 255)
+    line = (
+        (0, 0, 0, 0)
+        if colors is None
+        else (*((c - 14 if dark else min(c + 14, 255)) for c in paper[:3]), 255)
+    )
+    page = Image.new("RGBA", (across * (width + gap) - gap, down * (height + strip + gap) - gap), line)
+    pen = ImageDraw.Draw(page)
+    font = ImageFont.load_default(letters)
+    everything = _together(scenes, target)
+    for k, scene in enumerate(scenes):
+        x, y = (k % across) * (width + gap), (k // across) * (height + strip + gap)
+        image = picture(scene, target if ghost else None, size=size, frame=everything, **settings)
+        page.paste(Image.new("RGBA", (width, height + strip), paper), (x, y))
+        page.paste(image, (x, y))
+        if captions:
+            ink = (205, 207, 210, 255) if dark else (84, 82, 78, 255)
+            text = _fit(captions[k], font, width - letters)
+            pen.text((x + width / 2, y + height + strip * 0.42), text, ink, font, anchor="mm")
+    return page
+
+
+def save(path: str | PathLike[str], scenes: Sequence[Scene], *arguments: Any, **settings: Any) -> Path:
+    """Draws a sheet into an image file; arguments and settings as for `sheet`."""
+    return save_image(lambda: sheet(scenes, *arguments, **settings), path)
+
+
+def _columns(count: int) -> int:
+    """Find the fewest columns that are at least as many as the rows."""
+    across = 1
+    while across * across < count:
+        across += 1
+    return across
+
+
+def _together(scenes: Sequence[Scene], target: Target | None) -> Scene:
+    """One scene with all parts, to frame by."""
+    from niwaki._engine import Shape
+
+    parts = [(f"{k}", [shape for part in scene for shape in part.shapes]) for k, scene in enumerate(scenes)]
+    if target is not None:
+        parts.append(("target", [Shape.mesh(target.vertices, target.faces)]))
+    return Scene(parts)
+
+
+def _fit(text: str, font: Any, width: float) -> str:
+    """Return the text, shortened with dots until it fits."""
+    if font.getlength(text) <= width:
+        return text
+    while text and font.getlength(text + "...") > width:
+        text = text[:-1]
+    return text.rstrip() + "..."

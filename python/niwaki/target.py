@@ -1,0 +1,214 @@
+"""Targets: the volumes that a scene should fill, from OBJ, STL, PLY and GLB files or from arrays.
+
+Coordinates are taken as they are in the file: no centring, no scaling, no change of units or axes. A file
+with several objects is one target; its closed parts may overlap.
+"""
+
+from __future__ import annotations
+
+import warnings
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from niwaki.file_errors import FileError
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
+
+FORMATS = (".obj", ".stl", ".ply", ".glb", ".gltf")
+
+
+class TargetWarning(UserWarning):
+    """A target can be used, but perhaps not as its author meant."""
+
+
+class Target:
+    """A triangle mesh to fill.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float64
+        Scene units, finite.
+    faces : (m, 3) int64
+        Counter-clockwise seen from outside.
+    name
+        For captions and messages.
+
+    Attributes
+    ----------
+    open_edges : int
+        Edges that do not lie between exactly two triangles; 0 for a closed mesh.
+
+    Examples
+    --------
+    >>> tetrahedron = Target([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
+    ...                      [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
+    >>> tetrahedron.open_edges, round(tetrahedron.volume, 6)
+    (0, 0.166667)
+    """
+
+    def __init__(self, vertices: ArrayLike, faces: ArrayLike, name: str = "target") -> None:
+        self.vertices: NDArray[np.float64] = np.array(vertices, dtype=np.float64).reshape(-1, 3)
+        self.faces: NDArray[np.int64] = np.array(faces, dtype=np.int64).reshape(-1, 3)
+        self.name = name
+        _check(self.vertices, self.faces, name)
+        self.vertices, self.faces = _welded(self.vertices, self.faces)
+        if len(self.faces) == 0:
+            raise FileError("target-empty", name, reason="all of its triangles have no area")
+        self.vertices.setflags(write=False)
+        self.faces.setflags(write=False)
+        self.open_edges = _open_edges(self.faces)
+        if self.open_edges:
+            warnings.warn(
+                f"{name}: the mesh is not closed: {self.open_edges} open edges; "
+                "what is inside is decided by majority, so close the holes if the fill looks wrong",
+                TargetWarning,
+                stacklevel=_outside(),
+            )
+
+    @classmethod
+    def load(cls, path: str | PathLike[str]) -> Target:
+        """Read a target from a file whose name ends in .obj, .stl, .ply, .glb or .gltf.
+
+        Raises
+        ------
+        FileError
+            The file is missing, cut short or of another format; it has no triangles, no thickness, or
+            coordinates that are not finite.
+
+        Warns
+        -----
+        TargetWarning
+            The mesh is not closed; counts its open edges.
+        """
+        place = Path(path)
+        suffix = place.suffix.lower()
+        if not place.is_file():
+            raise FileError("file-missing", path, absolute=place.absolute(), folder=Path.cwd())
+        if suffix not in FORMATS:
+            raise FileError(
+                "file-format",
+                path,
+                suffix=place.suffix or "no suffix",
+                done="read",
+                formats=", ".join(FORMATS),
+            )
+        if place.stat().st_size == 0:
+            raise FileError("file-unreadable", path, suffix=suffix, reason="the file holds no bytes")
+        vertices, faces = _read(place, suffix)
+        return cls(vertices, faces, name=str(path))
+
+    def __repr__(self) -> str:
+        """Name, triangles, extent."""
+        x, y, z = self.size
+        return f"<Target {self.name}: {len(self.faces)} triangles, {x:.3g} x {y:.3g} x {z:.3g}>"
+
+    @property
+    def bounds(self) -> NDArray[np.float64]:
+        """Low and high corner, (2, 3)."""
+        used = self.vertices[self.faces.ravel()]
+        return np.stack([used.min(axis=0), used.max(axis=0)])
+
+    @property
+    def size(self) -> NDArray[np.float64]:
+        """Extent along x, y and z, (3,)."""
+        low, high = self.bounds
+        return np.asarray(high - low)
+
+    @property
+    def volume(self) -> float:
+        """Signed volume of a closed mesh; overlapping parts count twice."""
+        a, b, c = (self.vertices[self.faces[:, k]] for k in range(3))
+        return float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6.0)
+
+    def picture(self, **settings: Any) -> Image:
+        """Draw the target as a solid of grey clay; settings as for a scene's picture."""
+        from niwaki._engine import Shape
+        from niwaki.scene import Scene
+
+        clay = Shape.mesh(self.vertices, self.faces, color=(0.72, 0.71, 0.69))
+        return Scene([(self.name, [clay])]).picture(**settings)
+
+    def _repr_png_(self) -> bytes:
+        from niwaki.draw.picture import png
+
+        return png(self.picture(size=(800, 600)))
+
+
+def _read(place: Path, suffix: str) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Vertices and faces of all objects of a file, each placed as its file places it."""
+    import trimesh
+
+    options: dict[str, Any] = {"skip_materials": True} if suffix == ".obj" else {}
+    try:
+        loaded = trimesh.load_scene(place, process=False, **options)
+        parts = [part for part in loaded.dump() if isinstance(part, trimesh.Trimesh)]
+        arrays = [(np.asarray(part.vertices, np.float64), np.asarray(part.faces, np.int64)) for part in parts]
+    except Exception as error:  # readers of other people's formats fail in every way there is
+        reason = " ".join(str(error).split()) or type(error).__name__
+        raise FileError("file-unreadable", place, suffix=suffix, reason=reason) from error
+    if not any(len(faces) for _, faces in arrays):
+        found = "the file holds points or curves only" if loaded.geometry else "the file holds no object"
+        raise FileError("target-empty", place, reason=found)
+    starts = np.cumsum([0, *(len(vertices) for vertices, _ in arrays)])
+    for vertices, faces in arrays:
+        if len(faces) and (faces.min() < 0 or faces.max() >= len(vertices)):
+            reason = f"a face names vertex {int(faces.max()) + 1} of {len(vertices)}"
+            raise FileError("file-unreadable", place, suffix=suffix, reason=reason)
+    return (
+        np.concatenate([vertices for vertices, _ in arrays]),
+        np.concatenate([faces + start for (_, faces), start in zip(arrays, starts, strict=False)]),
+    )
+
+
+def _check(vertices: NDArray[np.float64], faces: NDArray[np.int64], name: str) -> None:
+    if len(faces) == 0:
+        raise FileError("target-empty", name, reason=f"it has {len(vertices)} vertices and no faces")
+    if faces.min() < 0 or faces.max() >= len(vertices):
+        reason = f"a face names vertex {int(faces.max())}, but there are {len(vertices)}, counted from 0"
+        raise FileError("file-unreadable", name, suffix="a mesh", reason=reason)
+    wrong = np.flatnonzero(~np.isfinite(vertices).all(axis=1))
+    if len(wrong):
+        raise FileError("target-not-finite", name, count=len(wrong), total=len(vertices), first=int(wrong[0]))
+    used = vertices[faces.ravel()]
+    extent = used.max(axis=0) - used.min(axis=0)
+    if (extent <= 1e-9 * extent.max()).any():
+        axis = "xyz"[int(extent.argmin())]
+        raise FileError("target-flat", name, axis=axis, extent=" x ".join(f"{e:.4g}" for e in extent))
+
+
+def _welded(
+    vertices: NDArray[np.float64], faces: NDArray[np.int64]
+) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """One vertex for each place that is used, in order of first use; faces without three places left out."""
+    used, inverse = np.unique(faces.ravel(), return_inverse=True)
+    # -0.0 and 0.0 are one place.
+    places, first, number = np.unique(vertices[used] + 0.0, axis=0, return_index=True, return_inverse=True)
+    order = np.argsort(first)
+    rank = np.empty_like(order)
+    rank[order] = np.arange(len(order))
+    merged = rank[np.asarray(number).ravel()[inverse]].reshape(-1, 3).astype(np.int64)
+    a, b, c = merged.T
+    return places[order], merged[(a != b) & (b != c) & (c != a)]
+
+
+def _open_edges(faces: NDArray[np.int64]) -> int:
+    edges = np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    _, count = np.unique(edges, axis=0, return_counts=True)
+    # Two closed parts may share an edge; an odd count is a hole.
+    return int((count % 2 == 1).sum())
+
+
+def _outside() -> int:
+    """How far up the caller's own code is, for a warning's place."""
+    import sys
+
+    depth = 2
+    frame = sys._getframe(2)
+    while frame is not None and frame.f_globals.get("__name__") == __name__ and frame.f_back is not None:
+        depth, frame = depth + 1, frame.f_back
+    return depth

@@ -1,0 +1,82 @@
+"""Claim: an exported scene opens elsewhere with its parts, names and volume; equal scenes give equal bytes; a
+file that cannot be written whole is not written at all."""
+
+from __future__ import annotations
+
+import json
+import struct
+from pathlib import Path
+
+import numpy as np
+import pytest
+import trimesh
+from niwaki._engine import Shape
+from niwaki.draw.files import glb
+from niwaki.file_errors import FileError
+from niwaki.scene import Scene
+
+
+def scene(order: int = 1) -> Scene:
+    parts = [
+        ("ship/body", [Shape.box((0, 0, 0), (2, 1, 4), bevel=0.0)]),
+        (
+            "ship/wings",
+            [Shape.box((s * 2.0, 0, 0), (2, 0.5, 1), bevel=0.0, color=(0.5, 0.2, 0.1)) for s in (1, -1)],
+        ),
+        ("ship/engine", [Shape.cylinder((0, 0, -3), 0.5, 2.0, "z", bevel=0.0)]),
+    ]
+    return Scene(parts[::order])
+
+
+def test_glb_has_a_node_for_each_part(tmp_path: Path) -> None:
+    path = scene().export(tmp_path / "ship.glb")
+    loaded = trimesh.load_scene(path)
+    names = {loaded.graph[name][1] for name in loaded.graph.nodes_geometry}
+    assert set(loaded.graph.nodes_geometry) == {"ship/body", "ship/engine", "ship/wings"}
+    assert len(names) == 3
+    volumes = {name: loaded.geometry[loaded.graph[name][1]].volume for name in loaded.graph.nodes_geometry}
+    assert volumes["ship/body"] == pytest.approx(8.0, rel=1e-6)
+    assert volumes["ship/wings"] == pytest.approx(2.0, rel=1e-6)
+    assert volumes["ship/engine"] == pytest.approx(np.pi / 2, rel=5e-3)
+    assert np.allclose(loaded.bounds, scene().bounds, atol=1e-6)
+
+
+def test_glb_keeps_normals_and_linear_colours() -> None:
+    data = glb(scene())
+    magic, version, length = struct.unpack_from("<4sII", data)
+    assert (magic, version, length) == (b"glTF", 2, len(data))
+    size, kind = struct.unpack_from("<I4s", data, 12)
+    document = json.loads(data[20 : 20 + size])
+    assert kind == b"JSON" and size % 4 == 0
+    colors = [m["pbrMetallicRoughness"]["baseColorFactor"] for m in document["materials"]]
+    assert any(np.allclose(c, [0.214041, 0.033105, 0.010023, 1.0], atol=1e-5) for c in colors)
+    primitive = document["meshes"][0]["primitives"][0]
+    view = document["bufferViews"][document["accessors"][primitive["attributes"]["NORMAL"]]["bufferView"]]
+    start = 20 + size + 8 + view["byteOffset"]
+    normals = np.frombuffer(data, "<f4", view["byteLength"] // 4, start).reshape(-1, 3)
+    assert np.allclose(np.linalg.norm(normals, axis=1), 1.0, atol=1e-6)
+
+
+def test_glb_is_the_same_to_the_byte() -> None:
+    assert glb(scene()) == glb(scene(-1))
+
+
+@pytest.mark.parametrize("suffix", ["obj", "stl", "ply"])
+def test_other_formats_open_again(tmp_path: Path, suffix: str) -> None:
+    path = scene().export(tmp_path / f"ship.{suffix}")
+    again = trimesh.load_mesh(path)
+    assert again.volume == pytest.approx(8.0 + 2.0 + np.pi / 2, rel=5e-3)
+    first = path.read_bytes()
+    assert scene(-1).export(path).read_bytes() == first
+
+
+def test_bad_places_are_refused_and_leave_nothing(tmp_path: Path) -> None:
+    for path, made, code in [
+        (tmp_path / "ship.blend", scene(), "file-format"),
+        (tmp_path / "ship.glb", Scene([]), "scene-empty"),
+        (tmp_path / "no folder" / "ship.glb", scene(), "file-unwritable"),
+    ]:
+        with pytest.raises(FileError) as caught:
+            made.export(path)
+        assert caught.value.code == code
+    assert list(tmp_path.iterdir()) == []
