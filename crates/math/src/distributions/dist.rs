@@ -1,7 +1,10 @@
 //! One value for all families: building (with checks), scoring, drawing.
 //!
 //! Families with a few numbers are kept inline, so that a choice allocates nothing; those with tables are
-//! behind an `Arc`. The mathematics is in the families' own files.
+
+//!
+//! The families whose work outweighs a call are kept out of line there (`inline(never)`): inlined, they would
+//! make every choice pay for their registers.
 
 use super::check::{BadParameter, Reader};
 use super::draw::{Draw, Param};

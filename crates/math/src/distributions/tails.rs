@@ -39,12 +39,13 @@ fn ln_1p_square<S: Scalar>(distance: S, unit: S) -> S {
 }
 
 /// The tangent of an even angle.
-#[inline]
+#[inline(never)]
 pub(super) fn cauchy_sample(loc: f64, scale: f64, rng: &mut (impl RngCore + ?Sized)) -> f64 {
     (loc + scale * (PI * (open_unit(rng) - 0.5)).tan()).clamp(f64::MIN, f64::MAX)
 }
 
 /// `ln gamma((df + 1) / 2) - ln gamma(df / 2) - ln(pi df) / 2 - ln scale - (df + 1) / 2 ln(1 + z^2 / df)`.
+#[inline(never)]
 pub(super) fn student_t_log_density<S: Scalar>(df: S, loc: S, scale: S, x: S) -> S {
     let c = S::from_f64;
     let half = c(0.5);
@@ -53,6 +54,7 @@ pub(super) fn student_t_log_density<S: Scalar>(df: S, loc: S, scale: S, x: S) ->
 }
 
 /// A standard Gaussian over the root of an independent chi-square's mean.
+#[inline(never)]
 pub(super) fn student_t_sample(df: f64, loc: f64, scale: f64, rng: &mut (impl RngCore + ?Sized)) -> f64 {
     let z: f64 = StandardNormal.sample(rng);
     let log_gamma = log_gamma_draw(0.5 * df, rng);
