@@ -5,7 +5,7 @@ Grammar (each `(HEAD ...)` may carry a span atom right after its head, `@L:C-L:C
     module  := (module file* class* fn* (entry "NAME"))
     file    := (file K "path")                        K numbers the files
     class   := (class K "Name" ("field" ...) KIND?)    K numbers the record classes; KIND `namedtuple`, else a dataclass
-    fn      := (fn "NAME" SPAN (file K) (params $v ...) (defaults D ...) (captures $v ...) STMT ...)
+    fn      := (fn "NAME" (file K) (params $v ...) (defaults D ...) (captures $v ...) STMT ...)
     D       := ATOM | E made of closure, dist, record, list, tuple, dict and D alone
     STMT    := (set $v E) | (unpack ($v ...) E) | (unpack_star ($v ...) $v ($v ...) E)
              | (if E (then STMT ...) (else STMT ...)) | (for $v E (body STMT ...)) | (while E (body STMT ...))
