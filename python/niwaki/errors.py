@@ -60,6 +60,7 @@ class ModelError(NiwakiError):
         self.values = values
 
     def render(self) -> str:
+        """The message with its places."""
         message = MESSAGES[self.code]
         first = (self.span, fill(message.label, self.values))
         other = (self.second, fill(message.second, self.values)) if self.second is not None else None
@@ -125,6 +126,7 @@ class ModelFault(NiwakiError):
         return cls(code, message, help, calls, replay)
 
     def render(self) -> str:
+        """The message with its place and the model's calls."""
         message = MESSAGES.get(self.code, _UNKNOWN)
         title = self.message or fill(message.title, self.values)
         lines = [f"error[{self.code}]: {title}"]
@@ -166,6 +168,7 @@ class InputError(NiwakiError):
         self.values = values
 
     def render(self) -> str:
+        """The message; it has no place in a model."""
         message = MESSAGES[self.code]
         return "\n".join(
             [f"error[{self.code}]: {fill(message.title, self.values)}", *notes(message, self.values)]

@@ -11,10 +11,9 @@ from typing import Any
 
 import pytest
 from core_reader import read
-from programs import program, shrink
-
 from niwaki.errors import ModelError, ModelFault
 from niwaki.lang.plain import Run, run_python
+from programs import program, shrink
 
 SEEDS = 120
 NOT_A_PROGRAM = {"unknown-name", "used-before-assigned", "captured-then-changed"}

@@ -48,7 +48,7 @@ import json
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any, Union
+from typing import Any
 
 from niwaki.lang.source import SourceFile, Span
 
@@ -63,7 +63,7 @@ class Form:
     label: str = ""
 
 
-Expr = Union[Form, str]
+Expr = Form | str
 
 TREES = frozenset({"fn", "if", "for", "while", "then", "else", "body", "module"})
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 import builtins
 import dataclasses
 import difflib
-import sys
 import sysconfig
 from collections.abc import Iterable
 from types import FunctionType
@@ -77,7 +76,9 @@ def is_library(function: FunctionType) -> bool:
     if module.partition(".")[0] == "niwaki":
         return module.startswith(("niwaki.words", "niwaki.lang"))
     path = function.__code__.co_filename
-    return any(path.startswith(sysconfig.get_path(kind)) for kind in ("stdlib", "platstdlib", "purelib", "platlib"))
+    return any(
+        path.startswith(sysconfig.get_path(kind)) for kind in ("stdlib", "platstdlib", "purelib", "platlib")
+    )
 
 
 RANDOM = ("random", "numpy.random", "secrets")

@@ -48,9 +48,9 @@ class Model(Generic[P, T]):
 
     def __call__(self, *args: P.args, **kwargs: P.kwargs) -> T:
         """Run the model once as plain Python with a fresh seed, and keep only its value."""
-        from niwaki.lang.plain import run_python
+        from niwaki.lang.plain import run
 
-        return cast(T, run_python(self, *args, **kwargs).value)
+        return cast(T, run(self.function, args, kwargs).value)
 
     def __repr__(self) -> str:
         return f"<model {self.name}>"

@@ -6,9 +6,8 @@ import math
 from pathlib import Path
 
 import pytest
-from specification import load
-
 from niwaki.lang.core import Form, literal, write
+from specification import load
 
 GOLDEN = Path(__file__).parents[2] / "golden"
 

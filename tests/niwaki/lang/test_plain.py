@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import pytest
-from specification import load
-
 from niwaki import words
 from niwaki.errors import InputError, ModelFault
 from niwaki.lang.densities import grid
 from niwaki.lang.plain import run_python
+from specification import load
 
 PROGRAM = """
 def wing(x):
@@ -114,7 +113,9 @@ def test_the_users_module_is_not_touched(model) -> None:
 
 
 def test_a_model_made_inside_of_a_function_sees_its_variables() -> None:
-    text = "def make(k):\n    @model\n    def inner(x):\n        return x * k\n    return inner\nm = make(3)\n"
+    text = (
+        "def make(k):\n    @model\n    def inner(x):\n        return x * k\n    return inner\nm = make(3)\n"
+    )
     inner = load(text, "make.py")
     assert run_python(inner, 2, seed=1).value == 6
     assert "(mul" in inner.core().text and " 3)" in inner.core().text

@@ -18,13 +18,17 @@ def needed(scope: Scope) -> list[str]:
 
 
 def test_a_function_needs_what_its_callees_need() -> None:
-    found = scopes("def m(a, b):\n    def f(x): return g(x) + a\n    def g(x): return f(x) + b\n    return f(1)\n")
+    found = scopes(
+        "def m(a, b):\n    def f(x): return g(x) + a\n    def g(x): return f(x) + b\n    return f(1)\n"
+    )
     assert needed(found["f"]) == needed(found["g"]) == ["a", "b"]
     assert needed(found["m"]) == []
 
 
 def test_needs_pass_through_the_function_between() -> None:
-    found = scopes("def m(a):\n    def f(x):\n        def g(y): return y + x + a\n        return g(1)\n    return f(1)\n")
+    found = scopes(
+        "def m(a):\n    def f(x):\n        def g(y): return y + x + a\n        return g(1)\n    return f(1)\n"
+    )
     assert needed(found["g"]) == ["a", "x"]
     assert needed(found["f"]) == ["a"]
 
@@ -40,7 +44,9 @@ def test_the_variable_of_a_comprehension_is_its_own() -> None:
 def test_one_definition_is_known_two_are_a_variable() -> None:
     found = scopes("def m(a):\n    def f(): return 1\n    return f()\n")
     assert set(found["m"].nested) == {"f"}
-    found = scopes("def m(a):\n    if a:\n        def f(): return 1\n    else:\n        def f(): return 2\n    return f()\n")
+    found = scopes(
+        "def m(a):\n    if a:\n        def f(): return 1\n    else:\n        def f(): return 2\n    return f()\n"
+    )
     assert not found["m"].nested and "f" in found["m"].variables
 
 
