@@ -38,8 +38,8 @@ Order. Arguments stand in the order of evaluation; where keywords were written i
 them into temporaries.
 
 Sites. The readable address of a choice is a path of components joined by "/". Each site's static component stands after
-the span as an atom `#component`, as `niwaki.lang.sites` explains: on `sample`, `observe`, `factor`, `condition`, `query`,
-`emit`, `call`, `apply`, `future`, `future_apply`, `for` and `while` (there with empty brackets, `#i[]`, `#i[]#1`).
+the span as an atom `#component`, see `niwaki.lang.sites`: on `sample`, `observe`, `factor`, `condition`, `query`,
+`emit`, `call`, `apply`, `future`, `future_apply`, `for` and `while` (with empty brackets, `#i[]`, `#i[]#1`).
 """
 
 from __future__ import annotations

@@ -24,8 +24,8 @@ from niwaki.words.effects import flatten
 from niwaki.words.models import Model, underlying
 from niwaki.words.running import current
 
-VIEWS = (type({}.keys()), type({}.values()), type({}.items()))
-LAZY: tuple[type, ...] = (zip, map, filter, enumerate, reversed, type(reversed([])), *VIEWS)
+VIEWS: tuple[type[Iterable[Any]], ...] = (type({}.keys()), type({}.values()), type({}.items()))
+LAZY: tuple[type[Iterable[Any]], ...] = (zip, map, filter, enumerate, reversed, type(reversed([])), *VIEWS)
 
 
 @dataclass(frozen=True)
@@ -149,7 +149,7 @@ class PlainRun:
             self.pending = label
             value = function(*args, **kwargs)
         del self.path[depth:], self.loops[loops:]
-        return list(value) if isinstance(value, LAZY) else value
+        return [*value] if isinstance(value, LAZY) else value
 
     def is_model_code(self, function: FunctionType) -> bool:
         """Whether a function is the user's: to be run with its sites named."""

@@ -85,6 +85,7 @@ class Host(Generic[P, T]):
         functools.update_wrapper(self, function)
 
     def __call__(self, *args: P.args, **kwargs: P.kwargs) -> T:
+        """Call the function."""
         return self.function(*args, **kwargs)
 
     def __repr__(self) -> str:

@@ -1,4 +1,4 @@
-"""The manual has a page for each error, in step with the table; `python -m niwaki.lang.catalogue docs/errors` writes them."""
+"""The manual has a page for each error, in step with the table (`python -m niwaki.lang.catalogue docs/errors`)."""
 
 from __future__ import annotations
 
