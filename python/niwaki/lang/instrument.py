@@ -53,7 +53,9 @@ def _compile(function: FunctionType) -> CodeType:
     else:
         inner = [ast.Expr(node)]
     names = [HOOK, *function.__code__.co_freevars]
-    arguments = ast.arguments(posonlyargs=[], args=[ast.arg(name) for name in names], kwonlyargs=[], kw_defaults=[], defaults=[])
+    arguments = ast.arguments(
+        posonlyargs=[], args=[ast.arg(name) for name in names], kwonlyargs=[], kw_defaults=[], defaults=[]
+    )
     factory = ast.FunctionDef("__factory__", arguments, inner, [], lineno=1, col_offset=0)
     module = ast.fix_missing_locations(ast.Module([factory], []))
     outer = _inner(compile(module, unit.file.path, "exec", dont_inherit=True), "__factory__")
@@ -96,8 +98,8 @@ class _Namer(ast.NodeTransformer):
     def visit_Call(self, node: ast.Call) -> ast.AST:
         label = self.labels.get(node, "")
         self.generic_visit(node)
-        shown = ast.Constant(tuple(label) if isinstance(label, list) else label)
-        return self._hook("call", [shown, node.func, *node.args], node.keywords, node)
+        shown: Any = tuple(label) if isinstance(label, list) else label
+        return self._hook("call", [ast.Constant(shown), node.func, *node.args], node.keywords, node)
 
     def visit_For(self, node: ast.For) -> ast.AST:
         label = self.labels.get(node, "")
@@ -113,7 +115,9 @@ class _Namer(ast.NodeTransformer):
         leave = ast.Expr(self._hook("leave", [], [], node.test))
         test = ast.If(ast.UnaryOp(ast.Not(), node.test), [leave, ast.Break()], [])
         items = self._hook("forever", [ast.Constant(label)], [], node.test)
-        loop = ast.For(ast.Name("__nw_step__", ast.Store()), items, [ast.copy_location(test, node.test), *node.body], [])
+        loop = ast.For(
+            ast.Name("__nw_step__", ast.Store()), items, [ast.copy_location(test, node.test), *node.body], []
+        )
         return ast.fix_missing_locations(ast.copy_location(loop, node))
 
     def visit_comprehension(self, node: ast.comprehension) -> ast.AST:

@@ -12,9 +12,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import Union
 
-FunctionNode = Union[ast.FunctionDef, ast.Lambda]
+FunctionNode = ast.FunctionDef | ast.Lambda
 COMPREHENSIONS = (ast.ListComp, ast.GeneratorExp, ast.SetComp, ast.DictComp)
 
 
@@ -113,7 +112,9 @@ def default_expressions(node: FunctionNode) -> dict[str, ast.expr]:
     a = node.args
     positional = [arg.arg for arg in (*a.posonlyargs, *a.args)]
     found = dict(zip(positional[len(positional) - len(a.defaults) :], a.defaults, strict=True))
-    found |= {arg.arg: value for arg, value in zip(a.kwonlyargs, a.kw_defaults, strict=True) if value is not None}
+    found |= {
+        arg.arg: value for arg, value in zip(a.kwonlyargs, a.kw_defaults, strict=True) if value is not None
+    }
     return found
 
 
