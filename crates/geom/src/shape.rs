@@ -36,7 +36,7 @@ pub struct Ring {
 impl Ring {
     /// The `sides` vertices, counter-clockwise seen against the normal.
     pub fn vertices(&self, sides: usize) -> impl Iterator<Item = Vec3> + '_ {
-        let turn = Mat3::between(1, self.normal);
+        let turn = Mat3::between(Vec3::AXES[1], self.normal);
         ring(sides).map(move |(sin, cos)| self.center + turn.apply(vec3(sin, 0.0, cos) * self.radius))
     }
 }
