@@ -15,6 +15,7 @@ pub mod error;
 pub mod fine;
 pub mod hull;
 pub mod intersect;
+mod light;
 pub mod limb;
 pub mod mesh;
 pub mod primitive;
