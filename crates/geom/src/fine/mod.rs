@@ -6,7 +6,7 @@
 //!
 //! - `boxes.rs`   rounded boxes, tapered or not
 //! - `revolve.rs` cylinders and cones with rounded rims
-//! - `limb.rs`    two rings and a domed end
+//! - `limb.rs`    smooth tubes with a domed end
 //! - `crease.rs`  normals of any mesh, sharp where it is sharp
 
 mod boxes;
