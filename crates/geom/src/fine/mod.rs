@@ -139,6 +139,24 @@ mod tests {
     }
 
     #[test]
+    fn a_bent_limb_is_closed_and_meets_its_neighbour() {
+        let (a, b, c) = (vec3(0.0, 0.0, 0.0), vec3(0.1, 2.0, 0.0), vec3(0.9, 3.8, 0.5));
+        let n = vec3(0.2, 1.0, 0.1);
+        let low = Shape::limb(a, b, (0.5, 0.4), (None, Some(n)), &Look::default()).unwrap();
+        let high = Shape::limb(b, c, (0.4, 0.3), (Some(n), None), &Look::default()).unwrap();
+        let [low, high] = [low, high].map(|limb| fine_mesh(&limb));
+        for fine in [&low, &high] {
+            let mesh = TriMesh::new(fine.vertices.clone(), fine.faces.clone()).unwrap();
+            assert_eq!(mesh.open_edges(), 0);
+        }
+        // The ring that both name: same places, same normals.
+        let shared = |p: &Vec3, n: &Vec3| {
+            low.vertices.iter().zip(&low.normals).any(|(q, m)| p == q && (*n - *m).norm() < 1e-12)
+        };
+        assert!(high.vertices.iter().zip(&high.normals).take(ROUND).all(|(p, n)| shared(p, n)));
+    }
+
+    #[test]
     fn rounded_boxes_stay_inside_the_box() {
         let shape = Shape::tapered_box(Vec3::ZERO, vec3(2.0, 1.0, 4.0), 0.4, 2, &Look::default()).unwrap();
         let b = shape.aabb();
