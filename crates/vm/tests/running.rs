@@ -91,16 +91,40 @@ const EFFECT: &str = "(do (sample (dist bernoulli 0.5)))";
 fn merges_loops_and_exits_are_the_same_with_and_without_effects() {
     // Each body is run as it is (a plain loop) and with a choice in every iteration (a lifted loop).
     let bodies = [
-        ("(set $s 0) (for $i (range 5) (body EFFECT (set $s (add $s $i)))) (return (tuple $s $i))", "(10, 4)"),
-        ("(set $s 0) (for $i (range 9) (body EFFECT (if (eq $i 3) (then (break))) (set $s $i))) (return $s)", "2"),
-        ("(set $s 0) (for $i (range 5) (body EFFECT (if (eq (mod $i 2) 0) (then (continue))) (set $s (add $s $i)))) (return $s)", "4"),
+        (
+            "(set $s 0) (for $i (range 5) (body EFFECT (set $s (add $s $i)))) (return (tuple $s $i))",
+            "(10, 4)",
+        ),
+        (
+            "(set $s 0) (for $i (range 9) (body EFFECT (if (eq $i 3) (then (break))) (set $s $i))) (return $s)",
+            "2",
+        ),
+        (
+            "(set $s 0) (for $i (range 5) (body EFFECT (if (eq (mod $i 2) 0) (then (continue))) (set $s (add $s $i)))) (return $s)",
+            "4",
+        ),
         ("(for $i (range 5) (body EFFECT (if (eq $i 3) (then (return (mul $i 100)))))) (return -1)", "300"),
-        ("(set $a 1) (set $b 2) (set $n 0) (while (lt $n 3) (body EFFECT (set $t $a) (set $a $b) (set $b $t) (set $n (add $n 1)))) (return (tuple $a $b))", "(2, 1)"),
-        ("(set $s 0) (for $i (range 3) (body EFFECT (for $j (range $i) (body EFFECT (if (eq $j 1) (then (break))) (set $s (add (mul 10 $s) $j)))))) (return $s)", "0"),
+        (
+            "(set $a 1) (set $b 2) (set $n 0) (while (lt $n 3) (body EFFECT (set $t $a) (set $a $b) (set $b $t) (set $n (add $n 1)))) (return (tuple $a $b))",
+            "(2, 1)",
+        ),
+        (
+            "(set $s 0) (for $i (range 3) (body EFFECT (for $j (range $i) (body EFFECT (if (eq $j 1) (then (break))) (set $s (add (mul 10 $s) $j)))))) (return $s)",
+            "0",
+        ),
         ("(set $x 1) (for $i (list) (body EFFECT (set $x 2))) (return $x)", "1"),
-        ("(for $i (range 4) (body EFFECT (for $j (range 4) (body EFFECT (if (eq (add $i $j) 5) (then (return (tuple $i $j)))))))) (return none)", "(2, 3)"),
-        ("(set $n 0) (while true (body EFFECT (set $n (add $n 1)) (if (gt $n 6) (then (break)) (else (continue))))) (return $n)", "7"),
-        ("(set $xs (list)) (for $i (range 3) (body EFFECT (set $xs (append $xs (mul $i $i))))) (return $xs)", "[0, 1, 4]"),
+        (
+            "(for $i (range 4) (body EFFECT (for $j (range 4) (body EFFECT (if (eq (add $i $j) 5) (then (return (tuple $i $j)))))))) (return none)",
+            "(2, 3)",
+        ),
+        (
+            "(set $n 0) (while true (body EFFECT (set $n (add $n 1)) (if (gt $n 6) (then (break)) (else (continue))))) (return $n)",
+            "7",
+        ),
+        (
+            "(set $xs (list)) (for $i (range 3) (body EFFECT (set $xs (append $xs (mul $i $i))))) (return $xs)",
+            "[0, 1, 4]",
+        ),
     ];
     for (body, expected) in bodies {
         assert_eq!(value(&entry(&body.replace("EFFECT", ""))), expected, "plain: {body}");
@@ -111,9 +135,7 @@ fn merges_loops_and_exits_are_the_same_with_and_without_effects() {
 #[test]
 fn a_variable_read_before_it_is_assigned_is_a_fault() {
     for effect in ["", EFFECT] {
-        let text = entry(&format!(
-            "(for $i (list) (body {effect} (set $x 2))) (return $x)"
-        ));
+        let text = entry(&format!("(for $i (list) (body {effect} (set $x 2))) (return $x)"));
         assert_eq!(fault(&text, Limits::default()).fault.code, "unassigned-variable");
         let text = entry(&format!("{effect} (if (eq 1 2) (then (set $x 2))) (return $x)"));
         assert_eq!(fault(&text, Limits::default()).fault.code, "unassigned-variable");
@@ -208,5 +230,11 @@ fn futures_wait_for_each_other_and_a_cycle_is_a_fault() {
         machine.finish(&mut state, &mut Script::default()).unwrap_or_else(|f| panic!("{f}"));
         assert_eq!(repr(&state.result()).expect("short"), "(20, 10, 10)");
     }
-    assert!(compile::<f64>(&parse("(module (fn \"m\" (params) (return (call \"n\"))) (entry \"m\"))").expect("core"), vec![]).is_err());
+    assert!(
+        compile::<f64>(
+            &parse("(module (fn \"m\" (params) (return (call \"n\"))) (entry \"m\"))").expect("core"),
+            vec![]
+        )
+        .is_err()
+    );
 }
