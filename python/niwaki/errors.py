@@ -172,7 +172,9 @@ class InputError(NiwakiError):
 
     def render(self) -> str:
         message = MESSAGES[self.code]
-        return "\n".join([f"error[{self.code}]: {fill(message.title, self.values)}", *notes(message, self.values)])
+        return "\n".join(
+            [f"error[{self.code}]: {fill(message.title, self.values)}", *notes(message, self.values)]
+        )
 
 
 _UNKNOWN = Message("unknown", "the model failed")
@@ -208,14 +210,20 @@ def snippet(first: tuple[Span, str], second: tuple[Span, str] | None) -> list[st
     if second is not None and not elsewhere:
         marks.append((second[0], second[1], "-"))
     marks.sort(key=lambda mark: (mark[0].line, mark[0].column))
-    numbers = [span.line for span, _, _ in marks] + ([second[0].line] if second is not None and elsewhere else [])
+    numbers = [span.line for span, _, _ in marks] + (
+        [second[0].line] if second is not None and elsewhere else []
+    )
     width = max(len(str(number)) for number in numbers)
     margin = " " * (width + 1)
     lines = [f"{' ' * width}--> {main.file.path}:{main.line}:{main.column}", f"{margin}|"]
     lines += _marked(marks, width)
     if second is not None and elsewhere:
         other = second[0]
-        lines += [f"{margin}|", f"{' ' * width}::: {other.file.path}:{other.line}:{other.column}", f"{margin}|"]
+        lines += [
+            f"{margin}|",
+            f"{' ' * width}::: {other.file.path}:{other.line}:{other.column}",
+            f"{margin}|",
+        ]
         lines += _marked([(other, second[1], "-")], width)
     lines.append(f"{margin}|")
     return lines

@@ -91,7 +91,11 @@ class Reader:
         params, defaults, captures = function[3][1:], function[4][1:], function[5][1:]
         missing = len(params) - len(args)
         around = dict(zip(captures, closure.captured, strict=True))
-        filled = [self.value(default, around) for default in defaults[len(defaults) - missing :]] if missing else []
+        filled = (
+            [self.value(default, around) for default in defaults[len(defaults) - missing :]]
+            if missing
+            else []
+        )
         return self.call(closure.name, [*args, *filled, *closure.captured], label)
 
     def block(self, statements: list[Any], v: dict[str, Any]) -> None:
@@ -211,7 +215,12 @@ class Reader:
 
 def split(form: list[Any]) -> tuple[str, str, list[Any]]:
     """Head, label, arguments."""
-    if len(form) > 1 and isinstance(form[1], str) and not isinstance(form[1], Text) and form[1].startswith("#"):
+    if (
+        len(form) > 1
+        and isinstance(form[1], str)
+        and not isinstance(form[1], Text)
+        and form[1].startswith("#")
+    ):
         return form[0], form[1][1:], form[2:]
     return form[0], "", form[1:]
 
@@ -268,9 +277,14 @@ OPERATIONS: dict[str, Any] = {
     "enumerate": lambda xs, start=0: list(enumerate(xs, start)),
     "zip": lambda *xs: list(zip(*xs, strict=False)),
     "zip_strict": lambda *xs: list(zip(*xs, strict=True)),
-    **{word.__name__: word for word in (len, sum, min, max, abs, round, any, all, range, int, float, bool, str, repr, divmod)},
+    **{
+        word.__name__: word
+        for word in (len, sum, min, max, abs, round, any, all, range, int, float, bool, str, repr, divmod)
+    },
     **{name: getattr(math, name) for name in dir(math) if not name.startswith("_") and name != "pow"},
-    **{name: getattr(words, name) for name in "vec dot cross norm normalize distance rotate rotation".split()},
+    **{
+        name: getattr(words, name) for name in "vec dot cross norm normalize distance rotate rotation".split()
+    },
     **{name: getattr(words, name) for name in "clip lerp sign box cylinder limb mesh".split()},
 }
 

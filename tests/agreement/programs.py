@@ -11,7 +11,9 @@ import random
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
-HEADER = "import math\nfrom niwaki.words import *\n\nWEIGHTS = [1.0, 2.0, 3.0]\nTABLE = {'a': 1, 'b': 2.5}\n\n"
+HEADER = (
+    "import math\nfrom niwaki.words import *\n\nWEIGHTS = [1.0, 2.0, 3.0]\nTABLE = {'a': 1, 'b': 2.5}\n\n"
+)
 
 
 @dataclass(frozen=True)
@@ -28,7 +30,9 @@ class Program:
         body = "\n".join(f"    {line}" for line in lines)
         start = "    n, x, b, xs, t, f = 3, 0.5, True, [1, 2.5, 3], (1, 2.0), 0.0"
         result = "    return (n, x, b, xs, t, f)"
-        helpers = "\n\n".join(f"@model\n{helper}" if number % 2 else helper for number, helper in enumerate(self.helpers))
+        helpers = "\n\n".join(
+            f"@model\n{helper}" if number % 2 else helper for number, helper in enumerate(self.helpers)
+        )
         return f"{HEADER}{helpers}\n\n@model\ndef m():\n{start}\n{body}\n{result}\n"
 
 
@@ -58,7 +62,11 @@ class Maker:
         small = str(self.random.randint(-3, 5))
         if depth <= 0:
             return self.pick("n", small, "len(xs)")
-        a, b, c = (lambda: self.integer(depth - 1)), (lambda: self.integer(depth - 1)), (lambda: self.boolean(depth - 1))
+        a, b, c = (
+            (lambda: self.integer(depth - 1)),
+            (lambda: self.integer(depth - 1)),
+            (lambda: self.boolean(depth - 1)),
+        )
         return self.random.choice(
             [
                 lambda: f"({a()} + {b()})",
@@ -104,11 +112,15 @@ class Maker:
             lambda: f"(lambda u: u * {small} + x)({r()})",
             lambda: f"float({self.integer(depth - 1)})",
             lambda: f"({r()} if {self.boolean(depth - 1)} else {r()})",
-            lambda: f"sample(Mixture([1, 2], [Gaussian({r()}, 1), Uniform(0, 1)]))" if False else f"({r()} ** 2)",
+            lambda: (
+                f"sample(Mixture([1, 2], [Gaussian({r()}, 1), Uniform(0, 1)]))" if False else f"({r()} ** 2)"
+            ),
             lambda: f"dot(vec(x, 1), vec({r()}, {r()}))",
         ]
         if self.helpers:
-            options += [lambda: f"h{self.random.randrange(len(self.helpers))}({r()}, {self.random.randint(0, 3)})"] * 3
+            options += [
+                lambda: f"h{self.random.randrange(len(self.helpers))}({r()}, {self.random.randint(0, 3)})"
+            ] * 3
             options.append(lambda: f"force(future(h{self.random.randrange(len(self.helpers))}, {r()}, 1))")
         if self.locals:
             options += [lambda: f"{self.random.choice(self.locals)}({r()})"] * 2
@@ -174,14 +186,25 @@ class Maker:
             lambda: [f"factor(-abs({r()}))"],
             lambda: [f"observe(Gaussian({r()}, 2), {r()})"],
             lambda: [f"emit(box((0, n, {r()}), (1, 1, {self.random.randint(1, 3)})))"],
-            lambda: [f"query('{self.fresh('q')}' + str({len(self.helpers)}), {r()})"] if not loop else ["f = f + 1"],
+            lambda: (
+                [f"query('{self.fresh('q')}' + str({len(self.helpers)}), {r()})"]
+                if not loop
+                else ["f = f + 1"]
+            ),
             lambda: [f"t = (n, len(f'{{x:.3f}} {{n}}') * 1.0)"],  # noqa: F541
         ]
         if depth > 0:
-            kinds += [lambda: self.branch(depth, loop), lambda: self.for_loop(depth), lambda: self.while_loop(depth)] * 2
+            kinds += [
+                lambda: self.branch(depth, loop),
+                lambda: self.for_loop(depth),
+                lambda: self.while_loop(depth),
+            ] * 2
             kinds += [lambda: self.closure()] * (not loop)
         if loop:
-            kinds += [lambda: [f"if {self.boolean(1)}:", "    break"], lambda: [f"if {self.boolean(1)}:", "    continue"]]
+            kinds += [
+                lambda: [f"if {self.boolean(1)}:", "    break"],
+                lambda: [f"if {self.boolean(1)}:", "    continue"],
+            ]
         else:
             kinds += [lambda: [f"if x > {self.random.randint(5, 50)}:", "    return (n, x)"]]
         return self.random.choice(kinds)()
@@ -201,13 +224,20 @@ class Maker:
     def for_loop(self, depth: int) -> list[str]:
         """A loop over a few items."""
         i = self.random.choice(["i", self.fresh("i")])
-        head = self.random.choice([f"for {i} in range({self.random.randint(1, 4)}):", f"for {i}, _ in enumerate(xs):"])
+        head = self.random.choice(
+            [f"for {i} in range({self.random.randint(1, 4)}):", f"for {i}, _ in enumerate(xs):"]
+        )
         return [head, f"    f = f + {i}", *self.block(depth, True)]
 
     def while_loop(self, depth: int) -> list[str]:
         """A loop with a counter."""
         k = self.fresh("k")
-        return [f"{k} = 0", f"while {k} < 3 and {self.boolean(1)}:", f"    {k} += 1", *self.block(depth, True)]
+        return [
+            f"{k} = 0",
+            f"while {k} < 3 and {self.boolean(1)}:",
+            f"    {k} += 1",
+            *self.block(depth, True),
+        ]
 
     def closure(self) -> list[str]:
         """A nested function, perhaps recursive, that captures variables."""
@@ -225,7 +255,12 @@ class Maker:
     def helper(self) -> str:
         """A function of a real and a counter, that may call itself and the helpers before it."""
         name = f"h{len(self.helpers)}"
-        lines = [f"def {name}(x, n, xs=(1, 2.5), b=True):", "    t = (1, x)", "    f = 0.0", "    xs = list(xs)"]
+        lines = [
+            f"def {name}(x, n, xs=(1, 2.5), b=True):",
+            "    t = (1, x)",
+            "    f = 0.0",
+            "    xs = list(xs)",
+        ]
         lines += [f"    y = {self.pick('gaussian(x, 1)', 'uniform(0, 1) + x', 'sample(Gaussian(x, 0.5))')}"]
         lines += self.block(1, True)[:0] + [f"    {line}" for line in self.statement(1)]
         lines = [line.replace("return (n, x)", "return x") for line in lines]

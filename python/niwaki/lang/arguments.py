@@ -28,7 +28,13 @@ def no_keywords(body: Body, node: ast.Call, name: str) -> None:
     """Refuse keywords where only positions are taken."""
     if node.keywords:
         keyword = node.keywords[0]
-        body.refuse("unknown-keyword", keyword, name=name, keyword=keyword.arg, suggestion="give the value by position")
+        body.refuse(
+            "unknown-keyword",
+            keyword,
+            name=name,
+            keyword=keyword.arg,
+            suggestion="give the value by position",
+        )
 
 
 def bind(
@@ -51,7 +57,9 @@ def bind(
     for keyword in keywords:
         if keyword.arg not in names:
             close = nearest(keyword.arg or "", names)
-            hint = f"did you mean `{close[0]}`?" if close else f"its parameters are {', '.join(names) or 'none'}"
+            hint = (
+                f"did you mean `{close[0]}`?" if close else f"its parameters are {', '.join(names) or 'none'}"
+            )
             body.refuse("unknown-keyword", keyword, place, name=name, keyword=keyword.arg, suggestion=hint)
         slot = names.index(keyword.arg)
         if slot in slots:
@@ -77,4 +85,12 @@ def wrong(
     count = str(most) if least == most else f"{least} to {most}"
     expected = f"{count} argument{'s' if count != '1' else ''}"
     listed = ", ".join(p.name if p.default is REQUIRED else f"[{p.name}]" for p in parameters)
-    body.refuse("wrong-number-of-arguments", node, place, name=name, expected=expected, found=str(found), parameters=listed)
+    body.refuse(
+        "wrong-number-of-arguments",
+        node,
+        place,
+        name=name,
+        expected=expected,
+        found=str(found),
+        parameters=listed,
+    )

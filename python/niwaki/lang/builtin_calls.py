@@ -75,7 +75,10 @@ def over(body: Body, node: ast.Call) -> Expr:
     start = [keyword.value for keyword in node.keywords if keyword.arg == "start"]
     if len(start) != len(node.keywords) or len(node.args) + len(start) > 2:
         return _operate(body, node, name)
-    makers = [partial(iterable, body, generator), *(partial(expression, body, arg) for arg in (*node.args[1:], *start))]
+    makers = [
+        partial(iterable, body, generator),
+        *(partial(expression, body, arg) for arg in (*node.args[1:], *start)),
+    ]
     values = body.in_order(makers)
     if name == "list":
         return values[0]
@@ -113,7 +116,13 @@ def map_(body: Body, node: ast.Call) -> Expr:
 
     no_keywords(body, node, "map")
     if len(node.args) < 2:
-        body.refuse("wrong-number-of-arguments", node, name="map", expected="at least 2 arguments", found=str(len(node.args)))
+        body.refuse(
+            "wrong-number-of-arguments",
+            node,
+            name="map",
+            expected="at least 2 arguments",
+            found=str(len(node.args)),
+        )
     function, items = function_and_items(body, node.args[0], node.args[1:])
     many = len(node.args) - 1
 
@@ -132,7 +141,13 @@ def filter_(body: Body, node: ast.Call) -> Expr:
 
     no_keywords(body, node, "filter")
     if len(node.args) != 2:
-        body.refuse("wrong-number-of-arguments", node, name="filter", expected="2 arguments", found=str(len(node.args)))
+        body.refuse(
+            "wrong-number-of-arguments",
+            node,
+            name="filter",
+            expected="2 arguments",
+            found=str(len(node.args)),
+        )
     test = node.args[0]
     if isinstance(test, ast.Constant) and test.value is None:
         items = iterable(body, node.args[1])
@@ -158,7 +173,9 @@ def sorted_(body: Body, node: ast.Call) -> Expr:
     from niwaki.lang.comprehensions import mapped
 
     if len(node.args) != 1:
-        body.refuse("wrong-number-of-arguments", node, name="sorted", expected="1 argument", found=str(len(node.args)))
+        body.refuse(
+            "wrong-number-of-arguments", node, name="sorted", expected="1 argument", found=str(len(node.args))
+        )
     _only(body, node, ("key", "reverse"))
     key, reverse = _keyword(node, "key"), _keyword(node, "reverse")
     if key is None or (isinstance(key, ast.Constant) and key.value is None):
@@ -180,7 +197,9 @@ def extreme(body: Body, node: ast.Call) -> Expr:
     _only(body, node, ("key", "default"))
     key, default = _keyword(node, "key"), _keyword(node, "default")
     if not node.args or (default is not None and len(node.args) != 1):
-        body.refuse("wrong-number-of-arguments", node, name=name, expected="1 argument", found=str(len(node.args)))
+        body.refuse(
+            "wrong-number-of-arguments", node, name=name, expected="1 argument", found=str(len(node.args))
+        )
     if key is None and default is None:
         return body.form(name, body.in_order([partial(iterable, body, arg) for arg in node.args]), node)
     one = len(node.args) == 1
@@ -188,7 +207,9 @@ def extreme(body: Body, node: ast.Call) -> Expr:
     other: Expr | None = None
     if key is None:
         assert default is not None
-        items, other = body.in_order([partial(iterable, body, node.args[0]), partial(expression, body, default)])
+        items, other = body.in_order(
+            [partial(iterable, body, node.args[0]), partial(expression, body, default)]
+        )
         items = body.kept(items)
         best: Expr = body.form(name, [items], node)
     else:
@@ -244,7 +265,11 @@ def caller(body: Body, node: ast.expr) -> Caller:
             return lambda args, at: _named(body, "call", [name, *args, *captures], at)
         return lambda args, at: _named(body, "apply", [kept, *args], at)
     value = underlying(static(body, node))
-    operation = vocabulary.OPERATIONS.get(value) if value is not MISSING and getattr(value, "__hash__", None) else None
+    operation = (
+        vocabulary.OPERATIONS.get(value)
+        if value is not MISSING and getattr(value, "__hash__", None)
+        else None
+    )
     if operation is not None:
         head = operation.head
         return lambda args, at: Form(head, list(args), body.span(at))
@@ -281,7 +306,9 @@ def future(body: Body, node: ast.Call) -> Expr:
     from niwaki.lang.calls import applied, nested, user_function
 
     if not node.args:
-        body.refuse("wrong-number-of-arguments", node, name="future", expected="at least 1 argument", found="0")
+        body.refuse(
+            "wrong-number-of-arguments", node, name="future", expected="at least 1 argument", found="0"
+        )
     no_keywords(body, node, "future")
     function, args = node.args[0], node.args[1:]
     if isinstance(function, ast.Lambda):

@@ -59,7 +59,12 @@ def applied(body: Body, node: ast.Call, head: str, callee: ast.expr, args: Seque
 
 
 def nested(
-    body: Body, node: ast.Call, scope: Scope, head: str, args: Sequence[ast.expr], keywords: Sequence[ast.keyword]
+    body: Body,
+    node: ast.Call,
+    scope: Scope,
+    head: str,
+    args: Sequence[ast.expr],
+    keywords: Sequence[ast.keyword],
 ) -> Expr:
     """A direct call of a nested function: its arguments, then what it captures."""
     assert isinstance(scope.node, (ast.FunctionDef, ast.Lambda))
@@ -123,7 +128,12 @@ def _in(value: Any, table: Any) -> bool:
 
 
 def user_function(
-    body: Body, node: ast.Call, function: FunctionType, head: str, args: Sequence[ast.expr], keywords: Sequence[ast.keyword]
+    body: Body,
+    node: ast.Call,
+    function: FunctionType,
+    head: str,
+    args: Sequence[ast.expr],
+    keywords: Sequence[ast.keyword],
 ) -> Expr:
     """A direct call of a function that the user wrote at the top level of a module."""
     unit = body.program.unit(function, body.span(node))
@@ -191,7 +201,9 @@ def distribution(body: Body, node: ast.Call, family: type[words.Distribution]) -
     parameters = vocabulary.parameters_of(family)
     name = body.span(node.func).text
     values = bind(body, node, node.args, node.keywords, parameters, name)
-    filled = [literal(p.default) if value is None else value for p, value in zip(parameters, values, strict=True)]
+    filled = [
+        literal(p.default) if value is None else value for p, value in zip(parameters, values, strict=True)
+    ]
     return Form("dist", [family.family, *filled], body.span(node))
 
 
@@ -201,7 +213,9 @@ def effect(body: Body, node: ast.Call, word: Any) -> Expr:
     if head == "emit":
         no_keywords(body, node, "emit")
         if not node.args:
-            body.refuse("wrong-number-of-arguments", node, name="emit", expected="at least 1 argument", found="0")
+            body.refuse(
+                "wrong-number-of-arguments", node, name="emit", expected="at least 1 argument", found="0"
+            )
         return body.form("emit", expressions(body, node.args), node)
     values = bind(body, node, node.args, node.keywords, vocabulary.parameters_of(word), head)
     return body.form(head, [value for value in values if value is not None], node)
@@ -216,7 +230,11 @@ def record(body: Body, node: ast.Call, kind: type) -> Expr:
     for parameter, value in zip(parameters, values, strict=True):
         if value is None and repr(parameter.default) == "<factory>":
             body.refuse("record-runs-code", node, name=kind.__name__)
-        filled.append(body.program.constant(parameter.default, body.span(node), parameter.name) if value is None else value)
+        filled.append(
+            body.program.constant(parameter.default, body.span(node), parameter.name)
+            if value is None
+            else value
+        )
     return body.form("record", [str(body.program.class_number(kind)), *filled], node)
 
 
@@ -244,13 +262,21 @@ def method(body: Body, node: ast.Call, callee: ast.Attribute) -> Expr:
         if body.namespace.has_field(name):
             return applied(body, node, "apply", callee, node.args)
         close = nearest(name, vocabulary.METHODS)
-        hint = f"did you mean `{close[0]}`?" if close else "methods of a model's values are " + ", ".join(vocabulary.METHODS)
+        hint = (
+            f"did you mean `{close[0]}`?"
+            if close
+            else "methods of a model's values are " + ", ".join(vocabulary.METHODS)
+        )
         body.refuse("unknown-method", node, name=name, suggestion=hint)
     no_keywords(body, node, name)
     least, most = vocabulary.METHODS[name]
     if not least <= len(node.args) <= most:
-        expected = f"{least} argument{'s' * (least != 1)}" if least == most else f"{least} to {most} arguments"
-        body.refuse("wrong-number-of-arguments", node, name=name, expected=expected, found=str(len(node.args)))
+        expected = (
+            f"{least} argument{'s' * (least != 1)}" if least == most else f"{least} to {most} arguments"
+        )
+        body.refuse(
+            "wrong-number-of-arguments", node, name=name, expected=expected, found=str(len(node.args))
+        )
     makers: list[Callable[[], Expr]] = [partial(expression, body, callee.value)]
     makers += [partial(builtin_calls.iterable, body, arg) for arg in node.args]
     value, *args = body.in_order(makers)

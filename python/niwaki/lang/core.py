@@ -4,8 +4,9 @@ Grammar (each `(HEAD ...)` may carry a span atom right after its head, `@L:C-L:C
 
     module  := (module file* class* fn* (entry "NAME"))
     file    := (file K "path")                        K numbers the files
-    class   := (class K "Name" ("field" ...))          K numbers the record classes; not a constant's number
-    fn      := (fn "NAME" SPAN (file K) (params $v ...) (defaults ATOM ...) (captures $v ...) STMT ...)
+    class   := (class K "Name" ("field" ...) KIND?)    K numbers the record classes; KIND `namedtuple`, else a dataclass
+    fn      := (fn "NAME" SPAN (file K) (params $v ...) (defaults D ...) (captures $v ...) STMT ...)
+    D       := ATOM | E made of closure, dist, record, list, tuple, dict and D alone
     STMT    := (set $v E) | (unpack ($v ...) E) | (unpack_star ($v ...) $v ($v ...) E)
              | (if E (then STMT ...) (else STMT ...)) | (for $v E (body STMT ...)) | (while E (body STMT ...))
              | (break) | (continue) | (return E) | (do E) | (assert E E)
@@ -36,9 +37,9 @@ functions may call themselves and one another in any order, and no closure ever 
 Order. Arguments stand in the order of evaluation; where keywords were written in another order, the front end has put
 them into temporaries.
 
-Sites. The readable address of a choice is a path of components joined by "/". The core form can carry each site's
-static component as an atom `#component` after the span (`lower(..., labels=True)`); without them the same
-components follow from the text, as `niwaki.lang.sites` explains.
+Sites. The readable address of a choice is a path of components joined by "/". Each site's static component stands after
+the span as an atom `#component`, as `niwaki.lang.sites` explains: on `sample`, `observe`, `factor`, `condition`, `query`,
+`emit`, `call`, `apply`, `future`, `future_apply`, `for` and `while` (there with empty brackets, `#i[]`, `#i[]#1`).
 """
 
 from __future__ import annotations
@@ -89,7 +90,7 @@ def is_literal(value: Any) -> bool:
     return value is None or type(value) in (bool, int, float, str)
 
 
-def write(form: Expr, spans: bool = True, labels: bool = False) -> str:
+def write(form: Expr, spans: bool = True, labels: bool = True) -> str:
     """An expression on one line."""
     if isinstance(form, str):
         return form
@@ -103,7 +104,7 @@ def _marks(form: Form, spans: bool, labels: bool) -> list[str]:
     return [*marks, f"#{form.label}"] if labels and form.label else marks
 
 
-def write_tree(form: Expr, indent: int = 0, spans: bool = True, labels: bool = False) -> str:
+def write_tree(form: Expr, indent: int = 0, spans: bool = True, labels: bool = True) -> str:
     """Statements one to a line, bodies indented."""
     pad = "  " * indent
     if isinstance(form, str) or form.head not in TREES:
@@ -155,6 +156,6 @@ class Core:
     required: int = 0
     form: Form = field(default_factory=lambda: Form("module", []), repr=False)
 
-    def write(self, spans: bool = True, labels: bool = False) -> str:
+    def write(self, spans: bool = True, labels: bool = True) -> str:
         """The text again, with or without spans and the sites' labels."""
         return write_tree(self.form, 0, spans, labels) + "\n"

@@ -88,7 +88,11 @@ def resolve(body: Body, node: ast.Name) -> Any:
     if value is MISSING:
         local = [*(name for scope in body.scopes.of.values() for name in (*scope.variables, *scope.nested))]
         close = nearest(node.id, [*body.namespace.names(), *local])
-        known = f"did you mean `{close[0]}`?" if close else f"give `{node.id}` a value before the model is defined, or as an argument"
+        known = (
+            f"did you mean `{close[0]}`?"
+            if close
+            else f"give `{node.id}` a value before the model is defined, or as an argument"
+        )
         body.refuse("unknown-name", node, name=node.id, suggestion=known)
     return value
 
@@ -147,7 +151,13 @@ def check_captures(body: Body, scope: Scope, node: ast.AST) -> None:
             continue
         for when, assignment in needed.assigned:
             if scope.defined.may_precede(when) and assignment is not needed.owner.node:
-                body.refuse("captured-then-changed", node, body.span(assignment), name=needed.name, function=scope.name)
+                body.refuse(
+                    "captured-then-changed",
+                    node,
+                    body.span(assignment),
+                    name=needed.name,
+                    function=scope.name,
+                )
 
 
 @lowers(ast.Lambda)
@@ -340,7 +350,9 @@ def formatted(body: Body, node: ast.JoinedStr) -> Expr:
             parts.append(literal(part.value))
         elif isinstance(part, ast.FormattedValue):
             conversion = chr(part.conversion) if part.conversion > 0 else ""
-            parts.append(body.form("format", [next(values), literal(_spec(body, part)), literal(conversion)], None))
+            parts.append(
+                body.form("format", [next(values), literal(_spec(body, part)), literal(conversion)], None)
+            )
     return body.form("fstr", parts, node)
 
 

@@ -53,7 +53,9 @@ def _compile(function: FunctionType) -> CodeType:
     else:
         inner = [ast.Expr(node)]
     names = [HOOK, *function.__code__.co_freevars]
-    arguments = ast.arguments(posonlyargs=[], args=[ast.arg(name) for name in names], kwonlyargs=[], kw_defaults=[], defaults=[])
+    arguments = ast.arguments(
+        posonlyargs=[], args=[ast.arg(name) for name in names], kwonlyargs=[], kw_defaults=[], defaults=[]
+    )
     factory = ast.FunctionDef("__factory__", arguments, inner, [], lineno=1, col_offset=0)
     module = ast.fix_missing_locations(ast.Module([factory], []))
     outer = _inner(compile(module, unit.file.path, "exec", dont_inherit=True), "__factory__")
@@ -113,7 +115,9 @@ class _Namer(ast.NodeTransformer):
         leave = ast.Expr(self._hook("leave", [], [], node.test))
         test = ast.If(ast.UnaryOp(ast.Not(), node.test), [leave, ast.Break()], [])
         items = self._hook("forever", [ast.Constant(label)], [], node.test)
-        loop = ast.For(ast.Name("__nw_step__", ast.Store()), items, [ast.copy_location(test, node.test), *node.body], [])
+        loop = ast.For(
+            ast.Name("__nw_step__", ast.Store()), items, [ast.copy_location(test, node.test), *node.body], []
+        )
         return ast.fix_missing_locations(ast.copy_location(loop, node))
 
     def visit_comprehension(self, node: ast.comprehension) -> ast.AST:

@@ -14,22 +14,20 @@ from niwaki.lang import calls, comprehensions  # noqa: F401  (they register them
 from niwaki.lang.body import Body
 from niwaki.lang.core import Core, Expr, Form, literal, write_tree
 from niwaki.lang.expressions import expression
-from niwaki.lang.names import record_fields
+from niwaki.lang.names import is_named_tuple, record_fields
 from niwaki.lang.program import Program, Unit
 from niwaki.lang.scope import Scope, Variable, functions
 from niwaki.lang.source import head_span, span_of
 from niwaki.lang.statements import statement
 
 
-def lower(function: FunctionType, labels: bool = False) -> Core:
+def lower(function: FunctionType) -> Core:
     """The core form of a model's function and of everything it can call.
 
     Parameters
     ----------
     function
         The Python function.
-    labels
-        Whether the text names each site, `#component`.
     """
     program = Program()
     entry = program.unit(function)
@@ -40,13 +38,14 @@ def lower(function: FunctionType, labels: bool = False) -> Core:
     module: list[Expr] = [Form("file", [str(n), literal(file.path)]) for n, file in enumerate(program.files)]
     for number, record in enumerate(program.classes):
         fields = Form("", [literal(field) for field in record_fields(record)])
-        module.append(Form("class", [str(number), literal(record.__name__), fields]))
+        kind = ["namedtuple"] if is_named_tuple(record) else []
+        module.append(Form("class", [str(number), literal(record.__name__), fields, *kind]))
     module += [*lowered, Form("entry", [literal(entry.name)])]
     form = Form("module", module)
     parameters = entry.scopes.root.parameters
     defaults = len(function.__defaults__ or ()) + len(function.__kwdefaults__ or {})
     return Core(
-        write_tree(form, 0, True, labels) + "\n",
+        write_tree(form, 0, True, True) + "\n",
         program.constants,
         program.classes,
         program.files,
@@ -82,7 +81,10 @@ def _function(program: Program, unit: Unit, scope: Scope) -> Form:
 
 def _defaults(body: Body, unit: Unit, scope: Scope) -> list[Expr]:
     if scope is unit.scopes.root:
-        return [atom for _, atom in sorted(calls.live_defaults(body.program, unit).items(), key=lambda pair: pair[0])]
+        return [
+            atom
+            for _, atom in sorted(calls.live_defaults(body.program, unit).items(), key=lambda pair: pair[0])
+        ]
     return [
         default.core if isinstance(default, Variable) else expression(body, default)
         for default in scope.defaults.values()
@@ -94,7 +96,11 @@ def _check_signature(unit: Unit, node: ast.FunctionDef | ast.Lambda) -> None:
     extra = node.args.vararg or node.args.kwarg
     if extra is not None:
         raise ModelError("star-parameters", span_of(extra, unit.file), name=extra.arg)
-    required = {arg.arg for arg, value in zip(node.args.kwonlyargs, node.args.kw_defaults, strict=True) if value is None}
+    required = {
+        arg.arg
+        for arg, value in zip(node.args.kwonlyargs, node.args.kw_defaults, strict=True)
+        if value is None
+    }
     if required and (node.args.defaults):
         late = next(arg for arg in node.args.kwonlyargs if arg.arg in required)
         raise ModelError("required-after-optional", span_of(late, unit.file), name=late.arg)

@@ -85,4 +85,6 @@ def is_random(value: Any, module: Any = None) -> bool:
         return value.__name__ in ("random", "numpy.random", "secrets")
     owner = type(getattr(value, "__self__", None))
     own = getattr(value, "__module__", "") or ""
-    return own.startswith(("numpy.random", "random")) or f"{owner.__module__}".startswith(("random", "numpy.random"))
+    return own.startswith(("numpy.random", "random")) or f"{owner.__module__}".startswith(
+        ("random", "numpy.random")
+    )

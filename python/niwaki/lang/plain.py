@@ -23,7 +23,17 @@ from niwaki.words.effects import flatten
 from niwaki.words.models import Model, underlying
 from niwaki.words.running import current
 
-LAZY = (zip, map, filter, enumerate, reversed, type({}.keys()), type({}.values()), type({}.items()), type(reversed([])))
+LAZY = (
+    zip,
+    map,
+    filter,
+    enumerate,
+    reversed,
+    type({}.keys()),
+    type({}.values()),
+    type({}.items()),
+    type(reversed([])),
+)
 
 
 @dataclass(frozen=True)
@@ -140,7 +150,9 @@ class PlainRun:
 
     def is_model_code(self, function: FunctionType) -> bool:
         """Whether a function is the user's: to be run with its sites named."""
-        return function.__code__ in self.codes or not (function in vocabulary.ALL_WORDS or is_library(function))
+        return function.__code__ in self.codes or not (
+            function in vocabulary.ALL_WORDS or is_library(function)
+        )
 
     def enter(self, function: FunctionType, args: Sequence[Any], kwargs: Mapping[str, Any]) -> Any:
         """Run a function of the user."""
@@ -159,7 +171,9 @@ class PlainRun:
             if hasattr(part, "co_consts"):
                 self.know(part)
 
-    def with_function(self, label: tuple[str, str], word: Any, args: Sequence[Any], kwargs: dict[str, Any]) -> Any:
+    def with_function(
+        self, label: tuple[str, str], word: Any, args: Sequence[Any], kwargs: dict[str, Any]
+    ) -> Any:
         """`map`, `filter`, `sorted`, `min` and `max`, whose function is called once for each item, in order."""
         loop, callee = label
         if word in (map, filter):
@@ -176,7 +190,9 @@ class PlainRun:
         keys = [self.call(callee, function, item) for item in self.loop(loop, items)]
         if not items and word is not sorted:
             return word([], **kwargs)
-        order = word(range(len(items)), key=keys.__getitem__, **{k: v for k, v in kwargs.items() if k != "default"})
+        order = word(
+            range(len(items)), key=keys.__getitem__, **{k: v for k, v in kwargs.items() if k != "default"}
+        )
         return [items[place] for place in order] if word is sorted else items[order]
 
     def loop(self, label: str, items: Iterable[Any]) -> Iterator[Any]:
@@ -220,10 +236,15 @@ class PlainRun:
             value = self.given[address]
         elif self.seed is None:
             near = difflib.get_close_matches(address, list(self.given or ()), n=3, cutoff=0.0)
-            raise InputError("missing-choice", address=address, nearest=", ".join(f'"{name}"' for name in near) or "none")
+            raise InputError(
+                "missing-choice", address=address, nearest=", ".join(f'"{name}"' for name in near) or "none"
+            )
         else:
-            value = densities.draw(dist, self.seed, address)
-        self.log_prior += densities.log_density(dist, value)
+            try:
+                value = densities.draw(dist, self.seed, address)
+            except (ValueError, TypeError) as error:
+                raise ModelFault("bad-parameter", str(error), stack=self.stack()) from error
+        self.log_prior += self.density(dist, value)
         self.made[address] = value
         return value
 
@@ -231,13 +252,26 @@ class PlainRun:
         """Score a seen value."""
         self.address("observe")
         self.check(dist)
-        self.log_score += densities.log_density(dist, value)
+        self.log_score += self.density(dist, value)
         return value
 
     def check(self, dist: Any) -> None:
         """A draw needs a distribution."""
         if not isinstance(dist, Distribution):
-            raise TypeError(f"expected a distribution such as Gaussian(0, 1), found {dist!r}")
+            raise ModelFault(
+                "not-a-distribution", f"expected a distribution, found {dist!r}", stack=self.stack()
+            )
+
+    def density(self, dist: Distribution, value: Any) -> float:
+        """The log density of a value, which must not be infinitely likely; a bad parameter is a fault."""
+        try:
+            found = densities.log_density(dist, value)
+        except (ValueError, TypeError) as error:
+            raise ModelFault("bad-parameter", str(error), stack=self.stack()) from error
+        if math.isnan(found) or found == math.inf:
+            message = f"the log density of {value!r} is {found}"
+            raise ModelFault("non-finite-score", message, stack=self.stack())
+        return found
 
     def factor(self, log_score: float) -> None:
         """Add to the score."""
@@ -257,7 +291,11 @@ class PlainRun:
         address = self.address("query")
         if key in self.answers:
             other = self.answered[key]
-            raise ModelFault("query-twice", f"the query {key!r} is written twice, at {other} and at {address}", stack=self.stack())
+            raise ModelFault(
+                "query-twice",
+                f"the query {key!r} is written twice, at {other} and at {address}",
+                stack=self.stack(),
+            )
         self.answers[key], self.answered[key] = value, address
 
     def emit(self, shapes: Sequence[Any]) -> None:
@@ -307,13 +345,18 @@ class PlainRun:
         if line is None or column is None:
             return []
         name = code.co_qualname.replace(".<locals>", "").replace("<lambda>", "lambda")
-        return [Call(name, place(code.co_filename, line, column + 1, end_line or line, (end_column or column) + 1))]
+        return [
+            Call(
+                name, place(code.co_filename, line, column + 1, end_line or line, (end_column or column) + 1)
+            )
+        ]
 
     def fault(self, error: Exception) -> ModelFault:
         """A Python exception as a fault with a code."""
         code = next((code for kind, code in CODES if isinstance(error, kind)), "model-failed")
-        if isinstance(error, ValueError) and "unpack" in str(error):
-            code = "unpack-length"
+        code = next(
+            (finer for words, finer in FINER if isinstance(error, ValueError) and words in str(error)), code
+        )
         text = str(error)
         if isinstance(error, KeyError):
             text = f"the dict has no key {error.args[0]!r}" if error.args else ""
@@ -325,12 +368,20 @@ CODES: tuple[tuple[type[BaseException], str], ...] = (
     (ZeroDivisionError, "division-by-zero"),
     (IndexError, "list-index"),
     (KeyError, "missing-key"),
-    (AssertionError, "assertion-failed"),
+    (AssertionError, "assertion"),
     (RecursionError, "too-deep"),
-    (OverflowError, "number-too-large"),
-    (UnboundLocalError, "no-value-yet"),
-    (NameError, "no-value-yet"),
-    (AttributeError, "no-such-field"),
+    (OverflowError, "float-overflow"),
+    (NameError, "unassigned-variable"),
+    (AttributeError, "missing-field"),
     (TypeError, "type-mismatch"),
-    (ValueError, "bad-value"),
+    (ValueError, "bad-argument"),
+)
+
+FINER: tuple[tuple[str, str], ...] = (
+    ("unpack", "unpack-length"),
+    ("math domain", "math-domain"),
+    ("invalid literal", "bad-text"),
+    ("could not convert", "bad-text"),
+    ("ormat", "bad-format"),
+    ("is not in", "missing-element"),
 )

@@ -7,7 +7,6 @@ the other. Functions are told apart as live objects, so two closures of one `def
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Sequence
 from types import FunctionType
 from typing import Any
 
@@ -112,7 +111,9 @@ class Program:
             return Form("dist", [value.family, *parts])
         if is_record_class(type(value)):
             self.check_record(type(value), used_at)
-            parts = [self.constant(getattr(value, part), used_at, name) for part in record_fields(type(value))]
+            parts = [
+                self.constant(getattr(value, part), used_at, name) for part in record_fields(type(value))
+            ]
             return Form("record", [str(self.class_number(type(value))), *parts])
         value = owned(value)
         if is_literal(value):
@@ -154,5 +155,3 @@ class Program:
 def _kind(value: Any) -> str:
     kind = type(value).__name__
     return f"{'an' if kind[:1].lower() in 'aeiou' else 'a'} {kind}"
-
-

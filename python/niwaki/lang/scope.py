@@ -113,7 +113,9 @@ def default_expressions(node: FunctionNode) -> dict[str, ast.expr]:
     a = node.args
     positional = [arg.arg for arg in (*a.posonlyargs, *a.args)]
     found = dict(zip(positional[len(positional) - len(a.defaults) :], a.defaults, strict=True))
-    found |= {arg.arg: value for arg, value in zip(a.kwonlyargs, a.kw_defaults, strict=True) if value is not None}
+    found |= {
+        arg.arg: value for arg, value in zip(a.kwonlyargs, a.kw_defaults, strict=True) if value is not None
+    }
     return found
 
 

@@ -43,7 +43,9 @@ def labels_of(unit: Unit) -> dict[Any, str]:
     for scope in unit.scopes.of.values():
         if scope.is_function:
             assert isinstance(scope.node, (ast.FunctionDef, ast.Lambda))
-            namer.activation(scope, scope.node.body if isinstance(scope.node.body, list) else [scope.node.body])
+            namer.activation(
+                scope, scope.node.body if isinstance(scope.node.body, list) else [scope.node.body]
+            )
     return namer.labels
 
 
@@ -94,7 +96,9 @@ class _Namer:
                 for child in ast.iter_child_nodes(node):
                     self.visit(child)
 
-    def generators(self, node: ast.ListComp | ast.GeneratorExp | ast.SetComp, number: int, scope: Scope) -> None:
+    def generators(
+        self, node: ast.ListComp | ast.GeneratorExp | ast.SetComp, number: int, scope: Scope
+    ) -> None:
         if number == len(node.generators):
             self.visit(node.elt)
             return
@@ -137,7 +141,11 @@ class _Namer:
     def is_site(self, node: ast.expr, value: Any) -> bool:
         """Whether a call runs the user's code: a built-in, a word that computes or a record's class does not."""
         if value is not MISSING:
-            return isinstance(value, FunctionType) and value not in vocabulary.ALL_WORDS and not is_library(value)
+            return (
+                isinstance(value, FunctionType)
+                and value not in vocabulary.ALL_WORDS
+                and not is_library(value)
+            )
         if isinstance(node, ast.Attribute):
             return self.unit.namespace.has_field(node.attr)
         return True
@@ -146,7 +154,9 @@ class _Namer:
         """The family of a distribution that can be read off, else `sample`."""
         if isinstance(dist, ast.Call):
             made = self.meaning(dist.func)
-            return made.family if isinstance(made, type) and issubclass(made, words.Distribution) else "sample"
+            return (
+                made.family if isinstance(made, type) and issubclass(made, words.Distribution) else "sample"
+            )
         value = self.meaning(dist) if dist is not None else MISSING
         return value.family if isinstance(value, words.Distribution) else "sample"
 

@@ -73,7 +73,11 @@ def span_of(node: ast.AST, file: SourceFile) -> Span:
     if end_column is None:
         end_column = column + 1
     return Span(
-        file, line, _characters(file.line(line), column) + 1, end_line, _characters(file.line(end_line), end_column) + 1
+        file,
+        line,
+        _characters(file.line(line), column) + 1,
+        end_line,
+        _characters(file.line(end_line), end_column) + 1,
     )
 
 
@@ -113,16 +117,25 @@ def find_function(function: FunctionType) -> tuple[SourceFile, ast.FunctionDef |
     return None
 
 
-def _find_lambda(function: FunctionType, file: SourceFile, tree: ast.Module) -> tuple[SourceFile, ast.Lambda] | None:
+def _find_lambda(
+    function: FunctionType, file: SourceFile, tree: ast.Module
+) -> tuple[SourceFile, ast.Lambda] | None:
     """Several lambdas may share a line: ours is the smallest whose body holds every instruction's position."""
     code = function.__code__
-    places = [(p[0], p[2]) for p in code.co_positions() if p[0] is not None and p[2] is not None and p[3] != 0]
+    places = [
+        (p[0], p[2]) for p in code.co_positions() if p[0] is not None and p[2] is not None and p[3] != 0
+    ]
     best: ast.Lambda | None = None
     for node in ast.walk(tree):
         if not isinstance(node, ast.Lambda) or node.lineno != code.co_firstlineno:
             continue
         body = node.body
-        start, end = (body.lineno, body.col_offset), (body.end_lineno or body.lineno, body.end_col_offset or 0)
-        if all(start <= place <= end for place in places) and (best is None or node.col_offset > best.col_offset):
+        start, end = (
+            (body.lineno, body.col_offset),
+            (body.end_lineno or body.lineno, body.end_col_offset or 0),
+        )
+        if all(start <= place <= end for place in places) and (
+            best is None or node.col_offset > best.col_offset
+        ):
             best = node
     return (file, best) if best is not None else None

@@ -78,13 +78,23 @@ _ONE += " isfinite isnan isinf factorial lgamma erf"
 
 MATH: dict[Any, Op] = {
     **{getattr(math, name): _op(name, "x") for name in _ONE.split()},
-    **{getattr(math, name): _op(name, "x y") for name in "atan2 copysign fmod comb pow".split()},
-    math.gcd: _op("gcd", "a b"),
+    **{getattr(math, name): _op(name, "x y") for name in "atan2 copysign fmod comb".split()},
+    math.pow: _op("math_pow", "x y"),
+    math.gcd: _op("gcd", variadic=True),
     math.hypot: _op("hypot", "x", variadic=True),
     math.log: _op("log", "x", "base"),
 }
 
-_VECTORS = (words.vec, words.dot, words.cross, words.norm, words.normalize, words.distance, words.rotate, words.rotation)
+_VECTORS = (
+    words.vec,
+    words.dot,
+    words.cross,
+    words.norm,
+    words.normalize,
+    words.distance,
+    words.rotate,
+    words.rotation,
+)
 _NUMBERS = (words.clip, words.lerp, words.sign)
 _SHAPES = (words.box, words.cylinder, words.limb, words.mesh)
 
@@ -174,10 +184,21 @@ BINARY: dict[str, str] = {
 
 UNARY: dict[str, str] = {"USub": "neg", "UAdd": "pos", "Not": "not", "Invert": "invert"}
 
-COMPARE: dict[str, str] = {"Eq": "eq", "NotEq": "ne", "Lt": "lt", "LtE": "le", "Gt": "gt", "GtE": "ge", "In": "in"}
+COMPARE: dict[str, str] = {
+    "Eq": "eq",
+    "NotEq": "ne",
+    "Lt": "lt",
+    "LtE": "le",
+    "Gt": "gt",
+    "GtE": "ge",
+    "In": "in",
+}
 
 NOT_IN_A_MODEL: dict[Any, tuple[str, str]] = {
-    print: ("prints", "take the line out; to watch a run, step through `niwaki.run_python(model, seed=1)` in a debugger"),
+    print: (
+        "prints",
+        "take the line out; to watch a run, step through `niwaki.run_python(model, seed=1)` in a debugger",
+    ),
     isinstance: ("asks-for-a-type", "give records a field that says what they are, and compare that"),
     issubclass: ("asks-for-a-type", "give records a field that says what they are, and compare that"),
     type: ("asks-for-a-type", "give records a field that says what they are, and compare that"),

@@ -1,0 +1,66 @@
+"""The manual's pages about errors, written from the table of messages: one page for each code.
+
+`python -m niwaki.lang.catalogue docs/errors` writes them; a test holds the pages in step with the table.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from niwaki.errors import fill
+from niwaki.lang.messages import FAULTS, INPUTS, LANGUAGE, Message
+
+KINDS = (
+    (LANGUAGE, "Found when a model is compiled, before anything runs."),
+    (FAULTS, "Found while a model runs; the message shows the model's own calls, outermost first."),
+    (INPUTS, "Found when a file, a setting or an argument is looked at."),
+)
+
+
+class _Shown(dict[str, str]):
+    """Names of templates as a reader sees them."""
+
+    def __missing__(self, key: str) -> str:
+        return key.upper()
+
+
+def page(message: Message, found: str) -> str:
+    """One page, Markdown."""
+    title, why, cure = (text.format_map(_Shown()) for text in (message.title, message.why, message.help))
+    parts = [f"# {message.code}", f"{_sentence(title)} {found}"]
+    if why and message.why != "{reason}":
+        parts += ["## Why", _sentence(why)]
+    if message.example:
+        parts += ["## Example", f"```python\n{message.example.rstrip()}\n```"]
+    named = message.help in ("{suggestion}", "{cure}")
+    parts += ["## The way out", "The message says what was probably meant." if named else _sentence(cure)]
+    if message.cure:
+        parts.append(f"```python\n{message.cure.rstrip()}\n```")
+    return "\n\n".join(parts) + "\n"
+
+
+def _sentence(text: str) -> str:
+    """A message as a sentence."""
+    plain = fill(text, {})
+    start = plain[:1] if plain.startswith("`") else plain[:1].upper()
+    return start + plain[1:] + ("" if plain.endswith(("?", ".", "`:")) else ".")
+
+
+def pages() -> dict[str, str]:
+    """Every page by its file name."""
+    return {f"{message.code}.md": page(message, found) for table, found in KINDS for message in table}
+
+
+def write(folder: Path) -> None:
+    """Write every page into a folder, and take away pages of codes that are gone; the index stays."""
+    made = pages()
+    for old in folder.glob("*.md"):
+        if old.name not in made and old.name != "index.md":
+            old.unlink()
+    for name, text in made.items():
+        (folder / name).write_text(text)
+
+
+if __name__ == "__main__":
+    write(Path(sys.argv[1]))
