@@ -22,7 +22,7 @@ struct PyHosts {
 impl Hosts for PyHosts {
     fn call(&self, constant: u16, args: &[Value]) -> Result<Value, Fault> {
         let Some(Some(callable)) = self.callables.get(constant as usize) else {
-            return Err(Fault::new("host-failed", format!("constant {constant} is not a function")));
+            return Err(Fault::new("host-function", format!("constant {constant} is not a function")));
         };
         Python::attach(|py| {
             let args: Vec<_> = args.iter().map(|a| self.classes.object(py, a)).collect::<PyResult<_>>()?;
@@ -36,7 +36,7 @@ impl Hosts for PyHosts {
 fn failed(py: Python<'_>, callable: &Py<PyAny>, error: &PyErr) -> Fault {
     let name = callable.bind(py).getattr("__name__").map_or_else(|_| "it".into(), |name| name.to_string());
     let kind = error.get_type(py).name().map_or_else(|_| "an error".into(), |name| name.to_string());
-    Fault::new("host-failed", format!("the host function `{name}` failed: {kind}: {}", error.value(py)))
+    Fault::new("host-function", format!("the host function `{name}` failed: {kind}: {}", error.value(py)))
 }
 
 /// A compiled model; never changes, and serves any number of searches at once.

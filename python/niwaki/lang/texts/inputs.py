@@ -6,6 +6,62 @@ from niwaki.lang.texts.message import Message
 
 INPUTS = (
     Message(
+        "machine-limit",
+        "the model is too large for the machine",
+        why="the compiler says: {found}",
+        help="split the largest function into smaller ones",
+        example="a function with twenty thousand variables",
+        cure="ten functions with two thousand each",
+    ),
+    Message(
+        "unknown-model",
+        "there is no model `{name}`",
+        why="{reason}",
+        help="write a name that `niwaki models` lists, or `file.py:function`",
+        example="niwaki grow spacship",
+        cure="niwaki grow spaceship",
+    ),
+    Message(
+        "model-file-failed",
+        "`{path}` cannot be run",
+        why="{reason}",
+        help="a model's file is ordinary Python: run `python {path}` to see where it stops",
+        example="a file that imports a module that is not installed",
+        cure="the same file where everything it imports is there",
+    ),
+    Message(
+        "no-target",
+        "the model `{name}` has no target of its own",
+        why="a model is grown into a target",
+        help="name one with `--target FILE`",
+        example="niwaki grow garden.py:tree",
+        cure="niwaki grow garden.py:tree --target cloud.obj",
+    ),
+    Message(
+        "bad-run-file",
+        "`{path}` is not a run that can be replayed",
+        why="{reason}",
+        help="give the run.json that `niwaki grow` wrote",
+        example="niwaki replay best.glb",
+        cure="niwaki replay out/run.json",
+    ),
+    Message(
+        "changed-model",
+        "the model `{name}` has changed since this run",
+        why="the choices of the run belong to another version: it was {recorded}, it is {found}",
+        help="check out the version that made the run, or grow again with the same seed",
+        example="niwaki replay out/run.json after an edit of the model",
+        cure="niwaki grow MODEL --seed SEED with the seed of the run",
+    ),
+    Message(
+        "nothing-ended",
+        "the search was stopped before any run was complete",
+        why="{reason}",
+        help="let it run longer, or use fewer particles",
+        example="Ctrl-C in the first milliseconds",
+        cure="Ctrl-C once the progress shows a score",
+    ),
+    Message(
         "missing-file",
         "there is no file `{path}`",
         help="check the path; it is taken from {folder}",
@@ -76,6 +132,7 @@ INPUTS = (
     Message(
         "no-particles",
         "a population needs at least one particle, found {found}",
+        why="the particles are the search: each is one attempt",
         help="write `particles=100` or more",
         example="grow(ship, target, particles=0)",
         cure="grow(ship, target, particles=300)",
@@ -151,7 +208,7 @@ INPUTS = (
     Message(
         "not-enumerable",
         "not every choice of the model can be listed",
-        why="the choice `{address}` is a {family}, which has endlessly many values",
+        why="an exact answer visits every value of every choice, so each needs a finite list of them",
         help="use `smc`, `importance` or `rejection` instead of `enumerate_all`",
         example="run(model, method=enumerate_all()) with a gaussian",
         cure="run(model, method=importance(1000))",
@@ -174,7 +231,7 @@ INPUTS = (
     Message(
         "argument-value",
         "argument {number} of `{name}` is {found}, which cannot be a value of a model",
-        help="pass numbers, strings, tuples, lists, dicts with constant keys, arrays, vectors, shapes, records or functions",
+        help="pass numbers, strings, tuples, lists, dicts with constant keys, arrays, vectors, shapes or records",
         example="run(tree, (open('x'),))",
         cure="run(tree, (3,))",
     ),
