@@ -60,16 +60,12 @@ class ModelError(NiwakiError):
         self.values = values
 
     def render(self) -> str:
+        """The message with its places."""
         message = MESSAGES[self.code]
         first = (self.span, fill(message.label, self.values))
         other = (self.second, fill(message.second, self.values)) if self.second is not None else None
-        return "\n".join(
-            [
-                f"error[{self.code}]: {fill(message.title, self.values)}",
-                *snippet(first, other),
-                *notes(message, self.values),
-            ]
-        )
+        lines = [f"error[{self.code}]: {fill(message.title, self.values)}", *snippet(first, other)]
+        return "\n".join([*lines, *notes(message, self.values, margin=lines[-1].removesuffix("|"))])
 
 
 @dataclass(frozen=True)
@@ -130,6 +126,7 @@ class ModelFault(NiwakiError):
         return cls(code, message, help, calls, replay)
 
     def render(self) -> str:
+        """The message with its place and the model's calls."""
         message = MESSAGES.get(self.code, _UNKNOWN)
         title = self.message or fill(message.title, self.values)
         lines = [f"error[{self.code}]: {title}"]
@@ -138,7 +135,7 @@ class ModelFault(NiwakiError):
             lines += snippet((last, fill(message.label, self.values)), None)
         else:
             lines.append(" |")
-        margin = " " * (len(lines[-1]) - len(lines[-1].lstrip()))
+        margin = lines[-1].removesuffix("|")
         if len(self.stack) > 1 or (self.stack and last is None):
             lines.append(f"{margin}= calls:")
             shown = self.stack if len(self.stack) <= 12 else (*self.stack[:6], None, *self.stack[-5:])
@@ -171,6 +168,7 @@ class InputError(NiwakiError):
         self.values = values
 
     def render(self) -> str:
+        """The message; it has no place in a model."""
         message = MESSAGES.get(self.code, _UNKNOWN)
         lines = [f"error[{self.code}]: {fill(message.title, self.values)}"]
         if self.values.get("detail"):
@@ -236,10 +234,6 @@ def _marked(marks: Sequence[tuple[Span, str, str]], width: int) -> list[str]:
     for span, label, sign in marks:
         text = span.file.line(span.line)
         if span.line != shown:
-            if shown and span.line > shown + 2:
-                lines.append(f"{' ' * width} ...")
-            elif shown and span.line == shown + 2:
-                lines.append(f"{shown + 1:>{width}} | {span.file.line(shown + 1)}".rstrip())
             lines.append(f"{span.line:>{width}} | {text}".rstrip())
             shown = span.line
         end = span.end_column if span.end_line == span.line else len(text.rstrip()) + 1

@@ -87,6 +87,7 @@ class FileError(NiwakiError):
         self.values = values
 
     def render(self) -> str:
+        """Return the whole message: title, file, reason, cure."""
         title, why, cure = (text.format_map(self.values) for text in FILE_MESSAGES[self.code])
         lines = [f"error[{self.code}]: {title}"]
         if self.place is not None:
@@ -94,4 +95,5 @@ class FileError(NiwakiError):
         return "\n".join([*lines, f" = why: {why}", f" = help: {cure}"])
 
     def __str__(self) -> str:
+        """Return the whole message."""
         return self.render()

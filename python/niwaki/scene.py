@@ -1,7 +1,7 @@
 """A scene: the parts that a model emitted, each named by the address of its `emit`.
 
-A scene is a bag; its parts are kept in the order of their addresses, so that two runs which emitted the same parts in
-different order give the same files.
+A scene is a bag; its parts are kept in the order of their addresses, so that two runs which emitted the same
+parts in different order give the same files.
 """
 
 from __future__ import annotations
@@ -59,12 +59,15 @@ class Scene:
         self.parts: tuple[Part, ...] = tuple(sorted(made, key=lambda part: _natural(part.address)))
 
     def __len__(self) -> int:
+        """Count the parts."""
         return len(self.parts)
 
     def __iter__(self) -> Iterator[Part]:
+        """Go through the parts in the order of their addresses."""
         return iter(self.parts)
 
     def __repr__(self) -> str:
+        """Count parts and shapes."""
         count = sum(len(part.shapes) for part in self.parts)
         return f"<Scene: {len(self)} parts, {count} shapes>"
 
@@ -105,19 +108,19 @@ class Scene:
         return np.concatenate(vertices), np.concatenate(faces)
 
     def picture(self, target: Target | None = None, **settings: Any) -> Image:
-        """A picture of the scene; see `niwaki.draw.picture.picture`."""
+        """Draw the scene; see `niwaki.draw.picture.picture`."""
         from niwaki.draw.picture import picture
 
         return picture(self, target, **settings)
 
     def save(self, path: str | PathLike[str], target: Target | None = None, **settings: Any) -> Path:
-        """Draws the scene into an image file whose name ends in .png, .jpg or .webp."""
+        """Draw the scene into an image file whose name ends in .png, .jpg or .webp."""
         from niwaki.draw.picture import save
 
         return save(self, path, target, **settings)
 
     def export(self, path: str | PathLike[str]) -> Path:
-        """Writes the scene as .glb, .obj, .stl or .ply; see `niwaki.draw.files.export`."""
+        """Write the scene as .glb, .obj, .stl or .ply; see `niwaki.draw.files.export`."""
         from niwaki.draw.files import export
 
         return export(self, path)
@@ -129,7 +132,7 @@ class Scene:
 
 
 def _natural(address: str) -> tuple[tuple[str, int], ...]:
-    """A key that sorts `wing[10]` after `wing[9]`."""
+    """Make a key that sorts `wing[10]` after `wing[9]`."""
     return tuple((text, int(digits or -1)) for text, digits in re.findall(r"([^0-9]*)([0-9]*)", address))
 
 

@@ -1,7 +1,7 @@
 """Targets: the volumes that a scene should fill, from OBJ, STL, PLY and GLB files or from arrays.
 
-Coordinates are taken as they are in the file: no centring, no scaling, no change of units or axes. A file with several
-objects is one target; overlapping closed parts are fine, because filling takes each part for itself.
+Coordinates are taken as they are in the file: no centring, no scaling, no change of units or axes. A file
+with several objects is one target; its closed parts may overlap.
 """
 
 from __future__ import annotations
@@ -72,13 +72,13 @@ class Target:
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> Target:
-        """Reads a target from a file whose name ends in .obj, .stl, .ply, .glb or .gltf.
+        """Read a target from a file whose name ends in .obj, .stl, .ply, .glb or .gltf.
 
         Raises
         ------
         FileError
-            The file is missing, cut short or of another format; it has no triangles, no thickness, or coordinates that
-            are not finite.
+            The file is missing, cut short or of another format; it has no triangles, no thickness, or
+            coordinates that are not finite.
 
         Warns
         -----
@@ -103,6 +103,7 @@ class Target:
         return cls(vertices, faces, name=str(path))
 
     def __repr__(self) -> str:
+        """Name, triangles, extent."""
         x, y, z = self.size
         return f"<Target {self.name}: {len(self.faces)} triangles, {x:.3g} x {y:.3g} x {z:.3g}>"
 
@@ -125,7 +126,7 @@ class Target:
         return float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6.0)
 
     def picture(self, **settings: Any) -> Image:
-        """The target as a solid of grey clay; settings as for a scene's picture."""
+        """Draw the target as a solid of grey clay; settings as for a scene's picture."""
         from niwaki._engine import Shape
         from niwaki.scene import Scene
 

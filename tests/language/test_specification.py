@@ -7,10 +7,9 @@ import math
 from pathlib import Path
 
 import pytest
-from specification import Case, cases, load
-
 from niwaki.errors import ModelError, ModelFault
 from niwaki.lang.plain import run_python
+from specification import Case, cases, load
 
 FILES = sorted(Path(__file__).parent.glob("*.md"))
 CASES = [case for path in FILES for case in cases(path)]

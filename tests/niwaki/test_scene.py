@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-
 from niwaki._engine import Shape
 from niwaki.scene import Scene
 

@@ -1,4 +1,4 @@
-"""Claim: a target is read from every format with its coordinates kept, and bad files cost a message, never a result."""
+"""Claim: every format keeps a target's coordinates, and bad files cost a message, never a result."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
-
 from niwaki.file_errors import FILE_MESSAGES, FileError
 from niwaki.target import Target, TargetWarning
 

@@ -1,7 +1,7 @@
 //! What a convex solid keeps for intersection and voxels, computed once when the shape is made.
 
 use crate::topology::Topology;
-use crate::vector::{Mat3, Vec3};
+use crate::vector::{Mat3, Vec3, vec3};
 use std::sync::{Arc, OnceLock};
 
 /// A convex solid in the world.
@@ -29,7 +29,8 @@ impl Convex {
 
     /// A box whose sides point along the columns of `rotation`.
     pub(crate) fn cuboid(vertices: Vec<Vec3>, rotation: &Mat3) -> Option<Convex> {
-        let aligned = rotation.is_axis_aligned();
+        let aligned =
+            rotation.columns.iter().all(|c| Vec3::AXES.contains(&vec3(c.x.abs(), c.y.abs(), c.z.abs())));
         let normals = if aligned { Vec3::AXES.to_vec() } else { rotation.columns.to_vec() };
         Convex::with_normals(vertices, Topology::cuboid(), normals, aligned)
     }

@@ -1,6 +1,6 @@
 //! Shapes, voxels, intersections, sketches and pictures.
 //!
-//! - [`vector`], [`bounds`]: points, rotations, boxes along the axes
+//! - [`bounds`]: boxes along the axes
 //! - [`mesh`], [`topology`], [`hull`], [`limb`], [`convex`]: surfaces and convex solids
 //! - [`shape`], [`words`], [`primitive`]: what a model emits
 //! - [`voxel`]: which cells of a grid a shape fills
@@ -15,6 +15,7 @@ pub mod error;
 pub mod fine;
 pub mod hull;
 pub mod intersect;
+mod light;
 pub mod limb;
 pub mod mesh;
 pub mod primitive;
@@ -23,7 +24,6 @@ pub mod shape;
 pub mod sketch;
 pub mod topology;
 pub mod tree;
-pub mod vector;
 pub mod voxel;
 pub mod words;
 
@@ -32,12 +32,12 @@ pub use convex::Convex;
 pub use error::GeomError;
 pub use intersect::{Rule, intersects};
 pub use mesh::TriMesh;
+pub use niwaki_math::vector::{self, Mat3, Vec3, vec3};
 pub use primitive::Primitive;
 pub use shape::{Placement, Ring, Shape, Solid};
 pub use sketch::intersection::{NoSelfIntersection, no_self_intersection};
 pub use sketch::product::Sketches;
 pub use sketch::volume::{Target, VolumeMatch, volume_match};
 pub use sketch::{Sketch, SketchSpec};
-pub use vector::{Mat3, Vec3, vec3};
 pub use voxel::{Grid, Voxels};
 pub use words::Look;

@@ -7,10 +7,8 @@
 use crate::bounds::Aabb;
 use crate::convex::Convex;
 use crate::error::GeomError;
-use crate::hull::hull;
-use crate::limb::band;
+use crate::light::{convex, ring};
 use crate::mesh::TriMesh;
-use crate::topology::Topology;
 use crate::vector::{Mat3, Vec3, vec3};
 use std::sync::{Arc, OnceLock};
 
@@ -36,7 +34,7 @@ pub struct Ring {
 impl Ring {
     /// The `sides` vertices, counter-clockwise seen against the normal.
     pub fn vertices(&self, sides: usize) -> impl Iterator<Item = Vec3> + '_ {
-        let turn = Mat3::between(1, self.normal);
+        let turn = Mat3::between(Vec3::AXES[1], self.normal);
         ring(sides).map(move |(sin, cos)| self.center + turn.apply(vec3(sin, 0.0, cos) * self.radius))
     }
 }
@@ -296,67 +294,4 @@ fn check_solid(solid: &Solid) -> Result<(), GeomError> {
         }
         Solid::Mesh(_) => Ok(()),
     }
-}
-
-fn convex(solid: &Solid, placement: &Placement) -> Option<Convex> {
-    match solid {
-        Solid::Box { size } => Convex::cuboid(cuboid(*size, 1.0, placement), &placement.rotation),
-        Solid::TaperedBox { size, taper } => {
-            let vertices = cuboid(*size, *taper, placement);
-            if *taper > 0.0 { Convex::new(vertices, Topology::cuboid()) } else { hulled(vertices) }
-        }
-        Solid::Cylinder { radius, length, sides } => prism(*radius, *radius, *length, *sides, placement),
-        Solid::TaperedCylinder { radius, top_radius, length, sides } => {
-            prism(*radius, *top_radius, *length, *sides, placement)
-        }
-        Solid::Limb { start, end, sides } => {
-            let points = start.vertices(*sides).chain(end.vertices(*sides));
-            let vertices: Vec<Vec3> = points.map(|p| placement.apply(p)).collect();
-            match band(&vertices, *sides) {
-                Some(topology) => Convex::new(vertices, Arc::new(topology)),
-                None => hulled(vertices),
-            }
-        }
-        Solid::Mesh(_) => None,
-    }
-}
-
-fn hulled(vertices: Vec<Vec3>) -> Option<Convex> {
-    let topology = hull(&vertices)?;
-    Convex::new(vertices, Arc::new(topology))
-}
-
-fn cuboid(size: Vec3, taper: f64, placement: &Placement) -> Vec<Vec3> {
-    let half = size * 0.5;
-    (0..8)
-        .map(|i| {
-            let sign = |bit: usize| if i >> bit & 1 == 1 { 1.0 } else { -1.0 };
-            let end = if i >> 2 == 1 { taper } else { 1.0 };
-            placement.apply(vec3(sign(0) * half.x * end, sign(1) * half.y * end, sign(2) * half.z))
-        })
-        .collect()
-}
-
-fn prism(bottom: f64, top: f64, length: f64, sides: usize, placement: &Placement) -> Option<Convex> {
-    let half = 0.5 * length;
-    let mut vertices = Vec::with_capacity(2 * sides + 2);
-    vertices.extend(ring(sides).map(|(sin, cos)| placement.apply(vec3(sin * bottom, -half, cos * bottom))));
-    if top == 0.0 {
-        vertices.push(placement.apply(vec3(0.0, half, 0.0)));
-        return hulled(vertices);
-    }
-    vertices.extend(ring(sides).map(|(sin, cos)| placement.apply(vec3(sin * top, half, cos * top))));
-    vertices.extend([-half, half].map(|y| placement.apply(vec3(0.0, y, 0.0))));
-    Convex::new(vertices, Topology::prism(sides))
-}
-
-/// Sine and cosine of `2 pi k / sides`. Exact on the axes, where flush attachment needs it.
-fn ring(sides: usize) -> impl Iterator<Item = (f64, f64)> {
-    const H: f64 = std::f64::consts::FRAC_1_SQRT_2;
-    const OCTAGON: [(f64, f64); 8] =
-        [(0.0, 1.0), (H, H), (1.0, 0.0), (H, -H), (0.0, -1.0), (-H, -H), (-1.0, 0.0), (-H, H)];
-    (0..sides).map(move |k| match 8 * k % sides {
-        0 => OCTAGON[8 * k / sides],
-        _ => (std::f64::consts::TAU * k as f64 / sides as f64).sin_cos(),
-    })
 }

@@ -44,7 +44,7 @@ impl Shape {
             return Shape::cuboid(center, size, look);
         }
         // The solid tapers along its own z; the size is meant in the coordinates before `look.rotation`.
-        let laid = Mat3::between(2, Vec3::AXES[axis]);
+        let laid = Mat3::between(Vec3::AXES[2], Vec3::AXES[axis]);
         let size = match axis {
             0 => vec3(size.z, size.y, size.x),
             1 => vec3(size.x, size.z, size.y),
@@ -72,7 +72,7 @@ impl Shape {
             }
             _ => Solid::Cylinder { radius, length, sides },
         };
-        place(solid, center, Mat3::between(1, direction(axis, "axis")?), look)
+        place(solid, center, Mat3::between(Vec3::AXES[1], direction(axis, "axis")?), look)
     }
 
     /// A bent, tapered segment between two round ends; a normal left out is the direction from start to end.

@@ -2,10 +2,10 @@
 //!
 //! `p(outcome, score) = sum over runs of exp(log_prior + log_score)`, an outcome being the program's value.
 
+use crate::Failure;
 use crate::forward::factor_name;
 use crate::record::{Record, check_factor};
 use crate::task::{Hosts, Task};
-use crate::Failure;
 use niwaki_geom::Shape;
 use niwaki_math::Dist;
 use niwaki_vm::builtins::draw_to_value;
@@ -105,7 +105,9 @@ pub fn enumerate(
                 return Err(Box::new(machine.waiting_cycle(&branch.state)).into());
             };
             let stop = machine.resume(&mut branch.state, future, &mut ask)?;
-            debug_assert!(stop != Stop::Waiting || !branch.state.runnable().is_empty() || branch.state.has_ended());
+            debug_assert!(
+                stop != Stop::Waiting || !branch.state.runnable().is_empty() || branch.state.has_ended()
+            );
         }
         let values = std::mem::take(&mut ask.open);
         if branch.record.cause.is_some() {
@@ -118,9 +120,12 @@ pub fn enumerate(
         if branch.state.has_ended() {
             runs += 1;
             if runs > max_runs {
-                return Err(Fault::new("too-many-runs", format!("the program has more than {max_runs} runs"))
-                    .with_help("enumerate a smaller program, or use particles")
-                    .into());
+                return Err(Fault::new(
+                    "too-many-runs",
+                    format!("the program has more than {max_runs} runs"),
+                )
+                .with_help("enumerate a smaller program, or use particles")
+                .into());
             }
             if !watch(runs) {
                 return Err(Fault::new("interrupted", format!("stopped after {runs} runs")).into());

@@ -1,8 +1,8 @@
 //! Forward runs: every choice is drawn from its prior, from the random stream at its address.
 
+use crate::Failure;
 use crate::record::{Record, check_factor};
 use crate::task::{Hosts, Task};
-use crate::Failure;
 use niwaki_geom::Shape;
 use niwaki_math::{Dist, Stream};
 use niwaki_vm::builtins::draw_to_value;

@@ -30,7 +30,9 @@ pub fn importance(
     watch: &mut dyn FnMut(usize) -> bool,
 ) -> Result<Weighted, Failure> {
     if n == 0 {
-        return Err(Fault::new("no-samples", "zero samples were asked for").with_help("ask for at least one").into());
+        return Err(Fault::new("no-samples", "zero samples were asked for")
+            .with_help("ask for at least one")
+            .into());
     }
     let n = n as u64;
     let mut samples = Vec::new();

@@ -99,7 +99,13 @@ impl Answers<f64> for Replay<'_> {
         let log_density = log_density(dist, &value)?;
         self.trace.record.choose(at.address, &value, log_density);
         let family = dist.family().name();
-        self.trace.choices.push(Choice { path, address: at.address, family, value: value.clone(), log_density });
+        self.trace.choices.push(Choice {
+            path,
+            address: at.address,
+            family,
+            value: value.clone(),
+            log_density,
+        });
         Ok(Answer::Go(value))
     }
 

@@ -57,33 +57,28 @@ pub struct Stream {
     base: u64,
     /// Number of the next block.
     block: u64,
-    /// The last block; `words[used..]` is still to be given out.
-    words: [u32; 4],
-    used: usize,
+    /// The second half of the last block, until it is given out.
+    spare: Option<u64>,
 }
 
 impl Stream {
     /// The bits of the choice at `address`, drawn for the `visit`-th time in `stream` (a particle, a chain).
     #[inline]
     pub fn new(seed: u64, stream: u64, address: u128, visit: u64) -> Stream {
-        let base = mix(mix(mix(seed ^ GOLDEN) ^ stream).wrapping_add(GOLDEN) ^ visit);
+        // Three mixes side by side, not one inside the other: a choice waits for one of them only. The odd
+        // factors keep equal numbers in two places from cancelling.
+        let base = mix(seed.wrapping_add(GOLDEN))
+            .wrapping_add(mix(stream.wrapping_add(GOLDEN)).wrapping_mul(0xA24B_AED4_963E_E407))
+            .wrapping_add(mix(visit.wrapping_add(GOLDEN)).wrapping_mul(0x9FB2_1C65_1E98_DF25));
         let counter =
             [address as u32, (address >> 32) as u32, (address >> 64) as u32, (address >> 96) as u32];
-        Stream { counter, base, block: 0, words: [0; 4], used: 4 }
+        Stream { counter, base, block: 0, spare: None }
     }
 
     /// A number in the open interval (0, 1): 52 bits and a half, so that neither end is ever reached.
     #[inline]
     pub fn uniform(&mut self) -> f64 {
         open_unit(self)
-    }
-
-    #[inline]
-    fn refill(&mut self) {
-        let key = mix(self.base.wrapping_add(self.block.wrapping_mul(GOLDEN)));
-        self.words = philox(self.counter, [key as u32, (key >> 32) as u32]);
-        self.block += 1;
-        self.used = 0;
     }
 }
 
@@ -92,29 +87,25 @@ impl TryRng for Stream {
 
     #[inline]
     fn try_next_u32(&mut self) -> Result<u32, Infallible> {
-        if self.used >= 4 {
-            self.refill();
-        }
-        let word = self.words[self.used];
-        self.used += 1;
-        Ok(word)
+        self.try_next_u64().map(|bits| (bits >> 32) as u32)
     }
 
-    /// Two words of one block; a word left over from an odd number of `u32`s is skipped.
     #[inline]
     fn try_next_u64(&mut self) -> Result<u64, Infallible> {
-        if self.used > 2 {
-            self.refill();
+        if let Some(bits) = self.spare.take() {
+            return Ok(bits);
         }
-        let (low, high) = (self.words[self.used], self.words[self.used + 1]);
-        self.used += 2;
-        Ok(u64::from(high) << 32 | u64::from(low))
+        let key = mix(self.base.wrapping_add(self.block.wrapping_mul(GOLDEN)));
+        let [a, b, c, d] = philox(self.counter, [key as u32, (key >> 32) as u32]);
+        self.block += 1;
+        self.spare = Some(u64::from(d) << 32 | u64::from(c));
+        Ok(u64::from(b) << 32 | u64::from(a))
     }
 
     fn try_fill_bytes(&mut self, bytes: &mut [u8]) -> Result<(), Infallible> {
-        for chunk in bytes.chunks_mut(4) {
-            let word = self.try_next_u32()?.to_le_bytes();
-            chunk.copy_from_slice(&word[..chunk.len()]);
+        for chunk in bytes.chunks_mut(8) {
+            let bits = self.try_next_u64()?.to_le_bytes();
+            chunk.copy_from_slice(&bits[..chunk.len()]);
         }
         Ok(())
     }

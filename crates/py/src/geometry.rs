@@ -170,7 +170,6 @@ impl PyShape {
     /// A closed triangle mesh: ``vertices`` (n, 3) float64, ``faces`` (m, 3) int64.
     #[staticmethod]
     #[pyo3(signature = (vertices, faces, center=[0.0; 3], rotation=None, scale=1.0, color=None))]
-    #[expect(clippy::too_many_arguments, reason = "the words of the modelling language")]
     fn mesh(
         py: Python<'_>,
         vertices: PyReadonlyArray2<f64>,

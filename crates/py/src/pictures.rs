@@ -13,7 +13,8 @@ use pyo3::prelude::*;
 type Vertices<'py> = PyReadonlyArray2<'py, f64>;
 type Faces<'py> = PyReadonlyArray2<'py, i64>;
 type Mesh<'py> = (Vertices<'py>, Faces<'py>, Option<Vertices<'py>>, [f32; 3], [f32; 3]);
-type Eye = ([f32; 3], [f32; 3], [f32; 3], f32);
+type Corner = (f32, f32, f32);
+type Eye = (Corner, Corner, Corner, f32);
 
 /// `(vertices (n, 3), faces (m, 3), normals (n, 3))`.
 type Arrays<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<i64>>, Bound<'py, PyArray2<f64>>);
@@ -49,7 +50,12 @@ fn render_meshes<'py>(
         width,
         height,
         samples,
-        camera: camera.map(|(eye, target, up, fov_y)| Camera { eye, target, up, fov_y }),
+        camera: camera.map(|(eye, target, up, fov_y)| Camera {
+            eye: eye.into(),
+            target: target.into(),
+            up: up.into(),
+            fov_y,
+        }),
         floor,
         backdrop: backdrop.map_or(Backdrop::Clear, |(top, bottom)| Backdrop::Roll { top, bottom }),
         ghost_color: ghost_color.unwrap_or(Shot::default().ghost_color),
@@ -79,7 +85,7 @@ fn frame_camera(
         margin: margin.unwrap_or(usual.margin),
     };
     let camera = Camera::framing(&triples(&points, "points")?, view, aspect);
-    Ok((camera.eye, camera.target, camera.up, camera.fov_y))
+    Ok((camera.eye.into(), camera.target.into(), camera.up.into(), camera.fov_y))
 }
 
 /// The mesh of pictures and exports: `(vertices (n, 3), faces (m, 3), unit normals (n, 3))`, world space.

@@ -1,8 +1,8 @@
 """A scene as a file that the next tool opens: GLB, OBJ, STL or PLY.
 
-GLB keeps the most: a node for each part, named by its address; a material for each colour; smooth normals. It is
-written here rather than by a library so that the same scene gives the same bytes (glTF 2.0, section 4 for the
-container, section 3.6 for buffers). The other formats go through trimesh.
+GLB keeps the most: a node for each part, named by its address; a material for each colour; smooth normals.
+It is written here rather than by a library so that the same scene gives the same bytes (glTF 2.0, section 4
+for the container, section 3.6 for buffers). The other formats go through trimesh.
 
 A file appears whole or not at all. Lengths are scene units, y is up, as glTF asks.
 """
@@ -33,7 +33,7 @@ FLOAT, UNSIGNED_INT, ARRAY_BUFFER, ELEMENT_ARRAY_BUFFER = 5126, 5125, 34962, 349
 
 
 def export(scene: Scene, path: str | PathLike[str]) -> Path:
-    """Writes a scene to a file whose name ends in .glb, .obj, .stl or .ply.
+    """Write a scene to a file whose name ends in .glb, .obj, .stl or .ply.
 
     Returns
     -------
@@ -61,14 +61,14 @@ def export(scene: Scene, path: str | PathLike[str]) -> Path:
 
 
 def glb(scene: Scene) -> bytes:
-    """The scene as the bytes of a GLB file; equal scenes give equal bytes."""
+    """Return the scene as the bytes of a GLB file; equal scenes give equal bytes."""
     buffer = bytearray()
     views: list[dict[str, Any]] = []
     accessors: list[dict[str, Any]] = []
     materials: dict[Paint, int] = {}
 
     def accessor(array: NDArray[Any], kind: str, component: int, target: int) -> int:
-        """Appends an array to the buffer and describes it."""
+        """Append an array to the buffer and describe it."""
         data = array.tobytes()
         views.append({"buffer": 0, "byteOffset": len(buffer), "byteLength": len(data), "target": target})
         buffer.extend(data)  # all components have four bytes, so offsets stay aligned
@@ -151,11 +151,13 @@ def _linear(c: float) -> float:
 def _through_trimesh(scene: Scene, kind: str) -> bytes:
     import trimesh
 
-    world = trimesh.Scene()
+    world: Any = trimesh.Scene()
     for part, groups in _groups(scene):
         for k, (paint, vertices, faces, normals) in enumerate(groups):
-            mesh = trimesh.Trimesh(vertices, faces, vertex_normals=normals, process=False)
-            mesh.visual.vertex_colors = [*(round(255 * c) for c in paint.color), 255]
+            color = [*(round(255 * c) for c in paint.color), 255]
+            mesh = trimesh.Trimesh(
+                vertices, faces, vertex_normals=normals, vertex_colors=[color] * len(vertices), process=False
+            )
             name = part.address if k == 0 else f"{part.address}#{k}"
             world.add_geometry(mesh, node_name=name, geom_name=name)
     if kind == "obj":

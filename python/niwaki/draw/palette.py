@@ -1,8 +1,8 @@
 """Colours for parts whose shapes have none of their own.
 
-Two palettes: *machine* (warm greys, graphite for what is round, a burnt orange accent) and *garden* (bark for limbs,
-pine greens for the rest), taken when a scene holds limbs. Each part's tone varies a little with its address and with
-nothing else, so that a part keeps its colour when others change.
+Two palettes: *machine* (warm greys, graphite for what is round, a burnt orange accent) and *garden* (bark for
+limbs, pine greens for the rest), taken when a scene holds limbs. Each part's tone varies a little with its
+address and with nothing else, so that a part keeps its colour when others change.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ class Paint:
 
 
 def paints(scene: Scene) -> list[list[Paint]]:
-    """The paint of each shape of each part, in order."""
+    """Choose the paint of each shape of each part, in order."""
     garden = any(shape.kind == "limb" for part in scene.parts for shape in part.shapes)
     extent = scene.size.max() if len(scene) else 1.0
     return [[_paint(part, shape, garden, extent) for shape in part.shapes] for part in scene.parts]

@@ -1,7 +1,7 @@
 """A scene as a picture, its target as a ghost of tinted glass around it.
 
-Drawn by the engine's own ray caster: a soft sun, sky light, a floor that catches the shadow. The same scene gives the
-same pixels on any machine and any number of threads.
+Drawn by the engine's own ray caster: a soft sun, sky light, a floor that catches the shadow. The same scene
+gives the same pixels on any number of threads.
 """
 
 from __future__ import annotations
@@ -122,7 +122,7 @@ def picture(
 
 
 def surfaces(scene: Scene) -> list[tuple[Any, ...]]:
-    """The fine meshes of all shapes with their paint, as the engine's `render` takes them."""
+    """Make the fine meshes of all shapes with their paint, as the engine's `render` takes them."""
     meshes = []
     for part, part_paints in zip(scene.parts, paints(scene), strict=True):
         for shape, paint in zip(part.shapes, part_paints, strict=True):
@@ -132,7 +132,7 @@ def surfaces(scene: Scene) -> list[tuple[Any, ...]]:
 
 
 def png(image: Image.Image) -> bytes:
-    """The image as the bytes of a PNG file."""
+    """Return the image as the bytes of a PNG file."""
     out = io.BytesIO()
     image.save(out, "PNG")
     return out.getvalue()
@@ -144,7 +144,7 @@ def save(scene: Scene, path: str | PathLike[str], target: Target | None = None, 
 
 
 def save_image(draw: Any, path: str | PathLike[str]) -> Path:
-    """Writes the image that `draw()` makes to a file, whole or not at all; the name is checked before drawing."""
+    """Write the image that `draw()` makes, whole or not at all; its name is checked before drawing."""
     place = Path(path)
     if place.suffix.lower() not in IMAGE_FORMATS:
         raise FileError(
@@ -162,7 +162,7 @@ def save_image(draw: Any, path: str | PathLike[str]) -> Path:
 
 
 def write_whole(place: Path, data: bytes) -> Path:
-    """Writes bytes under a temporary name beside the file, then renames: readers see all of it or nothing."""
+    """Write bytes under a temporary name beside the file, then rename: readers see all of it or nothing."""
     temporary = place.with_name(f".{place.name}.{os.getpid()}.part")
     try:
         temporary.write_bytes(data)
@@ -175,6 +175,6 @@ def write_whole(place: Path, data: bytes) -> Path:
 
 
 def _ghost(target: Target) -> tuple[Any, ...]:
-    """The target's mesh with normals that are smooth where it is smooth."""
+    """Make the target's mesh with normals that are smooth where it is smooth."""
     vertices, faces, normals = _engine.fine_mesh(_engine.Shape.mesh(target.vertices, target.faces))
     return (vertices, faces, normals, (1.0, 1.0, 1.0), (0.0, 0.0, 0.0))

@@ -92,7 +92,7 @@ def save(path: str | PathLike[str], scenes: Sequence[Scene], *arguments: Any, **
 
 
 def _columns(count: int) -> int:
-    """The fewest columns that are at least as many as the rows."""
+    """Find the fewest columns that are at least as many as the rows."""
     across = 1
     while across * across < count:
         across += 1
@@ -110,7 +110,7 @@ def _together(scenes: Sequence[Scene], target: Target | None) -> Scene:
 
 
 def _fit(text: str, font: Any, width: float) -> str:
-    """The text, shortened with dots until it fits."""
+    """Return the text, shortened with dots until it fits."""
     if font.getlength(text) <= width:
         return text
     while text and font.getlength(text + "...") > width:

@@ -18,10 +18,10 @@ Mesh = tuple[NDArray[np.float64], NDArray[np.int64]]
 
 
 def ship() -> Target:
-    """A ship's hull about 18 wide, 3 high and 15 long; nose towards +z.
+    """Make a ship's hull about 18 wide, 3 high and 15 long; nose towards +z.
 
-    A fuselage that narrows to a blunt nose and to the tail, a low slab on its back, two-part wings that sweep back and
-    droop a little, and long six-sided engine pods at their ends.
+    A fuselage that narrows to a blunt nose and to the tail, a low slab on its back, two-part wings that sweep
+    back and droop a little, and long six-sided engine pods at their ends.
     """
     # Fuselage: rectangles across z as (z, half width, lowest y, highest y).
     hull = [(-5.2, 1.0, -0.65, 0.75), (-4.4, 1.5, -0.95, 1.05), (1.6, 1.5, -1.0, 1.1), (3.6, 1.1, -0.8, 0.75)]
@@ -44,7 +44,7 @@ def ship() -> Target:
 
 
 def crescent() -> Target:
-    """A crescent of buildings open to +z, 26 wide: a low wall that rises to a tower in the middle and to both ends."""
+    """Make a crescent open to +z, 25 wide: a low wall that rises to a tower in the middle."""
     steps = 24
     sections = []
     for angle in np.linspace(-0.62 * np.pi, 0.62 * np.pi, steps + 1):
@@ -61,7 +61,7 @@ def crescent() -> Target:
 
 
 def niwaki() -> Target:
-    """A cloud-pruned garden tree about 20 high: a leaning trunk bent like an S, short limbs, five flat clouds."""
+    """Make a cloud-pruned garden tree 20 high: an S-bent leaning trunk, limbs, five flat clouds."""
     trunk = _tube(
         [(0, 0, 0), (0.5, 2.2, 0.1), (1.9, 4.8, 0.3), (2.6, 7.4, 0.3), (1.6, 10.2, 0.0), (-0.6, 12.8, -0.4)]
         + [(-1.6, 15.0, -0.5), (-1.2, 17.2, -0.4)],
@@ -87,7 +87,7 @@ TARGETS: dict[str, Callable[[], Target]] = {"ship": ship, "crescent": crescent, 
 
 
 def write_all(folder: str | PathLike[str]) -> list[Path]:
-    """Writes every target into a folder as an OBJ file and returns their paths."""
+    """Write every target into a folder as an OBJ file and return their paths."""
     place = Path(folder)
     place.mkdir(parents=True, exist_ok=True)
     written = []
@@ -109,7 +109,7 @@ def _target(name: str, parts: Sequence[Mesh]) -> Target:
 
 
 def _loft(sections: Sequence[ArrayLike]) -> Mesh:
-    """A closed skin over polygons (k, 3) with equally many corners, convex enough to be capped by a fan."""
+    """Stretch a closed skin over polygons (k, 3) with equally many corners, capped by fans."""
     rows = np.array(sections, dtype=np.float64)
     count, sides = rows.shape[:2]
     k = np.arange(sides)
@@ -144,7 +144,7 @@ def _ring(center: ArrayLike, normal: ArrayLike, rx: float, ry: float, sides: int
 
 
 def _tube(points: Sequence[ArrayLike], radii: Sequence[float], sides: int = 20, between: int = 4) -> Mesh:
-    """A round tube along a Catmull-Rom curve through `points`."""
+    """Make a round tube along a Catmull-Rom curve through `points`."""
     p = np.array(points, dtype=np.float64)
     padded = np.concatenate([[2 * p[0] - p[1]], p, [2 * p[-1] - p[-2]]])
     path, widths = [], []
@@ -164,7 +164,7 @@ def _tube(points: Sequence[ArrayLike], radii: Sequence[float], sides: int = 20, 
 
 
 def _cloud(center: ArrayLike, radii: tuple[float, float, float], sides: int = 28, rings: int = 13) -> Mesh:
-    """A flattened ball, flatter below than above."""
+    """Make a flattened ball, flatter below than above."""
     rx, ry, rz = radii
     sections = []
     for latitude in 0.5 * np.pi * np.sin(np.linspace(-0.48 * np.pi, 0.48 * np.pi, rings + 2)):

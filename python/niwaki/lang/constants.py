@@ -21,7 +21,7 @@ def owned(value: Any) -> Any:
 
 
 def is_data(value: Any) -> bool:
-    """Whether a value is plain data: numbers, strings, tuples, lists, dicts with constant keys, arrays, vectors, shapes."""
+    """Whether a value is plain data: numbers, strings, tuples, lists, dicts, arrays, vectors, shapes."""
     if isinstance(value, np.ndarray):
         return value.dtype.kind in NUMERIC
     if isinstance(value, (Vec, ShapeRecord)) or type(value).__name__ == "Shape":

@@ -5,7 +5,7 @@ Grammar (each `(HEAD ...)` may carry a span atom right after its head, `@L:C-L:C
     module  := (module file* class* fn* (entry "NAME"))
     file    := (file K "path")                        K numbers the files
     class   := (class K "Name" ("field" ...) KIND?)    K numbers the record classes; KIND `namedtuple`, else a dataclass
-    fn      := (fn "NAME" SPAN (file K) (params $v ...) (defaults D ...) (captures $v ...) STMT ...)
+    fn      := (fn "NAME" (file K) (params $v ...) (defaults D ...) (captures $v ...) STMT ...)
     D       := ATOM | E made of closure, dist, record, list, tuple, dict and D alone
     STMT    := (set $v E) | (unpack ($v ...) E) | (unpack_star ($v ...) $v ($v ...) E)
              | (if E (then STMT ...) (else STMT ...)) | (for $v E (body STMT ...)) | (while E (body STMT ...))
@@ -38,8 +38,8 @@ Order. Arguments stand in the order of evaluation; where keywords were written i
 them into temporaries.
 
 Sites. The readable address of a choice is a path of components joined by "/". Each site's static component stands after
-the span as an atom `#component`, as `niwaki.lang.sites` explains: on `sample`, `observe`, `factor`, `condition`, `query`,
-`emit`, `call`, `apply`, `future`, `future_apply`, `for` and `while` (there with empty brackets, `#i[]`, `#i[]#1`).
+the span as an atom `#component`, see `niwaki.lang.sites`: on `sample`, `observe`, `factor`, `condition`, `query`,
+`emit`, `call`, `apply`, `future`, `future_apply`, `for` and `while` (with empty brackets, `#i[]`, `#i[]#1`).
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ import json
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any, Union
+from typing import Any
 
 from niwaki.lang.source import SourceFile, Span
 
@@ -63,7 +63,7 @@ class Form:
     label: str = ""
 
 
-Expr = Union[Form, str]
+Expr = Form | str
 
 TREES = frozenset({"fn", "if", "for", "while", "then", "else", "body", "module"})
 

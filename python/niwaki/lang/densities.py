@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import importlib
 from typing import Any
 
 from niwaki.words.distributions import Distribution
@@ -35,13 +36,11 @@ def _parameter(value: Any) -> Any:
 
 def log_density(dist: Distribution, value: Any) -> float:
     """The log density of a value (nats), on the grid."""
-    from niwaki import _engine
-
-    return grid(float(_engine.log_density(dist.family, parameters(dist), value)))
+    engine: Any = importlib.import_module("niwaki._engine")
+    return grid(float(engine.log_density(dist.family, parameters(dist), value)))
 
 
 def draw(dist: Distribution, seed: int, address: str) -> Any:
     """The value that a seed gives at an address."""
-    from niwaki import _engine
-
-    return _engine.draw_at(dist.family, parameters(dist), seed, 0, hashed(address), 0)
+    engine: Any = importlib.import_module("niwaki._engine")
+    return engine.draw_at(dist.family, parameters(dist), seed, 0, hashed(address), 0)

@@ -190,8 +190,9 @@ def binary(body: Body, node: ast.BinOp) -> Expr:
 def unary(body: Body, node: ast.UnaryOp) -> Expr:
     """`-x`, `+x`, `not x`, `~x`; the sign of a number is part of it."""
     if isinstance(node.op, ast.USub) and isinstance(node.operand, ast.Constant):
-        if type(node.operand.value) in (int, float):
-            return constant(body, ast.copy_location(ast.Constant(-node.operand.value), node))
+        number = node.operand.value
+        if isinstance(number, (int, float)) and not isinstance(number, bool):
+            return constant(body, ast.copy_location(ast.Constant(-number), node))
     return body.form(vocabulary.UNARY[type(node.op).__name__], [expression(body, node.operand)], node)
 
 

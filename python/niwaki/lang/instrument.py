@@ -98,8 +98,8 @@ class _Namer(ast.NodeTransformer):
     def visit_Call(self, node: ast.Call) -> ast.AST:
         label = self.labels.get(node, "")
         self.generic_visit(node)
-        shown = ast.Constant(tuple(label) if isinstance(label, list) else label)
-        return self._hook("call", [shown, node.func, *node.args], node.keywords, node)
+        shown: Any = tuple(label) if isinstance(label, list) else label
+        return self._hook("call", [ast.Constant(shown), node.func, *node.args], node.keywords, node)
 
     def visit_For(self, node: ast.For) -> ast.AST:
         label = self.labels.get(node, "")

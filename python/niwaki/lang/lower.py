@@ -68,15 +68,14 @@ def _function(program: Program, unit: Unit, scope: Scope) -> Form:
     else:
         for part in node.body:
             statement(body, part)
-    head = [
+    head: list[Expr] = [
         literal(unit.names[scope]),
-        f"@{head_span(node, unit.file)}",
         Form("file", [str(program.file_number(unit.file))]),
         Form("params", [scope.variables[name].core for name in scope.parameters]),
         Form("defaults", _defaults(body, unit, scope)),
         Form("captures", [needed.core for needed in scope.needed]),
     ]
-    return Form("fn", [*head, *body.block])
+    return Form("fn", [*head, *body.block], head_span(node, unit.file))
 
 
 def _defaults(body: Body, unit: Unit, scope: Scope) -> list[Expr]:

@@ -8,10 +8,9 @@ from __future__ import annotations
 import builtins
 import dataclasses
 import difflib
-import sys
 import sysconfig
 from collections.abc import Iterable
-from types import FunctionType, ModuleType
+from types import FunctionType
 from typing import Any
 
 MISSING: Any = type("Missing", (), {"__repr__": lambda self: "missing"})()
@@ -69,22 +68,23 @@ def record_fields(value: Any) -> tuple[str, ...]:
 
 
 def is_library(function: FunctionType) -> bool:
-    """Whether a function belongs to Python's library or to an installed package rather than to the user."""
-    module = (function.__module__ or "").partition(".")[0]
-    if module == "niwaki":
-        return (function.__module__ or "").startswith(("niwaki.words", "niwaki.lang"))
-    if module in sys.stdlib_module_names and module != "__main__":
-        return True
+    """Whether a function belongs to Python's library or to an installed package rather than to the user.
+
+    Our own package counts as the user's, except for the words themselves: the gallery's models are in it.
+    """
+    module = function.__module__ or ""
+    if module.partition(".")[0] == "niwaki":
+        return module.startswith(("niwaki.words", "niwaki.lang"))
     path = function.__code__.co_filename
-    return any(path.startswith(sysconfig.get_path(kind)) for kind in ("purelib", "platlib"))
-
-
-def is_random(value: Any, module: Any = None) -> bool:
-    """Whether it is one of the random number generators of Python or NumPy."""
-    if isinstance(value, ModuleType):
-        return value.__name__ in ("random", "numpy.random", "secrets")
-    owner = type(getattr(value, "__self__", None))
-    own = getattr(value, "__module__", "") or ""
-    return own.startswith(("numpy.random", "random")) or f"{owner.__module__}".startswith(
-        ("random", "numpy.random")
+    return any(
+        path.startswith(sysconfig.get_path(kind)) for kind in ("stdlib", "platstdlib", "purelib", "platlib")
     )
+
+
+RANDOM = ("random", "numpy.random", "secrets")
+
+
+def is_random(value: Any) -> bool:
+    """Whether it is, or belongs to, one of the random number generators of Python or NumPy."""
+    modules = (getattr(value, "__module__", None) or "", type(getattr(value, "__self__", None)).__module__)
+    return any(module == name or module.startswith(f"{name}.") for module in modules for name in RANDOM)

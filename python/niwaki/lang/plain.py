@@ -9,9 +9,10 @@ from __future__ import annotations
 import difflib
 import math
 import secrets
+import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from types import FunctionType
+from types import FrameType, FunctionType
 from typing import Any
 
 from niwaki.errors import Call, InputError, ModelFault, NiwakiError, place
@@ -23,17 +24,8 @@ from niwaki.words.effects import flatten
 from niwaki.words.models import Model, underlying
 from niwaki.words.running import current
 
-LAZY = (
-    zip,
-    map,
-    filter,
-    enumerate,
-    reversed,
-    type({}.keys()),
-    type({}.values()),
-    type({}.items()),
-    type(reversed([])),
-)
+VIEWS: tuple[type[Iterable[Any]], ...] = (type({}.keys()), type({}.values()), type({}.items()))
+LAZY: tuple[type[Iterable[Any]], ...] = (zip, map, filter, enumerate, reversed, type(reversed([])), *VIEWS)
 
 
 @dataclass(frozen=True)
@@ -97,6 +89,17 @@ def run_python(
     function = underlying(model)
     if not isinstance(function, FunctionType):
         raise InputError("model-of-a-value", found=repr(model))
+    return run(function, args, kwargs, seed, choices)
+
+
+def run(
+    function: FunctionType,
+    args: Sequence[Any],
+    kwargs: Mapping[str, Any],
+    seed: int | None = None,
+    choices: Mapping[str, Any] | None = None,
+) -> Run:
+    """`run_python` with the arguments as values of their own, so that a model may call its parameters as it likes."""
     if seed is None and choices is None:
         seed = secrets.randbits(63)
     state = PlainRun(seed, choices)
@@ -146,7 +149,7 @@ class PlainRun:
             self.pending = label
             value = function(*args, **kwargs)
         del self.path[depth:], self.loops[loops:]
-        return list(value) if isinstance(value, LAZY) else value
+        return [*value] if isinstance(value, LAZY) else value
 
     def is_model_code(self, function: FunctionType) -> bool:
         """Whether a function is the user's: to be run with its sites named."""
@@ -323,8 +326,6 @@ class PlainRun:
 
     def stack(self, error: BaseException | None = None) -> list[Call]:
         """The model's own calls, outermost first."""
-        import sys
-
         calls: list[Call] = []
         if error is not None:
             trace = error.__traceback__
@@ -332,10 +333,10 @@ class PlainRun:
                 calls += self._line(trace.tb_frame.f_code, trace.tb_lasti)
                 trace = trace.tb_next
             return calls
-        frame = sys._getframe(1)
+        frame: FrameType | None = sys._getframe(1)
         while frame is not None:
             calls += self._line(frame.f_code, frame.f_lasti)
-            frame = frame.f_back  # type: ignore[assignment]
+            frame = frame.f_back
         return calls[::-1]
 
     def _line(self, code: Any, instruction: int) -> list[Call]:

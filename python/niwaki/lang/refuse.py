@@ -52,16 +52,13 @@ WORDS: dict[type[ast.AST], str] = {
 def refuse(body: Body, node: ast.AST) -> NoReturn:
     """Stop with the message for a kind of syntax that the language leaves out."""
     code = STATEMENTS.get(type(node)) or EXPRESSIONS.get(type(node)) or "unsupported-syntax"
-    values = {
-        "word": WORDS.get(type(node), ""),
-        "name": ", ".join(getattr(node, "names", []) or []) if code == "global-name" else "",
-    }
-    body.refuse(code, _headline(node), **values)
+    names = getattr(node, "names", []) if code == "global-name" else []
+    body.refuse(code, _headline(node), word=WORDS.get(type(node), ""), name=", ".join(names))
 
 
 def _headline(node: ast.AST) -> ast.AST:
     """The first word or two of a statement with a body, so that the carets stay short."""
-    if hasattr(node, "body") and isinstance(node.body, list) and hasattr(node, "lineno"):
+    if isinstance(node, ast.stmt) and isinstance(getattr(node, "body", None), list):
         short = ast.Pass()
         short.lineno, short.col_offset = node.lineno, node.col_offset
         short.end_lineno, short.end_col_offset = (

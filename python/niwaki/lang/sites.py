@@ -38,7 +38,7 @@ CALLS_A_FUNCTION = {map: "map", filter: "filter", sorted: "sorted", min: "min", 
 
 
 def labels_of(unit: Unit) -> dict[Any, str]:
-    """The label of every site of a unit: by syntax node, or by (node, "loop") and (node, "call") for `map` and the like."""
+    """Every site's label: by syntax node, or by (node, "loop") and (node, "call") for `map` and the like."""
     namer = _Namer(unit)
     for scope in unit.scopes.of.values():
         if scope.is_function:

@@ -73,8 +73,8 @@ BUILTINS: dict[Any, Op] = {
     divmod: _op("divmod", "a b"),
 }
 
-_ONE = "sqrt exp log2 log10 log1p expm1 sin cos tan asin acos atan sinh cosh tanh floor ceil trunc fabs degrees radians"
-_ONE += " isfinite isnan isinf factorial lgamma erf"
+_ONE = "sqrt exp log2 log10 log1p expm1 sin cos tan asin acos atan sinh cosh tanh floor ceil trunc fabs"
+_ONE += " degrees radians isfinite isnan isinf factorial lgamma erf"
 
 MATH: dict[Any, Op] = {
     **{getattr(math, name): _op(name, "x") for name in _ONE.split()},

@@ -324,4 +324,5 @@ def choose(values: Sequence[T], weights: Sequence[float] | None = None) -> T:
         Odds of each value, as many as values.
     """
     dist = d.DiscreteUniform(0, len(values) - 1) if weights is None else d.Categorical(weights)
-    return values[runner("choose").sample(dist)]
+    index: int = runner("choose").sample(dist)
+    return values[index]

@@ -1,4 +1,4 @@
-"""Distributions as values: `sample(Gaussian(0, 1))`, `observe(Gaussian(m, s), x)`, `Mixture([1, 2], [Gaussian(), Uniform()])`.
+"""Distributions as values: `sample(Gaussian(0, 1))`, `observe(Gaussian(m, s), x)`.
 
 The lower-case word of the same name (`gaussian(0, 1)`) draws from it at once. The engine knows a distribution by its
 family and its parameters in the order of the fields; densities and draws are the engine's.

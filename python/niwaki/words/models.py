@@ -58,9 +58,9 @@ class Model(Generic[P, T]):
 
     def __call__(self, *args: P.args, **kwargs: P.kwargs) -> T:
         """Run the model once as plain Python with a fresh seed, and keep only its value."""
-        from niwaki.lang.plain import run_python
+        from niwaki.lang.plain import run
 
-        return cast(T, run_python(self, *args, **kwargs).value)
+        return cast(T, run(self.function, args, kwargs).value)
 
     def __repr__(self) -> str:
         return f"<model {self.name}>"
@@ -95,6 +95,7 @@ class Host(Generic[P, T]):
         functools.update_wrapper(self, function)
 
     def __call__(self, *args: P.args, **kwargs: P.kwargs) -> T:
+        """Call the function."""
         return self.function(*args, **kwargs)
 
     def __repr__(self) -> str:

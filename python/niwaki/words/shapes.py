@@ -9,13 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Union
+from typing import Any
 
 from niwaki.words.vectors import VecLike
 
 Rotation = Sequence[Sequence[float]]
 Color = Sequence[float]
-Axis = Union[str, VecLike]
+Axis = str | VecLike
 
 
 @dataclass(frozen=True)
@@ -29,10 +29,11 @@ class ShapeRecord:
 def _make(kind: str, *arguments: Any) -> Any:
     plain = tuple(_plain(argument) for argument in arguments)
     try:
-        from niwaki._engine import Shape
+        from niwaki import _engine
     except ImportError:
         return ShapeRecord(kind, plain)
-    return getattr(Shape, kind)(*plain)
+    shape = getattr(_engine, "Shape", None)
+    return ShapeRecord(kind, plain) if shape is None else getattr(shape, kind)(*plain)
 
 
 def _plain(value: Any) -> Any:

@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Union
 
 
 @dataclass(frozen=True)
@@ -75,7 +74,7 @@ class Vec:
         return f"vec({', '.join(map(repr, self.parts))})"
 
 
-VecLike = Union[Vec, Sequence[float]]
+VecLike = Vec | Sequence[float]
 
 
 def _number(value: object) -> float:

@@ -1,5 +1,5 @@
-"""Claim: an exported scene opens elsewhere with its parts, names and volume; equal scenes give equal bytes; a file
-that cannot be written whole is not written at all."""
+"""Claim: an exported scene opens elsewhere with its parts, names and volume; equal scenes give equal bytes; a
+file that cannot be written whole is not written at all."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
-
 from niwaki._engine import Shape
 from niwaki.draw.files import glb
 from niwaki.file_errors import FileError

@@ -1,4 +1,4 @@
-"""Claim: a picture has the size asked for, the same bytes on any number of threads, and shows what it should."""
+"""Claim: a picture has the size asked for, the same bytes on any number of threads, and the right subject."""
 
 from __future__ import annotations
 
@@ -10,14 +10,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from PIL import Image
-
 from niwaki import _engine
 from niwaki._engine import Shape
 from niwaki.draw.picture import picture
 from niwaki.file_errors import FileError
 from niwaki.gallery import targets
 from niwaki.scene import Scene
+from PIL import Image
 
 SMALL = {"size": (120, 90), "samples": 4}
 
@@ -89,7 +88,8 @@ def test_framing_shows_every_corner() -> None:
 def test_saving_by_suffix(tmp_path: Path) -> None:
     for suffix in ("png", "jpg", "webp"):
         path = block().save(tmp_path / f"block.{suffix}", **SMALL)
-        assert Image.open(path).size == (120, 90)
+        with Image.open(path) as image:
+            assert image.size == (120, 90)
     with pytest.raises(FileError, match="file-format"):
         block().save(tmp_path / "block.tiffany", **SMALL)
 

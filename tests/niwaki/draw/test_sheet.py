@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import pytest
-
 from niwaki._engine import Shape
 from niwaki.draw.sheet import sheet
 from niwaki.file_errors import FileError

@@ -1,4 +1,4 @@
-"""Claim: our targets are closed, have the sizes their models were made for, and survive writing and reading."""
+"""Claim: our targets are closed, have the sizes that models count on, and survive writing and reading."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-
 from niwaki.gallery import targets
 from niwaki.target import Target
 

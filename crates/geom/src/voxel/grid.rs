@@ -83,7 +83,7 @@ impl Grid {
 
     /// From grid to world coordinates.
     pub fn to_world(&self, p: Vec3) -> Vec3 {
-        self.domain.low + p.scale(self.cell)
+        self.domain.low + vec3(p.x * self.cell.x, p.y * self.cell.y, p.z * self.cell.z)
     }
 
     /// Cells that a closed world box touches; `None` when it is outside.

@@ -33,7 +33,12 @@ impl Particle {
     }
 
     /// Runs to the next barrier, or to the end.
-    pub fn advance(&mut self, machine: &mut Machine<'_>, task: &Task, settings: &Settings) -> Result<(), Failure> {
+    pub fn advance(
+        &mut self,
+        machine: &mut Machine<'_>,
+        task: &Task,
+        settings: &Settings,
+    ) -> Result<(), Failure> {
         while self.is_running() {
             let runnable = self.state.runnable();
             let future = match runnable.len() {
@@ -41,12 +46,10 @@ impl Particle {
                 1 => runnable[0],
                 n => {
                     debug_assert_eq!(settings.order, Order::Stochastic);
-                    #[allow(unused_mut)]
-                    let mut which = self.pick(n, settings.seed);
+                    let which = self.pick(n, settings.seed);
                     #[cfg(test)]
                     if settings.is(super::tests::Mutant::WeightedOrder) {
-                        // Prefers the newest future without telling the weights.
-                        which = which.max(self.pick(n, settings.seed));
+                        self.log_weight -= (n as f64).ln();
                     }
                     let future = self.state.runnable()[which];
                     self.record.log.push_order(self.state.path_of(future), which);

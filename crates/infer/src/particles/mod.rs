@@ -17,8 +17,8 @@
 //! copy gets a fresh one, and none is used again.
 
 mod advance;
-pub mod resampling;
 mod population;
+pub mod resampling;
 mod settings;
 mod weights;
 
@@ -27,4 +27,4 @@ mod tests;
 
 pub use population::{Outcome, Progress, Result, smc};
 pub use resampling::Resampling;
-pub use settings::{Order, Settings, When, Weights};
+pub use settings::{Order, Settings, Weights, When};

@@ -75,7 +75,9 @@ impl Settings {
     /// No particles, a temperature that is not positive, or a threshold outside `[0, 1]`.
     pub fn check(&self) -> Result<(), Fault> {
         if self.particles == 0 {
-            return Err(Fault::new("no-particles", "zero particles were asked for").with_help("use at least one"));
+            return Err(
+                Fault::new("no-particles", "zero particles were asked for").with_help("use at least one")
+            );
         }
         if !(self.temper > 0.0 && self.temper.is_finite()) {
             return Err(Fault::new("bad-temper", format!("the temperature is {}", self.temper))

@@ -23,7 +23,7 @@ pub enum Mutant {
     WeightsNotReset,
     /// A random stream belongs to a row of the population, not to a lineage.
     StreamByRow,
-    /// The order choice prefers new futures, and the weights do not know.
+    /// The probability of the order choice counts in the weight.
     WeightedOrder,
     /// A new barrier counts its whole score again.
     ForgetsOldScore,
@@ -191,8 +191,10 @@ fn evidence_and_posterior_are_right_for_every_order_and_resampling() {
 #[test]
 fn adaptive_resampling_is_right_too() {
     for (name, text) in PROGRAMS {
-        let settings =
-            Settings { when: When::EffectiveBelow(0.5), ..settings(Order::Stochastic, Resampling::Systematic) };
+        let settings = Settings {
+            when: When::EffectiveBelow(0.5),
+            ..settings(Order::Stochastic, Resampling::Systematic)
+        };
         let scores = z_scores(&task(text), &settings);
         assert!(worst(&scores) < LIMIT, "{name}: {scores:?}");
     }
@@ -201,9 +203,12 @@ fn adaptive_resampling_is_right_too() {
 /// Some program must catch each mutant.
 #[test]
 fn mutants_are_rejected() {
-    for mutant in [Mutant::WeightsNotReset, Mutant::StreamByRow, Mutant::WeightedOrder, Mutant::ForgetsOldScore] {
+    for mutant in
+        [Mutant::WeightsNotReset, Mutant::StreamByRow, Mutant::WeightedOrder, Mutant::ForgetsOldScore]
+    {
         let caught = PROGRAMS.iter().any(|(_, text)| {
-            let settings = Settings { mutant: Some(mutant), ..settings(Order::Stochastic, Resampling::Systematic) };
+            let settings =
+                Settings { mutant: Some(mutant), ..settings(Order::Stochastic, Resampling::Systematic) };
             worst(&z_scores(&task(text), &settings)) > LIMIT
         });
         assert!(caught, "{mutant:?} passes");
@@ -220,8 +225,11 @@ fn threads_change_nothing() {
         pool.install(|| {
             let run = smc(&task, &settings, &mut |_| true).unwrap();
             let values: Vec<String> = run.particles.iter().map(|p| repr(&p.value).unwrap()).collect();
-            let logs: Vec<Vec<u128>> =
-                run.particles.iter().map(|p| p.record.log.entries().iter().map(|e| e.address).collect()).collect();
+            let logs: Vec<Vec<u128>> = run
+                .particles
+                .iter()
+                .map(|p| p.record.log.entries().iter().map(|e| e.address).collect())
+                .collect();
             (run.log_evidence.unwrap().to_bits(), values, logs)
         })
     };
@@ -235,7 +243,8 @@ fn a_population_that_dies_says_where_and_why() {
         r#"(module (fn "m" (params) (do (factor 0.0)) (set $x (sample (dist bernoulli 0.5)))
            (do (condition (and $x (not $x)))) (return 1)) (entry "m"))"#,
     );
-    let Err(crate::Failure::Impossible { barrier, causes }) = smc(&task, &Settings::default(), &mut |_| true) else {
+    let Err(crate::Failure::Impossible { barrier, causes }) = smc(&task, &Settings::default(), &mut |_| true)
+    else {
         panic!("some particle lived")
     };
     assert_eq!(barrier, 2);

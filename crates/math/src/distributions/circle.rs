@@ -8,6 +8,7 @@ use std::f64::consts::{PI, TAU};
 ///
 /// Written relative to its peak, `-2 k sin^2((x - mean) / 2) - ln(2 pi exp(-k) I_0(k))`, so that a large `k`
 /// loses no digits.
+#[inline(never)]
 pub(super) fn log_density<S: Scalar>(mean: S, concentration: S, x: S) -> S {
     if x.value().abs() > PI || x.value().is_nan() {
         return S::from_f64(f64::NEG_INFINITY);
@@ -19,6 +20,7 @@ pub(super) fn log_density<S: Scalar>(mean: S, concentration: S, x: S) -> S {
 /// Best & Fisher 1979, section 2, in which the wrapped Cauchy proposal has `s = (1 + sqrt(1 + 4 k^2)) / (2 k)`.
 ///
 /// Differs: everything is written with `s - 1`, `1 - cos` and `1 - f`, which stay exact for any `k`.
+#[inline(never)]
 pub(super) fn sample(mean: f64, concentration: f64, rng: &mut (impl RngCore + ?Sized)) -> f64 {
     let k = concentration;
     if k < 1e-12 {

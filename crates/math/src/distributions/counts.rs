@@ -48,6 +48,7 @@ fn deviance<S: Scalar>(x: f64, m: S) -> S {
 }
 
 /// `k ln r - r - ln k!`.
+#[inline(never)]
 pub(super) fn poisson_log_density<S: Scalar>(rate: S, k: i64) -> S {
     if k < 0 || (k > 0 && rate.value() == 0.0) {
         return S::from_f64(f64::NEG_INFINITY);
@@ -60,11 +61,13 @@ pub(super) fn poisson_log_density<S: Scalar>(rate: S, k: i64) -> S {
 }
 
 /// The kept sampler's draw.
+#[inline(never)]
 pub(super) fn poisson_sample(rate: f64, rng: &mut (impl RngCore + ?Sized)) -> i64 {
     rand_distr::Poisson::new(rate).map_or(0, |d| d.sample(rng) as i64)
 }
 
 /// `ln C(n, k) + k ln p + (n - k) ln(1 - p)`.
+#[inline(never)]
 pub(super) fn binomial_log_density<S: Scalar>(n: i64, p: S, k: i64) -> S {
     let never = S::from_f64(f64::NEG_INFINITY);
     if k < 0 || k > n {
@@ -86,6 +89,7 @@ pub(super) fn binomial_log_density<S: Scalar>(n: i64, p: S, k: i64) -> S {
 }
 
 /// The kept sampler's draw.
+#[inline(never)]
 pub(super) fn binomial_sample(n: i64, p: f64, rng: &mut (impl RngCore + ?Sized)) -> i64 {
     rand_distr::Binomial::new(n.max(0) as u64, p).map_or(0, |d| d.sample(rng) as i64)
 }

@@ -1,7 +1,10 @@
 //! One value for all families: building (with checks), scoring, drawing.
 //!
 //! Families with a few numbers are kept inline, so that a choice allocates nothing; those with tables are
-//! behind an `Arc`. The mathematics is in the families' own files.
+
+//!
+//! The families whose work outweighs a call are kept out of line there (`inline(never)`): inlined, they would
+//! make every choice pay for their registers.
 
 use super::check::{BadParameter, Reader};
 use super::draw::{Draw, Param};
@@ -368,6 +371,54 @@ mod tests {
             let d = super::super::testing::example(family);
             assert_eq!(d.family(), family);
             assert_eq!(Dist::new(family, &d.params()), Ok(d));
+        }
+    }
+
+    #[test]
+    fn draws_have_a_density_for_parameters_of_any_size() {
+        let mut rng = super::super::testing::stream(99);
+        let families = Family::ALL.iter().filter(|f| {
+            !matches!(
+                f,
+                Family::Categorical
+                    | Family::DiscreteUniform
+                    | Family::Dirichlet
+                    | Family::MultivariateGaussian
+                    | Family::Mixture
+                    | Family::Delta
+            )
+        });
+        for &family in families {
+            let mut built = 0;
+            while built < 2000 {
+                let params: Vec<Param> = family
+                    .parameters()
+                    .iter()
+                    .map(|name| {
+                        let size = 10.0_f64.powf(240.0 * (rng.uniform() - 0.5));
+                        match *name {
+                            "n" => Param::Int(10.0_f64.powf(18.0 * rng.uniform()) as i64),
+                            "p" => Param::Real(size.min(1.0 / size)),
+                            "mean" | "loc" | "lo" | "hi" => {
+                                Param::Real(if rng.uniform() < 0.5 { size } else { -size })
+                            }
+                            _ => Param::Real(size),
+                        }
+                    })
+                    .collect();
+                if let Ok(d) = Dist::new(family, &params) {
+                    built += 1;
+                    let x = d.sample(&mut rng);
+                    let log = d.log_density(&x);
+                    // The last float may be so far from where the draw belongs that not even the
+                    // logarithm of its density is a float.
+                    let last = |x: f64| x.abs() >= f64::MAX || x.abs() <= f64::MIN_POSITIVE;
+                    let lost = log == f64::NEG_INFINITY && matches!(x, Draw::Real(x) if last(x));
+                    assert!(log.is_finite() || lost, "{d:?} drew {x:?}: {log}");
+                } else {
+                    built += usize::from(rng.uniform() < 0.01);
+                }
+            }
         }
     }
 

@@ -21,7 +21,7 @@ pub(super) fn uniform_sample(lo: f64, hi: f64, rng: &mut (impl RngCore + ?Sized)
 }
 
 /// `(a - 1) ln x + (b - 1) ln(1 - x) - ln B(a, b)`, inside the open interval.
-#[inline]
+#[inline(never)]
 pub(super) fn beta_log_density<S: Scalar>(a: S, b: S, x: S) -> S {
     if !(x.value() > 0.0 && x.value() < 1.0) {
         return S::from_f64(f64::NEG_INFINITY);
@@ -32,7 +32,7 @@ pub(super) fn beta_log_density<S: Scalar>(a: S, b: S, x: S) -> S {
 }
 
 /// `X / (X + Y)` of two gamma draws, by their logarithms: with small `a` and `b` both underflow.
-#[inline]
+#[inline(never)]
 pub(super) fn beta_sample(a: f64, b: f64, rng: &mut (impl RngCore + ?Sized)) -> f64 {
     let log_odds = log_gamma_draw(a, rng) - log_gamma_draw(b, rng);
     let x = if log_odds < 0.0 {

@@ -40,6 +40,7 @@ impl<S: Scalar> Mixture<S> {
     }
 
     /// `ln sum exp(ln w_k + ln density_k(x))`, relative to the largest term.
+    #[inline(never)]
     pub fn log_density(&self, x: &Draw<S>) -> S {
         let term = |(k, c): (usize, &Dist<S>)| self.weights.log_probability(k as i64) + c.log_density(x);
         let terms = || self.components.iter().enumerate().map(term);
@@ -53,6 +54,7 @@ impl<S: Scalar> Mixture<S> {
     }
 
     /// A draw of a drawn component.
+    #[inline(never)]
     pub fn sample(&self, rng: &mut (impl RngCore + ?Sized)) -> Draw<S> {
         self.components[self.weights.sample(rng)].sample(rng)
     }

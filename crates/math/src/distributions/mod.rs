@@ -23,7 +23,8 @@
 //! length, area, ... (real, vector); minus infinity outside the support. A sampler computes in `f64` with
 //! bits from the given source only, so its draws do not depend on the scalar. Where a draw would fall off the
 //! range of `f64` (a log-normal that overflows, a gamma that underflows) it is the nearest finite number
-//! inside the support: a draw always has a density.
+//! inside the support. No log density is NaN or plus infinity (tested with parameters from 1e-120 to 1e120): a
+//! beta's ends and a gamma's zero are outside.
 
 mod bell;
 mod check;

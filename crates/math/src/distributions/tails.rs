@@ -24,31 +24,37 @@ pub(super) fn laplace_sample(loc: f64, scale: f64, rng: &mut (impl RngCore + ?Si
 /// `-ln(1 + z^2) - ln(pi scale)` with `z = (x - loc) / scale`.
 #[inline]
 pub(super) fn cauchy_log_density<S: Scalar>(loc: S, scale: S, x: S) -> S {
-    log_1p_square((x - loc) / scale, S::from_f64(-1.0)) - scale.ln() - S::from_f64(PI.ln())
+    -ln_1p_square(x - loc, scale) - scale.ln() - S::from_f64(PI.ln())
 }
 
-/// `factor ln(1 + z^2)`, also where the square would overflow.
+/// `ln(1 + (distance / unit)^2)`, also where the quotient or its square would overflow.
 #[inline]
-fn log_1p_square<S: Scalar>(z: S, factor: S) -> S {
-    if z.value().abs() < 1e100 { factor * (z * z).ln_1p() } else { factor * S::from_f64(2.0) * z.abs().ln() }
+fn ln_1p_square<S: Scalar>(distance: S, unit: S) -> S {
+    let z = distance / unit;
+    if z.value().abs() < 1e100 {
+        (z * z).ln_1p()
+    } else {
+        S::from_f64(2.0) * (distance.abs().ln() - unit.ln())
+    }
 }
 
 /// The tangent of an even angle.
-#[inline]
+#[inline(never)]
 pub(super) fn cauchy_sample(loc: f64, scale: f64, rng: &mut (impl RngCore + ?Sized)) -> f64 {
     (loc + scale * (PI * (open_unit(rng) - 0.5)).tan()).clamp(f64::MIN, f64::MAX)
 }
 
 /// `ln gamma((df + 1) / 2) - ln gamma(df / 2) - ln(pi df) / 2 - ln scale - (df + 1) / 2 ln(1 + z^2 / df)`.
+#[inline(never)]
 pub(super) fn student_t_log_density<S: Scalar>(df: S, loc: S, scale: S, x: S) -> S {
     let c = S::from_f64;
     let half = c(0.5);
-    let z = (x - loc) / scale / df.sqrt();
     let log_norm = ln_gamma_half_step(half * df) - half * (c(PI) * df).ln() - scale.ln();
-    log_norm + log_1p_square(z, -half * (df + c(1.0)))
+    log_norm - half * (df + c(1.0)) * ln_1p_square(x - loc, scale * df.sqrt())
 }
 
 /// A standard Gaussian over the root of an independent chi-square's mean.
+#[inline(never)]
 pub(super) fn student_t_sample(df: f64, loc: f64, scale: f64, rng: &mut (impl RngCore + ?Sized)) -> f64 {
     let z: f64 = StandardNormal.sample(rng);
     let log_gamma = log_gamma_draw(0.5 * df, rng);

@@ -19,6 +19,7 @@ use rand_distr::{Distribution, Exp1, StandardNormal};
 use std::f64::consts::FRAC_1_SQRT_2;
 
 /// Log density at `x`; the parameters are finite, `sd > 0`, `lo < hi`.
+#[inline(never)]
 pub(super) fn log_density<S: Scalar>(mean: S, sd: S, lo: S, hi: S, x: S) -> S {
     if !(x.value() >= lo.value() && x.value() <= hi.value()) {
         return S::from_f64(f64::NEG_INFINITY);
@@ -55,6 +56,7 @@ fn one_side<S: Scalar>(mean: S, sd: S, lo: S, hi: S, x: S) -> S {
 }
 
 /// A draw; the parameters are finite, `sd > 0`, `lo < hi`.
+#[inline(never)]
 pub(super) fn sample(mean: f64, sd: f64, lo: f64, hi: f64, rng: &mut (impl RngCore + ?Sized)) -> f64 {
     let x = if hi <= mean {
         hi - sd * offset((mean - hi) / sd, (hi - lo) / sd, rng)

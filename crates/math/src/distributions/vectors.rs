@@ -11,6 +11,7 @@ use rand_distr::{Distribution, StandardNormal};
 const SUM_TOLERANCE: f64 = 1e-9;
 
 /// `sum (a_i - 1) ln x_i + ln gamma(sum a_i) - sum ln gamma(a_i)`, with respect to the first n - 1 entries.
+#[inline(never)]
 pub(super) fn dirichlet_log_density<S: Scalar>(concentrations: &[S], x: &[S]) -> S {
     let never = S::from_f64(f64::NEG_INFINITY);
     let sum: f64 = x.iter().map(|x| x.value()).sum();
@@ -28,6 +29,7 @@ pub(super) fn dirichlet_log_density<S: Scalar>(concentrations: &[S], x: &[S]) ->
 }
 
 /// Gamma draws over their sum, by their logarithms: small concentrations underflow.
+#[inline(never)]
 pub(super) fn dirichlet_sample<S: Scalar>(
     concentrations: &[S],
     rng: &mut (impl RngCore + ?Sized),
@@ -78,6 +80,7 @@ impl<S: Scalar> MultivariateGaussian<S> {
     }
 
     /// `log_peak - |y|^2 / 2`, where `factor y = x - mean`.
+    #[inline(never)]
     pub fn log_density(&self, x: &[S]) -> S {
         if x.len() != self.mean.len() || !x.iter().all(|x| x.is_finite()) {
             return S::from_f64(f64::NEG_INFINITY);
@@ -94,6 +97,7 @@ impl<S: Scalar> MultivariateGaussian<S> {
     }
 
     /// `mean + factor z` with independent standard Gaussians `z`.
+    #[inline(never)]
     pub fn sample(&self, rng: &mut (impl RngCore + ?Sized)) -> Vec<f64> {
         let z: Vec<f64> = self.mean.iter().map(|_| StandardNormal.sample(rng)).collect();
         let entry = |(mean, row): (&S, &Vec<S>)| {

@@ -23,15 +23,16 @@ pub(super) fn gamma_log_density<S: Scalar>(shape: S, scale: S, x: S) -> S {
     if x.value() <= 0.0 {
         return S::from_f64(f64::NEG_INFINITY);
     }
-    let y = x / scale;
-    (shape - S::from_f64(1.0)) * y.ln() - y - scale.ln() - shape.ln_gamma()
+    // Two logarithms: the quotient may underflow.
+    let log = x.ln() - scale.ln();
+    (shape - S::from_f64(1.0)) * log - x / scale - scale.ln() - shape.ln_gamma()
 }
 
 /// The logarithm of a gamma draw of scale one: small shapes draw numbers far below the smallest float.
 ///
 /// A shape below one is raised by one and the draw multiplied by `u^(1 / shape)` (Marsaglia & Tsang 2000,
 /// section 6).
-#[inline]
+#[inline(never)]
 pub(super) fn log_gamma_draw(shape: f64, rng: &mut (impl RngCore + ?Sized)) -> f64 {
     let (raised, log_power) =
         if shape < 1.0 { (shape + 1.0, open_unit(rng).ln() / shape) } else { (shape, 0.0) };
@@ -40,7 +41,7 @@ pub(super) fn log_gamma_draw(shape: f64, rng: &mut (impl RngCore + ?Sized)) -> f
 }
 
 /// The kept sampler's draw, scaled.
-#[inline]
+#[inline(never)]
 pub(super) fn gamma_sample(shape: f64, scale: f64, rng: &mut (impl RngCore + ?Sized)) -> f64 {
     let x = if shape < 1.0 {
         (log_gamma_draw(shape, rng) + scale.ln()).exp()
@@ -56,12 +57,12 @@ pub(super) fn inverse_gamma_log_density<S: Scalar>(shape: S, scale: S, x: S) -> 
     if x.value() <= 0.0 {
         return S::from_f64(f64::NEG_INFINITY);
     }
-    let y = scale / x;
-    (shape + S::from_f64(1.0)) * y.ln() - y - scale.ln() - shape.ln_gamma()
+    let log = scale.ln() - x.ln();
+    (shape + S::from_f64(1.0)) * log - scale / x - scale.ln() - shape.ln_gamma()
 }
 
 /// `scale` over a gamma draw.
-#[inline]
+#[inline(never)]
 pub(super) fn inverse_gamma_sample(shape: f64, scale: f64, rng: &mut (impl RngCore + ?Sized)) -> f64 {
     (scale.ln() - log_gamma_draw(shape, rng)).exp().clamp(f64::MIN_POSITIVE, f64::MAX)
 }

@@ -173,6 +173,11 @@ pub fn fmod<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
 /// `math.pow(x, y)`: always a float, where `**` of ints is an int.
 pub fn math_pow<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let (x, y) = (real("pow", &args[0])?, real("pow", &args[1])?);
+    let (base, exponent) = (x.value(), y.value());
+    if base == 0.0 && exponent < 0.0 && exponent.is_finite() {
+        let (base, exponent) = (print::float(base), print::float(exponent));
+        return Err(Fault::math_domain(format!("pow({base}, {exponent}) is not defined")));
+    }
     numbers::pow_reals(x, y).map(Value::Real)
 }
 

@@ -40,14 +40,18 @@ fn instruction<S: Scalar>(f: &Function<S>, op: &Op) -> String {
         Op::Binary { op, to, a, b } => format!("{to:?} = {op:?} {a:?} {b:?}"),
         Op::Neg { to, a } => format!("{to:?} = Neg {a:?}"),
         Op::Not { to, a } => format!("{to:?} = Not {a:?}"),
-        Op::Builtin { to, id, args } => format!("{to:?} = {}{}", crate::builtins::builtin::<S>(id).name, run(f, args)),
+        Op::Builtin { to, id, args } => {
+            format!("{to:?} = {}{}", crate::builtins::builtin::<S>(id).name, run(f, args))
+        }
         Op::List { to, args } => format!("{to:?} = List{}", run(f, args)),
         Op::Tuple { to, args } => format!("{to:?} = Tuple{}", run(f, args)),
         Op::Dict { to, args } => format!("{to:?} = Dict{}", run(f, args)),
         Op::Record { to, class, args } => format!("{to:?} = Record {class}{}", run(f, args)),
         Op::Field { to, a, name } => format!("{to:?} = {a:?}.{}", f.names[name as usize]),
         Op::Unpack { from, to } => format!("{} = Unpack {from:?}", run(f, to)),
-        Op::UnpackStar { from, to, star } => format!("{} = Unpack {from:?} with the rest at {star}", run(f, to)),
+        Op::UnpackStar { from, to, star } => {
+            format!("{} = Unpack {from:?} with the rest at {star}", run(f, to))
+        }
         Op::Closure { to, function, args } => format!("{to:?} = Closure f{function}{}", run(f, args)),
         Op::Dist { to, family, args } => format!("{to:?} = {family:?}{}", run(f, args)),
         Op::Host { to, constant, args } => format!("{to:?} = Host {constant}{}", run(f, args)),
@@ -68,7 +72,11 @@ fn instruction<S: Scalar>(f: &Function<S>, op: &Op) -> String {
             let s = &f.sites[site.0 as usize];
             let kind = match &s.kind {
                 SiteKind::Call { function } | SiteKind::Future { function, detached: false } => {
-                    format!("{} f{}", if matches!(s.kind, SiteKind::Call { .. }) { "call" } else { "future" }, function.0)
+                    format!(
+                        "{} f{}",
+                        if matches!(s.kind, SiteKind::Call { .. }) { "call" } else { "future" },
+                        function.0
+                    )
                 }
                 SiteKind::Future { function, .. } => format!("detached future f{}", function.0),
                 SiteKind::Loop(l) => format!(

@@ -142,6 +142,7 @@ pub enum Binary {
 
 /// One instruction.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[allow(missing_docs)] // the fields are what the instruction's line says
 pub enum Op {
     /// Copy a value.
     Move { to: Operand, from: Operand },

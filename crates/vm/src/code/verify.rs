@@ -108,7 +108,9 @@ fn function<S: Scalar>(program: &Program<S>, f: &Function<S>, outer: usize) -> R
                     return fail(at, "a pure call that does not fit its function");
                 }
             }
-            Op::Return { .. } if f.mode == Mode::Iteration => return fail(at, "a plain return in an iteration"),
+            Op::Return { .. } if f.mode == Mode::Iteration => {
+                return fail(at, "a plain return in an iteration");
+            }
             Op::ReturnIteration { .. } if f.mode != Mode::Iteration => {
                 return fail(at, "an iteration's return elsewhere");
             }

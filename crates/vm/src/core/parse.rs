@@ -28,7 +28,10 @@ pub fn parse(text: &str) -> Result<Module> {
                     _ => ClassKind::Dataclass,
                 },
                 name: text_of(arg(args, 1, head)?)?.to_string(),
-                fields: list(arg(args, 2, head)?)?.iter().map(|s| Ok(text_of(s)?.to_string())).collect::<Result<_>>()?,
+                fields: list(arg(args, 2, head)?)?
+                    .iter()
+                    .map(|s| Ok(text_of(s)?.to_string()))
+                    .collect::<Result<_>>()?,
             }),
             "const" => module.constants.push((number(arg(args, 0, head)?)?, expr(arg(args, 1, head)?)?)),
             "fn" => module.functions.push(function(span, args)?),
@@ -80,7 +83,9 @@ fn stmt(sexp: &Sexp<'_>) -> Result<Stmt> {
     let kind = match head {
         "set" => StmtKind::Set(var(at(0)?)?, expr(at(1)?)?),
         "unpack" => StmtKind::Unpack(vars(list(at(0)?)?)?, expr(at(1)?)?),
-        "unpack_star" => StmtKind::UnpackStar(vars(list(at(0)?)?)?, var(at(1)?)?, vars(list(at(2)?)?)?, expr(at(3)?)?),
+        "unpack_star" => {
+            StmtKind::UnpackStar(vars(list(at(0)?)?)?, var(at(1)?)?, vars(list(at(2)?)?)?, expr(at(3)?)?)
+        }
         "if" => StmtKind::If(
             expr(at(0)?)?,
             block(at(1)?, "then")?,

@@ -53,10 +53,10 @@ fn block(out: &mut String, stmts: &[Stmt], indent: usize) {
             out.push(')');
         };
         match &s.kind {
-            StmtKind::Set(x, e) => drop(write!(out, "(set ${x} {})", expr(e))),
-            StmtKind::Unpack(xs, e) => drop(write!(out, "(unpack {} {})", list(xs), expr(e))),
+            StmtKind::Set(x, e) => _ = write!(out, "(set ${x} {})", expr(e)),
+            StmtKind::Unpack(xs, e) => _ = write!(out, "(unpack {} {})", list(xs), expr(e)),
             StmtKind::UnpackStar(a, r, c, e) => {
-                drop(write!(out, "(unpack_star {} ${r} {} {})", list(a), list(c), expr(e)))
+                _ = write!(out, "(unpack_star {} ${r} {} {})", list(a), list(c), expr(e));
             }
             StmtKind::If(c, a, b) => {
                 let _ = write!(out, "(if {}", expr(c));
@@ -76,9 +76,9 @@ fn block(out: &mut String, stmts: &[Stmt], indent: usize) {
             }
             StmtKind::Break => out.push_str("(break)"),
             StmtKind::Continue => out.push_str("(continue)"),
-            StmtKind::Return(e) => drop(write!(out, "(return {})", expr(e))),
-            StmtKind::Do(e) => drop(write!(out, "(do {})", expr(e))),
-            StmtKind::Assert(c, m) => drop(write!(out, "(assert {} {})", expr(c), expr(m))),
+            StmtKind::Return(e) => _ = write!(out, "(return {})", expr(e)),
+            StmtKind::Do(e) => _ = write!(out, "(do {})", expr(e)),
+            StmtKind::Assert(c, m) => _ = write!(out, "(assert {} {})", expr(c), expr(m)),
         }
     }
 }
@@ -131,7 +131,7 @@ fn literal(l: &Literal) -> String {
                 match c {
                     '"' => out.push_str("\\\""),
                     '\\' => out.push_str("\\\\"),
-                    c if (c as u32) < 0x20 => drop(write!(out, "\\u{:04x}", c as u32)),
+                    c if (c as u32) < 0x20 => _ = write!(out, "\\u{:04x}", c as u32),
                     c => out.push(c),
                 }
             }

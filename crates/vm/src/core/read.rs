@@ -70,7 +70,10 @@ pub fn read(text: &str) -> Result<Sexp<'_>, CoreError> {
             }
             b')' => {
                 at += 1;
-                Sexp::List(open.pop().ok_or_else(|| fail("a closing parenthesis without its opening one", at - 1))?)
+                Sexp::List(
+                    open.pop()
+                        .ok_or_else(|| fail("a closing parenthesis without its opening one", at - 1))?,
+                )
             }
             b'"' => {
                 let (value, end) = quoted(text, at).map_err(|m| fail(m, at))?;

@@ -13,9 +13,13 @@ impl Expr {
         match &self.kind {
             Literal(_) | Data(_) | Var(_) => vec![],
             And(xs) | Or(xs) | Emit(xs) | List(xs) | Tuple(xs) => xs.iter().collect(),
-            Call(_, xs) | Closure(_, xs) | Future(_, xs) | Dist(_, xs) | Host(_, xs) | Record(_, xs) | Op(_, xs) => {
-                xs.iter().collect()
-            }
+            Call(_, xs)
+            | Closure(_, xs)
+            | Future(_, xs)
+            | Dist(_, xs)
+            | Host(_, xs)
+            | Record(_, xs)
+            | Op(_, xs) => xs.iter().collect(),
             Cond(c, a, b) => vec![c, a, b],
             Sample(x) | Factor(x) | Condition(x) | Force(x) | Field(x, _) => vec![x],
             Observe(a, b) | Query(a, b) => vec![a, b],

@@ -160,7 +160,11 @@ impl<'p, S: Scalar> Machine<'p, S> {
     ///
     /// # Errors
     /// A fault of the program, or futures that wait for each other.
-    pub fn finish<A: Answers<S>>(&mut self, state: &mut State<S>, answers: &mut A) -> Result<(), Box<RunFault>> {
+    pub fn finish<A: Answers<S>>(
+        &mut self,
+        state: &mut State<S>,
+        answers: &mut A,
+    ) -> Result<(), Box<RunFault>> {
         while !state.has_ended() {
             let Some(next) = state.runnable().first().copied() else {
                 return Err(Box::new(self.waiting_cycle(state)));

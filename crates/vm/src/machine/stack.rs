@@ -74,7 +74,10 @@ impl<S: Scalar> Machine<'_, S> {
         let mut stack: Vec<Call> = Vec::new();
         for (i, c) in calls.iter().enumerate() {
             let name = Name::from(c.function.split('/').next().unwrap_or(&c.function));
-            if i > 0 && stack.last().is_some_and(|inner: &Call| inner.function == name) && self.is_body(&calls[i - 1]) {
+            if i > 0
+                && stack.last().is_some_and(|inner: &Call| inner.function == name)
+                && self.is_body(&calls[i - 1])
+            {
                 continue;
             }
             stack.push(Call { function: name, ..c.clone() });

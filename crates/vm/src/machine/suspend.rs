@@ -55,15 +55,16 @@ impl<'a, S: Scalar> Registers<'a, S> {
 fn as_dist<S: Scalar>(value: &Value<S>) -> Result<&Dist<S>, Fault> {
     match value {
         Value::Dist(dist) => Ok(dist),
-        other => Err(Fault::new("type-mismatch", format!("expected a distribution, found {}", other.described()))),
+        other => {
+            Err(Fault::new("type-mismatch", format!("expected a distribution, found {}", other.described())))
+        }
     }
 }
 
 /// The draw that a value is.
 fn as_draw<S: Scalar>(value: &Value<S>) -> Result<Draw<S>, Fault> {
-    value_to_draw(value).ok_or_else(|| {
-        Fault::new("type-mismatch", format!("no distribution draws {}", value.described()))
-    })
+    value_to_draw(value)
+        .ok_or_else(|| Fault::new("type-mismatch", format!("no distribution draws {}", value.described())))
 }
 
 /// A real number for `factor`.
@@ -133,6 +134,14 @@ impl<S: Scalar> Machine<'_, S> {
                 }
             };
         }
+        // The value of `observe` is the value observed, so that it can stand where a choice stood.
+        macro_rules! observed {
+            ($log:expr) => {{
+                let value = get!(site.args.len as usize - 1).clone();
+                self.put(state, own, site.to, value);
+                answer!(answers.score(&at!(), Factor::Observe, $log))
+            }};
+        }
         match &site.kind {
             SiteKind::Sample { .. } | SiteKind::SampleDist | SiteKind::SampleIndexed => {
                 let answer = match &site.kind {
@@ -160,11 +169,11 @@ impl<S: Scalar> Machine<'_, S> {
                 r.gather(state, &self.scratch, Args { len: n as u16, ..site.args }, &mut self.buffer);
                 let dist = make_dist(*family, &self.buffer)?;
                 let log = dist.log_density(&as_draw(get!(n))?);
-                answer!(answers.score(&at!(), Factor::Observe, log))
+                observed!(log)
             }
             SiteKind::ObserveDist => {
                 let log = as_dist(get!(0))?.log_density(&as_draw(get!(1))?);
-                answer!(answers.score(&at!(), Factor::Observe, log))
+                observed!(log)
             }
             SiteKind::ObserveIndexed => {
                 let draw = as_draw(get!(2))?;
@@ -172,7 +181,7 @@ impl<S: Scalar> Machine<'_, S> {
                     Some(value) => as_dist(value)?.log_density(&draw),
                     None => as_dist(&index::index(get!(0), get!(1))?)?.log_density(&draw),
                 };
-                answer!(answers.score(&at!(), Factor::Observe, log))
+                observed!(log)
             }
             SiteKind::Factor => {
                 let log = as_real(get!(0))?;

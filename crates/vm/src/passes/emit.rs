@@ -108,7 +108,10 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
             ExprKind::Data(k) => self.data(*k),
             ExprKind::Var(x) => match f.captures.iter().position(|c| c == x) {
                 Some(i) => Ok(Operand::new(Place::Node, f.params.len() + i)),
-                None => Err(CompileError(format!("a default of `{}` reads `{x}`, which it does not capture", f.name))),
+                None => Err(CompileError(format!(
+                    "a default of `{}` reads `{x}`, which it does not capture",
+                    f.name
+                ))),
             },
             _ => Err(CompileError(format!("a default of `{}` must be an atom", f.name))),
         }
@@ -162,7 +165,10 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
     /// A fresh register, virtual until [`place`] decides.
     pub fn register(&mut self) -> Result<Operand> {
         if self.registers > Operand::MAX_INDEX {
-            return Err(CompileError(format!("`{}` is too large: split it into smaller functions", self.name)));
+            return Err(CompileError(format!(
+                "`{}` is too large: split it into smaller functions",
+                self.name
+            )));
         }
         self.registers += 1;
         Ok(Operand::new(Place::Node, self.registers - 1))

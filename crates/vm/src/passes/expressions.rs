@@ -89,7 +89,9 @@ impl<S: Scalar> Builder<'_, '_, S> {
             Closure(name, captures) => {
                 let id = self.function_id(name)?;
                 if captures.len() != self.definition(id).captures.len() {
-                    return Err(CompileError(format!("a closure of `{name}` with the wrong number of captures")));
+                    return Err(CompileError(format!(
+                        "a closure of `{name}` with the wrong number of captures"
+                    )));
                 }
                 crate::code::Op::Closure { to, function: id.0 as u16, args }
             }
@@ -127,7 +129,8 @@ impl<S: Scalar> Builder<'_, '_, S> {
             ("neg", [a]) => Op::Neg { to, a: *a },
             ("not", [a]) => Op::Not { to, a: *a },
             _ => {
-                let id = builtin_id(name).ok_or_else(|| CompileError(format!("unknown operation `{name}`")))?;
+                let id =
+                    builtin_id(name).ok_or_else(|| CompileError(format!("unknown operation `{name}`")))?;
                 Op::Builtin { to, id, args: self.args(&operands) }
             }
         };
@@ -150,7 +153,9 @@ impl<S: Scalar> Builder<'_, '_, S> {
         let f = self.definition(self.function_id(name)?);
         let needed = f.params.len() + f.captures.len();
         if needed != given {
-            return Err(CompileError(format!("`{name}` takes {needed} arguments and captures, {given} given")));
+            return Err(CompileError(format!(
+                "`{name}` takes {needed} arguments and captures, {given} given"
+            )));
         }
         Ok(())
     }
@@ -222,4 +227,3 @@ impl<S: Scalar> Builder<'_, '_, S> {
         self.constant(crate::value::Value::Unset)
     }
 }
-

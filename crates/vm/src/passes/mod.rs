@@ -59,13 +59,8 @@ pub(crate) struct Unit<'m, S: Scalar> {
 /// Names that are not defined, wrong numbers of arguments to known functions, or a function too large for the
 /// machine (more than 16,384 registers).
 pub fn compile<S: Scalar>(module: &Module, data: Vec<Value<S>>) -> Result<Program<S>, CompileError> {
-    let mut unit = Unit {
-        module,
-        effects: Effects::of(module),
-        ids: HashMap::new(),
-        data,
-        functions: Vec::new(),
-    };
+    let mut unit =
+        Unit { module, effects: Effects::of(module), ids: HashMap::new(), data, functions: Vec::new() };
     for (k, literal) in &module.constants {
         let value = constant(literal)?;
         if unit.data.len() <= *k {
@@ -116,7 +111,9 @@ fn constant<S: Scalar>(e: &crate::core::Expr) -> Result<Value<S>, CompileError> 
         ExprKind::Literal(l) => literal(l),
         ExprKind::List(items) => Value::list(all(items)?),
         ExprKind::Tuple(items) => Value::tuple(all(items)?),
-        ExprKind::Dist(name, args) => Value::Dist(Arc::new(crate::builtins::make_dist(sites::family(name)?, &all(args)?)?)),
+        ExprKind::Dist(name, args) => {
+            Value::Dist(Arc::new(crate::builtins::make_dist(sites::family(name)?, &all(args)?)?))
+        }
         _ => return Err(CompileError("a constant must be made of literals".into())),
     })
 }

@@ -39,7 +39,9 @@ pub(crate) fn reads_and_writes<S: Scalar>(f: &Function<S>, op: &Op) -> (Vec<Oper
     match *op {
         Op::Move { to, from } => (vec![from], vec![to]),
         Op::Binary { to, a, b, .. } => (vec![a, b], vec![to]),
-        Op::Neg { to, a } | Op::Not { to, a } | Op::Field { to, a, .. } | Op::Length { to, a } => (vec![a], vec![to]),
+        Op::Neg { to, a } | Op::Not { to, a } | Op::Field { to, a, .. } | Op::Length { to, a } => {
+            (vec![a], vec![to])
+        }
         Op::Builtin { to, args, .. }
         | Op::List { to, args }
         | Op::Tuple { to, args }
@@ -51,7 +53,9 @@ pub(crate) fn reads_and_writes<S: Scalar>(f: &Function<S>, op: &Op) -> (Vec<Oper
         | Op::CallPure { to, args, .. } => (run(args), vec![to]),
         Op::Unpack { from, to } | Op::UnpackStar { from, to, .. } => (vec![from], run(to)),
         Op::Jump { .. } => (vec![], vec![]),
-        Op::JumpIf { a, .. } | Op::JumpUnless { a, .. } | Op::CheckSet { a, .. } | Op::Return { a } => (vec![a], vec![]),
+        Op::JumpIf { a, .. } | Op::JumpUnless { a, .. } | Op::CheckSet { a, .. } | Op::Return { a } => {
+            (vec![a], vec![])
+        }
         Op::JumpUnlessCompare { a, b, .. } => (vec![a, b], vec![]),
         Op::Next { to, over, index, length, .. } => (vec![over, index, length], vec![to, index]),
         Op::Assert { a, message } => (vec![a, message], vec![]),
@@ -121,10 +125,8 @@ pub(crate) fn place<S: Scalar>(f: &mut Function<S>, registers: usize) {
             node.join(&after[at]);
             let s = f.sites[site.0 as usize].clone();
             reads_and_writes(f, op).1.into_iter().for_each(|w| node.set(w));
-            let proposes = matches!(
-                s.kind,
-                SiteKind::Sample { .. } | SiteKind::SampleDist | SiteKind::SampleIndexed
-            );
+            let proposes =
+                matches!(s.kind, SiteKind::Sample { .. } | SiteKind::SampleDist | SiteKind::SampleIndexed);
             if proposes {
                 f.operands[s.args.range()].iter().for_each(|o| node.set(*o));
             }
@@ -221,7 +223,9 @@ fn rewrite<S: Scalar>(f: &mut Function<S>, map: impl Fn(Operand) -> Operand) {
             | Op::Host { to, .. }
             | Op::CallPure { to, .. } => *to = map(*to),
             Op::Unpack { from, .. } | Op::UnpackStar { from, .. } => *from = map(*from),
-            Op::JumpIf { a, .. } | Op::JumpUnless { a, .. } | Op::CheckSet { a, .. } | Op::Return { a } => *a = map(*a),
+            Op::JumpIf { a, .. } | Op::JumpUnless { a, .. } | Op::CheckSet { a, .. } | Op::Return { a } => {
+                *a = map(*a)
+            }
             Op::JumpUnlessCompare { a, b, .. } => (*a, *b) = (map(*a), map(*b)),
             Op::Next { to, over, index, length, .. } => {
                 (*to, *over, *index, *length) = (map(*to), map(*over), map(*index), map(*length));

@@ -27,7 +27,8 @@ impl<S: Scalar> Builder<'_, '_, S> {
     pub fn site(&mut self, e: &Expr) -> Result<Option<Operand>> {
         use ExprKind::*;
         let target = self.target.clone();
-        let choice_label = |family: &Name| target.clone().filter(|t| !t.starts_with('%')).unwrap_or(family.clone());
+        let choice_label =
+            |family: &Name| target.clone().filter(|t| !t.starts_with('%')).unwrap_or(family.clone());
         let fixed = |s: &str| Name::from(s);
         Ok(Some(match &e.kind {
             Call(f, args) if self.is_effectful(f) => {
@@ -53,7 +54,12 @@ impl<S: Scalar> Builder<'_, '_, S> {
                 let mut operands = vec![self.expr(f)?];
                 operands.extend(self.exprs(args)?);
                 let label = self.callee(f);
-                self.add_site(SiteKind::FutureApply { detached: false }, &fixed("future"), (&e.label, label), &operands)?
+                self.add_site(
+                    SiteKind::FutureApply { detached: false },
+                    &fixed("future"),
+                    (&e.label, label),
+                    &operands,
+                )?
             }
             Sample(d) => {
                 let (kind, what, operands) = self.distribution(d, true)?;
@@ -63,18 +69,31 @@ impl<S: Scalar> Builder<'_, '_, S> {
             Observe(d, v) => {
                 let (kind, what, mut operands) = self.distribution(d, false)?;
                 operands.push(self.expr(v)?);
-                self.add_site(kind, &Name::from(format!("observe {what}")), (&e.label, fixed("observe")), &operands)?
+                self.add_site(
+                    kind,
+                    &Name::from(format!("observe {what}")),
+                    (&e.label, fixed("observe")),
+                    &operands,
+                )?
             }
             Factor(x) => self.simple(SiteKind::Factor, "factor", &e.label, &[x])?,
             Condition(x) => self.simple(SiteKind::Condition, "condition", &e.label, &[x])?,
             Query(k, v) => self.simple(SiteKind::Query, "query", &e.label, &[k, v])?,
             Force(x) => self.simple(SiteKind::Force, "force", &e.label, &[x])?,
-            Emit(items) => self.simple(SiteKind::Emit, "emit", &e.label, &items.iter().collect::<Vec<_>>())?,
+            Emit(items) => {
+                self.simple(SiteKind::Emit, "emit", &e.label, &items.iter().collect::<Vec<_>>())?
+            }
             _ => return Ok(None),
         }))
     }
 
-    fn simple(&mut self, kind: SiteKind, what: &str, given: &Option<Name>, items: &[&Expr]) -> Result<Operand> {
+    fn simple(
+        &mut self,
+        kind: SiteKind,
+        what: &str,
+        given: &Option<Name>,
+        items: &[&Expr],
+    ) -> Result<Operand> {
         let operands = items.iter().map(|e| self.expr(e)).collect::<Result<Vec<_>>>()?;
         self.add_site(kind, &Name::from(what), (given, Name::from(what)), &operands)
     }

@@ -4,8 +4,8 @@
 //! merge. A loop that cannot suspend keeps its variables in registers that are written again in each round;
 //! one that can is lifted: its body becomes a function, one activation an iteration.
 
-use super::emit::{Binding, Builder, Environment, LoopContext, Result};
 use super::CompileError;
+use super::emit::{Binding, Builder, Environment, LoopContext, Result};
 use crate::code::{Function, FunctionId, Loop, Mode, Op, Operand, Place, SiteKind, exit};
 use crate::core::walk::{Names, assigned, returns};
 use crate::core::{Expr, Literal, Name, Stmt, StmtKind};
@@ -53,7 +53,11 @@ impl<S: Scalar> Builder<'_, '_, S> {
             StmtKind::If(c, a, b) => self.branch(c, a, b)?,
             StmtKind::For(x, over, body) => {
                 let lifted = self.mode != Mode::Pure && self.unit.effects.in_block(body);
-                if lifted { self.lifted(s, Some((x, over)), None, body)? } else { self.plain(s, Some((x, over)), None, body)? }
+                if lifted {
+                    self.lifted(s, Some((x, over)), None, body)?
+                } else {
+                    self.plain(s, Some((x, over)), None, body)?
+                }
             }
             StmtKind::While(test, body) => {
                 let suspends = self.unit.effects.in_block(body) || self.unit.effects.in_expr(test);
@@ -212,7 +216,13 @@ impl<S: Scalar> Builder<'_, '_, S> {
     }
 
     /// A loop that cannot suspend: a plain jump.
-    fn plain(&mut self, s: &Stmt, each: Option<(&Name, &Expr)>, test: Option<&Expr>, body: &[Stmt]) -> Result<bool> {
+    fn plain(
+        &mut self,
+        s: &Stmt,
+        each: Option<(&Name, &Expr)>,
+        test: Option<&Expr>,
+        body: &[Stmt],
+    ) -> Result<bool> {
         let mut variables_set = assigned(body);
         let mut iteration = None;
         if let Some((x, over)) = each {
@@ -284,7 +294,13 @@ impl<S: Scalar> Builder<'_, '_, S> {
     }
 
     /// A loop that can suspend.
-    fn lifted(&mut self, s: &Stmt, each: Option<(&Name, &Expr)>, test: Option<&Expr>, body: &[Stmt]) -> Result<bool> {
+    fn lifted(
+        &mut self,
+        s: &Stmt,
+        each: Option<(&Name, &Expr)>,
+        test: Option<&Expr>,
+        body: &[Stmt],
+    ) -> Result<bool> {
         let over = match each {
             Some((_, over)) => Some(self.expr(over)?),
             None => None,
@@ -295,7 +311,9 @@ impl<S: Scalar> Builder<'_, '_, S> {
         let carried: Vec<Name> = set.iter().filter(|x| live.contains(*x)).cloned().collect();
         let mut reads = Names::new();
         test.into_iter().for_each(|t| t.reads(&mut reads));
-        crate::core::walk::each_stmt(body, &mut |s| s.expressions().into_iter().for_each(|e| e.reads(&mut reads)));
+        crate::core::walk::each_stmt(body, &mut |s| {
+            s.expressions().into_iter().for_each(|e| e.reads(&mut reads))
+        });
         let captured: Vec<Name> =
             reads.into_iter().filter(|x| !carried.contains(x) && self.env.contains_key(x)).collect();
         let capture_at: Vec<Operand> = captured.iter().map(|x| self.env[x].at).collect();
@@ -338,7 +356,13 @@ impl<S: Scalar> Builder<'_, '_, S> {
     }
 
     /// Compiles the body of a lifted loop as a function of element and carried values.
-    fn iteration(&mut self, s: &Stmt, label: &Name, carried: &[Name], captured: &[Name]) -> Result<(FunctionId, FunctionId)> {
+    fn iteration(
+        &mut self,
+        s: &Stmt,
+        label: &Name,
+        carried: &[Name],
+        captured: &[Name],
+    ) -> Result<(FunctionId, FunctionId)> {
         let (each, test, body) = match &s.kind {
             StmtKind::For(x, _, body) => (Some(x), None, body),
             StmtKind::While(test, body) => (None, Some(test), body),
@@ -399,4 +423,3 @@ impl<S: Scalar> Builder<'_, '_, S> {
         Ok((FunctionId(last - 1), FunctionId(last)))
     }
 }
-

@@ -11,13 +11,15 @@ use crate::fault::Fault;
 /// A specification taken apart.
 #[derive(Debug, PartialEq)]
 struct Spec {
-    fill: char,
+    fill: Option<char>,
     /// `<`, `>`, `^` or `=`.
     align: Option<char>,
     /// `+`, `-` or a space.
-    sign: char,
+    sign: Option<char>,
     width: usize,
     grouped: bool,
+    /// The alignment comes from a leading zero, which text takes as `<`.
+    zero: bool,
     precision: Option<usize>,
     kind: Option<char>,
 }
@@ -26,23 +28,31 @@ impl Spec {
     fn parse(text: &str) -> Option<Spec> {
         let mut rest: Vec<char> = text.chars().collect();
         rest.reverse();
-        let mut spec =
-            Spec { fill: ' ', align: None, sign: '-', width: 0, grouped: false, precision: None, kind: None };
+        let mut spec = Spec {
+            fill: None,
+            align: None,
+            sign: None,
+            width: 0,
+            grouped: false,
+            zero: false,
+            precision: None,
+            kind: None,
+        };
         let is_align = |c: Option<&char>| c.is_some_and(|c| "<>^=".contains(*c));
         if rest.len() > 1 && is_align(rest.get(rest.len() - 2)) {
-            spec.fill = rest.pop()?;
+            spec.fill = rest.pop();
             spec.align = rest.pop();
         } else if is_align(rest.last()) {
             spec.align = rest.pop();
         }
         if rest.last().is_some_and(|c| "+- ".contains(*c)) {
-            spec.sign = rest.pop()?;
+            spec.sign = rest.pop();
         }
         if rest.last() == Some(&'0') {
             rest.pop();
-            if spec.align.is_none() {
-                (spec.fill, spec.align) = ('0', Some('='));
-            }
+            spec.fill = spec.fill.or(Some('0'));
+            spec.zero = spec.align.is_none();
+            spec.align = spec.align.or(Some('='));
         }
         spec.width = number(&mut rest)?.unwrap_or(0);
         if rest.last() == Some(&',') {
@@ -60,7 +70,7 @@ impl Spec {
     /// Puts sign, digits and what follows together and fills up to the width.
     fn layout(&self, sign: &str, body: &str, default: char) -> String {
         let used = sign.chars().count() + body.chars().count();
-        let fill = |n: usize| String::from(self.fill).repeat(n);
+        let fill = |n: usize| self.fill.unwrap_or(' ').to_string().repeat(n);
         let missing = self.width.saturating_sub(used);
         match self.align.unwrap_or(default) {
             '<' => format!("{sign}{body}{}", fill(missing)),
@@ -74,17 +84,17 @@ impl Spec {
     fn number(&self, negative: bool, digits: &str) -> String {
         let sign = match (negative, self.sign) {
             (true, _) => "-",
-            (false, '+') => "+",
-            (false, ' ') => " ",
+            (false, Some('+')) => "+",
+            (false, Some(' ')) => " ",
             _ => "",
         };
-        if !self.grouped {
+        if !self.grouped || !digits.starts_with(|c: char| c.is_ascii_digit()) {
             return self.layout(sign, digits, '>');
         }
         let whole = digits.chars().take_while(char::is_ascii_digit).count();
         let (head, tail) = digits.split_at(whole);
         let mut head = head.to_string();
-        if self.fill == '0' && self.align == Some('=') {
+        if self.fill == Some('0') && self.align == Some('=') {
             while grouped(&head).len() + tail.len() + sign.len() < self.width {
                 head.insert(0, '0');
             }
@@ -129,7 +139,7 @@ pub fn format<S: Scalar>(value: &Value<S>, spec: &str) -> Result<String, Fault> 
     let refused = || Fault::bad_format(format!("the format `{spec}` does not fit {}", value.described()));
     match (value, spec_.kind) {
         (Value::Str(text), None | Some('s')) => {
-            if spec_.grouped || spec_.sign != '-' || spec_.align == Some('=') && spec_.fill != '0' {
+            if spec_.grouped || spec_.sign.is_some() || spec_.align == Some('=') && !spec_.zero {
                 return Err(refused());
             }
             let cut: String = text.chars().take(spec_.precision.unwrap_or(usize::MAX)).collect();
@@ -139,7 +149,7 @@ pub fn format<S: Scalar>(value: &Value<S>, spec: &str) -> Result<String, Fault> 
         (Value::Bool(_), Some('s')) | (Value::Int(_) | Value::Real(_), Some('s')) => Err(refused()),
         _ => match Number::of(value) {
             Some(Number::Int(n)) if matches!(spec_.kind, None | Some('d' | 'x')) => {
-                if spec_.precision.is_some() {
+                if spec_.precision.is_some() || spec_.grouped && spec_.kind == Some('x') {
                     return Err(refused());
                 }
                 let size = n.unsigned_abs();
@@ -159,6 +169,9 @@ pub fn format<S: Scalar>(value: &Value<S>, spec: &str) -> Result<String, Fault> 
 /// The digits of a number that is not negative, in the style that a specification asks for.
 fn real_digits(x: f64, spec: &Spec) -> Option<String> {
     let percent = if spec.kind == Some('%') { "%" } else { "" };
+    if let Some('d' | 'x') = spec.kind {
+        return None;
+    }
     if !x.is_finite() {
         return Some(format!("{}{percent}", if x.is_nan() { "nan" } else { "inf" }));
     }
@@ -222,6 +235,8 @@ mod tests {
             (V::real(3.14211), "+.1f", "+3.1"),
             (V::real(3.14211), "08.2f", "00003.14"),
             (V::real(-3.14211), "08.2f", "-0003.14"),
+            (V::real(15.375), "^+012.3g", "000+15.40000"),
+            (V::real(-47.0), "= 012.8g", "-00000000047"),
             (V::real(0.256), ".1%", "25.6%"),
             (V::real(1_234_567.891), ",.2f", "1,234,567.89"),
             (V::real(12345.678), ".3e", "1.235e+04"),
@@ -261,6 +276,9 @@ mod tests {
     fn what_does_not_fit_is_refused() {
         for (value, spec) in [
             (V::str("a"), "d"),
+            (V::str("a"), "-5"),
+            (V::Int(7), ",x"),
+            (V::real(f64::INFINITY), "d"),
             (V::real(1.5), "d"),
             (V::real(1.5), "x"),
             (V::Int(1), ".2d"),

@@ -1,30 +1,35 @@
 //! Handles of futures inside values: values, equality and queries see the result, never the handle.
 
-use super::{Closure, Dict, List, Record, Scalar, Value, iter_get};
+use super::{Closure, Dict, List, Record, Scalar, Value};
 use std::sync::Arc;
 
 /// What is left to do: look at a value, or put one together from those that are done.
 enum Work<S: Scalar> {
     Look(Value<S>),
+    /// A value like this one, of so many parts.
     Build(Value<S>, usize),
+    /// What was looked at last stands for a handle.
+    Changed,
 }
 
 impl<S: Scalar> Value<S> {
     /// The value with the handle of each future that `known` has a value for replaced by that value, at any depth.
+    /// What holds no such handle stays the same in memory, so that identity keeps its short-cuts.
     pub fn replace_futures(&self, known: &dyn Fn(u32) -> Option<Value<S>>) -> Value<S> {
         let mut work = vec![Work::Look(self.clone())];
-        let mut done: Vec<Value<S>> = Vec::new();
+        // What is done, and whether it differs from what was looked at.
+        let mut done: Vec<(Value<S>, bool)> = Vec::new();
         while let Some(next) = work.pop() {
             match next {
                 Work::Look(Value::Future(id)) => match known(id) {
                     // What a future returned may hold futures in turn, never itself.
-                    Some(value) => work.push(Work::Look(value)),
-                    None => done.push(Value::Future(id)),
+                    Some(value) => work.extend([Work::Changed, Work::Look(value)]),
+                    None => done.push((Value::Future(id), false)),
                 },
                 Work::Look(value) => {
-                    let parts = parts(&value);
+                    let parts = if may_hold_futures(&value) { parts(&value) } else { Vec::new() };
                     if parts.is_empty() {
-                        done.push(value);
+                        done.push((value, false));
                         continue;
                     }
                     work.push(Work::Build(value, parts.len()));
@@ -32,22 +37,45 @@ impl<S: Scalar> Value<S> {
                 }
                 Work::Build(like, count) => {
                     let parts = done.split_off(done.len() - count);
-                    done.push(rebuild(&like, parts));
+                    if parts.iter().any(|(_, changed)| *changed) {
+                        let parts = parts.into_iter().map(|(part, _)| part).collect();
+                        done.push((rebuild(&like, parts), true));
+                    } else {
+                        done.push((like, false));
+                    }
+                }
+                Work::Changed => {
+                    if let Some((_, changed)) = done.last_mut() {
+                        *changed = true;
+                    }
                 }
             }
         }
-        done.pop().unwrap_or_default()
+        done.pop().map(|(value, _)| value).unwrap_or_default()
+    }
+}
+
+/// False when none of a value's own parts is a handle or holds values: one scan spares the copy of most lists.
+fn may_hold_futures<S: Scalar>(value: &Value<S>) -> bool {
+    let may = |part: &Value<S>| part.holds_values() || matches!(part, Value::Future(_));
+    match value {
+        Value::Tuple(tuple) => tuple.items().iter().any(may),
+        Value::List(list) => list.iter().any(may),
+        Value::Record(record) => record.fields.iter().any(may),
+        Value::Dict(dict) => dict.values().iter().any(may),
+        Value::Function(closure) => closure.captures.iter().any(may),
+        _ => false,
     }
 }
 
 /// The values that a value holds.
 fn parts<S: Scalar>(value: &Value<S>) -> Vec<Value<S>> {
     match value {
-        Value::Tuple(t) => t.items().to_vec(),
-        Value::List(list) => (0..list.len()).map(|i| iter_get(value, i)).collect(),
-        Value::Record(r) => r.fields.clone(),
-        Value::Dict(d) => d.values().to_vec(),
-        Value::Function(f) => f.captures.clone(),
+        Value::Tuple(tuple) => tuple.items().to_vec(),
+        Value::List(list) => list.iter().cloned().collect(),
+        Value::Record(record) => record.fields.clone(),
+        Value::Dict(dict) => dict.values().to_vec(),
+        Value::Function(closure) => closure.captures.clone(),
         _ => Vec::new(),
     }
 }
@@ -61,5 +89,37 @@ fn rebuild<S: Scalar>(like: &Value<S>, parts: Vec<Value<S>>) -> Value<S> {
         Value::Dict(d) => Value::Dict(Arc::new(Dict::new(d.keys().iter().cloned().zip(parts).collect()))),
         Value::Function(f) => Value::Function(Arc::new(Closure { function: f.function, captures: parts })),
         other => other.clone(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn handles_are_replaced_at_any_depth_and_the_rest_is_shared() {
+        let untouched = Value::<f64>::list((0..50).map(Value::Int).collect());
+        let inner = Value::list(vec![Value::Future(1), untouched.clone()]);
+        let value = Value::tuple(vec![inner, untouched.clone(), Value::Future(7)]);
+        // Future 1 returned a pair that holds future 2.
+        let known = |id| match id {
+            1 => Some(Value::tuple(vec![Value::Future(2), Value::Int(5)])),
+            2 => Some(Value::str("done")),
+            _ => None,
+        };
+        let replaced = value.replace_futures(&known);
+        let Value::Tuple(parts) = &replaced else { panic!("a tuple") };
+        assert!(matches!((&parts.items()[1], &untouched), (Value::List(a), Value::List(b)) if a.ptr_eq(b)));
+        let mut text = format!("{replaced:?}");
+        text.truncate(24);
+        assert_eq!(text, "([('done', 5), [0, 1, 2,");
+        assert!(matches!(parts.items()[2], Value::Future(7)));
+    }
+
+    #[test]
+    fn a_chain_of_a_million_around_a_handle() {
+        let chain = (0..1_000_000).fold(Value::<f64>::Future(0), |inner, _| Value::tuple(vec![inner]));
+        let expected = (0..1_000_000).fold(Value::Int(3), |inner, _| Value::tuple(vec![inner]));
+        assert!(chain.replace_futures(&|_| Some(Value::Int(3))) == expected);
     }
 }

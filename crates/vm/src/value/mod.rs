@@ -11,6 +11,7 @@
 pub mod aggregate;
 pub mod compare;
 pub mod format;
+mod futures;
 pub mod index;
 pub mod list;
 pub mod numbers;
@@ -18,7 +19,6 @@ pub mod ops;
 pub mod print;
 mod release;
 pub mod same;
-mod futures;
 pub mod text;
 
 use std::sync::Arc;

@@ -157,7 +157,7 @@ pub fn pow_ints<S: Scalar>(base: i64, exponent: i64) -> Result<Value<S>, Fault> 
 /// `base ** exponent` of reals.
 pub fn pow_reals<S: Scalar>(base: S, exponent: S) -> Result<S, Fault> {
     let (b, e) = (base.value(), exponent.value());
-    if b == 0.0 && e < 0.0 {
+    if b == 0.0 && e < 0.0 && e.is_finite() {
         return Err(Fault::division_by_zero("0.0 cannot be raised to a negative power"));
     }
     if b < 0.0 && b.is_finite() && e.is_finite() && e.fract() != 0.0 {
@@ -187,7 +187,7 @@ pub fn to_int(x: f64) -> Result<i64, Fault> {
     Err(Fault::integer_overflow(message))
 }
 
-/// `round(x, digits)` of a real: to the nearest decimal, ties to even as seen by the exact binary value.
+/// `round(x, digits)` of a real, `inf` when it rounds out of range: to the nearest decimal, ties to even as seen by the exact binary value.
 pub fn round_real(x: f64, digits: i64) -> f64 {
     if !x.is_finite() || digits > 323 {
         return x;
@@ -196,9 +196,15 @@ pub fn round_real(x: f64, digits: i64) -> f64 {
         return 0.0_f64.copysign(x);
     }
     if digits < 0 {
-        // Through the integer part's decimal text: exact, and rare enough not to matter.
-        let scale = f64::powi(10.0, -digits as i32);
-        return (x / scale).round_ties_even() * scale;
+        // So many significant digits are left; with none, more than half of the unit rounds up to it.
+        let power = format!("{x:.20e}").split_once('e').and_then(|(_, power)| power.parse::<i64>().ok());
+        let left = power.unwrap_or(0) + 1 + digits;
+        let rounded = match left {
+            1.. => format!("{x:.*e}", left as usize - 1).parse().unwrap_or(x),
+            0 if x.abs() > 5.0 * f64::powi(10.0, -digits as i32 - 1) => f64::powi(10.0, -digits as i32),
+            _ => 0.0,
+        };
+        return rounded.copysign(x);
     }
     // Formatting rounds the exact binary value, ties to even, and reads back to the nearest float.
     format!("{x:.*}", digits as usize).parse().unwrap_or(x)

@@ -22,6 +22,8 @@ pub fn add<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
             Some(sum) => Ok(Value::Int(sum)),
             None => Err(numbers::overflow("+", *x, *y)),
         },
+        (Value::Real(a), Value::Int(b)) => Ok(Value::Real(*a + S::from_f64(*b as f64))),
+        (Value::Int(a), Value::Real(b)) => Ok(Value::Real(S::from_f64(*a as f64) + *b)),
         _ => add_others(a, b),
     }
 }
@@ -35,6 +37,8 @@ pub fn sub<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
             Some(rest) => Ok(Value::Int(rest)),
             None => Err(numbers::overflow("-", *x, *y)),
         },
+        (Value::Real(a), Value::Int(b)) => Ok(Value::Real(*a - S::from_f64(*b as f64))),
+        (Value::Int(a), Value::Real(b)) => Ok(Value::Real(S::from_f64(*a as f64) - *b)),
         _ => sub_others(a, b),
     }
 }
@@ -48,6 +52,8 @@ pub fn mul<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
             Some(product) => Ok(Value::Int(product)),
             None => Err(numbers::overflow("*", *x, *y)),
         },
+        (Value::Real(a), Value::Int(b)) => Ok(Value::Real(*a * S::from_f64(*b as f64))),
+        (Value::Int(a), Value::Real(b)) => Ok(Value::Real(S::from_f64(*a as f64) * *b)),
         _ => mul_others(a, b),
     }
 }

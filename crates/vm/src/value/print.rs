@@ -14,14 +14,20 @@ pub fn float(x: f64) -> String {
             "-inf".into()
         };
     }
-    let size = x.abs();
-    if size == 0.0 || (1e-4..1e16).contains(&size) {
-        return format!("{x:?}");
-    }
-    // Rust writes 1e16 and 1.5e-7; Python signs the exponent and gives it two digits.
-    let text = format!("{x:e}");
+    // The standard library gives the fewest digits that read back; where two such texts are equally near, Python
+    // takes the even one, which is what rounding the exact value to that many digits does.
+    let shortest = format!("{x:e}");
+    let places = shortest.bytes().take_while(|byte| *byte != b'e').filter(u8::is_ascii_digit).count();
+    let even = format!("{x:.*e}", places.saturating_sub(1));
+    let text = if even.parse() == Ok(x) { even } else { shortest };
     let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));
     let exponent: i32 = exponent.parse().unwrap_or(0);
+    let size = x.abs();
+    if size == 0.0 || (1e-4..1e16).contains(&size) {
+        let decimals = (places as i32 - 1 - exponent).max(1) as usize;
+        return format!("{x:.decimals$}");
+    }
+    // Rust writes 1e16 and 1.5e-7; Python signs the exponent and gives it two digits.
     let sign = if exponent < 0 { '-' } else { '+' };
     format!("{digits}e{sign}{:02}", exponent.abs())
 }
@@ -182,6 +188,8 @@ mod tests {
             (f64::NEG_INFINITY, "-inf"),
             (f64::NAN, "nan"),
             (123_456.789, "123456.789"),
+            // The float is ...161.5625: both ...161.562 and ...161.563 read back, and Python takes the even one.
+            (-18_132_414_447_161.563, "-18132414447161.562"),
         ];
         for (x, text) in cases {
             assert_eq!(float(x), text);

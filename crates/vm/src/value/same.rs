@@ -89,7 +89,7 @@ fn glance<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Glance {
         (Value::Real(a), Value::Real(b)) => same_scalar(*a, *b).into(),
         (Value::Int(a), Value::Int(b)) => (a == b).into(),
         (Value::Bool(a), Value::Bool(b)) => (a == b).into(),
-        (Value::None, Value::None) => Glance::Same,
+        (Value::None, Value::None) | (Value::Unset, Value::Unset) => Glance::Same,
         (Value::Future(a), Value::Future(b)) => (a == b).into(),
         _ => glance_behind(a, b),
     }

@@ -218,7 +218,7 @@ FAULTS = (
         "a query key is written twice in one run",
         "written again",
         why="an answer has one value in a run",
-        help='give each answer its own key, for instance with a number: `query(f"size {i}", x)`',
+        help='give each answer its own key, for instance with a number: `query(f"size {{i}}", x)`',
         example='query("a", 1)\nquery("a", 2)',
         cure='query("a 1", 1)\nquery("a 2", 2)',
     ),
