@@ -43,7 +43,7 @@ struct Ask<'a> {
 impl Answers<f64> for Ask<'_> {
     fn choice(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Answer<Value>, Fault> {
         if let Some((value, log_density)) = self.next.take() {
-            self.record.choose(at.address, &value, log_density);
+            self.record.choose(at.address(), &value, log_density);
             return Ok(Answer::Go(value));
         }
         let Some(draws) = dist.enumerate() else {

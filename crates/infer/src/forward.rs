@@ -44,10 +44,11 @@ pub(crate) fn factor_name(at: &At<'_, f64>, factor: Factor) -> String {
 impl Answers<f64> for Forward<'_> {
     #[inline]
     fn choice(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Answer<Value>, Fault> {
-        let draw = dist.sample(&mut Stream::new(self.seed, self.stream, at.address, 0));
+        let address = at.address();
+        let draw = dist.sample(&mut Stream::new(self.seed, self.stream, address, 0));
         let log_density = dist.log_density(&draw);
         let value = draw_to_value(draw);
-        self.record.choose(at.address, &value, log_density);
+        self.record.choose(address, &value, log_density);
         Ok(Answer::Go(value))
     }
 

@@ -4,23 +4,39 @@
 //! the entries since the last fork, not the length of the run.
 
 use niwaki_vm::value::Value;
+use smallvec::SmallVec;
 use std::sync::Arc;
+
+/// Most barriers are a few choices apart: that many need no allocation of their own.
+type Few = SmallVec<[Entry; 4]>;
 
 /// One choice.
 #[derive(Clone, Debug)]
 pub struct Entry {
-    /// Its address.
-    pub address: u128,
+    /// Its address, in two halves (a `u128` would align the entry to 16 bytes, and make it larger by a fifth).
+    halves: [u64; 2],
     /// Its value.
     pub value: Value,
     /// Whether it is an order choice: which future ran.
     pub is_order: bool,
 }
 
+impl Entry {
+    #[inline]
+    fn new(address: u128, value: Value, is_order: bool) -> Self {
+        Entry { halves: [address as u64, (address >> 64) as u64], value, is_order }
+    }
+
+    /// Its address.
+    pub fn address(&self) -> u128 {
+        u128::from(self.halves[0]) | u128::from(self.halves[1]) << 64
+    }
+}
+
 /// Entries that no one changes any more, and those before them.
 #[derive(Debug)]
 struct Frozen {
-    entries: Vec<Entry>,
+    entries: Few,
     before: Option<Arc<Frozen>>,
 }
 
@@ -45,21 +61,30 @@ impl Log {
     /// Adds a choice.
     #[inline]
     pub fn push(&mut self, address: u128, value: Value) {
-        self.own.push(Entry { address, value, is_order: false });
+        self.own.push(Entry::new(address, value, false));
     }
 
     /// Adds an order choice.
     pub fn push_order(&mut self, address: u128, which: usize) {
-        self.own.push(Entry { address, value: Value::Int(which as i64), is_order: true });
+        self.own.push(Entry::new(address, Value::Int(which as i64), true));
     }
 
     /// A copy; both share what is there now.
     pub fn fork(&mut self) -> Log {
         if !self.own.is_empty() {
-            let entries = std::mem::take(&mut self.own);
+            // The buffer stays with its owner.
+            let entries = self.own.drain(..).collect();
             self.frozen = Some(Arc::new(Frozen { entries, before: self.frozen.take() }));
         }
         Log { frozen: self.frozen.clone(), own: Vec::new() }
+    }
+
+    /// Becomes a copy of `other`, in its own buffer; both share what is there now.
+    pub fn become_copy(&mut self, other: &mut Log) {
+        let mut buffer = std::mem::take(&mut self.own);
+        *self = other.fork();
+        buffer.clear();
+        self.own = buffer;
     }
 
     /// Every entry, oldest first.
@@ -86,7 +111,7 @@ mod tests {
         a.push(2, Value::Int(2));
         b.push(3, Value::Int(3));
         let c = a.fork();
-        let addresses = |l: &Log| l.entries().iter().map(|e| e.address).collect::<Vec<_>>();
+        let addresses = |l: &Log| l.entries().iter().map(Entry::address).collect::<Vec<_>>();
         assert_eq!(addresses(&a), [1, 2]);
         assert_eq!(addresses(&b), [1, 3]);
         assert_eq!(addresses(&c), [1, 2]);

@@ -52,6 +52,19 @@ impl Record {
         }
     }
 
+    /// Becomes a copy of `other`; both share what neither changes.
+    pub fn become_copy(&mut self, other: &mut Record) {
+        self.log.become_copy(&mut other.log);
+        self.log_prior = other.log_prior;
+        self.log_factors = other.log_factors;
+        if !other.sketches.is_empty() {
+            self.sketches = other.sketches.fork();
+        }
+        self.log_sketches = other.log_sketches;
+        self.primitives = other.primitives;
+        self.cause.clone_from(&other.cause);
+    }
+
     /// Factors, observations and sketches: nats, minus infinity when impossible.
     #[inline]
     pub fn log_score(&self) -> f64 {

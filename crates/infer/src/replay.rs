@@ -82,7 +82,7 @@ impl Answers<f64> for Replay<'_> {
     fn choice(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Answer<Value>, Fault> {
         let path = at.path();
         let found = match &self.source {
-            Source::Addresses(map) => map.get(&at.address),
+            Source::Addresses(map) => map.get(&at.address()),
             Source::Paths(map) => map.get(&path),
         };
         let value = match (found.cloned(), self.missing) {
@@ -97,11 +97,11 @@ impl Answers<f64> for Replay<'_> {
             }
         };
         let log_density = log_density(dist, &value)?;
-        self.trace.record.choose(at.address, &value, log_density);
+        self.trace.record.choose(at.address(), &value, log_density);
         let family = dist.family().name();
         self.trace.choices.push(Choice {
             path,
-            address: at.address,
+            address: at.address(),
             family,
             value: value.clone(),
             log_density,
@@ -143,7 +143,7 @@ impl Answers<f64> for Replay<'_> {
 
 /// The values of a log by address, order choices left out.
 pub fn by_address(entries: &[Entry]) -> HashMap<u128, Value> {
-    entries.iter().filter(|e| !e.is_order).map(|e| (e.address, e.value.clone())).collect()
+    entries.iter().filter(|e| !e.is_order).map(|e| (e.address(), e.value.clone())).collect()
 }
 
 /// Runs the program once more with the choices of `source`.

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 Color = tuple[float, float, float]
 
-WARM_GREYS: tuple[Color, ...] = ((0.80, 0.78, 0.74), (0.74, 0.72, 0.69), (0.69, 0.68, 0.66))
+WARM_GREYS: tuple[Color, ...] = ((0.85, 0.83, 0.79), (0.79, 0.77, 0.73), (0.73, 0.715, 0.69))
 GRAPHITES: tuple[Color, ...] = ((0.33, 0.35, 0.38), (0.40, 0.41, 0.43), (0.27, 0.29, 0.32))
 ACCENTS: tuple[Color, ...] = ((0.80, 0.37, 0.20), (0.84, 0.45, 0.24))
 BARKS: tuple[Color, ...] = ((0.44, 0.35, 0.29),)

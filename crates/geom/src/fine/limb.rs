@@ -1,8 +1,9 @@
-//! A limb: two rings, a smooth side, and a dome over its end.
+//! A limb: a smooth tube between two rings, and a dome over its end.
 //!
-//! Normals on the side point straight away from the axis *in the ring's plane*, so that two limbs that share a ring
-//! agree there and a branch of many limbs looks like one skin. The dome is hidden by the next limb, and rounds off
-//! the last.
+//! The axis is the cubic that leaves the first ring along its normal and meets the second along its own (Hermite
+//! form), so that limbs that share a ring bend into one another. Normals on the side point straight away from the
+//! axis *in the ring's plane*: neighbours agree there, and a branch of many limbs looks like one skin. The dome is
+//! hidden by the next limb, and rounds off the last.
 
 use super::{FineMesh, ROUND, unit_or};
 use crate::shape::Ring;
@@ -10,6 +11,8 @@ use crate::vector::Vec3;
 
 /// Height of the dome over the end, in radii of the end.
 pub const DOME: f64 = 0.4;
+/// Pieces of the tube along its axis.
+const STEPS: usize = 6;
 /// Rings of the dome.
 const LATITUDES: usize = 5;
 /// Steeper sides (radius lost for each unit of length) are shaded as the cones that they are.
@@ -20,9 +23,15 @@ pub fn domed(start: &Ring, end: &Ring) -> FineMesh {
     let mut mesh = FineMesh::default();
     let slope = (start.radius - end.radius) / (end.center - start.center).norm().max(1e-12);
     let lift = if slope.abs() > STEEP { slope } else { 0.0 };
-    let low = row(&mut mesh, start, |out| (start.center + out * start.radius, out + start.normal * lift));
-    let high = row(&mut mesh, end, |out| (end.center + out * end.radius, out + end.normal * lift));
-    join(&mut mesh, &low, &high);
+    let mut high = Vec::new();
+    for step in 0..=STEPS {
+        let ring = between(start, end, step as f64 / STEPS as f64);
+        let next = row(&mut mesh, &ring, |out| (ring.center + out * ring.radius, out + ring.normal * lift));
+        if step > 0 {
+            join(&mut mesh, &high, &next);
+        }
+        high = next;
+    }
 
     // The base is flat.
     let base = row(&mut mesh, start, |out| (start.center + out * start.radius, start.normal * -1.0));
@@ -47,6 +56,22 @@ pub fn domed(start: &Ring, end: &Ring) -> FineMesh {
         mesh.face([top, below[k], below[(k + 1) % ROUND]]);
     }
     mesh
+}
+
+/// The ring at `t` of the way; the given rings themselves, to the bit, at 0 and 1.
+fn between(start: &Ring, end: &Ring, t: f64) -> Ring {
+    if t == 0.0 || t == 1.0 {
+        return if t == 0.0 { *start } else { *end };
+    }
+    let length = (end.center - start.center).norm();
+    let (t2, t3) = (t * t, t * t * t);
+    let center = start.center * (2.0 * t3 - 3.0 * t2 + 1.0)
+        + end.center * (3.0 * t2 - 2.0 * t3)
+        + (start.normal * (t3 - 2.0 * t2 + t) + end.normal * (t3 - t2)) * length;
+    let along = (end.center - start.center) * (6.0 * t - 6.0 * t2)
+        + (start.normal * (3.0 * t2 - 4.0 * t + 1.0) + end.normal * (3.0 * t2 - 2.0 * t)) * length;
+    let radius = start.radius + (end.radius - start.radius) * t;
+    Ring { center, normal: unit_or(along, start.normal), radius }
 }
 
 /// A row of vertices made from the ring's outward directions.

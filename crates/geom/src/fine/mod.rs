@@ -6,7 +6,7 @@
 //!
 //! - `boxes.rs`   rounded boxes, tapered or not
 //! - `revolve.rs` cylinders and cones with rounded rims
-//! - `limb.rs`    two rings and a domed end
+//! - `limb.rs`    smooth tubes with a domed end
 //! - `crease.rs`  normals of any mesh, sharp where it is sharp
 
 mod boxes;
@@ -136,6 +136,24 @@ mod tests {
         check(&Shape::cylinder(o, 1.0, 3.0, z, Some(0.0), &sharp).unwrap(), pi, 0.02);
         let limb = Shape::limb(o, o + vec3(0.1, 2.0, 0.0), (0.5, 0.4), (None, None), &plain).unwrap();
         check(&limb, 0.61 / 3.0 * pi * 2.0 + 2.0 / 3.0 * pi * 0.4 * 0.4 * 0.4 * limb::DOME, 0.02);
+    }
+
+    #[test]
+    fn a_bent_limb_is_closed_and_meets_its_neighbour() {
+        let (a, b, c) = (vec3(0.0, 0.0, 0.0), vec3(0.1, 2.0, 0.0), vec3(0.9, 3.8, 0.5));
+        let n = vec3(0.2, 1.0, 0.1);
+        let low = Shape::limb(a, b, (0.5, 0.4), (None, Some(n)), &Look::default()).unwrap();
+        let high = Shape::limb(b, c, (0.4, 0.3), (Some(n), None), &Look::default()).unwrap();
+        let [low, high] = [low, high].map(|limb| fine_mesh(&limb));
+        for fine in [&low, &high] {
+            let mesh = TriMesh::new(fine.vertices.clone(), fine.faces.clone()).unwrap();
+            assert_eq!(mesh.open_edges(), 0);
+        }
+        // The ring that both name: same places, same normals.
+        let shared = |p: &Vec3, n: &Vec3| {
+            low.vertices.iter().zip(&low.normals).any(|(q, m)| p == q && (*n - *m).norm() < 1e-12)
+        };
+        assert!(high.vertices.iter().zip(&high.normals).take(ROUND).all(|(p, n)| shared(p, n)));
     }
 
     #[test]

@@ -168,9 +168,10 @@ impl Stage {
         let hit = self.tree.hit(eye, direction, f32::INFINITY);
         let fall = (self.floor - eye.y) / direction.y;
         let floor = if fall > 0.0 && fall.is_finite() { fall } else { f32::INFINITY };
-        let mut front = floor;
+        // What the ghost is compared with: parts hide it, the floor, which nobody sees, does not.
+        let mut front = f32::INFINITY;
         match hit {
-            // What lies below the floor is still drawn, so that a low camera or a raised floor hides nothing.
+            // A camera below the floor looks through it.
             Some(hit) if hit.t <= floor || eye.y < self.floor => {
                 front = hit.t;
                 let face = hit.triangle as usize;
@@ -205,9 +206,11 @@ impl Stage {
             shell.count += 1.0;
             shell.normal = shell.normal + normal;
             shell.depth += hit.t / self.radius;
-            if hit.t < front || !matches!(front, t if t.is_finite()) {
+            if hit.t < front {
                 shell.seen += 1.0;
-                shell.opacity += 0.055 + 0.42 * (1.0 - facing).powi(3);
+                // Thinner over parts, whose colours should come through.
+                let thin = if front.is_finite() { 0.5 } else { 1.0 };
+                shell.opacity += thin * (0.055 + 0.42 * (1.0 - facing).powi(3));
             }
         }
     }

@@ -80,7 +80,7 @@ impl Particle {
     /// Becomes a copy of `parent`, with a random stream of its own.
     pub fn copy_from(&mut self, parent: &mut Particle, lineage: u64) {
         self.state.clone_from(&parent.state);
-        self.record = parent.record.fork();
+        self.record.become_copy(&mut parent.record);
         self.lineage = lineage;
         self.picks = parent.picks;
         self.weighed = parent.weighed;

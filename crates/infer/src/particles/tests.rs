@@ -228,7 +228,7 @@ fn threads_change_nothing() {
             let logs: Vec<Vec<u128>> = run
                 .particles
                 .iter()
-                .map(|p| p.record.log.entries().iter().map(|e| e.address).collect())
+                .map(|p| p.record.log.entries().iter().map(|e| e.address()).collect())
                 .collect();
             (run.log_evidence.unwrap().to_bits(), values, logs)
         })

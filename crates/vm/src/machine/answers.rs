@@ -3,6 +3,7 @@
 //! The machine runs a program up to its next question and knows neither random numbers nor algorithms. An
 //! inference algorithm is the set of answers that it gives.
 
+use super::address::join;
 use super::state::{NodeId, State};
 use crate::code::{Function, Program, Site};
 use crate::fault::Fault;
@@ -32,8 +33,6 @@ pub enum Factor {
 
 /// Where a question comes from.
 pub struct At<'a, S: Scalar> {
-    /// The address: a hash of the path of sites.
-    pub address: u128,
     /// The site.
     pub site: &'a Site,
     /// The function it stands in.
@@ -44,6 +43,12 @@ pub struct At<'a, S: Scalar> {
 }
 
 impl<S: Scalar> At<'_, S> {
+    /// The address: a hash of the path of sites.
+    #[inline]
+    pub fn address(&self) -> u128 {
+        join(self.state.nodes[self.node.0 as usize].path, self.site.key)
+    }
+
     /// The readable address. It walks the ancestors, so it is for records and messages, not for every choice.
     ///
     /// Under a stochastic order a future does not know its ancestors; its path then starts at the future.

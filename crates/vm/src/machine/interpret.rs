@@ -82,9 +82,9 @@ impl<S: Scalar> Machine<'_, S> {
             ($o:expr, $v:expr) => {{
                 let (o, v): (Operand, Value<S>) = ($o, $v);
                 if o.place() == Place::Node {
-                    state.registers[own + o.index()] = v;
+                    state.registers[own + o.index()].store(v);
                 } else {
-                    self.scratch[scratch + o.index()] = v;
+                    self.scratch[scratch + o.index()].store(v);
                 }
             }};
         }
@@ -148,7 +148,7 @@ impl<S: Scalar> Machine<'_, S> {
                 f = program.function(id);
                 self.room(scratch + f.scratch_registers as usize);
                 for (i, value) in self.buffer.drain(..).enumerate() {
-                    self.scratch[scratch + i] = value;
+                    self.scratch[scratch + i].store(value);
                 }
                 if self.scratch.len() * size_of::<Value<S>>() > self.limits.bytes {
                     check!(Err(self.out_of_memory()));

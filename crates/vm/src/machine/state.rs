@@ -209,7 +209,7 @@ impl<S: Scalar> State<S> {
         self.free[function.0 as usize] = id;
         let count = program.function(function).node_registers as usize;
         for value in &mut self.registers[at..at + count] {
-            *value = Value::None;
+            value.store(Value::None);
         }
     }
 

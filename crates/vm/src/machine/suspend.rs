@@ -116,14 +116,7 @@ impl<S: Scalar> Machine<'_, S> {
         }
         macro_rules! at {
             () => {
-                At {
-                    address: join(state.nodes[node.0 as usize].path, site.key),
-                    site,
-                    function: f,
-                    node,
-                    state,
-                    program,
-                }
+                At { site, function: f, node, state, program }
             };
         }
         macro_rules! answer {
@@ -248,12 +241,12 @@ impl<S: Scalar> Machine<'_, S> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn put(&mut self, state: &mut State<S>, own: usize, to: Operand, value: Value<S>) {
         if to.place() == Place::Node {
-            state.registers[own + to.index()] = value;
+            state.registers[own + to.index()].store(value);
         } else {
-            self.scratch[to.index()] = value;
+            self.scratch[to.index()].store(value);
         }
     }
 
@@ -330,7 +323,7 @@ impl<S: Scalar> Machine<'_, S> {
         let made = state.new_node(self.program, function, parent, u32::from(site_id.0), path);
         let at = state.nodes[made.0 as usize].registers as usize;
         for (i, value) in self.buffer.drain(..).enumerate() {
-            state.registers[at + i] = value;
+            state.registers[at + i].store(value);
         }
         if state.bytes() > self.limits.bytes {
             return Err(self.out_of_memory());
@@ -373,7 +366,7 @@ impl<S: Scalar> Machine<'_, S> {
             }
             _ => value,
         };
-        state.registers[parent.registers as usize + site.to.index()] = value;
+        state.registers[parent.registers as usize + site.to.index()].store(value);
         Some((n.parent, site.next))
     }
 
@@ -400,15 +393,15 @@ impl<S: Scalar> Machine<'_, S> {
         let header = state.new_node(self.program, l.header, node, u32::from(site_id.0), path);
         let at = state.nodes[header.0 as usize].registers as usize;
         r.gather(state, &self.scratch, l.captures, &mut self.buffer);
-        state.registers[at] = over.unwrap_or_default();
+        state.registers[at].store(over.unwrap_or_default());
         for (i, value) in self.buffer.drain(..).enumerate() {
-            state.registers[at + 1 + i] = value;
+            state.registers[at + 1 + i].store(value);
         }
         let inner = state.new_node(self.program, l.body, header, 0, join(path, iteration_key(0)));
         let at = state.nodes[inner.0 as usize].registers as usize;
         r.gather(state, &self.scratch, l.carried, &mut self.buffer);
         for (i, value) in first.into_iter().chain(self.buffer.drain(..)).enumerate() {
-            state.registers[at + i] = value;
+            state.registers[at + i].store(value);
         }
         if state.bytes() > self.limits.bytes {
             return Err(self.out_of_memory());
@@ -437,7 +430,7 @@ impl<S: Scalar> Machine<'_, S> {
             state.nodes[node.0 as usize].path = join(header.path, iteration_key(i));
             let at = n.registers as usize;
             for (k, value) in element.into_iter().chain(self.buffer.drain(..)).enumerate() {
-                state.registers[at + k] = value;
+                state.registers[at + k].store(value);
             }
             return Ok((node, 0));
         }
@@ -467,12 +460,12 @@ impl<S: Scalar> Machine<'_, S> {
         if let SiteKind::Loop(l) = &site.kind {
             if let Some((how, value)) = l.exit {
                 if kind == exit::RETURN {
-                    state.registers[own + value.index()] = self.buffer.pop().unwrap_or_default();
+                    state.registers[own + value.index()].store(self.buffer.pop().unwrap_or_default());
                 }
-                state.registers[own + how.index()] = Value::Int(kind);
+                state.registers[own + how.index()].store(Value::Int(kind));
             }
             for (o, value) in f.operands[l.out.range()].iter().zip(self.buffer.drain(..)) {
-                state.registers[own + o.index()] = value;
+                state.registers[own + o.index()].store(value);
             }
         }
         site.next

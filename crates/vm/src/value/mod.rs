@@ -85,6 +85,24 @@ const _: () = {
 };
 
 impl<S: Scalar> Value<S> {
+    /// Whether it holds nothing that is shared: a number, a truth value, nothing.
+    #[inline(always)]
+    pub fn is_plain(&self) -> bool {
+        matches!(
+            self,
+            Value::None | Value::Bool(_) | Value::Int(_) | Value::Real(_) | Value::Future(_) | Value::Unset
+        )
+    }
+
+    /// Assigns. Registers hold plain values nearly always, and those need no call to be dropped.
+    #[inline(always)]
+    pub fn store(&mut self, value: Value<S>) {
+        let old = std::mem::replace(self, value);
+        if old.is_plain() {
+            std::mem::forget(old);
+        }
+    }
+
     /// A real number from an `f64`.
     #[inline]
     pub fn real(x: f64) -> Value<S> {

@@ -1,111 +1,10 @@
-"""What is wrong with files, settings and arguments."""
+"""What is wrong with settings and arguments; files have a table of their own."""
 
 from __future__ import annotations
 
 from niwaki.lang.texts.message import Message
 
 INPUTS = (
-    Message(
-        "machine-limit",
-        "the model is too large for the machine",
-        why="the compiler says: {found}",
-        help="split the largest function into smaller ones",
-        example="a function with twenty thousand variables",
-        cure="ten functions with two thousand each",
-    ),
-    Message(
-        "unknown-model",
-        "there is no model `{name}`",
-        why="{reason}",
-        help="write a name that `niwaki models` lists, or `file.py:function`",
-        example="niwaki grow spacship",
-        cure="niwaki grow spaceship",
-    ),
-    Message(
-        "model-file-failed",
-        "`{path}` cannot be run",
-        why="{reason}",
-        help="a model's file is ordinary Python: run `python {path}` to see where it stops",
-        example="a file that imports a module that is not installed",
-        cure="the same file where everything it imports is there",
-    ),
-    Message(
-        "no-target",
-        "the model `{name}` has no target of its own",
-        why="a model is grown into a target",
-        help="name one with `--target FILE`",
-        example="niwaki grow garden.py:tree",
-        cure="niwaki grow garden.py:tree --target cloud.obj",
-    ),
-    Message(
-        "bad-run-file",
-        "`{path}` is not a run that can be replayed",
-        why="{reason}",
-        help="give the run.json that `niwaki grow` wrote",
-        example="niwaki replay best.glb",
-        cure="niwaki replay out/run.json",
-    ),
-    Message(
-        "changed-model",
-        "the model `{name}` has changed since this run",
-        why="the choices of the run belong to another version: it was {recorded}, it is {found}",
-        help="check out the version that made the run, or grow again with the same seed",
-        example="niwaki replay out/run.json after an edit of the model",
-        cure="niwaki grow MODEL --seed SEED with the seed of the run",
-    ),
-    Message(
-        "nothing-ended",
-        "the search was stopped before any run was complete",
-        why="{reason}",
-        help="let it run longer, or use fewer particles",
-        example="Ctrl-C in the first milliseconds",
-        cure="Ctrl-C once the progress shows a score",
-    ),
-    Message(
-        "missing-file",
-        "there is no file `{path}`",
-        help="check the path; it is taken from {folder}",
-        example='Target.load("shp.obj")',
-        cure='Target.load("ship.obj")',
-    ),
-    Message(
-        "unknown-file-kind",
-        "files that end in `{ending}` cannot be {action}",
-        help="use one of {known}",
-        example='result.export("ship.txt")',
-        cure='result.export("ship.glb")',
-    ),
-    Message(
-        "unreadable-file",
-        "`{path}` cannot be read as {kind}",
-        why="{reason}",
-        help="open it in the program that made it and save it again",
-        example="a truncated ship.glb",
-        cure="the whole file",
-    ),
-    Message(
-        "empty-mesh",
-        "the mesh `{path}` has no triangles",
-        help="export it again with its faces",
-        example="an obj file with points only",
-        cure="an obj file with faces",
-    ),
-    Message(
-        "non-finite-mesh",
-        "the mesh `{path}` has coordinates that are not finite numbers",
-        why="vertex {vertex} is {found}",
-        help="repair the mesh in the program that made it",
-        example="a vertex at nan",
-        cure="every vertex at finite coordinates",
-    ),
-    Message(
-        "bad-face",
-        "a face of the mesh `{path}` names a vertex that is not there",
-        why="face {face} names vertex {vertex} of {count}",
-        help="repair the mesh in the program that made it",
-        example="a face with vertex 9 in a mesh of 8",
-        cure="faces that name vertices 0 to 7",
-    ),
     Message(
         "no-cell-filled",
         "no cell of the grid is filled by `{path}`",
@@ -122,17 +21,9 @@ INPUTS = (
         cure="voxel_size=0.5",
     ),
     Message(
-        "unreadable-image",
-        "`{path}` is not an image that can be read",
-        why="{reason}",
-        help="save it as png",
-        example="a truncated mask.png",
-        cure="the whole file",
-    ),
-    Message(
         "no-particles",
         "a population needs at least one particle, found {found}",
-        why="the particles are the search: each is one attempt",
+        why="each particle is one attempt",
         help="write `particles=100` or more",
         example="grow(ship, target, particles=0)",
         cure="grow(ship, target, particles=300)",
@@ -181,14 +72,6 @@ INPUTS = (
         help="set it to a share of the particles, from 0 to 1",
         example="smc(threshold=3)",
         cure="smc(threshold=0.5)",
-    ),
-    Message(
-        "bad-setting",
-        "`{name}` cannot be {found}",
-        why="expected {expected}",
-        help="set `{name}` to {suggestion}",
-        example="voxel_size=-1",
-        cure="voxel_size=0.2",
     ),
     Message(
         "unknown-setting",
