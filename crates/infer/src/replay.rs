@@ -88,7 +88,7 @@ impl Answers<f64> for Replay<'_> {
         let value = match (found.cloned(), self.missing) {
             (Some(value), _) => value,
             (None, Missing::Draw { seed, stream }) => {
-                draw_to_value(dist.sample(&mut Stream::new(seed, stream, at.address, 0)))
+                draw_to_value(dist.sample(&mut Stream::new(seed, stream, at.address(), 0)))
             }
             (None, Missing::Stop) => return Ok(Answer::Pause),
             (None, Missing::Refuse) => {
