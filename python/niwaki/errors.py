@@ -159,7 +159,7 @@ class InputError(NiwakiError):
     code
         A code of the table of messages.
     values
-        What the message's templates name.
+        What the message's templates name; `detail` is shown on a line of its own.
     """
 
     def __init__(self, code: str, **values: Any) -> None:
@@ -169,10 +169,11 @@ class InputError(NiwakiError):
 
     def render(self) -> str:
         """The message; it has no place in a model."""
-        message = MESSAGES[self.code]
-        return "\n".join(
-            [f"error[{self.code}]: {fill(message.title, self.values)}", *notes(message, self.values)]
-        )
+        message = MESSAGES.get(self.code, _UNKNOWN)
+        lines = [f"error[{self.code}]: {fill(message.title, self.values)}"]
+        if self.values.get("detail"):
+            lines.append(f" = found: {self.values['detail']}")
+        return "\n".join([*lines, *notes(message, self.values)])
 
 
 _UNKNOWN = Message("unknown", "the model failed")

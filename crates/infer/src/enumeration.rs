@@ -81,11 +81,16 @@ impl Answers<f64> for Ask<'_> {
     }
 }
 
-/// Enumerates every run of the program, at most `max_runs`.
+/// Enumerates every run of the program, at most `max_runs`. `watch` is told the number of complete runs after each;
+/// when it answers false, the search is given up.
 ///
 /// # Errors
 /// A choice that cannot be enumerated, more runs than allowed, or a fault of the program.
-pub fn enumerate(task: &Task, max_runs: usize) -> Result<Enumerated, Failure> {
+pub fn enumerate(
+    task: &Task,
+    max_runs: usize,
+    watch: &mut dyn FnMut(usize) -> bool,
+) -> Result<Enumerated, Failure> {
     let mut machine = task.machine();
     let first = task.start(&machine, true)?;
     let mut open = vec![Branch { state: first, record: Record::start(&task.sketches), next: None }];
@@ -121,6 +126,9 @@ pub fn enumerate(task: &Task, max_runs: usize) -> Result<Enumerated, Failure> {
                 )
                 .with_help("enumerate a smaller program, or use particles")
                 .into());
+            }
+            if !watch(runs) {
+                return Err(Fault::new("interrupted", format!("stopped after {runs} runs")).into());
             }
             let value = branch.state.result();
             let log_joint = branch.record.log_prior + branch.record.log_score();

@@ -7,6 +7,9 @@ use crate::{Failure, Task};
 use niwaki_vm::fault::Fault;
 use rayon::prelude::*;
 
+/// Runs between two looks of whoever watches.
+const BLOCK: u64 = 256;
+
 /// Independent weighted runs.
 pub struct Weighted {
     /// The runs; the weight of each is its `log_score`.
@@ -15,18 +18,32 @@ pub struct Weighted {
     pub log_evidence: f64,
 }
 
-/// `n` forward runs in parallel.
+/// `n` forward runs in parallel. `watch` is told now and then how many there are; when it answers false, those are
+/// given.
 ///
 /// # Errors
 /// A fault of the program; no runs asked for.
-pub fn importance(task: &Task, n: usize, seed: u64) -> Result<Weighted, Failure> {
+pub fn importance(
+    task: &Task,
+    n: usize,
+    seed: u64,
+    watch: &mut dyn FnMut(usize) -> bool,
+) -> Result<Weighted, Failure> {
     if n == 0 {
         return Err(Fault::new("no-samples", "zero samples were asked for")
             .with_help("ask for at least one")
             .into());
     }
-    let samples =
-        (0..n as u64).into_par_iter().map(|i| forward(task, seed, i)).collect::<Result<Vec<_>, _>>()?;
+    let n = n as u64;
+    let mut samples = Vec::new();
+    while (samples.len() as u64) < n {
+        let from = samples.len() as u64;
+        let runs = (from..n.min(from + BLOCK)).into_par_iter().map(|i| forward(task, seed, i));
+        samples.extend(runs.collect::<Result<Vec<_>, _>>()?);
+        if !watch(samples.len()) {
+            break;
+        }
+    }
     let log_evidence = log_mean_exp(samples.iter().map(|s| s.record.log_score()));
     Ok(Weighted { samples, log_evidence })
 }

@@ -14,15 +14,24 @@ pub struct Accepted {
     pub samples: Vec<Sample>,
     /// How many runs it took.
     pub tries: u64,
+    /// Whether it was stopped before all samples were found.
+    pub interrupted: bool,
 }
 
 /// `n` exact samples, where no run scores above `bound` nats (zero serves for conditions). Gives up after
-/// `max_tries` runs.
+/// `max_tries` runs. `watch` is told the number of runs after each; when it answers false, what was found is given.
 ///
 /// # Errors
 /// A run that scores above the bound, too many tries, or a fault of the program.
-pub fn rejection(task: &Task, n: usize, bound: f64, max_tries: u64, seed: u64) -> Result<Accepted, Failure> {
-    let mut samples = Vec::with_capacity(n);
+pub fn rejection(
+    task: &Task,
+    n: usize,
+    bound: f64,
+    max_tries: u64,
+    seed: u64,
+    watch: &mut dyn FnMut(u64) -> bool,
+) -> Result<Accepted, Failure> {
+    let mut samples = Vec::new();
     let mut tries = 0;
     while samples.len() < n {
         if tries == max_tries {
@@ -49,6 +58,9 @@ pub fn rejection(task: &Task, n: usize, bound: f64, max_tries: u64, seed: u64) -
             samples.push(sample);
         }
         tries += 1;
+        if !watch(tries) {
+            return Ok(Accepted { samples, tries, interrupted: true });
+        }
     }
-    Ok(Accepted { samples, tries })
+    Ok(Accepted { samples, tries, interrupted: false })
 }

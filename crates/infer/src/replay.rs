@@ -1,5 +1,6 @@
 //! Replays: every choice is taken from a log, by its address. What is replayed is named: readable addresses,
-//! parts of the scene, queries. It runs depth first, whatever order the log was made in.
+//! parts of the scene, queries. It runs depth first, whatever order the log was made in; only the log of a run
+//! that was stopped is followed future by future, each as far as its choices go.
 
 use crate::Failure;
 use crate::forward::factor_name;
@@ -7,8 +8,10 @@ use crate::log::Entry;
 use crate::record::{Record, check_factor, log_density};
 use crate::task::Task;
 use niwaki_geom::Shape;
-use niwaki_math::Dist;
+use niwaki_math::{Dist, Stream};
+use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::fault::Fault;
+use niwaki_vm::machine::Stop;
 use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
 use niwaki_vm::value::Value;
 use std::collections::HashMap;
@@ -51,9 +54,26 @@ pub enum Source<'a> {
     Paths(&'a HashMap<String, Value>),
 }
 
+/// What to do at a choice that the source lacks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Missing {
+    /// It is a fault.
+    Refuse,
+    /// It is drawn from its prior, from this seed and stream.
+    Draw {
+        /// The seed.
+        seed: u64,
+        /// The stream.
+        stream: u64,
+    },
+    /// The future that asks stops there: the log is of a run that was stopped.
+    Stop,
+}
+
 struct Replay<'a> {
     task: &'a Task,
     source: Source<'a>,
+    missing: Missing,
     trace: &'a mut Trace,
     written: HashMap<String, u32>,
 }
@@ -65,9 +85,16 @@ impl Answers<f64> for Replay<'_> {
             Source::Addresses(map) => map.get(&at.address()),
             Source::Paths(map) => map.get(&path),
         };
-        let Some(value) = found.cloned() else {
-            return Err(Fault::new("missing-choice", format!("there is no value for the choice `{path}`"))
-                .with_help("replay with the same model that made the choices"));
+        let value = match (found.cloned(), self.missing) {
+            (Some(value), _) => value,
+            (None, Missing::Draw { seed, stream }) => {
+                draw_to_value(dist.sample(&mut Stream::new(seed, stream, at.address(), 0)))
+            }
+            (None, Missing::Stop) => return Ok(Answer::Pause),
+            (None, Missing::Refuse) => {
+                return Err(Fault::new("missing-choice", format!("there is no value for the choice `{path}`"))
+                    .with_help("replay with the same model that made the choices"));
+            }
         };
         let log_density = log_density(dist, &value)?;
         self.trace.record.choose(at.address(), &value, log_density);
@@ -122,14 +149,24 @@ pub fn by_address(entries: &[Entry]) -> HashMap<u128, Value> {
 /// Runs the program once more with the choices of `source`.
 ///
 /// # Errors
-/// A choice that `source` lacks, or a fault of the program.
-pub fn replay(task: &Task, source: Source<'_>) -> Result<Trace, Failure> {
+/// A choice that `source` lacks and that may not be missing, or a fault of the program.
+pub fn replay(task: &Task, source: Source<'_>, missing: Missing) -> Result<Trace, Failure> {
     let mut machine = task.machine();
-    let mut state = task.start(&machine, true)?;
+    let mut state = task.start(&machine, missing != Missing::Stop)?;
+    state.remember_origins();
     let mut trace = Trace { record: Record::start(&task.sketches), ..Trace::default() };
-    let mut answers = Replay { task, source, trace: &mut trace, written: HashMap::new() };
-    machine.finish(&mut state, &mut answers)?;
-    trace.value = state.result();
+    let mut answers = Replay { task, source, missing, trace: &mut trace, written: HashMap::new() };
+    if missing == Missing::Stop {
+        let mut stuck = Vec::new();
+        while let Some(next) = state.runnable().iter().copied().find(|future| !stuck.contains(future)) {
+            if machine.resume(&mut state, next, &mut answers)? == Stop::Paused {
+                stuck.push(next);
+            }
+        }
+    } else {
+        machine.finish(&mut state, &mut answers)?;
+    }
+    trace.value = if state.has_ended() { state.result() } else { Value::None };
     for (_, value) in &mut trace.queries {
         *value = state.resolve(value);
     }

@@ -1,10 +1,19 @@
 //! The door between Python and the engine: the only crate that knows Python.
 //!
 //! One file for each room behind the door; this one only registers them.
+//!
+//! * `values`: Python's objects to the machine's values, and back; `faults`: faults as data;
+//! * `model`: compiled models; `search`: algorithms; `outcome`: what they find;
+//! * `distributions`, `geometry`, `pictures`: the rooms below, by themselves.
 
 mod distributions;
+mod faults;
 mod geometry;
+mod model;
+mod outcome;
 mod pictures;
+mod search;
+mod values;
 
 use pyo3::prelude::*;
 
@@ -15,5 +24,9 @@ fn _engine(module: &Bound<'_, PyModule>) -> PyResult<()> {
     distributions::register(module)?;
     geometry::register(module)?;
     pictures::register(module)?;
-    Ok(())
+    values::register(module)?;
+    faults::register(module)?;
+    model::register(module)?;
+    outcome::register(module)?;
+    search::register(module)
 }

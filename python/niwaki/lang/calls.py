@@ -96,10 +96,10 @@ def known(body: Body, node: ast.Call, value: Any) -> Expr:
         return operate(body, node, operation)
     if isinstance(value, Host):
         return host(body, node, value)
-    if is_record_class(value):
-        return record(body, node, value)
     if isinstance(value, type) and issubclass(value, words.Distribution):
         return distribution(body, node, value)
+    if is_record_class(value):
+        return record(body, node, value)
     if _in(value, vocabulary.DRAWS):
         dist = distribution(body, node, vocabulary.DRAWS[value])
         return body.form("sample", [dist], node)

@@ -9,12 +9,14 @@ import sys
 from pathlib import Path
 
 from niwaki.errors import fill
-from niwaki.lang.messages import FAULTS, INPUTS, LANGUAGE, Message
+from niwaki.lang.messages import DOORS, FAULTS, FILES, INPUTS, LANGUAGE, Message
 
 KINDS = (
     (LANGUAGE, "Found when a model is compiled, before anything runs."),
     (FAULTS, "Found while a model runs; the message shows the model's own calls, outermost first."),
-    (INPUTS, "Found when a file, a setting or an argument is looked at."),
+    (INPUTS, "Found when a setting or an argument is looked at."),
+    (FILES, "Found when a file is read or written."),
+    (DOORS, "Found when a setting, a model's name or a run's file is looked at."),
 )
 
 
@@ -29,7 +31,7 @@ def page(message: Message, found: str) -> str:
     """One page, Markdown."""
     title, why, cure = (text.format_map(_Shown()) for text in (message.title, message.why, message.help))
     parts = [f"# {message.code}", f"{_sentence(title)} {found}"]
-    if why and message.why != "{reason}":
+    if message.why not in ("", "{reason}"):
         parts += ["## Why", _sentence(why)]
     if message.example:
         parts += ["## Example", f"```python\n{message.example.rstrip()}\n```"]

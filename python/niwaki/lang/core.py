@@ -2,7 +2,8 @@
 
 Grammar (each `(HEAD ...)` may carry a span atom right after its head, `@L:C-L:C`, from 1, end excluded)
 
-    module  := (module file* class* fn* (entry "NAME"))
+    module  := (module const* file* class* fn* (entry "NAME"))
+    const   := (const K E)                            only in standalone text: constant K
     file    := (file K "path")                        K numbers the files
     class   := (class K "Name" ("field" ...) KIND?)    K numbers the record classes; KIND `namedtuple`, else a dataclass
     fn      := (fn "NAME" (file K) (params $v ...) (defaults D ...) (captures $v ...) STMT ...)
@@ -159,3 +160,27 @@ class Core:
     def write(self, spans: bool = True, labels: bool = True) -> str:
         """The text again, with or without spans and the sites' labels."""
         return write_tree(self.form, 0, spans, labels) + "\n"
+
+    def standalone(self) -> str:
+        """The text with its constants in it, `(const K E)`, for bug reports and for tests without Python.
+
+        Host functions, arrays of NumPy and shapes cannot be written; they are left out.
+        """
+        written = ((number, constant_form(value)) for number, value in enumerate(self.constants))
+        items: list[Expr] = [Form("const", [str(n), form]) for n, form in written if form is not None]
+        return write_tree(Form("module", [*items, *self.form.args])) + "\n"
+
+
+def constant_form(value: Any) -> Expr | None:
+    """Plain data as an expression, or None when it holds something that cannot be written."""
+    if is_literal(value):
+        return literal(value)
+    if type(value) in (list, tuple):
+        parts = [constant_form(part) for part in value]
+        made: list[Expr] = [part for part in parts if part is not None]
+        return Form(type(value).__name__, made) if len(made) == len(parts) else None
+    if type(value) is dict:
+        values = constant_form(list(value.values()))
+        if isinstance(values, Form):
+            return Form("dict", [Form("", [literal(key) for key in value]), *values.args])
+    return None

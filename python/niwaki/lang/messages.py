@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from niwaki.lang.texts.doors import DOORS
 from niwaki.lang.texts.faults import FAULTS
+from niwaki.lang.texts.files import FILES
 from niwaki.lang.texts.inputs import INPUTS
 from niwaki.lang.texts.language import LANGUAGE
 from niwaki.lang.texts.message import Message
 
-MESSAGES: dict[str, Message] = {message.code: message for message in (*LANGUAGE, *FAULTS, *INPUTS)}
+MESSAGES: dict[str, Message] = {
+    message.code: message for message in (*LANGUAGE, *FAULTS, *INPUTS, *FILES, *DOORS)
+}
 
-__all__ = ["FAULTS", "INPUTS", "LANGUAGE", "MESSAGES", "Message"]
+__all__ = ["DOORS", "FAULTS", "FILES", "INPUTS", "LANGUAGE", "MESSAGES", "Message"]

@@ -210,7 +210,7 @@ FORBIDDEN_BUILTINS: frozenset[Any] = frozenset(
     getattr(builtins, name)
     for name in (
         "open input eval exec compile globals locals vars dir id hash iter next getattr setattr delattr hasattr super "
-        "object memoryview bytes bytearray complex slice callable format ord chr hex oct bin ascii breakpoint help exit "
+        "object memoryview bytes bytearray complex slice callable format ord chr hex oct bin ascii breakpoint exit "
         "property classmethod staticmethod"
     ).split()
     if hasattr(builtins, name)

@@ -11,6 +11,7 @@ from types import FunctionType
 from typing import TYPE_CHECKING, Any, Generic, ParamSpec, TypeVar, cast
 
 if TYPE_CHECKING:
+    from niwaki._engine import Program
     from niwaki.lang.core import Core
 
 P = ParamSpec("P")
@@ -36,6 +37,7 @@ class Model(Generic[P, T]):
         self.function: FunctionType = function
         self.name: str = function.__name__
         self._core: Core | None = None
+        self._program: Program | None = None
         functools.update_wrapper(self, function)
 
     def core(self) -> Core:
@@ -45,6 +47,14 @@ class Model(Generic[P, T]):
 
             self._core = lower(self.function)
         return self._core
+
+    def program(self) -> Program:
+        """The model compiled for the engine; kept, like its core form."""
+        if self._program is None:
+            from niwaki.compiled import compile_core
+
+            self._program = compile_core(self.core())
+        return self._program
 
     def __call__(self, *args: P.args, **kwargs: P.kwargs) -> T:
         """Run the model once as plain Python with a fresh seed, and keep only its value."""

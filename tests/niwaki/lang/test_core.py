@@ -86,3 +86,11 @@ def test_an_empty_head_is_a_plain_list() -> None:
 def test_the_core_form_is_kept() -> None:
     model = load(SHIP, "ship.py")
     assert model.core() is model.core()
+
+
+def test_distributions_are_not_records() -> None:
+    text = "D = Uniform(0, 1)\n\n@model\ndef m():\n    return sample(Gaussian(sd=2)) + sample(D)\n"
+    core = load(text, "dist.py").core()
+    assert "(dist gaussian 0.0 2)" in core.write(spans=False)
+    assert "(dist uniform 0 1)" in core.write(spans=False)
+    assert not core.classes

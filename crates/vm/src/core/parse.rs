@@ -53,7 +53,14 @@ fn function(span: Span, args: &[Sexp<'_>]) -> Result<Function> {
         captures: vec![],
         body: vec![],
     };
-    for item in &args[1..] {
+    let mut items = &args[1..];
+    // The place may stand behind the name, too.
+    if let [Sexp::Atom(a), rest @ ..] = items
+        && let Some(text) = a.strip_prefix('@')
+    {
+        (f.span, items) = (self::span(text)?, rest);
+    }
+    for item in items {
         let Form { head, items: rest, .. } = form(item)?;
         match head {
             "file" => f.file = number(arg(rest, 0, head)?)? as u32,

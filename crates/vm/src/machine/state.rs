@@ -16,6 +16,7 @@ use super::address;
 use crate::code::{FunctionId, Mode, Program};
 use crate::value::Value;
 use niwaki_math::Scalar;
+use std::collections::HashMap;
 
 /// Number of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -79,6 +80,8 @@ pub struct State<S: Scalar = f64> {
     /// Futures run where they are created.
     pub(crate) depth_first: bool,
     pub(crate) steps: u64,
+    /// Readable paths of the activations that futures began with, where they are kept.
+    pub(crate) origins: Option<HashMap<NodeId, String>>,
 }
 
 impl<S: Scalar> Clone for State<S> {
@@ -98,6 +101,7 @@ impl<S: Scalar> Clone for State<S> {
         self.unreturned = source.unreturned;
         self.depth_first = source.depth_first;
         self.steps = source.steps;
+        self.origins.clone_from(&source.origins);
     }
 }
 
@@ -114,7 +118,13 @@ impl<S: Scalar> State<S> {
             unreturned: 0,
             depth_first: false,
             steps: 0,
+            origins: None,
         }
+    }
+
+    /// From now on futures remember where they were made, so that addresses below them are read from the root.
+    pub fn remember_origins(&mut self) {
+        self.origins = Some(HashMap::new());
     }
 
     /// The futures that can run, in an order that is the same in every run.
@@ -251,6 +261,8 @@ impl<S: Scalar> State<S> {
         while at != NodeId::NONE {
             let n = &self.nodes[at.0 as usize];
             if n.parent == NodeId::NONE {
+                let origin = self.origins.as_ref().and_then(|origins| origins.get(&at));
+                parts.extend(origin.cloned());
                 break;
             }
             let parent = &self.nodes[n.parent.0 as usize];

@@ -329,6 +329,11 @@ impl<S: Scalar> Machine<'_, S> {
             return Err(self.out_of_memory());
         }
         let Some(detached) = deferred else { return Ok(After::Enter(made)) };
+        if state.origins.is_some() {
+            let above = state.path(self.program, node);
+            let origin = if above.is_empty() { site.label.to_string() } else { format!("{above}/{}", site.label) };
+            state.origins.as_mut().map(|origins| origins.insert(made, origin));
+        }
         let id = state.new_future(Status::Runnable(made), detached);
         state.nodes[made.0 as usize].site = id.0;
         state.runnable.push(id);

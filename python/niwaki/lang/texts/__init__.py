@@ -3,5 +3,7 @@
 message    the shape of an entry
 language   the compiler: a model breaks a rule
 faults     the engine and the plain run: a model failed while it ran
-inputs     files, settings and arguments
+inputs     settings and arguments
+files      files, and the settings of targets and pictures
+doors      settings, models and run files at Python's and the shell's door
 """

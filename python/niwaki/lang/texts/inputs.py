@@ -1,55 +1,10 @@
-"""What is wrong with files, settings and arguments."""
+"""What is wrong with settings and arguments; files have a table of their own."""
 
 from __future__ import annotations
 
 from niwaki.lang.texts.message import Message
 
 INPUTS = (
-    Message(
-        "missing-file",
-        "there is no file `{path}`",
-        help="check the path; it is taken from {folder}",
-        example='Target.load("shp.obj")',
-        cure='Target.load("ship.obj")',
-    ),
-    Message(
-        "unknown-file-kind",
-        "files that end in `{ending}` cannot be {action}",
-        help="use one of {known}",
-        example='result.export("ship.txt")',
-        cure='result.export("ship.glb")',
-    ),
-    Message(
-        "unreadable-file",
-        "`{path}` cannot be read as {kind}",
-        why="{reason}",
-        help="open it in the program that made it and save it again",
-        example="a truncated ship.glb",
-        cure="the whole file",
-    ),
-    Message(
-        "empty-mesh",
-        "the mesh `{path}` has no triangles",
-        help="export it again with its faces",
-        example="an obj file with points only",
-        cure="an obj file with faces",
-    ),
-    Message(
-        "non-finite-mesh",
-        "the mesh `{path}` has coordinates that are not finite numbers",
-        why="vertex {vertex} is {found}",
-        help="repair the mesh in the program that made it",
-        example="a vertex at nan",
-        cure="every vertex at finite coordinates",
-    ),
-    Message(
-        "bad-face",
-        "a face of the mesh `{path}` names a vertex that is not there",
-        why="face {face} names vertex {vertex} of {count}",
-        help="repair the mesh in the program that made it",
-        example="a face with vertex 9 in a mesh of 8",
-        cure="faces that name vertices 0 to 7",
-    ),
     Message(
         "no-cell-filled",
         "no cell of the grid is filled by `{path}`",
@@ -66,16 +21,9 @@ INPUTS = (
         cure="voxel_size=0.5",
     ),
     Message(
-        "unreadable-image",
-        "`{path}` is not an image that can be read",
-        why="{reason}",
-        help="save it as png",
-        example="a truncated mask.png",
-        cure="the whole file",
-    ),
-    Message(
         "no-particles",
         "a population needs at least one particle, found {found}",
+        why="each particle is one attempt",
         help="write `particles=100` or more",
         example="grow(ship, target, particles=0)",
         cure="grow(ship, target, particles=300)",
@@ -126,14 +74,6 @@ INPUTS = (
         cure="smc(threshold=0.5)",
     ),
     Message(
-        "bad-setting",
-        "`{name}` cannot be {found}",
-        why="expected {expected}",
-        help="set `{name}` to {suggestion}",
-        example="voxel_size=-1",
-        cure="voxel_size=0.2",
-    ),
-    Message(
         "unknown-setting",
         "there is no setting `{name}`",
         help="{suggestion}",
@@ -151,7 +91,7 @@ INPUTS = (
     Message(
         "not-enumerable",
         "not every choice of the model can be listed",
-        why="the choice `{address}` is a {family}, which has endlessly many values",
+        why="an exact answer visits every value of every choice, so each needs a finite list of them",
         help="use `smc`, `importance` or `rejection` instead of `enumerate_all`",
         example="run(model, method=enumerate_all()) with a gaussian",
         cure="run(model, method=importance(1000))",
@@ -174,7 +114,7 @@ INPUTS = (
     Message(
         "argument-value",
         "argument {number} of `{name}` is {found}, which cannot be a value of a model",
-        help="pass numbers, strings, tuples, lists, dicts with constant keys, arrays, vectors, shapes, records or functions",
+        help="pass numbers, strings, tuples, lists, dicts with constant keys, arrays, vectors, shapes or records",
         example="run(tree, (open('x'),))",
         cure="run(tree, (3,))",
     ),

@@ -1,0 +1,85 @@
+//! Faults as data: one exception that carries what the engine knows. Python draws the carets.
+//!
+//! `kind` is "run" (the model failed: message, help, stack), "setting" (the question makes no sense), "impossible"
+//! (every particle is: barrier and causes) or "compile" (a defect of the text or a limit of the machine).
+
+use niwaki_infer::Failure;
+use niwaki_vm::code::Program;
+use niwaki_vm::fault::Fault;
+use niwaki_vm::machine::stack::Call;
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+pyo3::create_exception!(
+    _engine,
+    EngineFault,
+    PyRuntimeError,
+    "A fault as data.\n\n\
+     Attributes: `kind`, `code`, `message`, `help`, and by kind: `stack` (function, path, (line, column, end line, \
+     end column)), `omitted`, `path`; `barrier`, `causes`."
+);
+
+/// The exception for why a search gave no result.
+pub fn raise(py: Python<'_>, failure: &Failure, program: &Program) -> PyErr {
+    build(py, failure, program).unwrap_or_else(|other| other)
+}
+
+fn build(py: Python<'_>, failure: &Failure, program: &Program) -> PyResult<PyErr> {
+    let facts = PyDict::new(py);
+    let told = |fault: &Fault, kind: &str| -> PyResult<()> {
+        facts.set_item("kind", kind)?;
+        facts.set_item("code", fault.code)?;
+        facts.set_item("message", &fault.message)?;
+        facts.set_item("help", fault.help.as_deref())
+    };
+    match failure {
+        Failure::Run(run) => {
+            told(&run.fault, "run")?;
+            let place = |call: &Call| {
+                let path = program.files.get(call.file as usize).map_or("", String::as_str);
+                let s = call.span;
+                (call.function.to_string(), path, (s.line, s.column, s.end_line, s.end_column))
+            };
+            facts.set_item("stack", run.stack.iter().map(place).collect::<Vec<_>>())?;
+            facts.set_item("omitted", run.omitted)?;
+            facts.set_item("path", &run.path)?;
+        }
+        Failure::Setting(fault) => told(fault, "setting")?,
+        Failure::Impossible { barrier, causes } => {
+            facts.set_item("kind", "impossible")?;
+            facts.set_item("code", "everything-impossible")?;
+            facts.set_item("message", failure.to_string())?;
+            facts.set_item("help", py.None())?;
+            facts.set_item("barrier", barrier)?;
+            facts.set_item("causes", causes.clone())?;
+        }
+    }
+    with_facts(py, failure.to_string(), &facts)
+}
+
+/// The exception of a program that the machine cannot take.
+pub fn uncompiled(py: Python<'_>, message: String) -> PyErr {
+    let facts = PyDict::new(py);
+    let set = || -> PyResult<PyErr> {
+        facts.set_item("kind", "compile")?;
+        facts.set_item("code", "machine-limit")?;
+        facts.set_item("message", &message)?;
+        facts.set_item("help", py.None())?;
+        with_facts(py, message.clone(), &facts)
+    };
+    set().unwrap_or_else(|other| other)
+}
+
+fn with_facts(py: Python<'_>, message: String, facts: &Bound<'_, PyDict>) -> PyResult<PyErr> {
+    let error = EngineFault::new_err(message);
+    for (name, value) in facts {
+        error.value(py).setattr(name.extract::<String>()?.as_str(), value)?;
+    }
+    Ok(error)
+}
+
+/// Puts this room into the module.
+pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("EngineFault", module.py().get_type::<EngineFault>())
+}

@@ -1,0 +1,122 @@
+//! A compiled model behind the door: from the text of its core form and the objects that travel beside it.
+
+use crate::faults;
+use crate::values::Classes;
+use niwaki_infer::task::Hosts;
+use niwaki_vm::code::{Mode, SiteKind, disassemble};
+use niwaki_vm::core::parse::parse;
+use niwaki_vm::fault::Fault;
+use niwaki_vm::passes::compile;
+use niwaki_vm::value::Value;
+use pyo3::prelude::*;
+use pyo3::types::{PyTuple, PyType};
+use std::sync::Arc;
+use std::time::Instant;
+
+/// Python callables by the number of the constant that names them. Calling one takes the interpreter's lock.
+struct PyHosts {
+    callables: Vec<Option<Py<PyAny>>>,
+    classes: Arc<Classes>,
+}
+
+impl Hosts for PyHosts {
+    fn call(&self, constant: u16, args: &[Value]) -> Result<Value, Fault> {
+        let Some(Some(callable)) = self.callables.get(constant as usize) else {
+            return Err(Fault::new("host-function", format!("constant {constant} is not a function")));
+        };
+        Python::attach(|py| {
+            let args: Vec<_> = args.iter().map(|a| self.classes.object(py, a)).collect::<PyResult<_>>()?;
+            let given = callable.bind(py).call1(PyTuple::new(py, args)?)?;
+            self.classes.value(&given)
+        })
+        .map_err(|error| Python::attach(|py| failed(py, callable, &error)))
+    }
+}
+
+fn failed(py: Python<'_>, callable: &Py<PyAny>, error: &PyErr) -> Fault {
+    let name = callable.bind(py).getattr("__name__").map_or_else(|_| "it".into(), |name| name.to_string());
+    let kind = error.get_type(py).name().map_or_else(|_| "an error".into(), |name| name.to_string());
+    Fault::new("host-function", format!("the host function `{name}` failed: {kind}: {}", error.value(py)))
+}
+
+/// A compiled model; never changes, and serves any number of searches at once.
+#[pyclass(frozen, name = "Program", module = "niwaki._engine")]
+pub struct PyProgram {
+    pub program: Arc<niwaki_vm::code::Program>,
+    pub classes: Arc<Classes>,
+    pub hosts: Arc<dyn Hosts>,
+    seconds: f64,
+}
+
+#[pymethods]
+impl PyProgram {
+    /// Compiles ``text``; ``constants`` are its data and host functions, ``classes`` its record classes, by number.
+    #[new]
+    #[pyo3(signature = (text, constants=Vec::new(), classes=Vec::new()))]
+    fn new(
+        py: Python<'_>,
+        text: &str,
+        constants: Vec<Bound<'_, PyAny>>,
+        classes: Vec<Py<PyType>>,
+    ) -> PyResult<PyProgram> {
+        let start = Instant::now();
+        let module = parse(text).map_err(|e| faults::uncompiled(py, e.to_string()))?;
+        let table: Vec<Arc<_>> = module.classes.iter().cloned().map(Arc::new).collect();
+        let classes = Arc::new(Classes::new(classes, &table));
+        let (mut data, mut callables) = (Vec::new(), Vec::new());
+        for constant in constants {
+            let is_host = constant.is_callable();
+            data.push(if is_host { Value::None } else { classes.value(&constant)? });
+            callables.push(is_host.then(|| constant.unbind()));
+        }
+        let program = compile(&module, data).map_err(|e| faults::uncompiled(py, e.to_string()))?;
+        Ok(PyProgram {
+            program: Arc::new(program),
+            hosts: Arc::new(PyHosts { callables, classes: classes.clone() }),
+            classes,
+            seconds: start.elapsed().as_secs_f64(),
+        })
+    }
+
+    /// Seconds that compiling the text took.
+    #[getter]
+    fn seconds(&self) -> f64 {
+        self.seconds
+    }
+
+    /// Functions: (name, "pure", "effects" or "loop", number of suspension sites).
+    #[getter]
+    fn functions(&self) -> Vec<(String, &'static str, usize)> {
+        let kind = |mode: Mode| match mode {
+            Mode::Pure => "pure",
+            Mode::Node => "effects",
+            _ => "loop",
+        };
+        self.program.functions.iter().map(|f| (f.name.to_string(), kind(f.mode), f.sites.len())).collect()
+    }
+
+    /// Readable components of the sites at which random choices are made: (function, component, line).
+    #[getter]
+    fn choices(&self) -> Vec<(String, String, u32)> {
+        let mut found = Vec::new();
+        for f in &self.program.functions {
+            for site in &f.sites {
+                use SiteKind::{Sample, SampleDist, SampleIndexed};
+                if matches!(site.kind, Sample { .. } | SampleDist | SampleIndexed) {
+                    found.push((f.name.to_string(), site.label.to_string(), site.span.line));
+                }
+            }
+        }
+        found
+    }
+
+    /// The bytecode, readable.
+    fn disassemble(&self) -> String {
+        disassemble(&self.program)
+    }
+}
+
+/// Puts this room into the module.
+pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_class::<PyProgram>()
+}

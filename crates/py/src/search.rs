@@ -1,0 +1,335 @@
+//! Searches behind the door: a task and the algorithms that answer it.
+//!
+//! The interpreter's lock is released while the engine works. Whoever watches is called at most every [`PAUSE`]; if
+//! that raises `KeyboardInterrupt` (or Ctrl-C was pressed), the search stops and gives what it has.
+
+use crate::faults;
+use crate::geometry::PySketchSpec;
+use crate::model::PyProgram;
+use crate::outcome::{PyOutcome, PyTrace};
+use niwaki_infer::enumeration::enumerate;
+use niwaki_infer::forward::{Sample, forward};
+use niwaki_infer::importance::importance;
+use niwaki_infer::particles::{Order, Resampling, Settings, Weights, When, smc};
+use niwaki_infer::rejection::rejection;
+use niwaki_infer::replay::{Missing, Source, replay};
+use niwaki_infer::{Failure, Task};
+use niwaki_vm::code::Program;
+use niwaki_vm::fault::Fault;
+use niwaki_vm::machine::Limits;
+use niwaki_vm::value::Value;
+use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple};
+use std::collections::HashMap;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// Least time between two calls of whoever watches.
+const PAUSE: Duration = Duration::from_millis(50);
+
+/// Tells a Python callable how far a search is, now and then, and remembers what it raised.
+struct Watch<'a> {
+    callable: Option<&'a Py<PyAny>>,
+    last: Instant,
+    raised: Option<PyErr>,
+    interrupted: bool,
+}
+
+impl<'a> Watch<'a> {
+    fn new(callable: Option<&'a Py<PyAny>>) -> Watch<'a> {
+        Watch { callable, last: Instant::now(), raised: None, interrupted: false }
+    }
+
+    /// Whether to go on. The callable is given `(done, ended, best)`.
+    fn look(&mut self, done: u64, ended: usize, best: f64) -> bool {
+        if self.last.elapsed() < PAUSE {
+            return true;
+        }
+        let told = Python::attach(|py| {
+            py.check_signals()?;
+            self.callable.map_or(Ok(()), |c| c.call1(py, (done, ended, best)).map(|_| ()))
+        });
+        self.last = Instant::now();
+        let Err(error) = told else { return true };
+        if Python::attach(|py| error.is_instance_of::<PyKeyboardInterrupt>(py)) {
+            self.interrupted = true;
+        } else {
+            self.raised = Some(error);
+        }
+        false
+    }
+}
+
+/// Runs `work` without the interpreter's lock, on so many threads (`None`: all of the machine's).
+fn detached<T: Send>(
+    py: Python<'_>,
+    program: &Program,
+    threads: Option<usize>,
+    watch: &mut Watch<'_>,
+    work: impl FnOnce(&mut Watch<'_>) -> Result<T, Failure> + Send,
+) -> PyResult<T> {
+    let pool = match threads {
+        Some(0) => {
+            let fault = Fault::new("no-threads", "zero threads were asked for").with_help("use at least one");
+            return Err(faults::raise(py, &fault.into(), program));
+        }
+        Some(n) => Some(
+            rayon::ThreadPoolBuilder::new()
+                .num_threads(n)
+                .build()
+                .map_err(|error| PyRuntimeError::new_err(error.to_string()))?,
+        ),
+        None => None,
+    };
+    // Whoever watches lives on this thread, so the search runs here and only its parallel parts run in the pool.
+    let done = py.detach(|| match &pool {
+        Some(pool) => pool.install(|| work(watch)),
+        None => work(watch),
+    });
+    if let Some(error) = watch.raised.take() {
+        return Err(error);
+    }
+    done.map_err(|failure| {
+        if watch.interrupted {
+            PyKeyboardInterrupt::new_err(())
+        } else {
+            faults::raise(py, &failure, program)
+        }
+    })
+}
+
+fn unknown(py: Python<'_>, program: &Program, name: &str, found: &str, known: &str) -> PyErr {
+    let fault = Fault::new("bad-setting", format!("`{name}` cannot be {found:?}")).with_help(format!("use {known}"));
+    faults::raise(py, &fault.into(), program)
+}
+
+/// A model with its arguments and the sketches that score its scene.
+#[pyclass(frozen, name = "Task", module = "niwaki._engine")]
+pub struct PyTask {
+    task: Task,
+    model: Py<PyProgram>,
+}
+
+#[pymethods]
+impl PyTask {
+    /// ``max_steps`` bounds one run, ``max_memory`` (bytes) a run or a whole population.
+    #[new]
+    #[pyo3(signature = (program, args=Vec::new(), sketches=Vec::new(), max_steps=20_000_000, max_memory=1 << 30))]
+    fn new(
+        py: Python<'_>,
+        program: Py<PyProgram>,
+        args: Vec<Bound<'_, PyAny>>,
+        sketches: Vec<PySketchSpec>,
+        max_steps: u64,
+        max_memory: usize,
+    ) -> PyResult<PyTask> {
+        let own = program.get();
+        let values: Vec<Value> = args.iter().map(|a| own.classes.value(a)).collect::<PyResult<_>>()?;
+        let task = Task {
+            program: own.program.clone(),
+            args: values,
+            sketches: sketches.into_iter().map(|s| s.0).collect(),
+            hosts: own.hosts.clone(),
+            limits: Limits { steps: max_steps, bytes: max_memory },
+        };
+        Ok(PyTask { task, model: program.clone_ref(py) })
+    }
+
+    /// ``n`` forward runs: one outcome each.
+    #[pyo3(signature = (seed, n=1, watch=None))]
+    fn forward(&self, py: Python<'_>, seed: u64, n: u64, watch: Option<Py<PyAny>>) -> PyResult<Vec<PyOutcome>> {
+        let mut watch = Watch::new(watch.as_ref());
+        let samples = detached(py, &self.task.program, None, &mut watch, |watch| {
+            let mut samples = Vec::new();
+            for stream in 0..n {
+                samples.push(forward(&self.task, seed, stream)?);
+                if !watch.look(stream + 1, 0, f64::NEG_INFINITY) {
+                    break;
+                }
+            }
+            Ok(samples)
+        })?;
+        Ok(self.outcomes(py, samples, |_| 0.0))
+    }
+
+    /// ``([(value, log probability)], log evidence, number of runs)``; probabilities are not normalised.
+    #[pyo3(signature = (max_runs, watch=None))]
+    fn enumerate<'py>(
+        &self,
+        py: Python<'py>,
+        max_runs: usize,
+        watch: Option<Py<PyAny>>,
+    ) -> PyResult<Bound<'py, PyTuple>> {
+        let mut watch = Watch::new(watch.as_ref());
+        let found = detached(py, &self.task.program, None, &mut watch, |watch| {
+            enumerate(&self.task, max_runs, &mut |runs| watch.look(runs as u64, 0, f64::NEG_INFINITY))
+        })?;
+        let pair = |(value, log): &(Value, f64)| Ok((self.object(py, value)?, *log));
+        let outcomes = found.outcomes.iter().map(pair).collect::<PyResult<Vec<_>>>()?;
+        (outcomes, found.log_evidence, found.runs).into_pyobject(py)
+    }
+
+    /// ``(outcomes, number of tries, whether it was interrupted)``.
+    #[pyo3(signature = (n, bound, max_tries, seed, watch=None))]
+    fn rejection(
+        &self,
+        py: Python<'_>,
+        n: usize,
+        bound: f64,
+        max_tries: u64,
+        seed: u64,
+        watch: Option<Py<PyAny>>,
+    ) -> PyResult<(Vec<PyOutcome>, u64, bool)> {
+        let mut watch = Watch::new(watch.as_ref());
+        let found = detached(py, &self.task.program, None, &mut watch, |watch| {
+            let mut look = |tries| watch.look(tries, 0, f64::NEG_INFINITY);
+            rejection(&self.task, n, bound, max_tries, seed, &mut look)
+        })?;
+        Ok((self.outcomes(py, found.samples, |_| 0.0), found.tries, found.interrupted))
+    }
+
+    /// ``(outcomes, log evidence)``; each outcome's weight is its score.
+    #[pyo3(signature = (n, seed, threads=None, watch=None))]
+    fn importance(
+        &self,
+        py: Python<'_>,
+        n: usize,
+        seed: u64,
+        threads: Option<usize>,
+        watch: Option<Py<PyAny>>,
+    ) -> PyResult<(Vec<PyOutcome>, f64)> {
+        let mut watch = Watch::new(watch.as_ref());
+        let found = detached(py, &self.task.program, threads, &mut watch, |watch| {
+            importance(&self.task, n, seed, &mut |runs| watch.look(runs as u64, 0, f64::NEG_INFINITY))
+        })?;
+        Ok((self.outcomes(py, found.samples, |s| s.record.log_score()), found.log_evidence))
+    }
+
+    /// Sequential Monte Carlo: a dict with ``particles`` (outcomes), ``log_evidence`` (None for absolute weights),
+    /// ``barriers``, ``resampled``, ``ancestors``, ``interrupted``.
+    #[pyo3(signature = (particles, seed, *, order="stochastic", weights="ratio", temper=1.0, resampling="systematic",
+                        ess=None, threads=None, watch=None))]
+    #[expect(clippy::too_many_arguments, reason = "the settings of the method")]
+    fn smc<'py>(
+        &self,
+        py: Python<'py>,
+        particles: usize,
+        seed: u64,
+        order: &str,
+        weights: &str,
+        temper: f64,
+        resampling: &str,
+        ess: Option<f64>,
+        threads: Option<usize>,
+        watch: Option<Py<PyAny>>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let program = &*self.task.program;
+        let settings = Settings {
+            particles,
+            seed,
+            temper,
+            order: match order {
+                "stochastic" => Order::Stochastic,
+                "depth-first" => Order::DepthFirst,
+                _ => return Err(unknown(py, program, "order", order, "\"stochastic\" or \"depth-first\"")),
+            },
+            weights: match weights {
+                "ratio" => Weights::Ratio,
+                "absolute" => Weights::Absolute,
+                _ => return Err(unknown(py, program, "weights", weights, "\"ratio\" or \"absolute\"")),
+            },
+            resampling: match resampling {
+                "systematic" => Resampling::Systematic,
+                "residual" => Resampling::Residual,
+                "stratified" => Resampling::Stratified,
+                "multinomial" => Resampling::Multinomial,
+                _ => {
+                    let known = "\"systematic\", \"residual\", \"stratified\" or \"multinomial\"";
+                    return Err(unknown(py, program, "resampling", resampling, known));
+                }
+            },
+            when: ess.map_or(When::Always, When::EffectiveBelow),
+        };
+        let mut watch = Watch::new(watch.as_ref());
+        let found = detached(py, program, threads, &mut watch, |watch| {
+            smc(&self.task, &settings, &mut |p| watch.look(p.barriers as u64, p.ended, p.best))
+        })?;
+        let facts = PyDict::new(py);
+        facts.set_item("log_evidence", found.log_evidence)?;
+        facts.set_item("barriers", found.barriers)?;
+        facts.set_item("resampled", found.resampled)?;
+        facts.set_item("ancestors", found.ancestors)?;
+        facts.set_item("interrupted", found.interrupted)?;
+        let classes = &self.model.get().classes;
+        let outcomes: Vec<PyOutcome> = found
+            .particles
+            .into_iter()
+            .map(|p| PyOutcome::new(p.record, p.value, p.log_weight, p.has_ended, classes.clone()))
+            .collect();
+        facts.set_item("particles", outcomes)?;
+        Ok(facts)
+    }
+
+    /// Runs once more with the choices of an outcome; one that had not ended as far as its choices go.
+    fn trace(&self, py: Python<'_>, outcome: &PyOutcome) -> PyResult<PyTrace> {
+        let missing = if outcome.ended() { Missing::Refuse } else { Missing::Stop };
+        let source = Source::Addresses(outcome.by_address());
+        let classes = &self.model.get().classes;
+        let mut watch = Watch::new(None);
+        let trace = detached(py, &self.task.program, None, &mut watch, |_| replay(&self.task, source, missing))?;
+        PyTrace::new(py, trace, classes)
+    }
+
+    /// Runs with the choices of ``choices``, by readable address. Others are drawn from ``seed`` where there is one;
+    /// else they are a fault, or with ``partial`` the end of the future that asks.
+    #[pyo3(signature = (choices, seed=None, partial=false))]
+    fn replay(
+        &self,
+        py: Python<'_>,
+        choices: &Bound<'_, PyDict>,
+        seed: Option<u64>,
+        partial: bool,
+    ) -> PyResult<PyTrace> {
+        let classes = &self.model.get().classes;
+        let mut paths: HashMap<String, Value> = HashMap::new();
+        for (path, value) in choices {
+            paths.insert(path.extract()?, classes.value(&value)?);
+        }
+        let missing = match seed {
+            Some(seed) => Missing::Draw { seed, stream: 0 },
+            None if partial => Missing::Stop,
+            None => Missing::Refuse,
+        };
+        let mut watch = Watch::new(None);
+        let trace = detached(py, &self.task.program, None, &mut watch, |_| {
+            replay(&self.task, Source::Paths(&paths), missing)
+        })?;
+        PyTrace::new(py, trace, classes)
+    }
+}
+
+impl PyTask {
+    fn object<'py>(&self, py: Python<'py>, value: &Value) -> PyResult<Bound<'py, PyAny>> {
+        self.model.get().classes.object(py, value)
+    }
+
+    fn outcomes(
+        &self,
+        _: Python<'_>,
+        samples: Vec<Sample>,
+        weight: impl Fn(&Sample) -> f64,
+    ) -> Vec<PyOutcome> {
+        let classes: &Arc<_> = &self.model.get().classes;
+        let made = |sample: Sample| {
+            let (log_weight, ended) = (weight(&sample), sample.record.cause.is_none());
+            PyOutcome::new(sample.record, sample.value, log_weight, ended, classes.clone())
+        };
+        samples.into_iter().map(made).collect()
+    }
+}
+
+/// Puts this room into the module.
+pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_class::<PyTask>()
+}

@@ -1,0 +1,126 @@
+"""Models behind the engine's door: compiling, arguments, and the engine's faults as our errors."""
+
+from __future__ import annotations
+
+import hashlib
+import inspect
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from typing import Any
+
+from niwaki import _engine
+from niwaki.errors import InputError, ModelFault
+from niwaki.lang.core import Core
+from niwaki.words.models import Model
+
+
+def compile_core(core: Core) -> _engine.Program:
+    """The engine's program of a model in core form."""
+    with translated(core.entry):
+        return _engine.Program(core.text, list(core.constants), list(core.classes))
+
+
+def as_model(model: Model[..., Any] | Callable[..., Any]) -> Model[..., Any]:
+    """The model itself, or a plain function of the modelling language as one."""
+    return model if isinstance(model, Model) else Model(model)
+
+
+def digest(core: Core) -> str:
+    """A hash of what a model does: its core form without places in the source, and its data."""
+    state = hashlib.sha256(core.write(spans=False).encode())
+    for constant in core.constants:
+        state.update(_bytes_of(constant))
+    return state.hexdigest()
+
+
+def _bytes_of(value: Any) -> bytes:
+    if hasattr(value, "tobytes") and hasattr(value, "dtype"):
+        return f"{value.dtype}{value.shape}".encode() + bytes(value.tobytes())
+    if callable(value):
+        return getattr(value, "__qualname__", getattr(value, "name", "host")).encode()
+    return repr(value).encode()
+
+
+def task(
+    model: Model[..., Any],
+    args: Sequence[Any] = (),
+    kwargs: Mapping[str, Any] | None = None,
+    sketches: Sequence[_engine.SketchSpec] = (),
+    max_steps: int = 20_000_000,
+    max_memory: int = 1 << 30,
+) -> _engine.Task:
+    """A model with its arguments and sketches, ready to be searched."""
+    for name, found, least in (("max_steps", max_steps, 1), ("max_memory", max_memory, 1 << 20)):
+        if not isinstance(found, int) or not least <= found < 2**63:
+            raise InputError(
+                "bad-setting",
+                name=name,
+                found=repr(found),
+                expected=f"a whole number, at least {least}",
+                suggestion=f"{least} or more",
+            )
+    program = model.program()
+    given = arguments(model, args, kwargs or {})
+    try:
+        return _engine.Task(program, given, list(sketches), max_steps, max_memory)
+    except (TypeError, OverflowError) as error:
+        raise _bad_argument(model, program, given, error) from error
+
+
+def _bad_argument(
+    model: Model[..., Any], program: _engine.Program, given: list[Any], error: Exception
+) -> InputError:
+    """Which argument the engine cannot take."""
+    for number, value in enumerate(given, 1):
+        try:
+            _engine.Task(program, [value])
+        except (TypeError, OverflowError) as found:
+            return InputError("argument-value", number=number, name=model.name, found=str(found))
+    return InputError("argument-value", number="?", name=model.name, found=str(error))
+
+
+def arguments(model: Model[..., Any], args: Sequence[Any], kwargs: Mapping[str, Any]) -> list[Any]:
+    """The arguments by position, without the defaults that nobody changed at the end."""
+    core, signature = model.core(), inspect.signature(model.function)
+    try:
+        bound = signature.bind(*args, **kwargs)
+    except TypeError as error:
+        least, most = core.required, len(core.parameters)
+        many = f"{least} to {most}" if least < most else str(most)
+        raise InputError(
+            "model-arguments",
+            name=model.name,
+            expected=f"{many} argument{'' if many == '1' else 's'}",
+            found=str(len(args) + len(kwargs)),
+            parameters=", ".join(core.parameters) or "none",
+            detail=str(error),
+        ) from error
+    given = set(bound.arguments)
+    bound.apply_defaults()
+    last = max((n for n, name in enumerate(core.parameters, 1) if name in given), default=0)
+    return [bound.arguments[name] for name in core.parameters[:last]]
+
+
+@contextmanager
+def translated(name: str, replay: str = "") -> Iterator[None]:
+    """Inside, a fault of the engine is raised as `ModelFault` or `InputError`."""
+    try:
+        yield
+    except _engine.EngineFault as fault:
+        raise _error(fault, name, replay) from None
+
+
+def _error(fault: Any, name: str, replay: str) -> Exception:
+    if fault.kind == "run":
+        error = ModelFault.from_engine(fault.code, fault.message, fault.help, fault.stack, replay)
+        error.values["omitted"] = fault.omitted
+        return error
+    if fault.kind == "compile":
+        return InputError("machine-limit", found=fault.message)
+    if fault.kind == "impossible":
+        total = sum(count for _, count in fault.causes)
+        causes = ", ".join(f"{cause} ({count})" for cause, count in fault.causes)
+        return InputError(
+            "everything-impossible", barrier=f"barrier {fault.barrier}", count=total, constraint=causes
+        )
+    return InputError(fault.code, name=name, found=fault.message, detail=fault.message)

@@ -1,0 +1,72 @@
+"""What is wrong with settings, models and run files that come through Python's or the shell's door."""
+
+from __future__ import annotations
+
+from niwaki.lang.texts.message import Message
+
+DOORS = (
+    Message(
+        "bad-setting",
+        "`{name}` cannot be {found}",
+        why="expected {expected}",
+        help="set `{name}` to {suggestion}",
+        example="grow(ship, target, voxel=-1)",
+        cure="grow(ship, target, voxel=0.2)",
+    ),
+    Message(
+        "machine-limit",
+        "the model is too large for the machine",
+        why="the compiler says: {found}",
+        help="split the largest function into smaller ones",
+        example="a function with twenty thousand variables",
+        cure="ten functions with two thousand each",
+    ),
+    Message(
+        "no-runs",
+        "there is no best sample",
+        why="the search kept no runs: {found}",
+        help="read `result.distribution()` after an enumeration, or ask for samples with another method",
+        example="run(model, method=enumerate_all()).best",
+        cure="run(model, method=enumerate_all()).distribution()",
+    ),
+    Message(
+        "unknown-model",
+        "there is no model `{name}`",
+        why="{reason}",
+        help="write a name that `niwaki models` lists, or `file.py:function`",
+        example="niwaki grow spacship",
+        cure="niwaki grow spaceship",
+    ),
+    Message(
+        "model-file-failed",
+        "`{path}` cannot be run",
+        why="{reason}",
+        help="a model's file is ordinary Python: run `python {path}` to see where it stops",
+        example="a file that imports a module that is not installed",
+        cure="the same file where everything it imports is there",
+    ),
+    Message(
+        "no-target",
+        "the model `{name}` has no target of its own",
+        why="a model is grown into a target",
+        help="name one with `--target FILE`",
+        example="niwaki grow garden.py:tree",
+        cure="niwaki grow garden.py:tree --target cloud.obj",
+    ),
+    Message(
+        "bad-run-file",
+        "`{path}` is not a run that can be replayed",
+        why="{reason}",
+        help="give the run.json that `niwaki grow` wrote",
+        example="niwaki replay best.glb",
+        cure="niwaki replay out/run.json",
+    ),
+    Message(
+        "changed-model",
+        "the model `{name}` has changed since this run",
+        why="the choices of the run belong to another version: it was {recorded}, it is {found}",
+        help="check out the version that made the run, or grow again with the same seed",
+        example="niwaki replay out/run.json after an edit of the model",
+        cure="niwaki grow MODEL --seed SEED with the seed of the run",
+    ),
+)

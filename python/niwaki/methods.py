@@ -1,0 +1,179 @@
+"""Methods as values: what `run` is asked to do, with every setting checked when it is made."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from niwaki.errors import InputError
+
+ORDERS = ("stochastic", "depth-first")
+WEIGHTS = ("ratio", "absolute")
+RESAMPLING = ("systematic", "residual", "stratified", "multinomial")
+
+
+@dataclass(frozen=True)
+class Smc:
+    """Sequential Monte Carlo; see `smc`."""
+
+    particles: int = 300
+    order: str = "stochastic"
+    weights: str = "ratio"
+    temper: float = 1.0
+    resampling: str = "systematic"
+    ess: float | None = None
+
+
+@dataclass(frozen=True)
+class EnumerateAll:
+    """Exact enumeration; see `enumerate_all`."""
+
+    max_runs: int = 1_000_000
+
+
+@dataclass(frozen=True)
+class Rejection:
+    """Rejection sampling; see `rejection`."""
+
+    n: int = 100
+    bound: float = 0.0
+    max_tries: int = 1_000_000
+
+
+@dataclass(frozen=True)
+class Importance:
+    """Likelihood weighting; see `importance`."""
+
+    n: int = 1000
+
+
+@dataclass(frozen=True)
+class Forward:
+    """Runs of the prior; see `forward`."""
+
+    n: int = 1
+
+
+Method = Smc | EnumerateAll | Rejection | Importance | Forward
+
+
+def smc(
+    particles: int = 300,
+    order: str = "stochastic",
+    weights: str = "ratio",
+    temper: float = 1.0,
+    resampling: str = "systematic",
+    ess: float | None = None,
+) -> Smc:
+    """A population of particles that is scored and resampled while it grows.
+
+    Parameters
+    ----------
+    particles
+        How many; at least 1.
+    order
+        "stochastic": after each barrier a uniform draw among the futures that can run; "depth-first": futures run
+        where they are created.
+    weights
+        "ratio": the ratio of successive scores, so that the final set follows the posterior; "absolute": the whole score
+        at every step, an undeclared sharpening without evidence.
+    temper
+        The power to which scores are raised while searching; 1 for the posterior. Reported scores are never tempered.
+    resampling
+        "systematic", "residual", "stratified" or "multinomial".
+    ess
+        Resample only when the effective sample size falls below this share of the particles; at every barrier when left
+        out.
+    """
+    if not _whole(particles) or particles < 1:
+        raise InputError("no-particles", found=repr(particles))
+    _one_of("order", order, ORDERS)
+    _one_of("weights", weights, WEIGHTS)
+    _one_of("resampling", resampling, RESAMPLING)
+    if not _number(temper) or not 0 < temper < float("inf"):
+        raise InputError("bad-temper", found=repr(temper))
+    if ess is not None and (not _number(ess) or not 0 <= ess <= 1):
+        raise InputError("bad-threshold", found=repr(ess))
+    return Smc(particles, order, weights, float(temper), resampling, ess)
+
+
+def enumerate_all(max_runs: int = 1_000_000) -> EnumerateAll:
+    """The exact distribution of a model's value, by visiting every run.
+
+    Parameters
+    ----------
+    max_runs
+        Most complete runs to visit.
+    """
+    return EnumerateAll(_at_least_one("max_runs", max_runs))
+
+
+def rejection(n: int = 100, bound: float = 0.0, max_tries: int = 1_000_000) -> Rejection:
+    """Exact samples: forward runs, kept with probability `exp(log_score - bound)`.
+
+    Parameters
+    ----------
+    n
+        How many samples.
+    bound
+        A log score that no run exceeds, nats; 0 serves for conditions.
+    max_tries
+        Most runs to try.
+    """
+    if not _number(bound) or bound != bound:
+        raise InputError(
+            "bad-setting", name="bound", found=repr(bound), expected="a number of nats", suggestion="0"
+        )
+    return Rejection(_samples(n), float(bound), _at_least_one("max_tries", max_tries))
+
+
+def importance(n: int = 1000) -> Importance:
+    """Independent forward runs, each weighted by its score.
+
+    Parameters
+    ----------
+    n
+        How many runs.
+    """
+    return Importance(_samples(n))
+
+
+def forward(n: int = 1) -> Forward:
+    """Runs of the prior: every choice is drawn from its distribution, whatever the score.
+
+    Parameters
+    ----------
+    n
+        How many runs.
+    """
+    return Forward(_samples(n))
+
+
+def _whole(value: Any) -> bool:
+    return isinstance(value, int) and not isinstance(value, bool)
+
+
+def _number(value: Any) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def _samples(n: int) -> int:
+    if not _whole(n) or n < 1:
+        raise InputError("no-samples", detail=f"n={n!r}")
+    return n
+
+
+def _at_least_one(name: str, value: int) -> int:
+    if not _whole(value) or value < 1:
+        raise InputError(
+            "bad-setting", name=name, found=repr(value), expected="a whole number above 0", suggestion="1 or more"
+        )
+    return value
+
+
+def _one_of(name: str, value: str, known: tuple[str, ...]) -> None:
+    if value not in known:
+        listed = ", ".join(f'"{one}"' for one in known)
+        raise InputError(
+            "bad-setting", name=name, found=repr(value), expected=f"one of {listed}", suggestion=f'"{known[0]}"'
+        )

@@ -1,0 +1,303 @@
+"""What a search gives back: samples, each with its scene, choices and scores, and the numbers of the whole."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from functools import cached_property
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from niwaki.compiled import translated
+from niwaki.errors import InputError
+
+if TYPE_CHECKING:
+    from niwaki import _engine
+    from niwaki.scene import Scene
+    from niwaki.sketches import Score
+    from niwaki.target import Target
+    from niwaki.words.models import Model
+
+
+class Sample:
+    """One run of a model.
+
+    Scores are natural logarithms (nats) and never tempered.
+
+    Attributes
+    ----------
+    log_score : float
+        Factors, observations and sketches.
+    log_prior : float
+        The log density of the choices.
+    log_weight : float
+        The weight in its population; 0 where all weigh the same.
+    similarity : float or None
+        Share of cells that are equal in the scene and its target.
+    primitives : int
+        How many primitives the scene has.
+    has_ended : bool
+        Whether the run went to its end; a search that was stopped may leave others.
+    cause : str or None
+        What made the run impossible.
+    seed : int or None
+        Of the search that found it.
+    seconds, cpu_seconds : float
+        Wall and processor time of that search.
+    """
+
+    def __init__(
+        self,
+        outcome: _engine.Outcome | _engine.Trace,
+        task: _engine.Task,
+        score: Score,
+        seed: int | None = None,
+        seconds: float = 0.0,
+        cpu_seconds: float = 0.0,
+    ) -> None:
+        self._outcome = outcome
+        self._task = task
+        self._score = score
+        self.log_score: float = outcome.log_score
+        self.log_prior: float = outcome.log_prior
+        self.similarity: float | None = outcome.similarity
+        self.primitives: int = outcome.primitives
+        self.cause: str | None = outcome.cause
+        self.log_weight: float = getattr(outcome, "log_weight", 0.0)
+        self.has_ended: bool = getattr(outcome, "has_ended", True)
+        self.seed, self.seconds, self.cpu_seconds = seed, seconds, cpu_seconds
+
+    @classmethod
+    def of_trace(cls, trace: _engine.Trace, task: _engine.Task, score: Score) -> Sample:
+        """A run whose choices were given."""
+        sample = cls(trace, task, score)
+        sample.__dict__["_trace"] = trace
+        return sample
+
+    @cached_property
+    def _trace(self) -> _engine.Trace:
+        """The run once more, with names."""
+        with translated("model"):
+            return self._task.trace(self._outcome)  # type: ignore[arg-type]
+
+    @property
+    def log_joint(self) -> float:
+        """Choices and score together, nats."""
+        return self.log_prior + self.log_score
+
+    @property
+    def value(self) -> Any:
+        """What the model returned; None for a run that did not end."""
+        return self._outcome.value
+
+    @property
+    def target(self) -> Target | None:
+        """What the scene should fill."""
+        return self._score.target
+
+    @property
+    def choices(self) -> dict[str, Any]:
+        """Every choice by its readable address; give them to `run(choices=...)` to get the same run."""
+        return {choice[0]: choice[3] for choice in self._trace.choices}
+
+    @property
+    def families(self) -> dict[str, str]:
+        """The distribution of every choice."""
+        return {choice[0]: choice[2] for choice in self._trace.choices}
+
+    @property
+    def order(self) -> list[tuple[int, int]]:
+        """Order choices: the hash of the future that ran, and its place among those that could."""
+        return self._outcome.order() if hasattr(self._outcome, "order") else []
+
+    @property
+    def queries(self) -> dict[Any, Any]:
+        """The model's answers by key."""
+        return dict(self._trace.queries)
+
+    @cached_property
+    def scene(self) -> Scene:
+        """The primitives, by the addresses of their `emit`."""
+        from niwaki.scene import Scene
+
+        return Scene(self._trace.parts)
+
+    def export(self, path: str | PathLike[str]) -> Path:
+        """Write the scene as .glb, .obj, .stl or .ply."""
+        return self.scene.export(path)
+
+    def picture(self, target: Target | None | bool = True, **settings: Any) -> Any:
+        """Draw the scene, with the target as a ghost; `target=None` leaves that out."""
+        return self.scene.picture(self._ghost(target), **settings)
+
+    def save(self, path: str | PathLike[str], target: Target | None | bool = True, **settings: Any) -> Path:
+        """Draw the scene into an image file, with the target as a ghost; `target=None` leaves that out."""
+        return self.scene.save(path, self._ghost(target), **settings)
+
+    def _ghost(self, target: Target | None | bool) -> Target | None:
+        if isinstance(target, bool):
+            return self.target if target else None
+        return target
+
+    def _repr_png_(self) -> bytes | None:
+        from niwaki.draw.picture import png
+
+        return png(self.picture(size=(800, 600))) if self.primitives else None
+
+    def __repr__(self) -> str:
+        parts = [f"log score {self.log_score:.2f}", f"log prior {self.log_prior:.2f}"]
+        if self.similarity is not None:
+            parts.append(f"similarity {self.similarity:.3f}")
+        if self.primitives:
+            parts.append(f"{self.primitives} primitives")
+        if not self.has_ended:
+            parts.append("not ended")
+        return f"<Sample: {', '.join(parts)}>"
+
+
+class Result(Sequence[Sample]):
+    """What a search found; a sequence of its samples.
+
+    Attributes
+    ----------
+    samples : list of Sample
+        Of `grow`: one for each run. Of `smc`: the particles. Else: the runs.
+    seed : int
+        Of the (first) search.
+    log_evidence : float or None
+        Log of the model's total probability, nats; estimated by particles and importance, exact by enumeration.
+    interrupted : bool
+        Whether it was stopped before its end.
+    seconds, cpu_seconds : float
+        Wall and processor time of the search alone.
+    barriers, resampled, ancestors, tries : int or None
+        Barriers of a population, at how many it was resampled, ancestors left; runs that rejection or enumeration took.
+    """
+
+    def __init__(
+        self,
+        model: Model[..., Any],
+        samples: list[Sample],
+        seed: int,
+        method: Any,
+        score: Score,
+        *,
+        log_evidence: float | None = None,
+        interrupted: bool = False,
+        barriers: int | None = None,
+        resampled: int | None = None,
+        ancestors: int | None = None,
+        tries: int | None = None,
+        table: list[tuple[Any, float]] | None = None,
+    ) -> None:
+        self.model, self.samples, self.seed, self.method, self.score = model, samples, seed, method, score
+        self.log_evidence, self.interrupted = log_evidence, interrupted
+        self.barriers, self.resampled, self.ancestors, self.tries = barriers, resampled, ancestors, tries
+        self._table = table
+        self.seconds = sum(sample.seconds for sample in samples)
+        self.cpu_seconds = sum(sample.cpu_seconds for sample in samples)
+
+    def __len__(self) -> int:
+        return len(self.samples)
+
+    def __iter__(self) -> Iterator[Sample]:
+        return iter(self.samples)
+
+    def __getitem__(self, index: Any) -> Any:
+        return self.samples[index]
+
+    @property
+    def best(self) -> Sample:
+        """The sample of the best log score; runs that ended come first."""
+        if not self.samples:
+            raise InputError("no-runs", detail=repr(self))
+        possible = [s for s in self.samples if s.has_ended and s.log_score > -math.inf]
+        return max(possible or self.samples, key=lambda sample: sample.log_score)
+
+    @property
+    def value(self) -> Any:
+        """What the best sample returned."""
+        return self.best.value
+
+    @property
+    def scene(self) -> Scene:
+        """The scene of the best sample."""
+        return self.best.scene
+
+    @property
+    def weights(self) -> NDArray[np.float64]:
+        """The samples' weights, (n,), summing to one."""
+        logs = np.array([sample.log_weight for sample in self.samples], dtype=np.float64)
+        if len(logs) == 0 or logs.max() == -math.inf:
+            return np.full(len(logs), 1.0 / max(len(logs), 1))
+        raw = np.exp(logs - logs.max())
+        return np.asarray(raw / raw.sum())
+
+    def distribution(self) -> dict[Any, float]:
+        """The probability of each value: exact for enumeration, weighted shares of the samples else.
+
+        Values that cannot be keys of a dict stand under their `repr`.
+        """
+        if self._table is not None:
+            total = self.log_evidence if self.log_evidence is not None else 0.0
+            rows = [(value, math.exp(log - total)) for value, log in self._table]
+        else:
+            rows = [(s.value, float(w)) for s, w in zip(self.samples, self.weights, strict=True)]
+        found: dict[Any, float] = {}
+        for value, share in rows:
+            key = value if _can_be_key(value) else repr(value)
+            found[key] = found.get(key, 0.0) + share
+        return found
+
+    def export(self, path: str | PathLike[str]) -> Path:
+        """Write the best scene as .glb, .obj, .stl or .ply."""
+        return self.best.export(path)
+
+    def save(self, path: str | PathLike[str], **settings: Any) -> Path:
+        """Draw the best scene into an image file."""
+        return self.best.save(path, **settings)
+
+    def sheet(self, **settings: Any) -> Any:
+        """All samples side by side, best first, with their numbers."""
+        from niwaki.draw.sheet import sheet
+
+        ranked = sorted(self.samples, key=lambda sample: -sample.log_score)
+        scenes = [sample.scene for sample in ranked]
+        return sheet(scenes, [caption(sample) for sample in ranked], self.score.target, **settings)
+
+    def _repr_png_(self) -> bytes | None:
+        return self.best._repr_png_() if self.samples else None
+
+    def __repr__(self) -> str:
+        parts = [f"{len(self)} sample{'' if len(self) == 1 else 's'}"]
+        if self._table is not None:
+            parts = [f"{len(self._table)} values, {self.tries} runs"]
+        elif self.samples:
+            parts.append(f"best log score {self.best.log_score:.2f}")
+            if self.best.similarity is not None:
+                parts.append(f"similarity {self.best.similarity:.3f}")
+        if self.log_evidence is not None:
+            parts.append(f"log evidence {self.log_evidence:.4g}")
+        parts.append(f"seed {self.seed}")
+        parts.append(f"{self.seconds:.2f} s")
+        if self.interrupted:
+            parts.append("interrupted")
+        return f"<Result of {self.model.name}: {', '.join(parts)}>"
+
+
+def caption(sample: Sample) -> str:
+    """A line for a contact sheet."""
+    close = f"   {100 * sample.similarity:.1f} %" if sample.similarity is not None else ""
+    return f"seed {sample.seed}   {sample.log_score:.2f}{close}"
+
+
+def _can_be_key(value: Any) -> bool:
+    try:
+        hash(value)
+    except TypeError:
+        return False
+    return True
