@@ -13,7 +13,7 @@ from niwaki.lang.arguments import bind, no_keywords
 from niwaki.lang.body import Body
 from niwaki.lang.core import Expr, Form, literal
 from niwaki.lang.expressions import closure, expression, expressions, keep_defaults, static
-from niwaki.lang.names import MISSING
+from niwaki.lang.names import MISSING, hashable
 from niwaki.lang.scope import Scope
 from niwaki.words.models import underlying
 
@@ -265,11 +265,7 @@ def caller(body: Body, node: ast.expr) -> Caller:
             return lambda args, at: _named(body, "call", [name, *args, *captures], at)
         return lambda args, at: _named(body, "apply", [kept, *args], at)
     value = underlying(static(body, node))
-    operation = (
-        vocabulary.OPERATIONS.get(value)
-        if value is not MISSING and getattr(value, "__hash__", None)
-        else None
-    )
+    operation = vocabulary.OPERATIONS.get(value) if value is not MISSING and hashable(value) else None
     if operation is not None:
         head = operation.head
         return lambda args, at: Form(head, list(args), body.span(at))

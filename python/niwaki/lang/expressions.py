@@ -15,7 +15,7 @@ from typing import Any, TypeVar
 from niwaki.lang import vocabulary
 from niwaki.lang.body import Block, Body, stable
 from niwaki.lang.core import Expr, Form, literal
-from niwaki.lang.names import MISSING, is_record_class, nearest
+from niwaki.lang.names import MISSING, hashable, is_record_class, nearest
 from niwaki.lang.refuse import refuse
 from niwaki.lang.scope import Scope, Variable
 
@@ -101,9 +101,9 @@ def outside(body: Body, node: ast.expr, value: Any) -> Expr:
     """A live object used as a value."""
     text = body.span(node).text
     function = vocabulary.ALL_WORDS | set(vocabulary.OPERATIONS) | {map, filter, sorted, dict}
-    if _hashable(value) and (value in vocabulary.NOT_IN_A_MODEL or value in vocabulary.FORBIDDEN_BUILTINS):
+    if hashable(value) and (value in vocabulary.NOT_IN_A_MODEL or value in vocabulary.FORBIDDEN_BUILTINS):
         forbidden(body, node, value)
-    if (_hashable(value) and value in function) or is_record_class(value):
+    if (hashable(value) and value in function) or is_record_class(value):
         body.refuse("word-as-value", node, name=text)
     if isinstance(value, ModuleType):
         body.refuse("module-as-value", node, name=text)
@@ -123,14 +123,6 @@ def forbidden(body: Body, node: ast.AST, value: Any) -> None:
         code, cure = vocabulary.NOT_IN_A_MODEL[value]
         body.refuse(code, node, name=value.__name__, cure=cure)
     body.refuse("forbidden-function", node, name=value.__name__)
-
-
-def _hashable(value: Any) -> bool:
-    try:
-        hash(value)
-    except TypeError:
-        return False
-    return True
 
 
 def closure(body: Body, scope: Scope, node: ast.AST, immediate: bool = False) -> Expr:

@@ -9,15 +9,14 @@ from __future__ import annotations
 import ast
 from types import FunctionType
 
-from niwaki.errors import ModelError
 from niwaki.lang import calls, comprehensions  # noqa: F401  (they register themselves)
 from niwaki.lang.body import Body
 from niwaki.lang.core import Core, Expr, Form, literal, write_tree
 from niwaki.lang.expressions import expression
 from niwaki.lang.names import is_named_tuple, record_fields
-from niwaki.lang.program import Program, Unit
+from niwaki.lang.program import Program, Unit, check_signature
 from niwaki.lang.scope import Scope, Variable, functions
-from niwaki.lang.source import head_span, span_of
+from niwaki.lang.source import head_span
 from niwaki.lang.statements import statement
 
 
@@ -60,7 +59,7 @@ def _function(program: Program, unit: Unit, scope: Scope) -> Form:
     """One `fn`."""
     node = scope.node
     assert isinstance(node, (ast.FunctionDef, ast.Lambda))
-    _check_signature(unit, node)
+    check_signature(unit.file, node)
     body = Body(program, unit, scope)
     if isinstance(node, ast.Lambda):
         block, value = body.within(lambda: expression(body, node.body))
@@ -88,18 +87,3 @@ def _defaults(body: Body, unit: Unit, scope: Scope) -> list[Expr]:
         default.core if isinstance(default, Variable) else expression(body, default)
         for default in scope.defaults.values()
     ]
-
-
-def _check_signature(unit: Unit, node: ast.FunctionDef | ast.Lambda) -> None:
-    """Refuse `*args`, `**kwargs`, and required parameters after optional ones."""
-    extra = node.args.vararg or node.args.kwarg
-    if extra is not None:
-        raise ModelError("star-parameters", span_of(extra, unit.file), name=extra.arg)
-    required = {
-        arg.arg
-        for arg, value in zip(node.args.kwonlyargs, node.args.kw_defaults, strict=True)
-        if value is None
-    }
-    if required and (node.args.defaults):
-        late = next(arg for arg in node.args.kwonlyargs if arg.arg in required)
-        raise ModelError("required-after-optional", span_of(late, unit.file), name=late.arg)

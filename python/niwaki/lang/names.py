@@ -67,6 +67,15 @@ def record_fields(value: Any) -> tuple[str, ...]:
     return tuple(field.name for field in dataclasses.fields(value))
 
 
+def hashable(value: Any) -> bool:
+    """Whether a live object can be looked up in a table; a tuple that holds a list cannot."""
+    try:
+        hash(value)
+    except TypeError:
+        return False
+    return True
+
+
 def is_library(function: FunctionType) -> bool:
     """Whether a function belongs to Python's library or to an installed package rather than to the user.
 

@@ -13,10 +13,10 @@ from typing import Any
 from niwaki.errors import InputError, ModelError
 from niwaki.lang.constants import is_data, owned
 from niwaki.lang.core import Expr, Form, is_literal, literal
-from niwaki.lang.names import Namespace, is_named_tuple, is_record_class, record_fields
+from niwaki.lang.names import Namespace, is_library, is_named_tuple, is_record_class, record_fields
 from niwaki.lang.scope import FunctionNode, Scope, Scopes, analyse, functions
 from niwaki.lang.sites import labels_of
-from niwaki.lang.source import SourceFile, Span, find_function
+from niwaki.lang.source import SourceFile, Span, find_function, span_of
 from niwaki.words.distributions import Distribution
 from niwaki.words.models import Host, Model
 
@@ -60,6 +60,7 @@ class Program:
                     raise ModelError("no-source", used_at, name=function.__name__)
                 raise InputError("no-source-file", name=function.__name__)
             file, node = found
+            check_signature(file, node)
             namespace = Namespace(function)
             scopes = analyse(node)
             unit = Unit(function, file, node, scopes, namespace, {}, {})
@@ -105,6 +106,9 @@ class Program:
         if isinstance(value, Model):
             value = value.function
         if isinstance(value, FunctionType):
+            if is_library(value):
+                code = "word-as-value" if value.__module__.startswith("niwaki.words") else "library-function"
+                raise ModelError(code, used_at, name=name if name.isidentifier() else value.__name__)
             return Form("closure", [literal(self.unit(value, used_at).name)])
         if isinstance(value, Distribution):
             parts = [self.constant(part, used_at, name) for part in value.parameters]
@@ -155,3 +159,18 @@ class Program:
 def _kind(value: Any) -> str:
     kind = type(value).__name__
     return f"{'an' if kind[:1].lower() in 'aeiou' else 'a'} {kind}"
+
+
+def check_signature(file: SourceFile, node: FunctionNode) -> None:
+    """Refuse `*args`, `**kwargs`, and required parameters after optional ones."""
+    extra = node.args.vararg or node.args.kwarg
+    if extra is not None:
+        raise ModelError("star-parameters", span_of(extra, file), name=extra.arg)
+    required = {
+        arg.arg
+        for arg, value in zip(node.args.kwonlyargs, node.args.kw_defaults, strict=True)
+        if value is None
+    }
+    if required and (node.args.defaults):
+        late = next(arg for arg in node.args.kwonlyargs if arg.arg in required)
+        raise ModelError("required-after-optional", span_of(late, file), name=late.arg)

@@ -27,7 +27,7 @@ from typing import TYPE_CHECKING, Any
 
 from niwaki import words
 from niwaki.lang import vocabulary
-from niwaki.lang.names import MISSING, is_library
+from niwaki.lang.names import MISSING, hashable, is_library
 from niwaki.lang.scope import Scope, Variable, default_expressions
 from niwaki.words.models import underlying
 
@@ -114,23 +114,24 @@ class _Namer:
 
     def call(self, node: ast.Call) -> None:
         value = self.meaning(node.func)
-        hashable = getattr(value, "__hash__", None) is not None
+        if not hashable(value):
+            value = None
         if not isinstance(node.func, ast.Name):
             self.visit(node.func)
         for arg in (*node.args, *(keyword.value for keyword in node.keywords)):
             self.visit(arg)
-        if hashable and value in vocabulary.DRAWS:
+        if value in vocabulary.DRAWS:
             self.label(node, "end", self.target or vocabulary.DRAWS[value].family)
         elif value is words.sample:
             self.label(node, "end", self.target or self.family(node.args[0] if node.args else None))
         elif value is words.choose:
             weighted = len(node.args) > 1 or bool(node.keywords)
             self.label(node, "end", self.target or ("categorical" if weighted else "discrete_uniform"))
-        elif hashable and value in vocabulary.EFFECTS:
+        elif value in vocabulary.EFFECTS:
             self.label(node, "end", vocabulary.EFFECTS[value])
         elif value is words.future:
             self.label(node, "call", self.callee(node.args[0]) if node.args else "apply")
-        elif hashable and value in CALLS_A_FUNCTION:
+        elif value in CALLS_A_FUNCTION:
             self.label((node, "loop"), "loop", f"{CALLS_A_FUNCTION[value]}[]")
             key = next((keyword.value for keyword in node.keywords if keyword.arg == "key"), None)
             function = key if key is not None else (node.args[0] if node.args else None)
