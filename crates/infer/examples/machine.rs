@@ -23,6 +23,7 @@ fn main() {
          (for $i (range 100) (body (set $s (sample (index (data 0) $s))) \
          (do (observe (index (data 1) $s) (mod $i 3))))) (return $s)) (entry \"m\"))"
     );
+    let seconds = std::env::var("SECONDS").ok().and_then(|s| s.parse().ok()).unwrap_or(2.0);
     let branching = r#"(module
       (fn "branch" (params $x $y $h $d)
         (set $angle (sample (dist gaussian $h 0.3)))
@@ -35,14 +36,22 @@ fn main() {
                 (do (call "branch" $nx $ny (sub $angle 0.5) (add $d 1))))
           (else (do (call "branch" $nx $ny $angle (add $d 1))))))))
       (fn "m" (params) (do (call "branch" 0.0 0.0 0.0 0))) (entry "m"))"#;
-    for (name, text, particles) in [("hmm", hmm.as_str(), 1000), ("branching", branching, 300)] {
+    for (name, text, particles) in [
+        ("hmm", hmm.as_str(), 1000),
+        ("hmm", hmm.as_str(), 100),
+        ("branching", branching, 300),
+        ("branching", branching, 30),
+    ] {
+        if std::env::var("ONLY").is_ok_and(|only| only != format!("{name}{particles}")) {
+            continue;
+        }
         let program = compile(&parse(text).expect("core form"), vec![]).expect("a program");
         if std::env::args().any(|a| a == "--code") {
             println!("{}", niwaki_vm::code::disassemble(&program));
         }
         let task = Task::new(Arc::new(program));
         let (mut steps, mut runs, start) = (0usize, 0u64, cpu_seconds());
-        while cpu_seconds() - start < 2.0 {
+        while runs == 0 || cpu_seconds() - start < seconds {
             let settings =
                 Settings { particles, order: Order::DepthFirst, seed: runs, ..Settings::default() };
             let mut ended = 0;

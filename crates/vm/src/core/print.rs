@@ -149,8 +149,8 @@ mod tests {
     #[test]
     fn printing_what_was_parsed_is_a_fixed_point() {
         let text = r#"(module (file 0 "m.py") (class 0 "P" ("x" "y")) (const 0 (list 1 2.5))
-          (fn "m" @1:1-9:2 (file 0) (params $a $b) (defaults 3) (captures $c)
-            (set $x @2:3-2:9 (add $a (lit @2:4-2:5 1e-3)))
+          (fn @1:1-9:2 "m" (file 0) (params $a $b) (defaults 3) (captures $c)
+            (set @2:3-2:9 $x (add $a (lit @2:4-2:5 1e-3)))
             (unpack ($p $q) (data 0))
             (unpack_star ($p) $r ($s) (data 0))
             (if (lt $x 2) (then (return $p)) (else (do (factor -inf))))

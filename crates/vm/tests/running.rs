@@ -1,0 +1,240 @@
+//! The claim: a compiled program computes what core form says, suspends where it may, never uses the host stack,
+//! and stops at its budgets with the model's own call stack.
+
+use niwaki_geom::Shape;
+use niwaki_math::{Dist, Draw};
+use niwaki_vm::builtins::draw_to_value;
+use niwaki_vm::code::Program;
+use niwaki_vm::core::parse::parse;
+use niwaki_vm::fault::Fault;
+use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
+use niwaki_vm::machine::stack::RunFault;
+use niwaki_vm::machine::state::State;
+use niwaki_vm::machine::{Limits, Machine, Stop};
+use niwaki_vm::passes::compile;
+use niwaki_vm::value::{Value, repr};
+
+/// Answers choices with 1, 2, 3, ... (or their least value), pauses at factors when asked to, and writes all down.
+#[derive(Default)]
+struct Script {
+    count: i64,
+    pause: bool,
+    paths: Vec<String>,
+    addresses: Vec<u128>,
+    score: f64,
+}
+
+impl Answers<f64> for Script {
+    fn choice(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Answer<Value>, Fault> {
+        self.count += 1;
+        if self.paths.len() < 1000 {
+            self.paths.push(at.path());
+        }
+        self.addresses.push(at.address());
+        let draw = match dist.enumerate() {
+            Some(values) => values[self.count as usize % values.len()].clone(),
+            None => Draw::Real(self.count as f64),
+        };
+        Ok(Answer::Go(draw_to_value(draw)))
+    }
+    fn score(&mut self, _: &At<'_, f64>, _: Factor, log: f64) -> Result<Answer<()>, Fault> {
+        self.score += log;
+        Ok(if self.pause { Answer::Pause } else { Answer::Go(()) })
+    }
+    fn emit(&mut self, _: &At<'_, f64>, _: &[Shape]) -> Result<Answer<()>, Fault> {
+        Ok(Answer::Go(()))
+    }
+    fn query(&mut self, _: &At<'_, f64>, _: &Value, _: &Value) -> Result<(), Fault> {
+        Ok(())
+    }
+    fn host(&mut self, _: u16, args: &[Value]) -> Result<Value, Fault> {
+        Ok(args[0].clone())
+    }
+}
+
+fn program(text: &str) -> Program {
+    compile(&parse(text).expect("core form"), vec![]).expect("a program")
+}
+
+fn run_with(text: &str, limits: Limits) -> Result<(String, Script), Box<RunFault>> {
+    let program = program(text);
+    let mut machine = Machine::new(&program, limits);
+    let mut state = machine.start(&[], true).expect("a start");
+    let mut script = Script::default();
+    machine.finish(&mut state, &mut script)?;
+    let result = state.result();
+    Ok((repr(&result).expect("a short value"), script))
+}
+
+fn value(text: &str) -> String {
+    match run_with(text, Limits::default()) {
+        Ok((value, _)) => value,
+        Err(fault) => panic!("{fault}"),
+    }
+}
+
+fn fault(text: &str, limits: Limits) -> Box<RunFault> {
+    match run_with(text, limits) {
+        Ok((value, _)) => panic!("no fault, but {value}"),
+        Err(fault) => fault,
+    }
+}
+
+fn entry(body: &str) -> String {
+    format!("(module (fn \"m\" (params) {body}) (entry \"m\"))")
+}
+
+/// A choice that nobody looks at: makes the function around it effectful.
+const EFFECT: &str = "(do (sample (dist bernoulli 0.5)))";
+
+#[test]
+fn merges_loops_and_exits_are_the_same_with_and_without_effects() {
+    // Each body is run as it is (a plain loop) and with a choice in every iteration (a lifted loop).
+    let bodies = [
+        (
+            "(set $s 0) (for $i (range 5) (body EFFECT (set $s (add $s $i)))) (return (tuple $s $i))",
+            "(10, 4)",
+        ),
+        (
+            "(set $s 0) (for $i (range 9) (body EFFECT (if (eq $i 3) (then (break))) (set $s $i))) (return $s)",
+            "2",
+        ),
+        (
+            "(set $s 0) (for $i (range 5) (body EFFECT (if (eq (mod $i 2) 0) (then (continue))) (set $s (add $s $i)))) (return $s)",
+            "4",
+        ),
+        ("(for $i (range 5) (body EFFECT (if (eq $i 3) (then (return (mul $i 100)))))) (return -1)", "300"),
+        (
+            "(set $a 1) (set $b 2) (set $n 0) (while (lt $n 3) (body EFFECT (set $t $a) (set $a $b) (set $b $t) (set $n (add $n 1)))) (return (tuple $a $b))",
+            "(2, 1)",
+        ),
+        (
+            "(set $s 0) (for $i (range 3) (body EFFECT (for $j (range $i) (body EFFECT (if (eq $j 1) (then (break))) (set $s (add (mul 10 $s) $j)))))) (return $s)",
+            "0",
+        ),
+        ("(set $x 1) (for $i (list) (body EFFECT (set $x 2))) (return $x)", "1"),
+        (
+            "(for $i (range 4) (body EFFECT (for $j (range 4) (body EFFECT (if (eq (add $i $j) 5) (then (return (tuple $i $j)))))))) (return none)",
+            "(2, 3)",
+        ),
+        (
+            "(set $n 0) (while true (body EFFECT (set $n (add $n 1)) (if (gt $n 6) (then (break)) (else (continue))))) (return $n)",
+            "7",
+        ),
+        (
+            "(set $xs (list)) (for $i (range 3) (body EFFECT (set $xs (append $xs (mul $i $i))))) (return $xs)",
+            "[0, 1, 4]",
+        ),
+    ];
+    for (body, expected) in bodies {
+        assert_eq!(value(&entry(&body.replace("EFFECT", ""))), expected, "plain: {body}");
+        assert_eq!(value(&entry(&body.replace("EFFECT", EFFECT))), expected, "lifted: {body}");
+    }
+}
+
+#[test]
+fn a_variable_read_before_it_is_assigned_is_a_fault() {
+    for effect in ["", EFFECT] {
+        let text = entry(&format!("(for $i (list) (body {effect} (set $x 2))) (return $x)"));
+        assert_eq!(fault(&text, Limits::default()).fault.code, "unassigned-variable");
+        let text = entry(&format!("{effect} (if (eq 1 2) (then (set $x 2))) (return $x)"));
+        assert_eq!(fault(&text, Limits::default()).fault.code, "unassigned-variable");
+    }
+}
+
+#[test]
+fn closures_defaults_and_records() {
+    let text = r#"(module (class 0 "P" ("x" "y")) (fn "add" (params $a $b) (defaults $k) (captures $k) (return (add (mul 100 $k) (add $a $b))))
+        (fn "m" (params) (set $f (closure "add" 7)) (set $p (record 0 (apply $f 1) (apply $f 1 2)))
+        (return (tuple (field $p "x") (field $p "y") (cond (and 1 0) 5 (or 0 6))))) (entry "m"))"#;
+    assert_eq!(value(text), "(708, 703, 6)");
+}
+
+#[test]
+fn addresses_are_paths_of_sites() {
+    let text = r#"(module (fn "wing" (params $i) (set $z (sample (dist gaussian 0 1))) (return $z))
+        (fn "m" (params) (for $i (range 2) (body (set $a (call "wing" $i)) (set $b (call "wing" $i)))) (set $z (sample (dist gaussian 0 1))))
+        (entry "m"))"#;
+    let (_, script) = run_with(text, Limits::default()).unwrap_or_else(|f| panic!("{f}"));
+    assert_eq!(script.paths, ["i[0]/wing/z", "i[0]/wing#1/z", "i[1]/wing/z", "i[1]/wing#1/z", "z"]);
+    let unique: std::collections::HashSet<u128> = script.addresses.iter().copied().collect();
+    assert_eq!(unique.len(), 5);
+}
+
+#[test]
+fn two_hundred_thousand_calls_deep_runs_and_is_dropped() {
+    for effect in ["", EFFECT] {
+        let text = format!(
+            r#"(module (fn "down" (params $n) {effect} (if (eq $n 0) (then (return (tuple 0 none))))
+               (return (tuple $n (call "down" (sub $n 1))))) (fn "m" (params) (set $v (call "down" 200000))
+               (return (index $v 0))) (entry "m"))"#
+        );
+        assert_eq!(value(&text), "200000");
+    }
+}
+
+#[test]
+fn budgets_stop_what_does_not_end_and_show_the_stack() {
+    let steps = Limits { steps: 100_000, ..Limits::default() };
+    let memory = Limits { bytes: 10 << 20, ..Limits::default() };
+    let endless = entry("(set $n 0) (while true (body (set $n (add $n 1))))");
+    assert_eq!(fault(&endless, steps).fault.code, "step-budget");
+    let endless = entry(&format!("(set $n 0) (while true (body {EFFECT} (set $n (add $n 1))))"));
+    assert_eq!(fault(&endless, steps).fault.code, "step-budget");
+    for effect in ["", EFFECT] {
+        let text = format!(
+            r#"(module (fn "f" (params $n) {effect} (return (add 1 (call @7:3-7:9 "f" (add $n 1)))))
+               (fn "m" (params) (return (call @9:1-9:5 "f" 0))) (entry "m"))"#
+        );
+        let found = fault(&text, memory);
+        assert_eq!(found.fault.code, "memory-budget");
+        assert!(found.omitted > 1000);
+        assert_eq!((&*found.stack[0].function, found.stack[0].span.line), ("m", 9));
+        assert_eq!((&*found.stack[1].function, found.stack[1].span.line), ("f", 7));
+    }
+}
+
+#[test]
+fn a_paused_run_goes_on_where_it_was_and_forks_apart() {
+    let text = r#"(module (fn "m" (params) (set $xs (list)) (for $i (range 4) (body
+        (set $x (sample (dist gaussian 0 1))) (do (factor $x)) (set $xs (append $xs $x)))) (return $xs)) (entry "m"))"#;
+    let program = program(text);
+    let mut machine = Machine::new(&program, Limits::default());
+    let mut state = machine.start(&[], true).expect("a start");
+    let mut script = Script { pause: true, ..Script::default() };
+    let root = state.runnable()[0];
+    for _ in 0..2 {
+        let stop = machine.resume(&mut state, root, &mut script).unwrap_or_else(|f| panic!("{f}"));
+        assert_eq!(stop, Stop::Paused);
+    }
+    let finish = |mut state: State, count: i64| {
+        let mut machine = Machine::new(&program, Limits::default());
+        let mut script = Script { count, ..Script::default() };
+        machine.finish(&mut state, &mut script).unwrap_or_else(|f| panic!("{f}"));
+        repr(&state.result()).expect("short")
+    };
+    let fork = state.clone();
+    assert_eq!(finish(state, 2), "[1.0, 2.0, 3.0, 4.0]");
+    assert_eq!(finish(fork, 70), "[1.0, 2.0, 71.0, 72.0]");
+}
+
+#[test]
+fn futures_wait_for_each_other_and_a_cycle_is_a_fault() {
+    let text = r#"(module (fn "late" (params $k) (do (factor 0.0)) (return (mul $k 10)))
+        (fn "m" (params) (set $a (future "late" 1)) (set $b (future "late" 2))
+        (return (tuple (force $b) (force $a) $a))) (entry "m"))"#;
+    let program = program(text);
+    for depth_first in [true, false] {
+        let mut machine = Machine::new(&program, Limits::default());
+        let mut state = machine.start(&[], depth_first).expect("a start");
+        machine.finish(&mut state, &mut Script::default()).unwrap_or_else(|f| panic!("{f}"));
+        assert_eq!(repr(&state.result()).expect("short"), "(20, 10, 10)");
+    }
+    assert!(
+        compile::<f64>(
+            &parse("(module (fn \"m\" (params) (return (call \"n\"))) (entry \"m\"))").expect("core"),
+            vec![]
+        )
+        .is_err()
+    );
+}
