@@ -1,7 +1,7 @@
 //! Searches behind the door: a task and the algorithms that answer it.
 //!
-//! The interpreter's lock is released while the engine works. Whoever watches is called at most every [`PAUSE`]; if
-//! that raises `KeyboardInterrupt` (or Ctrl-C was pressed), the search stops and gives what it has.
+//! The interpreter's lock is released while the engine works. Whoever watches is called every [`PAUSE`]; if that
+//! raises `KeyboardInterrupt` (or Ctrl-C was pressed), the search stops at its next barrier and gives what it has.
 
 use crate::faults;
 use crate::geometry::PySketchSpec;
@@ -22,81 +22,86 @@ use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use std::collections::HashMap;
-use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
 
-/// Least time between two calls of whoever watches.
+/// Time between two calls of whoever watches.
 const PAUSE: Duration = Duration::from_millis(50);
 
-/// Tells a Python callable how far a search is, now and then, and remembers what it raised.
-struct Watch<'a> {
-    callable: Option<&'a Py<PyAny>>,
-    last: Instant,
-    raised: Option<PyErr>,
-    interrupted: bool,
+/// What a search tells whoever watches, and whether it should stop.
+#[derive(Default)]
+struct Watch {
+    stop: AtomicBool,
+    /// Done, ended, best log score.
+    now: Mutex<(u64, usize, f64)>,
 }
 
-impl<'a> Watch<'a> {
-    fn new(callable: Option<&'a Py<PyAny>>) -> Watch<'a> {
-        Watch { callable, last: Instant::now(), raised: None, interrupted: false }
+impl Watch {
+    /// Notes how far the search is; whether to go on.
+    fn look(&self, done: u64, ended: usize, best: f64) -> bool {
+        *self.now.lock().unwrap_or_else(PoisonError::into_inner) = (done, ended, best);
+        !self.stop.load(Ordering::Relaxed)
     }
 
-    /// Whether to go on. The callable is given `(done, ended, best)`.
-    fn look(&mut self, done: u64, ended: usize, best: f64) -> bool {
-        if self.last.elapsed() < PAUSE {
-            return true;
-        }
-        let told = Python::attach(|py| {
+    /// Looks for Ctrl-C and calls `callable(done, ended, best)`, on the thread that Python lent us: only there are
+    /// signals seen.
+    fn tell(&self, callable: Option<&Py<PyAny>>) -> Result<(), PyErr> {
+        let now = *self.now.lock().unwrap_or_else(PoisonError::into_inner);
+        Python::attach(|py| {
             py.check_signals()?;
-            self.callable.map_or(Ok(()), |c| c.call1(py, (done, ended, best)).map(|_| ()))
-        });
-        self.last = Instant::now();
-        let Err(error) = told else { return true };
-        if Python::attach(|py| error.is_instance_of::<PyKeyboardInterrupt>(py)) {
-            self.interrupted = true;
-        } else {
-            self.raised = Some(error);
-        }
-        false
+            callable.map_or(Ok(()), |c| c.call1(py, now).map(|_| ()))
+        })
     }
 }
 
-/// Runs `work` without the interpreter's lock, on so many threads (`None`: all of the machine's).
+/// Runs `work` without the interpreter's lock on a thread of its own, its parallel parts on so many threads (`None`:
+/// all of the machine's); meanwhile this thread watches.
 fn detached<T: Send>(
     py: Python<'_>,
     program: &Program,
     threads: Option<usize>,
-    watch: &mut Watch<'_>,
-    work: impl FnOnce(&mut Watch<'_>) -> Result<T, Failure> + Send,
+    callable: Option<&Py<PyAny>>,
+    work: impl FnOnce(&Watch) -> Result<T, Failure> + Send,
 ) -> PyResult<T> {
     let pool = match threads {
-        Some(0) => {
-            let fault = Fault::new("no-threads", "zero threads were asked for").with_help("use at least one");
-            return Err(faults::raise(py, &fault.into(), program));
-        }
         Some(n) => Some(
             rayon::ThreadPoolBuilder::new()
-                .num_threads(n)
+                .num_threads(n.max(1))
                 .build()
                 .map_err(|error| PyRuntimeError::new_err(error.to_string()))?,
         ),
         None => None,
     };
-    // Whoever watches lives on this thread, so the search runs here and only its parallel parts run in the pool.
-    let done = py.detach(|| match &pool {
-        Some(pool) => pool.install(|| work(watch)),
-        None => work(watch),
+    let (watch, mut raised) = (Watch::default(), None);
+    let done = py.detach(|| {
+        std::thread::scope(|scope| {
+            let (finished, wait) = channel::<()>();
+            let (watch, pool) = (&watch, &pool);
+            let worker = scope.spawn(move || {
+                let _dropped_at_the_end = finished;
+                match pool {
+                    Some(pool) => pool.install(|| work(watch)),
+                    None => work(watch),
+                }
+            });
+            while let Err(RecvTimeoutError::Timeout) = wait.recv_timeout(PAUSE) {
+                if raised.is_none()
+                    && let Err(error) = watch.tell(callable)
+                {
+                    raised = Some(error);
+                    watch.stop.store(true, Ordering::Relaxed);
+                }
+            }
+            worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+        })
     });
-    if let Some(error) = watch.raised.take() {
-        return Err(error);
+    match raised {
+        // Stopped by Ctrl-C: what was found is a result.
+        Some(error) if done.is_err() || !error.is_instance_of::<PyKeyboardInterrupt>(py) => Err(error),
+        _ => done.map_err(|failure| faults::raise(py, &failure, program)),
     }
-    done.map_err(|failure| {
-        if watch.interrupted {
-            PyKeyboardInterrupt::new_err(())
-        } else {
-            faults::raise(py, &failure, program)
-        }
-    })
 }
 
 fn unknown(py: Python<'_>, program: &Program, name: &str, found: &str, known: &str) -> PyErr {
@@ -139,17 +144,18 @@ impl PyTask {
     /// ``n`` forward runs: one outcome each.
     #[pyo3(signature = (seed, n=1, watch=None))]
     fn forward(&self, py: Python<'_>, seed: u64, n: u64, watch: Option<Py<PyAny>>) -> PyResult<Vec<PyOutcome>> {
-        let mut watch = Watch::new(watch.as_ref());
-        let samples = detached(py, &self.task.program, None, &mut watch, |watch| {
-            let mut samples = Vec::new();
-            for stream in 0..n {
-                samples.push(forward(&self.task, seed, stream)?);
-                if !watch.look(stream + 1, 0, f64::NEG_INFINITY) {
-                    break;
+        let run = |stream| forward(&self.task, seed, stream);
+        let samples = if n == 1 {
+            vec![self.at_once(py, || run(0))?]
+        } else {
+            detached(py, &self.task.program, None, watch.as_ref(), |watch| {
+                let mut samples = Vec::new();
+                while (samples.len() as u64) < n && watch.look(samples.len() as u64, 0, f64::NEG_INFINITY) {
+                    samples.push(run(samples.len() as u64)?);
                 }
-            }
-            Ok(samples)
-        })?;
+                Ok(samples)
+            })?
+        };
         Ok(self.outcomes(py, samples, |_| 0.0))
     }
 
@@ -161,8 +167,7 @@ impl PyTask {
         max_runs: usize,
         watch: Option<Py<PyAny>>,
     ) -> PyResult<Bound<'py, PyTuple>> {
-        let mut watch = Watch::new(watch.as_ref());
-        let found = detached(py, &self.task.program, None, &mut watch, |watch| {
+        let found = detached(py, &self.task.program, None, watch.as_ref(), |watch| {
             enumerate(&self.task, max_runs, &mut |runs| watch.look(runs as u64, 0, f64::NEG_INFINITY))
         })?;
         let pair = |(value, log): &(Value, f64)| Ok((self.object(py, value)?, *log));
@@ -181,8 +186,7 @@ impl PyTask {
         seed: u64,
         watch: Option<Py<PyAny>>,
     ) -> PyResult<(Vec<PyOutcome>, u64, bool)> {
-        let mut watch = Watch::new(watch.as_ref());
-        let found = detached(py, &self.task.program, None, &mut watch, |watch| {
+        let found = detached(py, &self.task.program, None, watch.as_ref(), |watch| {
             let mut look = |tries| watch.look(tries, 0, f64::NEG_INFINITY);
             rejection(&self.task, n, bound, max_tries, seed, &mut look)
         })?;
@@ -199,8 +203,7 @@ impl PyTask {
         threads: Option<usize>,
         watch: Option<Py<PyAny>>,
     ) -> PyResult<(Vec<PyOutcome>, f64)> {
-        let mut watch = Watch::new(watch.as_ref());
-        let found = detached(py, &self.task.program, threads, &mut watch, |watch| {
+        let found = detached(py, &self.task.program, threads, watch.as_ref(), |watch| {
             importance(&self.task, n, seed, &mut |runs| watch.look(runs as u64, 0, f64::NEG_INFINITY))
         })?;
         Ok((self.outcomes(py, found.samples, |s| s.record.log_score()), found.log_evidence))
@@ -251,8 +254,7 @@ impl PyTask {
             },
             when: ess.map_or(When::Always, When::EffectiveBelow),
         };
-        let mut watch = Watch::new(watch.as_ref());
-        let found = detached(py, program, threads, &mut watch, |watch| {
+        let found = detached(py, program, threads, watch.as_ref(), |watch| {
             smc(&self.task, &settings, &mut |p| watch.look(p.barriers as u64, p.ended, p.best))
         })?;
         let facts = PyDict::new(py);
@@ -276,8 +278,7 @@ impl PyTask {
         let missing = if outcome.ended() { Missing::Refuse } else { Missing::Stop };
         let source = Source::Addresses(outcome.by_address());
         let classes = &self.model.get().classes;
-        let mut watch = Watch::new(None);
-        let trace = detached(py, &self.task.program, None, &mut watch, |_| replay(&self.task, source, missing))?;
+        let trace = self.at_once(py, || replay(&self.task, source, missing))?;
         PyTrace::new(py, trace, classes)
     }
 
@@ -301,15 +302,17 @@ impl PyTask {
             None if partial => Missing::Stop,
             None => Missing::Refuse,
         };
-        let mut watch = Watch::new(None);
-        let trace = detached(py, &self.task.program, None, &mut watch, |_| {
-            replay(&self.task, Source::Paths(&paths), missing)
-        })?;
+        let trace = self.at_once(py, || replay(&self.task, Source::Paths(&paths), missing))?;
         PyTrace::new(py, trace, classes)
     }
 }
 
 impl PyTask {
+    /// Runs something short without the interpreter's lock.
+    fn at_once<T: Send>(&self, py: Python<'_>, work: impl FnOnce() -> Result<T, Failure> + Send) -> PyResult<T> {
+        py.detach(work).map_err(|failure| faults::raise(py, &failure, &self.task.program))
+    }
+
     fn object<'py>(&self, py: Python<'py>, value: &Value) -> PyResult<Bound<'py, PyAny>> {
         self.model.get().classes.object(py, value)
     }

@@ -1,1 +1,76 @@
-"""Models to look at and start from: one model, one file, one picture."""
+"""Models to look at and start from: one model, one file, one picture.
+
+A module of this folder is an entry of the gallery when it has MODEL (the model), and, where they make sense, TITLE (one
+line), TARGET (the name of a function of `niwaki.gallery.targets`) and VOXEL (the cell size that suits both).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from importlib import import_module
+from pkgutil import iter_modules
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from niwaki.target import Target
+    from niwaki.words.models import Model
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One model of the gallery.
+
+    Attributes
+    ----------
+    name : str
+        As the shell calls it.
+    title : str
+        What it makes.
+    model : Model
+        The model.
+    target_name : str or None
+        The target that it is usually grown into.
+    voxel : float or None
+        The cell size that suits both.
+    """
+
+    name: str
+    title: str
+    model: Model[..., Any]
+    target_name: str | None
+    voxel: float | None
+
+    def target(self) -> Target | None:
+        """Make the usual target."""
+        return named_target(self.target_name) if self.target_name is not None else None
+
+
+def named_target(name: str) -> Target:
+    """Make one of the gallery's own targets."""
+    from niwaki.gallery import targets
+
+    made: Target = getattr(targets, name)()
+    return made
+
+
+def entries() -> list[Entry]:
+    """Every model of the gallery, by name."""
+    found = (entry(module.name) for module in iter_modules(__path__))
+    return sorted((one for one in found if one is not None), key=lambda one: one.name)
+
+
+def entry(name: str) -> Entry | None:
+    """Find the entry of that name; `spaceship`, `niwaki-tree` or `niwaki_tree`."""
+    stem = name.replace("-", "_")
+    if not stem.isidentifier() or not any(module.name == stem for module in iter_modules(__path__)):
+        return None
+    if stem in ("targets", "demo"):
+        return None
+    module = import_module(f"{__name__}.{stem}")
+    if not hasattr(module, "MODEL"):
+        return None
+    title = getattr(module, "TITLE", (module.__doc__ or "").partition("\n")[0])
+    made = Entry(
+        stem.replace("_", "-"), title, module.MODEL, getattr(module, "TARGET", None), getattr(module, "VOXEL", None)
+    )
+    return made

@@ -8,12 +8,16 @@ from typing import Any
 
 from niwaki.words.distributions import Distribution
 
-HALF_GRID = 1.5 * 2.0**20
+#: Adding and taking these away leaves 32 and 12 binary places; the engine does the same (crates/math/src/rounding.rs).
+NEAR, FAR = 1.5 * 2.0**20, 1.5 * 2.0**40
 
 
 def grid(log_score: float) -> float:
-    """The nearest multiple of 2^-32, so that sums do not depend on their order; infinities pass."""
-    return (log_score + HALF_GRID) - HALF_GRID
+    """Give the nearest multiple of 2^-32, or of 2^-12 beyond half a million nats, so that sums have no order."""
+    size = abs(log_score)
+    if size < 2.0**19:
+        return (log_score + NEAR) - NEAR
+    return (log_score + FAR) - FAR if size < 2.0**39 else log_score
 
 
 def hashed(address: str) -> int:

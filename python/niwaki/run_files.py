@@ -1,0 +1,137 @@
+"""run.json: a search as a file that can be replayed, without this session's memory.
+
+It holds the seed, the version, the model and its hash, the settings, the target and its hash, and for each run its scores,
+its choices by readable address with their families, and its order choices.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from niwaki import _engine
+from niwaki.compiled import digest, task, translated
+from niwaki.errors import InputError
+from niwaki.finding import Found, find
+from niwaki.result import Result, Sample
+from niwaki.sketches import Score
+
+if TYPE_CHECKING:
+    from niwaki.target import Target
+
+FORMAT = 1
+
+
+def written(result: Result, found: Found, settings: dict[str, Any], target: str) -> dict[str, Any]:
+    """A search as plain data."""
+    return {
+        "format": FORMAT,
+        "niwaki": _engine.__version__,
+        "model": {
+            "reference": found.reference,
+            "name": found.model.name,
+            "hash": digest(found.model.core()),
+        },
+        "target": {"reference": target, "hash": target_hash(result.score.target)},
+        "seed": result.seed,
+        "settings": settings,
+        "interrupted": result.interrupted,
+        "best": result.samples.index(result.best),
+        "runs": [{**numbers(sample), **_names(sample)} for sample in result],
+    }
+
+
+def numbers(sample: Sample) -> dict[str, Any]:
+    """The scores of a run, as `--json` prints them; what is not finite becomes null."""
+    found = {
+        "log_score": sample.log_score,
+        "log_prior": sample.log_prior,
+        "similarity": sample.similarity,
+        "primitives": sample.primitives,
+        "seconds": sample.seconds,
+        "cpu_seconds": sample.cpu_seconds,
+    }
+    return {k: None if isinstance(v, float) and not math.isfinite(v) else v for k, v in found.items()}
+
+
+def _names(sample: Sample) -> dict[str, Any]:
+    families = sample.families
+    return {
+        "seed": sample.seed,
+        "ended": sample.has_ended,
+        "choices": [
+            {"address": address, "family": families[address], "value": _plain(value)}
+            for address, value in sample.choices.items()
+        ],
+        "order_choices": [{"future": f"{future:032x}", "place": place} for future, place in sample.order],
+    }
+
+
+def _plain(value: Any) -> Any:
+    """A choice as JSON; reals that are not finite as text."""
+    if isinstance(value, tuple):
+        return [_plain(part) for part in value]
+    if isinstance(value, float) and not math.isfinite(value):
+        return repr(value)
+    return value
+
+
+def _chosen(value: Any) -> Any:
+    """A choice from JSON."""
+    if isinstance(value, list):
+        return tuple(_chosen(part) for part in value)
+    return float(value) if isinstance(value, str) else value
+
+
+def target_hash(target: Target | None) -> str | None:
+    """A hash of a target's mesh."""
+    if target is None:
+        return None
+    return hashlib.sha256(target.vertices.tobytes() + target.faces.tobytes()).hexdigest()
+
+
+def save(path: str | PathLike[str], data: dict[str, Any]) -> Path:
+    """Write a search, whole or not at all."""
+    from niwaki.draw.picture import write_whole
+
+    return write_whole(Path(path), (json.dumps(data, indent=1, allow_nan=False) + "\n").encode())
+
+
+def load(path: str | PathLike[str]) -> dict[str, Any]:
+    """Read a search, and check that it is one."""
+    place = Path(path)
+    if not place.is_file():
+        raise InputError("bad-run-file", path=place, reason="there is no such file")
+    try:
+        data = json.loads(place.read_text(encoding="utf-8"))
+        if data["format"] != FORMAT:
+            reason = f"it has format {data['format']}, this version reads {FORMAT}"
+            raise InputError("bad-run-file", path=place, reason=reason)
+        run = data["runs"][data["best"]]
+        for part in run["choices"]:
+            part["address"], part["value"]
+        data["model"]["reference"], data["model"]["hash"], run["ended"], data["target"]["reference"]
+    except (ValueError, OSError) as error:
+        raise InputError("bad-run-file", path=place, reason=f"it is not JSON: {error}") from error
+    except (KeyError, IndexError, TypeError) as error:
+        raise InputError("bad-run-file", path=place, reason=f"something is missing: {error!r}") from error
+    return dict(data)
+
+
+def replayed(data: dict[str, Any], number: int | None = None) -> Sample:
+    """One run of a search once more (the best), without its target."""
+    found = find(data["model"]["reference"])
+    now = digest(found.model.core())
+    if now != data["model"]["hash"]:
+        recorded = data["model"]["hash"][:12]
+        raise InputError("changed-model", name=found.reference, recorded=recorded, found=now[:12])
+    run = data["runs"][data["best"] if number is None else number]
+    choices = {part["address"]: _chosen(part["value"]) for part in run["choices"]}
+    made = task(found.model)
+    with translated(found.model.name):
+        trace = made.replay(choices, None, not run["ended"])
+    return Sample.of_trace(trace, made, Score())

@@ -1,0 +1,149 @@
+"""The engine and plain Python do the same: from one set of choices the same value, scores, scene and answers.
+
+Random programs (see `programs`), in both directions: the choices of an engine's forward run are given to plain Python, and
+those of a plain run to the engine. Decisions, whole numbers and addresses are equal; reals agree to 1e-12 of their size.
+A model that fails in plain Python fails in the engine. Seeds are fixed; a failure prints the smallest program that
+still fails. Nothing here is statistical.
+"""
+
+from __future__ import annotations
+
+import linecache
+import math
+from typing import Any
+
+import niwaki as nw
+import numpy as np
+import pytest
+from niwaki.errors import ModelError, ModelFault, NiwakiError
+from niwaki.lang.plain import Run, run_python
+from programs import program, shrink
+
+PROGRAMS = 300
+NOT_A_PROGRAM = {"unknown-name", "used-before-assigned", "captured-then-changed"}
+
+
+def load(text: str) -> Any:
+    name = f"random-{hash(text)}.py"
+    linecache.cache[name] = (len(text), None, text.splitlines(True), name)
+    space: dict[str, Any] = {"__name__": "made"}
+    exec(compile(text, name, "exec"), space)
+    return space["m"]
+
+
+def same(a: Any, b: Any) -> bool:
+    """Equal kind and value; reals to 1e-12 of their size."""
+    if type(a) is not type(b):
+        return False
+    if isinstance(a, float):
+        return a == b or (math.isnan(a) and math.isnan(b)) or math.isclose(a, b, rel_tol=1e-12, abs_tol=1e-12)
+    if isinstance(a, (list, tuple)):
+        return len(a) == len(b) and all(map(same, a, b))
+    if isinstance(a, dict):
+        return list(a) == list(b) and all(same(a[key], b[key]) for key in a)
+    if type(a).__name__ == "Shape":
+        return same_shape(a, b)
+    if type(a).__name__ == "Vec":
+        return same(a.parts, b.parts)
+    return bool(a == b)
+
+
+def same_shape(a: Any, b: Any) -> bool:
+    if a.kind != b.kind or not np.array_equal(a.faces(), b.faces()):
+        return False
+    return bool(np.allclose(a.vertices(), b.vertices(), rtol=1e-12, atol=1e-12))
+
+
+def facts(run: Run | nw.Sample) -> dict[str, Any]:
+    """What must agree."""
+    scene = run.scene if isinstance(run, Run) else [(part[0], part[1]) for part in run._trace.parts]
+    return {
+        "choices": dict(run.choices),
+        "value": run.value,
+        "log_prior": run.log_prior,
+        "log_score": run.log_score,
+        "scene": [(address, list(shapes)) for address, shapes in scene],
+        "queries": dict(run.queries),
+    }
+
+
+def engine(model: Any, **settings: Any) -> dict[str, Any] | NiwakiError:
+    try:
+        return facts(nw.run(model, max_steps=200_000, **settings).best)
+    except NiwakiError as error:
+        return error
+
+
+def plain(model: Any, **settings: Any) -> dict[str, Any] | NiwakiError:
+    try:
+        return facts(run_python(model, **settings))
+    except NiwakiError as error:
+        return error
+
+
+def compared(first: dict[str, Any] | NiwakiError, second: dict[str, Any] | NiwakiError) -> str:
+    """How two runs of one model differ, or nothing."""
+    if isinstance(first, NiwakiError) or isinstance(second, NiwakiError):
+        codes = [r.code if isinstance(r, NiwakiError) else "" for r in (first, second)]
+        return "" if codes[0] == codes[1] else f"{codes}\n{first}\n{second}"
+    for key in first:
+        if not same(first[key], second[key]):
+            return f"{key}:\n  {first[key]!r}\n  {second[key]!r}"
+    return ""
+
+
+def differs(text: str, seeds: int = 2) -> str:
+    """What is wrong with a program, or nothing."""
+    try:
+        model = load(text)
+        model.core()
+    except SyntaxError:
+        return ""
+    except ModelError as error:
+        return "" if error.code in NOT_A_PROGRAM else str(error)
+    try:
+        model.program()
+    except NiwakiError as error:
+        return str(error)
+    for seed in range(seeds):
+        own = plain(model, seed=seed)
+        if isinstance(own, dict) and (found := compared(own, engine(model, choices=own["choices"]))):
+            return f"plain run, seed {seed}: {found}"
+        if isinstance(own, NiwakiError) and own.code == "too-deep":
+            continue
+        there = engine(model, seed=seed)
+        if isinstance(there, dict):
+            here = plain(model, choices=there["choices"])
+            # A forward run ends early when it becomes impossible, and its trace is the whole run.
+            if found := compared(here, there):
+                return f"engine's run, seed {seed}: {found}"
+    return ""
+
+
+@pytest.mark.parametrize("seed", range(PROGRAMS))
+def test_random_program(seed: int) -> None:
+    whole = program(10_000 + seed)
+    if differs(whole.text):
+        small = shrink(whole, lambda text: bool(differs(text)))
+        pytest.fail(f"{small.text}\n{differs(small.text)}")
+
+
+def test_faults_have_the_same_code() -> None:
+    """What fails in plain Python fails in the engine, and is called the same."""
+    found = 0
+    for seed in range(400):
+        try:
+            model = load(program(50_000 + seed).text)
+            model.core()
+        except (ModelError, SyntaxError):
+            continue
+        try:
+            run_python(model, seed=seed)
+        except ModelFault as fault:
+            found += 1
+            if fault.code == "too-deep":
+                continue
+            there = engine(model, seed=seed)
+            if isinstance(there, NiwakiError):
+                assert there.code == fault.code
+    assert found > 3
