@@ -50,17 +50,18 @@ def branch(start, forward, radius, depth):
         end = start + length * ahead
         thin = radius * uniform(0.75, 0.95)
         emit(limb(start, end, radius, thin, forward, ahead, color=BARK))
-        if depth < 2:
+        if depth == 0:
             future(side_branch, start + 0.55 * length * ahead, ahead, 0.5 * (radius + thin), depth)
         start, forward, radius = end, ahead, thin
-        going_on = radius > 0.3 and flip(0.78 - 0.18 * depth)
-    cloud(start, forward, radius)
+        going_on = radius > 0.3 and flip(0.9 if depth == 0 else 0.4)
+    if flip(0.9):
+        cloud(start, forward, radius)
 
 
 @model
 def side_branch(middle, along, radius, depth):
     """Perhaps a branch that leaves a limb around `middle` sideways and a little upwards."""
-    if flip(0.55):
+    if flip(0.5):
         turn = uniform(0.0, 2.0 * pi)
         out = normalize(rotate(across(along), along, turn) + uniform(0.0, 0.5) * along)
         thin = radius * uniform(0.4, 0.7)
@@ -72,7 +73,7 @@ def side_branch(middle, along, radius, depth):
 @model
 def cloud(tip, forward, radius):
     """Foliage on a short last limb: flat tufts around a middle one."""
-    across_size = uniform(1.5, 3.6)
+    across_size = uniform(0.8, 4.0)
     high = across_size * uniform(0.45, 0.7)
     end = tip + 0.6 * forward
     middle = end + (0.35 * high) * UP
