@@ -1,8 +1,8 @@
 """The engine and plain Python do the same: from one set of choices the same value, scores, scene and answers.
 
-Random programs (see `programs`), in both directions: the choices of an engine's forward run are given to plain Python, and
-those of a plain run to the engine. Decisions, whole numbers and addresses are equal; reals agree to 1e-12 of their size.
-A model that fails in plain Python fails in the engine. Seeds are fixed; a failure prints the smallest program that
+Random programs (see `programs`), in both directions: the choices of an engine's forward run are given to plain
+Python, and those of a plain run to the engine. Decisions, whole numbers and addresses are equal; reals agree to 1e-12
+of their size. A model that fails in plain Python fails in the engine. Seeds are fixed; a failure prints the smallest program that
 still fails. Nothing here is statistical.
 """
 

@@ -13,7 +13,7 @@ from niwaki.lang.arguments import bind, no_keywords
 from niwaki.lang.body import Body
 from niwaki.lang.core import Expr, Form, literal
 from niwaki.lang.expressions import closure, expression, expressions, keep_defaults, static
-from niwaki.lang.names import MISSING
+from niwaki.lang.names import MISSING, hashable
 from niwaki.lang.scope import Scope
 from niwaki.words.models import underlying
 
