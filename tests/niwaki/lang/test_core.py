@@ -6,6 +6,7 @@ import math
 from pathlib import Path
 
 import pytest
+from niwaki.errors import ModelError
 from niwaki.lang.core import Form, literal, write
 from specification import load
 
@@ -94,3 +95,14 @@ def test_distributions_are_not_records() -> None:
     assert "(dist gaussian 0.0 2)" in core.write(spans=False)
     assert "(dist uniform 0 1)" in core.write(spans=False)
     assert not core.classes
+
+
+def test_values_that_cannot_be_looked_up_are_refused_all_the_same() -> None:
+    for call, code in (("map(T, [1])", "unknown"), ("T(1)", "not-a-function")):
+        text = f"T = ([1],)\n\n@model\ndef m():\n    return {call}\n"
+        try:
+            load(text, "unhashable.py").core()
+        except ModelError as error:
+            assert error.code == code
+        else:
+            assert code == "unknown", "a tuple is a value; calling it fails when it runs"
