@@ -1,21 +1,35 @@
 """The compiled engine: what the door between Python and Rust offers."""
 
-from collections.abc import Sequence
-from typing import Literal, final
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, Literal, final
 
 import numpy as np
 from numpy.typing import NDArray
 
 __all__ = [
+    "BadParameter",
+    "EngineFault",
+    "Opaque",
+    "Outcome",
+    "Program",
     "Shape",
     "Sketch",
     "SketchSpec",
     "Target",
+    "Task",
+    "Trace",
     "__version__",
+    "draw",
+    "draw_at",
+    "enumerate_support",
+    "family_names",
     "fine_mesh",
     "frame_camera",
+    "log_density",
     "no_self_intersection",
+    "parameter_names",
     "render",
+    "support",
     "volume_match",
 ]
 
@@ -112,7 +126,7 @@ class Sketch:
     def fork(self) -> Sketch: ...
 
 def volume_match(target: Target, sigma: float = 0.02) -> SketchSpec: ...
-def no_self_intersection(rule: Literal["solid", "surface"] = "solid") -> SketchSpec: ...
+def no_self_intersection(rule: str = "solid") -> SketchSpec: ...
 def render(
     meshes: Sequence[_Mesh],
     ghost: _Mesh | None = None,
@@ -135,3 +149,122 @@ def frame_camera(
     aspect: float = ...,
 ) -> _Eye: ...
 def fine_mesh(shape: Shape) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.float64]]: ...
+
+class BadParameter(ValueError):
+    family: str
+    parameter: str
+    found: str
+    expected: str
+
+class EngineFault(RuntimeError):
+    kind: Literal["run", "setting", "impossible", "compile"]
+    code: str
+    message: str
+    help: str | None
+    stack: list[tuple[str, str, tuple[int, int, int, int]]]
+    omitted: int
+    path: str
+    barrier: int
+    causes: list[tuple[str, int]]
+
+def log_density(family: str, params: Sequence[Any], x: Any) -> float: ...
+def draw(family: str, params: Sequence[Any], seed: int, n: int) -> list[Any]: ...
+def draw_at(family: str, params: Sequence[Any], seed: int, stream: int, address: int, visit: int) -> Any: ...
+def support(family: str, params: Sequence[Any]) -> tuple[str, Any, Any]: ...
+def enumerate_support(family: str, params: Sequence[Any]) -> list[Any] | None: ...
+def family_names() -> list[str]: ...
+def parameter_names(family: str) -> list[str]: ...
+
+_Watch = Callable[[int, int, float], object]
+
+@final
+class Program:
+    def __new__(cls, text: str, constants: Sequence[Any] = ..., classes: Sequence[type] = ...) -> Program: ...
+    @property
+    def seconds(self) -> float: ...
+    @property
+    def functions(self) -> list[tuple[str, str, int]]: ...
+    @property
+    def choices(self) -> list[tuple[str, str, int]]: ...
+    def disassemble(self) -> str: ...
+
+@final
+class Task:
+    def __new__(
+        cls,
+        program: Program,
+        args: Sequence[Any] = ...,
+        sketches: Sequence[SketchSpec] = ...,
+        max_steps: int = 20000000,
+        max_memory: int = ...,
+    ) -> Task: ...
+    def forward(self, seed: int, n: int = 1, watch: _Watch | None = None) -> list[Outcome]: ...
+    def enumerate(
+        self, max_runs: int, watch: _Watch | None = None
+    ) -> tuple[list[tuple[Any, float]], float, int]: ...
+    def rejection(
+        self, n: int, bound: float, max_tries: int, seed: int, watch: _Watch | None = None
+    ) -> tuple[list[Outcome], int, bool]: ...
+    def importance(
+        self, n: int, seed: int, threads: int | None = None, watch: _Watch | None = None
+    ) -> tuple[list[Outcome], float]: ...
+    def smc(
+        self,
+        particles: int,
+        seed: int,
+        *,
+        order: str = "stochastic",
+        weights: str = "ratio",
+        temper: float = 1.0,
+        resampling: str = "systematic",
+        ess: float | None = None,
+        threads: int | None = None,
+        watch: _Watch | None = None,
+    ) -> dict[str, Any]: ...
+    def trace(self, outcome: Outcome) -> Trace: ...
+    def replay(self, choices: Mapping[str, Any], seed: int | None = None, partial: bool = False) -> Trace: ...
+
+@final
+class Outcome:
+    @property
+    def log_score(self) -> float: ...
+    @property
+    def log_prior(self) -> float: ...
+    @property
+    def log_weight(self) -> float: ...
+    @property
+    def primitives(self) -> int: ...
+    @property
+    def similarity(self) -> float | None: ...
+    @property
+    def has_ended(self) -> bool: ...
+    @property
+    def cause(self) -> str | None: ...
+    @property
+    def value(self) -> Any: ...
+    def choices(self) -> list[tuple[int, Any]]: ...
+    def order(self) -> list[tuple[int, int]]: ...
+
+@final
+class Trace:
+    @property
+    def choices(self) -> list[tuple[str, int, str, Any, float]]: ...
+    @property
+    def parts(self) -> list[tuple[str, list[Shape]]]: ...
+    @property
+    def queries(self) -> dict[Any, Any]: ...
+    @property
+    def value(self) -> Any: ...
+    @property
+    def log_prior(self) -> float: ...
+    @property
+    def log_score(self) -> float: ...
+    @property
+    def primitives(self) -> int: ...
+    @property
+    def similarity(self) -> float | None: ...
+    @property
+    def cause(self) -> str | None: ...
+
+@final
+class Opaque: ...

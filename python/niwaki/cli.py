@@ -36,12 +36,14 @@ app = typer.Typer(
 )
 
 ModelName = Annotated[str, typer.Argument(metavar="MODEL", help="A gallery name, or file.py:function.")]
-Folder = Annotated[Path | None, typer.Option("-o", "--output", metavar="DIR", help="Where files go; default: out.")]
+Folder = Annotated[
+    Path | None, typer.Option("-o", "--output", metavar="DIR", help="Where files go; default: out.")
+]
 
 
 def main() -> NoReturn:
     """Run the command line; errors that we raise on purpose have no traceback."""
-    warnings.showwarning = _warned
+    warnings.showwarning = _warned  # type: ignore[assignment]
     try:
         app(standalone_mode=True)
     except NiwakiError as error:
@@ -62,7 +64,9 @@ def grow(
     model: ModelName,
     target: Annotated[
         str | None,
-        typer.Option("--target", metavar="FILE", help="A mesh (OBJ, STL, PLY, GLB); default: the model's own."),
+        typer.Option(
+            "--target", metavar="FILE", help="A mesh (OBJ, STL, PLY, GLB); default: the model's own."
+        ),
     ] = None,
     particles: Annotated[int, typer.Option("-n", "--particles", help="Size of the population.")] = 300,
     order: Annotated[str, typer.Option(help="stochastic or depth-first.")] = "stochastic",
@@ -77,7 +81,9 @@ def grow(
     rule: Annotated[str, typer.Option(help="What intersects: solid or surface.")] = "solid",
     runs: Annotated[int, typer.Option(help="How many results, with seeds SEED, SEED + 1, ...")] = 1,
     seed: Annotated[int | None, typer.Option(help="Default: a fresh one, which is written down.")] = None,
-    threads: Annotated[int | None, typer.Option(help="Default: all cores. Results do not depend on it.")] = None,
+    threads: Annotated[
+        int | None, typer.Option(help="Default: all cores. Results do not depend on it.")
+    ] = None,
     resampling: Annotated[
         str, typer.Option(help="systematic, residual, stratified or multinomial.")
     ] = "systematic",
@@ -89,7 +95,9 @@ def grow(
     as_json: Annotated[
         bool, typer.Option("--json", help="Print the numbers as JSON; files are written only with -o.")
     ] = False,
-    picture: Annotated[bool, typer.Option("--picture/--no-picture", help="Draw best.png and sheet.png.")] = True,
+    picture: Annotated[
+        bool, typer.Option("--picture/--no-picture", help="Draw best.png and sheet.png.")
+    ] = True,
 ) -> None:
     """Grow MODEL into a target; writes best.glb, best.png, sheet.png and run.json."""
     from niwaki import infer

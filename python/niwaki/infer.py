@@ -80,8 +80,8 @@ def run(
     seed
         Decides every random choice; fresh when left out.
     choices
-        Values of choices by address, for one run with those: others are drawn from `seed` where it is given, and missing
-        ones are an error where it is not.
+        Values of choices by address, for one run with those: others are drawn from `seed` where it is given, and
+        missing ones are an error where it is not.
     max_steps
         Most calls and loop steps of one run.
     max_memory
@@ -112,7 +112,9 @@ def run(
         with translated(model.name):
             trace = made.replay(dict(choices), given_seed if seed is not None else None)
         return Result(model, [Sample.of_trace(trace, made, score)], given_seed, "choices", score)
-    return _search(model, made, method or Forward(), score, given_seed, check_threads(threads), progress, 0, 1)
+    return _search(
+        model, made, method or Forward(), score, given_seed, check_threads(threads), progress, 0, 1
+    )
 
 
 def grow(
@@ -167,10 +169,16 @@ def grow(
     from niwaki.target import Target
 
     model = as_model(model)
-    chosen = smc(particles, order, weights, default_temper(weights) if temper is None else temper, resampling, ess)
+    chosen = smc(
+        particles, order, weights, default_temper(weights) if temper is None else temper, resampling, ess
+    )
     if not isinstance(runs, int) or runs < 1:
         raise InputError(
-            "bad-setting", name="runs", found=repr(runs), expected="a whole number above 0", suggestion="1 or more"
+            "bad-setting",
+            name="runs",
+            found=repr(runs),
+            expected="a whole number above 0",
+            suggestion="1 or more",
         )
     first, threads = check_seed(seed), check_threads(threads)
     aim = target if isinstance(target, Target) else Target.load(target)

@@ -75,8 +75,8 @@ def smc(
         "stochastic": after each barrier a uniform draw among the futures that can run; "depth-first": futures run
         where they are created.
     weights
-        "ratio": the ratio of successive scores, so that the final set follows the posterior; "absolute": the whole score
-        at every step, an undeclared sharpening without evidence.
+        "ratio": the ratio of successive scores, so that the final set follows the posterior; "absolute": the whole
+        score at every step, an undeclared sharpening without evidence.
     temper
         The power to which scores are raised while searching; 1 for the posterior. Reported scores are never tempered.
     resampling
@@ -166,7 +166,11 @@ def _samples(n: int) -> int:
 def _at_least_one(name: str, value: int) -> int:
     if not _whole(value) or value < 1:
         raise InputError(
-            "bad-setting", name=name, found=repr(value), expected="a whole number above 0", suggestion="1 or more"
+            "bad-setting",
+            name=name,
+            found=repr(value),
+            expected="a whole number above 0",
+            suggestion="1 or more",
         )
     return value
 
@@ -175,5 +179,9 @@ def _one_of(name: str, value: str, known: tuple[str, ...]) -> None:
     if value not in known:
         listed = ", ".join(f'"{one}"' for one in known)
         raise InputError(
-            "bad-setting", name=name, found=repr(value), expected=f"one of {listed}", suggestion=f'"{known[0]}"'
+            "bad-setting",
+            name=name,
+            found=repr(value),
+            expected=f"one of {listed}",
+            suggestion=f'"{known[0]}"',
         )

@@ -1,7 +1,7 @@
 """run.json: a search as a file that can be replayed, without this session's memory.
 
-It holds the seed, the version, the model and its hash, the settings, the target and its hash, and for each run its scores,
-its choices by readable address with their families, and its order choices.
+It holds the seed, the version, the model and its hash, the settings, the target and its hash, and for each run its
+scores, its choices by readable address with their families, and its order choices.
 """
 
 from __future__ import annotations

@@ -7,8 +7,8 @@ Log scores add. The order is the order of asking: cheap questions that may forbi
 
 from __future__ import annotations
 
-from contextlib import contextmanager
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -58,8 +58,8 @@ def no_self_intersection(rule: str = "solid") -> Score:
     Parameters
     ----------
     rule
-        "solid": solids intersect when they overlap, touching is free; "surface": when their surfaces do, also where they
-        only touch.
+        "solid": solids intersect when they overlap, touching is free; "surface": when their surfaces do, also where
+        they only touch.
     """
     if rule not in RULES:
         raise InputError(

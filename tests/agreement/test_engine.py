@@ -1,8 +1,8 @@
 """The engine and plain Python do the same: from one set of choices the same value, scores, scene and answers.
 
-Random programs (see `programs`), in both directions: the choices of an engine's forward run are given to plain Python, and
-those of a plain run to the engine. Decisions, whole numbers and addresses are equal; reals agree to 1e-12 of their size.
-A model that fails in plain Python fails in the engine. Seeds are fixed; a failure prints the smallest program that
+Random programs (see `programs`), in both directions: the choices of an engine's forward run are given to plain
+Python, and those of a plain run to the engine. Decisions, whole numbers and addresses are equal; reals agree to 1e-12
+of their size. A model that fails in plain Python fails in the engine. Seeds are fixed; a failure prints the smallest program that
 still fails. Nothing here is statistical.
 """
 
@@ -10,6 +10,8 @@ from __future__ import annotations
 
 import linecache
 import math
+import sys
+import types
 from typing import Any
 
 import niwaki as nw
@@ -27,12 +29,15 @@ def load(text: str) -> Any:
     name = f"random-{hash(text)}.py"
     linecache.cache[name] = (len(text), None, text.splitlines(True), name)
     space: dict[str, Any] = {"__name__": "made"}
+    sys.modules.setdefault("made", types.ModuleType("made"))
     exec(compile(text, name, "exec"), space)
     return space["m"]
 
 
 def same(a: Any, b: Any) -> bool:
     """Equal kind and value; reals to 1e-12 of their size."""
+    # Plain Python indexes a NumPy array as it is; the engine has it as tuples.
+    a = a.item() if isinstance(a, np.generic) else a
     if type(a) is not type(b):
         return False
     if isinstance(a, float):

@@ -22,12 +22,14 @@ pub struct Forward<'a> {
     pub hosts: &'a dyn Hosts,
     /// Whether emits, factors and observations pause the run.
     pub barriers: bool,
+    /// Whether the run goes on although its score is minus infinity.
+    pub complete: bool,
 }
 
 impl Forward<'_> {
     #[inline]
     fn barrier(&self) -> Answer<()> {
-        if self.barriers || self.record.cause.is_some() { Answer::Pause } else { Answer::Go(()) }
+        if self.barriers || (self.record.cause.is_some() && !self.complete) { Answer::Pause } else { Answer::Go(()) }
     }
 }
 
@@ -85,20 +87,20 @@ pub struct Sample {
     pub value: Value,
 }
 
-/// One forward run, depth first; it stops early when its score becomes minus infinity.
+/// One forward run, depth first; unless it is to be `complete`, it stops when its score becomes minus infinity.
 ///
 /// # Errors
 /// A fault of the program.
-pub fn forward(task: &Task, seed: u64, stream: u64) -> Result<Sample, Failure> {
+pub fn forward(task: &Task, seed: u64, stream: u64, complete: bool) -> Result<Sample, Failure> {
     let mut machine = task.machine();
     let mut state = task.start(&machine, true)?;
     let mut record = Record::start(&task.sketches);
     let hosts = &*task.hosts;
-    while !state.has_ended() && record.cause.is_none() {
+    while !state.has_ended() && (complete || record.cause.is_none()) {
         let Some(next) = state.runnable().first().copied() else {
             return Err(Box::new(machine.waiting_cycle(&state)).into());
         };
-        let mut answers = Forward { record: &mut record, seed, stream, hosts, barriers: false };
+        let mut answers = Forward { record: &mut record, seed, stream, hosts, barriers: false, complete };
         machine.resume(&mut state, next, &mut answers)?;
     }
     let value = if state.has_ended() { state.result() } else { Value::None };

@@ -38,7 +38,7 @@ pub fn importance(
     let mut samples = Vec::new();
     while (samples.len() as u64) < n {
         let from = samples.len() as u64;
-        let runs = (from..n.min(from + BLOCK)).into_par_iter().map(|i| forward(task, seed, i));
+        let runs = (from..n.min(from + BLOCK)).into_par_iter().map(|i| forward(task, seed, i, false));
         samples.extend(runs.collect::<Result<Vec<_>, _>>()?);
         if !watch(samples.len()) {
             break;

@@ -43,7 +43,7 @@ pub fn rejection(
             .with_help("loosen the conditions, raise `max_tries`, or use particles")
             .into());
         }
-        let sample = forward(task, seed, tries)?;
+        let sample = forward(task, seed, tries, false)?;
         let log_accept = sample.record.log_score() - bound;
         if log_accept > 1e-9 {
             return Err(Fault::new(

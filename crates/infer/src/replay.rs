@@ -119,9 +119,7 @@ impl Answers<f64> for Replay<'_> {
 
     fn emit(&mut self, at: &At<'_, f64>, shapes: &[Shape]) -> Result<Answer<()>, Fault> {
         self.trace.parts.push((at.path(), shapes.to_vec()));
-        if self.trace.record.cause.is_none() {
-            self.trace.record.emit(shapes);
-        }
+        self.trace.record.emit(shapes);
         Ok(Answer::Go(()))
     }
 

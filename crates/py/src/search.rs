@@ -105,8 +105,7 @@ fn detached<T: Send>(
 }
 
 fn unknown(py: Python<'_>, program: &Program, name: &str, found: &str, known: &str) -> PyErr {
-    let fault =
-        Fault::new("bad-setting", format!("`{name}` cannot be {found:?}")).with_help(format!("use {known}"));
+    let fault = Fault::new("bad-setting", format!("`{name}` cannot be {found:?}")).with_help(format!("use {known}"));
     faults::raise(py, &fault.into(), program)
 }
 
@@ -144,14 +143,8 @@ impl PyTask {
 
     /// ``n`` forward runs: one outcome each.
     #[pyo3(signature = (seed, n=1, watch=None))]
-    fn forward(
-        &self,
-        py: Python<'_>,
-        seed: u64,
-        n: u64,
-        watch: Option<Py<PyAny>>,
-    ) -> PyResult<Vec<PyOutcome>> {
-        let run = |stream| forward(&self.task, seed, stream);
+    fn forward(&self, py: Python<'_>, seed: u64, n: u64, watch: Option<Py<PyAny>>) -> PyResult<Vec<PyOutcome>> {
+        let run = |stream| forward(&self.task, seed, stream, true);
         let samples = if n == 1 {
             vec![self.at_once(py, || run(0))?]
         } else {
@@ -163,7 +156,7 @@ impl PyTask {
                 Ok(samples)
             })?
         };
-        Ok(self.outcomes(py, samples, |_| 0.0))
+        Ok(self.outcomes(samples, true, |_| 0.0))
     }
 
     /// ``([(value, log probability)], log evidence, number of runs)``; probabilities are not normalised.
@@ -197,7 +190,7 @@ impl PyTask {
             let mut look = |tries| watch.look(tries, 0, f64::NEG_INFINITY);
             rejection(&self.task, n, bound, max_tries, seed, &mut look)
         })?;
-        Ok((self.outcomes(py, found.samples, |_| 0.0), found.tries, found.interrupted))
+        Ok((self.outcomes(found.samples, false, |_| 0.0), found.tries, found.interrupted))
     }
 
     /// ``(outcomes, log evidence)``; each outcome's weight is its score.
@@ -213,7 +206,7 @@ impl PyTask {
         let found = detached(py, &self.task.program, threads, watch.as_ref(), |watch| {
             importance(&self.task, n, seed, &mut |runs| watch.look(runs as u64, 0, f64::NEG_INFINITY))
         })?;
-        Ok((self.outcomes(py, found.samples, |s| s.record.log_score()), found.log_evidence))
+        Ok((self.outcomes(found.samples, false, |s| s.record.log_score()), found.log_evidence))
     }
 
     /// Sequential Monte Carlo: a dict with ``particles`` (outcomes), ``log_evidence`` (None for absolute weights),
@@ -316,11 +309,7 @@ impl PyTask {
 
 impl PyTask {
     /// Runs something short without the interpreter's lock.
-    fn at_once<T: Send>(
-        &self,
-        py: Python<'_>,
-        work: impl FnOnce() -> Result<T, Failure> + Send,
-    ) -> PyResult<T> {
+    fn at_once<T: Send>(&self, py: Python<'_>, work: impl FnOnce() -> Result<T, Failure> + Send) -> PyResult<T> {
         py.detach(work).map_err(|failure| faults::raise(py, &failure, &self.task.program))
     }
 
@@ -330,13 +319,13 @@ impl PyTask {
 
     fn outcomes(
         &self,
-        _: Python<'_>,
         samples: Vec<Sample>,
+        complete: bool,
         weight: impl Fn(&Sample) -> f64,
     ) -> Vec<PyOutcome> {
         let classes: &Arc<_> = &self.model.get().classes;
         let made = |sample: Sample| {
-            let (log_weight, ended) = (weight(&sample), sample.record.cause.is_none());
+            let (log_weight, ended) = (weight(&sample), complete || sample.record.cause.is_none());
             PyOutcome::new(sample.record, sample.value, log_weight, ended, classes.clone())
         };
         samples.into_iter().map(made).collect()

@@ -71,6 +71,10 @@ def entry(name: str) -> Entry | None:
         return None
     title = getattr(module, "TITLE", (module.__doc__ or "").partition("\n")[0])
     made = Entry(
-        stem.replace("_", "-"), title, module.MODEL, getattr(module, "TARGET", None), getattr(module, "VOXEL", None)
+        stem.replace("_", "-"),
+        title,
+        module.MODEL,
+        getattr(module, "TARGET", None),
+        getattr(module, "VOXEL", None),
     )
     return made

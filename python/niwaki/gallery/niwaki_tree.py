@@ -82,7 +82,14 @@ def cloud(tip, forward, radius):
     tufts = discrete_uniform(4, 6)
     turn = uniform(0.0, 2.0 * pi)
     ring = [tuft(middle, across_size, high, turn + 2.0 * pi * k / tufts, k) for k in range(tufts)]
-    top = cylinder(middle + 0.18 * high * UP, 0.62 * across_size, high, top_radius=0.45 * across_size, bevel=0.95, color=LEAVES[1])
+    top = cylinder(
+        middle + 0.18 * high * UP,
+        0.62 * across_size,
+        high,
+        top_radius=0.45 * across_size,
+        bevel=0.95,
+        color=LEAVES[1],
+    )
     emit(limb(tip, end, radius, 0.7 * radius, forward, forward, color=BARK), ring + [top])
 
 

@@ -47,4 +47,5 @@ def log_density(dist: Distribution, value: Any) -> float:
 def draw(dist: Distribution, seed: int, address: str) -> Any:
     """The value that a seed gives at an address."""
     engine: Any = importlib.import_module("niwaki._engine")
-    return engine.draw_at(dist.family, parameters(dist), seed, 0, hashed(address), 0)
+    value = engine.draw_at(dist.family, parameters(dist), seed, 0, hashed(address), 0)
+    return tuple(value) if isinstance(value, list) else value

@@ -27,13 +27,20 @@ class ShapeRecord:
 
 
 def _make(kind: str, *arguments: Any) -> Any:
-    plain = tuple(_plain(argument) for argument in arguments)
+    plain: tuple[Any, ...] = tuple(_plain(argument) for argument in arguments)
     try:
         from niwaki import _engine
     except ImportError:
         return ShapeRecord(kind, plain)
     shape = getattr(_engine, "Shape", None)
-    return ShapeRecord(kind, plain) if shape is None else getattr(shape, kind)(*plain)
+    if shape is None:
+        return ShapeRecord(kind, plain)
+    if kind == "mesh":
+        import numpy as np
+
+        vertices, faces = np.asarray(plain[0], dtype=np.float64), np.asarray(plain[1], dtype=np.int64)
+        plain = (vertices, faces, *plain[2:])
+    return getattr(shape, kind)(*plain)
 
 
 def _plain(value: Any) -> Any:

@@ -62,6 +62,7 @@ impl Particle {
                 stream: self.lineage,
                 hosts: &*task.hosts,
                 barriers: true,
+                complete: false,
             };
             if machine.resume(&mut self.state, future, &mut answers)? == Stop::Paused {
                 return Ok(());
