@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import ast
 import sys
 from pathlib import Path
 
@@ -34,12 +35,22 @@ def page(message: Message, found: str) -> str:
     if message.why not in ("", "{reason}"):
         parts += ["## Why", _sentence(why)]
     if message.example:
-        parts += ["## Example", f"```python\n{message.example.rstrip()}\n```"]
+        parts += ["## Example", _block(message.example)]
     named = message.help in ("{suggestion}", "{cure}")
     parts += ["## The way out", "The message says what was probably meant." if named else _sentence(cure)]
     if message.cure:
-        parts.append(f"```python\n{message.cure.rstrip()}\n```")
+        parts.append(_block(message.cure))
     return "\n\n".join(parts) + "\n"
+
+
+def _block(text: str) -> str:
+    """A block of code: Python, or what is typed into a shell or found in a file."""
+    try:
+        ast.parse(text)
+        language = "python"
+    except SyntaxError:
+        language = "console" if text.startswith("niwaki ") else "text"
+    return f"```{language}\n{text.rstrip()}\n```"
 
 
 def _sentence(text: str) -> str:
