@@ -72,6 +72,7 @@ lint: $(STAMPS)/engine $(STAMPS)/lint
 	$(VENV)/bin/stubtest niwaki._engine
 
 bench: $(STAMPS)/engine $(STAMPS)/bench
+	$(PY) benches/startup.py
 	$(PY) benches/machine.py
 
 soak: $(STAMPS)/engine $(STAMPS)/test
