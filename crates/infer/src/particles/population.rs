@@ -35,7 +35,7 @@ pub struct Outcome {
 pub struct Result {
     /// The final set.
     pub particles: Vec<Outcome>,
-    /// Estimate of the log evidence, nats; `None` for absolute weights.
+    /// Estimate of the log evidence, nats; `None` for absolute weights and sharpened scores, which have none.
     pub log_evidence: Option<f64>,
     /// How many barriers there were.
     pub barriers: usize,
@@ -123,7 +123,8 @@ pub fn smc(
     ancestor.sort_unstable();
     ancestor.dedup();
     Ok(Result {
-        log_evidence: (settings.weights == Weights::Ratio && !interrupted).then_some(log_evidence),
+        log_evidence: (settings.weights == Weights::Ratio && settings.temper == 1.0 && !interrupted)
+            .then_some(log_evidence),
         barriers,
         resampled,
         ancestors: ancestor.len(),
