@@ -109,7 +109,7 @@ def run(
     given_seed = check_seed(seed)
     made = task(model, args, kwargs, score.specs, max_steps, max_memory)
     if choices is not None:
-        with translated(model.name):
+        with translated(model.name, choices=choices):
             trace = made.replay(dict(choices), given_seed if seed is not None else None)
         return Result(model, [Sample.of_trace(trace, made, score)], given_seed, "choices", score)
     return _search(
@@ -187,7 +187,16 @@ def grow(
     found: list[Sample] = []
     seconds, interrupted = 0.0, False
     for number in range(runs):
-        one = _search(model, made, chosen, score, (first + number) % 2**64, threads, progress, number, runs)
+        try:
+            one = _search(
+                model, made, chosen, score, (first + number) % 2**64, threads, progress, number, runs
+            )
+        except KeyboardInterrupt:
+            # Pressed between two looks of the engine.
+            if not found:
+                raise
+            interrupted = True
+            break
         seconds += one.seconds
         interrupted = one.interrupted
         if one.interrupted and found and not any(sample.has_ended for sample in one):

@@ -19,6 +19,7 @@ import numpy as np
 import pytest
 from niwaki.errors import ModelError, ModelFault, NiwakiError
 from niwaki.lang.plain import Run, run_python
+from features import FEATURES, feature
 from programs import program, shrink
 
 PROGRAMS = 300
@@ -131,6 +132,11 @@ def test_random_program(seed: int) -> None:
     if differs(whole.text):
         small = shrink(whole, lambda text: bool(differs(text)))
         pytest.fail(f"{small.text}\n{differs(small.text)}")
+
+
+@pytest.mark.parametrize("name", FEATURES)
+def test_feature(name: str) -> None:
+    assert not differs(feature(name), seeds=5)
 
 
 def test_faults_have_the_same_code() -> None:

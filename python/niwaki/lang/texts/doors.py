@@ -24,7 +24,7 @@ DOORS = (
     Message(
         "no-runs",
         "there is no best sample",
-        why="the search kept no runs: {found}",
+        why="the search keeps a table of values, not runs",
         help="read `result.distribution()` after an enumeration, or ask for samples with another method",
         example="run(model, method=enumerate_all()).best",
         cure="run(model, method=enumerate_all()).distribution()",
