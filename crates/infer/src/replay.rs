@@ -92,8 +92,11 @@ impl Answers<f64> for Replay<'_> {
             }
             (None, Missing::Stop) => return Ok(Answer::Pause),
             (None, Missing::Refuse) => {
-                return Err(Fault::new("missing-choice", format!("there is no value for the choice `{path}`"))
-                    .with_help("replay with the same model that made the choices"));
+                return Err(Fault::new(
+                    "missing-choice",
+                    format!("there is no value for the choice `{path}`"),
+                )
+                .with_help("replay with the same model that made the choices"));
             }
         };
         let log_density = log_density(dist, &value)?;

@@ -41,7 +41,13 @@ pub struct PyOutcome {
 }
 
 impl PyOutcome {
-    pub fn new(record: Record, value: Value, log_weight: f64, has_ended: bool, classes: Arc<Classes>) -> PyOutcome {
+    pub fn new(
+        record: Record,
+        value: Value,
+        log_weight: f64,
+        has_ended: bool,
+        classes: Arc<Classes>,
+    ) -> PyOutcome {
         PyOutcome {
             value,
             classes,
@@ -123,7 +129,13 @@ impl PyTrace {
         }
         let mut choices = Vec::with_capacity(trace.choices.len());
         for c in trace.choices {
-            choices.push((c.path, c.address, c.family, classes.object(py, &c.value)?.unbind(), c.log_density));
+            choices.push((
+                c.path,
+                c.address,
+                c.family,
+                classes.object(py, &c.value)?.unbind(),
+                c.log_density,
+            ));
         }
         let mut parts = Vec::with_capacity(trace.parts.len());
         for (path, shapes) in trace.parts {

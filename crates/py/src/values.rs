@@ -90,7 +90,8 @@ impl Classes {
             return Ok(special);
         }
         if let Some(class) = self.of(&object.get_type())? {
-            let fields: Vec<_> = class.fields.iter().map(|f| object.getattr(f.as_str())).collect::<PyResult<_>>()?;
+            let fields: Vec<_> =
+                class.fields.iter().map(|f| object.getattr(f.as_str())).collect::<PyResult<_>>()?;
             return Ok(Value::Record(Arc::new(Record { class, fields: each(fields)? })));
         }
         if let Ok(tuple) = object.cast::<PyTuple>() {
@@ -106,7 +107,9 @@ impl Classes {
         if let Ok(range) = object.cast::<PyRange>() {
             let end = |name| range.getattr(name)?.extract::<i64>();
             let made = Range::new(end("start")?, end("stop")?, end("step")?);
-            return made.map(|r| Value::Range(Arc::new(r))).ok_or_else(|| PyTypeError::new_err("a range too long"));
+            return made
+                .map(|r| Value::Range(Arc::new(r)))
+                .ok_or_else(|| PyTypeError::new_err("a range too long"));
         }
         if let Ok(shape) = object.cast::<PyShape>() {
             return Ok(Value::Shape(shape.get().0.clone()));
@@ -242,8 +245,12 @@ fn distribution<'py>(py: Python<'py>, dist: &Dist) -> PyResult<Bound<'py, PyAny>
         | Dist::Beta { a, b }
         | Dist::Laplace { loc: a, scale: b }
         | Dist::Cauchy { loc: a, scale: b }
-        | Dist::VonMises { mean: a, concentration: b } => real(&[*a, *b])?.try_iter()?.collect::<PyResult<_>>()?,
-        Dist::StudentT { df, loc, scale } => real(&[*df, *loc, *scale])?.try_iter()?.collect::<PyResult<_>>()?,
+        | Dist::VonMises { mean: a, concentration: b } => {
+            real(&[*a, *b])?.try_iter()?.collect::<PyResult<_>>()?
+        }
+        Dist::StudentT { df, loc, scale } => {
+            real(&[*df, *loc, *scale])?.try_iter()?.collect::<PyResult<_>>()?
+        }
         Dist::TruncatedGaussian { mean, sd, lo, hi } => {
             real(&[*mean, *sd, *lo, *hi])?.try_iter()?.collect::<PyResult<_>>()?
         }

@@ -16,6 +16,7 @@ from niwaki import (
     flip,
     future,
     gaussian,
+    lerp,
     limb,
     model,
     norm,
@@ -45,35 +46,37 @@ def branch(start, forward, radius, depth):
     """Grow limbs from `start` in the direction `forward`, then a cloud; side branches are left to futures."""
     going_on = True
     while going_on:
-        length = uniform(1.5, 3.5)
-        ahead = normalize(bend(forward, 0.3) + 0.12 * UP)
+        length = uniform(1.5, 3.5) if depth == 0 else uniform(1.0, 3.0)
+        ahead = normalize(bend(forward, 0.3 if depth == 0 else 0.2) + 0.1 * UP)
         end = start + length * ahead
         thin = radius * uniform(0.75, 0.95)
         emit(limb(start, end, radius, thin, forward, ahead, color=BARK))
-        if depth < 2:
-            future(side_branch, start + 0.55 * length * ahead, ahead, 0.5 * (radius + thin), depth)
+        if depth == 0:
+            future(side_branch, start + 0.4 * length * ahead, ahead, lerp(radius, thin, 0.4))
+            future(side_branch, start + 0.8 * length * ahead, ahead, lerp(radius, thin, 0.8))
         start, forward, radius = end, ahead, thin
-        going_on = radius > 0.3 and flip(0.78 - 0.18 * depth)
-    cloud(start, forward, radius)
+        going_on = radius > 0.25 and flip(0.85 if depth == 0 else 0.35)
+    if flip(0.85):
+        cloud(start, forward, radius)
 
 
 @model
-def side_branch(middle, along, radius, depth):
+def side_branch(middle, along, radius):
     """Perhaps a branch that leaves a limb around `middle` sideways and a little upwards."""
-    if flip(0.55):
+    if flip(0.5):
         turn = uniform(0.0, 2.0 * pi)
         out = normalize(rotate(across(along), along, turn) + uniform(0.0, 0.5) * along)
-        thin = radius * uniform(0.4, 0.7)
+        thin = radius * uniform(0.35, 0.6)
         # The first ring lies outside the parent, whose sides are flat between the corners of its rings.
         start = middle + (1.05 * radius / dot(out, rotate(across(along), along, turn))) * out
-        branch(start, out, thin, depth + 1)
+        branch(start, out, thin, 1)
 
 
 @model
 def cloud(tip, forward, radius):
     """Foliage on a short last limb: flat tufts around a middle one."""
-    across_size = uniform(1.5, 3.6)
-    high = across_size * uniform(0.45, 0.7)
+    across_size = uniform(1.0, 4.0)
+    high = across_size * uniform(0.4, 0.6)
     end = tip + 0.6 * forward
     middle = end + (0.35 * high) * UP
     tufts = discrete_uniform(4, 6)

@@ -113,7 +113,7 @@ class Program:
         if isinstance(value, Distribution):
             parts = [self.constant(part, used_at, name) for part in value.parameters]
             return Form("dist", [value.family, *parts])
-        if is_record_class(type(value)):
+        if is_record_class(type(value)) and not is_data(value):
             self.check_record(type(value), used_at)
             parts = [
                 self.constant(getattr(value, part), used_at, name) for part in record_fields(type(value))

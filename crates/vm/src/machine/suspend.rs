@@ -331,7 +331,8 @@ impl<S: Scalar> Machine<'_, S> {
         let Some(detached) = deferred else { return Ok(After::Enter(made)) };
         if state.origins.is_some() {
             let above = state.path(self.program, node);
-            let origin = if above.is_empty() { site.label.to_string() } else { format!("{above}/{}", site.label) };
+            let origin =
+                if above.is_empty() { site.label.to_string() } else { format!("{above}/{}", site.label) };
             state.origins.as_mut().map(|origins| origins.insert(made, origin));
         }
         let id = state.new_future(Status::Runnable(made), detached);

@@ -2,10 +2,12 @@
 
 use super::CompileError;
 use super::emit::{Builder, Result};
-use crate::builtins::builtin_id;
-use crate::code::{Binary, Op, Operand};
+use crate::builtins::{builtin_id, make_dist};
+use crate::code::{Binary, Op, Operand, Place};
 use crate::core::{Expr, ExprKind, Name};
+use crate::value::Value;
 use niwaki_math::Scalar;
+use std::sync::Arc;
 
 /// The operations with an instruction of their own.
 fn binary(name: &str) -> Option<Binary> {
@@ -73,6 +75,9 @@ impl<S: Scalar> Builder<'_, '_, S> {
             let name = self.literal(&crate::core::Literal::Str(name.to_string()));
             operands.insert(1, name);
         }
+        if let Some(value) = self.folded(e, &operands) {
+            return Ok(self.constant(value));
+        }
         let args = self.args(&operands);
         let to = self.register()?;
         let op = match &e.kind {
@@ -100,6 +105,28 @@ impl<S: Scalar> Builder<'_, '_, S> {
         };
         self.op(op);
         Ok(to)
+    }
+
+    /// The value of an aggregate or distribution made of constants: values never change, so one serves every use.
+    pub fn folded(&self, e: &Expr, operands: &[Operand]) -> Option<Value<S>> {
+        use ExprKind::*;
+        if operands.iter().any(|o| o.place() != Place::Constant) {
+            return None;
+        }
+        let mut values: Vec<Value<S>> = operands.iter().map(|o| self.constants[o.index()].clone()).collect();
+        Some(match &e.kind {
+            List(_) => Value::list(values),
+            Tuple(_) => Value::tuple(values),
+            Dict(keys, _) => {
+                let rest = values.split_off(keys.len());
+                Value::Dict(Arc::new(crate::value::Dict::new(values.into_iter().zip(rest).collect())))
+            }
+            // Bad parameters are left for the run, which knows how it got there.
+            Dist(name, _) => {
+                Value::Dist(Arc::new(make_dist(super::sites::family(name).ok()?, &values).ok()?))
+            }
+            _ => return None,
+        })
     }
 
     fn variable(&mut self, x: &Name) -> Result<Operand> {

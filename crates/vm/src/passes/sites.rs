@@ -115,7 +115,8 @@ impl<S: Scalar> Builder<'_, '_, S> {
             ExprKind::Dist(name, args) => {
                 let family = family(name)?;
                 let operands = self.exprs(args)?;
-                if let Some(made) = self.constant_distribution(family, &operands) {
+                if let Some(made) = self.folded(d, &operands) {
+                    let made = self.constant(made);
                     return Ok((pick(SiteKind::SampleDist, SiteKind::ObserveDist), name.clone(), vec![made]));
                 }
                 Ok((pick(SiteKind::Sample { family }, SiteKind::Observe { family }), name.clone(), operands))
@@ -129,17 +130,6 @@ impl<S: Scalar> Builder<'_, '_, S> {
                 Ok((pick(SiteKind::SampleDist, SiteKind::ObserveDist), Name::from("dist"), vec![at]))
             }
         }
-    }
-
-    /// A distribution whose parameters are all constants is made once, with its tables.
-    fn constant_distribution(&mut self, family: Family, operands: &[Operand]) -> Option<Operand> {
-        use crate::code::Place;
-        if operands.iter().any(|o| o.place() != Place::Constant) {
-            return None;
-        }
-        let values: Vec<_> = operands.iter().map(|o| self.constants[o.index()].clone()).collect();
-        let made = crate::builtins::make_dist(family, &values).ok()?;
-        Some(self.constant(crate::value::Value::Dist(std::sync::Arc::new(made))))
     }
 
     /// Adds a site; its result goes into a register of its own. `label` is the one given in the text, and the one
