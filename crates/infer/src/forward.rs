@@ -29,7 +29,11 @@ pub struct Forward<'a> {
 impl Forward<'_> {
     #[inline]
     fn barrier(&self) -> Answer<()> {
-        if self.barriers || (self.record.cause.is_some() && !self.complete) { Answer::Pause } else { Answer::Go(()) }
+        if self.barriers || (self.record.cause.is_some() && !self.complete) {
+            Answer::Pause
+        } else {
+            Answer::Go(())
+        }
     }
 }
 

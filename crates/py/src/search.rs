@@ -105,7 +105,8 @@ fn detached<T: Send>(
 }
 
 fn unknown(py: Python<'_>, program: &Program, name: &str, found: &str, known: &str) -> PyErr {
-    let fault = Fault::new("bad-setting", format!("`{name}` cannot be {found:?}")).with_help(format!("use {known}"));
+    let fault =
+        Fault::new("bad-setting", format!("`{name}` cannot be {found:?}")).with_help(format!("use {known}"));
     faults::raise(py, &fault.into(), program)
 }
 
@@ -143,7 +144,13 @@ impl PyTask {
 
     /// ``n`` forward runs: one outcome each.
     #[pyo3(signature = (seed, n=1, watch=None))]
-    fn forward(&self, py: Python<'_>, seed: u64, n: u64, watch: Option<Py<PyAny>>) -> PyResult<Vec<PyOutcome>> {
+    fn forward(
+        &self,
+        py: Python<'_>,
+        seed: u64,
+        n: u64,
+        watch: Option<Py<PyAny>>,
+    ) -> PyResult<Vec<PyOutcome>> {
         let run = |stream| forward(&self.task, seed, stream, true);
         let samples = if n == 1 {
             vec![self.at_once(py, || run(0))?]
@@ -309,7 +316,11 @@ impl PyTask {
 
 impl PyTask {
     /// Runs something short without the interpreter's lock.
-    fn at_once<T: Send>(&self, py: Python<'_>, work: impl FnOnce() -> Result<T, Failure> + Send) -> PyResult<T> {
+    fn at_once<T: Send>(
+        &self,
+        py: Python<'_>,
+        work: impl FnOnce() -> Result<T, Failure> + Send,
+    ) -> PyResult<T> {
         py.detach(work).map_err(|failure| faults::raise(py, &failure, &self.task.program))
     }
 
