@@ -32,8 +32,18 @@ pub fn rows(convex: &Convex, grid: &Grid, cells: &CellBox) -> Vec<(u32, u32)> {
     let mut slice: Vec<[f64; 2]> = Vec::with_capacity(2 * convex.topology().edges.len());
     let mut before: Vec<[f64; 2]> = Vec::with_capacity(slice.capacity());
     let mut polygon = Polygon::default();
+    let ends = straight_between(&corners, convex, (outer, inner));
+    let mut in_the_middle = false;
     for o in 0..count(outer) {
         let low = (cells.low[outer] + o) as f64 - TOUCH;
+        let was_in_the_middle = in_the_middle;
+        in_the_middle = ends.is_some_and(|(first, last)| first < low && low + 1.0 + 2.0 * TOUCH < last);
+        if in_the_middle && was_in_the_middle {
+            for i in 0..count(inner) {
+                rows[place(o, i)] = rows[place(o - 1, i)];
+            }
+            continue;
+        }
         slice_of(&corners, convex, (outer, inner), (low, low + 1.0 + 2.0 * TOUCH), &mut slice);
         if o > 0 && slice == before {
             for i in 0..count(inner) {
@@ -54,6 +64,19 @@ pub fn rows(convex: &Convex, grid: &Grid, cells: &CellBox) -> Vec<(u32, u32)> {
         }
     }
     rows
+}
+
+/// Where a prism along `outer` begins and ends; between them all its slices are one. `None` for other solids.
+fn straight_between(corners: &[Vec3], convex: &Convex, (outer, inner): (usize, usize)) -> Option<(f64, f64)> {
+    let heights = || corners.iter().map(|p| p[outer]);
+    let (first, last) =
+        (heights().fold(f64::INFINITY, f64::min), heights().fold(f64::NEG_INFINITY, f64::max));
+    let at_ends = heights().all(|h| h == first || h == last);
+    let straight = |&[a, b]: &[u32; 2]| {
+        let (a, b) = (corners[a as usize], corners[b as usize]);
+        a[outer] == b[outer] || (a[inner] == b[inner] && a.x == b.x)
+    };
+    (at_ends && convex.topology().edges.iter().all(straight)).then_some((first, last))
 }
 
 /// Points `[inner, x]` whose hull is the solid between the two planes across `outer`, seen along it.
