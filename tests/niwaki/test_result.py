@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +15,7 @@ from niwaki.gallery import entries, entry
 @nw.model
 def tower(n: int = 3):  # type: ignore[no-untyped-def]
     y = 0.0
-    for i in range(n):
+    for i in range(n):  # noqa: B007
         height = nw.uniform(0.5, 1.5)
         nw.emit(nw.box((0, y + height / 2, 0), (1, height, 1)))
         y = y + height
@@ -109,6 +110,9 @@ def test_every_model_of_the_gallery_grows() -> None:
     for one in found:
         target = one.target()
         assert one.title and target is not None
-        coarse = max(target.size) / 20
-        assert nw.grow(one.model, target, particles=100, voxel=float(coarse), seed=1).best.primitives > 0
+        coarse = float(max(target.size)) / 20
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # a run of a few particles may become impossible
+            result = nw.grow(one.model, target, particles=100, voxel=coarse, seed=1, runs=4)
+        assert result.best.primitives > 0
     assert entry("targets") is None and entry("no such") is None

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import ast
 import sys
 from pathlib import Path
 
@@ -34,12 +35,22 @@ def page(message: Message, found: str) -> str:
     if message.why not in ("", "{reason}"):
         parts += ["## Why", _sentence(why)]
     if message.example:
-        parts += ["## Example", f"```python\n{message.example.rstrip()}\n```"]
+        parts += ["## Example", _fenced(message.example)]
     named = message.help in ("{suggestion}", "{cure}")
     parts += ["## The way out", "The message says what was probably meant." if named else _sentence(cure)]
     if message.cure:
-        parts.append(f"```python\n{message.cure.rstrip()}\n```")
+        parts.append(_fenced(message.cure))
     return "\n\n".join(parts) + "\n"
+
+
+def _fenced(text: str) -> str:
+    """Programs and what is said in words, as blocks."""
+    try:
+        ast.parse(text)
+        kind = "python"
+    except SyntaxError:
+        kind = "text"
+    return f"```{kind}\n{text.rstrip()}\n```"
 
 
 def _sentence(text: str) -> str:
