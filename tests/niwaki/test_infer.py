@@ -204,6 +204,13 @@ SETTINGS: dict[str, Callable[[], Any]] = {
     "arguments": lambda: nw.run(COINS, 1, 2),
     "an argument's value": lambda: nw.run(load("@model\ndef m(x):\n    return x\n"), object()),
     "choices": lambda: nw.run(COINS, choices={"a": True}),
+    "a value too deep": lambda: (
+        nw.run(
+            load(
+                "@model\ndef m():\n    xs = ()\n    for i in range(1000):\n        xs = (xs, i)\n    return xs\n"
+            )
+        ).value
+    ),
     "too many runs": lambda: nw.run(COINS, method=nw.enumerate_all(max_runs=2)),
     "rejection's bound": lambda: nw.run(
         load("@model\ndef m():\n    factor(1)\n"), method=nw.rejection(3), seed=1

@@ -22,6 +22,14 @@ DOORS = (
         cure="ten functions with two thousand each",
     ),
     Message(
+        "value-too-deep",
+        "the model's value cannot leave the engine",
+        why="it is {found}; Python's own tools stop at such depths too",
+        help="return a list instead of tuples inside of tuples",
+        example="xs = ()\nfor i in range(1000):\n    xs = (xs, i)",
+        cure="xs = []\nfor i in range(1000):\n    xs = xs + [i]",
+    ),
+    Message(
         "no-runs",
         "there is no best sample",
         why="the search keeps a table of values, not runs",
