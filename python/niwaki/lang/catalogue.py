@@ -35,22 +35,22 @@ def page(message: Message, found: str) -> str:
     if message.why not in ("", "{reason}"):
         parts += ["## Why", _sentence(why)]
     if message.example:
-        parts += ["## Example", _fenced(message.example)]
+        parts += ["## Example", _block(message.example)]
     named = message.help in ("{suggestion}", "{cure}")
     parts += ["## The way out", "The message says what was probably meant." if named else _sentence(cure)]
     if message.cure:
-        parts.append(_fenced(message.cure))
+        parts.append(_block(message.cure))
     return "\n\n".join(parts) + "\n"
 
 
-def _fenced(text: str) -> str:
-    """Programs and what is said in words, as blocks."""
+def _block(text: str) -> str:
+    """A block of code: Python, or what is typed into a shell or found in a file."""
     try:
         ast.parse(text)
-        kind = "python"
+        language = "python"
     except SyntaxError:
-        kind = "text"
-    return f"```{kind}\n{text.rstrip()}\n```"
+        language = "console" if text.startswith("niwaki ") else "text"
+    return f"```{language}\n{text.rstrip()}\n```"
 
 
 def _sentence(text: str) -> str:
