@@ -6,6 +6,7 @@ import hashlib
 import inspect
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from difflib import get_close_matches
 from typing import Any
 
 from niwaki import _engine
@@ -102,15 +103,20 @@ def arguments(model: Model[..., Any], args: Sequence[Any], kwargs: Mapping[str, 
 
 
 @contextmanager
-def translated(name: str, replay: str = "") -> Iterator[None]:
+def translated(name: str, replay: str = "", choices: Mapping[str, Any] | None = None) -> Iterator[None]:
     """Inside, a fault of the engine is raised as `ModelFault` or `InputError`."""
     try:
         yield
     except _engine.EngineFault as fault:
-        raise _error(fault, name, replay) from None
+        raise _error(fault, name, replay, choices or {}) from None
 
 
-def _error(fault: Any, name: str, replay: str) -> Exception:
+def _error(fault: Any, name: str, replay: str, choices: Mapping[str, Any]) -> Exception:
+    if fault.code == "missing-choice":
+        address = fault.message.partition("`")[2].rstrip("`")
+        near = get_close_matches(address, list(choices), n=3, cutoff=0.0)
+        nearest = ", ".join(f'"{one}"' for one in near) or "none"
+        return InputError("missing-choice", address=address, nearest=nearest)
     if fault.kind == "run":
         error = ModelFault.from_engine(fault.code, fault.message, fault.help, fault.stack, replay)
         error.values["omitted"] = fault.omitted

@@ -141,7 +141,9 @@ class ModelFault(NiwakiError):
             shown = self.stack if len(self.stack) <= 12 else (*self.stack[:6], None, *self.stack[-5:])
             for call in shown:
                 if call is None:
-                    lines.append(f"{margin}     ... {len(self.stack) - 11} more ...")
+                    lines.append(
+                        f"{margin}     ... {len(self.stack) - 11 + self.values.get('omitted', 0)} more ..."
+                    )
                     continue
                 where = f" at {call.span.file.path}:{call.span.line}" if call.span is not None else ""
                 lines.append(f"{margin}     {call.function}{where}")

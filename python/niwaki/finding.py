@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import importlib.util
 import sys
 from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
-from types import FunctionType
+from types import FunctionType, ModuleType
 from typing import Any
 
 from niwaki.errors import InputError, NiwakiError
@@ -66,16 +65,16 @@ def _in_file(reference: str, place: Path, name: str) -> Found:
     return Found(f"{place.resolve()}:{name}", found)
 
 
-def _imported(place: Path) -> Any:
+def _imported(place: Path) -> ModuleType:
     """Run a file as a module, with its own folder importable, as `python file.py` would."""
-    spec = importlib.util.spec_from_file_location(place.stem, place)
-    if spec is None or spec.loader is None:
-        raise InputError("model-file-failed", path=place, reason="it is not Python")
-    module = importlib.util.module_from_spec(spec)
+    module = ModuleType(place.stem)
+    module.__file__ = str(place)
     sys.path.insert(0, str(place.parent))
     try:
+        # Not through the import system: its cache takes two edits within a second for one.
+        code = compile(place.read_bytes(), str(place), "exec", dont_inherit=True)
         sys.modules[place.stem] = module
-        spec.loader.exec_module(module)
+        exec(code, module.__dict__)
     except NiwakiError:
         raise
     except Exception as error:

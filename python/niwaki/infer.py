@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import secrets
 import time
+import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from os import PathLike
@@ -23,6 +24,10 @@ from niwaki.words.models import Model
 
 if TYPE_CHECKING:
     from niwaki.target import Target
+
+
+class SearchWarning(UserWarning):
+    """A search gave a result, but less than was asked for."""
 
 
 @dataclass(frozen=True)
@@ -109,7 +114,7 @@ def run(
     given_seed = check_seed(seed)
     made = task(model, args, kwargs, score.specs, max_steps, max_memory)
     if choices is not None:
-        with translated(model.name):
+        with translated(model.name, choices=choices):
             trace = made.replay(dict(choices), given_seed if seed is not None else None)
         return Result(model, [Sample.of_trace(trace, made, score)], given_seed, "choices", score)
     return _search(
@@ -164,7 +169,8 @@ def grow(
     Returns
     -------
     Result
-        One sample for each run, the best of its population.
+        One sample for each run, the best of its population; runs in which every particle became impossible are left
+        out with a warning, and are an error when there is no other.
     """
     from niwaki.target import Target
 
@@ -185,9 +191,24 @@ def grow(
     score = no_self_intersection(rule) * volume_match(aim, voxel, sigma)
     made = task(model, args, kwargs, score.specs, max_steps, max_memory)
     found: list[Sample] = []
+    failed: list[InputError] = []
     seconds, interrupted = 0.0, False
     for number in range(runs):
-        one = _search(model, made, chosen, score, (first + number) % 2**64, threads, progress, number, runs)
+        try:
+            one = _search(
+                model, made, chosen, score, (first + number) % 2**64, threads, progress, number, runs
+            )
+        except InputError as error:
+            if error.code != "everything-impossible":
+                raise
+            failed.append(error)
+            continue
+        except KeyboardInterrupt:
+            # Pressed between two looks of the engine.
+            if not found:
+                raise
+            interrupted = True
+            break
         seconds += one.seconds
         interrupted = one.interrupted
         if one.interrupted and found and not any(sample.has_ended for sample in one):
@@ -195,6 +216,14 @@ def grow(
         found.append(one.best)
         if interrupted:
             break
+    if failed and not found:
+        raise failed[0]
+    if failed:
+        warnings.warn(
+            f"{len(failed)} of {runs} runs became impossible and are left out; use more particles",
+            SearchWarning,
+            stacklevel=2,
+        )
     result = Result(model, found, first, chosen, score, interrupted=interrupted)
     result.seconds = seconds
     return result

@@ -92,7 +92,10 @@ class Sample:
     @property
     def value(self) -> Any:
         """What the model returned; None for a run that did not end."""
-        return self._outcome.value
+        try:
+            return self._outcome.value
+        except TypeError as error:
+            raise InputError("value-too-deep", found=str(error)) from None
 
     @property
     def target(self) -> Target | None:

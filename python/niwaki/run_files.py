@@ -132,6 +132,6 @@ def replayed(data: dict[str, Any], number: int | None = None) -> Sample:
     run = data["runs"][data["best"] if number is None else number]
     choices = {part["address"]: _chosen(part["value"]) for part in run["choices"]}
     made = task(found.model)
-    with translated(found.model.name):
+    with translated(found.model.name, choices=choices):
         trace = made.replay(choices, None, not run["ended"])
     return Sample.of_trace(trace, made, Score())

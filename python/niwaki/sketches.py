@@ -86,7 +86,7 @@ def volume_match(target: Target, voxel: float | None = None, sigma: float = 0.02
     """
     size = check_positive("voxel", automatic_voxel(target) if voxel is None else voxel)
     check_positive("sigma", sigma)
-    with geometry_errors(target.name, size):
+    with geometry_errors(target, size):
         grid = _engine.Target(target.vertices, target.faces, size)
         spec = _engine.volume_match(grid, sigma)
     return Score((spec,), {"voxel": size, "sigma": sigma}, target)
@@ -113,8 +113,9 @@ def check_positive(name: str, value: float) -> float:
 
 
 @contextmanager
-def geometry_errors(name: str, size: float) -> Iterator[None]:
+def geometry_errors(target: Target, size: float) -> Iterator[None]:
     """Inside, what geometry refuses is raised as an `InputError`."""
+    name, cells = target.name, " x ".join(f"{length / size:.0f}" for length in target.size)
     try:
         yield
     except ValueError as error:
@@ -122,4 +123,4 @@ def geometry_errors(name: str, size: float) -> Iterator[None]:
         codes = {"no-cell-filled": "no-cell-filled", "large-grid": "too-many-cells"}
         if code not in codes:
             raise
-        raise InputError(codes[code], path=name, size=f"{size:g}", found=str(error)) from None
+        raise InputError(codes[code], path=name, size=f"{size:g}", found=cells) from None

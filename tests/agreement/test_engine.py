@@ -2,8 +2,8 @@
 
 Random programs (see `programs`), in both directions: the choices of an engine's forward run are given to plain
 Python, and those of a plain run to the engine. Decisions, whole numbers and addresses are equal; reals agree to 1e-12
-of their size. A model that fails in plain Python fails in the engine. Seeds are fixed; a failure prints the smallest program that
-still fails. Nothing here is statistical.
+of their size. A model that fails in plain Python fails in the engine. Seeds are fixed; a failure prints the smallest
+program that still fails. Nothing here is statistical.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from typing import Any
 import niwaki as nw
 import numpy as np
 import pytest
+from features import FEATURES, feature
 from niwaki.errors import ModelError, ModelFault, NiwakiError
 from niwaki.lang.plain import Run, run_python
 from programs import program, shrink
@@ -131,6 +132,11 @@ def test_random_program(seed: int) -> None:
     if differs(whole.text):
         small = shrink(whole, lambda text: bool(differs(text)))
         pytest.fail(f"{small.text}\n{differs(small.text)}")
+
+
+@pytest.mark.parametrize("name", FEATURES)
+def test_feature(name: str) -> None:
+    assert not differs(feature(name), seeds=5)
 
 
 def test_faults_have_the_same_code() -> None:

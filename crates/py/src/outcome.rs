@@ -1,7 +1,7 @@
 //! What a search finds: light outcomes, and the traces that they become when they are run once more.
 
 use crate::geometry::PyShape;
-use crate::values::Classes;
+use crate::values::{Classes, Opaque};
 use niwaki_infer::log::Log;
 use niwaki_infer::record::Record;
 use niwaki_infer::replay::{Trace, by_address};
@@ -142,12 +142,17 @@ impl PyTrace {
             let shapes = shapes.into_iter().map(|s| Py::new(py, PyShape(s))).collect::<PyResult<_>>()?;
             parts.push((path, shapes));
         }
+        // A value too deep to pass must not take choices and scene with it.
+        let value = match classes.object(py, &trace.value) {
+            Ok(value) => value.unbind(),
+            Err(_) => Py::new(py, Opaque("value too deep to pass"))?.into_any(),
+        };
         let record = &trace.record;
         Ok(PyTrace {
             choices,
             parts,
             queries: queries.unbind(),
-            value: classes.object(py, &trace.value)?.unbind(),
+            value,
             log_prior: record.log_prior,
             log_score: record.log_score(),
             primitives: record.primitives,

@@ -177,7 +177,7 @@ impl Classes {
 
 /// A value that stays inside: a function of a model.
 #[pyclass(frozen, name = "Opaque", module = "niwaki._engine")]
-pub struct Opaque(&'static str);
+pub struct Opaque(pub &'static str);
 
 #[pymethods]
 impl Opaque {

@@ -56,8 +56,10 @@ def is_named_tuple(value: Any) -> bool:
 
 
 def is_record_class(value: Any) -> bool:
-    """Whether it is a class whose instances are records."""
-    return isinstance(value, type) and (is_named_tuple(value) or dataclasses.is_dataclass(value))
+    """Whether it is a class whose instances are records; vectors and distributions are values of their own."""
+    if not isinstance(value, type) or value.__module__.startswith("niwaki.words."):
+        return False
+    return is_named_tuple(value) or dataclasses.is_dataclass(value)
 
 
 def record_fields(value: Any) -> tuple[str, ...]:

@@ -52,6 +52,8 @@ _files: dict[str, tuple[SourceFile, ast.Module]] = {}
 
 def _parsed(path: str, module_globals: dict[str, object]) -> tuple[SourceFile, ast.Module] | None:
     """The file's lines and tree; read again when the text has changed since."""
+    # A file may have been edited since it was last looked at.
+    linecache.checkcache(path)
     lines = tuple(line.rstrip("\r\n") for line in linecache.getlines(path, module_globals))
     if not lines:
         return None

@@ -10,6 +10,7 @@ use niwaki_vm::machine::Limits;
 use niwaki_vm::value::Value;
 use rayon::prelude::*;
 use std::collections::HashMap;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The stream of the resampling draws: no lineage has this number.
 const RESAMPLING: u64 = u64::MAX;
@@ -147,9 +148,19 @@ fn advance(particles: &mut [Particle], task: &Task, settings: &Settings) -> std:
     if rayon::current_num_threads() == 1 {
         return batch(particles);
     }
-    // Of several faults, the one of the first particle is reported, whatever thread met its own first.
-    let faults: Vec<Failure> =
-        particles.par_chunks_mut(BATCH).map(batch).filter_map(std::result::Result::err).collect();
+    // Of several faults, the one of the first particle is reported, whatever thread met its own first. Batches behind
+    // one that failed need not run: an endless model would use up its budget once for each.
+    let failed = AtomicUsize::new(usize::MAX);
+    let faults: Vec<Failure> = particles
+        .par_chunks_mut(BATCH)
+        .enumerate()
+        .filter(|(number, _)| *number < failed.load(Ordering::Relaxed))
+        .filter_map(|(number, particles)| {
+            let fault = batch(particles).err()?;
+            failed.fetch_min(number, Ordering::Relaxed);
+            Some(fault)
+        })
+        .collect();
     faults.into_iter().next().map_or(Ok(()), Err)
 }
 

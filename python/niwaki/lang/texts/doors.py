@@ -22,9 +22,17 @@ DOORS = (
         cure="ten functions with two thousand each",
     ),
     Message(
+        "value-too-deep",
+        "the model's value cannot leave the engine",
+        why="it is {found}; Python's own tools stop at such depths too",
+        help="return a list instead of tuples inside of tuples",
+        example="xs = ()\nfor i in range(1000):\n    xs = (xs, i)",
+        cure="xs = []\nfor i in range(1000):\n    xs = xs + [i]",
+    ),
+    Message(
         "no-runs",
         "there is no best sample",
-        why="the search kept no runs: {found}",
+        why="the search keeps a table of values, not runs",
         help="read `result.distribution()` after an enumeration, or ask for samples with another method",
         example="run(model, method=enumerate_all()).best",
         cure="run(model, method=enumerate_all()).distribution()",
