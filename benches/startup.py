@@ -37,7 +37,9 @@ def main(processes: int = 10) -> None:
     """Measure and print."""
     runs = []
     for _ in range(processes):
-        line = subprocess.run([sys.executable, "-c", PROGRAM], check=True, capture_output=True, text=True).stdout
+        line = subprocess.run(
+            [sys.executable, "-c", PROGRAM], check=True, capture_output=True, text=True
+        ).stdout
         runs.append(json.loads(line))
     figures = {
         name: {"median": statistics.median(r[name] for r in runs), "max": max(r[name] for r in runs)}
