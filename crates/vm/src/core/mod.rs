@@ -2,7 +2,7 @@
 //!
 //! About twenty kinds of expression and ten of statement, each with its place in the source. It crosses
 //! from Python as text ([`read`] turns characters into nested lists, [`parse`] turns those into the types of
-//! this file, [`print`] goes back), so that tests, fuzzers and bug reports run real programs without Python.
+//! this file, [`mod@print`] goes back), so that tests, fuzzers and bug reports run real programs without Python.
 
 pub mod parse;
 pub mod print;

@@ -6,8 +6,8 @@
 //! * [`address`]: paths of sites as 128-bit hashes;
 //! * [`answers`]: what is asked, and the trait of those who answer;
 //! * [`state`]: nodes, registers, futures;
-//! * [`interpret`]: the loop over instructions;
-//! * [`suspend`]: what happens at a suspension site;
+//! * `interpret`: the loop over instructions;
+//! * `suspend`: what happens at a suspension site;
 //! * [`stack`]: the model's own call stack, for messages.
 
 pub mod address;

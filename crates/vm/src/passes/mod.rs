@@ -2,9 +2,9 @@
 //!
 //! 1. [`effects`]: which functions can suspend (the others are pure);
 //! 2. [`liveness`]: what a loop must hand from one iteration to the next;
-//! 3. [`lower`]: one walk over each function; static single assignment with merges written by each arm; loops
-//!    that can suspend are *lifted* into functions of their own;
-//! 4. [`place`]: which registers live in the node and which are scratch, by liveness on bytecode.
+//! 3. `emit`, `expressions`, `sites`, `statements`: one walk over each function; static single assignment with
+//!    merges written by each arm; loops that can suspend are *lifted* into functions of their own;
+//! 4. `place`: which registers live in the node and which are scratch, by liveness on bytecode.
 
 pub mod effects;
 mod emit;

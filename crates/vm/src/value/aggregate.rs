@@ -1,7 +1,7 @@
 //! The flat aggregates: tuples, records, dictionaries, closures, ranges and vectors.
 //!
 //! Each is one allocation behind one thin pointer (a tuple of up to four needs no second one). Those that hold values
-//! hand their children to [`release`](super::release) when dropped, so that nesting costs no host stack.
+//! hand their children to `release` when dropped, so that nesting costs no host stack.
 
 use std::sync::Arc;
 

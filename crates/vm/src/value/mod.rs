@@ -2,8 +2,8 @@
 //!
 //! A value is 16 bytes: a tag and either the number itself or one thin pointer to something shared that never changes.
 //! [`List`] is a persistent trie of our own ([`list`]); tuples, records, dictionaries and closures are flat.
-//! Nothing in this room recurses on the host stack: dropping ([`release`]), identity ([`same`]), Python's
-//! `==` and `<` ([`compare`]), hashing and printing ([`print`]) all keep their own stack, so a chain of a million
+//! Nothing in this room recurses on the host stack: dropping (`release`), identity (`same`), Python's
+//! `==` and `<` ([`compare`]), hashing and printing (`print`) all keep their own stack, so a chain of a million
 //! nested tuples is an ordinary value (facts of the spike: a plain drop of such a chain overflowed).
 //!
 //! The scalar type is a parameter: `f64` when a model runs, a recording scalar when its gradient is wanted.
