@@ -3,9 +3,9 @@
 //! With `s(r_n)` the score of a run at its n-th barrier and `T` the temperature, particles target
 //! `F_n = p_n(x_n) s(r_n)^T` (dissertation 5.3, with `T = 1`). A step:
 //!
-//! 1. *Advance*: each particle that has not ended runs to its next barrier ([`advance`]). After each barrier
+//! 1. *Advance*: each particle that has not ended runs to its next barrier (`advance`). After each barrier
 //!    and whenever a future returns, the order policy picks the future that runs next.
-//! 2. *Weigh* ([`weights`]): `w *= (s(r_n) / s(r_{n-1}))^T`. One that has ended carries its last score.
+//! 2. *Weigh* (`weights`): `w *= (s(r_n) / s(r_{n-1}))^T`. One that has ended carries its last score.
 //! 3. *Resample* ([`resampling`]): at every barrier, or when the effective sample size is low; weights are reset.
 //!
 //! The evidence is the score of the empty scene times the product of the mean weights at each resampling, times
