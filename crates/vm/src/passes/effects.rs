@@ -1,6 +1,6 @@
 //! Which functions can reach an effect: a fixed point over the call graph.
 //!
-//! A function that cannot is *pure*: it gets no node, no slot and no site. A call through a value of unknown
+//! A function that cannot is *pure*: it gets no node and no site. A call through a value of unknown
 //! origin counts as effectful.
 
 use crate::core::walk::each_stmt;
