@@ -177,8 +177,8 @@ class Result(Sequence[Sample]):
         Whether it was stopped before its end.
     seconds, cpu_seconds : float
         Wall and processor time of the search alone.
-    barriers, resampled, ancestors, tries : int or None
-        Barriers of a population, at how many it was resampled, ancestors left; runs that rejection or enumeration took.
+    barriers, steps, resampled, ancestors, tries : int or None
+        Barriers of a population, how often a particle ran to one, at how many it was resampled, ancestors left; runs that rejection or enumeration took.
     """
 
     def __init__(
@@ -192,6 +192,7 @@ class Result(Sequence[Sample]):
         log_evidence: float | None = None,
         interrupted: bool = False,
         barriers: int | None = None,
+        steps: int | None = None,
         resampled: int | None = None,
         ancestors: int | None = None,
         tries: int | None = None,
@@ -199,7 +200,8 @@ class Result(Sequence[Sample]):
     ) -> None:
         self.model, self.samples, self.seed, self.method, self.score = model, samples, seed, method, score
         self.log_evidence, self.interrupted = log_evidence, interrupted
-        self.barriers, self.resampled, self.ancestors, self.tries = barriers, resampled, ancestors, tries
+        self.barriers, self.steps = barriers, steps
+        self.resampled, self.ancestors, self.tries = resampled, ancestors, tries
         self._table = table
         self.seconds = sum(sample.seconds for sample in samples)
         self.cpu_seconds = sum(sample.cpu_seconds for sample in samples)

@@ -267,6 +267,7 @@ impl PyTask {
         let facts = PyDict::new(py);
         facts.set_item("log_evidence", found.log_evidence)?;
         facts.set_item("barriers", found.barriers)?;
+        facts.set_item("steps", found.steps)?;
         facts.set_item("resampled", found.resampled)?;
         facts.set_item("ancestors", found.ancestors)?;
         facts.set_item("interrupted", found.interrupted)?;

@@ -5,9 +5,9 @@
 //! | class | where it lives | who sees it |
 //! | --- | --- | --- |
 //! | node | a register of the activation, kept while it lives | values needed after a suspension site |
+//! | outer | a register of the enclosing loop node | what an iteration captures |
 //! | scratch | a register of the machine, gone at the next suspension | everything else; all of a pure function |
 //! | constant | the function's constant table | literals and data |
-//! | outer | a register of the enclosing loop node | what an iteration captures |
 
 mod disassemble;
 mod verify;
@@ -28,12 +28,12 @@ pub struct Operand(pub u16);
 pub enum Place {
     /// A register of the activation.
     Node,
+    /// A register of the enclosing loop node.
+    Outer,
     /// A register of the machine.
     Scratch,
     /// A constant of the function.
     Constant,
-    /// A register of the enclosing loop node.
-    Outer,
 }
 
 impl Operand {
@@ -51,14 +51,32 @@ impl Operand {
     pub fn place(self) -> Place {
         match self.0 >> 14 {
             0 => Place::Node,
-            1 => Place::Scratch,
-            2 => Place::Constant,
-            _ => Place::Outer,
+            1 => Place::Outer,
+            2 => Place::Scratch,
+            _ => Place::Constant,
         }
     }
 
+    /// Whether it is a register of the activation.
+    #[inline(always)]
+    pub fn is_node(self) -> bool {
+        self.0 < 1 << 14
+    }
+
+    /// Of an operand that is not in the node: whether it is in the loop node above.
+    #[inline(always)]
+    pub fn is_outer(self) -> bool {
+        self.0 < 2 << 14
+    }
+
+    /// Of an operand of the machine: whether it is a constant.
+    #[inline(always)]
+    pub fn is_constant(self) -> bool {
+        self.0 >= 3 << 14
+    }
+
     /// Its index within the class.
-    #[inline]
+    #[inline(always)]
     pub fn index(self) -> usize {
         (self.0 & 0x3FFF) as usize
     }

@@ -7,12 +7,19 @@
 //! * [`answers`]: what is asked, and the trait of those who answer;
 //! * [`state`]: nodes, registers, futures;
 //! * `interpret`: the loop over instructions;
-//! * `suspend`: what happens at a suspension site;
+//! * `registers`: from operands to values;
+//! * `operate`: operations of two operands; `construct`: instructions that make or take apart an aggregate;
+//! * `question`: choices and factors; `suspend`: what happens at any other site; `loops`: lifted loops;
 //! * [`stack`]: the model's own call stack, for messages.
 
 pub mod address;
 pub mod answers;
+mod construct;
 mod interpret;
+mod loops;
+mod operate;
+mod question;
+mod registers;
 pub mod stack;
 pub mod state;
 mod suspend;
@@ -143,6 +150,7 @@ impl<'p, S: Scalar> Machine<'p, S> {
     ///
     /// # Errors
     /// A fault of the program, with the model's call stack. The state is then of no further use.
+    #[inline]
     pub fn resume<A: Answers<S>>(
         &mut self,
         state: &mut State<S>,

@@ -92,16 +92,29 @@ impl<S: Scalar> Clone for State<S> {
     }
 
     fn clone_from(&mut self, source: &Self) {
-        self.nodes.clone_from(&source.nodes);
-        self.registers.clone_from(&source.registers);
-        self.free.clone_from(&source.free);
-        self.futures.clone_from(&source.futures);
-        self.free_futures.clone_from(&source.free_futures);
-        self.runnable.clone_from(&source.runnable);
+        copy(&mut self.nodes, &source.nodes);
+        copy(&mut self.registers, &source.registers);
+        copy(&mut self.free, &source.free);
+        copy(&mut self.futures, &source.futures);
+        copy(&mut self.free_futures, &source.free_futures);
+        copy(&mut self.runnable, &source.runnable);
         self.unreturned = source.unreturned;
         self.depth_first = source.depth_first;
         self.steps = source.steps;
         self.origins.clone_from(&source.origins);
+    }
+}
+
+/// `clone_from` for the few elements that a state has of each kind: a loop that is inlined, no calls.
+#[inline(always)]
+fn copy<T: Clone>(to: &mut Vec<T>, from: &[T]) {
+    if to.len() != from.len() {
+        to.truncate(from.len());
+        to.extend_from_slice(&from[to.len()..]);
+        return to.clone_from_slice(from);
+    }
+    for (to, from) in to.iter_mut().zip(from) {
+        to.clone_from(from);
     }
 }
 
@@ -172,7 +185,7 @@ impl<S: Scalar> State<S> {
         self.nodes.len() * size_of::<Node>() + self.registers.len() * size_of::<Value<S>>()
     }
 
-    /// A node for an activation of `function`; its registers are unassigned.
+    /// A node for an activation of `function`; what its registers hold means nothing.
     #[inline]
     pub(crate) fn new_node(
         &mut self,
@@ -200,7 +213,7 @@ impl<S: Scalar> State<S> {
         NodeId((self.nodes.len() - 1) as u32)
     }
 
-    /// Gives a node back. Its registers let go of what they hold.
+    /// Gives a node back. Its registers let go of what is shared; numbers may stay until they are overwritten.
     #[inline]
     pub(crate) fn release(&mut self, program: &Program<S>, id: NodeId) {
         let node = &mut self.nodes[id.0 as usize];
@@ -209,7 +222,19 @@ impl<S: Scalar> State<S> {
         self.free[function.0 as usize] = id;
         let count = program.function(function).node_registers as usize;
         for value in &mut self.registers[at..at + count] {
-            value.store(Value::None);
+            if !value.is_plain() {
+                *value = Value::None;
+            }
+        }
+    }
+
+    /// A future stops at this instruction of this node, to go on there later.
+    #[inline(always)]
+    pub(crate) fn pause(&mut self, future: FutureId, node: NodeId, pc: usize) {
+        self.nodes[node.0 as usize].pc = pc as u32;
+        // A future that runs is marked as one that can run.
+        if let Status::Runnable(at) = &mut self.futures[future.0 as usize].status {
+            *at = node;
         }
     }
 
