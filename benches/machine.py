@@ -10,7 +10,7 @@ meets a factor; particles that ended take none.
 Every run of every system gives an estimate of the evidence, and the mean of the estimates must be the answer
 that `answers.py` works out without sampling: a fast wrong answer fails.
 
-Prints a JSON line for each measurement, then a table. Needs node, npm and cargo for the peers.
+Prints a JSON line for each measurement (with the answer, not every estimate), then a table. Needs node, npm and cargo for the peers.
 """
 
 import json
@@ -90,7 +90,12 @@ def main(seconds: float = 3.0, seed: int = 1) -> int:
         for measurement in measured:
             off = measurement.off(known[program], spread)
             wrong += abs(off) > ALLOWED
-            print(json.dumps(asdict(measurement) | {"rate": measurement.rate, "off": off} | machine()))
+            evidence = {"runs": len(measurement.log_evidence), "log_evidence": known[program]}
+            print(
+                json.dumps(
+                    asdict(measurement) | evidence | {"rate": measurement.rate, "off": off} | machine()
+                )
+            )
             table.add_row(
                 program,
                 str(particles),
