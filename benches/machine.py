@@ -10,7 +10,8 @@ meets a factor; particles that ended take none.
 Every run of every system gives an estimate of the evidence, and the mean of the estimates must be the answer
 that `answers.py` works out without sampling: a fast wrong answer fails.
 
-Prints a JSON line for each measurement (with the answer, not every estimate), then a table. Needs node, npm and cargo for the peers.
+Prints a JSON line for each measurement (with the answer, not every estimate), then a table. Needs node, npm and
+cargo for the peers.
 """
 
 import json
