@@ -1,0 +1,104 @@
+"""The README's pictures, made again by one command.
+
+    python -m niwaki.gallery.pictures docs/pictures
+
+hero.png: a ship and a tree beside each other; ships.png: ten ships in one target; tree.png: three trees in one target
+and, below, three that no target asked for. Each is reduced to 256 colours and kept below `LARGEST` bytes.
+"""
+
+from __future__ import annotations
+
+import io
+import sys
+from pathlib import Path
+
+from PIL import Image
+
+from niwaki.draw.picture import picture, write_whole
+from niwaki.draw.sheet import sheet
+from niwaki.gallery import targets
+from niwaki.gallery.niwaki_tree import VOXEL as TREE_VOXEL
+from niwaki.gallery.niwaki_tree import niwaki_tree
+from niwaki.gallery.spaceship import VOXEL as SHIP_VOXEL
+from niwaki.gallery.spaceship import spaceship
+from niwaki.infer import grow, run
+from niwaki.methods import forward
+from niwaki.result import Result
+from niwaki.scene import Scene
+
+LARGEST = 300_000
+
+
+def draw(folder: Path) -> list[Path]:
+    """Draw every picture.
+
+    Parameters
+    ----------
+    folder
+        Made where it is missing.
+
+    Returns
+    -------
+    list of Path
+        The files.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    ships = grow(spaceship, targets.ship(), particles=300, voxel=SHIP_VOXEL, runs=10, seed=1)
+    trees = grow(niwaki_tree, targets.niwaki(), particles=1000, voxel=TREE_VOXEL, runs=10, seed=1)
+    return [
+        written(folder / "hero.png", hero(ships, trees)),
+        written(folder / "ships.png", sheet(_scenes(ships), target=ships.score.target, columns=5, size=(300, 190), elevation=34.0, margin=0.0, lift=0.3)),
+        written(folder / "tree.png", garden(trees)),
+    ]
+
+
+def hero(ships: Result, trees: Result) -> Image.Image:
+    """The best ship and the best tree, each with the ghost of what was asked for."""
+    one = picture(ships.scene, ships.score.target, size=(720, 560), lift=0.35, margin=0.02)
+    other = picture(trees.scene, trees.score.target, size=(480, 560), elevation=14.0, margin=0.04)
+    return _beside([[one, other]])
+
+
+def garden(trees: Result) -> Image.Image:
+    """Three trees grown into the target; below, three forward runs."""
+    grown = sheet(_scenes(trees)[:3], target=trees.score.target, columns=3, size=(420, 400), elevation=14.0)
+    wild = run(niwaki_tree, method=forward(3), seed=3)
+    free = sheet(_scenes(wild), columns=3, size=(420, 400), elevation=14.0)
+    return _beside([[grown], [free]])
+
+
+def written(path: Path, image: Image.Image) -> Path:
+    """Write a picture of few colours; its size on disk is what the README's reader waits for."""
+    flat = image.convert("RGB")
+    for colors in (256, 128, 64):
+        out = io.BytesIO()
+        few = flat.quantize(colors, Image.Quantize.MAXCOVERAGE, kmeans=3, dither=Image.Dither.FLOYDSTEINBERG)
+        few.save(out, "PNG", optimize=True)
+        if len(out.getvalue()) <= LARGEST:
+            break
+    return write_whole(path, out.getvalue())
+
+
+def _scenes(result: Result) -> list[Scene]:
+    """Scenes, best first."""
+    return [sample.scene for sample in sorted(result, key=lambda sample: -sample.log_score)]
+
+
+def _beside(rows: list[list[Image.Image]], gap: int = 4) -> Image.Image:
+    """Paste pictures into rows; those of a row have one height."""
+    width = max(sum(image.width + gap for image in row) for row in rows) - gap
+    height = sum(row[0].height + gap for row in rows) - gap
+    page = Image.new("RGB", (width, height), "white")
+    y = 0
+    for row in rows:
+        x = 0
+        for image in row:
+            page.paste(image.convert("RGB"), (x, y))
+            x += image.width + gap
+        y += row[0].height + gap
+    return page
+
+
+if __name__ == "__main__":
+    for place in draw(Path(sys.argv[1] if len(sys.argv) > 1 else "docs/pictures")):
+        print(f"{place}   {place.stat().st_size / 1000:.0f} kB")
