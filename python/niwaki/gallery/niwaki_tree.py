@@ -8,6 +8,7 @@ it, as a gardener would cut it.
 """
 
 from math import cos, pi, sin
+from typing import Any
 
 from niwaki import (
     cross,
@@ -43,7 +44,7 @@ def niwaki_tree():
     The lowest limb stays bare. The trunk is whole before any branch may stand in its way.
     """
     start, forward, radius = vec(0.0, 0.0, 0.0), UP, uniform(1.2, 2.0)
-    limbs = []
+    limbs: list[Any] = []
     going_on = True
     while going_on:
         ahead = normalize(0.35 * forward + vec(gaussian(0.0, 0.45), 1.0, gaussian(0.0, 0.25)))
@@ -67,7 +68,7 @@ def side_branch(low, high, low_radius, high_radius):
         along = normalize(high - low)
         out = rotate(across(along), along, uniform(0.0, 2.0 * pi))
         radius = lerp(low_radius, high_radius, where)
-        start = lerp(low, high, where) + 1.02 * radius * out
+        start = low + where * (high - low) + 1.02 * radius * out
         thick = uniform(0.3, 0.5) * radius
         ahead = normalize(level(out) + uniform(-0.1, 0.6) * UP)
         elbow = start + uniform(0.5, 2.5) * ahead
@@ -91,7 +92,9 @@ def foliage(tip, forward, radius, shift):
     end = tip + min(1.6 * radius, 0.6 * high) * normalize(forward + UP)
     base = tip + 0.6 * radius * UP + shift * size * level(forward)
     ring = [tuft(base, size, high, turn, k, tufts) for k in range(tufts)]
-    top = cylinder(base + 0.55 * high * UP, 0.7 * size, 0.9 * high, top_radius=0.5 * size, bevel=0.95, color=LEAVES[1])
+    top = cylinder(
+        base + 0.55 * high * UP, 0.7 * size, 0.9 * high, top_radius=0.5 * size, bevel=0.95, color=LEAVES[1]
+    )
     return [limb(tip, end, radius, 0.7 * radius, forward, UP, color=BARK)] + ring + [top]
 
 
@@ -101,7 +104,14 @@ def tuft(base, size, high, turn, k, tufts):
     large = 0.45 + 0.07 * cos(2.4 * k + turn)
     place = base + 0.6 * size * vec(cos(angle), 0.0, sin(angle))
     tall = (0.72 + 0.1 * sin(3.1 * k + turn)) * high
-    return cylinder(place + 0.5 * tall * UP, large * size, tall, top_radius=0.8 * large * size, bevel=0.95, color=LEAVES[k % 4])
+    return cylinder(
+        place + 0.5 * tall * UP,
+        large * size,
+        tall,
+        top_radius=0.8 * large * size,
+        bevel=0.95,
+        color=LEAVES[k % 4],
+    )
 
 
 @model

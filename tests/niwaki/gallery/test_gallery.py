@@ -11,10 +11,12 @@ import math
 from pathlib import Path
 
 import niwaki as nw
+import numpy as np
 import pytest
 from niwaki.gallery import Entry, entries, entry
 from niwaki.gallery.demo import demo
 from niwaki.gallery.spaceship import spaceship
+from niwaki.scene import Scene
 
 GALLERY = entries()
 FEW = 60
@@ -38,8 +40,10 @@ def test_plain_python_makes_the_same_scene(one: Entry) -> None:
     here = nw.run(one.model, seed=4).best
     plain = nw.run_python(one.model, choices=here.choices)
     assert plain.log_prior == pytest.approx(here.log_prior, rel=1e-12)
-    shapes = [shape for part in here.scene for shape in part.shapes]
-    assert len(plain.shapes) == len(shapes)
+    scene = Scene(plain.scene)
+    assert [part.address for part in scene] == [part.address for part in here.scene]
+    assert [len(part.shapes) for part in scene] == [len(part.shapes) for part in here.scene]
+    assert np.allclose(scene.merged()[0], here.scene.merged()[0], atol=1e-9)
 
 
 @pytest.mark.parametrize("one", [one for one in GALLERY if one.target_name], ids=named)
