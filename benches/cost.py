@@ -28,13 +28,19 @@ PRIMITIVES = (20, 50, 100, 200, 500, 1000, 2000)
 #: Population of the spirals, their radius, boxes in one turn, how far a turn rises, and the cell size.
 POPULATION, RADIUS, TURN, RISE, VOXEL = 100, 8.0, 40, 1.5, 0.25
 
+SHIP, SPIRAL = "a ship", f"a spiral of boxes, {POPULATION} particles"
+
 
 @model
 def spiral(n):
     """Put `n` boxes of uncertain size along a rising circle; neighbours never touch."""
     for k in range(n):
         angle = 2.0 * pi * k / TURN
-        place = (RADIUS * cos(angle) + gaussian(0.0, 0.1), RISE * k / TURN, RADIUS * sin(angle) + gaussian(0.0, 0.1))
+        place = (
+            RADIUS * cos(angle) + gaussian(0.0, 0.1),
+            RISE * k / TURN,
+            RADIUS * sin(angle) + gaussian(0.0, 0.1),
+        )
         emit(box(place, (uniform(0.3, 0.7), uniform(0.3, 0.7), uniform(0.3, 0.7))))
 
 
@@ -44,8 +50,8 @@ def main(picture: Path, lines: Path | None) -> None:
     runs = [row for n in PRIMITIVES for row in spirals(n)] + ships()
     if lines is not None:
         lines.write_text("".join(json.dumps(run) + "\n" for run in runs))
-    print(f"ships, particles {PARTICLES}: exponent {slope(runs, 'a ship', 'particles'):.2f}")
-    print(f"spirals, primitives {PRIMITIVES}: exponent {slope(runs, 'a spiral of boxes', 'primitives'):.2f}")
+    print(f"ships, particles {PARTICLES}: exponent {slope(runs, SHIP, 'particles'):.2f}")
+    print(f"spirals, primitives {PRIMITIVES}: exponent {slope(runs, SPIRAL, 'primitives'):.2f}")
     cost(runs, picture, 80)
 
 
@@ -58,7 +64,7 @@ def ships() -> list[dict]:
     for particles in PARTICLES:
         for seed in SEEDS:
             result = nw.grow(one.model, target, particles=particles, voxel=one.voxel, seed=seed, threads=1)
-            rows.append(row("a ship", particles, result))
+            rows.append(row(SHIP, particles, result))
     return rows
 
 
@@ -70,7 +76,7 @@ def spirals(n: int) -> list[dict]:
     for seed in SEEDS:
         result = nw.grow(spiral, target, n, particles=POPULATION, voxel=VOXEL, seed=seed, threads=1)
         assert result.best.primitives == n
-        rows.append(row("a spiral of boxes", POPULATION, result))
+        rows.append(row(SPIRAL, POPULATION, result))
     return rows
 
 

@@ -2,8 +2,8 @@
 
     python -m niwaki.gallery.pictures docs/pictures
 
-hero.png: a ship and a tree beside each other; ships.png: ten ships in one target; tree.png: three trees in one target
-and, below, three that no target asked for. Each stays below `LARGEST` bytes.
+ships.png: ten ships in one target; tree.png: three trees in one target and, below, three that no target asked for.
+Each stays below `LARGEST` bytes.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from typing import Any
 
 from PIL import Image
 
-from niwaki.draw.picture import picture, write_whole
+from niwaki.draw.picture import write_whole
 from niwaki.draw.sheet import sheet
 from niwaki.gallery import targets
 from niwaki.gallery.niwaki_tree import VOXEL as TREE_VOXEL
@@ -45,19 +45,11 @@ def draw(folder: Path) -> list[Path]:
     """
     folder.mkdir(parents=True, exist_ok=True)
     ships = grow(spaceship, targets.ship(), particles=300, voxel=SHIP_VOXEL, runs=10, seed=1)
-    trees = grow(niwaki_tree, targets.niwaki(), particles=1000, voxel=TREE_VOXEL, runs=10, seed=1)
+    trees = grow(niwaki_tree, targets.niwaki(), particles=1000, voxel=TREE_VOXEL, runs=6, seed=1)
     return [
-        written(folder / "hero.png", hero(ships, trees)),
         written(folder / "ships.png", fleet(ships)),
         written(folder / "tree.png", garden(trees)),
     ]
-
-
-def hero(ships: Result, trees: Result) -> Image.Image:
-    """The best ship and the best tree, each with the ghost of what was asked for."""
-    one = picture(ships.scene, ships.score.target, size=(720, 560), lift=0.35, margin=0.02)
-    other = picture(trees.scene, trees.score.target, size=(480, 560), elevation=14.0, margin=0.04)
-    return _beside([[one, other]])
 
 
 def fleet(ships: Result) -> Image.Image:
@@ -71,7 +63,7 @@ def garden(trees: Result) -> Image.Image:
     grown = sheet(_scenes(trees)[:3], target=trees.score.target, columns=3, size=(320, 305), elevation=14.0)
     wild = run(niwaki_tree, method=forward(3), seed=3)
     free = sheet(_scenes(wild), columns=3, size=(320, 305), elevation=14.0)
-    return _beside([[grown], [free]])
+    return _above(grown, free)
 
 
 def written(path: Path, image: Image.Image) -> Path:
@@ -94,18 +86,11 @@ def _scenes(result: Result) -> list[Scene]:
     return [sample.scene for sample in sorted(result, key=lambda sample: -sample.log_score)]
 
 
-def _beside(rows: list[list[Image.Image]], gap: int = 4) -> Image.Image:
-    """Paste pictures into rows; those of a row have one height."""
-    width = max(sum(image.width + gap for image in row) for row in rows) - gap
-    height = sum(row[0].height + gap for row in rows) - gap
-    page = Image.new("RGB", (width, height), "white")
-    y = 0
-    for row in rows:
-        x = 0
-        for image in row:
-            page.paste(image.convert("RGB"), (x, y))
-            x += image.width + gap
-        y += row[0].height + gap
+def _above(top: Image.Image, bottom: Image.Image, gap: int = 4) -> Image.Image:
+    """Paste one picture above another of the same width."""
+    page = Image.new("RGB", (top.width, top.height + gap + bottom.height), "white")
+    page.paste(top.convert("RGB"), (0, 0))
+    page.paste(bottom.convert("RGB"), (0, top.height + gap))
     return page
 
 
