@@ -23,12 +23,17 @@ import numpy as np
 def cost(runs: list[dict], path: Path, dots_per_inch: int = 120) -> None:
     """Draw CPU seconds against particles and against primitives, both axes logarithmic.
 
-    The second panel takes the runs with the most particles alone. A dotted line through the first point of
-    each series shows what growing in proportion would be.
+    A series stands in the panel of what varies in it: particles where it has several numbers of them, else
+    primitives. A dotted line through the first point of each shows what growing in proportion would be.
     """
-    most = max(run["particles"] for run in runs)
-    chosen = {"particles": runs, "primitives": [run for run in runs if run["particles"] == most]}
-    labels = {"particles": "particles", "primitives": f"primitives in the finished model, {most} particles"}
+    numbers: dict[str, set[int]] = defaultdict(set)
+    for run in runs:
+        numbers[run["series"]].add(run["particles"])
+    chosen = {
+        "particles": [run for run in runs if len(numbers[run["series"]]) > 1],
+        "primitives": [run for run in runs if len(numbers[run["series"]]) == 1],
+    }
+    labels = {"particles": "particles", "primitives": "primitives"}
     figure, panels = plt.subplots(1, len(labels), figsize=(10, 4), sharey=True, layout="constrained")
     for panel, (size, label) in zip(panels, labels.items(), strict=True):
         for color, (name, points) in zip(colors(), grouped(chosen[size], size).items(), strict=False):
@@ -39,8 +44,8 @@ def cost(runs: list[dict], path: Path, dots_per_inch: int = 120) -> None:
             panel.plot(sizes, middle[0] * sizes / sizes[0], ":", color=color, linewidth=1)
         panel.set(xscale="log", yscale="log", xlabel=label)
         panel.grid(alpha=0.3)
+        panel.legend(frameon=False)
     panels[0].set_ylabel("CPU seconds of a run")
-    panels[0].legend(frameon=False)
     figure.savefig(path, dpi=dots_per_inch)
     plt.close(figure)
 

@@ -15,6 +15,9 @@ if TYPE_CHECKING:
     from niwaki.target import Target
     from niwaki.words.models import Model
 
+#: Modules of this folder that hold no model; they are not imported to find that out.
+NOT_MODELS = ("demo", "pictures", "targets")
+
 
 @dataclass(frozen=True)
 class Entry:
@@ -64,7 +67,7 @@ def entry(name: str) -> Entry | None:
     stem = name.replace("-", "_")
     if not stem.isidentifier() or not any(module.name == stem for module in iter_modules(__path__)):
         return None
-    if stem in ("targets", "demo"):
+    if stem in NOT_MODELS:
         return None
     module = import_module(f"{__name__}.{stem}")
     if not hasattr(module, "MODEL"):

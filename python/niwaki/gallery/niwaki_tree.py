@@ -1,17 +1,19 @@
-"""A cloud-pruned garden tree: limbs that bend as they grow, and pads of foliage where they end.
+"""A cloud-pruned garden tree: a bending trunk, side branches that reach outwards, flat clouds of foliage on their ends.
 
-The tree that this project is named after, in our own words: each limb begins on the ring where the one before it
-ended, so that neighbours touch and do not intersect. Side branches are futures. A branch ends in a cloud of foliage,
-which is one primitive with the last limb under it.
+The tree that this project is named after, in our own words. Each limb begins on the ring where the one before it
+ended, so that neighbours touch and do not intersect; a side branch begins on a ring that lies on its parent's bark.
+Whether there is a side branch, where it goes and what it carries is left to futures. A cloud is one primitive: a short
+last limb that turns upwards into it, and tufts that overlap. Its flat underside lies just above the limb that carries
+it, as a gardener would cut it.
 """
 
-from math import pi
+from math import cos, pi, sin
+from typing import Any
 
 from niwaki import (
     cross,
     cylinder,
     discrete_uniform,
-    dot,
     emit,
     flip,
     future,
@@ -30,75 +32,86 @@ TITLE = "a cloud-pruned garden tree"
 TARGET = "niwaki"
 VOXEL = 0.5
 
-BARK = (0.42, 0.30, 0.22)
-LEAVES = ((0.25, 0.42, 0.20), (0.31, 0.48, 0.22), (0.21, 0.38, 0.22))
+BARK = (0.41, 0.32, 0.26)
+LEAVES = ((0.28, 0.39, 0.22), (0.34, 0.45, 0.26), (0.24, 0.35, 0.21), (0.31, 0.42, 0.25))
 UP = vec(0.0, 1.0, 0.0)
 
 
 @model
 def niwaki_tree():
-    """Grow the trunk from the ground at the origin."""
-    branch(vec(0.0, 0.0, 0.0), UP, uniform(1.0, 2.0), 0)
+    """Grow the trunk from the ground at the origin to its crown, then two chances of a side branch on each limb.
 
-
-@model
-def branch(start, forward, radius, depth):
-    """Grow limbs from `start` in the direction `forward`, then a cloud; side branches are left to futures."""
+    The lowest limb stays bare. The trunk is whole before any branch may stand in its way.
+    """
+    start, forward, radius = vec(0.0, 0.0, 0.0), UP, uniform(1.2, 2.0)
+    limbs: list[Any] = []
     going_on = True
     while going_on:
-        length = uniform(1.5, 3.5) if depth == 0 else uniform(1.0, 3.0)
-        ahead = normalize(bend(forward, 0.3 if depth == 0 else 0.2) + 0.1 * UP)
-        end = start + length * ahead
-        thin = radius * uniform(0.75, 0.95)
-        emit(limb(start, end, radius, thin, forward, ahead, color=BARK))
-        if depth == 0:
-            future(side_branch, start + 0.4 * length * ahead, ahead, lerp(radius, thin, 0.4))
-            future(side_branch, start + 0.8 * length * ahead, ahead, lerp(radius, thin, 0.8))
+        ahead = normalize(0.35 * forward + vec(gaussian(0.0, 0.45), 1.0, gaussian(0.0, 0.25)))
+        end = start + uniform(1.5, 3.5) * ahead
+        thin = radius * uniform(0.8, 0.92)
+        going_on = len(limbs) < 4 or (thin > 0.5 and flip(0.65))
+        crown = [] if going_on else foliage(end, ahead, thin, 0.0)
+        emit(limb(start, end, radius, thin, forward, ahead, color=BARK), crown)
+        limbs = limbs + [(start, end, radius, thin)]
         start, forward, radius = end, ahead, thin
-        going_on = radius > 0.25 and flip(0.85 if depth == 0 else 0.35)
-    if flip(0.85):
-        cloud(start, forward, radius)
+    for low, high, low_radius, high_radius in limbs[1:]:
+        for _ in range(2):
+            future(side_branch, low, high, low_radius, high_radius)
 
 
 @model
-def side_branch(middle, along, radius):
-    """Perhaps a branch that leaves a limb around `middle` sideways and a little upwards."""
-    if flip(0.5):
-        turn = uniform(0.0, 2.0 * pi)
-        out = normalize(rotate(across(along), along, turn) + uniform(0.0, 0.5) * along)
-        thin = radius * uniform(0.35, 0.6)
-        # The first ring lies outside the parent, whose sides are flat between the corners of its rings.
-        start = middle + (1.05 * radius / dot(out, rotate(across(along), along, turn))) * out
-        branch(start, out, thin, 1)
+def side_branch(low, high, low_radius, high_radius):
+    """Perhaps a branch with a cloud on the limb from `low` to `high`: sideways, seldom downwards."""
+    if flip(0.6):
+        where = uniform(0.1, 0.9)
+        along = normalize(high - low)
+        out = rotate(across(along), along, uniform(0.0, 2.0 * pi))
+        radius = lerp(low_radius, high_radius, where)
+        start = low + where * (high - low) + 1.02 * radius * out
+        thick = uniform(0.3, 0.5) * radius
+        ahead = normalize(level(out) + uniform(-0.1, 0.6) * UP)
+        elbow = start + uniform(0.5, 2.5) * ahead
+        turned = normalize(bend(ahead, 0.3) + 0.1 * UP)
+        end = elbow + uniform(0.5, 2.5) * turned
+        thin = 0.8 * thick
+        limbs = [
+            limb(start, elbow, thick, thin, out, ahead, color=BARK),
+            limb(elbow, end, thin, 0.8 * thin, ahead, turned, color=BARK),
+        ]
+        emit(limbs + foliage(end, turned, 0.8 * thin, uniform(0.0, 0.4)))
 
 
 @model
-def cloud(tip, forward, radius):
-    """Foliage on a short last limb: flat tufts around a middle one."""
-    across_size = uniform(1.0, 4.0)
-    high = across_size * uniform(0.4, 0.6)
-    end = tip + 0.6 * forward
-    middle = end + (0.35 * high) * UP
+def foliage(tip, forward, radius, shift):
+    """A short last limb and a cloud above `tip`, its middle further ahead by `shift` of its size."""
+    size = uniform(1.6, 3.4)
+    high = uniform(1.0, 1.8)
     tufts = discrete_uniform(4, 6)
     turn = uniform(0.0, 2.0 * pi)
-    ring = [tuft(middle, across_size, high, turn + 2.0 * pi * k / tufts, k) for k in range(tufts)]
+    end = tip + min(1.6 * radius, 0.6 * high) * normalize(forward + UP)
+    base = tip + 0.6 * radius * UP + shift * size * level(forward)
+    ring = [tuft(base, size, high, turn, k, tufts) for k in range(tufts)]
     top = cylinder(
-        middle + 0.18 * high * UP,
-        0.62 * across_size,
-        high,
-        top_radius=0.45 * across_size,
-        bevel=0.95,
-        color=LEAVES[1],
+        base + 0.55 * high * UP, 0.7 * size, 0.9 * high, top_radius=0.5 * size, bevel=0.95, color=LEAVES[1]
     )
-    emit(limb(tip, end, radius, 0.7 * radius, forward, forward, color=BARK), ring + [top])
+    return [limb(tip, end, radius, 0.7 * radius, forward, UP, color=BARK)] + ring + [top]
 
 
-def tuft(middle, across_size, high, angle, k):
-    """One of the tufts around the middle of a cloud."""
-    out = rotate(vec(1.0, 0.0, 0.0), UP, angle)
-    size = 0.5 * across_size
-    place = middle + 0.5 * across_size * out - 0.08 * high * UP
-    return cylinder(place, size, 0.75 * high, top_radius=0.72 * size, bevel=0.95, color=LEAVES[k % 3])
+def tuft(base, size, high, turn, k, tufts):
+    """The `k`-th tuft around the middle of a cloud; every other one is a little larger."""
+    angle = turn + 2.0 * pi * k / tufts
+    large = 0.45 + 0.07 * cos(2.4 * k + turn)
+    place = base + 0.6 * size * vec(cos(angle), 0.0, sin(angle))
+    tall = (0.72 + 0.1 * sin(3.1 * k + turn)) * high
+    return cylinder(
+        place + 0.5 * tall * UP,
+        large * size,
+        tall,
+        top_radius=0.8 * large * size,
+        bevel=0.95,
+        color=LEAVES[k % 4],
+    )
 
 
 @model
@@ -114,6 +127,11 @@ def across(direction):
     if norm(side) < 0.1:
         side = cross(direction, vec(1.0, 0.0, 0.0))
     return normalize(side)
+
+
+def level(direction):
+    """`direction` without most of its rise."""
+    return vec(direction.x, 0.15 * direction.y, direction.z)
 
 
 MODEL = niwaki_tree

@@ -13,7 +13,7 @@ from niwaki.target import Target
 
 @pytest.mark.parametrize(
     ("name", "size"),
-    [("ship", (18.0, 2.75, 15.0)), ("crescent", (25.1, 12.0, 17.8)), ("niwaki", (18.1, 20.0, 8.4))],
+    [("ship", (18.0, 2.75, 15.0)), ("crescent", (25.1, 12.0, 17.8)), ("niwaki", (17.3, 19.9, 8.4))],
 )
 def test_closed_and_sized(name: str, size: tuple[float, float, float]) -> None:
     with warnings.catch_warnings():
