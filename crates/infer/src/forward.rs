@@ -27,7 +27,7 @@ pub struct Forward<'a> {
 }
 
 impl Forward<'_> {
-    #[inline]
+    #[inline(always)]
     fn barrier(&self) -> Answer<()> {
         if self.barriers || (self.record.cause.is_some() && !self.complete) {
             Answer::Pause
@@ -48,17 +48,16 @@ pub(crate) fn factor_name(at: &At<'_, f64>, factor: Factor) -> String {
 }
 
 impl Answers<f64> for Forward<'_> {
-    #[inline]
+    #[inline(always)]
     fn choice(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Answer<Value>, Fault> {
         let address = at.address();
-        let draw = dist.sample(&mut Stream::new(self.seed, self.stream, address, 0));
-        let log_density = dist.log_density(&draw);
+        let (draw, log_density) = dist.sample_and_score(&mut Stream::new(self.seed, self.stream, address, 0));
         let value = draw_to_value(draw);
         self.record.choose(address, &value, log_density);
         Ok(Answer::Go(value))
     }
 
-    #[inline]
+    #[inline(always)]
     fn score(&mut self, at: &At<'_, f64>, factor: Factor, log: f64) -> Result<Answer<()>, Fault> {
         let log = check_factor(log)?;
         if log == f64::NEG_INFINITY {

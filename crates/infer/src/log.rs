@@ -54,7 +54,7 @@ impl Drop for Frozen {
 #[derive(Debug, Default)]
 pub struct Log {
     frozen: Option<Arc<Frozen>>,
-    own: Vec<Entry>,
+    own: Few,
 }
 
 impl Log {
@@ -71,20 +71,22 @@ impl Log {
 
     /// A copy; both share what is there now.
     pub fn fork(&mut self) -> Log {
-        if !self.own.is_empty() {
-            // The buffer stays with its owner.
-            let entries = self.own.drain(..).collect();
-            self.frozen = Some(Arc::new(Frozen { entries, before: self.frozen.take() }));
-        }
-        Log { frozen: self.frozen.clone(), own: Vec::new() }
+        self.freeze();
+        Log { frozen: self.frozen.clone(), own: Few::new() }
     }
 
-    /// Becomes a copy of `other`, in its own buffer; both share what is there now.
+    fn freeze(&mut self) {
+        if !self.own.is_empty() {
+            let entries = std::mem::take(&mut self.own);
+            self.frozen = Some(Arc::new(Frozen { entries, before: self.frozen.take() }));
+        }
+    }
+
+    /// Becomes a copy of `other`; both share what is there now.
     pub fn become_copy(&mut self, other: &mut Log) {
-        let mut buffer = std::mem::take(&mut self.own);
-        *self = other.fork();
-        buffer.clear();
-        self.own = buffer;
+        other.freeze();
+        self.own.clear();
+        self.frozen.clone_from(&other.frozen);
     }
 
     /// Every entry, oldest first.

@@ -78,6 +78,25 @@ pub enum Dist<S: Scalar = f64> {
 const _: () = assert!(size_of::<Dist<f64>>() <= 40);
 
 impl<S: Scalar> Dist<S> {
+    /// The distribution of two real parameters, for the families that models make anew at every choice; `None`
+    /// where [`Dist::new`] would refuse them, and for any other family.
+    #[inline]
+    pub fn of_reals(family: Family, a: S, b: S) -> Option<Dist<S>> {
+        let (x, y) = (a.value(), b.value());
+        let positive = |x: f64| x > 0.0 && x < f64::INFINITY;
+        let dist = match family {
+            Family::Gaussian if x.is_finite() && positive(y) => Dist::Gaussian { mean: a, sd: b },
+            Family::LogNormal if x.is_finite() && positive(y) => Dist::LogNormal { mean: a, sd: b },
+            Family::Uniform if x.is_finite() && y.is_finite() && x < y && (b - a).is_finite() => {
+                Dist::Uniform { lo: a, hi: b }
+            }
+            Family::Gamma if positive(x) && positive(y) => Dist::Gamma { shape: a, scale: b },
+            Family::Beta if positive(x) && positive(y) => Dist::Beta { a, b },
+            _ => return None,
+        };
+        Some(dist)
+    }
+
     /// The distribution of this family with these parameters, or what is wrong with them.
     pub fn new(family: Family, params: &[Param<S>]) -> Result<Dist<S>, BadParameter> {
         let r = Reader::new(family, params)?;
@@ -196,6 +215,56 @@ impl<S: Scalar> Dist<S> {
                 }
             }
         }
+    }
+
+    /// [`Dist::log_density`] at a real number; the frequent families without a draw in between.
+    #[inline(always)]
+    pub fn log_density_of_real(&self, x: S) -> S {
+        match self {
+            Dist::Gaussian { mean, sd } => bell::gaussian_log_density(*mean, *sd, x),
+            Dist::Uniform { lo, hi } => interval::uniform_log_density(*lo, *hi, x),
+            _ => self.log_density(&Draw::Real(x)),
+        }
+    }
+
+    /// [`Dist::log_density`] at a whole number; the most frequent family without a draw in between.
+    #[inline(always)]
+    pub fn log_density_of_int(&self, k: i64) -> S {
+        match self {
+            Dist::Categorical(w) => w.log_probability(k),
+            _ => self.log_density(&Draw::Int(k)),
+        }
+    }
+
+    /// A draw and its log density: [`Dist::sample`], then [`Dist::log_density`].
+    #[inline(always)]
+    pub fn sample_and_score(&self, rng: &mut (impl RngCore + ?Sized)) -> (Draw<S>, S) {
+        match self {
+            Dist::Categorical(w) => {
+                let k = w.sample(rng) as i64;
+                (Draw::Int(k), w.log_probability(k))
+            }
+            Dist::Bernoulli { p } => {
+                let b = whole::bernoulli_sample(p.value(), rng);
+                (Draw::Bool(b), whole::bernoulli_log_density(*p, b))
+            }
+            Dist::Uniform { lo, hi } => {
+                let x = S::from_f64(interval::uniform_sample(lo.value(), hi.value(), rng));
+                (Draw::Real(x), interval::uniform_log_density(*lo, *hi, x))
+            }
+            Dist::Gaussian { mean, sd } => {
+                let x = S::from_f64(bell::gaussian_sample(mean.value(), sd.value(), rng));
+                (Draw::Real(x), bell::gaussian_log_density(*mean, *sd, x))
+            }
+            _ => self.sample_then_score(rng),
+        }
+    }
+
+    #[inline(never)]
+    fn sample_then_score(&self, rng: &mut (impl RngCore + ?Sized)) -> (Draw<S>, S) {
+        let draw = self.sample(rng);
+        let log = self.log_density(&draw);
+        (draw, log)
     }
 
     /// A draw, from bits of `rng` only.

@@ -21,7 +21,7 @@ pub mod vectors;
 use crate::fault::Fault;
 use crate::value::{Scalar, Value, compare, index, ops};
 
-pub use dist::{draw_to_value, make_dist, value_to_draw};
+pub use dist::{draw_to_value, make_dist, quick_dist, value_to_draw};
 
 /// What a built-in function answers.
 pub type Answer<S> = Result<Value<S>, Fault>;
@@ -40,17 +40,23 @@ pub struct Builtin<S: Scalar = f64> {
 
 impl<S: Scalar> Builtin<S> {
     /// Checks the number of arguments, then runs.
+    #[inline]
     pub fn call(&self, args: &[Value<S>]) -> Answer<S> {
         if (self.min_args..=self.max_args).contains(&args.len()) {
             return (self.run)(args);
         }
+        Err(self.wrong_count(args.len()))
+    }
+
+    #[cold]
+    fn wrong_count(&self, found: usize) -> Fault {
         let expected = match (self.min_args, self.max_args) {
             (least, usize::MAX) => format!("at least {least}"),
             (least, most) if least == most => least.to_string(),
             (least, most) => format!("{least} to {most}"),
         };
-        let (name, found) = (self.name, args.len());
-        Err(Fault::argument_count(format!("`{name}` takes {expected} arguments, found {found}")))
+        let name = self.name;
+        Fault::argument_count(format!("`{name}` takes {expected} arguments, found {found}"))
     }
 }
 

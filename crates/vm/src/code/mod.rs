@@ -5,9 +5,11 @@
 //! | class | where it lives | who sees it |
 //! | --- | --- | --- |
 //! | node | a register of the activation, kept while it lives | values needed after a suspension site |
+//! | outer | a register of the enclosing loop node | what an iteration captures |
 //! | scratch | a register of the machine, gone at the next suspension | everything else; all of a pure function |
 //! | constant | the function's constant table | literals and data |
-//! | outer | a register of the enclosing loop node | what an iteration captures |
+//!
+//! The first bit of the class tells what a run's state holds from what it does not; the machine asks for it first.
 
 mod disassemble;
 mod verify;
@@ -28,12 +30,12 @@ pub struct Operand(pub u16);
 pub enum Place {
     /// A register of the activation.
     Node,
+    /// A register of the enclosing loop node.
+    Outer,
     /// A register of the machine.
     Scratch,
     /// A constant of the function.
     Constant,
-    /// A register of the enclosing loop node.
-    Outer,
 }
 
 impl Operand {
@@ -51,14 +53,26 @@ impl Operand {
     pub fn place(self) -> Place {
         match self.0 >> 14 {
             0 => Place::Node,
-            1 => Place::Scratch,
-            2 => Place::Constant,
-            _ => Place::Outer,
+            1 => Place::Outer,
+            2 => Place::Scratch,
+            _ => Place::Constant,
         }
     }
 
+    /// Whether a run's state holds it: a register of the activation or of the loop node above.
+    #[inline(always)]
+    pub fn is_in_state(self) -> bool {
+        self.0 & 0x8000 == 0
+    }
+
+    /// Within either half of the classes, whether it is the second: outer, constant.
+    #[inline(always)]
+    pub fn is_second(self) -> bool {
+        self.0 & 0x4000 != 0
+    }
+
     /// Its index within the class.
-    #[inline]
+    #[inline(always)]
     pub fn index(self) -> usize {
         (self.0 & 0x3FFF) as usize
     }

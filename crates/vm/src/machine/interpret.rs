@@ -1,18 +1,18 @@
 //! The loop over instructions. Long for one reason: it is one table.
 
-use super::answers::Answers;
+use super::answers::{Answer, Answers};
+use super::registers::Registers;
 use super::state::{FutureId, State, Status};
 use super::suspend::After;
 use super::{Here, Machine, PureCall, Stop};
 use crate::builtins;
-use crate::code::{Binary, FunctionId, Mode, Op, Operand, Place};
+use crate::code::{Binary, FunctionId, Mode, Op, SiteKind, exit};
 use crate::fault::Fault;
-use crate::value::{Closure, Dict, Record, Value, equal, index, iter_get, iter_len, ops};
+use crate::value::{Value, equal, index, iter_get, iter_len, ops};
 use niwaki_math::Scalar;
-use std::sync::Arc;
 
 /// The value of a comparison or arithmetic operation.
-#[inline(always)]
+#[inline(never)]
 fn binary<S: Scalar>(op: Binary, a: &Value<S>, b: &Value<S>) -> Result<Value<S>, Fault> {
     match op {
         Binary::Add => ops::add(a, b),
@@ -28,8 +28,20 @@ fn binary<S: Scalar>(op: Binary, a: &Value<S>, b: &Value<S>) -> Result<Value<S>,
     }
 }
 
-/// The truth of a comparison.
+/// The operations of two reals that cannot fail, by far the most frequent.
 #[inline(always)]
+fn of_reals<S: Scalar>(op: Binary, a: &Value<S>, b: &Value<S>) -> Option<S> {
+    let (Value::Real(a), Value::Real(b)) = (a, b) else { return None };
+    match op {
+        Binary::Add => Some(*a + *b),
+        Binary::Sub => Some(*a - *b),
+        Binary::Mul => Some(*a * *b),
+        _ => None,
+    }
+}
+
+/// The truth of a comparison.
+#[inline(never)]
 fn compare<S: Scalar>(op: Binary, a: &Value<S>, b: &Value<S>) -> Result<bool, Fault> {
     match op {
         Binary::Eq => equal(a, b),
@@ -67,25 +79,20 @@ impl<S: Scalar> Machine<'_, S> {
             }
         }
 
+        macro_rules! r {
+            () => {
+                Registers { f, own, outer, scratch }
+            };
+        }
         macro_rules! get {
-            ($o:expr) => {{
-                let o: Operand = $o;
-                match o.place() {
-                    Place::Node => &state.registers[own + o.index()],
-                    Place::Scratch => &self.scratch[scratch + o.index()],
-                    Place::Constant => &f.constants[o.index()],
-                    Place::Outer => &state.registers[outer + o.index()],
-                }
-            }};
+            ($o:expr) => {
+                r!().get(state, &self.scratch, $o)
+            };
         }
         macro_rules! put {
             ($o:expr, $v:expr) => {{
-                let (o, v): (Operand, Value<S>) = ($o, $v);
-                if o.place() == Place::Node {
-                    state.registers[own + o.index()].store(v);
-                } else {
-                    self.scratch[scratch + o.index()].store(v);
-                }
+                let value = $v;
+                r!().put(state, &mut self.scratch, $o, value);
             }};
         }
         macro_rules! check {
@@ -100,13 +107,9 @@ impl<S: Scalar> Machine<'_, S> {
             };
         }
         macro_rules! gather {
-            ($args:expr) => {{
-                self.buffer.clear();
-                for i in $args.range() {
-                    let value = get!(f.operands[i]).clone();
-                    self.buffer.push(value);
-                }
-            }};
+            ($args:expr) => {
+                r!().gather(state, &self.scratch, $args, &mut self.buffer)
+            };
         }
         macro_rules! step {
             () => {{
@@ -165,8 +168,11 @@ impl<S: Scalar> Machine<'_, S> {
                     put!(to, value);
                 }
                 Op::Binary { op, to, a, b } => {
-                    let value = check!(binary(op, get!(a), get!(b)));
-                    put!(to, value);
+                    let (a, b) = (get!(a), get!(b));
+                    match of_reals(op, a, b) {
+                        Some(x) => put!(to, Value::Real(x)),
+                        None => put!(to, check!(binary(op, a, b))),
+                    }
                 }
                 Op::Neg { to, a } => {
                     let value = check!(ops::neg(get!(a)));
@@ -192,92 +198,57 @@ impl<S: Scalar> Machine<'_, S> {
                         goto!(target);
                     }
                 }
-                Op::Site { site } => {
-                    match check!(self.suspend(state, answers, future, node, id, site, pc, own, outer)) {
-                        After::Next => {}
-                        After::Enter(inner) => {
+                Op::Site { site: number } => {
+                    let site = &f.sites[number.0 as usize];
+                    match site.kind {
+                        SiteKind::Sample { .. } | SiteKind::SampleDist | SiteKind::SampleIndexed => {
+                            match check!(self.choose(state, answers, r!(), node, site)) {
+                                Answer::Go(value) => state.registers[own + site.to.index()].store(value),
+                                Answer::Pause => {
+                                    state.pause(future, node, pc);
+                                    return Ok(Stop::Paused);
+                                }
+                            }
+                        }
+                        SiteKind::Observe { .. }
+                        | SiteKind::ObserveDist
+                        | SiteKind::ObserveIndexed
+                        | SiteKind::Factor
+                        | SiteKind::Condition => {
+                            match check!(self.factor(state, answers, r!(), node, site)) {
+                                Answer::Go(()) => {}
+                                Answer::Pause => {
+                                    state.pause(future, node, pc + 1);
+                                    return Ok(Stop::Paused);
+                                }
+                            }
+                        }
+                        SiteKind::Call { function } => {
+                            let inner = check!(self.call_known(state, r!(), node, number, site, function));
                             step!();
                             enter!(inner, 0);
                         }
-                        After::Pure { function, to, as_future } => call_pure!(function, to, as_future),
-                        After::Stop(stop) => return Ok(stop),
+                        _ => match check!(self.suspend(state, answers, future, node, r!(), number, pc)) {
+                            After::Next => {}
+                            After::Enter(inner) => {
+                                step!();
+                                enter!(inner, 0);
+                            }
+                            After::Pure { function, to, as_future } => call_pure!(function, to, as_future),
+                            After::Stop(stop) => return Ok(stop),
+                        },
                     }
                 }
                 Op::Builtin { to, id: builtin, args } => {
-                    gather!(args);
-                    let value = check!(builtins::builtin::<S>(builtin).call(&self.buffer));
+                    let builtin = builtins::builtin::<S>(builtin);
+                    let value = if let [a] = f.operands[args.range()] {
+                        // One argument, as of `sqrt`, is read where it lies.
+                        check!(builtin.call(std::slice::from_ref(get!(a))))
+                    } else {
+                        gather!(args);
+                        check!(builtin.call(&self.buffer))
+                    };
                     put!(to, value);
-                }
-                Op::List { to, args } => {
-                    gather!(args);
-                    let items = self.buffer.drain(..).collect();
-                    put!(to, Value::list(items));
-                }
-                Op::Tuple { to, args } => {
-                    gather!(args);
-                    let items = self.buffer.drain(..).collect();
-                    put!(to, Value::tuple(items));
-                }
-                Op::Dict { to, args } => {
-                    gather!(args);
-                    let values = self.buffer.split_off(self.buffer.len() / 2);
-                    let pairs = self.buffer.drain(..).zip(values).collect();
-                    put!(to, Value::Dict(Arc::new(Dict::new(pairs))));
-                }
-                Op::Record { to, class, args } => {
-                    gather!(args);
-                    let fields = self.buffer.drain(..).collect();
-                    let class = program.classes[class as usize].clone();
-                    put!(to, Value::Record(Arc::new(Record { class, fields })));
-                }
-                Op::Field { to, a, name } => {
-                    let value = check!(index::field(get!(a), &f.names[name as usize]));
-                    put!(to, value);
-                }
-                Op::Unpack { from, to } => {
-                    let value = get!(from).clone();
-                    let n = check!(iter_len(&value));
-                    if n != to.len as usize {
-                        check!(Err(Fault::new(
-                            "unpack-length",
-                            format!("cannot unpack {n} values into {} names", to.len)
-                        )));
-                    }
-                    for (k, i) in to.range().enumerate() {
-                        put!(f.operands[i], iter_get(&value, k));
-                    }
-                }
-                Op::UnpackStar { from, to, star } => {
-                    let value = get!(from).clone();
-                    let n = check!(iter_len(&value));
-                    let (count, star) = (to.len as usize, star as usize);
-                    if n + 1 < count {
-                        check!(Err(Fault::new(
-                            "unpack-length",
-                            format!("cannot unpack {n} values into {} names and a rest", count - 1)
-                        )));
-                    }
-                    let rest = n + 1 - count;
-                    for (k, i) in to.range().enumerate() {
-                        let item = match k.cmp(&star) {
-                            std::cmp::Ordering::Less => iter_get(&value, k),
-                            std::cmp::Ordering::Greater => iter_get(&value, k - 1 + rest),
-                            std::cmp::Ordering::Equal => {
-                                Value::list((star..star + rest).map(|j| iter_get(&value, j)).collect())
-                            }
-                        };
-                        put!(f.operands[i], item);
-                    }
-                }
-                Op::Closure { to, function, args } => {
-                    gather!(args);
-                    let captures = self.buffer.drain(..).collect();
-                    put!(to, Value::Function(Arc::new(Closure { function: u32::from(function), captures })));
-                }
-                Op::Dist { to, family, args } => {
-                    gather!(args);
-                    let value = check!(builtins::make_dist(family, &self.buffer));
-                    put!(to, Value::Dist(Arc::new(value)));
                 }
                 Op::Host { to, constant, args } => {
                     gather!(args);
@@ -313,12 +284,6 @@ impl<S: Scalar> Machine<'_, S> {
                         )));
                     }
                 }
-                Op::Assert { a, message } => {
-                    if !ops::truth(get!(a)) {
-                        let text = check!(crate::value::str_of(get!(message)));
-                        check!(Err(Fault::new("assertion", text.to_string())));
-                    }
-                }
                 Op::Return { a } => {
                     let value = get!(a).clone();
                     if let Some(call) = self.pure.pop() {
@@ -339,17 +304,18 @@ impl<S: Scalar> Machine<'_, S> {
                         None => return Ok(Stop::Returned),
                     }
                 }
-                Op::ReturnIteration { exit, args } => {
-                    gather!(args);
-                    match check!(self.end_iteration(state, node, i64::from(exit))) {
-                        (same, 0) if same == node => {
-                            step!();
-                            pc = 0;
-                            continue;
-                        }
-                        (parent, next) => enter!(parent, next),
+                Op::ReturnIteration { exit: kind, args } => {
+                    let kind = i64::from(kind);
+                    if kind == exit::NEXT && check!(self.next_iteration(state, r!(), node, args)) {
+                        step!();
+                        pc = 0;
+                        continue;
                     }
+                    gather!(args);
+                    let (parent, next) = self.end_loop(state, node, kind);
+                    enter!(parent, next);
                 }
+                op => check!(self.construct(state, r!(), op)),
             }
             pc += 1;
         }

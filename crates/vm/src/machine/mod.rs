@@ -6,13 +6,18 @@
 //! * [`address`]: paths of sites as 128-bit hashes;
 //! * [`answers`]: what is asked, and the trait of those who answer;
 //! * [`state`]: nodes, registers, futures;
-//! * `interpret`: the loop over instructions;
-//! * `suspend`: what happens at a suspension site;
+//! * `interpret`: the loop over instructions; `registers`: from operands to values;
+//! * `construct`: instructions that make or take apart an aggregate;
+//! * `question`: choices and factors; `suspend`: what happens at any other site; `loops`: lifted loops;
 //! * [`stack`]: the model's own call stack, for messages.
 
 pub mod address;
 pub mod answers;
+mod construct;
 mod interpret;
+mod loops;
+mod question;
+mod registers;
 pub mod stack;
 pub mod state;
 mod suspend;

@@ -172,7 +172,7 @@ impl<S: Scalar> State<S> {
         self.nodes.len() * size_of::<Node>() + self.registers.len() * size_of::<Value<S>>()
     }
 
-    /// A node for an activation of `function`; its registers are unassigned.
+    /// A node for an activation of `function`; what its registers hold means nothing.
     #[inline]
     pub(crate) fn new_node(
         &mut self,
@@ -200,7 +200,7 @@ impl<S: Scalar> State<S> {
         NodeId((self.nodes.len() - 1) as u32)
     }
 
-    /// Gives a node back. Its registers let go of what they hold.
+    /// Gives a node back. Its registers let go of what is shared; numbers may stay until they are overwritten.
     #[inline]
     pub(crate) fn release(&mut self, program: &Program<S>, id: NodeId) {
         let node = &mut self.nodes[id.0 as usize];
@@ -209,7 +209,19 @@ impl<S: Scalar> State<S> {
         self.free[function.0 as usize] = id;
         let count = program.function(function).node_registers as usize;
         for value in &mut self.registers[at..at + count] {
-            value.store(Value::None);
+            if !value.is_plain() {
+                *value = Value::None;
+            }
+        }
+    }
+
+    /// A future stops at this instruction of this node, to go on there later.
+    #[inline(always)]
+    pub(crate) fn pause(&mut self, future: FutureId, node: NodeId, pc: usize) {
+        self.nodes[node.0 as usize].pc = pc as u32;
+        // A future that runs is marked as one that can run.
+        if let Status::Runnable(at) = &mut self.futures[future.0 as usize].status {
+            *at = node;
         }
     }
 

@@ -135,11 +135,14 @@ impl<S: Scalar> Value<S> {
     }
 
     /// Assigns. Registers hold plain values nearly always, and those need no call to be dropped.
+    // Written so that neither value ever has an address on the stack: two words written there one by one and read
+    // back as sixteen bytes wait for each other.
     #[inline(always)]
     pub fn store(&mut self, value: Value<S>) {
-        let old = std::mem::replace(self, value);
-        if old.is_plain() {
-            std::mem::forget(old);
+        if self.is_plain() {
+            std::mem::forget(std::mem::replace(self, value));
+        } else {
+            *self = value;
         }
     }
 

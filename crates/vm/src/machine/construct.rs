@@ -1,0 +1,112 @@
+//! Instructions that make or take apart an aggregate. They allocate, so a call costs them little; in the loop of
+//! `interpret` they would cost every other instruction the processor's registers.
+
+use super::Machine;
+use super::registers::Registers;
+use super::state::State;
+use crate::builtins;
+use crate::code::Op;
+use crate::fault::Fault;
+use crate::value::{Closure, Dict, Record, Value, index, iter_get, iter_len};
+use niwaki_math::Scalar;
+use std::cmp::Ordering;
+use std::sync::Arc;
+
+impl<S: Scalar> Machine<'_, S> {
+    /// Carries out an instruction that `interpret` leaves to this file.
+    #[inline(never)]
+    pub(super) fn construct(
+        &mut self,
+        state: &mut State<S>,
+        r: Registers<'_, S>,
+        op: Op,
+    ) -> Result<(), Fault> {
+        let f = r.f;
+        macro_rules! gather {
+            ($args:expr) => {
+                r.gather(state, &self.scratch, $args, &mut self.buffer)
+            };
+        }
+        let (to, value) = match op {
+            Op::List { to, args } => {
+                gather!(args);
+                (to, Value::list(self.buffer.drain(..).collect()))
+            }
+            Op::Tuple { to, args } => {
+                gather!(args);
+                (to, Value::tuple(self.buffer.drain(..).collect()))
+            }
+            Op::Dict { to, args } => {
+                gather!(args);
+                let values = self.buffer.split_off(self.buffer.len() / 2);
+                let pairs = self.buffer.drain(..).zip(values).collect();
+                (to, Value::Dict(Arc::new(Dict::new(pairs))))
+            }
+            Op::Record { to, class, args } => {
+                gather!(args);
+                let fields = self.buffer.drain(..).collect();
+                let class = self.program.classes[class as usize].clone();
+                (to, Value::Record(Arc::new(Record { class, fields })))
+            }
+            Op::Field { to, a, name } => {
+                (to, index::field(r.get(state, &self.scratch, a), &f.names[name as usize])?)
+            }
+            Op::Closure { to, function, args } => {
+                gather!(args);
+                let captures = self.buffer.drain(..).collect();
+                (to, Value::Function(Arc::new(Closure { function: u32::from(function), captures })))
+            }
+            Op::Dist { to, family, args } => {
+                gather!(args);
+                (to, Value::Dist(Arc::new(builtins::make_dist(family, &self.buffer)?)))
+            }
+            Op::Unpack { from, to } => {
+                let value = r.get(state, &self.scratch, from).clone();
+                let n = iter_len(&value)?;
+                if n != to.len as usize {
+                    return Err(Fault::new(
+                        "unpack-length",
+                        format!("cannot unpack {n} values into {} names", to.len),
+                    ));
+                }
+                for (k, o) in f.operands[to.range()].iter().enumerate() {
+                    r.put(state, &mut self.scratch, *o, iter_get(&value, k));
+                }
+                return Ok(());
+            }
+            Op::UnpackStar { from, to, star } => {
+                let value = r.get(state, &self.scratch, from).clone();
+                let n = iter_len(&value)?;
+                let (count, star) = (to.len as usize, star as usize);
+                if n + 1 < count {
+                    return Err(Fault::new(
+                        "unpack-length",
+                        format!("cannot unpack {n} values into {} names and a rest", count - 1),
+                    ));
+                }
+                let rest = n + 1 - count;
+                for (k, o) in f.operands[to.range()].iter().enumerate() {
+                    let item = match k.cmp(&star) {
+                        Ordering::Less => iter_get(&value, k),
+                        Ordering::Greater => iter_get(&value, k - 1 + rest),
+                        Ordering::Equal => {
+                            Value::list((star..star + rest).map(|j| iter_get(&value, j)).collect())
+                        }
+                    };
+                    r.put(state, &mut self.scratch, *o, item);
+                }
+                return Ok(());
+            }
+            Op::Assert { a, message } => {
+                if !crate::value::ops::truth(r.get(state, &self.scratch, a)) {
+                    let text = crate::value::str_of(r.get(state, &self.scratch, message))?;
+                    return Err(Fault::new("assertion", text.to_string()));
+                }
+                return Ok(());
+            }
+            other => unreachable!("`interpret` carries out {other:?} itself"),
+        };
+        r.put(state, &mut self.scratch, to, value);
+        Ok(())
+    }
+}

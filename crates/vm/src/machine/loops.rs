@@ -1,0 +1,127 @@
+//! Lifted loops: a loop node that holds what is run over, and one node for the iteration that runs.
+
+use super::Machine;
+use super::address::{iteration_key, join};
+use super::registers::Registers;
+use super::state::{NodeId, State};
+use super::suspend::After;
+use crate::code::{Args, Loop, Site, SiteId, SiteKind, exit};
+use crate::fault::Fault;
+use crate::value::{Value, iter_get, iter_len};
+use niwaki_math::Scalar;
+
+impl<S: Scalar> Machine<'_, S> {
+    /// Enters a loop, or passes one that has no iterations.
+    pub(super) fn begin_loop(
+        &mut self,
+        state: &mut State<S>,
+        r: Registers<'_, S>,
+        node: NodeId,
+        site_id: SiteId,
+        site: &Site,
+        l: &Loop,
+    ) -> Result<After, Fault> {
+        let over = l.over.map(|o| r.get(state, &self.scratch, o).clone());
+        let first = match &over {
+            Some(over) if iter_len(over)? == 0 => {
+                r.gather(state, &self.scratch, l.carried, &mut self.buffer);
+                self.leave_loop(state, node, site_id, exit::NEXT);
+                return Ok(After::Next);
+            }
+            Some(over) => Some(iter_get(over, 0)),
+            None => None,
+        };
+        let path = join(state.nodes[node.0 as usize].path, site.key);
+        let header = state.new_node(self.program, l.header, node, u32::from(site_id.0), path);
+        let at = state.nodes[header.0 as usize].registers as usize;
+        r.gather(state, &self.scratch, l.captures, &mut self.buffer);
+        state.registers[at].store(over.unwrap_or_default());
+        for (i, value) in self.buffer.drain(..).enumerate() {
+            state.registers[at + 1 + i].store(value);
+        }
+        let inner = state.new_node(self.program, l.body, header, 0, join(path, iteration_key(0)));
+        let at = state.nodes[inner.0 as usize].registers as usize;
+        r.gather(state, &self.scratch, l.carried, &mut self.buffer);
+        for (i, value) in first.into_iter().chain(self.buffer.drain(..)).enumerate() {
+            state.registers[at + i].store(value);
+        }
+        if state.bytes() > self.limits.bytes {
+            return Err(self.out_of_memory());
+        }
+        Ok(After::Enter(inner))
+    }
+
+    /// Begins the next iteration in the node of the last one; false when that was the last of all.
+    #[inline(always)]
+    pub(super) fn next_iteration(
+        &mut self,
+        state: &mut State<S>,
+        r: Registers<'_, S>,
+        node: NodeId,
+        carried: Args,
+    ) -> Result<bool, Fault> {
+        let header = state.nodes[node.0 as usize].parent.0 as usize;
+        let header = &mut state.nodes[header];
+        let i = header.iteration + 1;
+        // The loop node's first register is what the loop runs over.
+        let element = match &state.registers[r.outer] {
+            Value::Range(range) if (i as usize) < range.len => Some(Value::Int(range.at(i as usize))),
+            Value::Range(_) => return Ok(false),
+            Value::None => None,
+            over if (i as usize) < iter_len(over)? => Some(iter_get(over, i as usize)),
+            _ => return Ok(false),
+        };
+        header.iteration = i;
+        let path = join(header.path, iteration_key(i));
+        state.nodes[node.0 as usize].path = path;
+        // Carried values are read before any is written: they may have changed places.
+        let at = r.own + usize::from(element.is_some());
+        match r.f.operands[carried.range()] {
+            [] => {}
+            [one] => {
+                let value = r.get(state, &self.scratch, one).clone();
+                state.registers[at].store(value);
+            }
+            _ => {
+                r.gather(state, &self.scratch, carried, &mut self.buffer);
+                for (register, value) in state.registers[at..].iter_mut().zip(self.buffer.drain(..)) {
+                    register.store(value);
+                }
+            }
+        }
+        if let Some(element) = element {
+            state.registers[r.own].store(element);
+        }
+        Ok(true)
+    }
+
+    /// The loop ends with an iteration that has its carried values (and a returned value) in the buffer. Where to
+    /// go on.
+    pub(super) fn end_loop(&mut self, state: &mut State<S>, node: NodeId, kind: i64) -> (NodeId, u32) {
+        let header = state.nodes[node.0 as usize].parent;
+        let above = state.nodes[header.0 as usize];
+        state.release(self.program, node);
+        state.release(self.program, header);
+        let next = self.leave_loop(state, above.parent, SiteId(above.site as u16), kind);
+        (above.parent, next)
+    }
+
+    /// Writes what came out of a loop, in the buffer, to the registers of its owner.
+    fn leave_loop(&mut self, state: &mut State<S>, owner: NodeId, site: SiteId, kind: i64) -> u32 {
+        let n = &state.nodes[owner.0 as usize];
+        let (f, own) = (self.program.function(n.function), n.registers as usize);
+        let site = &f.sites[site.0 as usize];
+        if let SiteKind::Loop(l) = &site.kind {
+            if let Some((how, value)) = l.exit {
+                if kind == exit::RETURN {
+                    state.registers[own + value.index()].store(self.buffer.pop().unwrap_or_default());
+                }
+                state.registers[own + how.index()].store(Value::Int(kind));
+            }
+            for (o, value) in f.operands[l.out.range()].iter().zip(self.buffer.drain(..)) {
+                state.registers[own + o.index()].store(value);
+            }
+        }
+        site.next
+    }
+}

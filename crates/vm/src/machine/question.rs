@@ -1,0 +1,174 @@
+//! The questions that a run asks most: choices and factors. They are inlined into the loop over instructions;
+//! everything else that happens at a site is behind a call, in `suspend`.
+
+use super::Machine;
+use super::answers::{Answer, Answers, At, Factor};
+use super::registers::Registers;
+use super::state::{NodeId, State};
+use crate::builtins::{make_dist, quick_dist, value_to_draw};
+use crate::code::{Args, Site, SiteKind};
+use crate::fault::Fault;
+use crate::value::{Value, index, ops};
+use niwaki_math::{Dist, Family, Scalar};
+
+#[cold]
+fn no_dist<S: Scalar>(value: &Value<S>) -> Fault {
+    Fault::new("type-mismatch", format!("expected a distribution, found {}", value.described()))
+}
+
+#[cold]
+fn no_draw<S: Scalar>(value: &Value<S>) -> Fault {
+    Fault::new("type-mismatch", format!("no distribution draws {}", value.described()))
+}
+
+#[cold]
+fn no_number<S: Scalar>(value: &Value<S>) -> Fault {
+    Fault::new("type-mismatch", format!("expected a number, found {}", value.described()))
+}
+
+/// The distribution that a value is.
+#[inline(always)]
+fn as_dist<S: Scalar>(value: &Value<S>) -> Result<&Dist<S>, Fault> {
+    match value {
+        Value::Dist(dist) => Ok(dist),
+        other => Err(no_dist(other)),
+    }
+}
+
+/// A real number for `factor`.
+#[inline(always)]
+fn as_real<S: Scalar>(value: &Value<S>) -> Result<S, Fault> {
+    match value {
+        Value::Real(x) => Ok(*x),
+        Value::Int(i) => Ok(S::from_f64(*i as f64)),
+        Value::Bool(b) => Ok(S::from_f64(f64::from(u8::from(*b)))),
+        other => Err(no_number(other)),
+    }
+}
+
+/// The log density of a value: of numbers at once, of anything else by way of a draw.
+#[inline(always)]
+fn log_density<S: Scalar>(dist: &Dist<S>, value: &Value<S>) -> Result<S, Fault> {
+    match value {
+        Value::Real(x) => Ok(dist.log_density_of_real(*x)),
+        Value::Int(k) => Ok(dist.log_density_of_int(*k)),
+        other => log_density_of_other(dist, other),
+    }
+}
+
+#[inline(never)]
+fn log_density_of_other<S: Scalar>(dist: &Dist<S>, value: &Value<S>) -> Result<S, Fault> {
+    match value_to_draw(value) {
+        Some(draw) => Ok(dist.log_density(&draw)),
+        None => Err(no_draw(value)),
+    }
+}
+
+impl<S: Scalar> Machine<'_, S> {
+    /// A distribution of a known family, from its parameters.
+    #[inline(always)]
+    fn made(
+        &mut self,
+        state: &State<S>,
+        r: Registers<'_, S>,
+        args: Args,
+        family: Family,
+    ) -> Result<Dist<S>, Fault> {
+        let quick = match r.f.operands[args.range()] {
+            [a, b] => {
+                let a = r.get(state, &self.scratch, a);
+                quick_dist(family, a, r.get(state, &self.scratch, b))
+            }
+            _ => None,
+        };
+        match quick {
+            Some(dist) => Ok(dist),
+            None => {
+                r.gather(state, &self.scratch, args, &mut self.buffer);
+                make_dist(family, &self.buffer)
+            }
+        }
+    }
+
+    /// Asks for a random choice.
+    #[inline(always)]
+    pub(super) fn choose<A: Answers<S>>(
+        &mut self,
+        state: &State<S>,
+        answers: &mut A,
+        r: Registers<'_, S>,
+        node: NodeId,
+        site: &Site,
+    ) -> Result<Answer<Value<S>>, Fault> {
+        macro_rules! get {
+            ($i:expr) => {
+                r.get(state, &self.scratch, r.f.operands[site.args.start as usize + $i])
+            };
+        }
+        let made;
+        let dist = match site.kind {
+            SiteKind::SampleDist => as_dist(get!(0))?,
+            SiteKind::Sample { family } => {
+                made = self.made(state, r, site.args, family)?;
+                &made
+            }
+            _ => match index::index_ref(get!(0), get!(1)) {
+                Some(value) => as_dist(value)?,
+                None => {
+                    made = as_dist(&index::index(get!(0), get!(1))?)?.clone();
+                    &made
+                }
+            },
+        };
+        answers.choice(&At { site, function: r.f, node, state, program: self.program }, dist)
+    }
+
+    /// Tells of a factor.
+    #[inline(always)]
+    pub(super) fn factor<A: Answers<S>>(
+        &mut self,
+        state: &mut State<S>,
+        answers: &mut A,
+        r: Registers<'_, S>,
+        node: NodeId,
+        site: &Site,
+    ) -> Result<Answer<()>, Fault> {
+        let last = site.args.len as usize - 1;
+        macro_rules! get {
+            ($i:expr) => {
+                r.get(state, &self.scratch, r.f.operands[site.args.start as usize + $i])
+            };
+        }
+        let (factor, log) = match site.kind {
+            SiteKind::Factor => (Factor::Factor, as_real(get!(last))?),
+            SiteKind::Condition => {
+                let log = if ops::truth(get!(last)) { 0.0 } else { f64::NEG_INFINITY };
+                (Factor::Condition, S::from_f64(log))
+            }
+            _ => {
+                let made;
+                let dist = match site.kind {
+                    SiteKind::ObserveDist => as_dist(get!(0))?,
+                    SiteKind::Observe { family } => {
+                        made = self.made(state, r, Args { len: last as u16, ..site.args }, family)?;
+                        &made
+                    }
+                    _ => match index::index_ref(get!(0), get!(1)) {
+                        Some(value) => as_dist(value)?,
+                        None => {
+                            made = as_dist(&index::index(get!(0), get!(1))?)?.clone();
+                            &made
+                        }
+                    },
+                };
+                let value = get!(last);
+                let log = log_density(dist, value)?;
+                // The value of `observe` is the value observed, so that it can stand where a choice stood.
+                let value = value.clone();
+                state.registers[r.own + site.to.index()].store(value);
+                (Factor::Observe, log)
+            }
+        };
+        answers.score(&At { site, function: r.f, node, state, program: self.program }, factor, log)
+    }
+}

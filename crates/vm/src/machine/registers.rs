@@ -1,0 +1,74 @@
+//! From operands to values: the registers of the activation in hand.
+
+use super::state::State;
+use crate::code::{Args, Function, Operand};
+use crate::value::Value;
+use niwaki_math::Scalar;
+
+/// Where the operands of an activation lie. Small, and passed by value: the loop of `interpret` then keeps its
+/// fields in registers of the processor, which a reference to it would forbid.
+#[derive(Clone, Copy)]
+pub(super) struct Registers<'a, S: Scalar> {
+    /// The function.
+    pub f: &'a Function<S>,
+    /// Its first register in the state.
+    pub own: usize,
+    /// Of an iteration: the first register of the loop node above.
+    pub outer: usize,
+    /// Its first register on the machine's scratch stack; zero for every function that can suspend.
+    pub scratch: usize,
+}
+
+impl<'a, S: Scalar> Registers<'a, S> {
+    /// The value of an operand.
+    // One bit at a time: a `match` becomes a jump through a table, which the processor guesses worse.
+    #[inline(always)]
+    pub fn get<'b>(self, state: &'b State<S>, scratch: &'b [Value<S>], o: Operand) -> &'b Value<S>
+    where
+        'a: 'b,
+    {
+        if o.is_in_state() {
+            let base = if o.is_second() { self.outer } else { self.own };
+            &state.registers[base + o.index()]
+        } else if o.is_second() {
+            &self.f.constants[o.index()]
+        } else {
+            &scratch[self.scratch + o.index()]
+        }
+    }
+
+    /// Puts a value into a register.
+    #[inline(always)]
+    pub fn put(self, state: &mut State<S>, scratch: &mut [Value<S>], o: Operand, value: Value<S>) {
+        if o.is_in_state() {
+            state.registers[self.own + o.index()].store(value);
+        } else {
+            scratch[self.scratch + o.index()].store(value);
+        }
+    }
+
+    /// Copies of a run of operands.
+    #[inline(always)]
+    pub fn gather(self, state: &State<S>, scratch: &[Value<S>], args: Args, into: &mut Vec<Value<S>>) {
+        let Registers { f, own, outer, .. } = self;
+        gather(f, own, outer, state, &scratch[self.scratch..], args, into);
+    }
+}
+
+/// [`Registers::gather`], its fields one by one: see there.
+#[inline(never)]
+fn gather<S: Scalar>(
+    f: &Function<S>,
+    own: usize,
+    outer: usize,
+    state: &State<S>,
+    scratch: &[Value<S>],
+    args: Args,
+    into: &mut Vec<Value<S>>,
+) {
+    let r = Registers { f, own, outer, scratch: 0 };
+    into.clear();
+    for o in &f.operands[args.range()] {
+        into.push(r.get(state, scratch, *o).clone());
+    }
+}
