@@ -2,7 +2,7 @@
 
 use super::advance::Particle;
 use super::settings::{Order, Settings, Weights, When};
-use super::weights::normalise;
+use super::weights::Normalised;
 use crate::record::Record;
 use crate::{Failure, Task};
 use niwaki_math::Stream;
@@ -92,15 +92,16 @@ pub fn smc(
     let (mut barriers, mut resampled) = (0, 0);
     let mut interrupted = false;
 
+    // Kept from barrier to barrier, so that none allocates: log weights by row, and what comes of them.
+    let (mut logs, mut weights) = (Vec::with_capacity(n), Normalised::default());
+
     while particles.iter().any(Particle::is_running) {
         advance(&mut particles, task, settings)?;
         barriers += 1;
-        weigh(&mut particles, settings);
-
-        let logs: Vec<f64> = particles.iter().map(|p| p.log_weight).collect();
-        let Some(weights) = normalise(&logs) else { return Err(impossible(&particles, barriers)) };
-        let best = particles.iter().map(|p| p.record.log_score()).fold(f64::NEG_INFINITY, f64::max);
-        let ended = particles.iter().filter(|p| p.state.has_ended()).count();
+        let (best, ended) = weigh(&mut particles, settings, &mut logs);
+        if !weights.read(logs.iter().copied()) {
+            return Err(impossible(&particles, barriers));
+        }
         if !watch(Progress { barriers, ended, best }) {
             interrupted = true;
             break;
@@ -115,11 +116,11 @@ pub fn smc(
             resampled += 1;
             let mut random = Stream::new(settings.seed, RESAMPLING, barriers as u128, 0);
             let copies = settings.resampling.copies(&weights.relative, &mut random);
-            ancestor = resample(&mut particles, &copies, &ancestor, &mut lineages, settings);
+            resample(&mut particles, &copies, &mut ancestor, &mut lineages, settings);
         }
     }
-    if let Some(last) = normalise(&particles.iter().map(|p| p.log_weight).collect::<Vec<_>>()) {
-        log_evidence += last.log_mean;
+    if weights.read(particles.iter().map(|p| p.log_weight)) {
+        log_evidence += weights.log_mean;
     }
     ancestor.sort_unstable();
     ancestor.dedup();
@@ -164,7 +165,10 @@ fn advance(particles: &mut [Particle], task: &Task, settings: &Settings) -> std:
     faults.into_iter().next().map_or(Ok(()), Err)
 }
 
-fn weigh(particles: &mut [Particle], settings: &Settings) {
+/// Weighs, in one pass over the particles. The best log score and how many have ended.
+fn weigh(particles: &mut [Particle], settings: &Settings, logs: &mut Vec<f64>) -> (f64, usize) {
+    let (mut best, mut ended) = (f64::NEG_INFINITY, 0);
+    logs.clear();
     for p in particles {
         let score = p.record.log_score();
         match settings.weights {
@@ -177,19 +181,22 @@ fn weigh(particles: &mut [Particle], settings: &Settings) {
         if settings.is(super::tests::Mutant::ForgetsOldScore) {
             p.weighed = 0.0;
         }
+        logs.push(p.log_weight);
+        best = best.max(score);
+        ended += usize::from(p.state.has_ended());
     }
+    (best, ended)
 }
 
-/// Survivors stay where they are; their further copies take the places of those that get none. The ancestors of
-/// the new rows.
+/// Survivors stay where they are; their further copies take the places of those that get none. `ancestor` becomes
+/// that of the new rows.
 fn resample(
     particles: &mut [Particle],
     copies: &[usize],
-    ancestor: &[usize],
+    ancestor: &mut [usize],
     lineages: &mut u64,
     settings: &Settings,
-) -> Vec<usize> {
-    let mut from = ancestor.to_vec();
+) {
     let mut free = copies.iter().enumerate().filter(|(_, c)| **c == 0).map(|(row, _)| row);
     for (row, &count) in copies.iter().enumerate() {
         for _ in 1..count {
@@ -197,7 +204,7 @@ fn resample(
             let [parent, child] = pair(particles, row, to);
             child.copy_from(parent, *lineages);
             *lineages += 1;
-            from[to] = ancestor[row];
+            ancestor[to] = ancestor[row];
         }
     }
     for (row, p) in particles.iter_mut().enumerate() {
@@ -207,7 +214,6 @@ fn resample(
         #[cfg(not(test))]
         let _ = (row, settings);
     }
-    from
 }
 
 fn pair(particles: &mut [Particle], a: usize, b: usize) -> [&mut Particle; 2] {

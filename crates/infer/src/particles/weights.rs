@@ -2,6 +2,7 @@
 //! the same for any number of threads.
 
 /// Weights relative to the largest, with the log of their mean and the effective sample size.
+#[derive(Default)]
 pub(super) struct Normalised {
     /// `exp(w_i - max)`.
     pub relative: Vec<f64>,
@@ -11,15 +12,22 @@ pub(super) struct Normalised {
     pub effective: f64,
 }
 
-/// `None` when every weight is zero.
-pub(super) fn normalise(logs: &[f64]) -> Option<Normalised> {
-    let max = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    if max == f64::NEG_INFINITY {
-        return None;
+impl Normalised {
+    /// Fills in from log weights; false when every weight is zero.
+    pub fn read(&mut self, logs: impl Iterator<Item = f64> + Clone) -> bool {
+        let max = logs.clone().fold(f64::NEG_INFINITY, f64::max);
+        if max == f64::NEG_INFINITY {
+            return false;
+        }
+        self.relative.clear();
+        self.relative.extend(logs.map(|w| (w - max).exp()));
+        let (mut sum, mut squares) = (0.0, 0.0);
+        for w in &self.relative {
+            sum += w;
+            squares += w * w;
+        }
+        self.log_mean = max + (sum / self.relative.len() as f64).ln();
+        self.effective = sum * sum / squares;
+        true
     }
-    let relative: Vec<f64> = logs.iter().map(|w| (w - max).exp()).collect();
-    let sum: f64 = relative.iter().sum();
-    let squares: f64 = relative.iter().map(|w| w * w).sum();
-    let log_mean = max + (sum / logs.len() as f64).ln();
-    Some(Normalised { relative, log_mean, effective: sum * sum / squares })
 }

@@ -8,8 +8,6 @@
 //! | outer | a register of the enclosing loop node | what an iteration captures |
 //! | scratch | a register of the machine, gone at the next suspension | everything else; all of a pure function |
 //! | constant | the function's constant table | literals and data |
-//!
-//! The first bit of the class tells what a run's state holds from what it does not; the machine asks for it first.
 
 mod disassemble;
 mod verify;
@@ -59,16 +57,22 @@ impl Operand {
         }
     }
 
-    /// Whether a run's state holds it: a register of the activation or of the loop node above.
+    /// Whether it is a register of the activation.
     #[inline(always)]
-    pub fn is_in_state(self) -> bool {
-        self.0 & 0x8000 == 0
+    pub fn is_node(self) -> bool {
+        self.0 < 1 << 14
     }
 
-    /// Within either half of the classes, whether it is the second: outer, constant.
+    /// Of an operand that is not in the node: whether it is in the loop node above.
     #[inline(always)]
-    pub fn is_second(self) -> bool {
-        self.0 & 0x4000 != 0
+    pub fn is_outer(self) -> bool {
+        self.0 < 2 << 14
+    }
+
+    /// Of an operand of the machine: whether it is a constant.
+    #[inline(always)]
+    pub fn is_constant(self) -> bool {
+        self.0 >= 3 << 14
     }
 
     /// Its index within the class.

@@ -148,6 +148,7 @@ impl<'p, S: Scalar> Machine<'p, S> {
     ///
     /// # Errors
     /// A fault of the program, with the model's call stack. The state is then of no further use.
+    #[inline]
     pub fn resume<A: Answers<S>>(
         &mut self,
         state: &mut State<S>,

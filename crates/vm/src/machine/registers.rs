@@ -21,16 +21,18 @@ pub(super) struct Registers<'a, S: Scalar> {
 
 impl<'a, S: Scalar> Registers<'a, S> {
     /// The value of an operand.
-    // One bit at a time: a `match` becomes a jump through a table, which the processor guesses worse.
+    // Tests in the order of how often they hold: a `match` becomes a jump through a table, which the processor guesses
+    // worse. An operand of the first class is its own index.
     #[inline(always)]
     pub fn get<'b>(self, state: &'b State<S>, scratch: &'b [Value<S>], o: Operand) -> &'b Value<S>
     where
         'a: 'b,
     {
-        if o.is_in_state() {
-            let base = if o.is_second() { self.outer } else { self.own };
-            &state.registers[base + o.index()]
-        } else if o.is_second() {
+        if o.is_node() {
+            &state.registers[self.own + o.0 as usize]
+        } else if o.is_outer() {
+            &state.registers[self.outer + o.index()]
+        } else if o.is_constant() {
             &self.f.constants[o.index()]
         } else {
             &scratch[self.scratch + o.index()]
@@ -40,8 +42,8 @@ impl<'a, S: Scalar> Registers<'a, S> {
     /// Puts a value into a register.
     #[inline(always)]
     pub fn put(self, state: &mut State<S>, scratch: &mut [Value<S>], o: Operand, value: Value<S>) {
-        if o.is_in_state() {
-            state.registers[self.own + o.index()].store(value);
+        if o.is_node() {
+            state.registers[self.own + o.0 as usize].store(value);
         } else {
             scratch[self.scratch + o.index()].store(value);
         }

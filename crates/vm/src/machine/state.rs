@@ -92,16 +92,29 @@ impl<S: Scalar> Clone for State<S> {
     }
 
     fn clone_from(&mut self, source: &Self) {
-        self.nodes.clone_from(&source.nodes);
-        self.registers.clone_from(&source.registers);
-        self.free.clone_from(&source.free);
-        self.futures.clone_from(&source.futures);
-        self.free_futures.clone_from(&source.free_futures);
-        self.runnable.clone_from(&source.runnable);
+        copy(&mut self.nodes, &source.nodes);
+        copy(&mut self.registers, &source.registers);
+        copy(&mut self.free, &source.free);
+        copy(&mut self.futures, &source.futures);
+        copy(&mut self.free_futures, &source.free_futures);
+        copy(&mut self.runnable, &source.runnable);
         self.unreturned = source.unreturned;
         self.depth_first = source.depth_first;
         self.steps = source.steps;
         self.origins.clone_from(&source.origins);
+    }
+}
+
+/// `clone_from` for the few elements that a state has of each kind: a loop that is inlined, no calls.
+#[inline(always)]
+fn copy<T: Clone>(to: &mut Vec<T>, from: &[T]) {
+    if to.len() != from.len() {
+        to.truncate(from.len());
+        to.extend_from_slice(&from[to.len()..]);
+        return to.clone_from_slice(from);
+    }
+    for (to, from) in to.iter_mut().zip(from) {
+        to.clone_from(from);
     }
 }
 

@@ -91,6 +91,11 @@ impl<S: Scalar> Clone for Value<S> {
             other => other.clone_other(),
         }
     }
+
+    #[inline(always)]
+    fn clone_from(&mut self, source: &Self) {
+        self.store(source.clone());
+    }
 }
 
 // The machine copies values between registers all the time; a third word would cost every copy.
