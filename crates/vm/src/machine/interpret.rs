@@ -1,57 +1,16 @@
 //! The loop over instructions. Long for one reason: it is one table.
 
-use super::answers::{Answer, Answers};
+use super::answers::Answers;
+use super::question::Halt;
 use super::registers::Registers;
 use super::state::{FutureId, State, Status};
 use super::suspend::After;
-use super::{Here, Machine, PureCall, Stop};
+use super::{Here, Machine, PureCall, Stop, operate};
 use crate::builtins;
-use crate::code::{Binary, FunctionId, Mode, Op, SiteKind, exit};
+use crate::code::{FunctionId, Mode, Op, SiteKind, exit};
 use crate::fault::Fault;
-use crate::value::{Value, equal, index, iter_get, iter_len, ops};
+use crate::value::{Value, iter_get, iter_len, ops};
 use niwaki_math::Scalar;
-
-/// The value of a comparison or arithmetic operation.
-#[inline(never)]
-fn binary<S: Scalar>(op: Binary, a: &Value<S>, b: &Value<S>) -> Result<Value<S>, Fault> {
-    match op {
-        Binary::Add => ops::add(a, b),
-        Binary::Sub => ops::sub(a, b),
-        Binary::Mul => ops::mul(a, b),
-        Binary::Div => ops::div(a, b),
-        Binary::FloorDiv => ops::floordiv(a, b),
-        Binary::Mod => ops::mod_(a, b),
-        Binary::Pow => ops::pow(a, b),
-        Binary::Index => index::index(a, b),
-        Binary::In => index::contains(b, a).map(Value::Bool),
-        _ => compare(op, a, b).map(Value::Bool),
-    }
-}
-
-/// The operations of two reals that cannot fail, by far the most frequent.
-#[inline(always)]
-fn of_reals<S: Scalar>(op: Binary, a: &Value<S>, b: &Value<S>) -> Option<S> {
-    let (Value::Real(a), Value::Real(b)) = (a, b) else { return None };
-    match op {
-        Binary::Add => Some(*a + *b),
-        Binary::Sub => Some(*a - *b),
-        Binary::Mul => Some(*a * *b),
-        _ => None,
-    }
-}
-
-/// The truth of a comparison.
-#[inline(never)]
-fn compare<S: Scalar>(op: Binary, a: &Value<S>, b: &Value<S>) -> Result<bool, Fault> {
-    match op {
-        Binary::Eq => equal(a, b),
-        Binary::Ne => equal(a, b).map(|same| !same),
-        Binary::Lt => ops::lt(a, b).map(|v| ops::truth(&v)),
-        Binary::Le => ops::le(a, b).map(|v| ops::truth(&v)),
-        Binary::Gt => ops::gt(a, b).map(|v| ops::truth(&v)),
-        _ => ops::ge(a, b).map(|v| ops::truth(&v)),
-    }
-}
 
 impl<S: Scalar> Machine<'_, S> {
     pub(super) fn interpret<A: Answers<S>>(
@@ -109,6 +68,18 @@ impl<S: Scalar> Machine<'_, S> {
         macro_rules! gather {
             ($args:expr) => {
                 r!().gather(state, &self.scratch, $args, &mut self.buffer)
+            };
+        }
+        // A question was not answered by a value; paused, the run goes on at that instruction.
+        macro_rules! stop {
+            ($halt:expr, $pc:expr) => {
+                match $halt {
+                    Halt::Paused => {
+                        state.pause(future, node, $pc);
+                        return Ok(Stop::Paused);
+                    }
+                    Halt::Fault(fault) => check!(Err(fault)),
+                }
             };
         }
         macro_rules! step {
@@ -169,9 +140,16 @@ impl<S: Scalar> Machine<'_, S> {
                 }
                 Op::Binary { op, to, a, b } => {
                     let (a, b) = (get!(a), get!(b));
-                    match of_reals(op, a, b) {
-                        Some(x) => put!(to, Value::Real(x)),
-                        None => put!(to, check!(binary(op, a, b))),
+                    if let (Value::Real(x), Value::Real(y)) = (a, b)
+                        && let Some(z) = operate::reals(op, *x, *y)
+                    {
+                        put!(to, Value::Real(z));
+                    } else if let (Value::Int(x), Value::Int(y)) = (a, b)
+                        && let Some(z) = operate::ints(op, *x, *y)
+                    {
+                        put!(to, Value::Int(z));
+                    } else {
+                        put!(to, check!(operate::values(op, a, b)));
                     }
                 }
                 Op::Neg { to, a } => {
@@ -194,7 +172,7 @@ impl<S: Scalar> Machine<'_, S> {
                     }
                 }
                 Op::JumpUnlessCompare { op, a, b, target } => {
-                    if !check!(compare(op, get!(a), get!(b))) {
+                    if !check!(operate::holds(op, get!(a), get!(b))) {
                         goto!(target);
                     }
                 }
@@ -202,27 +180,19 @@ impl<S: Scalar> Machine<'_, S> {
                     let site = &f.sites[number.0 as usize];
                     match site.kind {
                         SiteKind::Sample { .. } | SiteKind::SampleDist | SiteKind::SampleIndexed => {
-                            match check!(self.choose(state, answers, r!(), node, site)) {
-                                Answer::Go(value) => state.registers[own + site.to.index()].store(value),
-                                Answer::Pause => {
-                                    state.pause(future, node, pc);
-                                    return Ok(Stop::Paused);
-                                }
+                            match self.choose(state, answers, r!(), node, site) {
+                                Ok(()) => {}
+                                Err(halt) => stop!(halt, pc),
                             }
                         }
                         SiteKind::Observe { .. }
                         | SiteKind::ObserveDist
                         | SiteKind::ObserveIndexed
                         | SiteKind::Factor
-                        | SiteKind::Condition => {
-                            match check!(self.factor(state, answers, r!(), node, site)) {
-                                Answer::Go(()) => {}
-                                Answer::Pause => {
-                                    state.pause(future, node, pc + 1);
-                                    return Ok(Stop::Paused);
-                                }
-                            }
-                        }
+                        | SiteKind::Condition => match self.factor(state, answers, r!(), node, site) {
+                            Ok(()) => {}
+                            Err(halt) => stop!(halt, pc + 1),
+                        },
                         SiteKind::Call { function } => {
                             let inner = check!(self.call_known(state, r!(), node, number, site, function));
                             step!();

@@ -7,7 +7,7 @@
 //! * [`answers`]: what is asked, and the trait of those who answer;
 //! * [`state`]: nodes, registers, futures;
 //! * `interpret`: the loop over instructions; `registers`: from operands to values;
-//! * `construct`: instructions that make or take apart an aggregate;
+//! * `operate`: operations of two operands; `construct`: instructions that make or take apart an aggregate;
 //! * `question`: choices and factors; `suspend`: what happens at any other site; `loops`: lifted loops;
 //! * [`stack`]: the model's own call stack, for messages.
 
@@ -16,6 +16,7 @@ pub mod answers;
 mod construct;
 mod interpret;
 mod loops;
+mod operate;
 mod question;
 mod registers;
 pub mod stack;

@@ -1,5 +1,7 @@
-//! The questions that a run asks most: choices and factors. They are inlined into the loop over instructions;
-//! everything else that happens at a site is behind a call, in `suspend`.
+//! The questions that a run asks most: choices and factors. Everything else that happens at a site is in `suspend`.
+//!
+//! Each is one call from the loop over instructions, with all that it needs inlined: inlined into the loop itself, they
+//! are no faster and cost every other instruction.
 
 use super::Machine;
 use super::answers::{Answer, Answers, At, Factor};
@@ -43,6 +45,21 @@ fn as_real<S: Scalar>(value: &Value<S>) -> Result<S, Fault> {
         Value::Int(i) => Ok(S::from_f64(*i as f64)),
         Value::Bool(b) => Ok(S::from_f64(f64::from(u8::from(*b)))),
         other => Err(no_number(other)),
+    }
+}
+
+/// Why a question does not let the run go on. Two words with the `Ok` around it, so that it is returned in registers.
+pub(super) enum Halt {
+    /// The answer was to pause.
+    Paused,
+    /// The question cannot be asked, or was answered by a fault.
+    Fault(Fault),
+}
+
+impl From<Fault> for Halt {
+    #[inline]
+    fn from(fault: Fault) -> Halt {
+        Halt::Fault(fault)
     }
 }
 
@@ -90,16 +107,16 @@ impl<S: Scalar> Machine<'_, S> {
         }
     }
 
-    /// Asks for a random choice.
-    #[inline(always)]
+    /// Asks for a random choice and puts it into its register.
+    #[inline(never)]
     pub(super) fn choose<A: Answers<S>>(
         &mut self,
-        state: &State<S>,
+        state: &mut State<S>,
         answers: &mut A,
         r: Registers<'_, S>,
         node: NodeId,
         site: &Site,
-    ) -> Result<Answer<Value<S>>, Fault> {
+    ) -> Result<(), Halt> {
         macro_rules! get {
             ($i:expr) => {
                 r.get(state, &self.scratch, r.f.operands[site.args.start as usize + $i])
@@ -120,11 +137,17 @@ impl<S: Scalar> Machine<'_, S> {
                 }
             },
         };
-        answers.choice(&At { site, function: r.f, node, state, program: self.program }, dist)
+        match answers.choice(&At { site, function: r.f, node, state, program: self.program }, dist)? {
+            Answer::Go(value) => {
+                state.registers[r.own + site.to.index()].store(value);
+                Ok(())
+            }
+            Answer::Pause => Err(Halt::Paused),
+        }
     }
 
     /// Tells of a factor.
-    #[inline(always)]
+    #[inline(never)]
     pub(super) fn factor<A: Answers<S>>(
         &mut self,
         state: &mut State<S>,
@@ -132,7 +155,7 @@ impl<S: Scalar> Machine<'_, S> {
         r: Registers<'_, S>,
         node: NodeId,
         site: &Site,
-    ) -> Result<Answer<()>, Fault> {
+    ) -> Result<(), Halt> {
         let last = site.args.len as usize - 1;
         macro_rules! get {
             ($i:expr) => {
@@ -169,6 +192,9 @@ impl<S: Scalar> Machine<'_, S> {
                 (Factor::Observe, log)
             }
         };
-        answers.score(&At { site, function: r.f, node, state, program: self.program }, factor, log)
+        match answers.score(&At { site, function: r.f, node, state, program: self.program }, factor, log)? {
+            Answer::Go(()) => Ok(()),
+            Answer::Pause => Err(Halt::Paused),
+        }
     }
 }

@@ -139,11 +139,23 @@ impl<S: Scalar> Value<S> {
         )
     }
 
-    /// Assigns. Registers hold plain values nearly always, and those need no call to be dropped.
-    // Written so that neither value ever has an address on the stack: two words written there one by one and read
-    // back as sixteen bytes wait for each other.
+    /// Assigns. A register nearly always holds a number and is given one of the same kind: then one word is written.
+    // Writing both words would lead through the stack, where a value put down as two words and picked up as sixteen
+    // bytes makes the next instruction wait.
     #[inline(always)]
     pub fn store(&mut self, value: Value<S>) {
+        match (&mut *self, &value) {
+            (Value::Real(old), Value::Real(new)) => *old = *new,
+            (Value::Int(old), Value::Int(new)) => *old = *new,
+            (Value::Bool(old), Value::Bool(new)) => *old = *new,
+            _ => return self.replace(value),
+        }
+        // A number: nothing to drop, which the compiler does not see.
+        std::mem::forget(value);
+    }
+
+    #[inline(never)]
+    fn replace(&mut self, value: Value<S>) {
         if self.is_plain() {
             std::mem::forget(std::mem::replace(self, value));
         } else {
