@@ -48,6 +48,11 @@ impl<S: Scalar> Machine<'_, S> {
                 r!().get(state, &self.scratch, $o)
             };
         }
+        macro_rules! slot {
+            ($o:expr) => {
+                r!().slot(state, &mut self.scratch, $o)
+            };
+        }
         macro_rules! put {
             ($o:expr, $v:expr) => {{
                 let value = $v;
@@ -143,11 +148,11 @@ impl<S: Scalar> Machine<'_, S> {
                     if let (Value::Real(x), Value::Real(y)) = (a, b)
                         && let Some(z) = operate::reals(op, *x, *y)
                     {
-                        put!(to, Value::Real(z));
+                        slot!(to).store_real(z);
                     } else if let (Value::Int(x), Value::Int(y)) = (a, b)
                         && let Some(z) = operate::ints(op, *x, *y)
                     {
-                        put!(to, Value::Int(z));
+                        slot!(to).store_int(z);
                     } else {
                         put!(to, check!(operate::values(op, a, b)));
                     }
@@ -211,14 +216,17 @@ impl<S: Scalar> Machine<'_, S> {
                 }
                 Op::Builtin { to, id: builtin, args } => {
                     let builtin = builtins::builtin::<S>(builtin);
-                    let value = if let [a] = f.operands[args.range()] {
+                    let answer = if let [a] = f.operands[args.range()] {
                         // One argument, as of `sqrt`, is read where it lies.
-                        check!(builtin.call(std::slice::from_ref(get!(a))))
+                        builtin.call(std::slice::from_ref(get!(a)))
                     } else {
                         gather!(args);
-                        check!(builtin.call(&self.buffer))
+                        builtin.call(&self.buffer)
                     };
-                    put!(to, value);
+                    match answer {
+                        Ok(Value::Real(x)) => slot!(to).store_real(x),
+                        other => put!(to, check!(other)),
+                    }
                 }
                 Op::Host { to, constant, args } => {
                     gather!(args);

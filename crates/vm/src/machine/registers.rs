@@ -39,14 +39,25 @@ impl<'a, S: Scalar> Registers<'a, S> {
         }
     }
 
+    /// The register that an instruction writes.
+    #[inline(always)]
+    pub fn slot<'b>(
+        self,
+        state: &'b mut State<S>,
+        scratch: &'b mut [Value<S>],
+        o: Operand,
+    ) -> &'b mut Value<S> {
+        if o.is_node() {
+            &mut state.registers[self.own + o.0 as usize]
+        } else {
+            &mut scratch[self.scratch + o.index()]
+        }
+    }
+
     /// Puts a value into a register.
     #[inline(always)]
     pub fn put(self, state: &mut State<S>, scratch: &mut [Value<S>], o: Operand, value: Value<S>) {
-        if o.is_node() {
-            state.registers[self.own + o.0 as usize].store(value);
-        } else {
-            scratch[self.scratch + o.index()].store(value);
-        }
+        self.slot(state, scratch, o).store(value);
     }
 
     /// Copies of a run of operands.

@@ -88,6 +88,7 @@ impl<S: Scalar> Clone for Value<S> {
             // Nearly every copy is of a number.
             Value::Real(x) => Value::Real(*x),
             Value::Int(n) => Value::Int(*n),
+            Value::None => Value::None,
             other => other.clone_other(),
         }
     }
@@ -152,6 +153,24 @@ impl<S: Scalar> Value<S> {
         }
         // A number: nothing to drop, which the compiler does not see.
         std::mem::forget(value);
+    }
+
+    /// Assigns a real number.
+    #[inline(always)]
+    pub fn store_real(&mut self, x: S) {
+        match self {
+            Value::Real(old) => *old = x,
+            other => other.replace(Value::Real(x)),
+        }
+    }
+
+    /// Assigns a whole number.
+    #[inline(always)]
+    pub fn store_int(&mut self, n: i64) {
+        match self {
+            Value::Int(old) => *old = n,
+            other => other.replace(Value::Int(n)),
+        }
     }
 
     #[inline(never)]
