@@ -93,19 +93,18 @@ pub fn smc(
     let mut log_evidence = settings.temper * empty_score;
     let (mut barriers, mut resampled, mut steps) = (0, 0, 0);
     let mut interrupted = false;
-    let mut had_ended = 0;
 
     // Kept from barrier to barrier, so that none allocates: log weights by row, and what comes of them.
     let (mut logs, mut weights) = (Vec::with_capacity(n), Normalised::default());
 
     while particles.iter().any(Particle::is_running) {
         let running = particles.iter().filter(|p| p.is_running()).count();
+        let had_ended = particles.iter().filter(|p| p.state.has_ended()).count();
         advance(&mut particles, task, settings)?;
         barriers += 1;
         let (best, ended) = weigh(&mut particles, settings, &mut logs);
-        // Those that ended met no barrier; those that had ended before did not run.
-        steps += running.saturating_sub(ended - had_ended) as u64;
-        had_ended = ended;
+        // Those that ended now met no barrier.
+        steps += (running + had_ended - ended) as u64;
         if !weights.read(logs.iter().copied()) {
             return Err(impossible(&particles, barriers));
         }

@@ -6,8 +6,7 @@
 //! * [`address`]: paths of sites as 128-bit hashes;
 //! * [`answers`]: what is asked, and the trait of those who answer;
 //! * [`state`]: nodes, registers, futures;
-//! * `interpret`: the loop over instructions;
-//! * `registers`: from operands to values;
+//! * `interpret`: the loop over instructions; `registers`: from operands to values;
 //! * `operate`: operations of two operands; `construct`: instructions that make or take apart an aggregate;
 //! * `question`: choices and factors; `suspend`: what happens at any other site; `loops`: lifted loops;
 //! * [`stack`]: the model's own call stack, for messages.
