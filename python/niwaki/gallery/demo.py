@@ -37,18 +37,7 @@ def demo(folder: Path) -> None:
             continue
         particles, place = PARTICLES.get(entry.name, 300), folder / entry.name
         print(f"\n{entry.name}: {entry.title}, into the target `{entry.target_name}`")
-        words = [
-            "grow",
-            entry.name,
-            "-n",
-            str(particles),
-            "--runs",
-            str(RUNS),
-            "--seed",
-            str(SEED),
-            "-o",
-            str(place),
-        ]
+        words = f"grow {entry.name} -n {particles} --runs {RUNS} --seed {SEED} -o".split() + [str(place)]
         print("$ niwaki", *words, flush=True)
         began = time.perf_counter()
         app(words, standalone_mode=False)

@@ -2,9 +2,9 @@
 
 The tree that this project is named after, in our own words. Each limb begins on the ring where the one before it
 ended, so that neighbours touch and do not intersect; a side branch begins on a ring that lies on its parent's bark.
-Whether there is a side branch, where it goes and what it carries is left to futures. A cloud is one primitive: a short
-last limb that turns upwards into it, and tufts that overlap. Its flat underside lies just above the limb that carries
-it, as a gardener would cut it.
+Whether there is a side branch, where it goes and what it carries is left to futures. A branch and its cloud are one
+primitive, as is the last limb of the trunk with the crown: no limb is left bare, and a cloud may close around the limb
+that carries it.
 """
 
 from math import cos, pi, sin
@@ -41,7 +41,8 @@ UP = vec(0.0, 1.0, 0.0)
 def niwaki_tree():
     """Grow the trunk from the ground at the origin to its crown, then two chances of a side branch on each limb.
 
-    The lowest limb stays bare. The trunk is whole before any branch may stand in its way.
+    The lowest limb stays bare. The trunk is whole before any branch may stand in its way. It bends most in x: such a
+    tree has a front.
     """
     start, forward, radius = vec(0.0, 0.0, 0.0), UP, uniform(1.2, 2.0)
     limbs: list[Any] = []
@@ -99,7 +100,7 @@ def foliage(tip, forward, radius, shift):
 
 
 def tuft(base, size, high, turn, k, tufts):
-    """The `k`-th tuft around the middle of a cloud; every other one is a little larger."""
+    """The `k`-th tuft around the middle of a cloud; their sizes differ a little."""
     angle = turn + 2.0 * pi * k / tufts
     large = 0.45 + 0.07 * cos(2.4 * k + turn)
     place = base + 0.6 * size * vec(cos(angle), 0.0, sin(angle))

@@ -45,7 +45,7 @@ def draw(folder: Path) -> list[Path]:
     """
     folder.mkdir(parents=True, exist_ok=True)
     ships = grow(spaceship, targets.ship(), particles=300, voxel=SHIP_VOXEL, runs=10, seed=1)
-    trees = grow(niwaki_tree, targets.niwaki(), particles=1000, voxel=TREE_VOXEL, runs=6, seed=1)
+    trees = grow(niwaki_tree, targets.niwaki(), particles=1000, voxel=TREE_VOXEL, runs=10, seed=1)
     return [
         written(folder / "ships.png", fleet(ships)),
         written(folder / "tree.png", garden(trees)),
