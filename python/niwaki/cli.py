@@ -68,7 +68,12 @@ def grow(
             "--target", metavar="FILE", help="A mesh (OBJ, STL, PLY, GLB); default: the model's own."
         ),
     ] = None,
-    particles: Annotated[int, typer.Option("-n", "--particles", help="Size of the population.")] = 300,
+    particles: Annotated[
+        int | None,
+        typer.Option(
+            "-n", "--particles", help="Size of the population; default: what suits the model, or 300."
+        ),
+    ] = None,
     order: Annotated[str, typer.Option(help="stochastic or depth-first.")] = "stochastic",
     weights: Annotated[str, typer.Option(help="ratio or absolute.")] = "ratio",
     temper: Annotated[
@@ -102,11 +107,14 @@ def grow(
     """Grow MODEL into a target; writes best.glb, best.png, sheet.png and run.json."""
     from niwaki import infer
     from niwaki.finding import find
+    from niwaki.gallery import PARTICLES
 
     found = find(model)
     aim, reference = _target(found, target)
     if voxel is None and target is None and found.entry is not None:
         voxel = found.entry.voxel
+    if particles is None:
+        particles = found.entry.particles if found.entry is not None else PARTICLES
     settings: dict[str, Any] = {
         "particles": particles,
         "order": order,

@@ -178,7 +178,8 @@ class Result(Sequence[Sample]):
     seconds, cpu_seconds : float
         Wall and processor time of the search alone.
     barriers, steps, resampled, ancestors, tries : int or None
-        Barriers of a population, how often a particle ran to one, at how many it was resampled, ancestors left; runs that rejection or enumeration took.
+        Barriers of a population, how often a particle ran to one, at how many it was resampled, ancestors left; runs
+        that rejection or enumeration took.
     """
 
     def __init__(

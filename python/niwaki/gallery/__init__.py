@@ -1,7 +1,8 @@
 """Models to look at and start from: one model, one file, one picture.
 
 A module of this folder is an entry of the gallery when it has MODEL (the model), and, where they make sense, TITLE (one
-line), TARGET (the name of a function of `niwaki.gallery.targets`) and VOXEL (the cell size that suits both).
+line), TARGET (the name of a function of `niwaki.gallery.targets`), VOXEL (the cell size that suits both) and PARTICLES
+(how many it takes to do it well).
 """
 
 from __future__ import annotations
@@ -17,6 +18,9 @@ if TYPE_CHECKING:
 
 #: Modules of this folder that hold no model; they are not imported to find that out.
 NOT_MODELS = ("demo", "pictures", "targets")
+
+#: Size of a population where nothing else is said.
+PARTICLES = 300
 
 
 @dataclass(frozen=True)
@@ -35,6 +39,8 @@ class Entry:
         The target that it is usually grown into.
     voxel : float or None
         The cell size that suits both.
+    particles : int
+        How many particles do it well.
     """
 
     name: str
@@ -42,6 +48,7 @@ class Entry:
     model: Model[..., Any]
     target_name: str | None
     voxel: float | None
+    particles: int
 
     def target(self) -> Target | None:
         """Make the usual target."""
@@ -79,5 +86,6 @@ def entry(name: str) -> Entry | None:
         module.MODEL,
         getattr(module, "TARGET", None),
         getattr(module, "VOXEL", None),
+        getattr(module, "PARTICLES", PARTICLES),
     )
     return made

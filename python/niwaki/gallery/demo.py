@@ -19,9 +19,6 @@ from niwaki.gallery import entries
 RUNS = 6
 SEED = 1
 
-#: Size of the population; what an entry does not name gets the shell's default.
-PARTICLES = {"niwaki-tree": 1000}
-
 
 def demo(folder: Path) -> None:
     """Grow every entry that has a target; files go to folders in `folder`.
@@ -35,9 +32,9 @@ def demo(folder: Path) -> None:
     for entry in entries():
         if entry.target_name is None:
             continue
-        particles, place = PARTICLES.get(entry.name, 300), folder / entry.name
+        place = folder / entry.name
         print(f"\n{entry.name}: {entry.title}, into the target `{entry.target_name}`")
-        words = f"grow {entry.name} -n {particles} --runs {RUNS} --seed {SEED} -o".split() + [str(place)]
+        words = f"grow {entry.name} --runs {RUNS} --seed {SEED} -o".split() + [str(place)]
         print("$ niwaki", *words, flush=True)
         began = time.perf_counter()
         app(words, standalone_mode=False)

@@ -31,6 +31,7 @@ from niwaki import (
 TITLE = "a cloud-pruned garden tree"
 TARGET = "niwaki"
 VOXEL = 0.5
+PARTICLES = 1000
 
 BARK = (0.41, 0.32, 0.26)
 LEAVES = ((0.28, 0.39, 0.22), (0.34, 0.45, 0.26), (0.24, 0.35, 0.21), (0.31, 0.42, 0.25))
