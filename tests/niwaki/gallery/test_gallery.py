@@ -87,7 +87,6 @@ def test_a_third_of_the_ships_run_through_themselves() -> None:
 
 def test_the_demo_leaves_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("niwaki.gallery.demo.RUNS", 1)
-    monkeypatch.setattr("niwaki.gallery.demo.PARTICLES", {one.name: 30 for one in GALLERY})
     demo(tmp_path)
     for one in GALLERY:
         if one.target_name is not None:
