@@ -73,6 +73,7 @@ lint: $(STAMPS)/engine $(STAMPS)/lint
 
 bench: $(STAMPS)/engine $(STAMPS)/bench
 	$(PY) benches/startup.py
+	$(PY) benches/reference.py
 	$(PY) benches/machine.py
 
 soak: $(STAMPS)/engine $(STAMPS)/test
