@@ -13,7 +13,7 @@
 
 use crate::distributions;
 use crate::geometry::PyShape;
-use niwaki_math::{Dist, Draw};
+use niwaki_math::{Dist, Draw, Param};
 use niwaki_vm::value::{Class, ClassKind, Dict, Range, Record, Value};
 use pyo3::exceptions::{PyOverflowError, PyTypeError};
 use pyo3::prelude::*;
@@ -217,44 +217,23 @@ fn array(object: &Bound<'_, PyAny>) -> PyResult<Value> {
 
 /// A distribution as one of `niwaki.words`.
 fn distribution<'py>(py: Python<'py>, dist: &Dist) -> PyResult<Bound<'py, PyAny>> {
-    let real = |xs: &[f64]| PyTuple::new(py, xs).map(Bound::into_any);
-    let parts: Vec<Bound<'py, PyAny>> = match dist {
-        Dist::Bernoulli { p } | Dist::Geometric { p } => vec![real(&[*p])?.get_item(0)?],
-        Dist::Categorical(weights) => vec![real(weights.given())?],
-        Dist::DiscreteUniform { lo, hi } => {
-            vec![lo.into_pyobject(py)?.into_any(), hi.into_pyobject(py)?.into_any()]
+    let row = |xs: &[f64]| PyTuple::new(py, xs).map(Bound::into_any);
+    let part = |param: &Param| match param {
+        Param::Bool(b) => Ok(b.into_pyobject(py)?.to_owned().into_any()),
+        Param::Int(i) => Ok(i.into_pyobject(py)?.into_any()),
+        Param::Real(x) => Ok(x.into_pyobject(py)?.into_any()),
+        Param::Vector(xs) => row(xs),
+        Param::Matrix(rows) => {
+            let rows = rows.iter().map(|xs| row(xs)).collect::<PyResult<Vec<_>>>()?;
+            Ok(PyTuple::new(py, rows)?.into_any())
         }
-        Dist::Binomial { n, p } => vec![n.into_pyobject(py)?.into_any(), p.into_pyobject(py)?.into_any()],
-        Dist::Poisson { rate } | Dist::Exponential { rate } => vec![rate.into_pyobject(py)?.into_any()],
-        Dist::Dirichlet(concentrations) => vec![real(concentrations)?],
-        Dist::MultivariateGaussian(g) => {
-            let rows: Vec<_> = g.covariance.iter().map(|row| real(row)).collect::<PyResult<_>>()?;
-            vec![real(&g.mean)?, PyTuple::new(py, rows)?.into_any()]
+        Param::Dists(dists) => {
+            let inner = dists.iter().map(|d| distribution(py, d)).collect::<PyResult<Vec<_>>>()?;
+            Ok(PyTuple::new(py, inner)?.into_any())
         }
-        Dist::Mixture(mixture) => {
-            let inner: Vec<_> =
-                mixture.components.iter().map(|d| distribution(py, d)).collect::<PyResult<_>>()?;
-            vec![real(mixture.weights.given())?, PyTuple::new(py, inner)?.into_any()]
-        }
-        Dist::Delta(draw) => vec![drawn(py, draw)?],
-        Dist::Uniform { lo: a, hi: b }
-        | Dist::Gaussian { mean: a, sd: b }
-        | Dist::LogNormal { mean: a, sd: b }
-        | Dist::Gamma { shape: a, scale: b }
-        | Dist::InverseGamma { shape: a, scale: b }
-        | Dist::Beta { a, b }
-        | Dist::Laplace { loc: a, scale: b }
-        | Dist::Cauchy { loc: a, scale: b }
-        | Dist::VonMises { mean: a, concentration: b } => {
-            real(&[*a, *b])?.try_iter()?.collect::<PyResult<_>>()?
-        }
-        Dist::StudentT { df, loc, scale } => {
-            real(&[*df, *loc, *scale])?.try_iter()?.collect::<PyResult<_>>()?
-        }
-        Dist::TruncatedGaussian { mean, sd, lo, hi } => {
-            real(&[*mean, *sd, *lo, *hi])?.try_iter()?.collect::<PyResult<_>>()?
-        }
+        Param::Draw(draw) => drawn(py, draw),
     };
+    let parts = dist.params().iter().map(part).collect::<PyResult<Vec<_>>>()?;
     let camel: String = dist.family().name().split('_').map(capital).collect();
     py.import("niwaki.words.distributions")?.getattr(camel.as_str())?.call1(PyTuple::new(py, parts)?)
 }
