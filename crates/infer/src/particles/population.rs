@@ -97,9 +97,14 @@ pub fn smc(
     // Kept from barrier to barrier, so that none allocates: log weights by row, and what comes of them.
     let (mut logs, mut weights) = (Vec::with_capacity(n), Normalised::default());
 
-    while particles.iter().any(Particle::is_running) {
-        let running = particles.iter().filter(|p| p.is_running()).count();
-        let had_ended = particles.iter().filter(|p| p.state.has_ended()).count();
+    loop {
+        // In one pass: a population is too large for the processor's nearest memory.
+        let (running, had_ended) = particles.iter().fold((0, 0), |(running, ended), p| {
+            (running + usize::from(p.is_running()), ended + usize::from(p.state.has_ended()))
+        });
+        if running == 0 {
+            break;
+        }
         advance(&mut particles, task, settings)?;
         barriers += 1;
         let (best, ended) = weigh(&mut particles, settings, &mut logs);

@@ -28,7 +28,7 @@ impl<S: Scalar> Machine<'_, S> {
         let mut pc = state.nodes[node.0 as usize].pc as usize;
         let mut scratch = 0;
         // First registers of this node, and of the loop node above an iteration.
-        let (mut own, mut outer) = self.bases(state, node);
+        let (mut own, mut outer) = self.bases(state, f, node);
         self.room(scratch + f.scratch_registers as usize);
         if f.mode == Mode::Pure {
             // A pure entry function: its arguments wait in the state.
@@ -112,7 +112,7 @@ impl<S: Scalar> Machine<'_, S> {
                 id = state.nodes[node.0 as usize].function;
                 f = program.function(id);
                 pc = $pc as usize;
-                (own, outer) = self.bases(state, node);
+                (own, outer) = self.bases(state, f, node);
                 self.room(scratch + f.scratch_registers as usize);
                 continue;
             }};
