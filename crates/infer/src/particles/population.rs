@@ -5,7 +5,7 @@ use super::settings::{Order, Settings, Weights, When};
 use super::weights::Normalised;
 use crate::record::Record;
 use crate::{Failure, Task};
-use niwaki_math::Stream;
+use niwaki_math::{Stream, StreamKey};
 use niwaki_vm::machine::Limits;
 use niwaki_vm::value::Value;
 use rayon::prelude::*;
@@ -83,6 +83,7 @@ pub fn smc(
             state: first.clone(),
             record: empty.fork(),
             lineage,
+            stream: StreamKey::new(settings.seed, lineage, 0),
             picks: 0,
             weighed: empty_score,
             log_weight: 0.0,
@@ -214,7 +215,7 @@ fn resample(
         for _ in 1..count {
             let Some(to) = free.next() else { break };
             let [parent, child] = pair(particles, row, to);
-            child.copy_from(parent, *lineages);
+            child.copy_from(parent, *lineages, settings.seed);
             *lineages += 1;
             ancestor[to] = ancestor[row];
         }

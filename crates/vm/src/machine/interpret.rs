@@ -247,9 +247,13 @@ impl<S: Scalar> Machine<'_, S> {
                         gather!(args);
                         builtin.call(&self.buffer)
                     };
-                    match answer {
-                        Ok(Value::Real(x)) => slot!(to).store_real(x),
-                        other => put!(to, check!(other)),
+                    let value = check!(answer);
+                    if let Value::Real(x) = value {
+                        // Nothing to drop, which the compiler does not see.
+                        std::mem::forget(value);
+                        slot!(to).store_real(x);
+                    } else {
+                        put!(to, value);
                     }
                 }
                 Op::Host { to, constant, args } => {

@@ -223,7 +223,7 @@ impl<S: Scalar> State<S> {
         let count = program.function(function).node_registers as usize;
         let registers = &mut self.registers[at..at + count];
         // Most activations hold numbers only: told in a pass that writes nothing.
-        if registers.iter().any(|value| !value.is_plain()) {
+        if registers.iter().fold(false, |shared, value| shared | !value.is_plain()) {
             registers.iter_mut().filter(|value| !value.is_plain()).for_each(|value| *value = Value::None);
         }
     }

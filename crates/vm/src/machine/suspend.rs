@@ -274,7 +274,11 @@ impl<S: Scalar> Machine<'_, S> {
             }
             _ => value,
         };
-        state.registers[own + site.to.index()].store(value);
+        let register = &mut state.registers[own + site.to.index()];
+        // A function that returns nothing, called where it was called before.
+        if !matches!((&value, &register), (Value::None, Value::None)) {
+            register.store(value);
+        }
         Some((above, site.next))
     }
 }
