@@ -27,11 +27,8 @@ impl<S: Scalar> Machine<'_, S> {
     #[inline]
     pub(super) fn bases(&self, state: &State<S>, f: &Function<S>, node: NodeId) -> (usize, usize) {
         let n = &state.nodes[node.0 as usize];
-        let outer = if f.mode == Mode::Iteration {
-            state.nodes[n.parent.0 as usize].registers as usize
-        } else {
-            0
-        };
+        let outer =
+            if f.mode == Mode::Iteration { state.nodes[n.parent.0 as usize].registers as usize } else { 0 };
         (n.registers as usize, outer)
     }
 
