@@ -4,7 +4,7 @@ use crate::Failure;
 use crate::record::{Record, check_factor};
 use crate::task::{Hosts, Task};
 use niwaki_geom::Shape;
-use niwaki_math::{Dist, Stream};
+use niwaki_math::{Dist, StreamKey};
 use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
@@ -14,10 +14,8 @@ use niwaki_vm::value::Value;
 pub struct Forward<'a> {
     /// The record so far.
     pub record: &'a mut Record,
-    /// Seed of the run.
-    pub seed: u64,
-    /// Stream of the run: a particle's lineage, a sample's number.
-    pub stream: u64,
+    /// Random stream of the run: of a particle's lineage, of a sample's number.
+    pub stream: StreamKey,
     /// Host functions.
     pub hosts: &'a dyn Hosts,
     /// Whether emits, factors and observations pause the run.
@@ -51,7 +49,7 @@ impl Answers<f64> for Forward<'_> {
     #[inline(always)]
     fn choice(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Answer<Value>, Fault> {
         let address = at.address();
-        let (draw, log_density) = dist.sample_and_score(&mut Stream::new(self.seed, self.stream, address, 0));
+        let (draw, log_density) = dist.sample_and_score(&mut self.stream.at(address));
         let value = draw_to_value(draw);
         self.record.choose(address, &value, log_density);
         Ok(Answer::Go(value))
@@ -98,12 +96,13 @@ pub fn forward(task: &Task, seed: u64, stream: u64, complete: bool) -> Result<Sa
     let mut machine = task.machine();
     let mut state = task.start(&machine, true)?;
     let mut record = Record::start(&task.sketches);
+    let stream = StreamKey::new(seed, stream, 0);
     let hosts = &*task.hosts;
     while !state.has_ended() && (complete || record.cause.is_none()) {
         let Some(next) = state.runnable().first().copied() else {
             return Err(Box::new(machine.waiting_cycle(&state)).into());
         };
-        let mut answers = Forward { record: &mut record, seed, stream, hosts, barriers: false, complete };
+        let mut answers = Forward { record: &mut record, stream, hosts, barriers: false, complete };
         machine.resume(&mut state, next, &mut answers)?;
     }
     let value = if state.has_ended() { state.result() } else { Value::None };

@@ -21,5 +21,5 @@ pub mod vector;
 pub use distributions::{BadParameter, Dist, Draw, Family, Param, Support};
 pub use rounding::grid;
 pub use scalar::Scalar;
-pub use streams::{RngCore, Stream};
+pub use streams::{RngCore, Stream, StreamKey};
 pub use vector::{Mat3, Vec3, vec3};

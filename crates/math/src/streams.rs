@@ -61,18 +61,36 @@ pub struct Stream {
     spare: Option<u64>,
 }
 
-impl Stream {
-    /// The bits of the choice at `address`, drawn for the `visit`-th time in `stream` (a particle, a chain).
+/// What the random bits of a stream's choices have in common: whoever draws many of them mixes it once.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct StreamKey(u64);
+
+impl StreamKey {
+    /// The key of `stream` (a particle, a chain) for choices drawn for the `visit`-th time.
     #[inline]
-    pub fn new(seed: u64, stream: u64, address: u128, visit: u64) -> Stream {
+    pub fn new(seed: u64, stream: u64, visit: u64) -> StreamKey {
         // Three mixes side by side, not one inside the other: a choice waits for one of them only. The odd
         // factors keep equal numbers in two places from cancelling.
         let base = mix(seed.wrapping_add(GOLDEN))
             .wrapping_add(mix(stream.wrapping_add(GOLDEN)).wrapping_mul(0xA24B_AED4_963E_E407))
             .wrapping_add(mix(visit.wrapping_add(GOLDEN)).wrapping_mul(0x9FB2_1C65_1E98_DF25));
+        StreamKey(base)
+    }
+
+    /// The bits of the choice at `address`.
+    #[inline]
+    pub fn at(self, address: u128) -> Stream {
         let counter =
             [address as u32, (address >> 32) as u32, (address >> 64) as u32, (address >> 96) as u32];
-        Stream { counter, base, block: 0, spare: None }
+        Stream { counter, base: self.0, block: 0, spare: None }
+    }
+}
+
+impl Stream {
+    /// The bits of the choice at `address`, drawn for the `visit`-th time in `stream` (a particle, a chain).
+    #[inline]
+    pub fn new(seed: u64, stream: u64, address: u128, visit: u64) -> Stream {
+        StreamKey::new(seed, stream, visit).at(address)
     }
 
     /// A number in the open interval (0, 1): 52 bits and a half, so that neither end is ever reached.

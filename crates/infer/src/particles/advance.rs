@@ -5,7 +5,7 @@ use crate::Failure;
 use crate::forward::Forward;
 use crate::record::Record;
 use crate::task::Task;
-use niwaki_math::Stream;
+use niwaki_math::{Stream, StreamKey};
 use niwaki_vm::machine::state::State;
 use niwaki_vm::machine::{Machine, Stop};
 
@@ -18,6 +18,8 @@ pub(super) struct Particle {
     pub record: Record,
     /// Number of its random stream; no other particle has or had it.
     pub lineage: u64,
+    /// That stream's key, for the choices of the model.
+    pub stream: StreamKey,
     /// How many order choices it has made.
     pub picks: u64,
     /// The score that its weight already counts.
@@ -58,8 +60,7 @@ impl Particle {
             };
             let mut answers = Forward {
                 record: &mut self.record,
-                seed: settings.seed,
-                stream: self.lineage,
+                stream: self.stream,
                 hosts: &*task.hosts,
                 barriers: true,
                 complete: false,
@@ -79,10 +80,11 @@ impl Particle {
     }
 
     /// Becomes a copy of `parent`, with a random stream of its own.
-    pub fn copy_from(&mut self, parent: &mut Particle, lineage: u64) {
+    pub fn copy_from(&mut self, parent: &mut Particle, lineage: u64, seed: u64) {
         self.state.clone_from(&parent.state);
         self.record.become_copy(&mut parent.record);
         self.lineage = lineage;
+        self.stream = StreamKey::new(seed, lineage, 0);
         self.picks = parent.picks;
         self.weighed = parent.weighed;
     }

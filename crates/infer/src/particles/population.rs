@@ -5,7 +5,7 @@ use super::settings::{Order, Settings, Weights, When};
 use super::weights::Normalised;
 use crate::record::Record;
 use crate::{Failure, Task};
-use niwaki_math::Stream;
+use niwaki_math::{Stream, StreamKey};
 use niwaki_vm::machine::Limits;
 use niwaki_vm::value::Value;
 use rayon::prelude::*;
@@ -83,6 +83,7 @@ pub fn smc(
             state: first.clone(),
             record: empty.fork(),
             lineage,
+            stream: StreamKey::new(settings.seed, lineage, 0),
             picks: 0,
             weighed: empty_score,
             log_weight: 0.0,
@@ -97,9 +98,14 @@ pub fn smc(
     // Kept from barrier to barrier, so that none allocates: log weights by row, and what comes of them.
     let (mut logs, mut weights) = (Vec::with_capacity(n), Normalised::default());
 
-    while particles.iter().any(Particle::is_running) {
-        let running = particles.iter().filter(|p| p.is_running()).count();
-        let had_ended = particles.iter().filter(|p| p.state.has_ended()).count();
+    loop {
+        // In one pass: a population is too large for the processor's nearest memory.
+        let (running, had_ended) = particles.iter().fold((0, 0), |(running, ended), p| {
+            (running + usize::from(p.is_running()), ended + usize::from(p.state.has_ended()))
+        });
+        if running == 0 {
+            break;
+        }
         advance(&mut particles, task, settings)?;
         barriers += 1;
         let (best, ended) = weigh(&mut particles, settings, &mut logs);
@@ -209,7 +215,7 @@ fn resample(
         for _ in 1..count {
             let Some(to) = free.next() else { break };
             let [parent, child] = pair(particles, row, to);
-            child.copy_from(parent, *lineages);
+            child.copy_from(parent, *lineages, settings.seed);
             *lineages += 1;
             ancestor[to] = ancestor[row];
         }

@@ -36,6 +36,7 @@ pub(super) fn corrupt(p: &mut Particle, row: usize, settings: &Settings, copies:
     }
     if settings.is(Mutant::StreamByRow) {
         p.lineage = row as u64;
+        p.stream = niwaki_math::StreamKey::new(settings.seed, p.lineage, 0);
     }
 }
 

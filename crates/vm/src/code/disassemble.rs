@@ -37,6 +37,10 @@ fn run<S: Scalar>(f: &Function<S>, args: Args) -> String {
 fn instruction<S: Scalar>(f: &Function<S>, op: &Op) -> String {
     match *op {
         Op::Move { to, from } => format!("{to:?} = {from:?}"),
+        Op::Add { to, a, b } => format!("{to:?} = Add {a:?} {b:?}"),
+        Op::Sub { to, a, b } => format!("{to:?} = Sub {a:?} {b:?}"),
+        Op::Mul { to, a, b } => format!("{to:?} = Mul {a:?} {b:?}"),
+        Op::Div { to, a, b } => format!("{to:?} = Div {a:?} {b:?}"),
         Op::Binary { op, to, a, b } => format!("{to:?} = {op:?} {a:?} {b:?}"),
         Op::Neg { to, a } => format!("{to:?} = Neg {a:?}"),
         Op::Not { to, a } => format!("{to:?} = Not {a:?}"),

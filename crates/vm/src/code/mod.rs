@@ -164,7 +164,15 @@ pub enum Binary {
 pub enum Op {
     /// Copy a value.
     Move { to: Operand, from: Operand },
-    /// A two-operand operation.
+    /// A sum. The four operations that models are full of are instructions of their own.
+    Add { to: Operand, a: Operand, b: Operand },
+    /// A difference.
+    Sub { to: Operand, a: Operand, b: Operand },
+    /// A product.
+    Mul { to: Operand, a: Operand, b: Operand },
+    /// A quotient.
+    Div { to: Operand, a: Operand, b: Operand },
+    /// Any other two-operand operation.
     Binary { op: Binary, to: Operand, a: Operand, b: Operand },
     /// Arithmetic negation.
     Neg { to: Operand, a: Operand },

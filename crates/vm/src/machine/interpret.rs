@@ -7,7 +7,7 @@ use super::state::{FutureId, State, Status};
 use super::suspend::After;
 use super::{Here, Machine, PureCall, Stop, operate};
 use crate::builtins;
-use crate::code::{FunctionId, Mode, Op, SiteKind, exit};
+use crate::code::{Binary, FunctionId, Mode, Op, SiteKind, exit};
 use crate::fault::Fault;
 use crate::value::{Value, iter_get, iter_len, ops};
 use niwaki_math::Scalar;
@@ -25,10 +25,11 @@ impl<S: Scalar> Machine<'_, S> {
         };
         let mut id = state.nodes[node.0 as usize].function;
         let mut f = program.function(id);
+        let mut code = f.code.as_slice();
         let mut pc = state.nodes[node.0 as usize].pc as usize;
         let mut scratch = 0;
         // First registers of this node, and of the loop node above an iteration.
-        let (mut own, mut outer) = self.bases(state, node);
+        let (mut own, mut outer) = self.bases(state, f, node);
         self.room(scratch + f.scratch_registers as usize);
         if f.mode == Mode::Pure {
             // A pure entry function: its arguments wait in the state.
@@ -111,10 +112,32 @@ impl<S: Scalar> Machine<'_, S> {
                 node = $node;
                 id = state.nodes[node.0 as usize].function;
                 f = program.function(id);
+                code = &f.code;
                 pc = $pc as usize;
-                (own, outer) = self.bases(state, node);
+                (own, outer) = self.bases(state, f, node);
                 self.room(scratch + f.scratch_registers as usize);
                 continue;
+            }};
+        }
+        // An operation that the compiler knows, so that what `operate` says of the others is left out.
+        macro_rules! arithmetic {
+            ($op:expr, $to:expr, $a:expr, $b:expr) => {{
+                let (a, b) = (get!($a), get!($b));
+                let real = match (a, b) {
+                    (Value::Real(x), Value::Real(y)) => operate::reals($op, *x, *y),
+                    (Value::Real(x), Value::Int(n)) => operate::reals($op, *x, S::from_f64(*n as f64)),
+                    (Value::Int(n), Value::Real(y)) => operate::reals($op, S::from_f64(*n as f64), *y),
+                    _ => None,
+                };
+                if let Some(z) = real {
+                    slot!($to).store_real(z);
+                } else if let (Value::Int(x), Value::Int(y)) = (a, b)
+                    && let Some(z) = operate::ints($op, *x, *y)
+                {
+                    slot!($to).store_int(z);
+                } else {
+                    put!($to, check!(operate::values($op, a, b)));
+                }
             }};
         }
         macro_rules! call_pure {
@@ -125,6 +148,7 @@ impl<S: Scalar> Machine<'_, S> {
                 scratch += f.scratch_registers as usize;
                 id = function;
                 f = program.function(id);
+                code = &f.code;
                 self.room(scratch + f.scratch_registers as usize);
                 for (i, value) in self.buffer.drain(..).enumerate() {
                     self.scratch[scratch + i].store(value);
@@ -138,18 +162,18 @@ impl<S: Scalar> Machine<'_, S> {
         }
 
         loop {
-            match f.code[pc] {
+            match code[pc] {
                 Op::Move { to, from } => {
                     let value = get!(from).clone();
                     put!(to, value);
                 }
+                Op::Add { to, a, b } => arithmetic!(Binary::Add, to, a, b),
+                Op::Sub { to, a, b } => arithmetic!(Binary::Sub, to, a, b),
+                Op::Mul { to, a, b } => arithmetic!(Binary::Mul, to, a, b),
+                Op::Div { to, a, b } => arithmetic!(Binary::Div, to, a, b),
                 Op::Binary { op, to, a, b } => {
                     let (a, b) = (get!(a), get!(b));
-                    if let (Value::Real(x), Value::Real(y)) = (a, b)
-                        && let Some(z) = operate::reals(op, *x, *y)
-                    {
-                        slot!(to).store_real(z);
-                    } else if let (Value::Int(x), Value::Int(y)) = (a, b)
+                    if let (Value::Int(x), Value::Int(y)) = (a, b)
                         && let Some(z) = operate::ints(op, *x, *y)
                     {
                         slot!(to).store_int(z);
@@ -223,9 +247,13 @@ impl<S: Scalar> Machine<'_, S> {
                         gather!(args);
                         builtin.call(&self.buffer)
                     };
-                    match answer {
-                        Ok(Value::Real(x)) => slot!(to).store_real(x),
-                        other => put!(to, check!(other)),
+                    let value = check!(answer);
+                    if let Value::Real(x) = value {
+                        // Nothing to drop, which the compiler does not see.
+                        std::mem::forget(value);
+                        slot!(to).store_real(x);
+                    } else {
+                        put!(to, value);
                     }
                 }
                 Op::Host { to, constant, args } => {
@@ -267,6 +295,7 @@ impl<S: Scalar> Machine<'_, S> {
                     if let Some(call) = self.pure.pop() {
                         id = call.caller;
                         f = program.function(id);
+                        code = &f.code;
                         scratch = call.scratch;
                         pc = call.pc;
                         let value = if call.as_future {

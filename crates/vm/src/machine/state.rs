@@ -221,10 +221,10 @@ impl<S: Scalar> State<S> {
         node.parent = self.free[function.0 as usize];
         self.free[function.0 as usize] = id;
         let count = program.function(function).node_registers as usize;
-        for value in &mut self.registers[at..at + count] {
-            if !value.is_plain() {
-                *value = Value::None;
-            }
+        let registers = &mut self.registers[at..at + count];
+        // Most activations hold numbers only: told in a pass that writes nothing.
+        if registers.iter().fold(false, |shared, value| shared | !value.is_plain()) {
+            registers.iter_mut().filter(|value| !value.is_plain()).for_each(|value| *value = Value::None);
         }
     }
 

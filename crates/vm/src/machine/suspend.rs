@@ -5,7 +5,7 @@ use super::answers::{Answer, Answers, At};
 use super::registers::Registers;
 use super::state::{FutureId, NodeId, State, Status};
 use super::{Machine, Stop};
-use crate::code::{FunctionId, Mode, Operand, Place, Site, SiteId, SiteKind};
+use crate::code::{Function, FunctionId, Mode, Operand, Place, Site, SiteId, SiteKind};
 use crate::fault::Fault;
 use crate::value::{Value, iter_get, iter_len};
 use niwaki_math::Scalar;
@@ -25,13 +25,10 @@ pub(super) enum After {
 impl<S: Scalar> Machine<'_, S> {
     /// First registers of a node and, for an iteration, of the loop node above it.
     #[inline]
-    pub(super) fn bases(&self, state: &State<S>, node: NodeId) -> (usize, usize) {
+    pub(super) fn bases(&self, state: &State<S>, f: &Function<S>, node: NodeId) -> (usize, usize) {
         let n = &state.nodes[node.0 as usize];
-        let outer = if self.program.function(n.function).mode == Mode::Iteration {
-            state.nodes[n.parent.0 as usize].registers as usize
-        } else {
-            0
-        };
+        let outer =
+            if f.mode == Mode::Iteration { state.nodes[n.parent.0 as usize].registers as usize } else { 0 };
         (n.registers as usize, outer)
     }
 
@@ -182,14 +179,23 @@ impl<S: Scalar> Machine<'_, S> {
         function: FunctionId,
     ) -> Result<NodeId, Fault> {
         let path = join(state.nodes[node.0 as usize].path, site.key);
+        let nodes = state.nodes.len();
         let made = state.new_node(self.program, function, node, u32::from(number.0), path);
+        // A node that was used before takes no further bytes.
+        if state.nodes.len() > nodes && state.bytes() > self.limits.bytes {
+            return Err(self.out_of_memory());
+        }
         let at = state.nodes[made.0 as usize].registers as usize;
         for (i, o) in r.f.operands[site.args.range()].iter().enumerate() {
-            let value = r.get(state, &self.scratch, *o).clone();
-            state.registers[at + i].store(value);
-        }
-        if state.bytes() > self.limits.bytes {
-            return Err(self.out_of_memory());
+            // Numbers, which most arguments are, go over without being looked at twice.
+            match *r.get(state, &self.scratch, *o) {
+                Value::Real(x) => state.registers[at + i].store_real(x),
+                Value::Int(n) => state.registers[at + i].store_int(n),
+                ref other => {
+                    let value = other.clone();
+                    state.registers[at + i].store(value);
+                }
+            }
         }
         Ok(made)
     }
@@ -244,14 +250,20 @@ impl<S: Scalar> Machine<'_, S> {
         node: NodeId,
         value: Value<S>,
     ) -> Option<(NodeId, u32)> {
-        let n = state.nodes[node.0 as usize];
+        let (above, number) = {
+            let n = &state.nodes[node.0 as usize];
+            (n.parent, n.site as usize)
+        };
         state.release(self.program, node);
-        if n.parent == NodeId::NONE {
+        if above == NodeId::NONE {
             state.returned(future, value);
             return None;
         }
-        let parent = state.nodes[n.parent.0 as usize];
-        let site = &self.program.function(parent.function).sites[n.site as usize];
+        let (function, own) = {
+            let parent = &state.nodes[above.0 as usize];
+            (parent.function, parent.registers as usize)
+        };
+        let site = &self.program.function(function).sites[number];
         let value = match site.kind {
             // Depth first: the future has returned before anyone sees its handle.
             SiteKind::Future { detached, .. } | SiteKind::FutureApply { detached } if !detached => {
@@ -259,7 +271,11 @@ impl<S: Scalar> Machine<'_, S> {
             }
             _ => value,
         };
-        state.registers[parent.registers as usize + site.to.index()].store(value);
-        Some((n.parent, site.next))
+        let register = &mut state.registers[own + site.to.index()];
+        // A function that returns nothing, called where it was called before.
+        if !matches!((&value, &register), (Value::None, Value::None)) {
+            register.store(value);
+        }
+        Some((above, site.next))
     }
 }

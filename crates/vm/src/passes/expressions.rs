@@ -149,6 +149,10 @@ impl<S: Scalar> Builder<'_, '_, S> {
         let operands = self.exprs(items)?;
         let to = self.register()?;
         let op = match (&**name, operands.as_slice()) {
+            ("add", &[a, b]) => Op::Add { to, a, b },
+            ("sub", &[a, b]) => Op::Sub { to, a, b },
+            ("mul", &[a, b]) => Op::Mul { to, a, b },
+            ("div", &[a, b]) => Op::Div { to, a, b },
             (n, [a, b]) if binary(n).is_some() => {
                 let op = binary(n).unwrap_or(Binary::Add);
                 Op::Binary { op, to, a: *a, b: *b }

@@ -38,7 +38,11 @@ pub(crate) fn reads_and_writes<S: Scalar>(f: &Function<S>, op: &Op) -> (Vec<Oper
     let run = |a: Args| f.operands[a.range()].to_vec();
     match *op {
         Op::Move { to, from } => (vec![from], vec![to]),
-        Op::Binary { to, a, b, .. } => (vec![a, b], vec![to]),
+        Op::Add { to, a, b }
+        | Op::Sub { to, a, b }
+        | Op::Mul { to, a, b }
+        | Op::Div { to, a, b }
+        | Op::Binary { to, a, b, .. } => (vec![a, b], vec![to]),
         Op::Neg { to, a } | Op::Not { to, a } | Op::Field { to, a, .. } | Op::Length { to, a } => {
             (vec![a], vec![to])
         }
@@ -209,7 +213,11 @@ fn rewrite<S: Scalar>(f: &mut Function<S>, map: impl Fn(Operand) -> Operand) {
     for op in &mut f.code {
         match op {
             Op::Move { to, from } => (*to, *from) = (map(*to), map(*from)),
-            Op::Binary { to, a, b, .. } => (*to, *a, *b) = (map(*to), map(*a), map(*b)),
+            Op::Add { to, a, b }
+            | Op::Sub { to, a, b }
+            | Op::Mul { to, a, b }
+            | Op::Div { to, a, b }
+            | Op::Binary { to, a, b, .. } => (*to, *a, *b) = (map(*to), map(*a), map(*b)),
             Op::Neg { to, a } | Op::Not { to, a } | Op::Field { to, a, .. } | Op::Length { to, a } => {
                 (*to, *a) = (map(*to), map(*a));
             }

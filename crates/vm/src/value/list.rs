@@ -141,7 +141,9 @@ impl<S: Scalar> List<S> {
     /// The element at a position.
     #[inline]
     pub fn get(&self, at: usize) -> Option<&Value<S>> {
-        self.chunk(at).first()
+        let start = self.0.tail_start();
+        // All of a list that is as short as most.
+        if at >= start { self.0.tail.get(at - start) } else { self.chunk(at).first() }
     }
 
     /// The elements from a position to the end of the leaf that holds it; empty beyond the end.

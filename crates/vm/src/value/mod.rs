@@ -95,7 +95,13 @@ impl<S: Scalar> Clone for Value<S> {
 
     #[inline(always)]
     fn clone_from(&mut self, source: &Self) {
-        self.store(source.clone());
+        match source {
+            // Numbers go over without being looked at twice; many a register holds nothing, before and after.
+            Value::Real(x) => self.store_real(*x),
+            Value::Int(n) => self.store_int(*n),
+            Value::None if matches!(self, Value::None) => {}
+            other => self.store(other.clone_other()),
+        }
     }
 }
 
