@@ -17,6 +17,10 @@ mod values;
 
 use pyo3::prelude::*;
 
+/// Searches run on threads of their own and copy many small things; the system's allocator is slow at that.
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 /// The compiled engine, imported by the package as `niwaki._engine`.
 #[pymodule]
 fn _engine(module: &Bound<'_, PyModule>) -> PyResult<()> {
