@@ -57,14 +57,15 @@ impl Watch {
 }
 
 /// Runs `work` without the interpreter's lock on a thread of its own, its parallel parts on so many threads (`None`:
-/// all of the machine's); meanwhile this thread watches.
+/// all of the machine's); meanwhile this thread watches. Also answers whether Ctrl-C was pressed, be it too late to
+/// stop anything.
 fn detached<T: Send>(
     py: Python<'_>,
     program: &Program,
     threads: Option<usize>,
     callable: Option<&Py<PyAny>>,
     work: impl FnOnce(&Watch) -> Result<T, Failure> + Send,
-) -> PyResult<T> {
+) -> PyResult<(T, bool)> {
     let pool = match threads {
         Some(n) => Some(
             rayon::ThreadPoolBuilder::new()
@@ -97,10 +98,11 @@ fn detached<T: Send>(
             worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
         })
     });
+    let pressed = raised.is_some();
     match raised {
         // Stopped by Ctrl-C: what was found is a result.
         Some(error) if done.is_err() || !error.is_instance_of::<PyKeyboardInterrupt>(py) => Err(error),
-        _ => done.map_err(|failure| faults::raise(py, &failure, program)),
+        _ => done.map(|found| (found, pressed)).map_err(|failure| faults::raise(py, &failure, program)),
     }
 }
 
@@ -162,6 +164,7 @@ impl PyTask {
                 }
                 Ok(samples)
             })?
+            .0
         };
         Ok(self.outcomes(samples, true, |_| 0.0))
     }
@@ -174,7 +177,7 @@ impl PyTask {
         max_runs: usize,
         watch: Option<Py<PyAny>>,
     ) -> PyResult<Bound<'py, PyTuple>> {
-        let found = detached(py, &self.task.program, None, watch.as_ref(), |watch| {
+        let (found, _) = detached(py, &self.task.program, None, watch.as_ref(), |watch| {
             enumerate(&self.task, max_runs, &mut |runs| watch.look(runs as u64, 0, f64::NEG_INFINITY))
         })?;
         let pair = |(value, log): &(Value, f64)| Ok((self.object(py, value)?, *log));
@@ -193,7 +196,7 @@ impl PyTask {
         seed: u64,
         watch: Option<Py<PyAny>>,
     ) -> PyResult<(Vec<PyOutcome>, u64, bool)> {
-        let found = detached(py, &self.task.program, None, watch.as_ref(), |watch| {
+        let (found, _) = detached(py, &self.task.program, None, watch.as_ref(), |watch| {
             let mut look = |tries| watch.look(tries, 0, f64::NEG_INFINITY);
             rejection(&self.task, n, bound, max_tries, seed, &mut look)
         })?;
@@ -210,7 +213,7 @@ impl PyTask {
         threads: Option<usize>,
         watch: Option<Py<PyAny>>,
     ) -> PyResult<(Vec<PyOutcome>, f64)> {
-        let found = detached(py, &self.task.program, threads, watch.as_ref(), |watch| {
+        let (found, _) = detached(py, &self.task.program, threads, watch.as_ref(), |watch| {
             importance(&self.task, n, seed, &mut |runs| watch.look(runs as u64, 0, f64::NEG_INFINITY))
         })?;
         Ok((self.outcomes(found.samples, false, |s| s.record.log_score()), found.log_evidence))
@@ -261,7 +264,7 @@ impl PyTask {
             },
             when: ess.map_or(When::Always, When::EffectiveBelow),
         };
-        let found = detached(py, program, threads, watch.as_ref(), |watch| {
+        let (found, pressed) = detached(py, program, threads, watch.as_ref(), |watch| {
             smc(&self.task, &settings, &mut |p| watch.look(p.barriers as u64, p.ended, p.best))
         })?;
         let facts = PyDict::new(py);
@@ -270,7 +273,7 @@ impl PyTask {
         facts.set_item("steps", found.steps)?;
         facts.set_item("resampled", found.resampled)?;
         facts.set_item("ancestors", found.ancestors)?;
-        facts.set_item("interrupted", found.interrupted)?;
+        facts.set_item("interrupted", found.interrupted || pressed)?;
         let classes = &self.model.get().classes;
         let outcomes: Vec<PyOutcome> = found
             .particles
