@@ -10,7 +10,6 @@ use niwaki_geom::Shape;
 use niwaki_math::Dist;
 use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::fault::Fault;
-use niwaki_vm::machine::Stop;
 use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
 use niwaki_vm::machine::state::State;
 use niwaki_vm::value::{Value, repr};
@@ -63,7 +62,7 @@ impl Answers<f64> for Ask<'_> {
     }
 
     fn score(&mut self, at: &At<'_, f64>, factor: Factor, log: f64) -> Result<Answer<()>, Fault> {
-        self.record.factor(check_factor(log)?, &factor_name(at, factor));
+        self.record.factor(check_factor(log)?, || factor_name(at, factor));
         Ok(if self.record.cause.is_some() { Answer::Pause } else { Answer::Go(()) })
     }
 
@@ -104,10 +103,7 @@ pub fn enumerate(
             let Some(future) = branch.state.runnable().first().copied() else {
                 return Err(Box::new(machine.waiting_cycle(&branch.state)).into());
             };
-            let stop = machine.resume(&mut branch.state, future, &mut ask)?;
-            debug_assert!(
-                stop != Stop::Waiting || !branch.state.runnable().is_empty() || branch.state.has_ended()
-            );
+            machine.resume(&mut branch.state, future, &mut ask)?;
         }
         let values = std::mem::take(&mut ask.open);
         if branch.record.cause.is_some() {

@@ -57,12 +57,7 @@ impl Answers<f64> for Forward<'_> {
 
     #[inline(always)]
     fn score(&mut self, at: &At<'_, f64>, factor: Factor, log: f64) -> Result<Answer<()>, Fault> {
-        let log = check_factor(log)?;
-        if log == f64::NEG_INFINITY {
-            self.record.factor(log, &factor_name(at, factor));
-        } else {
-            self.record.factor(log, "");
-        }
+        self.record.factor(check_factor(log)?, || factor_name(at, factor));
         Ok(self.barrier())
     }
 

@@ -78,12 +78,12 @@ impl Record {
         self.log.push(address, value.clone());
     }
 
-    /// Adds a factor.
+    /// Adds a factor; `name` is asked what a person calls it only where it makes the run impossible.
     #[inline]
-    pub fn factor(&mut self, log: f64, what: &str) {
+    pub fn factor(&mut self, log: f64, name: impl FnOnce() -> String) {
         self.log_factors += grid(log);
-        if log == f64::NEG_INFINITY && self.cause.is_none() {
-            self.cause = Some(what.to_string());
+        if log == f64::NEG_INFINITY {
+            self.cause.get_or_insert_with(name);
         }
     }
 

@@ -113,7 +113,7 @@ impl Answers<f64> for Replay<'_> {
     }
 
     fn score(&mut self, at: &At<'_, f64>, factor: Factor, log: f64) -> Result<Answer<()>, Fault> {
-        self.trace.record.factor(check_factor(log)?, &factor_name(at, factor));
+        self.trace.record.factor(check_factor(log)?, || factor_name(at, factor));
         Ok(Answer::Go(()))
     }
 

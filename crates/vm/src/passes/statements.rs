@@ -203,9 +203,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
         for i in 0..moves.len() {
             if moves[..i].iter().any(|m| m.0 == moves[i].1) {
                 let saved = self.register()?;
-                let at = self.code.len();
                 self.op(Op::Move { to: saved, from: moves[i].1 });
-                debug_assert!(at < self.code.len());
                 moves[i].1 = saved;
             }
         }
