@@ -220,6 +220,8 @@ pub enum Op {
     Assert { a: Operand, message: Operand },
     /// Suspend or not: what the numbered site says.
     Site { site: SiteId },
+    /// The sites numbered `from..to` are not on the path taken: what they hold goes.
+    Clear { from: u16, to: u16 },
     /// Return from the function.
     Return { a: Operand },
     /// Return from an iteration: how it ended, carried values (and the returned value).

@@ -118,7 +118,7 @@ impl<S: Scalar> Machine<'_, S> {
     }
 
     /// The shapes of an `emit`: its arguments, lists and tuples of them taken apart.
-    fn collect_shapes(&mut self, state: &State<S>, r: Registers<'_, S>, site: &Site) -> Result<(), Fault> {
+    pub(super) fn collect_shapes(&mut self, state: &State<S>, r: Registers<'_, S>, site: &Site) -> Result<(), Fault> {
         self.shapes.clear();
         r.gather(state, &self.scratch, site.args, &mut self.buffer);
         self.buffer.reverse();
@@ -140,7 +140,7 @@ impl<S: Scalar> Machine<'_, S> {
     }
 
     /// Takes the function value off the front of the buffer; adds its defaults and captures behind the arguments.
-    fn unwrap_callee(&mut self) -> Result<(FunctionId, bool), Fault> {
+    pub(super) fn unwrap_callee(&mut self) -> Result<(FunctionId, bool), Fault> {
         let callee = self.buffer.remove(0);
         let Value::Function(closure) = &callee else {
             let found = callee.described();
