@@ -164,7 +164,9 @@ impl<'p, S: Scalar> Machine<'p, S> {
     ) -> Result<Stop, Box<RunFault>> {
         self.pure.clear();
         let Status::Runnable(node) = state.futures[future.0 as usize].status else {
-            return Err(Box::new(self.report(state, Fault::new("not-runnable", "this future cannot run now"))));
+            return Err(Box::new(
+                self.report(state, Fault::new("not-runnable", "this future cannot run now")),
+            ));
         };
         let pc = state.nodes[node.0 as usize].pc as usize;
         match self.interpret(state, &mut Dropped, future, (node, pc), answers) {

@@ -205,8 +205,17 @@ impl<S: Scalar> State<S> {
         if self.free.is_empty() {
             self.free.resize(program.functions.len(), NodeId::NONE);
         }
-        let made =
-            Node { path, function, parent, site, registers: 0, iteration: 0, pc: 0, slots: u32::MAX, made: 0 };
+        let made = Node {
+            path,
+            function,
+            parent,
+            site,
+            registers: 0,
+            iteration: 0,
+            pc: 0,
+            slots: u32::MAX,
+            made: 0,
+        };
         let free = self.free[function.0 as usize];
         if free != NodeId::NONE {
             let node = &mut self.nodes[free.0 as usize];

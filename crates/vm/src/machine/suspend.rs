@@ -118,7 +118,12 @@ impl<S: Scalar> Machine<'_, S> {
     }
 
     /// The shapes of an `emit`: its arguments, lists and tuples of them taken apart.
-    pub(super) fn collect_shapes(&mut self, state: &State<S>, r: Registers<'_, S>, site: &Site) -> Result<(), Fault> {
+    pub(super) fn collect_shapes(
+        &mut self,
+        state: &State<S>,
+        r: Registers<'_, S>,
+        site: &Site,
+    ) -> Result<(), Fault> {
         self.shapes.clear();
         r.gather(state, &self.scratch, site.args, &mut self.buffer);
         self.buffer.reverse();

@@ -397,13 +397,14 @@ impl<S: Scalar> Builder<'_, '_, S> {
         if let Some(test) = test {
             b.branch_unless(test, out)?;
         }
-        let at_test = b.env.clone();
+        let (at_test, tested) = (b.env.clone(), b.sites.len());
         if b.block(body)? {
             b.return_iteration(exit::NEXT, None);
         }
         b.bind(out);
         if test.is_some() {
             b.env = at_test;
+            b.clear(tested, b.sites.len());
             b.return_iteration(exit::BREAK, None);
         }
         let params = b.carried.len() + usize::from(element.is_some());

@@ -61,8 +61,7 @@ impl<S: Scalar> Kept<S> {
         let captures = &r.f.operands[l.captures.range()];
         if held == Slot::NOTHING {
             let path = join(state.nodes[node.0 as usize].path, site.key);
-            let header =
-                self.new_node(machine.program, state, l.header, node, u32::from(number.0), path);
+            let header = self.new_node(machine.program, state, l.header, node, u32::from(number.0), path);
             self.write_slot(self.quiet, at, Slot { held: header.0, mark: 0, log: 0.0 });
             let to = state.nodes[header.0 as usize].registers as usize;
             state.registers[to].store(over);
@@ -191,7 +190,8 @@ impl<S: Scalar> Kept<S> {
             let value = |k: usize| r.get(state, &machine.scratch, operands[k]);
             unchanged = match next {
                 Some(next) => {
-                    let to = state.nodes[next.0 as usize].registers as usize + usize::from(self.is_for(state, header));
+                    let to = state.nodes[next.0 as usize].registers as usize
+                        + usize::from(self.is_for(state, header));
                     (0..operands.len()).all(|k| same(value(k), &state.registers[to + k]))
                 }
                 None => {

@@ -215,13 +215,7 @@ impl<S: Scalar> Kept<S> {
 
     /// Puts a value into a register of a node; false when it holds that already.
     #[inline]
-    fn write_to(
-        &mut self,
-        state: &mut State<S>,
-        node_is_new: bool,
-        place: usize,
-        value: Value<S>,
-    ) -> bool {
+    fn write_to(&mut self, state: &mut State<S>, node_is_new: bool, place: usize, value: Value<S>) -> bool {
         let register = &mut state.registers[place];
         if same(register, &value) {
             return false;

@@ -101,8 +101,7 @@ impl<S: Scalar> Kept<S> {
             }
             SiteKind::Force => {
                 // A future has returned when its handle is seen: the handle is its value.
-                let value =
-                    r.get(state, &machine.scratch, r.f.operands[site.args.start as usize]).clone();
+                let value = r.get(state, &machine.scratch, r.f.operands[site.args.start as usize]).clone();
                 self.write_to(state, self.quiet, r.own + site.to.index(), value);
                 Ok(After::Next)
             }
@@ -175,7 +174,11 @@ impl<S: Scalar> Kept<S> {
         let log = match site.kind {
             SiteKind::Factor => as_real(r.get(state, &machine.scratch, operand))?.value(),
             SiteKind::Condition => {
-                if ops::truth(r.get(state, &machine.scratch, operand)) { 0.0 } else { f64::NEG_INFINITY }
+                if ops::truth(r.get(state, &machine.scratch, operand)) {
+                    0.0
+                } else {
+                    f64::NEG_INFINITY
+                }
             }
             _ => {
                 let mut made = None;

@@ -214,7 +214,11 @@ impl<S: Scalar> Machine<'_, S> {
         let (proposed, log) = match proposal {
             Ok(pair) => pair,
             Err(fault) => {
-                self.here = super::super::Here { node, function: state.nodes[node.0 as usize].function, pc: site.next as usize - 1 };
+                self.here = super::super::Here {
+                    node,
+                    function: state.nodes[node.0 as usize].function,
+                    pc: site.next as usize - 1,
+                };
                 return Err(Box::new(self.report(state, fault)));
             }
         };
