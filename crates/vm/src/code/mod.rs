@@ -280,6 +280,14 @@ pub enum SiteKind {
     },
     /// The value of a future.
     Force,
+    /// An element of a collection: the register holds the element, the result refers to it. Where activations are
+    /// dropped, the result is the element.
+    Cell {
+        /// Holds the element.
+        content: Operand,
+    },
+    /// An element of a collection, read: `args[0]` at `args[1]`.
+    Read,
 }
 
 /// A lifted loop: its iterations are activations of their own.

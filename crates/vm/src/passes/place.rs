@@ -71,6 +71,9 @@ pub(crate) fn reads_and_writes<S: Scalar>(f: &Function<S>, op: &Op) -> (Vec<Oper
                 reads.extend(l.over.into_iter().chain(run(l.carried)).chain(run(l.captures)));
                 writes.extend(run(l.out).into_iter().chain(l.exit.into_iter().flat_map(|(a, b)| [a, b])));
             }
+            if let SiteKind::Cell { content } = s.kind {
+                writes.push(content);
+            }
             (reads, writes)
         }
     }
@@ -215,6 +218,9 @@ fn rewrite<S: Scalar>(f: &mut Function<S>, map: impl Fn(Operand) -> Operand) {
         if let SiteKind::Loop(l) = &mut s.kind {
             l.over = l.over.map(&map);
             l.exit = l.exit.map(|(a, b)| (map(a), map(b)));
+        }
+        if let SiteKind::Cell { content } = &mut s.kind {
+            *content = map(*content);
         }
     }
     for op in &mut f.code {

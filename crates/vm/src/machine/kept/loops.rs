@@ -114,6 +114,7 @@ impl<S: Scalar> Kept<S> {
             }
             let element = (count != usize::MAX).then(|| iter_get(&over, i));
             let Some(child) = self.loops[list].get(i).copied() else {
+                self.leaves_its_activation();
                 if handed == Handed::Unchanged {
                     // The loop has grown: what its last iteration left is what it left the owner.
                     self.gather_left(machine, state, header);
@@ -153,6 +154,7 @@ impl<S: Scalar> Kept<S> {
                 }
             }
             if changed || !self.reuse || self.is_marked(child) {
+                self.leaves_its_activation();
                 self.counters.entered += 1;
                 self.note(Step::Entered(child));
                 return Ok(Next::Enter(child));
@@ -251,6 +253,7 @@ impl<S: Scalar> Kept<S> {
         let n = &state.nodes[header.0 as usize];
         let owner = &state.nodes[n.parent.0 as usize];
         if is_base {
+            self.leaves_its_activation();
             self.counters.entered += 1;
             self.note(Step::Entered(n.parent));
         }

@@ -6,6 +6,7 @@ use super::super::question::{Halt, as_real};
 use super::super::registers::Registers;
 use super::super::state::{NodeId, State};
 use super::super::suspend::After;
+use super::cells::Reader;
 use super::journal::Birth;
 use super::{Kept, Slot};
 use crate::code::{Args, Site, SiteId, SiteKind};
@@ -99,6 +100,15 @@ impl<S: Scalar> Kept<S> {
                 }
                 Ok(After::Next)
             }
+            SiteKind::Cell { content } => {
+                let at = Kept::slot_at(state, node, number.0 as usize);
+                self.cell(state, &machine.scratch, r, at, site, *content);
+                Ok(After::Next)
+            }
+            SiteKind::Read => {
+                self.read(state, &machine.scratch, r, node, number.0, site)?;
+                Ok(After::Next)
+            }
             SiteKind::Force => {
                 // A future has returned when its handle is seen: the handle is its value.
                 let value = r.get(state, &machine.scratch, r.f.operands[site.args.start as usize]).clone();
@@ -138,6 +148,7 @@ impl<S: Scalar> Kept<S> {
             }
             return if log == f64::NEG_INFINITY { Err(Halt::Impossible) } else { Ok(()) };
         }
+        self.leaves_its_activation();
         let question = At { site, function: r.f, node, state, program };
         let address = question.address();
         let Answer::Go(value) = answers.choice(&question, dist)? else { return Err(Halt::Paused) };
@@ -242,8 +253,9 @@ impl<S: Scalar> Kept<S> {
     }
 
     /// Takes away what a question's slot holds.
-    pub(super) fn withdraw(&mut self, kind: &SiteKind, at: usize) {
+    pub(super) fn withdraw(&mut self, kind: &SiteKind, at: usize, node: NodeId, site: u16) {
         let slot = self.slots[at];
+        self.leaves_its_activation();
         match kind {
             SiteKind::Sample { .. } | SiteKind::SampleDist | SiteKind::SampleIndexed => {
                 debug_assert!(slot.held & Slot::BORN == 0, "a site is met once in a transaction");
@@ -259,6 +271,12 @@ impl<S: Scalar> Kept<S> {
             | SiteKind::Factor
             | SiteKind::Condition => self.add(false, -slot.log),
             SiteKind::Emit => self.journal.retracted.push(slot.held),
+            SiteKind::Cell { .. } => self.journal.dead_cells.push(slot.held),
+            SiteKind::Read => {
+                let reader = Reader { node, site, slot: at as u32 };
+                self.journal.reads.push((reader, slot.held));
+                self.subscribe(reader, Slot::NOTHING);
+            }
             _ => {}
         }
     }
