@@ -125,7 +125,7 @@ fn main() {
         trace.commit(&program);
         let (mut steps, mut accepted, mut first, start) = (0u64, 0u64, 0.0, cpu_seconds());
         let counters = trace.counters();
-        while !steps.is_multiple_of(64) || cpu_seconds() - start < seconds {
+        while !steps.is_multiple_of(1024) || cpu_seconds() - start < seconds {
             let mut pick = Stream::new(1, 2, 0, steps);
             let choice = (pick.uniform() * trace.len() as f64) as usize;
             let change = machine

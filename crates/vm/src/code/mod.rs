@@ -286,6 +286,11 @@ pub enum SiteKind {
         /// Holds the element.
         content: Operand,
     },
+    /// As `Cell`, with the list that it is appended to: the list, then the element; the result is the longer list.
+    Append {
+        /// Holds the element.
+        content: Operand,
+    },
     /// An element of a collection, read: `args[0]` at `args[1]`.
     Read,
 }

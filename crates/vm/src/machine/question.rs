@@ -127,6 +127,11 @@ impl<S: Scalar> Machine<'_, S> {
         match site.kind {
             SiteKind::SampleDist | SiteKind::ObserveDist => as_dist(get!(0)),
             SiteKind::Sample { family } | SiteKind::Observe { family } => {
+                if let [only] = r.f.operands[args.range()]
+                    && let Some(row) = self.known.row(r.get(state, &self.scratch, only))
+                {
+                    return self.known.dist(row, family, r.get(state, &self.scratch, only));
+                }
                 Ok(made.insert(self.made(state, r, args, family)?))
             }
             _ => match index::index_ref(get!(0), get!(1)) {

@@ -102,7 +102,7 @@ impl<S: Scalar> Trace<S> {
                         let [key, written] = f.operands[site.args.range()] else { continue };
                         each(place, Item::Query(value(key), &self.kept.resolved(&self.state, value(written))));
                     }
-                    SiteKind::Force | SiteKind::Cell { .. } | SiteKind::Read => {}
+                    SiteKind::Force | SiteKind::Cell { .. } | SiteKind::Append { .. } | SiteKind::Read => {}
                 }
             }
         }

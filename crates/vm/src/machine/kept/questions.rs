@@ -63,6 +63,7 @@ impl<S: Scalar> Kept<S> {
     }
 
     /// Carries out a site.
+    #[inline(always)]
     pub(super) fn carry_out<A: Answers<S>>(
         &mut self,
         machine: &mut Machine<'_, S>,
@@ -103,6 +104,11 @@ impl<S: Scalar> Kept<S> {
             SiteKind::Cell { content } => {
                 let at = Kept::slot_at(state, node, number.0 as usize);
                 self.cell(state, &machine.scratch, r, at, site, *content);
+                Ok(After::Next)
+            }
+            SiteKind::Append { content } => {
+                let at = Kept::slot_at(state, node, number.0 as usize);
+                self.append(state, &machine.scratch, r, at, site, *content)?;
                 Ok(After::Next)
             }
             SiteKind::Read => {
@@ -271,7 +277,7 @@ impl<S: Scalar> Kept<S> {
             | SiteKind::Factor
             | SiteKind::Condition => self.add(false, -slot.log),
             SiteKind::Emit => self.journal.retracted.push(slot.held),
-            SiteKind::Cell { .. } => self.journal.dead_cells.push(slot.held),
+            SiteKind::Cell { .. } | SiteKind::Append { .. } => self.journal.dead_cells.push(slot.held),
             SiteKind::Read => {
                 let reader = Reader { node, site, slot: at as u32 };
                 self.journal.reads.push((reader, slot.held));
