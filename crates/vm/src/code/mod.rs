@@ -321,6 +321,8 @@ pub struct Site {
     pub kind: SiteKind,
     /// Register for the result.
     pub to: Operand,
+    /// Whether the result is read.
+    pub is_read: bool,
     /// Arguments.
     pub args: Args,
     /// Hash of qualified function, what is called, the name assigned to, and the occurrence among equals:

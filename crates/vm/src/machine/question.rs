@@ -191,7 +191,9 @@ impl<S: Scalar> Machine<'_, S> {
                 let args = Args { len: last as u16, ..site.args };
                 let dist = self.dist(state, r, site, args, &mut made)?;
                 let log = log_density(dist, &value)?;
-                state.registers[r.own + site.to.index()].store(value);
+                if site.is_read {
+                    state.registers[r.own + site.to.index()].store(value);
+                }
                 (Factor::Observe, log)
             }
         };

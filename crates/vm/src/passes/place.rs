@@ -146,6 +146,7 @@ pub(crate) fn place<S: Scalar>(f: &mut Function<S>, registers: usize) {
                 f.operands[s.args.range()].iter().for_each(|o| node.set(*o));
             }
             let unread = !after[at].has(s.to);
+            f.sites[site.0 as usize].is_read = !unread;
             match &mut f.sites[site.0 as usize].kind {
                 SiteKind::Future { detached, .. } | SiteKind::FutureApply { detached } => *detached = unread,
                 _ => {}

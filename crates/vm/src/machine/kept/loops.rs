@@ -192,33 +192,40 @@ impl<S: Scalar> Kept<S> {
             Some(active) if active.header == header && !is_base => *active,
             _ => Active { header, captures: false, over: false },
         };
-        let plain = self.reuse && !active.captures && !active.over && !self.is_marked(header);
         if let Some(next) = next
-            && plain
+            && self.reuse
+            && !active.over
             && (self.early || !is_base)
             && kind == exit::NEXT
             && i64::from(n.pc) == kind
         {
-            // The frequent case: nothing but what is handed on can have changed.
-            let first = usize::from(!matches!(state.registers[above.registers as usize], Value::None));
-            let to = state.nodes[next.0 as usize].registers as usize + first;
+            // The frequent case: nothing but what is handed on, or what all iterations capture, can have changed.
             let mut changed = false;
-            for (k, o) in operands.iter().enumerate() {
-                let value = r.get(state, &machine.scratch, *o);
-                if !same(value, &state.registers[to + k]) {
-                    let value = value.clone();
-                    let old = std::mem::replace(&mut state.registers[to + k], value);
-                    self.journal.registers.push(((to + k) as u32, old));
-                    changed = true;
+            if !operands.is_empty() {
+                let first = usize::from(!matches!(state.registers[above.registers as usize], Value::None));
+                let to = state.nodes[next.0 as usize].registers as usize + first;
+                for (k, o) in operands.iter().enumerate() {
+                    let value = r.get(state, &machine.scratch, *o);
+                    if !same(value, &state.registers[to + k]) {
+                        let value = value.clone();
+                        let old = std::mem::replace(&mut state.registers[to + k], value);
+                        self.journal.registers.push(((to + k) as u32, old));
+                        changed = true;
+                    }
                 }
             }
-            if changed {
+            if changed || active.captures || self.is_marked(next) {
                 self.leaves_its_activation();
                 self.counters.entered += 1;
                 self.note(Step::Entered(next));
                 return Ok(Some((next, 0)));
             }
-            return Ok(if is_base { None } else { self.go_on(machine, state, header, false, false) });
+            if is_base {
+                return Ok(None);
+            }
+            if !self.is_marked(header) {
+                return Ok(self.go_on(machine, state, header, false, false));
+            }
         }
         let mut unchanged = !is_new && i64::from(n.pc) == kind;
         if unchanged {
@@ -245,7 +252,7 @@ impl<S: Scalar> Kept<S> {
             if is_base && self.early {
                 return Ok(None);
             }
-            if !is_base && plain {
+            if !is_base && !active.captures && !active.over && !self.is_marked(header) {
                 return Ok(self.go_on(machine, state, header, is_base, false));
             }
         }

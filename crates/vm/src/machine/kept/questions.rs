@@ -203,7 +203,9 @@ impl<S: Scalar> Kept<S> {
                 let value = r.get(state, &machine.scratch, operand).clone();
                 let dist = machine.dist(state, r, site, args, &mut made)?;
                 let log = log_density(dist, &value)?.value();
-                self.write_to(state, self.quiet, r.own + site.to.index(), value);
+                if site.is_read {
+                    self.write_to(state, self.quiet, r.own + site.to.index(), value);
+                }
                 log
             }
         };
