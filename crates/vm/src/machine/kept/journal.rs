@@ -24,6 +24,8 @@ pub(crate) struct Journal<S: Scalar> {
     pub retracted: Vec<u32>,
     pub births: Vec<Birth>,
     pub deaths: Vec<u32>,
+    /// Choices that were drawn anew where they stand: address, and the value before.
+    pub anew: Vec<(u128, Value<S>)>,
 }
 
 /// A change of the iterations that a loop has.
@@ -56,6 +58,7 @@ impl<S: Scalar> Default for Journal<S> {
             retracted: vec![],
             births: vec![],
             deaths: vec![],
+            anew: vec![],
         }
     }
 }
@@ -73,5 +76,6 @@ impl<S: Scalar> Journal<S> {
         self.retracted.clear();
         self.births.clear();
         self.deaths.clear();
+        self.anew.clear();
     }
 }

@@ -8,7 +8,7 @@
 //! * `slot`, `journal`: what is remembered, and what can be undone;
 //! * `questions`: choices, factors, emits and queries that are reached again;
 //! * `calls`, `loops`: activations that are entered, skipped, made and taken away;
-//! * `transaction`: changing choices, keeping or undoing it;
+//! * `transaction`: changing choices, keeping or undoing it; `changes`: what that did to the choices;
 //! * [`inspect`]: what a trace holds, in program order.
 //!
 //! Futures run where they are made, so a future's handle is its value.
@@ -16,6 +16,7 @@
 //! Source: C3, dissertation chapter 3: its cache is the slots, its continuations are (node, program counter).
 
 mod calls;
+mod changes;
 pub mod inspect;
 mod journal;
 mod loops;

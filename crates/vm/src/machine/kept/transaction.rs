@@ -111,12 +111,12 @@ impl<S: Scalar> Trace<S> {
     }
 
     /// Primitives that the open transaction put into the scene.
-    pub fn emitted(&self) -> impl Iterator<Item = &Primitive> {
+    pub fn emitted(&self) -> impl Iterator<Item = &Primitive> + Clone {
         self.kept.journal.emitted.iter().filter_map(|row| self.kept.emits[*row as usize].as_ref())
     }
 
     /// Primitives that the open transaction took out of the scene.
-    pub fn retracted(&self) -> impl Iterator<Item = &Primitive> {
+    pub fn retracted(&self) -> impl Iterator<Item = &Primitive> + Clone {
         self.kept.journal.retracted.iter().filter_map(|row| self.kept.emits[*row as usize].as_ref())
     }
 
@@ -299,7 +299,7 @@ impl<S: Scalar> Machine<'_, S> {
 
 impl<S: Scalar> Kept<S> {
     /// Marks a node and those above it: a run from the root must enter them.
-    fn mark_above(&mut self, state: &super::State<S>, node: NodeId) {
+    pub(super) fn mark_above(&mut self, state: &super::State<S>, node: NodeId) {
         self.marking = true;
         if self.marks.len() < state.nodes.len() {
             self.marks.resize(state.nodes.len(), 0);
