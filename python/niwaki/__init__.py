@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from niwaki.infer import Progress, grow, run
     from niwaki.lang.plain import run_python
     from niwaki.methods import enumerate_all, forward, importance, rejection, smc
+    from niwaki.constraints import Residuals, residuals
     from niwaki.result import Result, Sample
     from niwaki.scene import Scene
     from niwaki.sketches import Score, no_self_intersection, volume_match
@@ -29,6 +30,7 @@ _HOMES = {
     "niwaki.infer": ("Progress", "grow", "run"),
     "niwaki.lang.plain": ("run_python",),
     "niwaki.methods": ("enumerate_all", "forward", "importance", "rejection", "smc"),
+    "niwaki.constraints": ("Residuals", "residuals"),
     "niwaki.result": ("Result", "Sample"),
     "niwaki.scene": ("Scene",),
     "niwaki.sketches": ("Score", "no_self_intersection", "volume_match"),
@@ -44,6 +46,7 @@ __all__ = [  # noqa: PLE0604
     "ModelFault",
     "NiwakiError",
     "Progress",
+    "Residuals",
     "Result",
     "Sample",
     "Scene",
@@ -55,6 +58,7 @@ __all__ = [  # noqa: PLE0604
     "importance",
     "no_self_intersection",
     "rejection",
+    "residuals",
     "run",
     "run_python",
     "smc",
