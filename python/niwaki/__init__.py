@@ -14,11 +14,11 @@ from niwaki._engine import __version__
 from niwaki.words import *  # noqa: F403
 
 if TYPE_CHECKING:
+    from niwaki.constraints import Residuals, residuals
     from niwaki.errors import InputError, ModelError, ModelFault, NiwakiError
     from niwaki.infer import Progress, grow, run
     from niwaki.lang.plain import run_python
     from niwaki.methods import enumerate_all, forward, importance, rejection, smc
-    from niwaki.constraints import Residuals, residuals
     from niwaki.result import Result, Sample
     from niwaki.scene import Scene
     from niwaki.sketches import Score, no_self_intersection, volume_match

@@ -81,7 +81,9 @@ class Residuals(Sequence[Constraint]):
     def __repr__(self) -> str:
         rows = [("widths", "residual", "width", "constraint", "line")]
         for one in self:
-            rows.append((f"{one.widths:.2f}", f"{one.residual:.4g}", f"{one.width:.4g}", one.address, one.line))
+            rows.append(
+                (f"{one.widths:.2f}", f"{one.residual:.4g}", f"{one.width:.4g}", one.address, one.line)
+            )
         sizes = [max(len(row[k]) for row in rows) for k in range(4)]
         lines = []
         for row in rows:

@@ -1,8 +1,8 @@
 """Whether draws of Markov chains can be trusted, and what they are worth; NumPy alone.
 
 Draws of one quantity are an array (chains, draws). R-hat and effective sample sizes are those of Vehtari, Gelman,
-Simpson, Carpenter & Buerkner 2021 ("Rank-normalization, folding, and localization"); the vector autocorrelation is that of
-the dissertation's Figures 4.3 and 4.5, with each chain's own mean and variance in place of one method's for all.
+Simpson, Carpenter & Buerkner 2021 ("Rank-normalization, folding, and localization"); the vector autocorrelation is
+that of the dissertation's Figures 4.3 and 4.5, with each chain's own mean and variance in place of one method's for all.
 """
 
 from __future__ import annotations
@@ -142,8 +142,8 @@ def autocorrelation(draws: ArrayLike) -> Reals:
     Returns
     -------
     (draws,) float64
-        `AC(t) = 1 / ((n - t) V) sum_i (v_i - m) . (v_{i+t} - m)` with the mean m and `V` the mean squared distance to it.
-        Far lags are noise. (The dissertation takes m and V of the HMC run for every method's chain.)
+        `AC(t) = 1 / ((n - t) V) sum_i (v_i - m) . (v_{i+t} - m)` with the mean m and V the mean squared distance to
+        it. Far lags are noise. (The dissertation takes m and V of the HMC run for every method's chain.)
     """
     x = np.asarray(draws, dtype=np.float64)
     x = x[:, None] if x.ndim == 1 else x
@@ -231,7 +231,9 @@ class Summaries(tuple[Summary, ...]):
             rows.append((s.name, f"{s.mean:.4g}", f"{s.sd:.4g}", f"{s.mcse:.2g}", *sizes))
         widths = [max(len(row[k]) for row in rows) for k in range(len(heads))]
         lines = [
-            "  ".join([row[0].ljust(widths[0]), *(c.rjust(w) for c, w in zip(row[1:], widths[1:], strict=True))])
+            "  ".join(
+                [row[0].ljust(widths[0]), *(c.rjust(w) for c, w in zip(row[1:], widths[1:], strict=True))]
+            )
             for row in rows
         ]
         return "\n".join(line.rstrip() for line in lines)
@@ -357,9 +359,7 @@ def _ess(x: Reals) -> float:
 
 
 def _time(rho: Reals) -> float:
-    """The autocorrelation time: sums of neighbouring pairs while they are positive, none above the one before
-    (Geyer 1992, section 3.3).
-    """
+    """The autocorrelation time from pairs of lags while they are positive, none above its elder (Geyer 1992, 3.3)."""
     pairs = max((len(rho) - 1) // 2, 1)
     sums = rho[0 : 2 * pairs : 2] + rho[1 : 2 * pairs : 2]
     negative = np.flatnonzero(sums <= 0.0)

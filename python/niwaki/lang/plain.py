@@ -15,11 +15,11 @@ from dataclasses import dataclass, field
 from types import FrameType, FunctionType
 from typing import Any
 
+from niwaki.constraints import Constraint
 from niwaki.errors import Call, InputError, ModelFault, NiwakiError, place
 from niwaki.lang import densities, vocabulary
 from niwaki.lang.instrument import instrumented
 from niwaki.lang.names import is_library
-from niwaki.constraints import Constraint
 from niwaki.words.distributions import Distribution
 from niwaki.words.effects import flatten
 from niwaki.words.models import Model, underlying
@@ -116,7 +116,9 @@ def run(
         raise state.fault(error) from error
     finally:
         current.reset(token)
-    return Run(value, state.made, state.log_prior, state.log_score, state.scene, state.answers, state.constraints)
+    return Run(
+        value, state.made, state.log_prior, state.log_score, state.scene, state.answers, state.constraints
+    )
 
 
 class PlainRun:

@@ -1,8 +1,8 @@
 """Soft constraints: what should hold, within a stated width, as log scores for `factor`; and smooth bends.
 
-Each function has derivatives of every order in all of its arguments. A width has the units of what is compared; it must
-be above 0. The one-sided scores and the smooth minimum, maximum and absolute value are all made of `sqrt(d^2 + width^2)`,
-which is `|d|` far from 0 and bends within a width of it.
+Each function has derivatives of every order in all of its arguments. A width has the units of what is compared; it
+must be above 0. The one-sided scores and the smooth minimum, maximum and absolute value are all made of
+`sqrt(d^2 + width^2)`, which is `|d|` far from 0 and bends within a width of it.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ def soft_at_least(a: float, b: float, width: float) -> float:
     Returns
     -------
     float
-        `-e^2 / 2` with the smooth shortfall `e = (d + sqrt(d^2 + 1)) / 2`, `d = (b - a) / width`: 0 well above `b`,
+        `-e^2 / 2` with the smooth shortfall `e = (d + sqrt(d^2 + 1)) / 2`, `d = (b - a) / width`: about 0 well above `b`,
         -1/8 at it, `-d^2 / 2` well below. Give it to `factor`.
     """
     a, b, width = 1.0 * a, 1.0 * b, _checked("soft_at_least", width)
