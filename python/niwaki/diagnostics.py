@@ -2,7 +2,7 @@
 
 Draws of one quantity are an array (chains, draws). R-hat and effective sample sizes are those of Vehtari, Gelman,
 Simpson, Carpenter & Buerkner 2021 ("Rank-normalization, folding, and localization"); the vector autocorrelation is
-that of the dissertation's Figures 4.3 and 4.5, with each chain's own mean and variance in place of one method's for all.
+that of the dissertation's Figures 4.3 and 4.5, with each chain's own mean and variance, not one method's for all.
 """
 
 from __future__ import annotations

@@ -50,7 +50,7 @@ def soft_at_least(a: float, b: float, width: float) -> float:
     Returns
     -------
     float
-        `-e^2 / 2` with the smooth shortfall `e = (d + sqrt(d^2 + 1)) / 2`, `d = (b - a) / width`: about 0 well above `b`,
+        `-e^2 / 2` with the smooth shortfall `e = (d + sqrt(d^2 + 1)) / 2`, `d = (b - a) / width`: about 0 far above,
         -1/8 at it, `-d^2 / 2` well below. Give it to `factor`.
     """
     a, b, width = 1.0 * a, 1.0 * b, _checked("soft_at_least", width)
