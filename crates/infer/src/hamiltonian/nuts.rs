@@ -18,36 +18,62 @@ pub struct Nuts {
     pub max_depth: u32,
     /// An energy error above this many nats is a divergence.
     pub max_energy_error: f64,
-    /// Vectors to be used again.
+    /// Stretches to be used again.
     spare: Vec<Vec<f64>>,
 }
 
 /// A stretch of a trajectory, in the direction in which it was grown.
 struct Stretch {
-    /// Momentum and velocity at its oldest point.
-    first: End,
-    /// Momentum and velocity at its newest point.
-    last: End,
-    /// The sum of its momenta.
-    rho: Vec<f64>,
+    /// Seven vectors, one after the other: see [`Part`]. In one piece, so that a stretch is made and dropped quickly.
+    vectors: Vec<f64>,
     /// Log of the sum of `exp(H_start - H)` over its points.
     log_weight: f64,
-    /// The point drawn from it.
-    chosen: Point,
-}
-
-/// Momentum and velocity.
-struct End {
-    p: Vec<f64>,
-    v: Vec<f64>,
-}
-
-/// A position with what is known of the target there.
-struct Point {
-    x: Vec<f64>,
-    gradient: Vec<f64>,
+    /// Log density at the chosen point.
     log_density: f64,
+    /// The Hamiltonian at the chosen point.
     energy: f64,
+}
+
+/// The vectors of a stretch.
+#[derive(Clone, Copy)]
+enum Part {
+    /// Momentum at its oldest point.
+    FirstP,
+    /// Velocity at its oldest point.
+    FirstV,
+    /// Momentum at its newest point.
+    LastP,
+    /// Velocity at its newest point.
+    LastV,
+    /// The sum of its momenta.
+    Rho,
+    /// The point drawn from it.
+    X,
+    /// The gradient there.
+    Gradient,
+}
+
+impl Stretch {
+    /// One of its vectors.
+    #[inline]
+    fn part(&self, part: Part) -> &[f64] {
+        let dim = self.vectors.len() / 7;
+        &self.vectors[part as usize * dim..(part as usize + 1) * dim]
+    }
+
+    /// The places of a run of vectors.
+    #[inline]
+    fn places(&self, from: Part, to: Part) -> std::ops::Range<usize> {
+        let dim = self.vectors.len() / 7;
+        from as usize * dim..(to as usize + 1) * dim
+    }
+
+    /// Looks at it from the other end.
+    fn turn_around(&mut self) {
+        let half = self.places(Part::FirstP, Part::FirstV).end;
+        let (first, rest) = self.vectors.split_at_mut(half);
+        first.swap_with_slice(&mut rest[..half]);
+    }
 }
 
 /// What a trajectory carries along while it grows.
@@ -94,7 +120,7 @@ impl Nuts {
 
         // The two ends of the trajectory, and the whole of it, `last` in front.
         let (mut front, mut back) = (phase.clone(), phase.clone());
-        let mut whole = growth.leaf(phase, 0.0);
+        let mut whole = growth.leaf(phase, start_energy);
         let (mut depth, mut moved) = (0, false);
         while depth < self.max_depth {
             let forwards = growth.stream.uniform() < 0.5;
@@ -102,14 +128,14 @@ impl Nuts {
             depth += 1;
             let Some(newer) = growth.grow(edge, signed, depth - 1) else { break };
             if !forwards {
-                std::mem::swap(&mut whole.first, &mut whole.last);
+                whole.turn_around();
             }
             // Biased towards the newer half: min(1, w_new / w_old).
             let take = growth.stream.uniform() < acceptance(newer.log_weight - whole.log_weight);
             moved |= take;
             let turned = growth.join(&mut whole, newer, take);
             if !forwards {
-                std::mem::swap(&mut whole.first, &mut whole.last);
+                whole.turn_around();
             }
             if turned {
                 break;
@@ -123,39 +149,25 @@ impl Nuts {
             energy_error,
             stop,
         });
-        phase.x.copy_from_slice(&whole.chosen.x);
-        phase.gradient.copy_from_slice(&whole.chosen.gradient);
-        phase.log_density = whole.chosen.log_density;
-        let energy = whole.chosen.energy;
-        whole.give_back(&mut self.spare);
+        phase.x.copy_from_slice(whole.part(Part::X));
+        phase.gradient.copy_from_slice(whole.part(Part::Gradient));
+        phase.log_density = whole.log_density;
+        let energy = whole.energy;
+        self.spare.push(whole.vectors);
         let accept = if steps > 0 { accepts / f64::from(steps) } else { 0.0 };
         Transition { accept, moved, steps, depth, start_energy, energy, divergence }
     }
 }
 
 impl<P: Potential + ?Sized> Growth<'_, P> {
-    /// A copy of a vector, in memory that was used before where there is some.
-    fn copy(&mut self, of: &[f64]) -> Vec<f64> {
-        let mut made = self.spare.pop().unwrap_or_default();
-        made.clear();
-        made.extend_from_slice(of);
-        made
-    }
-
-    /// The stretch of one point.
-    fn leaf(&mut self, at: &Phase, log_weight: f64) -> Stretch {
-        Stretch {
-            first: End { p: self.copy(&at.p), v: self.copy(&at.v) },
-            last: End { p: self.copy(&at.p), v: self.copy(&at.v) },
-            rho: self.copy(&at.p),
-            log_weight,
-            chosen: Point {
-                x: self.copy(&at.x),
-                gradient: self.copy(&at.gradient),
-                log_density: at.log_density,
-                energy: at.energy(),
-            },
+    /// The stretch of one point, in memory that was used before where there is some.
+    fn leaf(&mut self, at: &Phase, energy: f64) -> Stretch {
+        let mut vectors = self.spare.pop().unwrap_or_default();
+        vectors.clear();
+        for part in [&at.p, &at.v, &at.p, &at.v, &at.p, &at.x, &at.gradient] {
+            vectors.extend_from_slice(part);
         }
+        Stretch { vectors, log_weight: self.start_energy - energy, log_density: at.log_density, energy }
     }
 
     /// `2^depth` more points beyond `edge`; None when the target refused one, the energy drifted too far, or a
@@ -164,25 +176,26 @@ impl<P: Potential + ?Sized> Growth<'_, P> {
         if depth == 0 {
             let refused = leapfrog(self.target, self.metric, edge, step, 1).err();
             self.steps += 1;
-            let energy_error = if refused.is_some() { f64::NAN } else { edge.energy() - self.start_energy };
+            let energy = if refused.is_some() { f64::NAN } else { edge.energy() };
+            let energy_error = energy - self.start_energy;
             self.accepts += acceptance(-energy_error);
             // Written so that a NaN is a divergence.
             if !(energy_error <= self.max_energy_error) {
                 self.broken = Some((energy_error, refused, edge.x.clone()));
                 return None;
             }
-            return Some(self.leaf(edge, -energy_error));
+            return Some(self.leaf(edge, energy));
         }
         let mut older = self.grow(edge, step, depth - 1)?;
         let Some(newer) = self.grow(edge, step, depth - 1) else {
-            older.give_back(self.spare);
+            self.spare.push(older.vectors);
             return None;
         };
         // Within a subtree every point has its own weight: w_new / (w_old + w_new).
         let total = log_add(older.log_weight, newer.log_weight);
         let take = self.stream.uniform() < acceptance(newer.log_weight - total);
         if self.join(&mut older, newer, take) {
-            older.give_back(self.spare);
+            self.spare.push(older.vectors);
             return None;
         }
         Some(older)
@@ -191,28 +204,27 @@ impl<P: Potential + ?Sized> Growth<'_, P> {
     /// Lengthens `older` by the `newer` stretch that follows it, whose chosen point it takes if told to; true when
     /// the two together have turned.
     fn join(&mut self, older: &mut Stretch, newer: Stretch, take: bool) -> bool {
+        use Part::{FirstP, FirstV, Gradient, LastP, LastV, Rho, X};
+        let turns = |v: &[f64], p: &[f64], rho: &[f64]| dot(v, p) + dot(v, rho) <= 0.0;
         // Each half with the nearest end of the other: catches a turn that the halves are symmetric about.
-        let (first, middle, second, last) = (&older.first, &older.last, &newer.first, &newer.last);
-        let across = dot(&first.v, &second.p) + dot(&first.v, &older.rho) <= 0.0
-            || dot(&second.v, &second.p) + dot(&second.v, &older.rho) <= 0.0
-            || dot(&middle.v, &middle.p) + dot(&middle.v, &newer.rho) <= 0.0
-            || dot(&last.v, &middle.p) + dot(&last.v, &newer.rho) <= 0.0;
-        add(&mut older.rho, 1.0, &newer.rho);
-        let turned = dot(&older.first.v, &older.rho) <= 0.0 || dot(&newer.last.v, &older.rho) <= 0.0;
+        let across = turns(older.part(FirstV), newer.part(FirstP), older.part(Rho))
+            || turns(newer.part(FirstV), newer.part(FirstP), older.part(Rho))
+            || turns(older.part(LastV), older.part(LastP), newer.part(Rho))
+            || turns(newer.part(LastV), older.part(LastP), newer.part(Rho));
+        let sum = older.places(Rho, Rho);
+        add(&mut older.vectors[sum], 1.0, newer.part(Rho));
+        let end = older.places(LastP, LastV);
+        older.vectors[end.clone()].copy_from_slice(&newer.vectors[end]);
+        let turned =
+            dot(older.part(FirstV), older.part(Rho)) <= 0.0 || dot(older.part(LastV), older.part(Rho)) <= 0.0;
         older.log_weight = log_add(older.log_weight, newer.log_weight);
-        let Stretch { first, last, rho, chosen, .. } = newer;
-        let End { p, v } = std::mem::replace(&mut older.last, last);
-        let left = if take { std::mem::replace(&mut older.chosen, chosen) } else { chosen };
-        self.spare.extend([first.p, first.v, rho, p, v, left.x, left.gradient]);
+        if take {
+            let point = older.places(X, Gradient);
+            older.vectors[point.clone()].copy_from_slice(&newer.vectors[point]);
+            (older.log_density, older.energy) = (newer.log_density, newer.energy);
+        }
+        self.spare.push(newer.vectors);
         turned || across
-    }
-}
-
-impl Stretch {
-    /// Leaves its vectors to be used again.
-    fn give_back(self, spare: &mut Vec<Vec<f64>>) {
-        let Stretch { first, last, rho, chosen, .. } = self;
-        spare.extend([first.p, first.v, last.p, last.v, rho, chosen.x, chosen.gradient]);
     }
 }
 
