@@ -13,7 +13,8 @@ pub enum Shape {
     Unit,
     /// A scale for each coordinate.
     Diagonal,
-    /// The whole covariance: `dim^2` numbers, and as many operations for each step.
+    /// The whole covariance: `dim^2` numbers, and as many operations for each step. For what is nearly normal: where the
+    /// target is bent, the covariance of one arm can hold a chain there (R-hat shows it).
     Dense,
     /// A scale for each coordinate and a few directions that are stretched or squeezed.
     LowRank,
