@@ -14,6 +14,7 @@ from niwaki._engine import __version__
 from niwaki.words import *  # noqa: F403
 
 if TYPE_CHECKING:
+    from niwaki.constraints import Residuals, residuals
     from niwaki.errors import InputError, ModelError, ModelFault, NiwakiError
     from niwaki.infer import Progress, grow, run
     from niwaki.lang.plain import run_python
@@ -31,6 +32,7 @@ _HOMES = {
     "niwaki.lang.plain": ("run_python",),
     "niwaki.methods": ("enumerate_all", "forward", "importance", "mh", "rejection", "smc"),
     "niwaki.mh_result": ("ChainResult",),
+    "niwaki.constraints": ("Residuals", "residuals"),
     "niwaki.result": ("Result", "Sample"),
     "niwaki.scene": ("Scene",),
     "niwaki.sketches": ("Score", "no_self_intersection", "volume_match"),
@@ -47,6 +49,7 @@ __all__ = [  # noqa: PLE0604
     "ModelFault",
     "NiwakiError",
     "Progress",
+    "Residuals",
     "Result",
     "Sample",
     "Scene",
@@ -59,6 +62,7 @@ __all__ = [  # noqa: PLE0604
     "mh",
     "no_self_intersection",
     "rejection",
+    "residuals",
     "run",
     "run_python",
     "smc",
