@@ -11,23 +11,28 @@ __all__ = [
     "EngineFault",
     "Opaque",
     "Outcome",
+    "Picture",
     "Program",
     "Shape",
     "Sketch",
-    "Picture",
     "SketchSpec",
     "Target",
     "Task",
     "Trace",
     "__version__",
+    "avoid",
     "draw",
     "draw_at",
     "enumerate_support",
     "family_names",
     "fine_mesh",
+    "floor",
     "frame_camera",
     "log_density",
+    "match_image",
+    "match_shadow",
     "no_self_intersection",
+    "overshoot",
     "parameter_names",
     "render",
     "support",
@@ -129,6 +134,7 @@ class Sketch:
 
 def volume_match(target: Target, sigma: float = 0.02) -> SketchSpec: ...
 def no_self_intersection(rule: str = "solid") -> SketchSpec: ...
+
 @final
 class Picture:
     def __new__(
