@@ -37,6 +37,8 @@ __version__: str
 
 _Triple = Sequence[float]
 _Rows = Sequence[Sequence[float]]
+_Frame = tuple[_Triple, _Triple, _Triple, float]
+_Bark = tuple[_Triple, float, _Triple, float]
 _Corner = tuple[float, float, float]
 _Eye = tuple[_Corner, _Corner, _Corner, float]
 _Mesh = tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.float64] | None, _Corner, _Corner]
@@ -72,6 +74,14 @@ class Shape:
         end_radius: float,
         start_normal: _Triple | None = None,
         end_normal: _Triple | None = None,
+        color: _Triple | None = None,
+    ) -> Shape: ...
+    @staticmethod
+    def segment(
+        start: _Frame,
+        split: _Frame,
+        end: _Frame,
+        onto: _Bark | None = None,
         color: _Triple | None = None,
     ) -> Shape: ...
     @staticmethod

@@ -96,7 +96,7 @@ _VECTORS = (
     words.rotation,
 )
 _NUMBERS = (words.clip, words.lerp, words.sign)
-_SHAPES = (words.box, words.cylinder, words.limb, words.mesh)
+_SHAPES = (words.box, words.cylinder, words.limb, words.segment, words.mesh)
 
 
 def _word(function: Any, omit: bool) -> Op:
