@@ -28,7 +28,7 @@ from niwaki import (
 )
 
 TITLE = "a gnarly tree of welded, tapering segments"
-TARGET = "niwaki"
+TARGET = "bent_tube"
 VOXEL = 0.4
 PARTICLES = 300
 

@@ -10,7 +10,7 @@ from math import exp
 from niwaki import box, emit, flip, future, model, uniform
 
 TITLE = "a simplified ship: blocks with wings of blocks"
-TARGET = "ship"
+TARGET = "dart"
 VOXEL = 0.25
 PARTICLES = 300
 
