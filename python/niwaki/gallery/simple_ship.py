@@ -46,7 +46,10 @@ def wing(j, root, rear, front):
         height = uniform(0.2, 0.5)
         middle = uniform(rear + 0.5 * chord, front - 0.5 * chord) - 0.3 * chord
         place, size = root + 0.5 * span, (span, height, chord)
-        emit(box((place, 0.0, middle), size, color=WING[j % 2]), box((-place, 0.0, middle), size, color=WING[j % 2]))
+        emit(
+            box((place, 0.0, middle), size, color=WING[j % 2]),
+            box((-place, 0.0, middle), size, color=WING[j % 2]),
+        )
         future(wing, j + 1, root + span, middle - 0.5 * chord, middle + 0.5 * chord)
 
 

@@ -17,14 +17,28 @@ from typing import TYPE_CHECKING
 
 from niwaki.gallery.targets.obstacles import emblem, funnel, gem, ledges
 from niwaki.gallery.targets.ships import dart, ship
-from niwaki.gallery.targets.towns import crescent, downtown
+from niwaki.gallery.targets.towns import crescent, dome, downtown
 from niwaki.gallery.targets.trees import bent_tube, forked_tree, niwaki, umbrella
 from niwaki.target import Target
 
 if TYPE_CHECKING:
     from PIL.Image import Image
 
-SOLIDS = (bent_tube, crescent, dart, downtown, emblem, forked_tree, funnel, gem, ledges, niwaki, ship, umbrella)
+SOLIDS = (
+    bent_tube,
+    crescent,
+    dart,
+    dome,
+    downtown,
+    emblem,
+    forked_tree,
+    funnel,
+    gem,
+    ledges,
+    niwaki,
+    ship,
+    umbrella,
+)
 
 TARGETS: dict[str, Callable[[], Target]] = {make.__name__: make for make in SOLIDS}
 

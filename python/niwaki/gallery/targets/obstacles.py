@@ -35,8 +35,19 @@ def emblem(tilt: float = 0.0) -> Target:
     hoop = []
     for turn in turns:
         inner, outer = (radius * np.array([np.cos(turn), np.sin(turn)]) for radius in (4.25, 5.0))
-        hoop.append([(x, y, z) for (x, z), y in ((outer, -0.75), (inner, -0.75), (inner, 0.75), (outer, 0.75))])
-    trunk = [(-0.45, 4.5), (0.55, 4.5), (0.2, 2.0), (0.75, -0.2), (0.2, -2.0), (-0.3, -2.0), (0.1, -0.1), (-0.35, 1.9)]
+        hoop.append(
+            [(x, y, z) for (x, z), y in ((outer, -0.75), (inner, -0.75), (inner, 0.75), (outer, 0.75))]
+        )
+    trunk = [
+        (-0.45, 4.5),
+        (0.55, 4.5),
+        (0.2, 2.0),
+        (0.75, -0.2),
+        (0.2, -2.0),
+        (-0.3, -2.0),
+        (0.1, -0.1),
+        (-0.35, 1.9),
+    ]
     parts = [loft(hoop, closed=True)]
     parts += [slab(piece, *thick) for piece in (trunk[0:3] + trunk[7:], trunk[2:4] + trunk[6:], trunk[3:7])]
     for x, z, wide, deep in ((0.0, -2.5, 1.7, 0.75), (-1.75, 0.35, 1.35, 0.6), (2.05, 0.9, 1.3, 0.6)):

@@ -1,10 +1,10 @@
-"""Grounds to fill with towers."""
+"""Volumes on the ground to fill with towers, or with whatever grows in a heap."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from niwaki.gallery.targets.lofts import block, loft, solid
+from niwaki.gallery.targets.lofts import ball, block, loft, solid
 from niwaki.target import Target
 
 
@@ -36,3 +36,8 @@ def downtown() -> Target:
             if height > 1.0:
                 parts.append(block((x - 2.7, 0.0, z - 2.7), (x + 2.7, height, z + 2.7)))
     return solid("downtown", parts)
+
+
+def dome() -> Target:
+    """Make a round cushion 13 wide and 6 high that bulges over its foot."""
+    return solid("dome", [ball((0.0, 3.1, 0.0), (6.5, 3.1, 6.5), egg=-0.2)])
