@@ -1,9 +1,9 @@
-"""A building complex: towers of boxes or cylinders that shrink as they rise, and spread over the ground from their sides.
+"""A building complex: towers of boxes or cylinders that shrink as they rise, and spread over the ground.
 
-The generative process of dissertation 5.5. A tower's storeys all have one kind. From each open side of its ground storey
-another tower may begin, flush with it, on a lot of the same size; the farther from the first, the less likely. Every
-loop's first "go on?" coin is certain: each tower has at least two storeys. Neighbours are left to futures, and so is the
-coin that decides whether there is one.
+The generative process of dissertation 5.5. A tower's storeys all have one kind. From each open side of its ground
+storey another tower may begin, flush with it, on a lot of the same size; the farther from the first, the less likely.
+Every loop's first "go on?" coin is certain: each tower has at least two storeys. Neighbours are left to futures, and so
+is the coin that decides whether there is one.
 """
 
 from math import exp
@@ -13,7 +13,7 @@ from niwaki import box, cylinder, emit, flip, future, model, uniform
 TITLE = "a building complex of stepped towers"
 TARGET = "crescent"
 VOXEL = 0.25
-PARTICLES = 300
+PARTICLES = 1000
 
 #: Sides of a lot: -x, +x, -z, +z. The first tower came from none.
 LEFT, RIGHT, DOWN, UP, NOWHERE = 0, 1, 2, 3, 4

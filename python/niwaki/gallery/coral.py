@@ -1,6 +1,6 @@
 """A staghorn coral: arms that rise from one foot, fork, bend towards the light and end in pale, round tips.
 
-Two arms of a fork begin on the ring in which their parent ended, in one primitive: that is what makes the fork one skin.
+Two arms of a fork begin on the ring in which their parent ended, in one primitive: that makes the fork one skin.
 Whether an arm goes on, and whether it forks, is left to futures.
 """
 
@@ -25,45 +25,47 @@ from niwaki import (
 )
 
 TITLE = "a staghorn coral"
-TARGET = "dome"
-VOXEL = 0.35
-PARTICLES = 300
+TARGET = "fan"
+VOXEL = 0.5
+PARTICLES = 500
 
 UP = vec(0.0, 1.0, 0.0)
 FOOT = (0.56, 0.30, 0.30)
 DEEP, TIP = vec(0.78, 0.38, 0.31), vec(0.98, 0.88, 0.76)
 #: An arm no thicker than this ends.
-THINNEST = 0.2
+THINNEST = 0.18
+#: How far from the middle of the foot its arms stand.
+RIM = 0.85
 
 
 @model
 def coral():
-    """Stand a foot on the ground and let arms rise from it all around."""
-    count = discrete_uniform(5, 8)
-    thick = uniform(0.5, 0.65)
+    """Stand a foot on the ground; arms may rise from the rim of its top."""
+    emit(cylinder((0.0, 0.4, 0.0), 1.9, 0.8, top_radius=RIM + 0.6, bevel=0.7, color=FOOT))
+    count = discrete_uniform(3, 5)
     turn = uniform(0.0, 2.0 * pi)
-    roots = [arm_root(turn + 2.0 * pi * k / count, thick) for k in range(count)]
-    foot = cylinder((0.0, 0.45, 0.0), 1.5, 0.9, top_radius=1.1, bevel=0.8, color=FOOT)
-    emit(foot, [limb(start, end, 1.15 * r, r, ahead, ahead, color=skin(r)) for start, end, r, ahead in roots])
-    for _, end, r, ahead in roots:
-        future(arm, end, ahead, r)
+    for k in range(count):
+        future(first_arm, turn + 2.0 * pi * k / count)
 
 
 @model
-def arm_root(azimuth, thick):
-    """Where an arm leaves the foot, where its first stretch ends, its radius and its direction."""
-    azimuth = azimuth + gaussian(0.0, 0.12)
-    rise = uniform(0.45, 1.4)
-    ahead = vec(cos(rise) * cos(azimuth), sin(rise), cos(rise) * sin(azimuth))
-    start = vec(0.5 * cos(azimuth), 0.55, 0.5 * sin(azimuth))
-    return start, start + uniform(1.4, 2.2) * ahead, thick * uniform(0.8, 1.0), ahead
+def first_arm(azimuth):
+    """Perhaps an arm that stands on the foot, at that angle about its middle, and leans outwards."""
+    if flip(0.9):
+        thick = uniform(0.4, 0.5)
+        start = vec(RIM * cos(azimuth), 0.8, RIM * sin(azimuth))
+        way, rise = gaussian(azimuth, 0.4), uniform(0.6, 1.5)
+        ahead = vec(cos(rise) * cos(way), sin(rise), cos(rise) * sin(way))
+        one = stretch(start, ahead, thick)
+        emit(skinned(start, UP, thick, one))
+        future(arm, one[0], one[1], one[2])
 
 
 @model
 def arm(tip, ahead, thick):
     """Perhaps a stretch further from `tip`: one arm, or a fork of two."""
-    if thick > THINNEST and flip(0.95):
-        if flip(0.5):
+    if thick > THINNEST and flip(0.9):
+        if flip(0.6):
             across = rotate(side(ahead), ahead, uniform(0.0, 2.0 * pi))
             opening = uniform(0.9, 1.3)
             share = uniform(0.35, 0.65)

@@ -1,8 +1,8 @@
 """A few blocks of an old downtown: masonry towers that step back as they rise, glass slabs, walk-ups, water towers.
 
-Nine lots between narrow streets. What stands on a lot is left to a future, and so is every next step of a tower and what
-its roof carries. One step, with its floors, piers and cornice, is one primitive: dark glass behind light stone. Slabs of
-stone run through the whole block, so that one box makes the piers of two facades.
+Nine lots between narrow streets. What stands on a lot is left to a future, and so is every next step of a tower and
+what its roof carries. One step, with its floors, piers and cornice, is one primitive: dark glass behind light stone.
+Slabs of stone run through the whole block, so that one box makes the piers of two facades.
 """
 
 from niwaki import box, cylinder, discrete_uniform, emit, flip, future, model, uniform

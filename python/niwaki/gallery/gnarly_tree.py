@@ -2,8 +2,8 @@
 
 The generative process of dissertation 5.5 and, with other inference, of 2.3.3 (figure 2.5). Each segment runs along a
 frame that is turned a little from the one before; behind the bend it is a clean cone, where branches stand. Whether
-there is a branch, and where, is decided inside a future. A branch rather leaves a level limb upwards, and an upright one
-anywhere. Its base is laid onto its parent's bark, so that the two touch and do not intersect.
+there is a branch, and where, is decided inside a future. A branch rather leaves a level limb upwards, and an upright
+one anywhere. Its base is laid onto its parent's bark, so that the two touch and do not intersect.
 """
 
 from math import cos, exp, pi, sin
@@ -104,7 +104,7 @@ def behind_the_bend(start, end):
 
 
 def upness(limb):
-    """Mean and standard deviation of the angle at which a branch leaves `limb`: how far up do its sides look?"""
+    """Mean and standard deviation of the angle at which a branch leaves `limb`: rather where its side looks up."""
     high, side = limb.up.y, cross(limb.forward, limb.up).y
     looks = [0.5 * (1.0 + c * high + s * side) for c, s in AROUND]
     highest = max(looks)

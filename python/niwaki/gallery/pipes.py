@@ -73,7 +73,7 @@ def across(before):
 def pipe(start, along, cells, color):
     """A pipe one cell thick that covers the cells after `start` up to the one at its end."""
     middle = 0.5 * (cells + 1)
-    center = [CELL * (s + middle * a) for s, a in zip(start, along)]
+    center = [CELL * (s + middle * a) for s, a in zip(start, along, strict=True)]
     size = [CELL * (1 + (cells - 1) * abs(a)) for a in along]
     return box(center, size, bevel=0.3, color=color)
 

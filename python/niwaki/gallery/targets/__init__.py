@@ -17,8 +17,8 @@ from typing import TYPE_CHECKING
 
 from niwaki.gallery.targets.obstacles import emblem, funnel, gem, ledges
 from niwaki.gallery.targets.ships import dart, ship
-from niwaki.gallery.targets.towns import crescent, dome, downtown
-from niwaki.gallery.targets.trees import bent_tube, forked_tree, niwaki, umbrella
+from niwaki.gallery.targets.towns import crescent, downtown
+from niwaki.gallery.targets.trees import bent_tube, fan, forked_tree, niwaki, umbrella
 from niwaki.target import Target
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ SOLIDS = (
     bent_tube,
     crescent,
     dart,
-    dome,
+    fan,
     downtown,
     emblem,
     forked_tree,

@@ -1,10 +1,10 @@
-"""Volumes on the ground to fill with towers, or with whatever grows in a heap."""
+"""Volumes on the ground to fill with towers."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from niwaki.gallery.targets.lofts import ball, block, loft, solid
+from niwaki.gallery.targets.lofts import block, loft, solid
 from niwaki.target import Target
 
 
@@ -17,9 +17,9 @@ def crescent() -> Target:
         middle = np.exp(-((bend / 0.16) ** 4))
         end = 1.0 / (1.0 + np.exp(-(bend - 0.86) / 0.03))
         height = 2.6 + 9.4 * middle + 3.2 * end
-        thick = 1.5 + 0.6 * middle + 0.3 * end
+        thick = 2.1 + 0.4 * middle + 0.3 * end
         out = np.array([np.sin(angle), 0.0, -np.cos(angle)])
-        inner, outer = out * (11.0 - thick), out * (11.0 + thick)
+        inner, outer = out * (10.6 - thick), out * (10.6 + thick)
         up = np.array([0.0, height, 0.0])
         sections.append(np.array([outer, inner, inner + up, outer + up]) + [0.0, 0.0, 8.0])
     return solid("crescent", [loft(sections)])
@@ -36,8 +36,3 @@ def downtown() -> Target:
             if height > 1.0:
                 parts.append(block((x - 2.7, 0.0, z - 2.7), (x + 2.7, height, z + 2.7)))
     return solid("downtown", parts)
-
-
-def dome() -> Target:
-    """Make a round cushion 13 wide and 6 high that bulges over its foot."""
-    return solid("dome", [ball((0.0, 3.1, 0.0), (6.5, 3.1, 6.5), egg=-0.2)])

@@ -1,8 +1,10 @@
-"""Volumes to fill with trees: they stand on the ground, their root at the origin."""
+"""Volumes to fill with what grows: they stand on the ground, their root at the origin."""
 
 from __future__ import annotations
 
-from niwaki.gallery.targets.lofts import ball, cloud, solid, tube
+import numpy as np
+
+from niwaki.gallery.targets.lofts import ball, cloud, loft, solid, tube
 from niwaki.target import Target
 
 
@@ -65,3 +67,11 @@ def umbrella() -> Target:
         [(1.1, 9.2, 0), (4.0, 12.4, -0.3), (8.2, 15.0, -0.6), (11.2, 17.6, -0.8)], [1.4, 1.2, 1.0, 0.9]
     )
     return solid("umbrella", [trunk, left, right, cloud((1.8, 18.2, 0.0), (15.0, 4.4, 7.4))])
+
+
+def fan() -> Target:
+    """Make an upright fan 12 wide, 11 high and 2.4 deep."""
+    turn = np.linspace(np.pi, 0.0, 25)
+    rim = np.stack([6.0 * np.cos(turn), 5.0 + 6.0 * np.sin(turn)], axis=1)
+    outline = np.concatenate([[(-1.2, 0.0)], rim, [(1.2, 0.0)]])
+    return solid("fan", [loft([[(x, y, z) for x, y in outline] for z in (-1.2, 1.2)])])
