@@ -44,6 +44,8 @@ __version__: str
 
 _Triple = Sequence[float]
 _Rows = Sequence[Sequence[float]]
+_Frame = tuple[_Triple, _Triple, _Triple, float]
+_Bark = tuple[_Triple, float, _Triple, float]
 _Corner = tuple[float, float, float]
 _Lens = tuple[_Triple, _Triple, _Triple, bool, float, float]
 _Eye = tuple[_Corner, _Corner, _Corner, float]
@@ -80,6 +82,14 @@ class Shape:
         end_radius: float,
         start_normal: _Triple | None = None,
         end_normal: _Triple | None = None,
+        color: _Triple | None = None,
+    ) -> Shape: ...
+    @staticmethod
+    def segment(
+        start: _Frame,
+        split: _Frame,
+        end: _Frame,
+        onto: _Bark | None = None,
         color: _Triple | None = None,
     ) -> Shape: ...
     @staticmethod
