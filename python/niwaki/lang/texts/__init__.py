@@ -6,4 +6,5 @@ faults     the engine and the plain run: a model failed while it ran
 inputs     settings and arguments
 files      files, and the settings of targets and pictures
 doors      settings, models and run files at Python's and the shell's door
+advice     `niwaki check`: a model is right and could be better
 """
