@@ -89,8 +89,8 @@ def run(
     args, kwargs
         Its arguments.
     method
-        `smc(...)`, `mh(...)`, `particle_gibbs(...)`, `pimh(...)`, `enumerate_all(...)`, `rejection(...)`, `importance(...)` or
-        `forward(...)`, which is also what happens when it is left out. It may also stand right after the model.
+        `smc(...)`, `mh(...)`, `particle_gibbs(...)`, `pimh(...)`, `enumerate_all(...)`, `rejection(...)`,
+        `importance(...)` or `forward(...)`, which is also what happens when it is left out. It may also stand right after the model.
     score
         What its scene should be like.
     seed
@@ -190,8 +190,8 @@ def grow(
     Returns
     -------
     Result
-        One sample for each run, the best of its population, or as many as are `diverse`; runs in which every particle became impossible are left
-        out with a warning, and are an error when there is no other.
+        One sample for each run, the best of its population, or as many as are `diverse`; runs in which every particle
+        became impossible are left out with a warning, and are an error when there is no other.
     """
     from niwaki.target import Target
 
