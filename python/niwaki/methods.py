@@ -9,6 +9,7 @@ from niwaki.errors import InputError
 
 ORDERS = ("stochastic", "depth-first")
 WEIGHTS = ("ratio", "absolute")
+STRATEGIES = ("c3", "rerun", "resume", "cache")
 METRICS = ("diagonal", "dense", "low-rank", "unit")
 RESAMPLING = ("systematic", "residual", "stratified", "multinomial")
 
@@ -56,6 +57,27 @@ class Forward:
 
 
 @dataclass(frozen=True)
+class Mh:
+    """Metropolis-Hastings; see `mh`."""
+
+    steps: int = 10_000
+    strategy: str = "c3"
+    chains: int = 1
+    thin: int | None = None
+    keep: int = 1000
+    warmup: int = 0
+    seed: int | None = None
+    tries: int = 1000
+
+    @property
+    def spacing(self) -> int:
+        """Proposals between two samples; 0 for none."""
+        if self.keep == 0:
+            return 0
+        return self.thin if self.thin is not None else max(1, -(-(self.steps - self.warmup) // self.keep))
+
+
+@dataclass(frozen=True)
 class Hmc:
     """Hamiltonian Monte Carlo; see `hmc`."""
 
@@ -84,7 +106,7 @@ class Nuts:
     step_size: float | None = None
 
 
-Method = Smc | EnumerateAll | Rejection | Importance | Forward
+Method = Smc | EnumerateAll | Rejection | Importance | Forward | Mh
 
 
 def smc(
@@ -127,6 +149,65 @@ def smc(
     return Smc(particles, order, weights, float(temper), resampling, ess)
 
 
+def mh(
+    steps: int = 10_000,
+    strategy: str = "c3",
+    chains: int = 1,
+    thin: int | None = None,
+    keep: int = 1000,
+    warmup: int = 0,
+    seed: int | None = None,
+    tries: int = 1000,
+) -> Mh:
+    """Markov chains: one state each, changed proposal by proposal (dissertation chapter 3).
+
+    Parameters
+    ----------
+    steps
+        Proposals of each chain, warm-up included.
+    strategy
+        How much of the model is run again for a proposal: "c3" (from the changed choice on, skipping calls whose inputs
+        are unchanged), "resume" (from the choice on), "cache" (from the start, skipping), "rerun" (all of it). The states
+        are the same to the bit; only the time differs.
+    chains
+        How many, side by side on the machine's threads.
+    thin
+        Proposals between two samples; when left out as many as give `keep` samples. It doubles when samples take too
+        much memory.
+    keep
+        About how many samples of each chain; 0 for none (the best state is always kept).
+    warmup
+        Proposals before the first sample; step sizes are adapted in them, and never after.
+    seed
+        As for `run`, which comes first.
+    tries
+        Most forward runs for a first state that is possible.
+    """
+    for name, value in (("steps", steps), ("chains", chains), ("tries", tries)):
+        at_least_one(name, value)
+    if thin is not None:
+        at_least_one("thin", thin)
+    for name, value in (("keep", keep), ("warmup", warmup)):
+        if not _whole(value) or value < 0:
+            raise InputError(
+                "bad-setting",
+                name=name,
+                found=repr(value),
+                expected="a whole number, 0 or more",
+                suggestion="0",
+            )
+    if warmup >= steps:
+        raise InputError(
+            "bad-setting",
+            name="warmup",
+            found=repr(warmup),
+            expected="fewer proposals than `steps`",
+            suggestion=repr(steps // 5),
+        )
+    _one_of("strategy", strategy, STRATEGIES)
+    return Mh(steps, strategy, chains, thin, keep, warmup, seed, tries)
+
+
 def enumerate_all(max_runs: int = 1_000_000) -> EnumerateAll:
     """The exact distribution of a model's value, by visiting every run.
 
@@ -135,7 +216,7 @@ def enumerate_all(max_runs: int = 1_000_000) -> EnumerateAll:
     max_runs
         Most complete runs to visit.
     """
-    return EnumerateAll(_at_least_one("max_runs", max_runs))
+    return EnumerateAll(at_least_one("max_runs", max_runs))
 
 
 def rejection(n: int = 100, bound: float = 0.0, max_tries: int = 1_000_000) -> Rejection:
@@ -154,7 +235,7 @@ def rejection(n: int = 100, bound: float = 0.0, max_tries: int = 1_000_000) -> R
         raise InputError(
             "bad-setting", name="bound", found=repr(bound), expected="a number of nats", suggestion="0"
         )
-    return Rejection(_samples(n), float(bound), _at_least_one("max_tries", max_tries))
+    return Rejection(_samples(n), float(bound), at_least_one("max_tries", max_tries))
 
 
 def importance(n: int = 1000) -> Importance:
@@ -313,7 +394,8 @@ def _samples(n: int) -> int:
     return n
 
 
-def _at_least_one(name: str, value: int) -> int:
+def at_least_one(name: str, value: int) -> int:
+    """The value, where it is a whole number above zero."""
     if not _whole(value) or value < 1:
         raise InputError(
             "bad-setting",
