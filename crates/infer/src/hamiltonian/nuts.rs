@@ -179,8 +179,7 @@ impl<P: Potential + ?Sized> Growth<'_, P> {
             let energy = if refused.is_some() { f64::NAN } else { edge.energy() };
             let energy_error = energy - self.start_energy;
             self.accepts += acceptance(-energy_error);
-            // Written so that a NaN is a divergence.
-            if !(energy_error <= self.max_energy_error) {
+            if energy_error.is_nan() || energy_error > self.max_energy_error {
                 self.broken = Some((energy_error, refused, edge.x.clone()));
                 return None;
             }
