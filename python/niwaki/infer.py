@@ -102,15 +102,7 @@ def run(
         The samples, with weights; for enumeration the exact distribution.
     """
     model = as_model(model)
-    score = score if score is not None else Score()
-    if not isinstance(score, Score):
-        raise InputError(
-            "bad-setting",
-            name="score",
-            found=repr(score),
-            expected="a product of sketches",
-            suggestion="`no_self_intersection() * volume_match(target)`",
-        )
+    score = _asked(score)
     given_seed = check_seed(seed)
     made = task(model, args, kwargs, score.specs, max_steps, max_memory)
     if choices is not None:
@@ -124,8 +116,10 @@ def run(
 
 def grow(
     model: Model[..., Any] | Callable[..., Any],
-    target: Target | str | PathLike[str],
+    target: Target | str | PathLike[str] | None = None,
     *args: Any,
+    score: Score | None = None,
+    method: Method | None = None,
     particles: int = 300,
     voxel: float | None = None,
     sigma: float = 0.02,
@@ -143,16 +137,21 @@ def grow(
     progress: Watch | None = None,
     **kwargs: Any,
 ) -> Result:
-    """Grow a model into a target: the best of a population, `runs` times.
+    """Grow a model into a target, or into anything else that can be asked for: the best of a population, `runs` times.
 
     Parameters
     ----------
     model
         A model that emits shapes.
     target
-        What to fill: a `Target`, or a file.
+        What to fill: a `Target`, or a file; may be left out where `score` says what to match.
     args, kwargs
         The model's arguments.
+    score
+        What else is asked for, such as `floor(0) * match_image("skyline.png", "cam.json")`; it multiplies
+        `no_self_intersection(rule)` and, where there is a target, `volume_match(target, voxel, sigma)`.
+    method
+        Another search than `smc` with the settings below, which are then left out.
     particles, order, weights, resampling, ess
         As for `smc`.
     temper
@@ -175,7 +174,7 @@ def grow(
     from niwaki.target import Target
 
     model = as_model(model)
-    chosen = smc(
+    chosen = method or smc(
         particles, order, weights, default_temper(weights) if temper is None else temper, resampling, ess
     )
     if not isinstance(runs, int) or runs < 1:
@@ -187,8 +186,12 @@ def grow(
             suggestion="1 or more",
         )
     first, threads = check_seed(seed), check_threads(threads)
-    aim = target if isinstance(target, Target) else Target.load(target)
-    score = no_self_intersection(rule) * volume_match(aim, voxel, sigma)
+    score = no_self_intersection(rule) * _asked(score)
+    if target is not None:
+        aim = target if isinstance(target, Target) else Target.load(target)
+        score *= volume_match(aim, voxel, sigma)
+    elif len(score.specs) == 1:
+        raise InputError("no-target", name=model.name)
     made = task(model, args, kwargs, score.specs, max_steps, max_memory)
     found: list[Sample] = []
     failed: list[InputError] = []
@@ -227,6 +230,19 @@ def grow(
     result = Result(model, found, first, chosen, score, interrupted=interrupted)
     result.seconds = seconds
     return result
+
+
+def _asked(score: Score | None) -> Score:
+    """What was asked for; nothing where nothing was."""
+    if score is not None and not isinstance(score, Score):
+        raise InputError(
+            "bad-setting",
+            name="score",
+            found=repr(score),
+            expected="a product of sketches",
+            suggestion="`no_self_intersection() * volume_match(target)`",
+        )
+    return score or Score()
 
 
 def default_temper(weights: str) -> float:

@@ -87,9 +87,9 @@ def union(scene: Scene, scale: float = METRE, fuse: float | None = None) -> Soli
     if fuse is not None and not 0.0 <= fuse < longest:
         expected = f"a number of scene units from 0 to less than the scene's longest side, {longest:.4g}"
         raise FileError("setting", name="fuse", found=fuse, expected=expected)
-    kernel = _kernel()
-    solids = _solids(scene, kernel, FUSE * longest if fuse is None else fuse)
-    joined = kernel.Manifold.batch_boolean(solids, kernel.OpType.Add)
+    tools = kernel()
+    solids = _solids(scene, tools, FUSE * longest if fuse is None else fuse)
+    joined = tools.Manifold.batch_boolean(solids, tools.OpType.Add)
     # (x, y, z) to (x, -z, y): what is up on the screen is up on the printer's bed.
     turned = joined.transform([[scale, 0, 0, 0], [0, 0, -scale, 0], [0, scale, 0, 0]])
     low, high = np.reshape(turned.bounding_box(), (2, 3))
@@ -107,7 +107,14 @@ def union(scene: Scene, scale: float = METRE, fuse: float | None = None) -> Soli
     return Solid(vertices, np.asarray(mesh.tri_verts, dtype=np.int64), float(placed.volume()), pieces)
 
 
-def _kernel() -> Any:
+def kernel() -> Any:
+    """The library that joins solids.
+
+    Raises
+    ------
+    FileError
+        It is not installed.
+    """
     try:
         import manifold3d
     except ImportError:
@@ -115,15 +122,15 @@ def _kernel() -> Any:
     return manifold3d
 
 
-def _solids(scene: Scene, kernel: Any, swell: float) -> list[Any]:
-    """Each shape as a solid of the kernel; those that are none are said together."""
+def _solids(scene: Scene, tools: Any, swell: float) -> list[Any]:
+    """Each shape as a solid of manifold3d; those that are none are said together."""
     found, bad = [], []
     for part in scene.parts:
         for number, shape in enumerate(part.shapes):
             vertices, faces = _swollen(*_engine.fine_mesh(shape), swell)
-            solid = kernel.Manifold(kernel.Mesh64(vertices, faces.astype(np.uint64)))
+            solid = tools.Manifold(tools.Mesh64(vertices, faces.astype(np.uint64)))
             reason = ""
-            if (count := _open_edges(faces)) or solid.status() != kernel.Error.NoError:
+            if (count := _open_edges(faces)) or solid.status() != tools.Error.NoError:
                 reason = f"{count} open edges" if count else "edges between more than two triangles"
             elif solid.volume() <= 0.0:
                 reason = "its triangles face inwards" if solid.volume() < 0.0 else "no volume"

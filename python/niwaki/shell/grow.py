@@ -9,23 +9,31 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from niwaki.shell import asking, writing
 from niwaki.shell.app import Folder, ModelName, app, made_folder, progress_line
 
 if TYPE_CHECKING:
     from niwaki.finding import Found
     from niwaki.result import Result, Sample
-    from niwaki.target import Target
 
 
 @app.command()
 def grow(
     model: ModelName,
-    target: Annotated[
-        str | None,
-        typer.Option(
-            "--target", metavar="FILE", help="A mesh (OBJ, STL, PLY, GLB); default: the model's own."
-        ),
-    ] = None,
+    target: asking.TargetFile = None,
+    avoid: asking.AvoidFiles = None,
+    floor: asking.Floor = None,
+    within: asking.Within = None,
+    match_image: asking.ImageFile = None,
+    match_shadow: asking.ShadowFile = None,
+    camera: asking.CameraFile = None,
+    weight_image: asking.WeightFile = None,
+    weight: asking.Weight = None,
+    light: asking.Light = None,
+    receiver: asking.ReceiverFile = None,
+    voxel: asking.Voxel = None,
+    sigma: asking.Sigma = 0.02,
+    rule: Annotated[str, typer.Option(help="What intersects: solid or surface.")] = "solid",
     particles: Annotated[
         int | None,
         typer.Option(
@@ -37,11 +45,6 @@ def grow(
     temper: Annotated[
         float | None, typer.Option(help="Sharpening of the search; default: 16, with absolute weights 1.")
     ] = None,
-    voxel: Annotated[
-        float | None, typer.Option(metavar="SIZE", help="Cell size; default: what suits model or target.")
-    ] = None,
-    sigma: Annotated[float, typer.Option(help="Strictness of the match; smaller is stricter.")] = 0.02,
-    rule: Annotated[str, typer.Option(help="What intersects: solid or surface.")] = "solid",
     runs: Annotated[int, typer.Option(help="How many results, with seeds SEED, SEED + 1, ...")] = 1,
     seed: Annotated[int | None, typer.Option(help="Default: a fresh one, which is written down.")] = None,
     threads: Annotated[
@@ -55,21 +58,41 @@ def grow(
     ] = None,
     max_steps: Annotated[int, typer.Option(help="Most calls and loop steps of one run.")] = 20_000_000,
     output: Folder = None,
+    formats: writing.Formats = "glb",
+    scale: writing.Scale = None,
+    fuse: writing.Fuse = None,
+    frames: writing.Frames = None,
+    size: writing.Size = None,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print the numbers as JSON; files are written only with -o.")
     ] = False,
     picture: Annotated[
-        bool, typer.Option("--picture/--no-picture", help="Draw best.png and sheet.png.")
+        bool, typer.Option("--picture/--no-picture", help="Draw best.png, sheet.png and what was matched.")
     ] = True,
 ) -> None:
-    """Grow MODEL into a target; writes best.glb, best.png, sheet.png and run.json."""
+    """Grow MODEL into what is asked for; writes best.glb, best.png, sheet.png and run.json."""
     from niwaki import infer
     from niwaki.finding import find
     from niwaki.gallery import PARTICLES
 
+    asked = asking.Asked(
+        target,
+        tuple(avoid or ()),
+        floor,
+        within,
+        match_image,
+        camera,
+        match_shadow,
+        weight_image,
+        weight,
+        light,
+        receiver,
+    )
+    files = writing.Files.asked(formats, scale, fuse, frames, size)
     found = find(model)
-    aim, reference = _target(found, target)
-    if voxel is None and target is None and found.entry is not None:
+    aim, reference = asked.aim(found)
+    controls = asked.controls(voxel, sigma)
+    if voxel is None and target is None and aim is not None and found.entry is not None:
         voxel = found.entry.voxel
     if particles is None:
         particles = found.entry.particles if found.entry is not None else PARTICLES
@@ -87,10 +110,12 @@ def grow(
         "max_steps": max_steps,
     }
     with progress_line(found.reference, particles) as progress:
-        result = infer.grow(found.model, aim, seed=seed, threads=threads, progress=progress, **settings)
-    settings["voxel"] = result.score.settings["voxel"]
+        result = infer.grow(
+            found.model, aim, score=controls, seed=seed, threads=threads, progress=progress, **settings
+        )
+    settings |= {"voxel": result.score.settings.get("voxel"), "asked": asked.record()}
     if output is not None or not as_json:
-        _write(output or Path("out"), result, found, settings, reference, picture)
+        _write(output or Path("out"), result, found, settings, reference, files, picture)
     if as_json:
         from niwaki.run_files import numbers
 
@@ -101,23 +126,16 @@ def grow(
         raise typer.Exit(130)
 
 
-def _target(found: Found, given: str | None) -> tuple[Target, str]:
-    """The target and how to find it again."""
-    from niwaki.errors import InputError
-    from niwaki.target import Target
-
-    if given is not None:
-        return Target.load(given), str(Path(given).resolve())
-    if found.entry is None or found.entry.target_name is None:
-        raise InputError("no-target", name=found.reference)
-    own = found.entry.target()
-    assert own is not None
-    return own, f"gallery:{found.entry.target_name}"
-
-
 def _write(
-    output: Path, result: Result, found: Found, settings: dict[str, Any], target: str, picture: bool
+    output: Path,
+    result: Result,
+    found: Found,
+    settings: dict[str, Any],
+    target: str | None,
+    files: writing.Files,
+    picture: bool,
 ) -> None:
+    """The record first: whatever fails after it can be made again from there."""
     from niwaki import run_files
 
     folder = made_folder(output)
@@ -126,12 +144,15 @@ def _write(
     if best.primitives == 0:
         print("warning: the best run emitted nothing, so there is no mesh and no picture", file=sys.stderr)
         return
-    best.export(folder / "best.glb")
     if picture:
+        from niwaki.draw.matched import matched
         from niwaki.draw.picture import save_image
 
         best.save(folder / "best.png")
         save_image(lambda: result.sheet(), folder / "sheet.png")
+        for view in result.score.views:
+            save_image(lambda view=view: matched(best.scene, view), folder / f"{view.kind}.png")
+    files.write(best, folder)
 
 
 def _summary(result: Result, folder: Path) -> None:
