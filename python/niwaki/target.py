@@ -1,4 +1,4 @@
-"""Targets: the volumes that a scene should fill, from OBJ, STL, PLY and GLB files or from arrays.
+"""Targets: the volumes that a scene should fill, and receivers of shadows, from OBJ, STL, PLY and GLB files or arrays.
 
 Coordinates are taken as they are in the file: no centring, no scaling, no change of units or axes. A file
 with several objects is one target; its closed parts may overlap.
@@ -18,6 +18,8 @@ from niwaki.file_errors import FileError
 
 if TYPE_CHECKING:
     from PIL.Image import Image
+
+    from niwaki.camera import Camera
 
 FORMATS = (".obj", ".stl", ".ply", ".glb", ".gltf")
 
@@ -85,21 +87,7 @@ class Target:
         TargetWarning
             The mesh is not closed; counts its open edges.
         """
-        place = Path(path)
-        suffix = place.suffix.lower()
-        if not place.is_file():
-            raise FileError("file-missing", path, absolute=place.absolute(), folder=Path.cwd())
-        if suffix not in FORMATS:
-            raise FileError(
-                "file-format",
-                path,
-                suffix=place.suffix or "no suffix",
-                done="read",
-                formats=", ".join(FORMATS),
-            )
-        if place.stat().st_size == 0:
-            raise FileError("file-unreadable", path, suffix=suffix, reason="the file holds no bytes")
-        vertices, faces = _read(place, suffix)
+        vertices, faces = _load(path)
         return cls(vertices, faces, name=str(path))
 
     def __repr__(self) -> str:
@@ -139,6 +127,102 @@ class Target:
         return png(self.picture(size=(800, 600)))
 
 
+class Receiver:
+    """A surface that a shadow falls on: a floor, a wall, any mesh. It may be flat and open.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float64
+        Scene units, finite.
+    faces : (m, 3) int64
+        Either way round.
+    name
+        For messages.
+
+    Examples
+    --------
+    >>> Receiver.floor(0.0, (-5, -5), (5, 5)).bounds.tolist()
+    [[-5.0, 0.0, -5.0], [5.0, 0.0, 5.0]]
+    """
+
+    def __init__(self, vertices: ArrayLike, faces: ArrayLike, name: str = "receiver") -> None:
+        self.vertices: NDArray[np.float64] = np.array(vertices, dtype=np.float64).reshape(-1, 3)
+        self.faces: NDArray[np.int64] = np.array(faces, dtype=np.int64).reshape(-1, 3)
+        self.name = name
+        _check_arrays(self.vertices, self.faces, name)
+        self.vertices.setflags(write=False)
+        self.faces.setflags(write=False)
+
+    @classmethod
+    def load(cls, path: str | PathLike[str]) -> Receiver:
+        """Read a receiver from a mesh file; formats as for `Target.load`."""
+        vertices, faces = _load(path)
+        return cls(vertices, faces, name=str(path))
+
+    @classmethod
+    def floor(
+        cls,
+        y: float = 0.0,
+        low: tuple[float, float] = (-10.0, -10.0),
+        high: tuple[float, float] = (10.0, 10.0),
+    ) -> Receiver:
+        """Make a flat rectangle at height `y` between two corners (x, z)."""
+        (x0, z0), (x1, z1) = low, high
+        corners = [[x0, y, z0], [x0, y, z1], [x1, y, z1], [x1, y, z0]]
+        return cls(corners, [[0, 1, 2], [0, 2, 3]], name="floor")
+
+    def __repr__(self) -> str:
+        """Name and triangles."""
+        return f"<Receiver {self.name}: {len(self.faces)} triangles>"
+
+    @property
+    def bounds(self) -> NDArray[np.float64]:
+        """Low and high corner, (2, 3)."""
+        used = self.vertices[self.faces.ravel()]
+        return np.stack([used.min(axis=0), used.max(axis=0)])
+
+    def camera(self, light: tuple[float, float, float], aspect: float = 1.0) -> Camera:
+        """Make the light's own view: orthographic, along the light, as wide as the receiver along x.
+
+        Parameters
+        ----------
+        light
+            Direction in which the light travels.
+        aspect
+            Width of the picture over its height.
+        """
+        from niwaki.camera import Camera
+
+        low, high = self.bounds
+        middle, extent = (low + high) / 2, high - low
+        along = np.asarray(light, dtype=np.float64)
+        along = along / np.linalg.norm(along)
+        eye = middle - along * (float(np.linalg.norm(extent)) + 1.0)
+        # Away from the viewer, as the original has it: -z is the top of a picture seen from above.
+        up = (0.0, 0.0, -1.0) if abs(along[2]) < 0.999 else (0.0, 1.0, 0.0)
+        width = float(extent[0]) or float(np.linalg.norm(extent))
+        return Camera.orthographic(eye.tolist(), middle.tolist(), up, height=width / aspect)
+
+
+def _load(path: str | PathLike[str]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Vertices and faces of a mesh file."""
+    place = Path(path)
+    suffix = place.suffix.lower()
+    if not place.is_file():
+        raise FileError("file-missing", path, absolute=place.absolute(), folder=Path.cwd())
+    if suffix not in FORMATS:
+        raise FileError(
+            "file-format",
+            path,
+            suffix=place.suffix or "no suffix",
+            done="read",
+            formats=", ".join(FORMATS),
+        )
+    if place.stat().st_size == 0:
+        raise FileError("file-unreadable", path, suffix=suffix, reason="the file holds no bytes")
+    return _read(place, suffix)
+
+
 def _read(place: Path, suffix: str) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """Vertices and faces of all objects of a file, each placed as its file places it."""
     import trimesh
@@ -165,7 +249,7 @@ def _read(place: Path, suffix: str) -> tuple[NDArray[np.float64], NDArray[np.int
     )
 
 
-def _check(vertices: NDArray[np.float64], faces: NDArray[np.int64], name: str) -> None:
+def _check_arrays(vertices: NDArray[np.float64], faces: NDArray[np.int64], name: str) -> None:
     if len(faces) == 0:
         raise FileError("target-empty", name, reason=f"it has {len(vertices)} vertices and no faces")
     if faces.min() < 0 or faces.max() >= len(vertices):
@@ -174,6 +258,10 @@ def _check(vertices: NDArray[np.float64], faces: NDArray[np.int64], name: str) -
     wrong = np.flatnonzero(~np.isfinite(vertices).all(axis=1))
     if len(wrong):
         raise FileError("target-not-finite", name, count=len(wrong), total=len(vertices), first=int(wrong[0]))
+
+
+def _check(vertices: NDArray[np.float64], faces: NDArray[np.int64], name: str) -> None:
+    _check_arrays(vertices, faces, name)
     used = vertices[faces.ravel()]
     extent = used.max(axis=0) - used.min(axis=0)
     if (extent <= 1e-9 * extent.max()).any():

@@ -4,7 +4,7 @@
 //!
 //! * `values`: Python's objects to the machine's values, and back; `faults`: faults as data;
 //! * `model`: compiled models; `search`: algorithms; `outcome`: what they find;
-//! * `distributions`, `geometry`, `pictures`: the rooms below, by themselves.
+//! * `distributions`, `geometry`, `views`, `pictures`: the rooms below, by themselves.
 
 mod distributions;
 mod faults;
@@ -14,6 +14,7 @@ mod outcome;
 mod pictures;
 mod search;
 mod values;
+mod views;
 
 use pyo3::prelude::*;
 
@@ -28,6 +29,7 @@ fn _engine(module: &Bound<'_, PyModule>) -> PyResult<()> {
     distributions::register(module)?;
     geometry::register(module)?;
     pictures::register(module)?;
+    views::register(module)?;
     values::register(module)?;
     faults::register(module)?;
     model::register(module)?;

@@ -9,9 +9,10 @@
 //! Dissertation 5.5.1. differs: similarity is over exactly the domain's cells (the original pads to words of 32);
 //! overshoot is a sum over the sides, as the original's code has it, where its text says the maximum.
 
-use super::counters::{Counters, Plane, planes_of};
-use super::{Sketch, SketchSpec};
-use crate::bounds::Aabb;
+use super::brick::Plane;
+use super::counters::{Counters, bricks_of, planes_of, visit};
+use super::overshoot::overshoot;
+use super::{Sketch, SketchSpec, log_normal};
 use crate::error::GeomError;
 use crate::mesh::TriMesh;
 use crate::primitive::Primitive;
@@ -60,10 +61,23 @@ impl Target {
         self.filled
     }
 
+    /// Number of cells that the target and `voxels`, of the same grid, both fill.
+    pub fn shared_with(&self, voxels: &Voxels) -> u64 {
+        let mut shared = 0;
+        visit(&voxels.cells, bricks_of(self.grid.dims()), |index, column, words| {
+            let plane = &self.planes[index];
+            let both = words.map(|(word, y, z)| (plane[word], y, z)).filter(|(cells, ..)| *cells != 0);
+            shared += both
+                .map(|(cells, y, z)| u64::from((cells & voxels.word(column, y, z)).count_ones()))
+                .sum::<u64>();
+        });
+        shared
+    }
+
     /// True when the target fills the cell.
     pub fn contains(&self, cell: [usize; 3]) -> bool {
         let [x, y, z] = cell;
-        let across = super::counters::bricks_of(self.grid.dims());
+        let across = bricks_of(self.grid.dims());
         let brick = ((z / 8) * across[1] + y / 8) * across[0] + x / 64;
         self.planes[brick][z % 8 * 8 + y % 8] >> (x % 64) & 1 == 1
     }
@@ -79,9 +93,7 @@ struct VolumeSpec {
 /// # Errors
 /// `bad-sigma` when it is not positive.
 pub fn volume_match(target: Arc<Target>, sigma: f64) -> Result<Arc<dyn SketchSpec>, GeomError> {
-    if !(sigma > 0.0 && sigma.is_finite()) {
-        return Err(GeomError::new("bad-sigma", format!("sigma is {sigma}, expected a positive number")));
-    }
+    super::check_sigma(sigma)?;
     Ok(Arc::new(VolumeSpec { target, sigma }))
 }
 
@@ -141,26 +153,6 @@ impl VolumeMatch {
     pub fn counters(&self) -> &Counters {
         &self.counters
     }
-}
-
-fn overshoot(scene: &Aabb, domain: &Aabb) -> f64 {
-    if scene.is_empty() {
-        return 0.0;
-    }
-    let extent = domain.extent();
-    let side = |a: usize| {
-        let below = (domain.low[a] - scene.low[a]).max(0.0);
-        let above = (scene.high[a] - domain.high[a]).max(0.0);
-        below / extent[a] + above / extent[a]
-    };
-    side(0) + side(1) + side(2)
-}
-
-/// ln N(x; mean, sd), nats.
-fn log_normal(x: f64, mean: f64, sd: f64) -> f64 {
-    const HALF_LOG_TAU: f64 = 0.918_938_533_204_672_8;
-    let z = (x - mean) / sd;
-    -HALF_LOG_TAU - sd.ln() - 0.5 * z * z
 }
 
 impl PartialEq for VolumeMatch {
