@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from niwaki.errors import InputError, ModelError, ModelFault, NiwakiError
     from niwaki.infer import Progress, grow, run
     from niwaki.lang.plain import run_python
-    from niwaki.methods import enumerate_all, forward, importance, rejection, smc
+    from niwaki.methods import enumerate_all, forward, importance, particle_gibbs, pimh, rejection, smc
     from niwaki.result import Result, Sample
     from niwaki.scene import Scene
     from niwaki.sketches import (
@@ -39,7 +39,15 @@ _HOMES = {
     "niwaki.errors": ("InputError", "ModelError", "ModelFault", "NiwakiError"),
     "niwaki.infer": ("Progress", "grow", "run"),
     "niwaki.lang.plain": ("run_python",),
-    "niwaki.methods": ("enumerate_all", "forward", "importance", "rejection", "smc"),
+    "niwaki.methods": (
+        "enumerate_all",
+        "forward",
+        "importance",
+        "particle_gibbs",
+        "pimh",
+        "rejection",
+        "smc",
+    ),
     "niwaki.result": ("Result", "Sample"),
     "niwaki.scene": ("Scene",),
     "niwaki.sketches": (
@@ -81,6 +89,8 @@ __all__ = [  # noqa: PLE0604
     "match_shadow",
     "no_self_intersection",
     "overshoot",
+    "particle_gibbs",
+    "pimh",
     "rejection",
     "run",
     "run_python",

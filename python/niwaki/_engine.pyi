@@ -20,6 +20,7 @@ __all__ = [
     "Task",
     "Trace",
     "__version__",
+    "different",
     "draw",
     "draw_at",
     "enumerate_support",
@@ -31,6 +32,7 @@ __all__ = [
     "parameter_names",
     "render",
     "support",
+    "unique_models",
     "volume_match",
 ]
 
@@ -129,6 +131,7 @@ class Sketch:
 
 def volume_match(target: Target, sigma: float = 0.02) -> SketchSpec: ...
 def no_self_intersection(rule: str = "solid") -> SketchSpec: ...
+
 @final
 class Picture:
     def __new__(
@@ -235,12 +238,43 @@ class Task:
     ) -> tuple[list[Outcome], float]: ...
     def smc(
         self,
-        particles: int,
+        plan: Sequence[int],
         seed: int,
         *,
         order: str = "stochastic",
         weights: str = "ratio",
         temper: float = 1.0,
+        anneal: float | Sequence[float] | None = None,
+        resampling: str = "systematic",
+        ess: float | None = None,
+        seconds: float | None = None,
+        threads: int | None = None,
+        watch: _Watch | None = None,
+    ) -> dict[str, Any]: ...
+    def particle_gibbs(
+        self,
+        particles: int,
+        sweeps: int,
+        seed: int,
+        *,
+        order: str = "stochastic",
+        temper: float = 1.0,
+        anneal: float | Sequence[float] | None = None,
+        ess: float | None = None,
+        ancestors: bool = True,
+        start: Outcome | None = None,
+        threads: int | None = None,
+        watch: _Watch | None = None,
+    ) -> dict[str, Any]: ...
+    def pimh(
+        self,
+        particles: int,
+        sweeps: int,
+        seed: int,
+        *,
+        order: str = "stochastic",
+        temper: float = 1.0,
+        anneal: float | Sequence[float] | None = None,
         resampling: str = "systematic",
         ess: float | None = None,
         threads: int | None = None,
@@ -293,3 +327,6 @@ class Trace:
 
 @final
 class Opaque: ...
+
+def unique_models(outcomes: Sequence[Outcome]) -> int: ...
+def different(outcomes: Sequence[Outcome], k: int) -> list[int]: ...

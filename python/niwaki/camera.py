@@ -1,7 +1,7 @@
 """Cameras as values: from where an image to match was seen, written in Python or in a JSON file.
 
-    camera = Camera.perspective((31, 2, 33), look_at=(-3, 5, 0))
-    camera = Camera.load("cam.json")      # {"kind": "perspective", "position": [31, 2, 33], "look_at": [-3, 5, 0]}
+camera = Camera.perspective((31, 2, 33), look_at=(-3, 5, 0))
+camera = Camera.load("cam.json")      # {"kind": "perspective", "position": [31, 2, 33], "look_at": [-3, 5, 0]}
 """
 
 from __future__ import annotations
@@ -72,7 +72,8 @@ class Camera:
             object.__setattr__(self, name, _number(name, getattr(self, name)))
         if self.kind == "perspective" and not 0 < self.fov_degrees < 180:
             raise InputError(
-                "bad-camera", reason=f"`fov_degrees` is {self.fov_degrees:g}, expected more than 0 and less than 180"
+                "bad-camera",
+                reason=f"`fov_degrees` is {self.fov_degrees:g}, expected more than 0 and less than 180",
             )
         for name in ("near",) if self.kind == "perspective" else ("height",):
             if getattr(self, name) <= 0:
@@ -136,7 +137,9 @@ class Camera:
     def from_dict(cls, data: Any, name: str = "") -> Camera:
         """Make a camera from what its JSON holds; `name` is the file's, for messages."""
         if not isinstance(data, Mapping):
-            raise InputError("bad-camera", reason=f"found {type(data).__name__}, expected names and values", detail=name)
+            raise InputError(
+                "bad-camera", reason=f"found {type(data).__name__}, expected names and values", detail=name
+            )
         kind = data.get("kind", "perspective")
         if kind not in KINDS:
             expected = " or ".join(f'"{known}"' for known in KINDS)

@@ -354,7 +354,11 @@ def check_finite(name: str, value: float) -> float:
     number = isinstance(value, (int, float)) and not isinstance(value, bool)
     if not number or not abs(value) < float("inf"):
         raise InputError(
-            "bad-setting", name=name, found=repr(value), expected="a finite number", suggestion="such a number"
+            "bad-setting",
+            name=name,
+            found=repr(value),
+            expected="a finite number",
+            suggestion="such a number",
         )
     return float(value)
 

@@ -3,7 +3,7 @@
 //! One file for each room behind the door; this one only registers them.
 //!
 //! * `values`: Python's objects to the machine's values, and back; `faults`: faults as data;
-//! * `model`: compiled models; `search`: algorithms; `outcome`: what they find;
+//! * `model`: compiled models; `search`: algorithms; `settings`: theirs; `outcome`: what they find;
 //! * `distributions`, `geometry`, `views`, `pictures`: the rooms below, by themselves.
 
 mod distributions;
@@ -13,6 +13,7 @@ mod model;
 mod outcome;
 mod pictures;
 mod search;
+mod settings;
 mod values;
 mod views;
 
