@@ -2,6 +2,7 @@
 
 app.py       the application they hang on, and what they share: arguments, folders, the line that shows progress
 asking.py    what a person asks of a shape, as flags
+searching.py how to search, as flags
 writing.py   which files a result becomes
 grow.py      `niwaki grow`: a search, written to a folder
 replay.py    `niwaki replay`: a result once more, in any format

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from niwaki.shell import asking, writing
+from niwaki.shell import asking, searching, writing
 from niwaki.shell.app import Folder, ModelName, app, made_folder, progress_line
 
 if TYPE_CHECKING:
@@ -34,27 +34,22 @@ def grow(
     voxel: asking.Voxel = None,
     sigma: asking.Sigma = 0.02,
     rule: Annotated[str, typer.Option(help="What intersects: solid or surface.")] = "solid",
-    particles: Annotated[
-        int | None,
-        typer.Option(
-            "-n", "--particles", help="Size of the population; default: what suits the model, or 300."
-        ),
-    ] = None,
-    order: Annotated[str, typer.Option(help="stochastic or depth-first.")] = "stochastic",
-    weights: Annotated[str, typer.Option(help="ratio or absolute.")] = "ratio",
-    temper: Annotated[
-        float | None, typer.Option(help="Sharpening of the search; default: 16, with absolute weights 1.")
-    ] = None,
+    particles: searching.Particles = None,
+    method: searching.MethodName = "smc",
+    order: searching.Order = "stochastic",
+    weights: searching.Weights = None,
+    temper: searching.Temper = None,
+    anneal: searching.Anneal = None,
+    resampling: searching.Resampling = None,
+    ess: searching.Ess = None,
+    populations: searching.Populations = None,
+    diverse: searching.Diverse = None,
+    seconds: searching.Seconds = None,
+    sweeps: searching.Sweeps = None,
     runs: Annotated[int, typer.Option(help="How many results, with seeds SEED, SEED + 1, ...")] = 1,
     seed: Annotated[int | None, typer.Option(help="Default: a fresh one, which is written down.")] = None,
     threads: Annotated[
         int | None, typer.Option(help="Default: all cores. Results do not depend on it.")
-    ] = None,
-    resampling: Annotated[
-        str, typer.Option(help="systematic, residual, stratified or multinomial.")
-    ] = "systematic",
-    ess: Annotated[
-        float | None, typer.Option(help="Resample below this share of effective particles; default: always.")
     ] = None,
     max_steps: Annotated[int, typer.Option(help="Most calls and loop steps of one run.")] = 20_000_000,
     output: Folder = None,
@@ -88,32 +83,51 @@ def grow(
         light,
         receiver,
     )
+    search = searching.Search(
+        method,
+        particles,
+        order,
+        weights,
+        temper,
+        anneal,
+        resampling,
+        ess,
+        populations,
+        diverse,
+        seconds,
+        sweeps,
+    )
     files = writing.Files.asked(formats, scale, fuse, frames, size)
     found = find(model)
     aim, reference = asked.aim(found)
     controls = asked.controls(voxel, sigma)
     if voxel is None and target is None and aim is not None and found.entry is not None:
         voxel = found.entry.voxel
-    if particles is None:
-        particles = found.entry.particles if found.entry is not None else PARTICLES
-    settings: dict[str, Any] = {
-        "particles": particles,
-        "order": order,
-        "weights": weights,
-        "temper": infer.default_temper(weights) if temper is None else temper,
-        "resampling": resampling,
-        "ess": ess,
+    settings = search.settings(found.entry.particles if found.entry is not None else PARTICLES)
+    chosen = searching.method(settings)
+    rest: dict[str, Any] = {
         "voxel": voxel,
         "sigma": sigma,
         "rule": rule,
         "runs": runs,
         "max_steps": max_steps,
     }
-    with progress_line(found.reference, particles) as progress:
+    with progress_line(found.reference, settings["particles"]) as progress:
         result = infer.grow(
-            found.model, aim, score=controls, seed=seed, threads=threads, progress=progress, **settings
+            found.model,
+            aim,
+            score=controls,
+            method=chosen,
+            seed=seed,
+            threads=threads,
+            progress=progress,
+            **rest,
         )
-    settings |= {"voxel": result.score.settings.get("voxel"), "asked": asked.record()}
+    settings |= rest | {
+        "plan": list(result.plan),
+        "voxel": result.score.settings.get("voxel"),
+        "asked": asked.record(),
+    }
     if output is not None or not as_json:
         _write(output or Path("out"), result, found, settings, reference, files, picture)
     if as_json:
@@ -145,13 +159,13 @@ def _write(
         print("warning: the best run emitted nothing, so there is no mesh and no picture", file=sys.stderr)
         return
     if picture:
-        from niwaki.draw.matched import matched
         from niwaki.draw.picture import save_image
+        from niwaki.draw.views import save_view
 
         best.save(folder / "best.png")
         save_image(lambda: result.sheet(), folder / "sheet.png")
         for view in result.score.views:
-            save_image(lambda view=view: matched(best.scene, view), folder / f"{view.kind}.png")
+            save_view(folder / f"{view.kind}.png", best.scene, view)
     files.write(best, folder)
 
 

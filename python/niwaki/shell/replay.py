@@ -10,6 +10,7 @@ import typer
 
 from niwaki.shell import writing
 from niwaki.shell.app import Folder, app, made_folder
+from niwaki.shell.writing import ANIMATIONS
 
 if TYPE_CHECKING:
     from niwaki.target import Target
@@ -36,12 +37,12 @@ def replay(
     data = load(run)
     sample = replayed(data, number)
     folder = made_folder(output or Path("out"))
-    for place in files.write(sample, folder):
+    aim = _same_target(data) if (picture and sample.primitives) or set(files.formats) & set(ANIMATIONS) else None
+    if aim is not None and target_hash(aim) != data["target"]["hash"]:
+        print("warning: the target has changed since this run; its ghost is today's", file=sys.stderr)
+    for place in files.write(sample, folder, aim):
         print(place)
     if picture and sample.primitives:
-        aim = _same_target(data)
-        if aim is not None and target_hash(aim) != data["target"]["hash"]:
-            print("warning: the target has changed since this run; its ghost is today's", file=sys.stderr)
         print(sample.save(folder / "best.png", aim))
 
 

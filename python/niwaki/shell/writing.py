@@ -16,6 +16,7 @@ from niwaki.errors import InputError, NiwakiError
 
 if TYPE_CHECKING:
     from niwaki.result import Sample
+    from niwaki.target import Target
 
 MESHES, SOLIDS, ANIMATIONS = ("glb", "obj", "ply"), ("stl", "3mf"), ("gif", "apng")
 FORMATS = (*MESHES, *SOLIDS, *ANIMATIONS)
@@ -76,23 +77,26 @@ class Files:
             kernel()
         return cls(chosen, scale, fuse, frames, _pixels(size))
 
-    def write(self, sample: Sample, folder: Path) -> list[Path]:
-        """Write each file; where one cannot be written the others are, and then it is an error."""
+    def write(self, sample: Sample, folder: Path, target: Target | None = None) -> list[Path]:
+        """Write each file, moving ones with the target as a ghost.
+
+        Where one cannot be written the others are, and then it is an error.
+        """
         found, failed = [], None
         for name in self.formats:
             try:
-                found.append(self._written(sample, folder, name))
+                found.append(self._written(sample, folder, name, target))
             except NiwakiError as error:
                 failed = failed or error
         if failed is not None:
             raise failed
         return found
 
-    def _written(self, sample: Sample, folder: Path, name: str) -> Path:
+    def _written(self, sample: Sample, folder: Path, name: str, target: Target | None) -> Path:
         if name in ANIMATIONS:
             settings = {"frames": self.frames, "size": self.size}
             given: dict[str, Any] = {key: value for key, value in settings.items() if value is not None}
-            return sample.animate(folder / f"growth.{name}", **given)
+            return sample.animate(folder / f"growth.{name}", target or sample.target, **given)
         if name in SOLIDS:
             return sample.export(folder / f"best.{name}", scale=self.scale, fuse=self.fuse)
         return sample.export(folder / f"best.{name}")
