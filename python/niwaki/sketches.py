@@ -60,6 +60,18 @@ class View:
     receiver: Receiver | None = None
     light: tuple[float, float, float] | None = None
 
+    def check_sees(self, target: Target) -> None:
+        """Refuse a target that is wholly behind the camera."""
+        forward = np.subtract(self.camera.look_at, self.camera.position)
+        depth = (target.vertices - np.asarray(self.camera.position)) @ forward
+        if depth.max() <= 0:
+            raise InputError(
+                "behind-camera",
+                name=target.name,
+                position=self.camera.position,
+                look_at=self.camera.look_at,
+            )
+
     def mask(self, scene: Scene) -> NDArray[np.bool_]:
         """Which pixels of a scene are on, (rows, columns)."""
         return self.picture.mask([shape for part in scene.parts for shape in part.shapes])
@@ -90,12 +102,11 @@ class Score:
         if not isinstance(other, Score):
             return NotImplemented
         target = self.target if self.target is not None else other.target
-        return Score(
-            self.specs + other.specs,
-            {**self.settings, **other.settings},
-            target,
-            self.views + other.views,
-        )
+        views = self.views + other.views
+        if target is not None:
+            for view in views:
+                view.check_sees(target)
+        return Score(self.specs + other.specs, {**self.settings, **other.settings}, target, views)
 
     def __repr__(self) -> str:
         return " * ".join(spec.name for spec in self.specs) or "no score"
