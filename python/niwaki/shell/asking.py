@@ -69,7 +69,6 @@ class Asked:
     receiver: str | None = None
 
     def __post_init__(self) -> None:
-        picture = self.match_image is not None or self.match_shadow is not None
         if self.match_image is not None and self.match_shadow is not None:
             raise InputError(
                 "flags-exclude",
@@ -78,19 +77,56 @@ class Asked:
                 reason="both are seen by the one --camera and weighed by the one --weight-image",
                 cure="multiply `match_image(...)` and `match_shadow(...)` in Python",
             )
-        needs = [
-            ("--match-image", self.match_image is not None, "--camera", self.camera is not None),
-            ("--match-shadow", self.match_shadow is not None, "--light", self.light is not None),
-            ("--match-shadow", self.match_shadow is not None, "--receiver", self.receiver is not None),
-            ("--light", self.light is not None, "--match-shadow", self.match_shadow is not None),
-            ("--receiver", self.receiver is not None, "--match-shadow", self.match_shadow is not None),
-            ("--camera", self.camera is not None, "--match-image or --match-shadow", picture),
-            ("--weight-image", self.weight_image is not None, "--match-image or --match-shadow", picture),
-            ("--weight", self.weight is not None, "--weight-image", self.weight_image is not None),
-        ]
-        for flag, given, other, there in needs:
+        image, shadow = self.match_image is not None, self.match_shadow is not None
+        pictures = "`--match-image` or `--match-shadow`"
+        for flag, given, other, there, reason in (
+            (
+                "--match-image",
+                image,
+                "`--camera`",
+                self.camera is not None,
+                "it says from where the image is seen",
+            ),
+            ("--match-shadow", shadow, "`--light`", self.light is not None, "it says where a shadow falls"),
+            (
+                "--match-shadow",
+                shadow,
+                "`--receiver`",
+                self.receiver is not None,
+                "a shadow falls on something",
+            ),
+            ("--light", self.light is not None, "`--match-shadow`", shadow, "only a shadow has a light"),
+            (
+                "--receiver",
+                self.receiver is not None,
+                "`--match-shadow`",
+                shadow,
+                "only a shadow falls on something",
+            ),
+            (
+                "--camera",
+                self.camera is not None,
+                pictures,
+                image or shadow,
+                "only a picture is seen by a camera",
+            ),
+            (
+                "--weight-image",
+                self.weight_image is not None,
+                pictures,
+                image or shadow,
+                "it weighs a picture",
+            ),
+            (
+                "--weight",
+                self.weight is not None,
+                "`--weight-image`",
+                self.weight_image is not None,
+                "it says where",
+            ),
+        ):
             if given and not there:
-                raise InputError("flag-alone", flag=flag, other=other)
+                raise InputError("flag-alone", flag=flag, other=other, reason=reason)
 
     def aim(self, found: Found) -> tuple[Target | None, str | None]:
         """The volume to fill and how to find it again.
@@ -134,8 +170,7 @@ class Asked:
                 **weigh,
             )
         if self.within is not None:
-            corners = numbers("--within", self.within, 6)
-            score *= sketches.overshoot((corners[:3], corners[3:]), sigma)
+            score *= sketches.overshoot(_box("--within", self.within), sigma)
         return score
 
     def record(self) -> dict[str, Any]:
@@ -158,7 +193,7 @@ def numbers(flag: str, text: str, count: int) -> tuple[float, ...]:
     except ValueError:
         found = ()
     if len(found) != count:
-        example = ",".join(("-1", "-0.3", "0", "1", "2", "3")[:count])
+        example = "-5,0,-5,5,10,5" if count == 6 else "-1,-0.3,0"
         raise InputError(
             "bad-setting",
             name=flag,
@@ -167,3 +202,18 @@ def numbers(flag: str, text: str, count: int) -> tuple[float, ...]:
             suggestion=f"such numbers, for instance {example}",
         )
     return found
+
+
+def _box(flag: str, text: str) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """The low and the high corner of a box."""
+    found = numbers(flag, text, 6)
+    low, high = found[:3], found[3:]
+    if not all(a < b for a, b in zip(low, high, strict=True)):
+        raise InputError(
+            "bad-setting",
+            name=flag,
+            found=repr(text),
+            expected="a low corner, then one that is higher along x, y and z",
+            suggestion="such a box, for instance -5,0,-5,5,10,5",
+        )
+    return low, high

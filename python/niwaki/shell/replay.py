@@ -37,7 +37,11 @@ def replay(
     data = load(run)
     sample = replayed(data, number)
     folder = made_folder(output or Path("out"))
-    aim = _same_target(data) if (picture and sample.primitives) or set(files.formats) & set(ANIMATIONS) else None
+    aim = (
+        _same_target(data)
+        if (picture and sample.primitives) or set(files.formats) & set(ANIMATIONS)
+        else None
+    )
     if aim is not None and target_hash(aim) != data["target"]["hash"]:
         print("warning: the target has changed since this run; its ghost is today's", file=sys.stderr)
     for place in files.write(sample, folder, aim):

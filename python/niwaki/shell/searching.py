@@ -100,7 +100,9 @@ class Search:
             )
         for name, owners in OWNERS.items():
             if getattr(self, name) is not None and self.method not in owners:
-                raise InputError("flag-alone", flag=f"--{name}", other=f"--method {' or '.join(owners)}")
+                other = " or ".join(f"`--method {owner}`" for owner in owners)
+                reason = f"`--method {self.method}` has no such setting"
+                raise InputError("flag-alone", flag=f"--{name}", other=other, reason=reason)
         if self.seconds is not None:
             for flag, given in (("-n", self.particles), ("--populations", self.populations)):
                 if given is not None:

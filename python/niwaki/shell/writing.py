@@ -64,7 +64,10 @@ class Files:
             ("--size", size, ANIMATIONS),
         ):
             if given is not None and not set(kinds) & set(chosen):
-                raise InputError("flag-alone", flag=flag, other=f"--format {' or '.join(kinds)}")
+                other = " or ".join(f"`{kind}`" for kind in kinds) + " in `--format`"
+                raise InputError(
+                    "flag-alone", flag=flag, other=other, reason="no other format has this setting"
+                )
         if scale is not None and not 0.0 < scale < float("inf"):
             raise _refused("--scale", repr(scale), "millimetres above 0", "10, for a centimetre a scene unit")
         if fuse is not None and not 0.0 <= fuse < float("inf"):

@@ -62,7 +62,7 @@ def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 GROW = ["grow", "garden.py:towers", "-n", "60", "--seed", "1", "-o", "out"]
 IMAGE = ["--match-image", "skyline.png", "--camera", "cam.json"]
-SHADOW = ["--match-shadow", "skyline.png", "--light=-1,-1,0", "--receiver", "ground.obj"]
+SHADOW = ["--match-shadow", "skyline.png", "--light", "-1,-1,0", "--receiver", "ground.obj"]
 
 
 def grown(*words: str) -> dict[str, Any]:
@@ -72,7 +72,7 @@ def grown(*words: str) -> dict[str, Any]:
 
 
 def test_an_image_is_matched_beside_a_wall_on_a_floor(place: Path) -> None:
-    data = grown(*IMAGE, "--avoid", "wall.obj", "--floor", "0", "--within=-5,0,-5,5,6,5", "--no-picture")
+    data = grown(*IMAGE, "--avoid", "wall.obj", "--floor", "0", "--within", "-5,0,-5,5,6,5", "--no-picture")
     asked = data["settings"]["asked"]
     assert asked["avoid"] == [str(place / "wall.obj")] and asked["floor"] == 0.0
     assert asked["camera"] == str(place / "cam.json") and data["target"]["reference"] is None

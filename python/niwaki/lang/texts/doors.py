@@ -79,9 +79,9 @@ DOORS = (
     ),
     Message(
         "flag-alone",
-        "`{flag}` needs `{other}`",
-        why="neither means anything without the other",
-        help="give `{other}` too, or leave `{flag}` out",
+        "`{flag}` needs {other}",
+        why="{reason}",
+        help="give {other} too, or leave `{flag}` out",
         example="niwaki grow blocks --match-shadow face.png",
         cure="niwaki grow blocks --match-shadow face.png --light 0,-1,0 --receiver floor.obj",
     ),
