@@ -95,7 +95,9 @@ def union(scene: Scene, scale: float = METRE, fuse: float | None = None) -> Soli
     low, high = np.reshape(turned.bounding_box(), (2, 3))
     placed = turned.translate(-low).simplify(SMALLEST * float((high - low).max()))
     mesh = placed.to_mesh()
-    pieces = len(placed.decompose())
+    vertices = np.maximum(np.asarray(mesh.vert_properties[:, :3], dtype=np.float32), 0.0)
+    faces = np.asarray(mesh.tri_verts, dtype=np.int64)
+    pieces = _pieces(vertices, faces)
     if pieces > 1:
         warnings.warn(
             f"the solid is in {pieces} pieces that do not hang together, and a printer makes each of them alone; "
@@ -103,8 +105,7 @@ def union(scene: Scene, scale: float = METRE, fuse: float | None = None) -> Soli
             PrintWarning,
             stacklevel=2,
         )
-    vertices = np.maximum(np.asarray(mesh.vert_properties[:, :3], dtype=np.float32), 0.0)
-    return Solid(vertices, np.asarray(mesh.tri_verts, dtype=np.int64), float(placed.volume()), pieces)
+    return Solid(vertices, faces, float(placed.volume()), pieces)
 
 
 def kernel() -> Any:
@@ -157,6 +158,24 @@ def _swollen(
     a, b, c = corners.T
     kept = corners[(a != b) & (b != c) & (c != a)]
     return places + swell * outwards / np.where(lengths > 0.0, lengths, 1.0), kept
+
+
+def _pieces(vertices: NDArray[Any], faces: NDArray[Any]) -> int:
+    """How many bodies a closed surface bounds; the walls of a hollow, which face inwards, are no body.
+
+    Each vertex takes the smallest number among its neighbours', and that number's own, until nothing changes.
+    """
+    label = np.arange(len(vertices))
+    while True:
+        smallest = label.copy()
+        np.minimum.at(smallest, faces.reshape(-1), np.repeat(label[faces].min(axis=1), 3))
+        smallest = smallest[smallest]
+        if np.array_equal(smallest, label):
+            break
+        label = smallest
+    a, b, c = (vertices[faces[:, k]].astype(np.float64) for k in range(3))
+    volumes = np.bincount(label[faces[:, 0]], np.einsum("ij,ij->i", a, np.cross(b, c)))
+    return int((volumes > 0.0).sum())
 
 
 def _open_edges(faces: NDArray[Any]) -> int:
