@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import isfinite, radians
+from math import hypot, isfinite, radians
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -209,4 +209,4 @@ def _cross(a: Triple, b: Triple) -> Triple:
 
 
 def _length(a: Triple) -> float:
-    return float(sum(x * x for x in a)) ** 0.5
+    return hypot(*a)

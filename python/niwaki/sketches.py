@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from math import isfinite
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
@@ -314,10 +315,10 @@ def _wish(image: Image, weight_image: Image | None) -> tuple[NDArray[np.bool_], 
 
 def _direction(name: str, value: Any, zero: bool = False) -> tuple[float, float, float]:
     try:
-        x, y, z = (check_finite(name, float(number)) for number in value)
+        x, y, z = (float(number) for number in value)
     except (TypeError, ValueError):
         x = y = z = float("nan")
-    if x != x or (not zero and x == y == z == 0):
+    if not all(map(isfinite, (x, y, z))) or (not zero and x == y == z == 0):
         raise InputError(
             "bad-setting",
             name=name,

@@ -6,6 +6,7 @@ with several objects is one target; its closed parts may overlap.
 
 from __future__ import annotations
 
+import os
 import warnings
 from os import PathLike
 from pathlib import Path
@@ -14,12 +15,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from niwaki.errors import InputError
 from niwaki.file_errors import FileError
 
 if TYPE_CHECKING:
     from PIL.Image import Image
 
     from niwaki.camera import Camera
+
+#: Memory that a mesh takes while it is checked and filled, and while its file is read: measured on closed meshes of a
+#: million and ten million triangles, the worst of the formats.
+BYTES_PER_TRIANGLE = 200
+BYTES_PER_BYTE = 20
 
 FORMATS = (".obj", ".stl", ".ply", ".glb", ".gltf")
 
@@ -57,6 +64,8 @@ class Target:
         self.vertices: NDArray[np.float64] = np.array(vertices, dtype=np.float64).reshape(-1, 3)
         self.faces: NDArray[np.int64] = np.array(faces, dtype=np.int64).reshape(-1, 3)
         self.name = name
+        count = len(self.faces)
+        _check_memory(name, f"{count:,} triangles", count * BYTES_PER_TRIANGLE)
         _check(self.vertices, self.faces, name)
         self.vertices, self.faces = _welded(self.vertices, self.faces)
         if len(self.faces) == 0:
@@ -218,8 +227,10 @@ def _load(path: str | PathLike[str]) -> tuple[NDArray[np.float64], NDArray[np.in
             done="read",
             formats=", ".join(FORMATS),
         )
-    if place.stat().st_size == 0:
+    size = place.stat().st_size
+    if size == 0:
         raise FileError("file-unreadable", path, suffix=suffix, reason="the file holds no bytes")
+    _check_memory(str(path), f"{size / 1e6:,.0f} MB on disk", size * BYTES_PER_BYTE)
     return _read(place, suffix)
 
 
@@ -273,22 +284,68 @@ def _welded(
     vertices: NDArray[np.float64], faces: NDArray[np.int64]
 ) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """One vertex for each place that is used, in order of first use; faces without three places left out."""
-    used, inverse = np.unique(faces.ravel(), return_inverse=True)
-    # -0.0 and 0.0 are one place.
-    places, first, number = np.unique(vertices[used] + 0.0, axis=0, return_index=True, return_inverse=True)
-    order = np.argsort(first)
-    rank = np.empty_like(order)
-    rank[order] = np.arange(len(order))
-    merged = rank[np.asarray(number).ravel()[inverse]].reshape(-1, 3).astype(np.int64)
+    is_used = np.zeros(len(vertices), dtype=bool)
+    is_used[faces.ravel()] = True
+    used = np.flatnonzero(is_used)
+    # -0.0 and 0.0 are one place. Sorted by coordinates, equal places follow each other; the sort is stable, so that
+    # the first of them is the one with the lowest number.
+    points = vertices[used] + 0.0
+    order = np.lexsort(points.T[::-1])
+    rows = points[order]
+    starts = np.ones(len(order), dtype=bool)
+    starts[1:] = (rows[1:] != rows[:-1]).any(axis=1)
+    first = np.empty_like(order)
+    first[order] = order[starts][np.cumsum(starts) - 1]
+    kept = first == np.arange(len(first))
+    number = np.empty(len(vertices), dtype=np.int64)
+    number[used] = (np.cumsum(kept) - 1)[first]
+    merged = number[faces]
     a, b, c = merged.T
-    return places[order], merged[(a != b) & (b != c) & (c != a)]
+    return points[kept], merged[(a != b) & (b != c) & (c != a)]
 
 
 def _open_edges(faces: NDArray[np.int64]) -> int:
-    edges = np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-    _, count = np.unique(edges, axis=0, return_counts=True)
+    count = int(faces.max()) + 1
+    # An edge is one number, whichever way round: there are fewer than 2^31 vertices.
+    edges = np.concatenate(
+        [
+            np.minimum(faces[:, k], faces[:, k - 1]) * count + np.maximum(faces[:, k], faces[:, k - 1])
+            for k in range(3)
+        ]
+    )
+    edges.sort()
+    ends = np.flatnonzero(np.append(edges[1:] != edges[:-1], True))
+    uses = np.diff(ends, prepend=-1)
     # Two closed parts may share an edge; an odd count is a hole.
-    return int((count % 2 == 1).sum())
+    return int((uses % 2 == 1).sum())
+
+
+def _check_memory(name: str, what: str, needed: int) -> None:
+    """Refuse a mesh that would not fit while it is read, checked and filled."""
+    free = _free_memory()
+    if needed > free:
+        raise InputError(
+            "mesh-too-large",
+            name=name,
+            what=what,
+            needed=f"{needed / 1e9:.1f} GB",
+            free=f"{free / 1e9:.1f} GB",
+        )
+
+
+def _free_memory() -> int:
+    """Bytes that a program can still get; without an answer of the system, as many as there can be."""
+    try:
+        with open("/proc/meminfo", encoding="ascii") as lines:
+            for line in lines:
+                if line.startswith("MemAvailable:"):
+                    return int(line.split()[1]) * 1024
+    except (OSError, ValueError):
+        pass
+    try:
+        return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    except (AttributeError, OSError, ValueError):
+        return 1 << 62
 
 
 def _outside() -> int:

@@ -392,7 +392,7 @@ fn impossible_pictures_cameras_and_lights_are_refused() {
     assert!(shadow(&above, -up).is_ok());
     assert_eq!(shadow(&above, Vec3::AXES[0]).unwrap_err().code, "light-grazes");
     let behind = shadow(&away, -up).unwrap_err();
-    assert_eq!((behind.code, &*behind.message), ("receiver-unseen", "the receiver is behind the camera"));
+    assert_eq!((behind.code, &*behind.message), ("receiver-unseen", "it is behind the camera"));
     assert_eq!(shadow(&aside, -up).unwrap_err().code, "receiver-unseen");
 }
 

@@ -5,10 +5,10 @@
 //! kept is the sum over shapes of the cells that each shares with the obstacle: an integer that is zero exactly when
 //! no shape shares one, so no grid of the scene is needed and a step costs the new shape's own cells.
 
+use super::bag::Bag;
 use super::volume::Target;
-use super::{Sketch, SketchSpec, same_bag};
+use super::{Sketch, SketchSpec};
 use crate::primitive::Primitive;
-use crate::tree::BoxTree;
 use crate::voxel::Voxels;
 use std::sync::Arc;
 
@@ -36,13 +36,13 @@ impl SketchSpec for AvoidSpec {
 pub struct Avoid {
     obstacle: Arc<Target>,
     shared: u64,
-    boxes: BoxTree<Primitive>,
+    bag: Bag,
 }
 
 impl Avoid {
     /// The empty scene.
     pub fn new(obstacle: Arc<Target>) -> Avoid {
-        Avoid { obstacle, shared: 0, boxes: BoxTree::default() }
+        Avoid { obstacle, shared: 0, bag: Bag::default() }
     }
 
     /// Cells of the obstacle that shapes fill, each shape counted by itself.
@@ -58,9 +58,7 @@ impl Avoid {
 
 impl PartialEq for Avoid {
     fn eq(&self, other: &Avoid) -> bool {
-        Arc::ptr_eq(&self.obstacle, &other.obstacle)
-            && self.shared == other.shared
-            && same_bag(&self.boxes, &other.boxes)
+        Arc::ptr_eq(&self.obstacle, &other.obstacle) && self.shared == other.shared && self.bag == other.bag
     }
 }
 
@@ -71,11 +69,11 @@ impl Sketch for Avoid {
 
     fn add(&mut self, primitive: &Primitive) {
         self.shared += self.shared_with(primitive);
-        self.boxes.insert(*primitive.aabb(), primitive.clone());
+        self.bag.add(primitive);
     }
 
     fn remove(&mut self, primitive: &Primitive) -> bool {
-        let there = self.boxes.remove(primitive.aabb(), |p| p == primitive).is_some();
+        let there = self.bag.remove(primitive);
         if there {
             self.shared -= self.shared_with(primitive);
         }

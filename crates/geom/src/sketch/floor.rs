@@ -3,11 +3,11 @@
 //! The original's setting of object avoidance (a scene with any vertex below the floor scores zero), as a sketch of
 //! its own. Touching has the tolerance of intersections: a millionth of a shape's thickness.
 
-use super::{Sketch, SketchSpec, same_bag};
+use super::bag::Bag;
+use super::{Sketch, SketchSpec};
 use crate::error::GeomError;
 use crate::intersect::SOLID_TOLERANCE;
 use crate::primitive::Primitive;
-use crate::tree::BoxTree;
 use std::sync::Arc;
 
 struct FloorSpec {
@@ -32,7 +32,7 @@ impl SketchSpec for FloorSpec {
     }
 
     fn start(&self) -> Box<dyn Sketch> {
-        Box::new(Floor { height: self.height, below: 0, boxes: BoxTree::default() })
+        Box::new(Floor { height: self.height, below: 0, bag: Bag::default() })
     }
 }
 
@@ -41,7 +41,7 @@ impl SketchSpec for FloorSpec {
 pub struct Floor {
     height: f64,
     below: u64,
-    boxes: BoxTree<Primitive>,
+    bag: Bag,
 }
 
 impl Floor {
@@ -53,7 +53,7 @@ impl Floor {
 
 impl PartialEq for Floor {
     fn eq(&self, other: &Floor) -> bool {
-        (self.height, self.below) == (other.height, other.below) && same_bag(&self.boxes, &other.boxes)
+        (self.height, self.below) == (other.height, other.below) && self.bag == other.bag
     }
 }
 
@@ -64,11 +64,11 @@ impl Sketch for Floor {
 
     fn add(&mut self, primitive: &Primitive) {
         self.below += self.below(primitive);
-        self.boxes.insert(*primitive.aabb(), primitive.clone());
+        self.bag.add(primitive);
     }
 
     fn remove(&mut self, primitive: &Primitive) -> bool {
-        let there = self.boxes.remove(primitive.aabb(), |p| p == primitive).is_some();
+        let there = self.bag.remove(primitive);
         if there {
             self.below -= self.below(primitive);
         }

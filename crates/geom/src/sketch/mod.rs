@@ -8,9 +8,11 @@
 //! - [`intersection`]: parts must not run into each other
 //! - [`avoid`], [`floor`]: keep out of an obstacle, stay above a floor
 //! - [`overshoot`]: stay inside of a box
+//! - [`bag`]: what a sketch holds and can give back
 //! - [`product`]: several sketches of one scene
 
 pub mod avoid;
+pub mod bag;
 pub mod brick;
 pub mod counters;
 pub mod floor;

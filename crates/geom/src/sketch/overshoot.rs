@@ -8,11 +8,11 @@
 //! Dissertation 5.5.1, where it is one of volume matching's two terms; alone it goes with pictures and shadows, which
 //! do not see what leaves them. differs: a sum over the sides, as the original's code has it; its text says maximum.
 
-use super::{Sketch, SketchSpec, check_sigma, log_normal, same_bag};
+use super::bag::Bag;
+use super::{Sketch, SketchSpec, check_sigma, log_normal};
 use crate::bounds::Aabb;
 use crate::error::GeomError;
 use crate::primitive::Primitive;
-use crate::tree::BoxTree;
 use std::sync::Arc;
 
 struct OvershootSpec {
@@ -41,7 +41,7 @@ impl SketchSpec for OvershootSpec {
     }
 
     fn start(&self) -> Box<dyn Sketch> {
-        Box::new(Overshoot { domain: self.domain, sigma: self.sigma, boxes: BoxTree::default() })
+        Box::new(Overshoot { domain: self.domain, sigma: self.sigma, bag: Bag::default() })
     }
 }
 
@@ -50,7 +50,7 @@ impl SketchSpec for OvershootSpec {
 pub struct Overshoot {
     domain: Aabb,
     sigma: f64,
-    boxes: BoxTree<Primitive>,
+    bag: Bag,
 }
 
 /// Sum over the six sides of the length of `scene` outside `domain`, as a share of the domain's extent.
@@ -69,7 +69,7 @@ pub fn overshoot(scene: &Aabb, domain: &Aabb) -> f64 {
 
 impl PartialEq for Overshoot {
     fn eq(&self, other: &Overshoot) -> bool {
-        (self.domain, self.sigma) == (other.domain, other.sigma) && same_bag(&self.boxes, &other.boxes)
+        (self.domain, self.sigma) == (other.domain, other.sigma) && self.bag == other.bag
     }
 }
 
@@ -79,15 +79,15 @@ impl Sketch for Overshoot {
     }
 
     fn add(&mut self, primitive: &Primitive) {
-        self.boxes.insert(*primitive.aabb(), primitive.clone());
+        self.bag.add(primitive);
     }
 
     fn remove(&mut self, primitive: &Primitive) -> bool {
-        self.boxes.remove(primitive.aabb(), |p| p == primitive).is_some()
+        self.bag.remove(primitive)
     }
 
     fn log_score(&self) -> f64 {
-        log_normal(overshoot(&self.boxes.bounds(), &self.domain), 0.0, self.sigma)
+        log_normal(overshoot(&self.bag.bounds(), &self.domain), 0.0, self.sigma)
     }
 
     fn fork(&self) -> Box<dyn Sketch> {
@@ -95,6 +95,6 @@ impl Sketch for Overshoot {
     }
 
     fn measures(&self) -> Vec<(&'static str, f64)> {
-        vec![("overshoot", overshoot(&self.boxes.bounds(), &self.domain))]
+        vec![("overshoot", overshoot(&self.bag.bounds(), &self.domain))]
     }
 }

@@ -14,11 +14,11 @@
 //! What is kept are counts for each pixel and four integers, so a score is the same to the bit in any order; weights
 //! come in only when it is asked for. The empty scene is scored as what it is: the picture with every pixel off.
 
+use super::bag::Bag;
 use super::tiles::Tiles;
-use super::{Sketch, SketchSpec, check_sigma, log_normal, same_bag};
+use super::{Sketch, SketchSpec, check_sigma, log_normal};
 use crate::error::GeomError;
 use crate::primitive::Primitive;
-use crate::tree::BoxTree;
 use crate::view::camera::check_size;
 use crate::view::{Cover, Rays};
 use std::ops::{Add, AddAssign, Sub, SubAssign};
@@ -211,7 +211,7 @@ pub struct PictureMatch {
     /// Pixels that are on, and those of them that should be.
     on: Amount,
     right: Amount,
-    boxes: BoxTree<Primitive>,
+    bag: Bag,
 }
 
 impl PictureMatch {
@@ -219,7 +219,7 @@ impl PictureMatch {
     pub fn new(name: &'static str, picture: Arc<Picture>, sigma: f64) -> PictureMatch {
         let tiles = Tiles::new(picture.rays.words());
         let (on, right) = (Amount::default(), Amount::default());
-        PictureMatch { name, picture, sigma, tiles, on, right, boxes: BoxTree::default() }
+        PictureMatch { name, picture, sigma, tiles, on, right, bag: Bag::default() }
     }
 
     /// Pixels that are on.
@@ -264,7 +264,7 @@ impl PartialEq for PictureMatch {
         Arc::ptr_eq(&self.picture, &other.picture)
             && (self.sigma, self.on, self.right) == (other.sigma, other.on, other.right)
             && self.tiles == other.tiles
-            && same_bag(&self.boxes, &other.boxes)
+            && self.bag == other.bag
     }
 }
 
@@ -281,11 +281,11 @@ impl Sketch for PictureMatch {
                 *right += picture.amount(word, new & picture.on[word]);
             });
         }
-        self.boxes.insert(*primitive.aabb(), primitive.clone());
+        self.bag.add(primitive);
     }
 
     fn remove(&mut self, primitive: &Primitive) -> bool {
-        if self.boxes.remove(primitive.aabb(), |p| p == primitive).is_none() {
+        if !self.bag.remove(primitive) {
             return false;
         }
         for cover in self.covers(primitive) {

@@ -9,6 +9,7 @@
 //! Dissertation 5.5.1. differs: similarity is over exactly the domain's cells (the original pads to words of 32);
 //! overshoot is a sum over the sides, as the original's code has it, where its text says the maximum.
 
+use super::bag::Bag;
 use super::brick::Plane;
 use super::counters::{Counters, bricks_of, planes_of, visit};
 use super::overshoot::overshoot;
@@ -16,7 +17,6 @@ use super::{Sketch, SketchSpec, log_normal};
 use crate::error::GeomError;
 use crate::mesh::TriMesh;
 use crate::primitive::Primitive;
-use crate::tree::BoxTree;
 use crate::voxel::{Grid, Voxels};
 use std::sync::Arc;
 
@@ -116,14 +116,14 @@ pub struct VolumeMatch {
     /// Filled cells, and those of them that the target fills too.
     filled: i64,
     inside: i64,
-    boxes: BoxTree<Primitive>,
+    bag: Bag,
 }
 
 impl VolumeMatch {
     /// The empty scene.
     pub fn new(target: Arc<Target>, sigma: f64) -> VolumeMatch {
         let counters = Counters::new(target.grid.dims());
-        VolumeMatch { target, sigma, counters, filled: 0, inside: 0, boxes: BoxTree::default() }
+        VolumeMatch { target, sigma, counters, filled: 0, inside: 0, bag: Bag::default() }
     }
 
     /// Number of cells that are filled in both or empty in both.
@@ -146,7 +146,7 @@ impl VolumeMatch {
 
     /// Sum over the six sides of the length outside the domain, as a share of the domain's extent.
     pub fn overshoot(&self) -> f64 {
-        overshoot(&self.boxes.bounds(), self.target.grid.domain())
+        overshoot(&self.bag.bounds(), self.target.grid.domain())
     }
 
     /// Counts of shapes for each cell.
@@ -161,7 +161,7 @@ impl PartialEq for VolumeMatch {
             && self.sigma == other.sigma
             && (self.filled, self.inside) == (other.filled, other.inside)
             && self.counters == other.counters
-            && super::same_bag(&self.boxes, &other.boxes)
+            && self.bag == other.bag
     }
 }
 
@@ -178,11 +178,11 @@ impl Sketch for VolumeMatch {
                 self.inside += change.inside;
             }
         }
-        self.boxes.insert(*primitive.aabb(), primitive.clone());
+        self.bag.add(primitive);
     }
 
     fn remove(&mut self, primitive: &Primitive) -> bool {
-        if self.boxes.remove(primitive.aabb(), |p| p == primitive).is_none() {
+        if !self.bag.remove(primitive) {
             return false;
         }
         for shape in primitive.shapes() {

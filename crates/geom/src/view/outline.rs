@@ -67,10 +67,8 @@ impl Outline {
         (outline.low, outline.high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for (i, corner) in polygon.iter().enumerate() {
             outline.edges.push(Edge::new(*corner, polygon[(i + 1) % polygon.len()]));
-            for a in 0..2 {
-                outline.low[a] = outline.low[a].min(corner[a]);
-                outline.high[a] = outline.high[a].max(corner[a]);
-            }
+            outline.low = [outline.low[0].min(corner[0]), outline.low[1].min(corner[1])];
+            outline.high = [outline.high[0].max(corner[0]), outline.high[1].max(corner[1])];
         }
         outline
     }

@@ -89,27 +89,34 @@ fn on_triangle([a, b, c]: &[Vec3; 3], start: Vec3, direction: Vec3) -> Option<(f
 /// The rays to the light from the points of `receiver` that the camera sees in a picture of `size`.
 ///
 /// # Errors
-/// `receiver-unseen` when no pixel sees the receiver, `light-grazes` when the light passes along all of what is
-/// seen of it.
+/// `receiver-unseen` when no pixel sees the receiver, `light-grazes` when the light passes along all of it, or
+/// along all that is seen of it.
 pub fn shadow_rays(
     receiver: &TriMesh,
     camera: &Camera,
     light: &Light,
     size: [usize; 2],
 ) -> Result<Rays, GeomError> {
+    let grazes = |normal: Vec3| normal.dot(light.direction).abs() < GRAZING;
+    let grazed = || {
+        let message = format!("light along {:?} passes along it", light.direction.to_array());
+        GeomError::new("light-grazes", message)
+    };
+    if receiver.corners().filter_map(|[a, b, c]| (b - a).cross(c - a).unit()).all(grazes) {
+        return Err(grazed());
+    }
     let seen = nearest(receiver, camera, size);
     if seen.is_empty() {
         let depths = receiver.corners().flatten().map(|p| camera.projection().depth(p));
         let message = if depths.fold(f64::NEG_INFINITY, f64::max) < camera.near() {
-            "the receiver is behind the camera"
+            "it is behind the camera"
         } else {
-            "the receiver is outside of the camera's picture"
+            "it is outside of the camera's picture"
         };
         return Err(GeomError::new("receiver-unseen", message));
     }
-    if seen.iter().all(|(_, normal)| normal.dot(light.direction).abs() < GRAZING) {
-        let message = format!("light along {:?} passes along the receiver", light.direction.to_array());
-        return Err(GeomError::new("light-grazes", message));
+    if seen.iter().all(|(_, normal)| grazes(*normal)) {
+        return Err(grazed());
     }
     let projection = light.projection();
     let toward = |(ray, _): &(Ray, Vec3)| Ray { at: projection.fall(ray.start), ..*ray };

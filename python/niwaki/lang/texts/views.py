@@ -72,7 +72,7 @@ VIEWS = (
     Message(
         "mesh-too-large",
         "the mesh `{name}` is too large for this machine's memory",
-        why="its {count} triangles need about {needed}, and {free} are free",
+        why="its {what} need about {needed}, and {free} are free",
         help="simplify the mesh: a target of a hundred thousand triangles scores like one of ten million",
         example="a scan of a hundred million triangles",
         cure="the same scan, reduced to a hundred thousand triangles",
