@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 
 from niwaki.errors import fill
-from niwaki.lang.messages import DOORS, FAULTS, FILES, INPUTS, LANGUAGE, Message
+from niwaki.lang.messages import ADVICE, DOORS, FAULTS, FILES, INPUTS, LANGUAGE, Message
 
 KINDS = (
     (LANGUAGE, "Found when a model is compiled, before anything runs."),
@@ -18,6 +18,7 @@ KINDS = (
     (INPUTS, "Found when a setting or an argument is looked at."),
     (FILES, "Found when a file is read or written."),
     (DOORS, "Found when a setting, a model's name or a run's file is looked at."),
+    (ADVICE, "Advice of `niwaki check`: the model is right, and a search of it could be better."),
 )
 
 

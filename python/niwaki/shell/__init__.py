@@ -7,5 +7,5 @@ writing.py   which files a result becomes
 grow.py      `niwaki grow`: a search, written to a folder
 replay.py    `niwaki replay`: a result once more, in any format
 models.py    `niwaki models`: the gallery
-check.py     `niwaki check`: what a model is made of
+check.py     `niwaki check`: what a model is made of, with advice
 """
