@@ -57,7 +57,7 @@ DOORS = (
         "no-target",
         "the model `{name}` has no target of its own",
         why="a model is grown into a target",
-        help="name one with `--target FILE`, or a picture with `--match-image` or `--match-shadow`",
+        help="name one with `--target FILE`, or a picture with `--match-image` or `--match-shadow`; in Python `target` or `score`",
         example="niwaki grow garden.py:tree",
         cure="niwaki grow garden.py:tree --target cloud.obj",
     ),
