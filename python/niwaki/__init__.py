@@ -15,10 +15,21 @@ from niwaki.words import *  # noqa: F403
 
 if TYPE_CHECKING:
     from niwaki.camera import Camera
+    from niwaki.constraints import Residuals, residuals
     from niwaki.errors import InputError, ModelError, ModelFault, NiwakiError
     from niwaki.infer import Progress, grow, run
     from niwaki.lang.plain import run_python
-    from niwaki.methods import enumerate_all, forward, importance, particle_gibbs, pimh, rejection, smc
+    from niwaki.methods import (
+        enumerate_all,
+        forward,
+        importance,
+        mh,
+        particle_gibbs,
+        pimh,
+        rejection,
+        smc,
+    )
+    from niwaki.mh_result import ChainResult
     from niwaki.result import Result, Sample
     from niwaki.scene import Scene
     from niwaki.sketches import (
@@ -43,11 +54,14 @@ _HOMES = {
         "enumerate_all",
         "forward",
         "importance",
+        "mh",
         "particle_gibbs",
         "pimh",
         "rejection",
         "smc",
     ),
+    "niwaki.mh_result": ("ChainResult",),
+    "niwaki.constraints": ("Residuals", "residuals"),
     "niwaki.result": ("Result", "Sample"),
     "niwaki.scene": ("Scene",),
     "niwaki.sketches": (
@@ -67,12 +81,14 @@ _HOME = {name: home for home, names in _HOMES.items() for name in names}
 __all__ = [  # noqa: PLE0604
     "__version__",
     *words.__all__,
+    "ChainResult",
     "Camera",
     "InputError",
     "ModelError",
     "ModelFault",
     "NiwakiError",
     "Progress",
+    "Residuals",
     "Receiver",
     "Result",
     "Sample",
@@ -85,6 +101,7 @@ __all__ = [  # noqa: PLE0604
     "floor",
     "grow",
     "importance",
+    "mh",
     "match_image",
     "match_shadow",
     "no_self_intersection",
@@ -92,6 +109,7 @@ __all__ = [  # noqa: PLE0604
     "particle_gibbs",
     "pimh",
     "rejection",
+    "residuals",
     "run",
     "run_python",
     "smc",

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 __all__ = [
     "BadParameter",
+    "Chains",
     "EngineFault",
     "Opaque",
     "Outcome",
@@ -45,6 +46,8 @@ __version__: str
 
 _Triple = Sequence[float]
 _Rows = Sequence[Sequence[float]]
+_Frame = tuple[_Triple, _Triple, _Triple, float]
+_Bark = tuple[_Triple, float, _Triple, float]
 _Corner = tuple[float, float, float]
 _Lens = tuple[_Triple, _Triple, _Triple, bool, float, float]
 _Eye = tuple[_Corner, _Corner, _Corner, float]
@@ -81,6 +84,14 @@ class Shape:
         end_radius: float,
         start_normal: _Triple | None = None,
         end_normal: _Triple | None = None,
+        color: _Triple | None = None,
+    ) -> Shape: ...
+    @staticmethod
+    def segment(
+        start: _Frame,
+        split: _Frame,
+        end: _Frame,
+        onto: _Bark | None = None,
         color: _Triple | None = None,
     ) -> Shape: ...
     @staticmethod
@@ -190,7 +201,7 @@ class BadParameter(ValueError):
     expected: str
 
 class EngineFault(RuntimeError):
-    kind: Literal["run", "setting", "impossible", "compile"]
+    kind: Literal["run", "setting", "impossible", "no-start", "compile"]
     code: str
     message: str
     help: str | None
@@ -287,6 +298,30 @@ class Task:
     ) -> dict[str, Any]: ...
     def trace(self, outcome: Outcome) -> Trace: ...
     def replay(self, choices: Mapping[str, Any], seed: int | None = None, partial: bool = False) -> Trace: ...
+
+@final
+class Chains:
+    def __new__(
+        cls,
+        task: Task,
+        seed: int,
+        *,
+        chains: int = 1,
+        strategy: str = "c3",
+        warmup: int = 0,
+        thin: int = 1,
+        room: int = ...,
+        tries: int = 1000,
+        known: Mapping[int, Any] | None = None,
+        threads: int | None = None,
+    ) -> Chains: ...
+    def advance(self, steps: int, threads: int | None = None, watch: _Watch | None = None) -> bool: ...
+    def best(self) -> list[Outcome]: ...
+    def samples(self, chain: int, start: int = 0) -> list[tuple[int, Outcome]]: ...
+    def now(self) -> list[Outcome]: ...
+    def thin(self) -> list[int]: ...
+    def sites(self) -> list[tuple[str, str, int, int, int, int]]: ...
+    def counters(self) -> dict[str, int]: ...
 
 @final
 class Outcome:

@@ -27,7 +27,7 @@ else:
 FORMATS = (".png", ".jpg", ".jpeg", ".webp", ".bmp", ".gif", ".tif", ".tiff")
 
 #: Most pixels of an image to match.
-MOST_PIXELS = 1 << 26
+MOST_PIXELS = 1 << 24
 
 
 def silhouette(image: Image) -> NDArray[np.bool_]:

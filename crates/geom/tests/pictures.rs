@@ -411,3 +411,29 @@ fn a_cylinder_with_very_many_sides_is_covered_whole() {
     let area = std::f64::consts::PI * 9.0 * 100.0;
     assert!((whole.count() as f64 - area).abs() < 30.0, "{} pixels", whole.count());
 }
+
+#[test]
+fn the_published_camera_of_the_skyline_has_the_origin_where_it_was_measured() {
+    // Column 113.4 and row 126.8 of 200 x 200, and about 5.3 pixels for each unit there.
+    let eye = Eye {
+        position: vec3(31.0552, 1.83332, 33.0193),
+        look_at: vec3(-3.07631, 5.13738, 0.527147),
+        up: vec3(0.0506582, 0.997551, 0.0482248),
+        lens: Lens::Perspective { fov: 45f64.to_radians(), near: 0.1 },
+    };
+    let size = [2000, 2000];
+    let rays = eye.camera().rays(size);
+    let middle = |at: Vec3| {
+        let dot = Shape::cuboid(at, vec3(0.06, 0.06, 0.06), &Look::default()).unwrap();
+        let pixels: Vec<u32> = rays.meeting(&dot).rays().map(|ray| rays.pixels()[ray]).collect();
+        assert!(pixels.len() > 4);
+        let mean = |part: &dyn Fn(u32) -> u32| {
+            pixels.iter().map(|p| f64::from(part(*p)) + 0.5).sum::<f64>() / pixels.len() as f64 / 10.0
+        };
+        [mean(&|p| p % 2000), mean(&|p| p / 2000)]
+    };
+    let origin = middle(Vec3::ZERO);
+    assert!((origin[0] - 113.4).abs() < 0.1 && (origin[1] - 126.8).abs() < 0.1, "{origin:?}");
+    let above = middle(vec3(0.0, 1.0, 0.0));
+    assert!((origin[1] - above[1] - 5.3).abs() < 0.1, "{above:?}");
+}

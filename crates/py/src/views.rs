@@ -100,7 +100,8 @@ impl PyPicture {
 impl PyPicture {
     fn array<'py>(&self, py: Python<'py>, pixels: &[bool]) -> Bound<'py, PyArray2<bool>> {
         let [columns, rows] = self.0.size();
-        Array2::from_shape_fn((rows, columns), |(row, column)| pixels[row * columns + column]).into_pyarray(py)
+        Array2::from_shape_fn((rows, columns), |(row, column)| pixels[row * columns + column])
+            .into_pyarray(py)
     }
 }
 

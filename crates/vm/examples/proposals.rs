@@ -48,7 +48,11 @@ impl Propose<f64> for Steps {
         let mut stream = Stream::new(1, 1, at.address(), self.0);
         if let (Dist::Gaussian { .. }, Value::Real(x)) = (dist, old) {
             let step = Dist::Gaussian { mean: *x, sd: 0.2 };
-            return Ok(Proposed { value: draw_to_value(step.sample(&mut stream)), forward: 0.0, backward: 0.0 });
+            return Ok(Proposed {
+                value: draw_to_value(step.sample(&mut stream)),
+                forward: 0.0,
+                backward: 0.0,
+            });
         }
         let (draw, log) = dist.sample_and_score(&mut stream);
         Ok(Proposed { value: draw_to_value(draw), forward: grid(log), backward: log_density })
@@ -150,9 +154,14 @@ fn main() {
             let (before, after) = (trace.before(), trace.totals());
             let (fresh, stale) = trace.fresh_and_stale();
             let (forward, backward) = trace.forward_and_backward();
-            let ratio = (after.log_prior + after.log_factors) - (before.log_prior + before.log_factors) + stale
-                + backward - fresh - forward;
-            if change == Change::Same || (change == Change::Done && (ratio >= 0.0 || pick.uniform().ln() < ratio)) {
+            let ratio = (after.log_prior + after.log_factors) - (before.log_prior + before.log_factors)
+                + stale
+                + backward
+                - fresh
+                - forward;
+            if change == Change::Same
+                || (change == Change::Done && (ratio >= 0.0 || pick.uniform().ln() < ratio))
+            {
                 trace.commit(&program);
                 accepted += 1;
             } else {

@@ -8,7 +8,7 @@ use crate::error::GeomError;
 use crate::vector::Vec3;
 
 /// Most pixels of a picture to match.
-pub const MOST_PIXELS: usize = 1 << 26;
+pub const MOST_PIXELS: usize = 1 << 24;
 
 /// How rays leave a camera.
 #[derive(Clone, Copy, Debug, PartialEq)]

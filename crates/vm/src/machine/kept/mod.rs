@@ -9,7 +9,7 @@
 //! * `questions`: choices, factors, emits and queries that are reached again;
 //! * `calls`, `loops`: activations that are entered, skipped, made and taken away;
 //! * `cells`: elements of collections, and those who read them;
-//! * `transaction`: changing choices, keeping or undoing it;
+//! * `transaction`: changing choices, keeping or undoing it; `changes`: what that did to the choices;
 //! * [`inspect`]: what a trace holds, in program order.
 //!
 //! Futures run where they are made, so a future's handle is its value.
@@ -18,6 +18,7 @@
 
 mod calls;
 mod cells;
+mod changes;
 pub mod inspect;
 mod journal;
 mod loops;

@@ -164,6 +164,7 @@ impl<S: Scalar> Kept<S> {
             self.stale += slot.log;
             self.forget_change(at);
             self.add(true, -slot.log);
+            self.journal.anew.push((address, state.registers[place].clone()));
             slot.held
         } else {
             self.journal.births.push(Birth { address, node, site: number.0 });
