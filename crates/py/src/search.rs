@@ -16,7 +16,6 @@ use niwaki_infer::rejection::rejection;
 use niwaki_infer::replay::{Missing, Source, replay};
 use niwaki_infer::{Failure, Task};
 use niwaki_vm::code::Program;
-use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Limits;
 use niwaki_vm::value::Value;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
@@ -105,12 +104,6 @@ pub(crate) fn detached<T: Send>(
         Some(error) if done.is_err() || !error.is_instance_of::<PyKeyboardInterrupt>(py) => Err(error),
         _ => done.map(|found| (found, pressed)).map_err(|failure| faults::raise(py, &failure, program)),
     }
-}
-
-pub(crate) fn unknown(py: Python<'_>, program: &Program, name: &str, found: &str, known: &str) -> PyErr {
-    let fault =
-        Fault::new("bad-setting", format!("`{name}` cannot be {found:?}")).with_help(format!("use {known}"));
-    faults::raise(py, &fault.into(), program)
 }
 
 /// A model with its arguments and the sketches that score its scene.

@@ -15,12 +15,22 @@ const SEEDS: u64 = 6000;
 const BOUND: f64 = 2.5;
 
 fn last_values(task: &Task, settings: &Settings, ancestors: Ancestors) -> Vec<String> {
-    (0..SEEDS)
+    values_after(task, settings, ancestors, SEEDS, 3)
+}
+
+fn values_after(
+    task: &Task,
+    settings: &Settings,
+    ancestors: Ancestors,
+    seeds: u64,
+    sweeps: usize,
+) -> Vec<String> {
+    (0..seeds)
         .map(|seed| {
             let exact = rejection(task, 1, BOUND, 1_000_000, seed + 1_000_000, &mut |_| true).unwrap();
             let from = exact.samples[0].record.log.entries();
             let own = Settings { seed, ..settings.clone() };
-            let chain = particle_gibbs(task, &own, ancestors, 3, Some(&from), &mut |_| true).unwrap();
+            let chain = particle_gibbs(task, &own, ancestors, sweeps, Some(&from), &mut |_| true).unwrap();
             repr(&chain.states.last().unwrap().value).unwrap()
         })
         .collect()
@@ -76,17 +86,28 @@ fn it_keeps_it_when_resampling_is_adaptive_and_the_temperature_goes_a_way() {
 
 #[test]
 fn mutants_of_particle_gibbs_are_rejected() {
-    for (mutant, ancestors) in [
-        (Mutant::HeldNotDrawn, Ancestors::Kept),
-        (Mutant::BlindAncestors, Ancestors::Sampled),
-        (Mutant::OrderFreeAncestors, Ancestors::Sampled),
-    ] {
+    for (mutant, ancestors) in
+        [(Mutant::HeldNotDrawn, Ancestors::Kept), (Mutant::BlindAncestors, Ancestors::Sampled)]
+    {
         let own = Settings { mutant: Some(mutant), ..small(3, Order::Stochastic) };
         let caught = PROGRAMS.iter().any(|(_, text)| {
             worst(&counted(&task(text), &last_values(&task(text), &own, ancestors))) > LIMIT
         });
         assert!(caught, "{mutant:?} passes");
     }
+}
+
+/// A small error, seen on the program made for it: sixty thousand seeds. The right kernel passes there too.
+#[test]
+fn ancestors_count_the_order_of_what_follows() {
+    let task = task(PROGRAMS[7].1);
+    let z = |mutant| {
+        let own = Settings { mutant, ..small(3, Order::Stochastic) };
+        worst(&counted(&task, &values_after(&task, &own, Ancestors::Sampled, 60_000, 6)))
+    };
+    assert!(z(None) < LIMIT);
+    let caught = z(Some(Mutant::OrderFreeAncestors));
+    assert!(caught > LIMIT, "{caught}");
 }
 
 #[test]

@@ -145,12 +145,12 @@ const PROGRAMS: [(&str, &str); 8] = [
     ),
     (
         "a wait that comes sooner or later: as many barriers, and other futures that can run",
-        r#"(module (fn "early" (params $c) (if $c (then (do (factor -0.1))))
-              (set $v (sample (dist bernoulli 0.4))) (do (factor (cond $v 0.3 -0.3))) (return (cond $v 1 0)))
+        r#"(module (fn "early" (params $c) (if $c (then (do (factor 0.0))))
+              (set $v (sample (dist bernoulli 0.4))) (do (factor (cond $v 0.3 -0.3))) (return $v))
             (fn "user" (params $h $c) (if (not $c) (then (do (factor -0.1)))) (set $v (force $h))
-              (do (factor (mul -0.2 $v))) (return $v))
+              (do (factor (cond $v -0.2 0.0))) (return $v))
             (fn "m" (params) (set $c (sample (dist bernoulli 0.5))) (set $h (future "early" $c))
-              (set $u (future "user" $h $c)) (do (factor 0.1)) (return (tuple $c (force $u)))) (entry "m"))"#,
+              (set $u (future "user" $h $c)) (return $c)) (entry "m"))"#,
     ),
 ];
 
