@@ -19,7 +19,16 @@ if TYPE_CHECKING:
     from niwaki.errors import InputError, ModelError, ModelFault, NiwakiError
     from niwaki.infer import Progress, grow, run
     from niwaki.lang.plain import run_python
-    from niwaki.methods import enumerate_all, forward, importance, mh, particle_gibbs, pimh, rejection, smc
+    from niwaki.methods import (
+        enumerate_all,
+        forward,
+        importance,
+        mh,
+        particle_gibbs,
+        pimh,
+        rejection,
+        smc,
+    )
     from niwaki.mh_result import ChainResult
     from niwaki.result import Result, Sample
     from niwaki.scene import Scene

@@ -89,8 +89,9 @@ def run(
     args, kwargs
         Its arguments.
     method
-        `smc(...)`, `mh(...)`, `particle_gibbs(...)`, `pimh(...)`, `enumerate_all(...)`, `rejection(...)`,
-        `importance(...)` or `forward(...)`, which is also what happens when it is left out. It may also stand right after the model.
+        `smc(...)`, `particle_gibbs(...)`, `pimh(...)`, `mh(...)`, `enumerate_all(...)`, `rejection(...)`,
+        `importance(...)` or `forward(...)`, which is also what happens when it is left out. It may also stand right
+        after the model.
     score
         What its scene should be like.
     seed
@@ -117,15 +118,7 @@ def run(
         method, args = args[0], args[1:]
     if seed is None and isinstance(method, Mh):
         seed = method.seed
-    score = score if score is not None else Score()
-    if not isinstance(score, Score):
-        raise InputError(
-            "bad-setting",
-            name="score",
-            found=repr(score),
-            expected="a product of sketches",
-            suggestion="`no_self_intersection() * volume_match(target)`",
-        )
+    score = _asked(score)
     given_seed = check_seed(seed)
     made = task(model, args, kwargs, score.specs, max_steps, max_memory)
     if choices is not None:
@@ -139,8 +132,10 @@ def run(
 
 def grow(
     model: Model[..., Any] | Callable[..., Any],
-    target: Target | str | PathLike[str],
+    target: Target | str | PathLike[str] | None = None,
     *args: Any,
+    score: Score | None = None,
+    method: Method | None = None,
     particles: int | Sequence[int] = 300,
     voxel: float | None = None,
     sigma: float = 0.02,
@@ -162,16 +157,21 @@ def grow(
     progress: Watch | None = None,
     **kwargs: Any,
 ) -> Result:
-    """Grow a model into a target: the best of a population, `runs` times.
+    """Grow a model into a target, or into anything else that can be asked for: the best of a population, `runs` times.
 
     Parameters
     ----------
     model
         A model that emits shapes.
     target
-        What to fill: a `Target`, or a file.
+        What to fill: a `Target`, or a file; may be left out where `score` says what to match.
     args, kwargs
         The model's arguments.
+    score
+        What else is asked for, such as `floor(0) * match_image("skyline.png", "cam.json")`; it multiplies
+        `no_self_intersection(rule)` and, where there is a target, `volume_match(target, voxel, sigma)`.
+    method
+        Another search than `smc` with the settings below, which are then left out.
     particles, order, weights, resampling, ess, anneal, populations, seconds
         As for `smc`.
     diverse
@@ -196,7 +196,7 @@ def grow(
     from niwaki.target import Target
 
     model = as_model(model)
-    chosen = smc(
+    chosen = method or smc(
         particles,
         order,
         weights,
@@ -217,8 +217,12 @@ def grow(
             suggestion="1 or more",
         )
     first, threads = check_seed(seed), check_threads(threads)
-    aim = target if isinstance(target, Target) else Target.load(target)
-    score = no_self_intersection(rule) * volume_match(aim, voxel, sigma)
+    score = no_self_intersection(rule) * _asked(score)
+    if target is not None:
+        aim = target if isinstance(target, Target) else Target.load(target)
+        score *= volume_match(aim, voxel, sigma)
+    elif len(score.specs) == 1:
+        raise InputError("no-target", name=model.name)
     made = task(model, args, kwargs, score.specs, max_steps, max_memory)
     found: list[Sample] = []
     failed: list[InputError] = []
@@ -243,7 +247,7 @@ def grow(
         interrupted = one.interrupted
         if one.interrupted and found and not any(sample.has_ended for sample in one):
             break
-        found.extend([one.best] if diverse is None else one.samples)
+        found.extend(one.samples if isinstance(chosen, Smc) and chosen.diverse is not None else [one.best])
         if interrupted:
             break
     if failed and not found:
@@ -257,6 +261,19 @@ def grow(
     result = Result(model, found, first, chosen, score, interrupted=interrupted, plan=plan)
     result.seconds = spent
     return result
+
+
+def _asked(score: Score | None) -> Score:
+    """What was asked for; nothing where nothing was."""
+    if score is not None and not isinstance(score, Score):
+        raise InputError(
+            "bad-setting",
+            name="score",
+            found=repr(score),
+            expected="a product of sketches",
+            suggestion="`no_self_intersection() * volume_match(target)`",
+        )
+    return score or Score()
 
 
 def default_temper(weights: str) -> float:
@@ -395,7 +412,7 @@ def _search(
                     "bad-setting",
                     name="method",
                     found=repr(method),
-                    expected="smc, mh, particle_gibbs, pimh, enumerate_all, rejection, importance or forward",
+                    expected="smc, particle_gibbs, pimh, mh, enumerate_all, rejection, importance or forward",
                     suggestion="such a method, for instance `smc(particles=300)`",
                 )
     seconds, cpu_seconds = time.perf_counter() - wall, time.process_time() - cpu

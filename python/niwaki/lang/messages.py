@@ -12,7 +12,7 @@ from niwaki.lang.texts.language import LANGUAGE
 from niwaki.lang.texts.message import Message
 
 MESSAGES: dict[str, Message] = {
-    message.code: message for message in (*LANGUAGE, *FAULTS, *INPUTS, *FILES, *DOORS, *CHAINS, *ADVICE)
+    message.code: message for message in (*LANGUAGE, *FAULTS, *INPUTS, *FILES, *DOORS, *ADVICE, *CHAINS)
 }
 
 __all__ = ["ADVICE", "CHAINS", "DOORS", "FAULTS", "FILES", "INPUTS", "LANGUAGE", "MESSAGES", "Message"]

@@ -1,4 +1,4 @@
-"""`niwaki check`: compile a model and report what it is made of."""
+"""`niwaki check`: compile a model and report what it is made of, with advice."""
 
 from __future__ import annotations
 
