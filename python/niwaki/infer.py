@@ -185,8 +185,8 @@ def grow(
     Returns
     -------
     Result
-        One sample for each run, the best of its population, or as many as are `diverse`; runs in which every particle became impossible are left
-        out with a warning, and are an error when there is no other.
+        One sample for each run, the best of its population, or as many as are `diverse`; runs in which every particle
+        became impossible are left out with a warning, and are an error when there is no other.
     """
     from niwaki.target import Target
 
@@ -217,7 +217,8 @@ def grow(
     made = task(model, args, kwargs, score.specs, max_steps, max_memory)
     found: list[Sample] = []
     failed: list[InputError] = []
-    spent, interrupted, plan = 0.0, False, ()
+    spent, interrupted = 0.0, False
+    plan: tuple[int, ...] = ()
     for number in range(runs):
         try:
             one = _search(

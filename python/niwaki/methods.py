@@ -17,7 +17,7 @@ RESAMPLING = ("systematic", "residual", "stratified", "multinomial")
 class Smc:
     """Sequential Monte Carlo; see `smc`."""
 
-    particles: int = 300
+    particles: int | tuple[int, ...] = 300
     order: str = "stochastic"
     weights: str = "ratio"
     temper: float = 1.0
@@ -123,7 +123,7 @@ def smc(
         score at every step, an undeclared sharpening without evidence.
     temper
         The power to which scores are raised in the final law; 1 for the posterior. For a score that is a normal
-        density of deviation sigma, it is as if sigma were divided by the root of it. Reported scores are never tempered.
+        density of deviation sigma, it is as if sigma were divided by its root. Reported scores are never tempered.
     resampling
         "systematic", "residual", "stratified" or "multinomial".
     ess
@@ -307,9 +307,7 @@ def forward(n: int = 1) -> Forward:
 
 
 def _bad(name: str, found: Any, expected: str, suggestion: str) -> InputError:
-    return InputError(
-        "bad-setting", name=name, found=repr(found), expected=expected, suggestion=suggestion
-    )
+    return InputError("bad-setting", name=name, found=repr(found), expected=expected, suggestion=suggestion)
 
 
 def _check_temper(temper: float) -> None:
@@ -327,7 +325,9 @@ def _way(anneal: Any, weights: str) -> float | tuple[float, ...] | None:
     if anneal is None:
         return None
     if weights == "absolute":
-        raise InputError("bad-anneal", found=repr(anneal), reason="absolute weights have no temperature to go")
+        raise InputError(
+            "bad-anneal", found=repr(anneal), reason="absolute weights have no temperature to go"
+        )
     if _number(anneal):
         if not 0 < anneal < 1:
             raise InputError("bad-anneal", found=repr(anneal), reason="a share lies between 0 and 1")
@@ -345,7 +345,9 @@ def _fixed(anneal: Any) -> tuple[float, ...] | None:
     way = _way(anneal, "ratio")
     if isinstance(way, float):
         raise InputError(
-            "bad-anneal", found=repr(anneal), reason="every sweep of a chain goes the same way, so it is a list"
+            "bad-anneal",
+            found=repr(anneal),
+            reason="every sweep of a chain goes the same way, so it is a list",
         )
     return way
 

@@ -92,7 +92,9 @@ class _Facts:
             self.builds.add(node)
         if any(map(reader.is_random, body)):
             self.draws.add(node)
-        in_place = (reader.function(value) in self.decides for part in body for _, value in reader.calls(part))
+        in_place = (
+            reader.function(value) in self.decides for part in body for _, value in reader.calls(part)
+        )
         if reader.decisions(body) or any(in_place):
             self.decides.add(node)
 
@@ -180,10 +182,15 @@ class _Reader:
         while grown != (grown := len(names)):
             for part in body:
                 for node in inside(part):
-                    if isinstance(node, (ast.Assign, ast.AnnAssign, ast.AugAssign)) and node.value is not None:
+                    if (
+                        isinstance(node, (ast.Assign, ast.AnnAssign, ast.AugAssign))
+                        and node.value is not None
+                    ):
                         if self.is_random(node.value) or reads(node.value) & names:
                             names |= writes(node)
-                    elif isinstance(node, ast.For) and (self.is_random(node.iter) or reads(node.iter) & names):
+                    elif isinstance(node, ast.For) and (
+                        self.is_random(node.iter) or reads(node.iter) & names
+                    ):
                         names |= writes(node.target)
         return names
 
@@ -227,7 +234,9 @@ class _Reader:
         name = ast.unparse(call.func)
         given = [ast.unparse(argument) for argument in call.args]
         given += [f"{keyword.arg}={ast.unparse(keyword.value)}" for keyword in call.keywords]
-        return self.advice("calls-in-place", call, rest, name=name, cure=f"future({', '.join([name, *given])})")
+        return self.advice(
+            "calls-in-place", call, rest, name=name, cure=f"future({', '.join([name, *given])})"
+        )
 
     def early(self, part: ast.stmt, later: Sequence[ast.stmt], again: Sequence[ast.stmt]) -> Iterator[Advice]:
         """Advice on a choice that the next barrier does not need."""
@@ -269,7 +278,11 @@ def reads(part: ast.AST) -> set[str]:
     """The names that a part reads, also in functions that it defines."""
     return {
         node.id for node in ast.walk(part) if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load)
-    } | {node.target.id for node in ast.walk(part) if isinstance(node, ast.AugAssign) and isinstance(node.target, ast.Name)}
+    } | {
+        node.target.id
+        for node in ast.walk(part)
+        if isinstance(node, ast.AugAssign) and isinstance(node.target, ast.Name)
+    }
 
 
 def reads_of(parts: Iterable[ast.AST]) -> set[str]:
