@@ -3,9 +3,11 @@
 //! One file for each room behind the door; this one only registers them.
 //!
 //! * `values`: Python's objects to the machine's values, and back; `faults`: faults as data;
-//! * `model`: compiled models; `search`: algorithms; `settings`: theirs; `outcome`: what they find;
-//! * `distributions`, `geometry`, `pictures`: the rooms below, by themselves.
+//! * `model`: compiled models; `search`: algorithms; `settings`: theirs; `chains`: Markov chains; `outcome`: what they
+//!   find;
+//! * `distributions`, `geometry`, `views`, `pictures`: the rooms below, by themselves.
 
+mod chains;
 mod distributions;
 mod faults;
 mod geometry;
@@ -15,6 +17,7 @@ mod pictures;
 mod search;
 mod settings;
 mod values;
+mod views;
 
 use pyo3::prelude::*;
 
@@ -29,9 +32,11 @@ fn _engine(module: &Bound<'_, PyModule>) -> PyResult<()> {
     distributions::register(module)?;
     geometry::register(module)?;
     pictures::register(module)?;
+    views::register(module)?;
     values::register(module)?;
     faults::register(module)?;
     model::register(module)?;
     outcome::register(module)?;
-    search::register(module)
+    search::register(module)?;
+    chains::register(module)
 }

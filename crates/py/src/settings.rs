@@ -25,13 +25,16 @@ pub struct Words<'a> {
     pub ess: Option<f64>,
 }
 
+/// The fault of a setting that is none of those known.
+pub fn unknown(py: Python<'_>, program: &Program, name: &str, found: &str, known: &str) -> PyErr {
+    let fault =
+        Fault::new("bad-setting", format!("`{name}` cannot be {found:?}")).with_help(format!("use {known}"));
+    faults::raise(py, &fault.into(), program)
+}
+
 /// The settings, or an error that says which word is not known.
 pub fn settings(py: Python<'_>, program: &Program, words: Words<'_>) -> PyResult<Settings> {
-    let unknown = |name: &str, found: &str, known: &str| {
-        let fault = Fault::new("bad-setting", format!("`{name}` cannot be {found:?}"))
-            .with_help(format!("use {known}"));
-        faults::raise(py, &fault.into(), program)
-    };
+    let unknown = |name: &str, found: &str, known: &str| unknown(py, program, name, found, known);
     Ok(Settings {
         particles: words.particles,
         seed: words.seed,
