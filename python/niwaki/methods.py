@@ -212,9 +212,9 @@ def smc(
     _check_temper(temper)
     _check_ess(ess)
     if diverse is not None:
-        _at_least_one("diverse", diverse)
+        at_least_one("diverse", diverse)
     if populations is not None:
-        _at_least_one("populations", populations)
+        at_least_one("populations", populations)
         if not isinstance(sizes, int):
             raise _bad("populations", populations, "nothing beside a list of sizes", "None")
     return Smc(
@@ -263,7 +263,7 @@ def particle_gibbs(
     """
     if not _whole(particles) or particles < 2:
         raise _bad("particles", particles, "a whole number above 1", "100")
-    _at_least_one("sweeps", sweeps)
+    at_least_one("sweeps", sweeps)
     _one_of("order", order, ORDERS)
     _check_temper(temper)
     _check_ess(ess)
@@ -298,7 +298,7 @@ def pimh(
     """
     if not _whole(particles) or particles < 1:
         raise InputError("no-particles", found=repr(particles))
-    _at_least_one("sweeps", sweeps)
+    at_least_one("sweeps", sweeps)
     _one_of("order", order, ORDERS)
     _one_of("resampling", resampling, RESAMPLING)
     _check_temper(temper)
@@ -457,7 +457,7 @@ def hmc(
         raise InputError(
             "bad-setting", name="jitter", found=repr(jitter), expected="a share in [0, 1]", suggestion="0.5"
         )
-    return Hmc(steps=_at_least_one("steps", steps), jitter=float(jitter), **common)
+    return Hmc(steps=at_least_one("steps", steps), jitter=float(jitter), **common)
 
 
 def nuts(
@@ -527,14 +527,16 @@ def _chain_settings(
         )
     _one_of("metric", metric, METRICS)
     return {
-        "draws": _at_least_one("draws", draws),
-        "chains": _at_least_one("chains", chains),
+        "draws": at_least_one("draws", draws),
+        "chains": at_least_one("chains", chains),
         "warmup": warmup,
-        "thin": _at_least_one("thin", thin),
+        "thin": at_least_one("thin", thin),
         "target_accept": float(target_accept),
         "metric": metric,
         "step_size": None if step_size is None else float(step_size),
     }
+
+
 def _bad(name: str, found: Any, expected: str, suggestion: str) -> InputError:
     return InputError("bad-setting", name=name, found=repr(found), expected=expected, suggestion=suggestion)
 

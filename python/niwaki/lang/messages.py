@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from niwaki.lang.texts.chains import CHAINS
 from niwaki.lang.texts.advice import ADVICE
+from niwaki.lang.texts.chains import CHAINS
 from niwaki.lang.texts.doors import DOORS
 from niwaki.lang.texts.faults import FAULTS
 from niwaki.lang.texts.files import FILES
