@@ -226,7 +226,8 @@ def grow(
     made = task(model, args, kwargs, score.specs, max_steps, max_memory)
     found: list[Sample] = []
     failed: list[InputError] = []
-    spent, interrupted, plan = 0.0, False, ()
+    spent, interrupted = 0.0, False
+    plan: tuple[int, ...] = ()
     for number in range(runs):
         try:
             one = _search(

@@ -85,11 +85,6 @@ class Sample:
             return self._task.trace(self._outcome)  # type: ignore[arg-type]
 
     @property
-    def was_searched(self) -> bool:
-        """Whether a search found it; else its choices were given."""
-        return hasattr(self._outcome, "log_weight")
-
-    @property
     def log_joint(self) -> float:
         """Choices and score together, nats."""
         return self.log_prior + self.log_score
@@ -270,7 +265,8 @@ class Result(Sequence[Sample]):
         """Of how many samples no other shares more than half of its choices, as (address, value) pairs."""
         from niwaki import _engine
 
-        return _engine.unique_models([s._outcome for s in self.samples if s.was_searched])
+        outcomes = [s._outcome for s in self.samples]
+        return _engine.unique_models([one for one in outcomes if isinstance(one, _engine.Outcome)])
 
     @property
     def value(self) -> Any:
