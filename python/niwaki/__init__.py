@@ -14,10 +14,12 @@ from niwaki._engine import __version__
 from niwaki.words import *  # noqa: F403
 
 if TYPE_CHECKING:
+    from niwaki.constraints import Residuals, residuals
     from niwaki.errors import InputError, ModelError, ModelFault, NiwakiError
     from niwaki.infer import Progress, grow, run
     from niwaki.lang.plain import run_python
-    from niwaki.methods import enumerate_all, forward, importance, rejection, smc
+    from niwaki.methods import enumerate_all, forward, importance, mh, rejection, smc
+    from niwaki.mh_result import ChainResult
     from niwaki.result import Result, Sample
     from niwaki.scene import Scene
     from niwaki.sketches import Score, no_self_intersection, volume_match
@@ -28,7 +30,9 @@ _HOMES = {
     "niwaki.errors": ("InputError", "ModelError", "ModelFault", "NiwakiError"),
     "niwaki.infer": ("Progress", "grow", "run"),
     "niwaki.lang.plain": ("run_python",),
-    "niwaki.methods": ("enumerate_all", "forward", "importance", "rejection", "smc"),
+    "niwaki.methods": ("enumerate_all", "forward", "importance", "mh", "rejection", "smc"),
+    "niwaki.mh_result": ("ChainResult",),
+    "niwaki.constraints": ("Residuals", "residuals"),
     "niwaki.result": ("Result", "Sample"),
     "niwaki.scene": ("Scene",),
     "niwaki.sketches": ("Score", "no_self_intersection", "volume_match"),
@@ -39,11 +43,13 @@ _HOME = {name: home for home, names in _HOMES.items() for name in names}
 __all__ = [  # noqa: PLE0604
     "__version__",
     *words.__all__,
+    "ChainResult",
     "InputError",
     "ModelError",
     "ModelFault",
     "NiwakiError",
     "Progress",
+    "Residuals",
     "Result",
     "Sample",
     "Scene",
@@ -53,8 +59,10 @@ __all__ = [  # noqa: PLE0604
     "forward",
     "grow",
     "importance",
+    "mh",
     "no_self_intersection",
     "rejection",
+    "residuals",
     "run",
     "run_python",
     "smc",

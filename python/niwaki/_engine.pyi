@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 __all__ = [
     "BadParameter",
+    "Chains",
     "EngineFault",
     "Opaque",
     "Outcome",
@@ -167,7 +168,7 @@ class BadParameter(ValueError):
     expected: str
 
 class EngineFault(RuntimeError):
-    kind: Literal["run", "setting", "impossible", "compile"]
+    kind: Literal["run", "setting", "impossible", "no-start", "compile"]
     code: str
     message: str
     help: str | None
@@ -233,6 +234,30 @@ class Task:
     ) -> dict[str, Any]: ...
     def trace(self, outcome: Outcome) -> Trace: ...
     def replay(self, choices: Mapping[str, Any], seed: int | None = None, partial: bool = False) -> Trace: ...
+
+@final
+class Chains:
+    def __new__(
+        cls,
+        task: Task,
+        seed: int,
+        *,
+        chains: int = 1,
+        strategy: str = "c3",
+        warmup: int = 0,
+        thin: int = 1,
+        room: int = ...,
+        tries: int = 1000,
+        known: Mapping[int, Any] | None = None,
+        threads: int | None = None,
+    ) -> Chains: ...
+    def advance(self, steps: int, threads: int | None = None, watch: _Watch | None = None) -> bool: ...
+    def best(self) -> list[Outcome]: ...
+    def samples(self, chain: int, start: int = 0) -> list[tuple[int, Outcome]]: ...
+    def now(self) -> list[Outcome]: ...
+    def thin(self) -> list[int]: ...
+    def sites(self) -> list[tuple[str, str, int, int, int, int]]: ...
+    def counters(self) -> dict[str, int]: ...
 
 @final
 class Outcome:

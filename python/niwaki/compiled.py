@@ -123,6 +123,9 @@ def _error(fault: Any, name: str, replay: str, choices: Mapping[str, Any]) -> Ex
         return error
     if fault.kind == "compile":
         return InputError("machine-limit", found=fault.message)
+    if fault.kind == "no-start":
+        causes = ", ".join(f"{cause} ({count})" for cause, count in fault.causes)
+        return InputError("no-start", name=name, tries=fault.barrier, constraint=causes)
     if fault.kind == "impossible":
         total = sum(count for _, count in fault.causes)
         causes = ", ".join(f"{cause} ({count})" for cause, count in fault.causes)

@@ -3,9 +3,10 @@
 //! One file for each room behind the door; this one only registers them.
 //!
 //! * `values`: Python's objects to the machine's values, and back; `faults`: faults as data;
-//! * `model`: compiled models; `search`: algorithms; `outcome`: what they find;
+//! * `model`: compiled models; `search`: algorithms; `chains`: Markov chains; `outcome`: what they find;
 //! * `distributions`, `geometry`, `pictures`: the rooms below, by themselves.
 
+mod chains;
 mod distributions;
 mod faults;
 mod geometry;
@@ -32,5 +33,6 @@ fn _engine(module: &Bound<'_, PyModule>) -> PyResult<()> {
     faults::register(module)?;
     model::register(module)?;
     outcome::register(module)?;
-    search::register(module)
+    search::register(module)?;
+    chains::register(module)
 }

@@ -7,6 +7,7 @@ effects         `factor`, `condition`, `observe`, `query`, `emit`, `future`, `fo
 shapes          `box`, `cylinder`, `limb`, `segment`, `mesh`
 vectors         `vec`, `dot`, `cross`, `norm`, `normalize`, `distance`, `rotate`, `rotation`
 numbers         `clip`, `lerp`, `sign`
+soft            `softeq`, `soft_at_least`, `soft_at_most`, `smooth_max`, `smooth_min`, `smooth_abs`
 running         which run a word belongs to
 """
 
@@ -64,6 +65,7 @@ from niwaki.words.effects import condition, emit, factor, force, future, observe
 from niwaki.words.models import Host, Model, host, model
 from niwaki.words.numbers import clip, lerp, sign
 from niwaki.words.shapes import Bark, Frame, box, cylinder, limb, mesh, segment
+from niwaki.words.soft import smooth_abs, smooth_max, smooth_min, soft_at_least, soft_at_most, softeq
 from niwaki.words.vectors import Vec, cross, distance, dot, norm, normalize, rotate, rotation, vec
 
 __all__ = [
@@ -138,6 +140,12 @@ __all__ = [
     "sample",
     "segment",
     "sign",
+    "smooth_abs",
+    "smooth_max",
+    "smooth_min",
+    "soft_at_least",
+    "soft_at_most",
+    "softeq",
     "student_t",
     "truncated_gaussian",
     "uniform",

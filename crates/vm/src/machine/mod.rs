@@ -6,7 +6,9 @@
 //! * [`address`]: paths of sites as 128-bit hashes;
 //! * [`answers`]: what is asked, and the trait of those who answer;
 //! * [`state`]: nodes, registers, futures;
+//! * [`kept`]: traces: kept activations, and re-running what changed;
 //! * `interpret`: the loop over instructions; `registers`: from operands to values;
+//! * `known`: distributions of weights that were made before;
 //! * `operate`: operations of two operands; `construct`: instructions that make or take apart an aggregate;
 //! * `question`: choices and factors; `suspend`: what happens at any other site; `loops`: lifted loops;
 //! * [`stack`]: the model's own call stack, for messages.
@@ -15,6 +17,9 @@ pub mod address;
 pub mod answers;
 mod construct;
 mod interpret;
+mod keep;
+pub mod kept;
+mod known;
 mod loops;
 mod operate;
 mod question;
@@ -27,6 +32,8 @@ use crate::code::{FunctionId, Operand, Program};
 use crate::fault::Fault;
 use crate::value::Value;
 use answers::Answers;
+use keep::Dropped;
+use known::Known;
 use niwaki_geom::Shape;
 use niwaki_math::Scalar;
 use stack::RunFault;
@@ -56,6 +63,8 @@ pub enum Stop {
     Returned,
     /// The future that ran waits for another.
     Waiting,
+    /// The score is minus infinity. Only where activations are kept: elsewhere the answers tell.
+    Impossible,
 }
 
 /// A call of a pure function in progress: where to go on when it returns.
@@ -83,6 +92,7 @@ pub struct Machine<'p, S: Scalar = f64> {
     pure: Vec<PureCall>,
     buffer: Vec<Value<S>>,
     shapes: Vec<Shape>,
+    known: Known<S>,
     here: Here,
 }
 
@@ -96,6 +106,7 @@ impl<'p, S: Scalar> Machine<'p, S> {
             pure: Vec::new(),
             buffer: Vec::new(),
             shapes: Vec::new(),
+            known: Known::default(),
             here: Here { node: NodeId::NONE, function: program.entry, pc: 0 },
         }
     }
@@ -157,7 +168,13 @@ impl<'p, S: Scalar> Machine<'p, S> {
         answers: &mut A,
     ) -> Result<Stop, Box<RunFault>> {
         self.pure.clear();
-        match self.interpret(state, future, answers) {
+        let Status::Runnable(node) = state.futures[future.0 as usize].status else {
+            return Err(Box::new(
+                self.report(state, Fault::new("not-runnable", "this future cannot run now")),
+            ));
+        };
+        let pc = state.nodes[node.0 as usize].pc as usize;
+        match self.interpret(state, &mut Dropped, future, (node, pc), answers) {
             Ok(stop) => Ok(stop),
             Err(fault) => Err(Box::new(self.report(state, fault))),
         }
