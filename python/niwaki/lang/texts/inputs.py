@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from niwaki.lang.texts.message import Message
+from niwaki.lang.texts.views import VIEWS
 
 INPUTS = (
+    *VIEWS,
     Message(
         "no-cell-filled",
         "no cell of the grid is filled by `{path}`",
