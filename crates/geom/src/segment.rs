@@ -199,6 +199,31 @@ mod tests {
         }
     }
 
+    /// A segment whose start is turned by `bend` against its end.
+    fn bent(bend: f64) -> Shape {
+        let (s, c) = bend.sin_cos();
+        let start = frame(Vec3::ZERO, UP, vec3(0.0, 0.0, -1.0), 1.0);
+        let ahead = vec3(s, c, 0.0);
+        let end = frame(ahead * 4.0, ahead, vec3(0.0, 0.0, -1.0), 0.8);
+        let split = frame(ahead * 0.4, ahead, vec3(0.0, 0.0, -1.0), 0.95);
+        Shape::segment([start, split, end], None, &Look::default()).unwrap()
+    }
+
+    #[test]
+    fn voxels_are_those_of_the_mesh_or_a_few_more() {
+        for (bend, most) in [(0.0, 0.0), (0.2, 0.01), (0.5, 0.02)] {
+            let shape = bent(bend);
+            let grid = crate::Grid::around(shape.aabb(), 0.1).unwrap();
+            let ours = crate::Voxels::of(&shape, &grid).unwrap();
+            let mesh = crate::Voxels::of_mesh(shape.world_mesh(), &grid).unwrap();
+            let [nx, ny, nz] = grid.dims();
+            let cells = (0..nx * ny * nz).map(|i| [i % nx, i / nx % ny, i / nx / ny]);
+            assert!(cells.filter(|c| mesh.contains(*c)).all(|c| ours.contains(c)), "{bend}");
+            let more = ours.count() as f64 / mesh.count() as f64 - 1.0;
+            assert!(more <= most, "{bend}: {more}");
+        }
+    }
+
     #[test]
     fn another_branch_through_a_welded_one_is_seen() {
         let (_, branch) = fork(0.5);

@@ -58,8 +58,13 @@ def draw(folder: Path) -> list[Path]:
     return [
         written(folder / "ships.png", fleet(ships)),
         written(folder / "tree.png", garden(trees)),
-        *(written(folder / "gallery" / f"{one.name}.png", plate(one)) for one in entries()),
+        *(written(folder / "gallery" / f"{one.name}.png", plate(one)) for one in entries() if has_plate(one)),
     ]
+
+
+def has_plate(one: Entry) -> bool:
+    """Whether a model has a target, or an experiment instead of one."""
+    return one.target_name is not None or any(experiment.model == one.name for experiment in EXPERIMENTS)
 
 
 def plate(one: Entry) -> Image.Image:

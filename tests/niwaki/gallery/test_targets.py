@@ -16,7 +16,7 @@ from numpy.typing import NDArray
     ("name", "size"),
     [
         ("bent_tube", (6.5, 25.9, 13.5)),
-        ("crescent", (25.4, 12.0, 18.1)),
+        ("crescent", (25.5, 12.0, 17.9)),
         ("dart", (11.2, 1.3, 12.8)),
         ("downtown", (26.8, 24.0, 26.8)),
         ("emblem", (10.0, 1.5, 10.0)),
