@@ -130,7 +130,7 @@ EXPERIMENTS = (
     Experiment("tall-tree", "5.9c", "gnarly-tree", 300, 0.02, fill="bent_tube", voxel=0.4),
     Experiment("building", "5.3", "building", 300, 0.02, fill="crescent", voxel=0.25),
     Experiment("tree-and-ledges", "5.4", "gnarly-tree", 100, 0.05, fill="funnel", avoid="ledges", voxel=0.4),
-    Experiment("tree-and-emblem", "5.4", "gnarly-tree", 100, 0.05, fill="gem", avoid="emblem", voxel=0.4),
+    Experiment("tree-and-emblem", "5.4", "gnarly-tree", 300, 0.05, fill="gem", avoid="emblem", voxel=0.4),
     Experiment("skyline", "5.5", "building", 300, 0.02, image="skyline", camera=STREET),
     Experiment("ship-front", "5.6", "spaceship", 300, 0.02, image="ship_front", camera=BOW),
     Experiment(
