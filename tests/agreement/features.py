@@ -63,6 +63,16 @@ def m():
     emit(box(a, (1, 1, 1), rotation=r), cylinder(b, 0.5, 2, axis="x"), [limb((0,0,0),(0,1,0),0.2,0.1)])
     return a, b, c.x, dot(a, b), norm(c), normalize(c), distance(a, b), a == vec(1, 2, a.z), a.y, str(vec(1, 2)), r
 """,
+    "segment": """
+def m():
+    up, back = vec(0, 1, 0), vec(0, 0, -1)
+    frames = [(vec(0, y, 0), up, back, r + 0.1 * uniform(0, 1)) for y, r in ((0, 1.0), (0.2, 0.9), (4, 0.7))]
+    emit(segment(frames[0], frames[1], frames[2]))
+    x = vec(1, 0, 0)
+    side = [Frame(vec(at, 2, 0), x, up, r) for at, r in ((1.1, 0.4), (1.3, 0.4), (3, 0.3))]
+    emit(segment(side[0], side[1], side[2], Bark(vec(0, 1.6, 0), 0.95, (0, 2.4, 0), 0.85), color=(0.4, 0.3, 0.2)))
+    return side[0].radius, frames[0][3]
+""",
     "mesh": """
 def m():
     emit(mesh(V, F, center=(gaussian(), 0, 0)))
