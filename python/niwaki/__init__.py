@@ -15,7 +15,7 @@ from niwaki.words import *  # noqa: F403
 
 if TYPE_CHECKING:
     from niwaki.errors import InputError, ModelError, ModelFault, NiwakiError
-    from niwaki.infer import Progress, grow, run
+    from niwaki.search import Progress, grow, run
     from niwaki.lang.plain import run_python
     from niwaki.methods import enumerate_all, forward, importance, rejection, smc
     from niwaki.result import Result, Sample
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 #: Where the names live that are imported when they are used.
 _HOMES = {
     "niwaki.errors": ("InputError", "ModelError", "ModelFault", "NiwakiError"),
-    "niwaki.infer": ("Progress", "grow", "run"),
+    "niwaki.search": ("Progress", "grow", "run"),
     "niwaki.lang.plain": ("run_python",),
     "niwaki.methods": ("enumerate_all", "forward", "importance", "rejection", "smc"),
     "niwaki.result": ("Result", "Sample"),

@@ -22,7 +22,7 @@ from niwaki.errors import ModelError, NiwakiError
 
 if TYPE_CHECKING:
     from niwaki.finding import Found
-    from niwaki.infer import Progress
+    from niwaki.search import Progress
     from niwaki.result import Result, Sample
     from niwaki.target import Target
 
