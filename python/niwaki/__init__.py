@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from niwaki.search import Progress, grow, run
     from niwaki.lang.plain import run_python
     from niwaki.methods import enumerate_all, forward, importance, rejection, smc
+    from niwaki.outline import load_polygon
     from niwaki.result import Result, Sample
     from niwaki.scene import Scene
     from niwaki.sketches import Score, no_self_intersection, volume_match
@@ -29,6 +30,7 @@ _HOMES = {
     "niwaki.search": ("Progress", "grow", "run"),
     "niwaki.lang.plain": ("run_python",),
     "niwaki.methods": ("enumerate_all", "forward", "importance", "rejection", "smc"),
+    "niwaki.outline": ("load_polygon",),
     "niwaki.result": ("Result", "Sample"),
     "niwaki.scene": ("Scene",),
     "niwaki.sketches": ("Score", "no_self_intersection", "volume_match"),
@@ -53,6 +55,7 @@ __all__ = [  # noqa: PLE0604
     "forward",
     "grow",
     "importance",
+    "load_polygon",
     "no_self_intersection",
     "rejection",
     "run",

@@ -10,6 +10,7 @@ use crate::outcome::{PyOutcome, PyTrace};
 use niwaki_infer::enumeration::enumerate;
 use niwaki_infer::forward::{Sample, forward};
 use niwaki_infer::importance::importance;
+use niwaki_infer::nested::Method;
 use niwaki_infer::particles::{Order, Resampling, Settings, Weights, When, smc};
 use niwaki_infer::rejection::rejection;
 use niwaki_infer::replay::{Missing, Source, replay};
@@ -17,7 +18,7 @@ use niwaki_infer::{Failure, Task};
 use niwaki_vm::code::Program;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Limits;
-use niwaki_vm::value::Value;
+use niwaki_vm::value::{Closure, Value};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
@@ -134,12 +135,14 @@ impl PyTask {
     ) -> PyResult<PyTask> {
         let own = program.get();
         let values: Vec<Value> = args.iter().map(|a| own.classes.value(a)).collect::<PyResult<_>>()?;
+        let limits = Limits { steps: max_steps, bytes: max_memory };
         let task = Task {
             program: own.program.clone(),
+            model: None,
             args: values,
             sketches: sketches.into_iter().map(|s| s.0).collect(),
-            hosts: own.hosts.clone(),
-            limits: Limits { steps: max_steps, bytes: max_memory },
+            hosts: own.hosts(limits),
+            limits,
         };
         Ok(PyTask { task, model: program.clone_ref(py) })
     }
@@ -242,26 +245,14 @@ impl PyTask {
             particles,
             seed,
             temper,
-            order: match order {
-                "stochastic" => Order::Stochastic,
-                "depth-first" => Order::DepthFirst,
-                _ => return Err(unknown(py, program, "order", order, "\"stochastic\" or \"depth-first\"")),
-            },
-            weights: match weights {
-                "ratio" => Weights::Ratio,
-                "absolute" => Weights::Absolute,
-                _ => return Err(unknown(py, program, "weights", weights, "\"ratio\" or \"absolute\"")),
-            },
-            resampling: match resampling {
-                "systematic" => Resampling::Systematic,
-                "residual" => Resampling::Residual,
-                "stratified" => Resampling::Stratified,
-                "multinomial" => Resampling::Multinomial,
-                _ => {
-                    let known = "\"systematic\", \"residual\", \"stratified\" or \"multinomial\"";
-                    return Err(unknown(py, program, "resampling", resampling, known));
-                }
-            },
+            order: Order::from_name(order)
+                .ok_or_else(|| unknown(py, program, "order", order, "\"stochastic\" or \"depth-first\""))?,
+            weights: Weights::from_name(weights)
+                .ok_or_else(|| unknown(py, program, "weights", weights, "\"ratio\" or \"absolute\""))?,
+            resampling: Resampling::from_name(resampling).ok_or_else(|| {
+                let known = "\"systematic\", \"residual\", \"stratified\" or \"multinomial\"";
+                unknown(py, program, "resampling", resampling, known)
+            })?,
             when: ess.map_or(When::Always, When::EffectiveBelow),
         };
         let (found, pressed) = detached(py, program, threads, watch.as_ref(), |watch| {
@@ -282,6 +273,30 @@ impl PyTask {
             .collect();
         facts.set_item("particles", outcomes)?;
         Ok(facts)
+    }
+
+    /// The value that an ``infer`` of this task gives to the model around it: ``method`` as the front end writes it.
+    fn infer<'py>(
+        &self,
+        py: Python<'py>,
+        method: &Bound<'py, PyAny>,
+        seed: u64,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let read = self.model.get().classes.value(method)?;
+        let program = &self.task.program;
+        let Some(method) = Method::read(&read) else {
+            return Err(unknown(
+                py,
+                program,
+                "method",
+                &method.repr()?.to_string(),
+                "what the front end writes",
+            ));
+        };
+        let inner = self.model.get().inferences(self.task.limits);
+        let entry = Arc::new(Closure { function: program.entry.0, captures: vec![] });
+        let value = self.at_once(py, || Ok(inner.infer(&method, &entry, &self.task.args, seed)?))?;
+        self.object(py, &value)
     }
 
     /// Runs once more with the choices of an outcome; one that had not ended as far as its choices go.

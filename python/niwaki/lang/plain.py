@@ -19,6 +19,7 @@ from niwaki.errors import Call, InputError, ModelFault, NiwakiError, place
 from niwaki.lang import densities, vocabulary
 from niwaki.lang.instrument import instrumented
 from niwaki.lang.names import is_library
+from niwaki.methods import EnumerateAll
 from niwaki.words.distributions import Distribution
 from niwaki.words.effects import flatten
 from niwaki.words.models import Model, underlying
@@ -321,6 +322,18 @@ class PlainRun:
     def force(self, value: Any) -> Any:
         """A future is its value already."""
         return value
+
+    def infer(self, model: Callable[..., Any], method: Any, args: Sequence[Any], keep: str) -> Any:
+        """Search another model, on the engine: only it has the methods."""
+        from niwaki.lang import inference
+
+        inference.check(method, keep)
+        function = underlying(model)
+        if not isinstance(function, FunctionType):
+            raise ModelFault("not-callable", f"`infer` runs a model, found {model!r}", stack=self.stack())
+        seed = 0 if isinstance(method, EnumerateAll) else self.sample(inference.SEEDS)
+        self.pending = ""
+        return inference.search(function, method, keep, args, seed, self.stack)
 
     # faults
 

@@ -3,8 +3,10 @@
 models          `@model`, `@host`
 choices         `sample`, `flip`, `gaussian`, ...: draws
 distributions   `Gaussian`, `Uniform`, ...: distributions as values
-effects         `factor`, `condition`, `observe`, `query`, `emit`, `future`, `force`
+effects         `factor`, `condition`, `observe`, `query`, `emit`, `future`, `force`, `infer`
 shapes          `box`, `cylinder`, `limb`, `mesh`
+colors          `hsv`, `lab`, `to_hsv`, `to_lab`, `color_difference`
+polygons        `polygon_area`, `polygon_contains`, `polygon_distance`, `polygon_disc_area`, `polygon_inset`
 vectors         `vec`, `dot`, `cross`, `norm`, `normalize`, `distance`, `rotate`, `rotation`
 numbers         `clip`, `lerp`, `sign`
 running         which run a word belongs to
@@ -35,6 +37,7 @@ from niwaki.words.choices import (
     uniform,
     von_mises,
 )
+from niwaki.words.colors import color_difference, hsv, lab, to_hsv, to_lab
 from niwaki.words.distributions import (
     Bernoulli,
     Beta,
@@ -60,11 +63,18 @@ from niwaki.words.distributions import (
     Uniform,
     VonMises,
 )
-from niwaki.words.effects import condition, emit, factor, force, future, observe, query
+from niwaki.words.effects import condition, emit, factor, force, future, infer, observe, query
 from niwaki.words.models import Host, Model, host, model
 from niwaki.words.numbers import clip, lerp, sign
+from niwaki.words.polygons import (
+    polygon_area,
+    polygon_contains,
+    polygon_disc_area,
+    polygon_distance,
+    polygon_inset,
+)
 from niwaki.words.shapes import box, cylinder, limb, mesh
-from niwaki.words.vectors import Vec, cross, distance, dot, norm, normalize, rotate, rotation, vec
+from niwaki.words.vectors import Rotation, Vec, cross, distance, dot, norm, normalize, rotate, rotation, vec
 
 __all__ = [
     "Bernoulli",
@@ -88,6 +98,7 @@ __all__ = [
     "Model",
     "MultivariateGaussian",
     "Poisson",
+    "Rotation",
     "StudentT",
     "TruncatedGaussian",
     "Uniform",
@@ -100,6 +111,7 @@ __all__ = [
     "cauchy",
     "choose",
     "clip",
+    "color_difference",
     "condition",
     "cross",
     "cylinder",
@@ -117,7 +129,10 @@ __all__ = [
     "gaussian",
     "geometric",
     "host",
+    "hsv",
+    "infer",
     "inverse_gamma",
+    "lab",
     "laplace",
     "lerp",
     "limb",
@@ -130,12 +145,19 @@ __all__ = [
     "normalize",
     "observe",
     "poisson",
+    "polygon_area",
+    "polygon_contains",
+    "polygon_disc_area",
+    "polygon_distance",
+    "polygon_inset",
     "query",
     "rotate",
     "rotation",
     "sample",
     "sign",
     "student_t",
+    "to_hsv",
+    "to_lab",
     "truncated_gaussian",
     "uniform",
     "vec",

@@ -45,6 +45,10 @@ class Runner(Protocol):
         """Wait for a future."""
         ...
 
+    def infer(self, model: Callable[..., Any], method: Any, args: Sequence[Any], keep: str) -> Any:
+        """Search another model."""
+        ...
+
 
 current: ContextVar[Runner | None] = ContextVar("niwaki_runner", default=None)
 

@@ -5,7 +5,7 @@
 //!
 //! * [`address`]: paths of sites as 128-bit hashes;
 //! * [`answers`]: what is asked, and the trait of those who answer;
-//! * [`state`]: nodes, registers, futures;
+//! * [`state`]: nodes, registers, futures; `begin`: those of a run that has not begun;
 //! * `interpret`: the loop over instructions; `registers`: from operands to values;
 //! * `operate`: operations of two operands; `construct`: instructions that make or take apart an aggregate;
 //! * `question`: choices and factors; `suspend`: what happens at any other site; `loops`: lifted loops;
@@ -13,6 +13,7 @@
 
 pub mod address;
 pub mod answers;
+mod begin;
 mod construct;
 mod interpret;
 mod loops;
@@ -30,7 +31,7 @@ use answers::Answers;
 use niwaki_geom::Shape;
 use niwaki_math::Scalar;
 use stack::RunFault;
-use state::{FutureId, NodeId, State, Status};
+use state::{FutureId, NodeId, State};
 
 /// How much a run may use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -112,37 +113,7 @@ impl<'p, S: Scalar> Machine<'p, S> {
     /// # Errors
     /// The wrong number of arguments.
     pub fn start(&self, args: &[Value<S>], depth_first: bool) -> Result<State<S>, Fault> {
-        let f = self.program.function(self.program.entry);
-        let needed = f.params as usize;
-        let optional = f.defaults.len();
-        if args.len() > needed || args.len() + optional < needed {
-            return Err(Fault::new(
-                "wrong-arity",
-                format!("`{}` takes {needed} arguments, {} given", f.name, args.len()),
-            ));
-        }
-        let mut state = State { depth_first, ..State::empty() };
-        let root = state.new_node(self.program, self.program.entry, NodeId::NONE, 0, address::ROOT);
-        let at = state.nodes[root.0 as usize].registers as usize;
-        // A pure entry function has its inputs in scratch: it is given them when it runs.
-        if f.mode == crate::code::Mode::Pure {
-            state.registers.extend(args.iter().cloned());
-        } else {
-            for (i, value) in args.iter().enumerate() {
-                state.registers[at + i] = value.clone();
-            }
-        }
-        for i in args.len()..needed {
-            let default = f.constants[f.defaults[i + optional - needed].index()].clone();
-            if f.mode == crate::code::Mode::Pure {
-                state.registers.push(default);
-            } else {
-                state.registers[at + i] = default;
-            }
-        }
-        let id = state.new_future(Status::Runnable(root), false);
-        state.runnable.push(id);
-        Ok(state)
+        self.start_call(self.program.entry, &[], args, depth_first)
     }
 
     /// Runs a runnable future until an answer pauses it, it returns, or it must wait.

@@ -1,0 +1,309 @@
+//! Inference inside a model: `infer(model, method, ...)`, dissertation 2.3.1.
+//!
+//! To the run around it an `infer` is a pure function of its model, its arguments and a seed: the seed is a choice of
+//! that run, drawn where `infer` stands, so that a replay, a copy of a particle and a Markov chain treat it as they treat
+//! every choice. The choices, factors and shapes of the inner runs are their own.
+//!
+//! The machine asks for it with the question `host`, as for any function that it cannot compute itself.
+
+use crate::Failure;
+use crate::enumeration::enumerate;
+use crate::forward::forward;
+use crate::importance::importance;
+use crate::particles::{Order, Resampling, Settings, Weights, When, smc};
+use crate::record::Record;
+use crate::rejection::rejection;
+use crate::task::{Hosts, Task};
+use niwaki_math::Stream;
+use niwaki_vm::code::{FunctionId, Program};
+use niwaki_vm::fault::Fault;
+use niwaki_vm::machine::Limits;
+use niwaki_vm::value::{Closure, Value};
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// The stream of the draw among weighted samples: no run and no lineage has this number.
+const PICK: u64 = u64::MAX - 1;
+
+/// How many `infer` may be inside one another. Each takes some of the host's stack.
+const DEPTH: usize = 16;
+
+/// What an `infer` gives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Keep {
+    /// The value of one sample, drawn by weight.
+    Sample,
+    /// The value of the sample with the best log score.
+    Best,
+}
+
+/// How an `infer` searches.
+#[derive(Clone, Debug)]
+pub enum Search {
+    /// Every run: gives the list of the pairs (value, probability), most probable first.
+    Enumerate {
+        /// Most runs.
+        max_runs: usize,
+    },
+    /// Rejection sampling.
+    Rejection {
+        /// How many samples.
+        n: usize,
+        /// No run scores above it, nats.
+        bound: f64,
+        /// Most runs.
+        max_tries: u64,
+    },
+    /// Likelihood weighting.
+    Importance {
+        /// How many runs.
+        n: usize,
+    },
+    /// Runs of the prior.
+    Forward {
+        /// How many runs.
+        n: u64,
+    },
+    /// Particles.
+    Smc(Settings),
+}
+
+/// A method and what is kept of its result.
+#[derive(Clone, Debug)]
+pub struct Method {
+    /// How it searches.
+    pub search: Search,
+    /// What it gives.
+    pub keep: Keep,
+}
+
+impl Method {
+    /// Reads the constant that stands for a method: `("infer", keep, name, settings ...)`, the settings in the order of
+    /// the Python class. `None` for any other constant.
+    pub fn read(constant: &Value) -> Option<Method> {
+        let Value::Tuple(tuple) = constant else { return None };
+        let [mark, keep, name, settings @ ..] = tuple.items() else { return None };
+        let text = |value: &Value| match value {
+            Value::Str(text) => Some(text.to_string()),
+            _ => None,
+        };
+        if text(mark)? != "infer" {
+            return None;
+        }
+        let keep = match text(keep)?.as_str() {
+            "sample" => Keep::Sample,
+            "best" => Keep::Best,
+            _ => return None,
+        };
+        let search = match (text(name)?.as_str(), settings) {
+            ("enumerate", [Value::Int(max_runs)]) => {
+                Search::Enumerate { max_runs: usize::try_from(*max_runs).ok()? }
+            }
+            ("rejection", [Value::Int(n), Value::Real(bound), Value::Int(max_tries)]) => Search::Rejection {
+                n: usize::try_from(*n).ok()?,
+                bound: *bound,
+                max_tries: u64::try_from(*max_tries).ok()?,
+            },
+            ("importance", [Value::Int(n)]) => Search::Importance { n: usize::try_from(*n).ok()? },
+            ("forward", [Value::Int(n)]) => Search::Forward { n: u64::try_from(*n).ok()? },
+            ("smc", [Value::Int(particles), order, weights, Value::Real(temper), resampling, ess]) => {
+                Search::Smc(Settings {
+                    particles: usize::try_from(*particles).ok()?,
+                    order: Order::from_name(&text(order)?)?,
+                    weights: Weights::from_name(&text(weights)?)?,
+                    temper: *temper,
+                    resampling: Resampling::from_name(&text(resampling)?)?,
+                    when: match ess {
+                        Value::None => When::Always,
+                        Value::Real(share) => When::EffectiveBelow(*share),
+                        Value::Int(share) => When::EffectiveBelow(*share as f64),
+                        _ => return None,
+                    },
+                    ..Settings::default()
+                })
+            }
+            _ => return None,
+        };
+        Some(Method { search, keep })
+    }
+
+    /// Runs the search of a task and gives what it keeps.
+    ///
+    /// # Errors
+    /// What the search itself meets.
+    pub fn value(&self, task: &Task, seed: u64) -> Result<Value, Failure> {
+        match &self.search {
+            Search::Enumerate { max_runs } => {
+                let found = enumerate(task, *max_runs, &mut |_| true)?;
+                if found.log_evidence == f64::NEG_INFINITY {
+                    return Err(impossible());
+                }
+                let mut pairs: Vec<(Value, f64)> = found
+                    .outcomes
+                    .into_iter()
+                    .map(|(value, log)| (value, (log - found.log_evidence).exp()))
+                    .collect();
+                // Stable: equally probable values keep their order of appearance.
+                pairs.sort_by(|a, b| b.1.total_cmp(&a.1));
+                let pair = |(value, p): (Value, f64)| Value::tuple(vec![value, Value::Real(p)]);
+                Ok(Value::list(pairs.into_iter().map(pair).collect()))
+            }
+            Search::Forward { n } => {
+                let runs =
+                    (0..*n).map(|stream| forward(task, seed, stream, true)).collect::<Result<Vec<_>, _>>()?;
+                self.kept(seed, runs.into_iter().map(|s| (s.value, s.record, 0.0)).collect())
+            }
+            Search::Rejection { n, bound, max_tries } => {
+                let found = rejection(task, *n, *bound, *max_tries, seed, &mut |_| true)?;
+                self.kept(seed, found.samples.into_iter().map(|s| (s.value, s.record, 0.0)).collect())
+            }
+            Search::Importance { n } => {
+                let found = importance(task, *n, seed, &mut |_| true)?;
+                let weighted = |s: crate::forward::Sample| {
+                    let log_weight = s.record.log_score();
+                    (s.value, s.record, log_weight)
+                };
+                self.kept(seed, found.samples.into_iter().map(weighted).collect())
+            }
+            Search::Smc(settings) => {
+                let found = smc(task, &Settings { seed, ..settings.clone() }, &mut |_| true)?;
+                let samples = found.particles.into_iter().filter(|p| p.has_ended);
+                self.kept(seed, samples.map(|p| (p.value, p.record, p.log_weight)).collect())
+            }
+        }
+    }
+
+    /// One of weighted samples.
+    fn kept(&self, seed: u64, mut samples: Vec<(Value, Record, f64)>) -> Result<Value, Failure> {
+        let score = |sample: &(Value, Record, f64)| sample.1.log_score();
+        let most = samples.iter().map(|s| s.2).fold(f64::NEG_INFINITY, f64::max);
+        if most == f64::NEG_INFINITY {
+            return Err(impossible());
+        }
+        let at = match self.keep {
+            Keep::Best => (0..samples.len())
+                .fold(0, |best, at| if score(&samples[at]) > score(&samples[best]) { at } else { best }),
+            Keep::Sample => {
+                let weights: Vec<f64> = samples.iter().map(|s| (s.2 - most).exp()).collect();
+                let mut left = Stream::new(seed, PICK, 0, 0).uniform() * weights.iter().sum::<f64>();
+                let passed = weights.iter().position(|w| {
+                    left -= w;
+                    left < 0.0
+                });
+                // By rounding nothing may be left over at the end: then the last that is possible.
+                passed.or_else(|| weights.iter().rposition(|w| *w > 0.0)).unwrap_or(0)
+            }
+        };
+        Ok(samples.swap_remove(at).0)
+    }
+}
+
+fn impossible() -> Failure {
+    Failure::Impossible { barrier: 0, causes: vec![] }
+}
+
+/// Host functions and the inferences inside of a program.
+#[derive(Clone)]
+pub struct Inferences {
+    /// The program whose functions are the inner models.
+    pub program: Arc<Program>,
+    /// Its methods, by the number of the constant.
+    pub methods: Arc<HashMap<u16, Method>>,
+    /// Its other host functions.
+    pub hosts: Arc<dyn Hosts>,
+    /// How much one inner run may use.
+    pub limits: Limits,
+    /// How many `infer` this one is inside of.
+    pub depth: usize,
+}
+
+impl Hosts for Inferences {
+    fn call(&self, constant: u16, args: &[Value]) -> Result<Value, Fault> {
+        let Some(method) = self.methods.get(&constant) else { return self.hosts.call(constant, args) };
+        let [model, args @ .., seed] = args else {
+            return Err(Fault::argument_count("`infer` takes a model, its arguments and a seed"));
+        };
+        match (model, seed) {
+            (Value::Function(model), Value::Int(seed)) => self.infer(method, model, args, *seed as u64),
+            _ => Err(Fault::not_callable(format!("`infer` runs a model, found {}", model.described()))),
+        }
+    }
+}
+
+impl Inferences {
+    /// What an `infer` of that model with these arguments gives.
+    ///
+    /// # Errors
+    /// Whatever keeps the search from finding anything, as a fault of the run around it.
+    pub fn infer(
+        &self,
+        method: &Method,
+        model: &Arc<Closure>,
+        args: &[Value],
+        seed: u64,
+    ) -> Result<Value, Fault> {
+        if args.iter().chain(&model.captures).any(holds_future) {
+            return Err(Fault::type_mismatch("an argument of `infer` holds a future")
+                .with_help("`force` it first: the inner run cannot wait for the outer one"));
+        }
+        if self.depth == DEPTH {
+            return Err(Fault::new(
+                "infer-failed",
+                format!("more than {DEPTH} `infer` are inside one another"),
+            ));
+        }
+        let task = Task {
+            program: Arc::clone(&self.program),
+            model: Some(Arc::clone(model)),
+            args: args.to_vec(),
+            sketches: vec![],
+            hosts: Arc::new(Inferences { depth: self.depth + 1, ..self.clone() }),
+            limits: self.limits,
+        };
+        let name = &self.program.function(FunctionId(model.function)).name;
+        method.value(&task, seed).map_err(|failure| told(name, failure))
+    }
+}
+
+/// The failure of an inner search as a fault of the run around it.
+fn told(name: &str, failure: Failure) -> Fault {
+    match failure {
+        Failure::Run(inner) => {
+            let line = inner.stack.last().map_or(0, |call| call.span.line);
+            let message = format!("inside `infer` of `{name}`, at line {line}: {}", inner.fault.message);
+            let fault = Fault::new(inner.fault.code, message);
+            match &inner.fault.help {
+                Some(help) => fault.with_help(help.clone()),
+                None => fault,
+            }
+        }
+        Failure::Setting(fault) if fault.code == "wrong-arity" => fault,
+        Failure::Setting(fault) => {
+            Fault::new("infer-failed", format!("`infer` of `{name}`: {}", fault.message))
+        }
+        Failure::Impossible { causes, .. } => {
+            let causes: Vec<String> = causes.iter().map(|(cause, n)| format!("{cause} ({n})")).collect();
+            let causes = if causes.is_empty() { String::new() } else { format!(": {}", causes.join(", ")) };
+            Fault::new("infer-failed", format!("every run of `{name}` is impossible{causes}"))
+        }
+    }
+}
+
+/// Whether a value holds the handle of a future. A work list: values may be nested as deep as memory allows.
+fn holds_future(value: &Value) -> bool {
+    let mut open = vec![value];
+    while let Some(value) = open.pop() {
+        match value {
+            Value::Future(_) => return true,
+            Value::Tuple(tuple) => open.extend(tuple.items()),
+            Value::List(list) => {
+                open.extend(list.iter().filter(|item| !item.is_plain() || matches!(item, Value::Future(_))))
+            }
+            Value::Dict(dict) => open.extend(dict.values()),
+            Value::Record(record) => open.extend(&record.fields),
+            Value::Function(closure) => open.extend(&closure.captures),
+            _ => {}
+        }
+    }
+    false
+}
