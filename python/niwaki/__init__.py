@@ -15,12 +15,12 @@ from niwaki.words import *  # noqa: F403
 
 if TYPE_CHECKING:
     from niwaki.errors import InputError, ModelError, ModelFault, NiwakiError
-    from niwaki.search import Progress, grow, run
     from niwaki.lang.plain import run_python
     from niwaki.methods import enumerate_all, forward, importance, rejection, smc
     from niwaki.outline import load_polygon
     from niwaki.result import Result, Sample
     from niwaki.scene import Scene
+    from niwaki.search import Progress, grow, run
     from niwaki.sketches import Score, no_self_intersection, volume_match
     from niwaki.target import Target
 

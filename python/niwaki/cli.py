@@ -22,8 +22,8 @@ from niwaki.errors import ModelError, NiwakiError
 
 if TYPE_CHECKING:
     from niwaki.finding import Found
-    from niwaki.search import Progress
     from niwaki.result import Result, Sample
+    from niwaki.search import Progress
     from niwaki.target import Target
 
 app = typer.Typer(

@@ -80,7 +80,12 @@ def check(method: Any, keep: Any) -> None:
 
 
 def search(
-    function: FunctionType, method: Method, keep: str, args: Sequence[Any], seed: int, stack: Callable[[], list[Call]]
+    function: FunctionType,
+    method: Method,
+    keep: str,
+    args: Sequence[Any],
+    seed: int,
+    stack: Callable[[], list[Call]],
 ) -> Any:
     """What the engine gives for an `infer` of a plain run.
 
@@ -113,7 +118,9 @@ def infer(body: Body, node: ast.Call) -> Expr:
         keep = str(value)
     if len(node.args) < 2:
         expected = "a model and a method"
-        body.refuse("wrong-number-of-arguments", node, name="infer", expected=expected, found=str(len(node.args)))
+        body.refuse(
+            "wrong-number-of-arguments", node, name="infer", expected=expected, found=str(len(node.args))
+        )
     method = _method(body, node.args[1])
     number = body.program.number(settings(method, keep))
     makers = [partial(expression, body, arg) for arg in (node.args[0], *node.args[2:])]
@@ -133,11 +140,15 @@ def _method(body: Body, node: ast.expr) -> Method:
         maker = static(body, node.func)
         if getattr(maker, "__module__", None) == "niwaki.methods":
             args = [_constant(body, arg) for arg in node.args]
-            keywords = {keyword.arg: _constant(body, keyword.value) for keyword in node.keywords if keyword.arg}
+            keywords = {
+                keyword.arg: _constant(body, keyword.value) for keyword in node.keywords if keyword.arg
+            }
             try:
                 found = maker(*args, **keywords)
             except (TypeError, InputError) as error:
-                body.refuse("infer-method", node, found=f"{body.span(node).text}: {str(error).splitlines()[0]}")
+                body.refuse(
+                    "infer-method", node, found=f"{body.span(node).text}: {str(error).splitlines()[0]}"
+                )
     if not is_method(found):
         body.refuse("infer-method", node, found=body.span(node).text)
     method: Method = found

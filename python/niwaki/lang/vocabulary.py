@@ -138,7 +138,9 @@ DRAWS: dict[Any, type[Distribution]] = {
     if hasattr(words, _NAMES.get(family.family, family.family))
 }
 
-ALL_WORDS: frozenset[Any] = frozenset({*WORDS, *EFFECTS, *DRAWS, *FAMILIES, words.choose, words.future, words.infer})
+ALL_WORDS: frozenset[Any] = frozenset(
+    {*WORDS, *EFFECTS, *DRAWS, *FAMILIES, words.choose, words.future, words.infer}
+)
 
 METHODS: dict[str, tuple[int, int]] = {
     "index": (1, 1),

@@ -1,7 +1,7 @@
 """Colours: vectors of three sRGB parts in [0, 1], made from and read as HSV and CIELAB.
 
-The formulas and constants are those of the engine's `math/color`. Nothing is clamped: a CIELAB colour that no screen can
-show has parts outside of [0, 1].
+The formulas and constants are those of the engine's `math/color`. Nothing is clamped: a CIELAB colour that no screen
+can show has parts outside of [0, 1].
 """
 
 from __future__ import annotations

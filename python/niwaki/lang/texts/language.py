@@ -454,6 +454,6 @@ LANGUAGE = (
         why="the inner model's arguments are given by position; the only keyword is `keep`",
         help='write `keep="sample"` or `keep="best"`',
         example="from niwaki import importance\n\n@model\ndef inner():\n    return flip(0.5)\n\n@model\ndef m():\n    return infer(inner, importance(100), keep=3)\n",
-        cure="from niwaki import importance\n\n@model\ndef inner():\n    return flip(0.5)\n\n@model\ndef m():\n    return infer(inner, importance(100), keep=\"best\")\n",
+        cure='from niwaki import importance\n\n@model\ndef inner():\n    return flip(0.5)\n\n@model\ndef m():\n    return infer(inner, importance(100), keep="best")\n',
     ),
 )

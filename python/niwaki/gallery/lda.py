@@ -1,0 +1,38 @@
+"""Topics of documents (latent Dirichlet allocation): which words go together, and what is each document about?
+
+Appendix A of the dissertation: ten topics over a hundred words, twenty words to a document. Every latent variable is a
+choice: the topics' words, the documents' topics, the topic of each word.
+"""
+
+from niwaki.gallery import data
+from niwaki.methods import smc
+from niwaki.words import Categorical, Dirichlet, categorical, model, observe, sample
+
+TITLE = "ten topics of a few documents"
+METHOD = smc(particles=2000, ess=0.5)
+
+DOCUMENTS = data.documents(50)
+TOPICS = 10
+VOCABULARY = 100
+FLAT_WORDS = Dirichlet([1.0] * VOCABULARY)
+FLAT_TOPICS = Dirichlet([1.0] * TOPICS)
+
+
+@model
+def lda(documents=5):
+    """The topics, as probabilities of words, and the share of each topic in each document."""
+    topics = [sample(FLAT_WORDS) for _ in range(TOPICS)]
+    shares = [document(DOCUMENTS[d], topics) for d in range(documents)]
+    return topics, shares
+
+
+def document(words, topics):
+    """The share of each topic in a document of these words."""
+    share = sample(FLAT_TOPICS)
+    for word in words:
+        topic = categorical(share)
+        observe(Categorical(topics[topic]), word)
+    return share
+
+
+MODEL = lda
