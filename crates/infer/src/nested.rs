@@ -18,9 +18,9 @@ use niwaki_math::Stream;
 use niwaki_vm::code::{FunctionId, Program};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Limits;
-use niwaki_vm::value::{Closure, Value};
-use std::collections::HashMap;
-use std::sync::Arc;
+use niwaki_vm::value::{Closure, Value, same};
+use std::collections::{HashMap, VecDeque};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// The stream of the draw among weighted samples: no run and no lineage has this number.
 const PICK: u64 = u64::MAX - 1;
@@ -215,16 +215,53 @@ pub struct Inferences {
     pub limits: Limits,
     /// How many `infer` this one is inside of.
     pub depth: usize,
+    /// The latest answers.
+    pub known: Arc<Known>,
+}
+
+/// How many answers are remembered.
+const REMEMBERED: usize = 16;
+
+/// The latest answers, so that a call that is merely run again (a replay, a changed choice elsewhere in the same
+/// activation) is not searched again. An inner search is a function of what it is given, so this changes no result.
+#[derive(Default)]
+pub struct Known(Mutex<VecDeque<Answered>>);
+
+/// The constant, the arguments, the answer.
+type Answered = (u16, Vec<Value>, Value);
+
+impl Known {
+    fn find(&self, constant: u16, args: &[Value]) -> Option<Value> {
+        let known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let is_it = |(c, given, _): &&Answered| {
+            *c == constant && given.len() == args.len() && given.iter().zip(args).all(|(a, b)| same(a, b))
+        };
+        known.iter().find(is_it).map(|(_, _, answer)| answer.clone())
+    }
+
+    fn remember(&self, constant: u16, args: &[Value], answer: &Value) {
+        let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        known.truncate(REMEMBERED - 1);
+        known.push_front((constant, args.to_vec(), answer.clone()));
+    }
 }
 
 impl Hosts for Inferences {
     fn call(&self, constant: u16, args: &[Value]) -> Result<Value, Fault> {
         let Some(method) = self.methods.get(&constant) else { return self.hosts.call(constant, args) };
+        if let Some(answer) = self.known.find(constant, args) {
+            return Ok(answer);
+        }
+        let given = args;
         let [model, args @ .., seed] = args else {
             return Err(Fault::argument_count("`infer` takes a model, its arguments and a seed"));
         };
         match (model, seed) {
-            (Value::Function(model), Value::Int(seed)) => self.infer(method, model, args, *seed as u64),
+            (Value::Function(model), Value::Int(seed)) => {
+                let answer = self.infer(method, model, args, *seed as u64)?;
+                self.known.remember(constant, given, &answer);
+                Ok(answer)
+            }
             _ => Err(Fault::not_callable(format!("`infer` runs a model, found {}", model.described()))),
         }
     }
@@ -257,7 +294,7 @@ impl Inferences {
             model: Some(Arc::clone(model)),
             args: args.to_vec(),
             sketches: vec![],
-            hosts: Arc::new(Inferences { depth: self.depth + 1, ..self.clone() }),
+            hosts: Arc::new(Inferences { depth: self.depth + 1, known: Arc::default(), ..self.clone() }),
             limits: self.limits,
         };
         let name = &self.program.function(FunctionId(model.function)).name;

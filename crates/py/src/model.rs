@@ -66,6 +66,7 @@ impl PyProgram {
             hosts: self.hosts.clone(),
             limits,
             depth: 0,
+            known: Arc::default(),
         }
     }
 }

@@ -1,4 +1,4 @@
-"""Topics of documents (latent Dirichlet allocation): which words go together, and what is each document about?
+"""Topics of documents: latent Dirichlet allocation, which finds the words that go together.
 
 Appendix A of the dissertation: ten topics over a hundred words, twenty words to a document. Every latent variable is a
 choice: the topics' words, the documents' topics, the topic of each word.
