@@ -146,14 +146,14 @@ def _checked(points: list[Point]) -> list[Point]:
     kept = [point for at, point in enumerate(points) if point != points[at - 1] or len(points) == 1]
     if len(kept) < 3:
         raise _Unusable(f"it has {len(kept)} corner{'s' * (len(kept) != 1)}, expected at least 3")
-    if polygon_area(kept) == 0.0:
-        raise _Unusable("its corners lie on one line")
     count = len(kept)
     for i in range(count):
         for j in range(i + 1, count):
             neighbours = j == i + 1 or (i == 0 and j == count - 1)
             if not neighbours and _cross(kept[i], kept[(i + 1) % count], kept[j], kept[(j + 1) % count]):
                 raise _Unusable(f"its edges {i + 1} and {j + 1} cross")
+    if polygon_area(kept) == 0.0:
+        raise _Unusable("its corners lie on one line")
     x, y = kept[0]
     turn = sum(
         (ax - x) * (by - y) - (ay - y) * (bx - x)

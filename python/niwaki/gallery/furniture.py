@@ -36,7 +36,7 @@ from niwaki.words import (
 
 TITLE = "a coffee shop, its tables laid"
 ROOM = load_polygon(Path(__file__).with_name("cafe.svg"))
-SEARCH = smc(particles=4000, ess=0.5)
+SEARCH = smc(particles=2000, ess=0.5)
 
 TABLE, CHAIR = furnishings.table(), furnishings.chair()
 PLATE, CUP = furnishings.plate(), furnishings.cup()

@@ -220,6 +220,15 @@ class PlainRun:
 
         return self.loop(label, count())
 
+    def named(self, name: str) -> Callable[[FunctionType], FunctionType]:
+        """Give a nested function its name of the core form, by which an `infer` of it is compiled."""
+
+        def name_it(function: FunctionType) -> FunctionType:
+            function.__qualname__ = name
+            return function
+
+        return name_it
+
     def leave(self) -> None:
         """A `break`."""
         del self.path[self.loops.pop() :]
