@@ -1,4 +1,4 @@
-"""Claim: a polygon comes from JSON and SVG as it was drawn, counter-clockwise, and whatever is no polygon is refused."""
+"""Claim: a polygon comes from JSON and SVG as it was drawn, counter-clockwise; what is no polygon is refused."""
 
 from __future__ import annotations
 
@@ -22,7 +22,10 @@ def saved(folder: Path, name: str, text: str) -> Path:
     [
         ("room.json", "[[0, 0], [4, 0], [4, 2], [2, 2], [2, 4], [0, 4]]"),
         ("room.json", '{"polygon": [[0, 4], [2, 4], [2, 2], [4, 2], [4, 0], [0, 0], [0, 4]]}'),
-        ("room.svg", '<svg xmlns="http://www.w3.org/2000/svg"><polygon points="0,0 4,0 4,-2 2,-2 2,-4 0,-4"/></svg>'),
+        (
+            "room.svg",
+            '<svg xmlns="http://www.w3.org/2000/svg"><polygon points="0,0 4,0 4,-2 2,-2 2,-4 0,-4"/></svg>',
+        ),
         ("room.svg", '<svg><g><path d="M0 0H4V-2L2-2v-2h-2z"/></g></svg>'),
         ("room.svg", '<svg><path d="m 0,0 4,0 0,-2 -2,0 0,-2 -2,0 Z"/></svg>'),
     ],

@@ -2,8 +2,8 @@
 
     python -m niwaki.gallery.figures docs/pictures
 
-coin.png: the exact answer; hmm.png, lda.png, gmm.png, hlr.png: what the data say; cafe.png and cafe-plan.png: a furnished
-room from the side and from above; palettes.png: three palettes at each of three stages. Each stays below `LARGEST` bytes.
+coin.png: the exact answer; hmm.png, lda.png, gmm.png, hlr.png: what the data say; cafe.png and cafe-plan.png: a
+furnished room from the side and from above; palettes.png: three palettes at each of three stages.
 """
 
 from __future__ import annotations
@@ -83,7 +83,7 @@ def axes(paint: Callable[[Axes, Result], None], result: Result, inches: tuple[fl
     matplotlib.use("Agg")
     from matplotlib import pyplot
 
-    settings = {"font.size": 9.0, "text.color": INK, "axes.labelcolor": INK, "axes.edgecolor": PALE}
+    settings: Any = {"font.size": 9.0, "text.color": INK, "axes.labelcolor": INK, "axes.edgecolor": PALE}
     settings |= {"xtick.color": INK, "ytick.color": INK, "axes.spines.top": False, "axes.spines.right": False}
     with matplotlib.rc_context(settings):
         figure, place = pyplot.subplots(figsize=inches, layout="constrained")
@@ -117,8 +117,8 @@ def state_shares(place: Axes, result: Result) -> None:
 
 
 def topic_shares(place: Axes, result: Result) -> None:
-    """Posterior mean share of each topic in each document, as stacked bars; topics in order of their share."""
-    shares = mean(result, lambda value: np.array(value[1]))
+    """The best sample's share of each topic in each document, as stacked bars; the largest topics first."""
+    shares = np.array(result.value[1])
     order = np.argsort(-shares.sum(axis=0))
     bottom = np.zeros(len(shares))
     import matplotlib

@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import cos, hypot, pi, sin
 
+from niwaki.words import Vec
+
 Vertex = tuple[float, float, float]
 Face = tuple[int, int, int]
 Part = tuple[tuple[Vertex, ...], tuple[Face, ...]]
@@ -88,7 +90,7 @@ def cup() -> list[Part]:
     return [lathe(profile, 24)]
 
 
-def walls(inner: Sequence[Sequence[float]], outer: Sequence[Sequence[float]], height: float) -> list[Part]:
+def walls(inner: Sequence[Vec], outer: Sequence[Vec], height: float) -> list[Part]:
     """A wall between two outlines of a floor plan, a part for each edge.
 
     Parameters

@@ -45,8 +45,8 @@ def _compile(function: FunctionType) -> CodeType:
             pair[0 if key[1] == "loop" else 1] = label
         else:
             labels[memo[id(key)]] = label
-    names = {memo[id(scope.node)]: name for scope, name in unit.names.items()}
-    node = _Namer(labels, names, clone).visit(clone)
+    shown = {memo[id(scope.node)]: name for scope, name in unit.names.items()}
+    node = _Namer(labels, shown, clone).visit(clone)
     node.args.defaults = [ast.copy_location(ast.Constant(None), default) for default in node.args.defaults]
     node.args.kw_defaults = [d and ast.copy_location(ast.Constant(None), d) for d in node.args.kw_defaults]
     if isinstance(node, ast.FunctionDef):
