@@ -8,9 +8,11 @@ from numpy.typing import NDArray
 
 __all__ = [
     "BadParameter",
+    "Chains",
     "EngineFault",
     "Opaque",
     "Outcome",
+    "Picture",
     "Program",
     "Shape",
     "Sketch",
@@ -19,14 +21,19 @@ __all__ = [
     "Task",
     "Trace",
     "__version__",
+    "avoid",
     "draw",
     "draw_at",
     "enumerate_support",
     "family_names",
     "fine_mesh",
+    "floor",
     "frame_camera",
     "log_density",
+    "match_image",
+    "match_shadow",
     "no_self_intersection",
+    "overshoot",
     "parameter_names",
     "render",
     "support",
@@ -38,6 +45,7 @@ __version__: str
 _Triple = Sequence[float]
 _Rows = Sequence[Sequence[float]]
 _Corner = tuple[float, float, float]
+_Lens = tuple[_Triple, _Triple, _Triple, bool, float, float]
 _Eye = tuple[_Corner, _Corner, _Corner, float]
 _Mesh = tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.float64] | None, _Corner, _Corner]
 
@@ -127,6 +135,30 @@ class Sketch:
 
 def volume_match(target: Target, sigma: float = 0.02) -> SketchSpec: ...
 def no_self_intersection(rule: str = "solid") -> SketchSpec: ...
+
+@final
+class Picture:
+    def __new__(
+        cls,
+        camera: _Lens,
+        on: NDArray[np.bool_],
+        greys: NDArray[np.uint8] | None = None,
+        multiplier: float = 10.0,
+        receiver: tuple[NDArray[np.float64], NDArray[np.int64]] | None = None,
+        light: _Triple | None = None,
+    ) -> Picture: ...
+    @property
+    def size(self) -> tuple[int, int]: ...
+    @property
+    def on_fraction(self) -> float: ...
+    def mask(self, shapes: Sequence[Shape]) -> NDArray[np.bool_]: ...
+    def seen(self) -> NDArray[np.bool_]: ...
+
+def match_image(picture: Picture, sigma: float = 0.02) -> SketchSpec: ...
+def match_shadow(picture: Picture, sigma: float = 0.02) -> SketchSpec: ...
+def avoid(obstacle: Target) -> SketchSpec: ...
+def floor(height: float) -> SketchSpec: ...
+def overshoot(low: _Triple, high: _Triple, sigma: float = 0.02) -> SketchSpec: ...
 def render(
     meshes: Sequence[_Mesh],
     ghost: _Mesh | None = None,
@@ -157,7 +189,7 @@ class BadParameter(ValueError):
     expected: str
 
 class EngineFault(RuntimeError):
-    kind: Literal["run", "setting", "impossible", "compile"]
+    kind: Literal["run", "setting", "impossible", "no-start", "compile"]
     code: str
     message: str
     help: str | None
@@ -224,6 +256,30 @@ class Task:
     def infer(self, method: object, seed: int) -> Any: ...
     def trace(self, outcome: Outcome) -> Trace: ...
     def replay(self, choices: Mapping[str, Any], seed: int | None = None, partial: bool = False) -> Trace: ...
+
+@final
+class Chains:
+    def __new__(
+        cls,
+        task: Task,
+        seed: int,
+        *,
+        chains: int = 1,
+        strategy: str = "c3",
+        warmup: int = 0,
+        thin: int = 1,
+        room: int = ...,
+        tries: int = 1000,
+        known: Mapping[int, Any] | None = None,
+        threads: int | None = None,
+    ) -> Chains: ...
+    def advance(self, steps: int, threads: int | None = None, watch: _Watch | None = None) -> bool: ...
+    def best(self) -> list[Outcome]: ...
+    def samples(self, chain: int, start: int = 0) -> list[tuple[int, Outcome]]: ...
+    def now(self) -> list[Outcome]: ...
+    def thin(self) -> list[int]: ...
+    def sites(self) -> list[tuple[str, str, int, int, int, int]]: ...
+    def counters(self) -> dict[str, int]: ...
 
 @final
 class Outcome:

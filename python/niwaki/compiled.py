@@ -123,8 +123,13 @@ def _error(fault: Any, name: str, replay: str, choices: Mapping[str, Any]) -> Ex
         return error
     if fault.kind == "compile":
         return InputError("machine-limit", found=fault.message)
+    if fault.kind == "no-start":
+        causes = ", ".join(f"{cause} ({count})" for cause, count in fault.causes)
+        return InputError("no-start", name=name, tries=fault.barrier, constraint=causes)
     if fault.kind == "impossible":
         total = sum(count for _, count in fault.causes)
+        if fault.barrier == 1 and all(cause == "avoid" for cause, _ in fault.causes):
+            return InputError("obstacle-at-start", count=total)
         causes = ", ".join(f"{cause} ({count})" for cause, count in fault.causes)
         return InputError(
             "everything-impossible", barrier=f"barrier {fault.barrier}", count=total, constraint=causes

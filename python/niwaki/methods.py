@@ -9,6 +9,8 @@ from niwaki.errors import InputError
 
 ORDERS = ("stochastic", "depth-first")
 WEIGHTS = ("ratio", "absolute")
+STRATEGIES = ("c3", "rerun", "resume", "cache")
+METRICS = ("diagonal", "dense", "low-rank", "unit")
 RESAMPLING = ("systematic", "residual", "stratified", "multinomial")
 
 
@@ -54,7 +56,57 @@ class Forward:
     n: int = 1
 
 
-Method = Smc | EnumerateAll | Rejection | Importance | Forward
+@dataclass(frozen=True)
+class Mh:
+    """Metropolis-Hastings; see `mh`."""
+
+    steps: int = 10_000
+    strategy: str = "c3"
+    chains: int = 1
+    thin: int | None = None
+    keep: int = 1000
+    warmup: int = 0
+    seed: int | None = None
+    tries: int = 1000
+
+    @property
+    def spacing(self) -> int:
+        """Proposals between two samples; 0 for none."""
+        if self.keep == 0:
+            return 0
+        return self.thin if self.thin is not None else max(1, -(-(self.steps - self.warmup) // self.keep))
+
+
+@dataclass(frozen=True)
+class Hmc:
+    """Hamiltonian Monte Carlo; see `hmc`."""
+
+    draws: int = 1000
+    steps: int = 100
+    jitter: float = 0.0
+    chains: int = 4
+    warmup: int = 1000
+    thin: int = 1
+    target_accept: float = 0.65
+    metric: str = "diagonal"
+    step_size: float | None = None
+
+
+@dataclass(frozen=True)
+class Nuts:
+    """The no-U-turn sampler; see `nuts`."""
+
+    draws: int = 1000
+    max_depth: int = 10
+    chains: int = 4
+    warmup: int = 1000
+    thin: int = 1
+    target_accept: float = 0.8
+    metric: str = "diagonal"
+    step_size: float | None = None
+
+
+Method = Smc | EnumerateAll | Rejection | Importance | Forward | Mh
 
 
 def smc(
@@ -97,6 +149,65 @@ def smc(
     return Smc(particles, order, weights, float(temper), resampling, ess)
 
 
+def mh(
+    steps: int = 10_000,
+    strategy: str = "c3",
+    chains: int = 1,
+    thin: int | None = None,
+    keep: int = 1000,
+    warmup: int = 0,
+    seed: int | None = None,
+    tries: int = 1000,
+) -> Mh:
+    """Markov chains: one state each, changed proposal by proposal (dissertation chapter 3).
+
+    Parameters
+    ----------
+    steps
+        Proposals of each chain, warm-up included.
+    strategy
+        How much of the model is run again for a proposal: "c3" (from the changed choice on, skipping calls whose inputs
+        are unchanged), "resume" (from the choice on), "cache" (from the start, skipping), "rerun" (all of it). The states
+        are the same to the bit; only the time differs.
+    chains
+        How many, side by side on the machine's threads.
+    thin
+        Proposals between two samples; when left out as many as give `keep` samples. It doubles when samples take too
+        much memory.
+    keep
+        About how many samples of each chain; 0 for none (the best state is always kept).
+    warmup
+        Proposals before the first sample; step sizes are adapted in them, and never after.
+    seed
+        As for `run`, which comes first.
+    tries
+        Most forward runs for a first state that is possible.
+    """
+    for name, value in (("steps", steps), ("chains", chains), ("tries", tries)):
+        at_least_one(name, value)
+    if thin is not None:
+        at_least_one("thin", thin)
+    for name, value in (("keep", keep), ("warmup", warmup)):
+        if not _whole(value) or value < 0:
+            raise InputError(
+                "bad-setting",
+                name=name,
+                found=repr(value),
+                expected="a whole number, 0 or more",
+                suggestion="0",
+            )
+    if warmup >= steps:
+        raise InputError(
+            "bad-setting",
+            name="warmup",
+            found=repr(warmup),
+            expected="fewer proposals than `steps`",
+            suggestion=repr(steps // 5),
+        )
+    _one_of("strategy", strategy, STRATEGIES)
+    return Mh(steps, strategy, chains, thin, keep, warmup, seed, tries)
+
+
 def enumerate_all(max_runs: int = 1_000_000) -> EnumerateAll:
     """The exact distribution of a model's value, by visiting every run.
 
@@ -105,7 +216,7 @@ def enumerate_all(max_runs: int = 1_000_000) -> EnumerateAll:
     max_runs
         Most complete runs to visit.
     """
-    return EnumerateAll(_at_least_one("max_runs", max_runs))
+    return EnumerateAll(at_least_one("max_runs", max_runs))
 
 
 def rejection(n: int = 100, bound: float = 0.0, max_tries: int = 1_000_000) -> Rejection:
@@ -124,7 +235,7 @@ def rejection(n: int = 100, bound: float = 0.0, max_tries: int = 1_000_000) -> R
         raise InputError(
             "bad-setting", name="bound", found=repr(bound), expected="a number of nats", suggestion="0"
         )
-    return Rejection(_samples(n), float(bound), _at_least_one("max_tries", max_tries))
+    return Rejection(_samples(n), float(bound), at_least_one("max_tries", max_tries))
 
 
 def importance(n: int = 1000) -> Importance:
@@ -149,6 +260,126 @@ def forward(n: int = 1) -> Forward:
     return Forward(_samples(n))
 
 
+def hmc(
+    draws: int = 1000,
+    steps: int = 100,
+    jitter: float = 0.0,
+    chains: int = 4,
+    warmup: int = 1000,
+    thin: int = 1,
+    target_accept: float = 0.65,
+    metric: str = "diagonal",
+    step_size: float | None = None,
+) -> Hmc:
+    """Chains that follow the gradient for a fixed number of steps (dissertation 4.3).
+
+    Parameters
+    ----------
+    draws
+        Of each chain, after warm-up.
+    steps
+        Leapfrog steps of a trajectory; the dissertation takes 100 for colours and 1000 for stacks.
+    jitter
+        The number of steps varies by this share of itself, [0, 1]; 0, the dissertation's setting, keeps it.
+    chains
+        How many; two or more show whether they agree.
+    warmup
+        Transitions of each chain in which step size and metric are adapted; not among the draws.
+    thin
+        Transitions for each draw.
+    target_accept
+        Mean acceptance that the step size is adapted to, (0, 1).
+    metric
+        What is learnt of the target's shape: "diagonal", a scale for each coordinate; "low-rank", and a few directions;
+        "dense", the whole covariance, which suits what is nearly normal; "unit", nothing (the dissertation's setting).
+    step_size
+        A step to keep instead of an adapted one.
+    """
+    common = _chain_settings(draws, chains, warmup, thin, target_accept, metric, step_size)
+    if not _number(jitter) or not 0 <= jitter <= 1:
+        raise InputError(
+            "bad-setting", name="jitter", found=repr(jitter), expected="a share in [0, 1]", suggestion="0.5"
+        )
+    return Hmc(steps=_at_least_one("steps", steps), jitter=float(jitter), **common)
+
+
+def nuts(
+    draws: int = 1000,
+    max_depth: int = 10,
+    chains: int = 4,
+    warmup: int = 1000,
+    thin: int = 1,
+    target_accept: float = 0.8,
+    metric: str = "diagonal",
+    step_size: float | None = None,
+) -> Nuts:
+    """Chains that follow the gradient until they turn back (Hoffman & Gelman 2014; Betancourt 2017).
+
+    Parameters
+    ----------
+    max_depth
+        Most doublings of a trajectory: 2^max_depth - 1 steps; up to 20.
+    draws, chains, warmup, thin, target_accept, metric, step_size
+        As for `hmc`.
+    """
+    common = _chain_settings(draws, chains, warmup, thin, target_accept, metric, step_size)
+    if not _whole(max_depth) or not 1 <= max_depth <= 20:
+        raise InputError(
+            "bad-setting",
+            name="max_depth",
+            found=repr(max_depth),
+            expected="a whole number from 1 to 20",
+            suggestion="10",
+        )
+    return Nuts(max_depth=max_depth, **common)
+
+
+def _chain_settings(
+    draws: int,
+    chains: int,
+    warmup: int,
+    thin: int,
+    target_accept: float,
+    metric: str,
+    step_size: float | None,
+) -> dict[str, Any]:
+    """Check what all chains have in common."""
+    if not _whole(warmup) or warmup < 0:
+        raise InputError(
+            "bad-setting",
+            name="warmup",
+            found=repr(warmup),
+            expected="a whole number, 0 or more",
+            suggestion="1000",
+        )
+    if not _number(target_accept) or not 0 < target_accept < 1:
+        raise InputError(
+            "bad-setting",
+            name="target_accept",
+            found=repr(target_accept),
+            expected="a share between 0 and 1",
+            suggestion="0.8",
+        )
+    if step_size is not None and (not _number(step_size) or not 0 < step_size < float("inf")):
+        raise InputError(
+            "bad-setting",
+            name="step_size",
+            found=repr(step_size),
+            expected="a number above 0",
+            suggestion="0.1, or leave it out",
+        )
+    _one_of("metric", metric, METRICS)
+    return {
+        "draws": _at_least_one("draws", draws),
+        "chains": _at_least_one("chains", chains),
+        "warmup": warmup,
+        "thin": _at_least_one("thin", thin),
+        "target_accept": float(target_accept),
+        "metric": metric,
+        "step_size": None if step_size is None else float(step_size),
+    }
+
+
 def _whole(value: Any) -> bool:
     return isinstance(value, int) and not isinstance(value, bool)
 
@@ -163,7 +394,8 @@ def _samples(n: int) -> int:
     return n
 
 
-def _at_least_one(name: str, value: int) -> int:
+def at_least_one(name: str, value: int) -> int:
+    """The value, where it is a whole number above zero."""
     if not _whole(value) or value < 1:
         raise InputError(
             "bad-setting",

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 from niwaki import _engine
 from niwaki.compiled import as_model, task, translated
 from niwaki.errors import InputError
-from niwaki.methods import EnumerateAll, Forward, Importance, Method, Rejection, Smc, smc
+from niwaki.methods import EnumerateAll, Forward, Importance, Method, Mh, Rejection, Smc, smc
 from niwaki.result import Result, Sample
 from niwaki.sketches import Score, no_self_intersection, volume_match
 from niwaki.words.models import Model
@@ -78,8 +78,8 @@ def run(
     args, kwargs
         Its arguments.
     method
-        `smc(...)`, `enumerate_all(...)`, `rejection(...)`, `importance(...)` or `forward(...)`, which is also what
-        happens when it is left out.
+        `smc(...)`, `mh(...)`, `enumerate_all(...)`, `rejection(...)`, `importance(...)` or `forward(...)`, which is also
+        what happens when it is left out. It may also stand right after the model.
     score
         What its scene should be like.
     seed
@@ -102,6 +102,10 @@ def run(
         The samples, with weights; for enumeration the exact distribution.
     """
     model = as_model(model)
+    if method is None and args and isinstance(args[0], Method):
+        method, args = args[0], args[1:]
+    if seed is None and isinstance(method, Mh):
+        seed = method.seed
     score = score if score is not None else Score()
     if not isinstance(score, Score):
         raise InputError(
@@ -279,6 +283,8 @@ def _search(
         if progress is not None:
             progress(Progress(number, runs, done, ended, best))
 
+    if isinstance(method, Mh):
+        return _chains(model, made, method, score, seed, threads, watch)
     facts: dict[str, Any] = {}
     wall, cpu = time.perf_counter(), time.process_time()
     with translated(model.name, f"seed={seed}"):
@@ -316,7 +322,7 @@ def _search(
                     "bad-setting",
                     name="method",
                     found=repr(method),
-                    expected="smc, enumerate_all, rejection, importance or forward",
+                    expected="smc, mh, enumerate_all, rejection, importance or forward",
                     suggestion="such a method, for instance `smc(particles=300)`",
                 )
     seconds, cpu_seconds = time.perf_counter() - wall, time.process_time() - cpu
@@ -324,3 +330,29 @@ def _search(
     result = Result(model, samples, seed, method, score, **facts)
     result.seconds, result.cpu_seconds = seconds, cpu_seconds
     return result
+
+
+def _chains(
+    model: Model[..., Any],
+    made: _engine.Task,
+    method: Mh,
+    score: Score,
+    seed: int,
+    threads: int | None,
+    watch: Callable[[int, int, float], None],
+) -> Result:
+    """Chains in their first states, and their first proposals."""
+    from niwaki.mh_result import ChainResult
+
+    with translated(model.name, f"seed={seed}"):
+        chains = _engine.Chains(
+            made,
+            seed,
+            chains=method.chains,
+            strategy=method.strategy,
+            warmup=method.warmup,
+            thin=method.spacing,
+            tries=method.tries,
+            threads=threads,
+        )
+    return ChainResult(model, made, chains, seed, method, score, watch, threads).more(method.steps)

@@ -5,6 +5,7 @@
 //! - [`shape`], [`words`], [`primitive`]: what a model emits
 //! - [`voxel`]: which cells of a grid a shape fills
 //! - [`intersect`]: whether two shapes intersect
+//! - [`view`]: the rays of a picture, and which of them meet a shape
 //! - [`tree`]: a bag of boxes that copies share
 //! - [`sketch`]: running scores of what was emitted
 //! - [`fine`], [`render`]: meshes with many sides, and pictures of them
@@ -24,6 +25,7 @@ pub mod shape;
 pub mod sketch;
 pub mod topology;
 pub mod tree;
+pub mod view;
 pub mod voxel;
 pub mod words;
 
@@ -35,7 +37,11 @@ pub use mesh::TriMesh;
 pub use niwaki_math::vector::{self, Mat3, Vec3, vec3};
 pub use primitive::Primitive;
 pub use shape::{Placement, Ring, Shape, Solid};
+pub use sketch::avoid::{Avoid, avoid};
+pub use sketch::floor::{Floor, floor};
 pub use sketch::intersection::{NoSelfIntersection, no_self_intersection};
+pub use sketch::overshoot::{Overshoot, no_overshoot};
+pub use sketch::picture::{Picture, PictureMatch, Wish, match_image, match_shadow};
 pub use sketch::product::Sketches;
 pub use sketch::volume::{Target, VolumeMatch, volume_match};
 pub use sketch::{Sketch, SketchSpec};

@@ -17,6 +17,17 @@ pub enum Failure {
         /// What killed particles there: constraint and count, most frequent first.
         causes: Vec<(String, usize)>,
     },
+    /// A chain found no state to start from.
+    NoStart {
+        /// How many forward runs were tried.
+        tries: u64,
+        /// What made them impossible: constraint and count, most frequent first.
+        causes: Vec<(String, usize)>,
+    },
+}
+
+fn listed(causes: &[(String, usize)]) -> String {
+    causes.iter().map(|(name, n)| format!("{name} ({n})")).collect::<Vec<_>>().join(", ")
 }
 
 impl std::fmt::Display for Failure {
@@ -25,8 +36,10 @@ impl std::fmt::Display for Failure {
             Failure::Run(fault) => write!(f, "{fault}"),
             Failure::Setting(fault) => write!(f, "{}", fault.message),
             Failure::Impossible { barrier, causes } => {
-                let causes: Vec<String> = causes.iter().map(|(name, n)| format!("{name} ({n})")).collect();
-                write!(f, "every particle is impossible at barrier {barrier}: {}", causes.join(", "))
+                write!(f, "every particle is impossible at barrier {barrier}: {}", listed(causes))
+            }
+            Failure::NoStart { tries, causes } => {
+                write!(f, "{tries} runs gave no possible state to start from: {}", listed(causes))
             }
         }
     }

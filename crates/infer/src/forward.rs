@@ -37,12 +37,17 @@ impl Forward<'_> {
 
 /// What a person calls a factor.
 pub(crate) fn factor_name(at: &At<'_, f64>, factor: Factor) -> String {
+    named(factor, at.site.span.line)
+}
+
+/// What a person calls a factor of that kind at that line.
+pub(crate) fn named(factor: Factor, line: u32) -> String {
     let what = match factor {
         Factor::Observe => "observe",
         Factor::Factor => "factor",
         Factor::Condition => "condition",
     };
-    format!("`{what}` at line {}", at.site.span.line)
+    format!("`{what}` at line {line}")
 }
 
 impl Answers<f64> for Forward<'_> {

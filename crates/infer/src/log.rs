@@ -89,6 +89,21 @@ impl Log {
         self.frozen.clone_from(&other.frozen);
     }
 
+    /// How many entries.
+    pub fn len(&self) -> usize {
+        let (mut count, mut at) = (self.own.len(), self.frozen.as_deref());
+        while let Some(frozen) = at {
+            count += frozen.entries.len();
+            at = frozen.before.as_deref();
+        }
+        count
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.own.is_empty() && self.frozen.is_none()
+    }
+
     /// Every entry, oldest first.
     pub fn entries(&self) -> Vec<Entry> {
         let mut parts: Vec<&[Entry]> = vec![&self.own];

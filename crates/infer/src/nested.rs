@@ -7,6 +7,8 @@
 //! The machine asks for it with the question `host`, as for any function that it cannot compute itself.
 
 use crate::Failure;
+use crate::chain;
+use crate::chain::many::Chains;
 use crate::enumeration::enumerate;
 use crate::forward::forward;
 use crate::importance::importance;
@@ -18,6 +20,7 @@ use niwaki_math::Stream;
 use niwaki_vm::code::{FunctionId, Program};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Limits;
+use niwaki_vm::machine::kept::Strategy;
 use niwaki_vm::value::{Closure, Value, same};
 use std::collections::{HashMap, VecDeque};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -66,6 +69,15 @@ pub enum Search {
     },
     /// Particles.
     Smc(Settings),
+    /// Markov chains.
+    Mh {
+        /// Proposals of each.
+        steps: u64,
+        /// How many.
+        chains: usize,
+        /// Their settings.
+        settings: chain::Settings,
+    },
 }
 
 /// A method and what is kept of its result.
@@ -106,6 +118,22 @@ impl Method {
             },
             ("importance", [Value::Int(n)]) => Search::Importance { n: usize::try_from(*n).ok()? },
             ("forward", [Value::Int(n)]) => Search::Forward { n: u64::try_from(*n).ok()? },
+            ("mh", [Value::Int(steps), strategy, Value::Int(chains), Value::Int(tries)]) => Search::Mh {
+                steps: u64::try_from(*steps).ok()?,
+                chains: usize::try_from(*chains).ok()?,
+                settings: chain::Settings {
+                    strategy: match text(strategy)?.as_str() {
+                        "rerun" => Strategy::Rerun,
+                        "resume" => Strategy::Resume,
+                        "cache" => Strategy::Cache,
+                        "c3" => Strategy::C3,
+                        _ => return None,
+                    },
+                    thin: 0,
+                    tries: u64::try_from(*tries).ok()?,
+                    ..chain::Settings::default()
+                },
+            },
             ("smc", [Value::Int(particles), order, weights, Value::Real(temper), resampling, ess]) => {
                 Search::Smc(Settings {
                     particles: usize::try_from(*particles).ok()?,
@@ -164,6 +192,24 @@ impl Method {
                     (s.value, s.record, log_weight)
                 };
                 self.kept(seed, found.samples.into_iter().map(weighted).collect())
+            }
+            Search::Mh { steps, chains, settings } => {
+                let settings = chain::Settings { seed, ..settings.clone() };
+                let mut found: Chains = Chains::start(task, &settings, *chains, None)?;
+                found.advance(task, *steps, &|_, _| true)?;
+                let score = |at: &usize| found.chains[*at].harvest.best_score();
+                // The last state of a chain is a sample; one chain is as good as another.
+                let chain = match self.keep {
+                    Keep::Sample => found.chains.first(),
+                    Keep::Best => (0..found.chains.len())
+                        .max_by(|a, b| score(a).total_cmp(&score(b)))
+                        .map(|at| &found.chains[at]),
+                };
+                let Some(chain) = chain else { return Err(impossible()) };
+                Ok(match self.keep {
+                    Keep::Sample => chain.now(&task.program).facts.value,
+                    Keep::Best => chain.harvest.best(&chain.state, &task.program).facts.value,
+                })
             }
             Search::Smc(settings) => {
                 let found = smc(task, &Settings { seed, ..settings.clone() }, &mut |_| true)?;
@@ -318,7 +364,7 @@ fn told(name: &str, failure: Failure) -> Fault {
         Failure::Setting(fault) => {
             Fault::new("infer-failed", format!("`infer` of `{name}`: {}", fault.message))
         }
-        Failure::Impossible { causes, .. } => {
+        Failure::Impossible { causes, .. } | Failure::NoStart { causes, .. } => {
             let causes: Vec<String> = causes.iter().map(|(cause, n)| format!("{cause} ({n})")).collect();
             let causes = if causes.is_empty() { String::new() } else { format!(": {}", causes.join(", ")) };
             Fault::new("infer-failed", format!("every run of `{name}` is impossible{causes}"))

@@ -3,6 +3,9 @@
 use niwaki_geom::sketch::SketchSpec;
 use niwaki_vm::code::Program;
 use niwaki_vm::fault::Fault;
+use niwaki_vm::machine::answers::Answers;
+use niwaki_vm::machine::kept::{Change, Trace};
+use niwaki_vm::machine::stack::RunFault;
 use niwaki_vm::machine::state::State;
 use niwaki_vm::machine::{Limits, Machine};
 use niwaki_vm::value::{Closure, Value};
@@ -69,6 +72,21 @@ impl Task {
         match &self.model {
             None => machine.start(&self.args, depth_first),
             Some(model) => machine.start_closure(model, &self.args, depth_first),
+        }
+    }
+
+    /// A run from the start that keeps its activations.
+    ///
+    /// # Errors
+    /// The wrong number of arguments, or a fault of the program.
+    pub fn begin<A: Answers<f64>>(
+        &self,
+        machine: &mut Machine<'_>,
+        answers: &mut A,
+    ) -> Result<(Trace, Change), Box<RunFault>> {
+        match &self.model {
+            None => machine.begin(&self.args, answers),
+            Some(model) => machine.begin_closure(model, &self.args, answers),
         }
     }
 }

@@ -10,6 +10,7 @@ use std::convert::Infallible;
 /// A source of random bits; `rand_core` calls it `Rng`.
 pub use rand_core::Rng as RngCore;
 use rand_core::TryRng;
+use rand_distr::{Distribution, StandardNormal};
 
 /// Multipliers of the two lanes (Salmon et al. 2011, table 2).
 const MULTIPLIER: [u32; 2] = [0xD251_1F53, 0xCD9E_8D57];
@@ -77,6 +78,14 @@ impl StreamKey {
         StreamKey(base)
     }
 
+    /// Of a key made for visit 0, that of another visit: `new(seed, stream, 0).revisited(n)` is
+    /// `new(seed, stream, n)`, for one mix instead of three.
+    #[inline]
+    pub fn revisited(self, visit: u64) -> StreamKey {
+        let part = |n: u64| mix(n.wrapping_add(GOLDEN)).wrapping_mul(0x9FB2_1C65_1E98_DF25);
+        StreamKey(self.0.wrapping_sub(part(0)).wrapping_add(part(visit)))
+    }
+
     /// The bits of the choice at `address`.
     #[inline]
     pub fn at(self, address: u128) -> Stream {
@@ -97,6 +106,12 @@ impl Stream {
     #[inline]
     pub fn uniform(&mut self) -> f64 {
         open_unit(self)
+    }
+
+    /// A number from the normal distribution of mean 0 and standard deviation 1.
+    #[inline]
+    pub fn normal(&mut self) -> f64 {
+        StandardNormal.sample(self)
     }
 }
 
@@ -164,6 +179,13 @@ mod tests {
                     }
                 }
             }
+        }
+    }
+
+    #[test]
+    fn a_key_can_be_revisited() {
+        for visit in [0, 1, 7, u64::MAX] {
+            assert_eq!(StreamKey::new(5, 6, 0).revisited(visit), StreamKey::new(5, 6, visit));
         }
     }
 

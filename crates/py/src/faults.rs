@@ -1,7 +1,8 @@
 //! Faults as data: one exception that carries what the engine knows. Python draws the carets.
 //!
 //! `kind` is "run" (the model failed: message, help, stack), "setting" (the question makes no sense), "impossible"
-//! (every particle is: barrier and causes) or "compile" (a defect of the text or a limit of the machine).
+//! (every particle is: barrier and causes), "no-start" (every first state of a chain is: their number in `barrier`, and
+//! causes) or "compile" (a defect of the text or a limit of the machine).
 
 use niwaki_infer::Failure;
 use niwaki_vm::code::Program;
@@ -52,6 +53,14 @@ fn build(py: Python<'_>, failure: &Failure, program: &Program) -> PyResult<PyErr
             facts.set_item("message", failure.to_string())?;
             facts.set_item("help", py.None())?;
             facts.set_item("barrier", barrier)?;
+            facts.set_item("causes", causes.clone())?;
+        }
+        Failure::NoStart { tries, causes } => {
+            facts.set_item("kind", "no-start")?;
+            facts.set_item("code", "no-start")?;
+            facts.set_item("message", failure.to_string())?;
+            facts.set_item("help", py.None())?;
+            facts.set_item("barrier", tries)?;
             facts.set_item("causes", causes.clone())?;
         }
     }

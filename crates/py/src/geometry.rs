@@ -356,15 +356,25 @@ impl PySketch {
         self.0.log_score()
     }
 
-    /// Share of cells equal in scene and target; None without a target.
+    /// Share of cells, or of weighted pixels, equal in scene and target, of the first sketch that has one.
     fn similarity(&self) -> Option<f64> {
         self.0.measures().into_iter().find(|(name, _)| *name == "similarity").map(|(_, value)| value)
     }
 
-    /// Named numbers behind the score.
+    /// Named numbers behind the score; those of a second sketch with the same names are numbered.
     fn measures<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let measures = PyDict::new(py);
-        self.0.measures().into_iter().try_for_each(|(name, value)| measures.set_item(name, value))?;
+        for (name, value) in self.0.measures() {
+            // Two sketches of one kind, such as a front and a side view: the second is numbered.
+            let mut key = name.to_string();
+            for number in 2.. {
+                if !measures.contains(&key)? {
+                    break;
+                }
+                key = format!("{name}_{number}");
+            }
+            measures.set_item(key, value)?;
+        }
         Ok(measures)
     }
 

@@ -3,9 +3,10 @@
 //! One file for each room behind the door; this one only registers them.
 //!
 //! * `values`: Python's objects to the machine's values, and back; `faults`: faults as data;
-//! * `model`: compiled models; `search`: algorithms; `outcome`: what they find;
-//! * `distributions`, `geometry`, `pictures`: the rooms below, by themselves.
+//! * `model`: compiled models; `search`: algorithms; `chains`: Markov chains; `outcome`: what they find;
+//! * `distributions`, `geometry`, `views`, `pictures`: the rooms below, by themselves.
 
+mod chains;
 mod distributions;
 mod faults;
 mod geometry;
@@ -14,6 +15,7 @@ mod outcome;
 mod pictures;
 mod search;
 mod values;
+mod views;
 
 use pyo3::prelude::*;
 
@@ -28,9 +30,11 @@ fn _engine(module: &Bound<'_, PyModule>) -> PyResult<()> {
     distributions::register(module)?;
     geometry::register(module)?;
     pictures::register(module)?;
+    views::register(module)?;
     values::register(module)?;
     faults::register(module)?;
     model::register(module)?;
     outcome::register(module)?;
-    search::register(module)
+    search::register(module)?;
+    chains::register(module)
 }

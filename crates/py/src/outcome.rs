@@ -2,6 +2,7 @@
 
 use crate::geometry::PyShape;
 use crate::values::{Classes, Opaque};
+use niwaki_infer::chain::harvest::Snapshot;
 use niwaki_infer::log::Log;
 use niwaki_infer::record::Record;
 use niwaki_infer::replay::{Trace, by_address};
@@ -59,6 +60,26 @@ impl PyOutcome {
             has_ended,
             cause: record.cause,
             log: record.log,
+        }
+    }
+
+    /// A state of a chain.
+    pub fn of_snapshot(snapshot: &Snapshot, classes: Arc<Classes>) -> PyOutcome {
+        let (facts, mut log) = (&snapshot.facts, Log::default());
+        for entry in snapshot.log.entries() {
+            log.push(entry.address(), entry.value);
+        }
+        PyOutcome {
+            log,
+            value: facts.value.clone(),
+            classes,
+            log_score: facts.log_score,
+            log_prior: facts.log_prior,
+            log_weight: 0.0,
+            primitives: facts.primitives,
+            similarity: facts.similarity,
+            has_ended: true,
+            cause: None,
         }
     }
 

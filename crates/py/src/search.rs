@@ -33,7 +33,7 @@ const PAUSE: Duration = Duration::from_millis(50);
 
 /// What a search tells whoever watches, and whether it should stop.
 #[derive(Default)]
-struct Watch {
+pub(crate) struct Watch {
     stop: AtomicBool,
     /// Done, ended, best log score.
     now: Mutex<(u64, usize, f64)>,
@@ -41,7 +41,7 @@ struct Watch {
 
 impl Watch {
     /// Notes how far the search is; whether to go on.
-    fn look(&self, done: u64, ended: usize, best: f64) -> bool {
+    pub(crate) fn look(&self, done: u64, ended: usize, best: f64) -> bool {
         *self.now.lock().unwrap_or_else(PoisonError::into_inner) = (done, ended, best);
         !self.stop.load(Ordering::Relaxed)
     }
@@ -60,7 +60,7 @@ impl Watch {
 /// Runs `work` without the interpreter's lock on a thread of its own, its parallel parts on so many threads (`None`:
 /// all of the machine's); meanwhile this thread watches. Also answers whether Ctrl-C was pressed, be it too late to
 /// stop anything.
-fn detached<T: Send>(
+pub(crate) fn detached<T: Send>(
     py: Python<'_>,
     program: &Program,
     threads: Option<usize>,
@@ -107,7 +107,7 @@ fn detached<T: Send>(
     }
 }
 
-fn unknown(py: Python<'_>, program: &Program, name: &str, found: &str, known: &str) -> PyErr {
+pub(crate) fn unknown(py: Python<'_>, program: &Program, name: &str, found: &str, known: &str) -> PyErr {
     let fault =
         Fault::new("bad-setting", format!("`{name}` cannot be {found:?}")).with_help(format!("use {known}"));
     faults::raise(py, &fault.into(), program)
@@ -116,8 +116,8 @@ fn unknown(py: Python<'_>, program: &Program, name: &str, found: &str, known: &s
 /// A model with its arguments and the sketches that score its scene.
 #[pyclass(frozen, name = "Task", module = "niwaki._engine")]
 pub struct PyTask {
-    task: Task,
-    model: Py<PyProgram>,
+    pub(crate) task: Task,
+    pub(crate) model: Py<PyProgram>,
 }
 
 #[pymethods]

@@ -103,6 +103,22 @@ fn programs(n: usize) -> Vec<(&'static str, String)> {
         ("gmm-loop", gmm("").replace("MAIN", &format!("(for $i (range {n}) (body {observe}))"))),
         ("gmm-rec", gmm(&format!("(fn \"p\" (params $i $w $mus $sds) (if (lt $i {n}) (then {observe} (do (call \"p\" (add $i 1) $w $mus $sds)))))"))
             .replace("MAIN", "(do (call \"p\" 0 $w $mus $sds))")),
+        ("lda", format!(
+            r#"(module (fn "m" (params)
+            (set $topics (list)) (for $k (range 10) (body (set $topics (append $topics (sample (dist dirichlet DENSE))))))
+            (for $d (range {}) (body
+              (set $theta (sample (dist dirichlet (list 1.0 1.0 1.0 1.0 1.0 1.0 1.0 1.0 1.0 1.0))))
+              (for $i (range 20) (body (set $z (sample (dist categorical $theta)))
+                (do (observe (dist categorical (index $topics $z)) (mod (add $i $d) 20))))))))
+            (entry "m"))"#, n / 20).replace("DENSE", &format!("(list{})", " 1.0".repeat(20)))),
+        ("hlr", format!(
+            r#"(module (fn "m" (params)
+            (set $a0 (sample (dist gaussian 0.0 10.0))) (set $b0 (sample (dist gaussian 0.0 10.0)))
+            (set $sa (sample (dist uniform 0.05 3.0))) (set $sb (sample (dist uniform 0.05 3.0))) (set $sy (sample (dist uniform 0.05 3.0)))
+            (for $i (range {}) (body
+              (set $a (sample (dist gaussian $a0 $sa))) (set $b (sample (dist gaussian $b0 $sb)))
+              (for $j (range 5) (body (do (observe (dist gaussian (add $a (mul $b (sub $j 2))) $sy) (mul 0.3 (mod (add $i $j) 7)))))))))
+            (entry "m"))"#, n / 5)),
     ]
 }
 
@@ -129,7 +145,7 @@ fn main() {
         trace.commit(&program);
         let (mut steps, mut accepted, mut first, start) = (0u64, 0u64, 0.0, cpu_seconds());
         let counters = trace.counters();
-        while !steps.is_multiple_of(64) || cpu_seconds() - start < seconds {
+        while !steps.is_multiple_of(1024) || cpu_seconds() - start < seconds {
             let mut pick = Stream::new(1, 2, 0, steps);
             let choice = (pick.uniform() * trace.len() as f64) as usize;
             let change = machine

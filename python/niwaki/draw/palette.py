@@ -48,10 +48,11 @@ class Paint:
     pitch: float = 0.0
 
 
-def paints(scene: Scene) -> list[list[Paint]]:
-    """Choose the paint of each shape of each part, in order."""
-    garden = any(shape.kind == "limb" for part in scene.parts for shape in part.shapes)
-    extent = scene.size.max() if len(scene) else 1.0
+def paints(scene: Scene, like: Scene | None = None) -> list[list[Paint]]:
+    """Choose the paint of each shape of each part, in order; by the kinds and the size of `like` where it is given."""
+    whole = scene if like is None else like
+    garden = any(shape.kind == "limb" for part in whole.parts for shape in part.shapes)
+    extent = whole.size.max() if len(whole) else 1.0
     return [[_paint(part, shape, garden, extent) for shape in part.shapes] for part in scene.parts]
 
 

@@ -19,7 +19,7 @@ from niwaki.lang.body import Body
 from niwaki.lang.core import Expr, Form
 from niwaki.lang.expressions import expression, static
 from niwaki.lang.names import MISSING
-from niwaki.methods import EnumerateAll, Forward, Importance, Method, Rejection, Smc
+from niwaki.methods import EnumerateAll, Forward, Importance, Method, Mh, Rejection, Smc
 from niwaki.words.distributions import DiscreteUniform
 from niwaki.words.models import Model
 
@@ -53,6 +53,8 @@ def settings(method: Method, keep: str) -> tuple[Any, ...]:
                 method.resampling,
                 method.ess,
             )
+        case Mh():
+            own = ("mh", method.steps, method.strategy, method.chains, method.tries)
         case EnumerateAll():
             own = ("enumerate", method.max_runs)
         case Rejection():
@@ -68,7 +70,7 @@ def settings(method: Method, keep: str) -> tuple[Any, ...]:
 
 def is_method(value: Any) -> bool:
     """Whether a live object is a method that `infer` knows."""
-    return isinstance(value, (Smc, EnumerateAll, Rejection, Importance, Forward))
+    return isinstance(value, (Smc, Mh, EnumerateAll, Rejection, Importance, Forward))
 
 
 def check(method: Any, keep: Any) -> None:

@@ -104,6 +104,14 @@ _POLYGONS = (
     words.polygon_inset,
 )
 _NUMBERS = (words.clip, words.lerp, words.sign)
+_SOFT = (
+    words.softeq,
+    words.soft_at_least,
+    words.soft_at_most,
+    words.smooth_max,
+    words.smooth_min,
+    words.smooth_abs,
+)
 _SHAPES = (words.box, words.cylinder, words.limb, words.mesh)
 
 
@@ -115,7 +123,7 @@ def _word(function: Any, omit: bool) -> Op:
 
 
 WORDS: dict[Any, Op] = {
-    **{function: _word(function, True) for function in (*_VECTORS, *_COLORS, *_POLYGONS, *_NUMBERS)},
+    **{function: _word(function, True) for function in (*_VECTORS, *_COLORS, *_POLYGONS, *_NUMBERS, *_SOFT)},
     **{function: _word(function, False) for function in _SHAPES},
 }
 

@@ -9,6 +9,7 @@ colors          `hsv`, `lab`, `to_hsv`, `to_lab`, `color_difference`
 polygons        `polygon_area`, `polygon_contains`, `polygon_distance`, `polygon_disc_area`, `polygon_inset`
 vectors         `vec`, `dot`, `cross`, `norm`, `normalize`, `distance`, `rotate`, `rotation`
 numbers         `clip`, `lerp`, `sign`
+soft            `softeq`, `soft_at_least`, `soft_at_most`, `smooth_max`, `smooth_min`, `smooth_abs`
 running         which run a word belongs to
 """
 
@@ -74,6 +75,7 @@ from niwaki.words.polygons import (
     polygon_inset,
 )
 from niwaki.words.shapes import box, cylinder, limb, mesh
+from niwaki.words.soft import smooth_abs, smooth_max, smooth_min, soft_at_least, soft_at_most, softeq
 from niwaki.words.vectors import Rotation, Vec, cross, distance, dot, norm, normalize, rotate, rotation, vec
 
 __all__ = [
@@ -155,6 +157,12 @@ __all__ = [
     "rotation",
     "sample",
     "sign",
+    "smooth_abs",
+    "smooth_max",
+    "smooth_min",
+    "soft_at_least",
+    "soft_at_most",
+    "softeq",
     "student_t",
     "to_hsv",
     "to_lab",

@@ -76,6 +76,27 @@ impl Sketches {
         true
     }
 
+    /// Takes primitives out of the scene and puts others in, and then looks at it once. False, when the scene did
+    /// not have one of `gone`: the sketches are then of no further use.
+    pub fn exchange<'a>(
+        &mut self,
+        gone: impl Iterator<Item = &'a Primitive> + Clone,
+        come: impl Iterator<Item = &'a Primitive> + Clone,
+    ) -> bool {
+        for member in &mut self.members {
+            for primitive in gone.clone() {
+                if let Some(at) = member.waiting.iter().position(|p| p == primitive) {
+                    member.waiting.swap_remove(at);
+                } else if !member.sketch.remove(primitive) {
+                    return false;
+                }
+            }
+            member.waiting.extend(come.clone().cloned());
+        }
+        self.catch_up();
+        true
+    }
+
     /// Name of the first sketch that forbids the scene.
     pub fn forbidden_by(&self) -> Option<&'static str> {
         self.iter().find(|s| s.log_score() == f64::NEG_INFINITY).map(|s| s.name())
@@ -150,6 +171,12 @@ mod tests {
         assert_eq!(scene.log_score(), plain.log_score());
         assert!(scene.remove(&cube(1.5)));
         assert_eq!(scene.log_score(), one);
+        // The same by exchanges: one that is forbidden, and back.
+        let (old, new) = ([cube(0.0)], [cube(1.5), cube(1.7)]);
+        assert!(scene.exchange(old.iter(), new.iter()));
+        assert_eq!(scene.forbidden_by(), Some("no_self_intersection"));
+        assert!(scene.exchange(new.iter(), old.iter()));
+        assert_eq!((scene.log_score(), scene.forbidden_by()), (one, None));
         assert!(scene.remove(&cube(0.0)));
         assert_eq!(scene.log_score(), empty);
     }

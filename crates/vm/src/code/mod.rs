@@ -286,6 +286,11 @@ pub enum SiteKind {
         /// Holds the element.
         content: Operand,
     },
+    /// As `Cell`, with the list that it is appended to: the list, then the element; the result is the longer list.
+    Append {
+        /// Holds the element.
+        content: Operand,
+    },
     /// An element of a collection, read: `args[0]` at `args[1]`.
     Read,
 }
@@ -316,6 +321,8 @@ pub struct Site {
     pub kind: SiteKind,
     /// Register for the result.
     pub to: Operand,
+    /// Whether the result is read.
+    pub is_read: bool,
     /// Arguments.
     pub args: Args,
     /// Hash of qualified function, what is called, the name assigned to, and the occurrence among equals:

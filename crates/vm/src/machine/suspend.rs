@@ -7,7 +7,7 @@ use super::state::{FutureId, NodeId, State, Status};
 use super::{Machine, Stop};
 use crate::code::{Function, FunctionId, Mode, Operand, Place, Site, SiteId, SiteKind};
 use crate::fault::Fault;
-use crate::value::{Value, index, iter_get, iter_len};
+use crate::value::{Value, index, iter_get, iter_len, ops};
 use niwaki_math::Scalar;
 
 /// How to go on after a site.
@@ -115,6 +115,11 @@ impl<S: Scalar> Machine<'_, S> {
             SiteKind::Cell { .. } => {
                 let value = get!(0).clone();
                 state.registers[r.own + site.to.index()].store(value);
+                Ok(After::Next)
+            }
+            SiteKind::Append { .. } => {
+                let list = ops::append(get!(0).clone(), get!(1).clone())?;
+                state.registers[r.own + site.to.index()].store(list);
                 Ok(After::Next)
             }
             SiteKind::Read => {

@@ -230,8 +230,12 @@ impl<'m> Analysis<'m> {
                     }
                 }
                 ("add", [a, b]) => {
-                    let (a, b) = (self.expr(a), self.expr(b));
-                    self.joined(a, b)
+                    let class = (self.expr(a), self.expr(b));
+                    let class = self.joined(class.0, class.1);
+                    if let (Some(class), List(_), true) = (class, &b.kind, self.suspends) {
+                        self.found.class_of.insert(std::ptr::from_ref(e), class);
+                    }
+                    class
                 }
                 ("len", [list]) => {
                     self.expr(list);

@@ -6,7 +6,6 @@
 
 use super::CompileError;
 use super::emit::{Builder, Result};
-use crate::builtins::builtin_id;
 use crate::code::{Args, Op, Operand, Place, Site, SiteKind};
 use crate::core::{Expr, ExprKind, Name};
 use crate::machine::address;
@@ -149,12 +148,16 @@ impl<S: Scalar> Builder<'_, '_, S> {
             }
             ExprKind::Op(name, parts) if &**name == "append" => {
                 let list = self.expr(&parts[0])?;
-                let cell = self.cell(&parts[1])?;
-                let (to, args) = (self.register()?, self.args(&[list, cell]));
-                let id = builtin_id("append").ok_or_else(|| CompileError("`append` is missing".into()))?;
-                self.op(Op::Builtin { to, id, args });
-                Ok(Some(to))
+                Ok(Some(self.append(list, &parts[1])?))
             }
+            // `xs + [x]`
+            ExprKind::Op(name, parts) if &**name == "add" => match &parts[1].kind {
+                ExprKind::List(items) if items.len() == 1 => {
+                    let list = self.expr(&parts[0])?;
+                    Ok(Some(self.append(list, &items[0])?))
+                }
+                _ => Ok(None),
+            },
             ExprKind::Op(_, parts) => {
                 let operands = self.exprs(parts)?;
                 let name = Name::from("[read]");
@@ -162,6 +165,13 @@ impl<S: Scalar> Builder<'_, '_, S> {
             }
             _ => Ok(None),
         }
+    }
+
+    /// A collection made longer by one element.
+    fn append(&mut self, list: Operand, item: &Expr) -> Result<Operand> {
+        let value = self.expr(item)?;
+        let (name, content) = (Name::from("[cell]"), self.register()?);
+        self.add_site(SiteKind::Append { content }, &name, (&None, name.clone()), &[list, value])
     }
 
     /// An element of a collection. Constants are elements as they are.
@@ -195,7 +205,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
             (None, n) => Name::from(format!("{named}#{n}")),
         };
         let key = address::site_key(&key.0, key.1);
-        self.sites.push(Site { kind, to, args, key, label, span: self.span, next: 0 });
+        self.sites.push(Site { kind, to, is_read: true, args, key, label, span: self.span, next: 0 });
         self.op(Op::Site { site: crate::code::SiteId((self.sites.len() - 1) as u16) });
         Ok(to)
     }

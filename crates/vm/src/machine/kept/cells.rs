@@ -17,7 +17,7 @@ use super::super::stack::RunFault;
 use super::super::state::{NodeId, State};
 use super::{Change, Kept, Slot, Trace};
 use crate::code::{Operand, Site, SiteKind};
-use crate::value::{Cell, List, Value, index, same};
+use crate::value::{Cell, List, Value, index, ops, same};
 use niwaki_math::Scalar;
 
 /// A read of an element.
@@ -49,14 +49,64 @@ impl<S: Scalar> Kept<S> {
         content: Operand,
     ) {
         let value = r.get(state, scratch, r.f.operands[site.args.start as usize]).clone();
-        let place = r.own + content.index();
+        if let Some(cell) = self.element(state, value, at, r.own + content.index(), 0.0) {
+            self.write_to(state, self.quiet, r.own + site.to.index(), Value::Cell(cell));
+        }
+    }
+
+    /// An element is appended to a list, or once more. The slot's log is the list's address in memory: as long as the
+    /// list is the same, so is the longer one.
+    pub(super) fn append(
+        &mut self,
+        state: &mut State<S>,
+        scratch: &[Value<S>],
+        r: Registers<'_, S>,
+        at: usize,
+        site: &Site,
+        content: Operand,
+    ) -> Result<(), Halt> {
+        let operands = &r.f.operands[site.args.range()];
+        let value = r.get(state, scratch, operands[1]).clone();
+        let list = r.get(state, scratch, operands[0]);
+        let address = match list {
+            Value::List(list) => f64::from_bits(list.address() as u64),
+            _ => 0.0,
+        };
+        let slot = self.slots[at];
+        if slot.is_filled() && slot.log.to_bits() == address.to_bits() {
+            self.element(state, value, at, r.own + content.index(), address);
+            return Ok(());
+        }
+        let list = list.clone();
+        let cell = match self.element(state, value, at, r.own + content.index(), address) {
+            Some(cell) => cell,
+            None => {
+                self.write_slot(self.quiet, at, Slot { log: address, ..slot });
+                Cell { register: self.readers[slot.held as usize].register, readers: slot.held }
+            }
+        };
+        let longer = ops::append(list, Value::Cell(cell))?;
+        self.write_to(state, self.quiet, r.own + site.to.index(), longer);
+        Ok(())
+    }
+
+    /// Puts an element into its register; a reference to it, when the site is met for the first time.
+    #[inline]
+    fn element(
+        &mut self,
+        state: &mut State<S>,
+        value: Value<S>,
+        at: usize,
+        place: usize,
+        log: f64,
+    ) -> Option<Cell> {
         let changed = self.write_to(state, self.quiet, place, value);
         let slot = self.slots[at];
         if slot.is_filled() {
             if changed {
                 self.wake(state, slot.held as usize);
             }
-            return;
+            return None;
         }
         let register = place as u32;
         let id = match self.free_readers.pop() {
@@ -70,9 +120,8 @@ impl<S: Scalar> Kept<S> {
             }
         };
         self.journal.cells.push(id);
-        self.write_slot(self.quiet, at, Slot { held: id, mark: 0, log: 0.0 });
-        let cell = Value::Cell(Cell { register, readers: id });
-        self.write_to(state, self.quiet, r.own + site.to.index(), cell);
+        self.write_slot(self.quiet, at, Slot { held: id, mark: 0, log });
+        Some(Cell { register, readers: id })
     }
 
     /// An element is read, or read again.

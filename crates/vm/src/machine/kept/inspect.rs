@@ -26,12 +26,17 @@ pub struct Place<'a, S: Scalar> {
     pub site: &'a Site,
     /// The function it stands in.
     pub function: &'a Function<S>,
-    node: NodeId,
-    trace: &'a Trace<S>,
-    program: &'a Program<S>,
+    pub(super) node: NodeId,
+    pub(super) trace: &'a Trace<S>,
+    pub(super) program: &'a Program<S>,
 }
 
 impl<S: Scalar> Place<'_, S> {
+    /// How many calls stand above it (iterations of loops are none).
+    pub fn depth(&self) -> usize {
+        self.trace.depth_of(self.program, self.node)
+    }
+
     /// The address: a hash of the path of sites.
     pub fn address(&self) -> u128 {
         join(self.trace.state.nodes[self.node.0 as usize].path, self.site.key)
@@ -105,7 +110,7 @@ impl<S: Scalar> Trace<S> {
                             Item::Query(value(key), &self.kept.resolved(&self.state, value(written))),
                         );
                     }
-                    SiteKind::Force | SiteKind::Cell { .. } | SiteKind::Read => {}
+                    SiteKind::Force | SiteKind::Cell { .. } | SiteKind::Append { .. } | SiteKind::Read => {}
                 }
             }
         }
@@ -120,10 +125,18 @@ impl<S: Scalar> Trace<S> {
 
     /// The readable address of a choice.
     pub fn path(&self, program: &Program<S>, choice: usize) -> String {
+        self.place(program, choice).path()
+    }
+
+    /// Where a choice stands.
+    pub fn place<'a>(&'a self, program: &'a Program<S>, choice: usize) -> Place<'a, S> {
         let at = self.kept.choices[choice];
-        let function = program.function(self.state.nodes[at.node.0 as usize].function);
-        let site = &function.sites[at.site as usize];
-        Place { site, function, node: at.node, trace: self, program }.path()
+        self.place_at(program, at.node, at.site)
+    }
+
+    pub(super) fn place_at<'a>(&'a self, program: &'a Program<S>, node: NodeId, site: u16) -> Place<'a, S> {
+        let function = program.function(self.state.nodes[node.0 as usize].function);
+        Place { site: &function.sites[site as usize], function, node, trace: self, program }
     }
 
     /// The function and the site of a choice: what all choices made at one place of the text have in common.
@@ -143,7 +156,11 @@ impl<S: Scalar> Trace<S> {
 
     /// How many calls stand above a choice (iterations of loops are none).
     pub fn depth(&self, program: &Program<S>, choice: usize) -> usize {
-        let mut at = self.kept.choices[choice].node;
+        self.depth_of(program, self.kept.choices[choice].node)
+    }
+
+    fn depth_of(&self, program: &Program<S>, node: NodeId) -> usize {
+        let mut at = node;
         let mut depth = 0;
         while at != NodeId::NONE {
             let n = &self.state.nodes[at.0 as usize];

@@ -30,6 +30,8 @@ pub(crate) struct Journal<S: Scalar> {
     /// Lists of readers of cells that were made, and of those taken away.
     pub cells: Vec<u32>,
     pub dead_cells: Vec<u32>,
+    /// Choices that were drawn anew where they stand: address, and the value before.
+    pub anew: Vec<(u128, Value<S>)>,
 }
 
 /// A change of the iterations that a loop has.
@@ -65,6 +67,7 @@ impl<S: Scalar> Default for Journal<S> {
             reads: vec![],
             cells: vec![],
             dead_cells: vec![],
+            anew: vec![],
         }
     }
 }
@@ -85,5 +88,6 @@ impl<S: Scalar> Journal<S> {
         self.reads.clear();
         self.cells.clear();
         self.dead_cells.clear();
+        self.anew.clear();
     }
 }

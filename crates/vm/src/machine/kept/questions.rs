@@ -63,6 +63,7 @@ impl<S: Scalar> Kept<S> {
     }
 
     /// Carries out a site.
+    #[inline(always)]
     pub(super) fn carry_out<A: Answers<S>>(
         &mut self,
         machine: &mut Machine<'_, S>,
@@ -103,6 +104,11 @@ impl<S: Scalar> Kept<S> {
             SiteKind::Cell { content } => {
                 let at = Kept::slot_at(state, node, number.0 as usize);
                 self.cell(state, &machine.scratch, r, at, site, *content);
+                Ok(After::Next)
+            }
+            SiteKind::Append { content } => {
+                let at = Kept::slot_at(state, node, number.0 as usize);
+                self.append(state, &machine.scratch, r, at, site, *content)?;
                 Ok(After::Next)
             }
             SiteKind::Read => {
@@ -158,6 +164,7 @@ impl<S: Scalar> Kept<S> {
             self.stale += slot.log;
             self.forget_change(at);
             self.add(true, -slot.log);
+            self.journal.anew.push((address, state.registers[place].clone()));
             slot.held
         } else {
             self.journal.births.push(Birth { address, node, site: number.0 });
@@ -197,7 +204,9 @@ impl<S: Scalar> Kept<S> {
                 let value = r.get(state, &machine.scratch, operand).clone();
                 let dist = machine.dist(state, r, site, args, &mut made)?;
                 let log = log_density(dist, &value)?.value();
-                self.write_to(state, self.quiet, r.own + site.to.index(), value);
+                if site.is_read {
+                    self.write_to(state, self.quiet, r.own + site.to.index(), value);
+                }
                 log
             }
         };
@@ -271,7 +280,7 @@ impl<S: Scalar> Kept<S> {
             | SiteKind::Factor
             | SiteKind::Condition => self.add(false, -slot.log),
             SiteKind::Emit => self.journal.retracted.push(slot.held),
-            SiteKind::Cell { .. } => self.journal.dead_cells.push(slot.held),
+            SiteKind::Cell { .. } | SiteKind::Append { .. } => self.journal.dead_cells.push(slot.held),
             SiteKind::Read => {
                 let reader = Reader { node, site, slot: at as u32 };
                 self.journal.reads.push((reader, slot.held));

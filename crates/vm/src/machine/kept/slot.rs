@@ -8,7 +8,7 @@
 //! | loop | the loop's node | | |
 //! | emit | row of its primitive | | |
 //! | query, force | 0 | | |
-//! | cell | the list of its readers | | |
+//! | cell | the list of its readers | | (append: address of the list before, as bits) |
 //! | read | the list in which it stands (or `UNWATCHED`) | its place there | |
 //!
 //! The value of a choice, the result of a call and what a query wrote lie in registers.

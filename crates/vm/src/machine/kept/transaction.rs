@@ -114,12 +114,12 @@ impl<S: Scalar> Trace<S> {
     }
 
     /// Primitives that the open transaction put into the scene.
-    pub fn emitted(&self) -> impl Iterator<Item = &Primitive> {
+    pub fn emitted(&self) -> impl Iterator<Item = &Primitive> + Clone {
         self.kept.journal.emitted.iter().filter_map(|row| self.kept.emits[*row as usize].as_ref())
     }
 
     /// Primitives that the open transaction took out of the scene.
-    pub fn retracted(&self) -> impl Iterator<Item = &Primitive> {
+    pub fn retracted(&self) -> impl Iterator<Item = &Primitive> + Clone {
         self.kept.journal.retracted.iter().filter_map(|row| self.kept.emits[*row as usize].as_ref())
     }
 

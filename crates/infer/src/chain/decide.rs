@@ -1,0 +1,96 @@
+//! What becomes of an open transaction: it is kept or undone, on the trace and on the sketches together.
+
+use super::Chain;
+use super::accept::{Rules, Terms};
+use crate::{Failure, Task};
+use niwaki_math::{RngCore, Stream, streams::open_unit};
+use niwaki_vm::machine::kept::{Change, Trace};
+use niwaki_vm::value::Value;
+
+/// What became of a proposal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Decision {
+    /// Whether it was kept.
+    pub accepted: bool,
+    /// Log of the acceptance ratio; minus infinity for an impossible proposal.
+    pub log_ratio: f64,
+}
+
+impl<R: Rules> Chain<R> {
+    /// Decides over the open transaction. `odds` is the log probability of choosing the move, afterwards less before;
+    /// `moved` names the choices that the proposal itself changed, with their values before. The acceptance draw is
+    /// the next number of `rng`.
+    #[inline(always)]
+    pub(super) fn decide<M: IntoIterator<Item = (u128, Value)>>(
+        &mut self,
+        task: &Task,
+        change: Change,
+        beta: f64,
+        rng: &mut Stream,
+        odds: impl FnOnce(&Self, &Trace) -> f64,
+        moved: impl FnOnce(&Trace) -> M,
+    ) -> Result<Decision, Failure> {
+        let program = &*task.program;
+        match change {
+            Change::Same => {
+                self.state.trace.commit(program);
+                return Ok(Decision { accepted: true, log_ratio: 0.0 });
+            }
+            Change::Impossible => {
+                R::undo(&mut self.state.trace, program);
+                return Ok(Decision { accepted: false, log_ratio: f64::NEG_INFINITY });
+            }
+            Change::Done => {}
+        }
+        if let Err(failure) = self.state.look() {
+            self.state.look_back();
+            self.state.trace.rollback(program);
+            return Err(failure);
+        }
+        let trace = &self.state.trace;
+        let (before, after) = (trace.before(), trace.totals());
+        let (fresh, stale) = trace.fresh_and_stale();
+        let (forward, backward) = trace.forward_and_backward();
+        let score = (after.log_factors - before.log_factors) + self.state.sketch_change();
+        let terms = Terms {
+            prior: after.log_prior - before.log_prior,
+            score: beta * score,
+            stale,
+            fresh,
+            backward,
+            forward,
+            odds: odds(self, trace),
+        };
+        let log_ratio = R::log_ratio(&terms);
+        let u = open_unit(rng);
+        let accepted = after.impossible == 0 && (log_ratio >= 0.0 || u.ln() < log_ratio);
+        if accepted {
+            if self.harvest.is_noting() {
+                let moved = moved(&self.state.trace);
+                self.harvest.note(&self.state, program, moved);
+            }
+            for table in &mut self.tables {
+                table.follow(&self.state.trace, program);
+            }
+            self.state.trace.commit(program);
+            self.harvest.compare(&self.state, program, self.visit);
+        } else {
+            self.state.look_back();
+            R::undo(&mut self.state.trace, program);
+        }
+        Ok(Decision { accepted, log_ratio })
+    }
+
+    /// A run met a fault: the chain goes back to its last state.
+    #[cold]
+    pub(super) fn give_up(&mut self, task: &Task, failure: Failure) -> Failure {
+        self.state.trace.rollback(&task.program);
+        failure
+    }
+}
+
+/// A number below `n`, evenly (up to `n / 2^64`).
+#[inline(always)]
+pub(super) fn below(rng: &mut Stream, n: u64) -> u64 {
+    ((u128::from(rng.next_u64()) * u128::from(n)) >> 64) as u64
+}

@@ -1,0 +1,190 @@
+//! Where a chain is: a kept run and the sketches of its scene. A proposal opens a transaction on both.
+
+use super::streams::Streams;
+use crate::task::{Hosts, Task};
+use crate::{Failure, forward};
+use niwaki_geom::Shape;
+use niwaki_geom::sketch::product::Sketches;
+use niwaki_math::{Dist, StreamKey};
+use niwaki_vm::builtins::draw_to_value;
+use niwaki_vm::code::{Program, SiteKind};
+use niwaki_vm::fault::Fault;
+use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
+use niwaki_vm::machine::kept::inspect::Item;
+use niwaki_vm::machine::kept::{Change, Trace};
+use niwaki_vm::value::Value;
+use std::collections::HashMap;
+
+/// Draws what a run has no value for from its distribution.
+pub struct Fresh<'a> {
+    /// The stream of new choices, at this visit.
+    pub key: StreamKey,
+    /// Values by address, where some are known.
+    pub known: Option<&'a HashMap<u128, Value>>,
+    /// Host functions.
+    pub hosts: &'a dyn Hosts,
+}
+
+impl Answers<f64> for Fresh<'_> {
+    #[inline]
+    fn choice(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Answer<Value>, Fault> {
+        let address = at.address();
+        if let Some(value) = self.known.and_then(|known| known.get(&address)) {
+            return Ok(Answer::Go(value.clone()));
+        }
+        Ok(Answer::Go(draw_to_value(dist.sample(&mut self.key.at(address)))))
+    }
+
+    // A kept run holds its own scores, scene and queries.
+    fn score(&mut self, _: &At<'_, f64>, _: Factor, _: f64) -> Result<Answer<()>, Fault> {
+        Ok(Answer::Go(()))
+    }
+
+    fn emit(&mut self, _: &At<'_, f64>, _: &[Shape]) -> Result<Answer<()>, Fault> {
+        Ok(Answer::Go(()))
+    }
+
+    fn query(&mut self, _: &At<'_, f64>, _: &Value, _: &Value) -> Result<(), Fault> {
+        Ok(())
+    }
+
+    fn host(&mut self, constant: u16, args: &[Value]) -> Result<Value, Fault> {
+        self.hosts.call(constant, args)
+    }
+}
+
+/// Where a chain is.
+pub struct State {
+    /// The run.
+    pub trace: Trace,
+    /// The sketches of its scene.
+    pub sketches: Sketches,
+    /// Their log score, nats, exact; minus infinity when they forbid the scene.
+    pub log_sketches: f64,
+    /// How many primitives the scene has.
+    pub primitives: usize,
+    before: (f64, usize),
+}
+
+impl State {
+    /// A first state: forward runs until one is possible, at most `tries`. With `known`, choices have those values.
+    ///
+    /// # Errors
+    /// No run was possible ([`Failure::NoStart`]), or a fault of the program.
+    pub fn start(
+        task: &Task,
+        streams: Streams,
+        tries: u64,
+        known: Option<&HashMap<u128, Value>>,
+    ) -> Result<State, Failure> {
+        let mut machine = task.machine();
+        let mut causes: HashMap<String, usize> = HashMap::new();
+        let tries = tries.max(1);
+        for attempt in 0..tries {
+            // The last visits, so that no proposal has their numbers.
+            let mut answers = Fresh { key: streams.fresh(u64::MAX - attempt), known, hosts: &*task.hosts };
+            let (trace, change) = task.begin(&mut machine, &mut answers)?;
+            let mut state = State {
+                trace,
+                sketches: Sketches::start(&task.sketches),
+                log_sketches: 0.0,
+                primitives: 0,
+                before: (0.0, 0),
+            };
+            let cause = if change == Change::Impossible {
+                Some(impossible(&state.trace, &task.program))
+            } else {
+                state.look()?;
+                state.sketches.forbidden_by().map(str::to_string)
+            };
+            match cause {
+                None => {
+                    state.trace.commit(&task.program);
+                    return Ok(state);
+                }
+                Some(cause) => *causes.entry(cause).or_default() += 1,
+            }
+        }
+        let mut causes: Vec<_> = causes.into_iter().collect();
+        causes.sort_by(|a, b| b.1.cmp(&a.1).then_with(|| a.0.cmp(&b.0)));
+        Err(Failure::NoStart { tries, causes })
+    }
+
+    /// Factors, observations and sketches, nats.
+    #[inline]
+    pub fn log_score(&self) -> f64 {
+        self.trace.totals().log_factors + self.log_sketches
+    }
+
+    /// Shows the sketches what the open transaction did to the scene, once.
+    ///
+    /// # Errors
+    /// A sketch scores NaN.
+    #[inline]
+    pub fn look(&mut self) -> Result<(), Failure> {
+        self.before = (self.log_sketches, self.primitives);
+        let (gone, come) = (self.trace.retracted().count(), self.trace.emitted().count());
+        if gone + come == 0 && self.primitives > 0 {
+            return Ok(());
+        }
+        self.primitives = self.primitives + come - gone;
+        if self.sketches.is_empty() {
+            return Ok(());
+        }
+        let kept = self.sketches.exchange(self.trace.retracted(), self.trace.emitted());
+        debug_assert!(kept, "the sketches and the trace hold the same scene");
+        self.log_sketches = self.sketches.log_score();
+        if self.log_sketches.is_nan() {
+            return Err(self.nan().into());
+        }
+        Ok(())
+    }
+
+    #[cold]
+    fn nan(&self) -> Fault {
+        let guilty = self.sketches.iter().find(|sketch| sketch.log_score().is_nan());
+        let name = guilty.map_or("a sketch", |sketch| sketch.name());
+        Fault::new("non-finite-score", format!("the sketch `{name}` scores nan"))
+            .with_help("look for shapes whose measures are not numbers")
+    }
+
+    /// Change of the sketches' log score in the open transaction, nats.
+    #[inline]
+    pub fn sketch_change(&self) -> f64 {
+        self.log_sketches - self.before.0
+    }
+
+    /// Undoes what [`State::look`] did; the trace is still to be rolled back.
+    #[inline]
+    pub fn look_back(&mut self) {
+        if !self.sketches.is_empty()
+            && (self.trace.retracted().next().is_some() || self.trace.emitted().next().is_some())
+        {
+            self.sketches.exchange(self.trace.emitted(), self.trace.retracted());
+        }
+        (self.log_sketches, self.primitives) = self.before;
+    }
+}
+
+/// What makes a run impossible: the factor or choice at which it stopped.
+fn impossible(trace: &Trace, program: &Program) -> String {
+    let mut cause = None;
+    trace.visit(program, |place, item| {
+        let line = place.site.span.line;
+        match item {
+            Item::Factor(f64::NEG_INFINITY) => {
+                let factor = match place.site.kind {
+                    SiteKind::Factor => Factor::Factor,
+                    SiteKind::Condition => Factor::Condition,
+                    _ => Factor::Observe,
+                };
+                cause = Some(forward::named(factor, line));
+            }
+            Item::Choice(_, f64::NEG_INFINITY) => {
+                cause = Some(format!("the choice `{}` at line {line}", place.path()));
+            }
+            _ => {}
+        }
+    });
+    cause.unwrap_or_else(|| "a factor".into())
+}

@@ -1,0 +1,121 @@
+//! What an open transaction did to the choices: which came and which go, which were drawn anew where they stand; and
+//! the transaction that asks for just that, drawing choices anew.
+
+use super::super::Machine;
+use super::super::answers::Answers;
+use super::super::stack::RunFault;
+use super::super::state::NodeId;
+use super::inspect::Place;
+use super::{Change, ChoiceAt, Kept, Slot, Strategy, Trace};
+use crate::code::{Program, SiteKind};
+use crate::value::Value;
+use niwaki_math::{Family, Scalar};
+
+impl<S: Scalar> Trace<S> {
+    /// Where the choices stand that the open transaction made.
+    pub fn births<'a>(&'a self, program: &'a Program<S>) -> impl ExactSizeIterator<Item = Place<'a, S>> {
+        self.kept.journal.births.iter().map(|birth| self.place_at(program, birth.node, birth.site))
+    }
+
+    /// Numbers of the choices that go when the open transaction is kept, in no order. What they hold can still be read.
+    pub fn deaths(&self) -> &[u32] {
+        &self.kept.journal.deaths
+    }
+
+    /// Choices that the open transaction drew anew where they stand: address, and the value before.
+    pub fn drawn_anew(&self) -> &[(u128, Value<S>)] {
+        &self.kept.journal.anew
+    }
+
+    /// The family that a choice was drawn from.
+    pub fn family(&self, choice: usize) -> Option<Family> {
+        let at = self.kept.choices[choice];
+        let mark = self.kept.slots[Kept::slot_at(&self.state, at.node, at.site as usize)].mark & Slot::FAMILY;
+        Family::ALL.iter().copied().find(|family| *family as u32 == mark)
+    }
+
+    /// The activation that is `levels` calls or iterations above a choice's own (0: its own; at most the root).
+    pub fn activation(&self, choice: usize, levels: usize) -> NodeId {
+        let mut node = self.kept.choices[choice].node;
+        for _ in 0..levels {
+            let parent = self.state.nodes[node.0 as usize].parent;
+            if parent == NodeId::NONE {
+                break;
+            }
+            node = parent;
+        }
+        node
+    }
+
+    /// Visits the choices at and below an activation, in no order: each with its place, its number (`None` where the
+    /// open transaction made it) and how many levels it stands below.
+    pub fn below(
+        &self,
+        program: &Program<S>,
+        node: NodeId,
+        mut each: impl FnMut(Place<'_, S>, Option<usize>, usize),
+    ) {
+        let mut work = vec![(node, 0)];
+        while let Some((node, level)) = work.pop() {
+            let n = &self.state.nodes[node.0 as usize];
+            let f = program.function(n.function);
+            if f.mode == crate::code::Mode::Loop {
+                work.extend(self.kept.loops[n.slots as usize].iter().map(|child| (*child, level + 1)));
+                continue;
+            }
+            for (i, site) in f.sites.iter().enumerate() {
+                let slot = self.kept.slots[n.slots as usize + i];
+                match site.kind {
+                    _ if !slot.is_filled() => {}
+                    SiteKind::Call { .. }
+                    | SiteKind::Apply
+                    | SiteKind::Future { .. }
+                    | SiteKind::FutureApply { .. }
+                    | SiteKind::Loop(_) => work.push((NodeId(slot.held), level + 1)),
+                    SiteKind::Sample { .. } | SiteKind::SampleDist | SiteKind::SampleIndexed => {
+                        let number = (slot.held & Slot::BORN == 0).then_some(slot.held as usize);
+                        each(self.place_at(program, node, i as u16), number, level);
+                    }
+                    _ => {}
+                }
+            }
+        }
+    }
+
+    /// [`Trace::rollback`] that forgets the register written last: a mutant, for the tests that must see it.
+    #[doc(hidden)]
+    pub fn rollback_but_one_register(&mut self, program: &Program<S>) {
+        self.kept.journal.registers.pop();
+        self.rollback(program);
+    }
+}
+
+impl<S: Scalar> Machine<'_, S> {
+    /// Draws choices anew from their distributions, in program order, and runs. The transaction is open afterwards;
+    /// its fresh and stale log densities are those of the values drawn and of the values that they replace.
+    ///
+    /// # Errors
+    /// A fault of the program.
+    pub fn redraw<A: Answers<S>>(
+        &mut self,
+        trace: &mut Trace<S>,
+        choices: &[usize],
+        strategy: Strategy,
+        answers: &mut A,
+    ) -> Result<Change, Box<RunFault>> {
+        let (state, kept) = (&mut trace.state, &mut trace.kept);
+        kept.open();
+        if choices.is_empty() {
+            return Ok(Change::Same);
+        }
+        kept.prepare(if strategy.reuses() { Strategy::Cache } else { Strategy::Rerun });
+        for choice in choices {
+            let ChoiceAt { node, site } = kept.choices[*choice];
+            let at = Kept::slot_at(state, node, site as usize);
+            // A family that none is: what is held does not fit, whatever the distribution.
+            kept.write_slot(false, at, Slot { mark: Slot::FAMILY, ..kept.slots[at] });
+            kept.mark_above(state, node);
+        }
+        self.run_kept(trace, NodeId(0), 0, answers)
+    }
+}

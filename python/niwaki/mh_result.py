@@ -1,0 +1,146 @@
+"""What Markov chains give back: the best state, samples, acceptance by site, and the chains themselves, to go on with."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from niwaki.compiled import translated
+from niwaki.methods import Mh, at_least_one
+from niwaki.result import Result, Sample
+
+if TYPE_CHECKING:
+    from niwaki import _engine
+    from niwaki.sketches import Score
+    from niwaki.words.models import Model
+
+
+@dataclass(frozen=True)
+class Acceptance:
+    """Proposals at one site of a model.
+
+    Attributes
+    ----------
+    function, site : str
+        Where it stands: the function, and the site as it is written in addresses.
+    line : int
+        Its line in the source.
+    proposed, accepted : int
+        How many proposals there were, and how many were kept. A proposal of the old value counts as kept.
+    outside : int
+        How many lay outside the support of the distribution.
+    """
+
+    function: str
+    site: str
+    line: int
+    proposed: int
+    accepted: int
+    outside: int
+
+    @property
+    def rate(self) -> float:
+        """The share that was kept."""
+        return self.accepted / self.proposed if self.proposed else math.nan
+
+
+class ChainResult(Result):
+    """What Markov chains found; a sequence of its samples, chain after chain.
+
+    Attributes
+    ----------
+    samples : list of Sample
+        Thinned states after the warm-up, those of the first chain first. All weigh the same.
+    draws : list of list of Sample
+        The same, by chain.
+    counters : dict of str to int
+        Proposals, activations entered, calls skipped, instructions, choices and bytes of the present states.
+    """
+
+    def __init__(
+        self,
+        model: Model[..., Any],
+        made: _engine.Task,
+        chains: _engine.Chains,
+        seed: int,
+        method: Mh,
+        score: Score,
+        watch: Callable[[int, int, float], None],
+        threads: int | None,
+    ) -> None:
+        super().__init__(model, [], seed, method, score)
+        self._made, self._chains, self._watch, self._threads = made, chains, watch, threads
+        self.draws: list[list[Sample]] = []
+
+    def more(self, steps: int) -> ChainResult:
+        """Go on for `steps` proposals in each chain, from where they are; the result itself, with more in it."""
+        at_least_one("steps", steps)
+        wall, cpu = time.perf_counter(), time.process_time()
+        try:
+            with translated(self.model.name, f"seed={self.seed}"):
+                self.interrupted = self._chains.advance(steps, self._threads, self._watch)
+        finally:
+            self.seconds += time.perf_counter() - wall
+            self.cpu_seconds += time.process_time() - cpu
+            self._gather()
+        return self
+
+    def _gather(self) -> None:
+        self.draws = [
+            [self._sample(outcome) for _, outcome in self._chains.samples(chain)]
+            for chain in range(self.method.chains)
+        ]
+        self.samples = [sample for draws in self.draws for sample in draws]
+
+    def _sample(self, outcome: _engine.Outcome) -> Sample:
+        return Sample(outcome, self._made, self.score, self.seed, self.seconds, self.cpu_seconds)
+
+    @property
+    def best(self) -> Sample:
+        """The state of the best log score that any chain came through, whether it was sampled or not."""
+        return max((self._sample(one) for one in self._chains.best()), key=lambda sample: sample.log_score)
+
+    @property
+    def bests(self) -> list[Sample]:
+        """The best state of each chain."""
+        return [self._sample(one) for one in self._chains.best()]
+
+    @property
+    def last(self) -> list[Sample]:
+        """The present state of each chain."""
+        return [self._sample(one) for one in self._chains.now()]
+
+    @property
+    def acceptance(self) -> dict[str, Acceptance]:
+        """Proposals by site (`function/site`), all chains together; most proposed first."""
+        rows = [Acceptance(*row) for row in self._chains.sites()]
+        rows.sort(key=lambda row: -row.proposed)
+        names = [f"{row.function}/{row.site}" for row in rows]
+        return {
+            name if names.count(name) == 1 else f"{name} line {row.line}": row
+            for name, row in zip(names, rows, strict=True)
+        }
+
+    @property
+    def counters(self) -> dict[str, int]:
+        """Work done, and the size of the present states, all chains together."""
+        return self._chains.counters()
+
+    @property
+    def trace(self) -> NDArray[np.float64]:
+        """Log scores of the samples, (chains, samples of the shortest chain), nats."""
+        least = min((len(draws) for draws in self.draws), default=0)
+        return np.array([[one.log_score for one in draws[:least]] for draws in self.draws], dtype=np.float64)
+
+    def __repr__(self) -> str:
+        proposals = self.counters["proposals"]
+        return (
+            f"<ChainResult: {self.method.chains} chain{'s' if self.method.chains > 1 else ''}, "
+            f"{proposals} proposals, {len(self.samples)} samples, best log score {self.best.log_score:.2f}>"
+        )
