@@ -14,6 +14,7 @@ from niwaki.gallery import furnishings
 from niwaki.methods import smc
 from niwaki.outline import load_polygon
 from niwaki.words import (
+    Vec,
     discrete_uniform,
     distance,
     emit,
@@ -66,7 +67,7 @@ GLAZE, CLAY, WALL = (0.96, 0.96, 0.95), (0.78, 0.42, 0.28), (0.80, 0.77, 0.72)
 def layout():
     """Tables and the chairs around them: a list of (place, turn, chairs), a chair being (place, turn)."""
     count = poisson(TABLES)
-    placed = []
+    placed: list[tuple[Vec, float, list[tuple[Vec, float]]]] = []
     covered = 0.0
     factor(fullness(covered))
     for _ in range(count):

@@ -4,11 +4,11 @@ Every latent variable is a choice: weights, means and deviations of the componen
 """
 
 from niwaki.gallery import data
-from niwaki.methods import smc
+from niwaki.methods import mh
 from niwaki.words import Gaussian, categorical, dirichlet, gaussian, model, observe, uniform
 
 TITLE = "four clusters of a hundred numbers"
-METHOD = smc(particles=20_000, ess=0.5)
+METHOD = mh(steps=400_000, warmup=100_000)
 
 POINTS = data.clusters(1000)
 COMPONENTS = 4

@@ -4,11 +4,11 @@ Each sequence has an intercept and a slope; those of all sequences are drawn aro
 """
 
 from niwaki.gallery import data
-from niwaki.methods import smc
+from niwaki.methods import mh
 from niwaki.words import Gaussian, gaussian, model, observe, uniform
 
 TITLE = "twenty lines and what they have in common"
-METHOD = smc(particles=20_000, ess=0.5)
+METHOD = mh(steps=400_000, warmup=100_000)
 
 SEQUENCES = data.growth(200)
 TIMES = (-2.0, -1.0, 0.0, 1.0, 2.0)

@@ -4,11 +4,11 @@ The tables are known and the states are not. The distributions are built once, o
 """
 
 from niwaki.gallery import data
-from niwaki.methods import smc
+from niwaki.methods import mh
 from niwaki.words import Categorical, model, observe, sample
 
 TITLE = "the states behind a hundred observations"
-METHOD = smc(particles=2000, ess=0.5)
+METHOD = mh(steps=400_000, warmup=100_000)
 
 CHAIN = data.hidden_chain(1000)
 OBSERVATIONS = CHAIN.observations

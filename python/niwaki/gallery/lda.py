@@ -5,11 +5,11 @@ choice: the topics' words, the documents' topics, the topic of each word.
 """
 
 from niwaki.gallery import data
-from niwaki.methods import smc
+from niwaki.methods import mh
 from niwaki.words import Categorical, Dirichlet, categorical, model, observe, sample
 
 TITLE = "ten topics of a few documents"
-METHOD = smc(particles=2000, ess=0.5)
+METHOD = mh(steps=400_000, warmup=100_000)
 
 DOCUMENTS = data.documents(50)
 TOPICS = 10
