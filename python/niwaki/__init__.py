@@ -18,7 +18,16 @@ if TYPE_CHECKING:
     from niwaki.constraints import Residuals, residuals
     from niwaki.errors import InputError, ModelError, ModelFault, NiwakiError
     from niwaki.lang.plain import run_python
-    from niwaki.methods import enumerate_all, forward, importance, mh, rejection, smc
+    from niwaki.methods import (
+        enumerate_all,
+        forward,
+        importance,
+        mh,
+        particle_gibbs,
+        pimh,
+        rejection,
+        smc,
+    )
     from niwaki.mh_result import ChainResult
     from niwaki.outline import load_polygon
     from niwaki.result import Result, Sample
@@ -42,7 +51,16 @@ _HOMES = {
     "niwaki.errors": ("InputError", "ModelError", "ModelFault", "NiwakiError"),
     "niwaki.search": ("Progress", "grow", "run"),
     "niwaki.lang.plain": ("run_python",),
-    "niwaki.methods": ("enumerate_all", "forward", "importance", "mh", "rejection", "smc"),
+    "niwaki.methods": (
+        "enumerate_all",
+        "forward",
+        "importance",
+        "mh",
+        "particle_gibbs",
+        "pimh",
+        "rejection",
+        "smc",
+    ),
     "niwaki.mh_result": ("ChainResult",),
     "niwaki.constraints": ("Residuals", "residuals"),
     "niwaki.outline": ("load_polygon",),
@@ -91,6 +109,8 @@ __all__ = [  # noqa: PLE0604
     "match_shadow",
     "no_self_intersection",
     "overshoot",
+    "particle_gibbs",
+    "pimh",
     "rejection",
     "residuals",
     "run",

@@ -22,6 +22,7 @@ __all__ = [
     "Trace",
     "__version__",
     "avoid",
+    "different",
     "draw",
     "draw_at",
     "enumerate_support",
@@ -37,6 +38,7 @@ __all__ = [
     "parameter_names",
     "render",
     "support",
+    "unique_models",
     "volume_match",
 ]
 
@@ -44,6 +46,8 @@ __version__: str
 
 _Triple = Sequence[float]
 _Rows = Sequence[Sequence[float]]
+_Frame = tuple[_Triple, _Triple, _Triple, float]
+_Bark = tuple[_Triple, float, _Triple, float]
 _Corner = tuple[float, float, float]
 _Lens = tuple[_Triple, _Triple, _Triple, bool, float, float]
 _Eye = tuple[_Corner, _Corner, _Corner, float]
@@ -80,6 +84,14 @@ class Shape:
         end_radius: float,
         start_normal: _Triple | None = None,
         end_normal: _Triple | None = None,
+        color: _Triple | None = None,
+    ) -> Shape: ...
+    @staticmethod
+    def segment(
+        start: _Frame,
+        split: _Frame,
+        end: _Frame,
+        onto: _Bark | None = None,
         color: _Triple | None = None,
     ) -> Shape: ...
     @staticmethod
@@ -242,12 +254,43 @@ class Task:
     ) -> tuple[list[Outcome], float]: ...
     def smc(
         self,
-        particles: int,
+        plan: Sequence[int],
         seed: int,
         *,
         order: str = "stochastic",
         weights: str = "ratio",
         temper: float = 1.0,
+        anneal: float | Sequence[float] | None = None,
+        resampling: str = "systematic",
+        ess: float | None = None,
+        seconds: float | None = None,
+        threads: int | None = None,
+        watch: _Watch | None = None,
+    ) -> dict[str, Any]: ...
+    def particle_gibbs(
+        self,
+        particles: int,
+        sweeps: int,
+        seed: int,
+        *,
+        order: str = "stochastic",
+        temper: float = 1.0,
+        anneal: float | Sequence[float] | None = None,
+        ess: float | None = None,
+        ancestors: bool = True,
+        start: Outcome | None = None,
+        threads: int | None = None,
+        watch: _Watch | None = None,
+    ) -> dict[str, Any]: ...
+    def pimh(
+        self,
+        particles: int,
+        sweeps: int,
+        seed: int,
+        *,
+        order: str = "stochastic",
+        temper: float = 1.0,
+        anneal: float | Sequence[float] | None = None,
         resampling: str = "systematic",
         ess: float | None = None,
         threads: int | None = None,
@@ -325,3 +368,6 @@ class Trace:
 
 @final
 class Opaque: ...
+
+def unique_models(outcomes: Sequence[Outcome]) -> int: ...
+def different(outcomes: Sequence[Outcome], k: int) -> list[int]: ...

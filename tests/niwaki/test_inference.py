@@ -1,7 +1,7 @@
-"""Claim: a model with an `infer` inside can itself be searched by every method, and is the same on any number of threads.
+"""Claim: a model with an `infer` inside can itself be searched by every method, the same on any number of threads.
 
-The inner choice is a coin that the outer run observes: p(outer heads) follows from the inner posterior, so that the outer
-answer is known. Shares of 3,000 independent runs are within 4.9 standard errors (one false alarm in a million each).
+The inner choice is a coin that the outer run weighs: the outer answer follows from the inner posterior. Shares are within
+4.9 standard errors of it (one false alarm in a million each), and far from what leaving the outer factor out would give.
 """
 
 from __future__ import annotations
@@ -35,7 +35,9 @@ def twice():  # type: ignore[no-untyped-def]
 OUTER = INNER / (INNER + (1.0 - INNER) * math.exp(-1.0))
 
 
-@pytest.mark.parametrize("method", [nw.importance(3000), nw.smc(particles=3000, ess=0.0)], ids=["importance", "smc"])
+@pytest.mark.parametrize(
+    "method", [nw.importance(3000), nw.smc(particles=3000, ess=0.0)], ids=["importance", "smc"]
+)
 def test_the_outer_answer_is_known(method) -> None:  # type: ignore[no-untyped-def]
     result = nw.run(twice, method=method, seed=1)
     pairs = [(sample.value[0], weight) for sample, weight in zip(result, result.weights, strict=True)]

@@ -1,7 +1,7 @@
 //! Shapes, voxels, intersections, sketches and pictures.
 //!
 //! - [`bounds`]: boxes along the axes
-//! - [`mesh`], [`topology`], [`hull`], [`limb`], [`convex`]: surfaces and convex solids
+//! - [`mesh`], [`topology`], [`hull`], [`limb`], [`segment`], [`convex`]: surfaces and convex solids
 //! - [`shape`], [`words`], [`primitive`]: what a model emits
 //! - [`voxel`]: which cells of a grid a shape fills
 //! - [`intersect`]: whether two shapes intersect
@@ -21,6 +21,7 @@ pub mod limb;
 pub mod mesh;
 pub mod primitive;
 pub mod render;
+pub mod segment;
 pub mod shape;
 pub mod sketch;
 pub mod topology;
@@ -36,6 +37,7 @@ pub use intersect::{Rule, intersects};
 pub use mesh::TriMesh;
 pub use niwaki_math::vector::{self, Mat3, Vec3, vec3};
 pub use primitive::Primitive;
+pub use segment::{Bark, Frame};
 pub use shape::{Placement, Ring, Shape, Solid};
 pub use sketch::avoid::{Avoid, avoid};
 pub use sketch::floor::{Floor, floor};

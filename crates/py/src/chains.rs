@@ -1,7 +1,8 @@
 //! Markov chains behind the door: they stay alive between two calls, so that a search goes on where it stopped.
 
 use crate::outcome::PyOutcome;
-use crate::search::{PyTask, detached, unknown};
+use crate::search::{PyTask, detached};
+use crate::settings::unknown;
 use niwaki_infer::chain::Settings;
 use niwaki_infer::chain::counts::{Count, Counts};
 use niwaki_infer::chain::many::Chains;

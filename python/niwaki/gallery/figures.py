@@ -110,10 +110,10 @@ def state_shares(place: Axes, result: Result) -> None:
     shares = np.zeros((10, steps))
     for sample, weight in zip(result, result.weights, strict=True):
         shares[sample.value, np.arange(steps)] += weight
-    place.imshow(shares, aspect="auto", cmap="Greys", vmin=0.0, vmax=1.0, origin="lower")
+    place.imshow(shares, aspect="auto", cmap="Greys", vmin=0.0, vmax=0.7, origin="lower")
     place.plot(hmm.CHAIN.states[:steps], ".", color=WARM, markersize=4, label="the state that made the data")
     place.set(xlabel="step", ylabel="state")
-    place.legend(loc="upper right", fontsize=8, framealpha=0.9)
+    place.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), fontsize=8, frameon=False)
 
 
 def topic_shares(place: Axes, result: Result) -> None:

@@ -73,10 +73,22 @@ def is_method(value: Any) -> bool:
     return isinstance(value, (Smc, Mh, EnumerateAll, Rejection, Importance, Forward))
 
 
+#: What an inner search of particles may be.
+ONE_POPULATION = "particles are one population at a constant temperature"
+
+
+def is_plain(method: Smc) -> bool:
+    """Whether a search of particles is one population, without a way of the temperature and without a clock."""
+    extras = (method.anneal, method.diverse, method.seconds)
+    return isinstance(method.particles, int) and method.populations == 1 and extras == (None, None, None)
+
+
 def check(method: Any, keep: Any) -> None:
     """Refuse what the compiler refuses too, in a plain run."""
     if not is_method(method):
         raise ModelFault("type-mismatch", f"`infer` takes a method such as `smc(100)`, found {method!r}")
+    if isinstance(method, Smc) and not is_plain(method):
+        raise ModelFault("bad-argument", f"inside a model {ONE_POPULATION}, found {method!r}")
     if keep not in KEEP:
         raise ModelFault("bad-argument", f'`keep` is "sample" or "best", found {keep!r}')
 
@@ -140,7 +152,7 @@ def _method(body: Body, node: ast.expr) -> Method:
     found = static(body, node)
     if isinstance(node, ast.Call):
         maker = static(body, node.func)
-        if getattr(maker, "__module__", None) == "niwaki.methods":
+        if str(getattr(maker, "__module__", "")).startswith("niwaki.methods"):
             args = [_constant(body, arg) for arg in node.args]
             keywords = {
                 keyword.arg: _constant(body, keyword.value) for keyword in node.keywords if keyword.arg
@@ -153,6 +165,10 @@ def _method(body: Body, node: ast.expr) -> Method:
                 )
     if not is_method(found):
         body.refuse("infer-method", node, found=body.span(node).text)
+    if isinstance(found, Smc) and not is_plain(found):
+        body.refuse(
+            "infer-method", node, found=f"{body.span(node).text}, but inside a model {ONE_POPULATION}"
+        )
     method: Method = found
     return method
 

@@ -112,7 +112,7 @@ _SOFT = (
     words.smooth_min,
     words.smooth_abs,
 )
-_SHAPES = (words.box, words.cylinder, words.limb, words.mesh)
+_SHAPES = (words.box, words.cylinder, words.limb, words.segment, words.mesh)
 
 
 def _word(function: Any, omit: bool) -> Op:

@@ -4,7 +4,7 @@ models          `@model`, `@host`
 choices         `sample`, `flip`, `gaussian`, ...: draws
 distributions   `Gaussian`, `Uniform`, ...: distributions as values
 effects         `factor`, `condition`, `observe`, `query`, `emit`, `future`, `force`, `infer`
-shapes          `box`, `cylinder`, `limb`, `mesh`
+shapes          `box`, `cylinder`, `limb`, `segment`, `mesh`
 colors          `hsv`, `lab`, `to_hsv`, `to_lab`, `color_difference`
 polygons        `polygon_area`, `polygon_contains`, `polygon_distance`, `polygon_disc_area`, `polygon_inset`
 vectors         `vec`, `dot`, `cross`, `norm`, `normalize`, `distance`, `rotate`, `rotation`
@@ -74,11 +74,12 @@ from niwaki.words.polygons import (
     polygon_distance,
     polygon_inset,
 )
-from niwaki.words.shapes import box, cylinder, limb, mesh
+from niwaki.words.shapes import Bark, Frame, box, cylinder, limb, mesh, segment
 from niwaki.words.soft import smooth_abs, smooth_max, smooth_min, soft_at_least, soft_at_most, softeq
 from niwaki.words.vectors import Rotation, Vec, cross, distance, dot, norm, normalize, rotate, rotation, vec
 
 __all__ = [
+    "Bark",
     "Bernoulli",
     "Beta",
     "Binomial",
@@ -89,6 +90,7 @@ __all__ = [
     "DiscreteUniform",
     "Distribution",
     "Exponential",
+    "Frame",
     "Gamma",
     "Gaussian",
     "Geometric",
@@ -156,6 +158,7 @@ __all__ = [
     "rotate",
     "rotation",
     "sample",
+    "segment",
     "sign",
     "smooth_abs",
     "smooth_max",

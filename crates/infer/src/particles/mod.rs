@@ -17,14 +17,24 @@
 //! copy gets a fresh one, and none is used again.
 
 mod advance;
+mod copies;
+pub mod distinct;
+mod gibbs;
+mod many;
+mod path;
+mod pimh;
 mod population;
 pub mod resampling;
 mod settings;
+mod smc;
 mod weights;
 
 #[cfg(test)]
 mod tests;
 
-pub use population::{Outcome, Progress, Result, smc};
+pub use gibbs::{Ancestors, Chain, particle_gibbs};
+pub use many::{Watch, populations, within};
+pub use pimh::pimh;
 pub use resampling::Resampling;
-pub use settings::{Order, Settings, Weights, When};
+pub use settings::{Anneal, Order, Settings, Weights, When};
+pub use smc::{Outcome, Progress, Result, smc};

@@ -236,6 +236,7 @@ table! {
     "box" 2 7 shapes::cuboid;
     "cylinder" 3 8 shapes::cylinder;
     "limb" 4 7 shapes::limb;
+    "segment" 3 5 shapes::segment;
     "mesh" 2 6 shapes::mesh;
 }
 

@@ -77,6 +77,14 @@ INPUTS = (
         cure="smc(temper=1)",
     ),
     Message(
+        "bad-anneal",
+        "the temperature cannot go the way of {found}",
+        why="{reason}",
+        help="give the power at each barrier, or the share of particles to keep, or leave it out",
+        example="smc(anneal=[])",
+        cure="smc(temper=16, anneal=[1, 2, 4, 8, 16])",
+    ),
+    Message(
         "bad-threshold",
         "the resampling threshold cannot be {found}",
         help="set it to a share of the particles, from 0 to 1",
