@@ -1,7 +1,8 @@
 """Claim: a model with an `infer` inside can itself be searched by every method, the same on any number of threads.
 
-The inner choice is a coin that the outer run weighs: the outer answer follows from the inner posterior. Shares are within
-4.9 standard errors of it (one false alarm in a million each), and far from what leaving the outer factor out would give.
+The inner choice is a coin that the outer run weighs: the outer answer follows from the inner posterior. Shares are
+within 4.9 standard errors of it (one false alarm in a million each), and far from what leaving the outer factor out
+would give.
 """
 
 from __future__ import annotations
