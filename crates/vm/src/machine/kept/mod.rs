@@ -38,9 +38,9 @@ use super::question::Halt;
 use super::registers::Registers;
 use super::state::{NodeId, State};
 use super::suspend::After;
-use crate::code::{Args, Mode, Program, SiteId};
+use crate::code::{Args, FunctionId, Mode, Program, SiteId};
 use crate::fault::Fault;
-use crate::value::{Value, same};
+use crate::value::{Closure, Value, same};
 use adapt::Sites;
 use cells::{Reader, Readers};
 use journal::Journal;
@@ -444,21 +444,44 @@ impl<'p, S: Scalar> Machine<'p, S> {
         args: &[Value<S>],
         answers: &mut A,
     ) -> Result<(Trace<S>, Change), Box<super::stack::RunFault>> {
+        self.begin_call(self.program.entry, &[], args, answers)
+    }
+
+    /// As [`Machine::begin`], of a closure of the program.
+    ///
+    /// # Errors
+    /// As for [`Machine::begin`].
+    pub fn begin_closure<A: Answers<S>>(
+        &mut self,
+        closure: &Closure<S>,
+        args: &[Value<S>],
+        answers: &mut A,
+    ) -> Result<(Trace<S>, Change), Box<super::stack::RunFault>> {
+        self.begin_call(FunctionId(closure.function), &closure.captures, args, answers)
+    }
+
+    fn begin_call<A: Answers<S>>(
+        &mut self,
+        entry: FunctionId,
+        captures: &[Value<S>],
+        args: &[Value<S>],
+        answers: &mut A,
+    ) -> Result<(Trace<S>, Change), Box<super::stack::RunFault>> {
         let bare = |fault| {
             Box::new(super::stack::RunFault { fault, stack: vec![], omitted: 0, path: String::new() })
         };
-        let template = self.start(args, true).map_err(bare)?;
+        let template = self.start_call(entry, captures, args, true).map_err(bare)?;
         let mut trace = Trace { state: State::empty(), kept: Kept::new(self.program) };
         let (state, kept) = (&mut trace.state, &mut trace.kept);
         state.depth_first = true;
         kept.open();
-        let entry = self.program.entry;
         let root = kept.new_node(self.program, state, entry, NodeId::NONE, 0, address::ROOT);
         if self.program.function(entry).mode == Mode::Pure {
             // A pure entry function reads its arguments at the start of the register file.
             state.registers.extend(template.registers.iter().cloned());
         } else {
-            let count = self.program.function(entry).params as usize;
+            let f = self.program.function(entry);
+            let count = usize::from(f.params) + usize::from(f.captures);
             for (i, value) in template.registers.iter().take(count).enumerate() {
                 state.registers[i] = value.clone();
             }
