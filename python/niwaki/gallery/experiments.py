@@ -88,7 +88,7 @@ class Experiment:
 
     def run(self, *, particles: int | None = None, weights: str = "absolute", seed: int = 1) -> Result:
         """Search as the original did: so many particles, in a stochastic order, weighted by whole scores."""
-        from niwaki.infer import run
+        from niwaki.search import run
         from niwaki.methods import smc
 
         found = entry(self.model)

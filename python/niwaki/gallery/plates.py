@@ -16,7 +16,7 @@ from niwaki.draw.views import view_sheet
 from niwaki.gallery import Entry, entries
 from niwaki.gallery.experiments import EXPERIMENTS
 from niwaki.gallery.pictures import written
-from niwaki.infer import grow, run
+from niwaki.search import grow, run
 from niwaki.methods import importance
 from niwaki.scene import Scene
 from niwaki.sketches import no_self_intersection
