@@ -5,6 +5,7 @@
 #   make test     the engine's tests, then the package's
 #   make lint     formatting, clippy, ruff, mypy and the door's stub, warnings as errors
 #   make bench    rates beside WebPPL and a hand-written limit, on one thread (needs node and npm)
+#   make figures-sosmc  the figures and the table of chapter 5, into out/figures-sosmc (QUICK=1: a smoke run)
 #   make soak     the long tests, with fresh printed seeds
 #   make docs     the manual, into docs/_build/html, and the engine's pages, into target/doc
 #   make format   rewrite the sources in the house's style
@@ -32,7 +33,9 @@ LIMIT := --manifest-path benches/limit/Cargo.toml --target-dir benches/.cache/li
 RUST := $(shell find crates -name '*.rs' -o -name Cargo.toml) Cargo.toml Cargo.lock
 PYTHON_SOURCES := python tests benches docs/conf.py
 
-.PHONY: all demo test lint bench soak docs format locks clean
+PARTS :=
+
+.PHONY: all demo test lint bench figures-sosmc soak docs format locks clean
 all: $(STAMPS)/engine
 
 # ---- set-up: one stamp for each thing that is made, older than what depends on it
@@ -75,6 +78,9 @@ bench: $(STAMPS)/engine $(STAMPS)/bench
 	$(PY) benches/startup.py
 	$(PY) benches/reference.py
 	$(PY) benches/machine.py
+
+figures-sosmc: $(STAMPS)/engine $(STAMPS)/bench
+	$(PY) benches/figures_sosmc out/figures-sosmc $(PARTS)
 
 soak: $(STAMPS)/engine $(STAMPS)/test
 	cargo test $(CARGO_FLAGS) --workspace -- --ignored

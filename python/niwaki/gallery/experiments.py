@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 
 Triple = tuple[float, float, float]
 
+#: How we would search instead of by whole scores: for correct weights, judging ever more sharply up to a power of eight.
+RECOMMENDED: dict[str, Any] = {"temper": 8.0, "anneal": [min(8.0, 2.0 + 0.2 * k) for k in range(1, 32)]}
+
 
 @dataclass(frozen=True)
 class Experiment:
@@ -46,6 +49,8 @@ class Experiment:
         Direction in which light travels, where the image is that of a shadow.
     floor : float
         Half the side of the square floor that the shadow falls on, scene units.
+    ours : dict
+        Settings of `smc` that we would take instead, where they differ from `RECOMMENDED`.
     """
 
     name: str
@@ -61,6 +66,7 @@ class Experiment:
     camera: dict[str, Any] = field(default_factory=dict)
     light: Triple | None = None
     floor: float = 13.65
+    ours: dict[str, Any] = field(default_factory=dict)
 
     def score(self, rule: str = "solid") -> Score:
         """Make what it asks for, on our own targets; `rule` is that of `no_self_intersection`."""
@@ -86,15 +92,38 @@ class Experiment:
             image, self.light, ground, self.camera, weight_image=heavy, sigma=self.sigma
         )
 
-    def run(self, *, particles: int | None = None, weights: str = "absolute", seed: int = 1) -> Result:
-        """Search as the original did: so many particles, in a stochastic order, weighted by whole scores."""
+    def settings(self, way: str = "original") -> dict[str, Any]:
+        """What `smc` is told: "original" for whole scores and the original's particles, or "ours"."""
+        if way == "original":
+            return {"particles": self.particles, "weights": "absolute"}
+        return {"particles": self.particles} | RECOMMENDED | self.ours
+
+    def run(
+        self,
+        way: str = "original",
+        *,
+        particles: int | None = None,
+        seed: int = 1,
+        threads: int | None = None,
+    ) -> Result:
+        """Search, in a stochastic order.
+
+        Parameters
+        ----------
+        way
+            As for `settings`.
+        particles
+            Instead of those of the settings.
+        seed, threads
+            As for `niwaki.run`.
+        """
         from niwaki.search import run
         from niwaki.methods import smc
 
         found = entry(self.model)
         assert found is not None
-        method = smc(particles or self.particles, weights=weights)
-        return run(found.model, method=method, score=self.score(), seed=seed)
+        settings = self.settings(way) | ({} if particles is None else {"particles": particles})
+        return run(found.model, method=smc(**settings), score=self.score(), seed=seed, threads=threads)
 
 
 #: From a street corner, across the first tower.
@@ -124,14 +153,34 @@ PLAN = {
     "height": 27.3,
 }
 
+#: Around obstacles many starts become impossible, and a sharp eye leaves too few others.
+AROUND: dict[str, Any] = {"particles": 300, "temper": 4.0, "anneal": None}
+#: Seven storeys on each other are rare: more particles find them.
+TOWERS: dict[str, Any] = {"particles": 1000, "anneal": None}
+#: A sigma of thirty pixels is sharp enough, too sharp at first: one pipe then outweighs all others. Nets that end early
+#: are a matter of luck, so there are eight populations.
+NETS: dict[str, Any] = {"populations": 8, "temper": 1.0, "anneal": 0.5}
+
 EXPERIMENTS = (
     Experiment("ship", "5.1", "spaceship", 300, 0.02, fill="ship", voxel=0.25),
     Experiment("tree", "5.1", "gnarly-tree", 300, 0.02, fill="forked_tree", voxel=0.4),
     Experiment("tall-tree", "5.9c", "gnarly-tree", 300, 0.02, fill="bent_tube", voxel=0.4),
     Experiment("building", "5.3", "building", 300, 0.02, fill="crescent", voxel=0.25),
-    Experiment("tree-and-ledges", "5.4", "gnarly-tree", 100, 0.05, fill="funnel", avoid="ledges", voxel=0.4),
-    Experiment("tree-and-emblem", "5.4", "gnarly-tree", 300, 0.05, fill="gem", avoid="emblem", voxel=0.4),
-    Experiment("skyline", "5.5", "building", 300, 0.02, image="skyline", camera=STREET),
+    Experiment(
+        "tree-and-ledges",
+        "5.4",
+        "gnarly-tree",
+        100,
+        0.05,
+        fill="funnel",
+        avoid="ledges",
+        voxel=0.4,
+        ours=AROUND,
+    ),
+    Experiment(
+        "tree-and-emblem", "5.4", "gnarly-tree", 100, 0.05, fill="gem", avoid="emblem", voxel=0.4, ours=AROUND
+    ),
+    Experiment("skyline", "5.5", "building", 300, 0.02, image="skyline", camera=STREET, ours=TOWERS),
     Experiment("ship-front", "5.6", "spaceship", 300, 0.02, image="ship_front", camera=BOW),
     Experiment(
         "face-of-blocks",
@@ -143,9 +192,18 @@ EXPERIMENTS = (
         weights="face_stroke",
         camera=CEILING,
         light=(-1.0, -0.3, 0.0),
+        ours={"particles": 6000, "anneal": None},
     ),
     Experiment(
-        "digits-of-pipes", "5.8", "pipes", 100, 0.0005, image="digits", camera=PLAN, light=(0.0, -1.0, 0.0)
+        "digits-of-pipes",
+        "5.8",
+        "pipes",
+        100,
+        0.0005,
+        image="digits",
+        camera=PLAN,
+        light=(0.0, -1.0, 0.0),
+        ours=NETS,
     ),
 )
 

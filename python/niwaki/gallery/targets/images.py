@@ -67,14 +67,15 @@ def face_stroke() -> Image.Image:
 
 
 def digits() -> Image.Image:
-    """Draw a four and a two, joined by a bridge through the middle, 250 square."""
+    """Draw a four and a two of straight strokes, joined by a thin bridge through the middle, 250 square.
+
+    Pipes run along the axes, and so do the strokes; the first pipe stands above the bridge.
+    """
     image, pen = _sheet(250)
-    _stroke(pen, [(92, 62), (50, 125), (172, 125)], 8)
-    _stroke(pen, [(96, 90), (96, 190)], 8)
-    bow = curve(
-        [(140, 92), (148, 70), (168, 60), (188, 70), (194, 90), (184, 112), (164, 146), (141, 184)], 8
-    )
-    _stroke(pen, [*(tuple(p) for p in bow), (141, 184), (200, 184)], 8)
+    _stroke(pen, [(50, 62), (50, 125), (108, 125)], 9)
+    _stroke(pen, [(96, 62), (96, 190)], 9)
+    _stroke(pen, [(142, 62), (198, 62), (198, 125), (142, 125), (142, 190), (198, 190)], 9)
+    _stroke(pen, [(108, 125), (142, 125)], 4)
     return _small(image)
 
 

@@ -23,7 +23,10 @@ def funnel() -> Target:
 
 
 def emblem(tilt: float = 0.0) -> Target:
-    """Make the project's mark, 10 wide and 1.5 thick, lying in the air above the root: a hoop and a pruned tree.
+    """Make the project's mark, 10 wide and 1.5 thick, lying in the air: a hoop and a pruned tree.
+
+    The root is not below its middle but below the widest gap between its trunk and its hoop: a tree that is two to
+    three units thick can grow through there, or around.
 
     Parameters
     ----------
@@ -34,7 +37,7 @@ def emblem(tilt: float = 0.0) -> Target:
     turns = 2.0 * np.pi * np.arange(48) / 48
     hoop = []
     for turn in turns:
-        inner, outer = (radius * np.array([np.cos(turn), np.sin(turn)]) for radius in (4.25, 5.0))
+        inner, outer = (radius * np.array([np.cos(turn), np.sin(turn)]) for radius in (4.5, 5.0))
         hoop.append(
             [(x, y, z) for (x, z), y in ((outer, -0.75), (inner, -0.75), (inner, 0.75), (outer, 0.75))]
         )
@@ -50,11 +53,11 @@ def emblem(tilt: float = 0.0) -> Target:
     ]
     parts = [loft(hoop, closed=True)]
     parts += [slab(piece, *thick) for piece in (trunk[0:3] + trunk[7:], trunk[2:4] + trunk[6:], trunk[3:7])]
-    for x, z, wide, deep in ((0.0, -2.5, 1.7, 0.75), (-1.75, 0.35, 1.35, 0.6), (2.05, 0.9, 1.3, 0.6)):
+    for x, z, wide, deep in ((0.0, -2.7, 1.7, 0.75), (-1.75, 0.35, 1.35, 0.6), (1.6, 1.3, 1.0, 0.5)):
         outline = np.stack([x + wide * np.cos(turns[::2]), z + deep * np.sin(turns[::2])], axis=1)
         parts.append(slab(outline, *thick))
     parts += [slab([(-1.8, 0.1), (0.2, 0.5), (0.1, 1.1), (-1.8, 0.6)], *thick)]
-    parts += [slab([(0.2, 1.2), (2.0, 0.7), (2.0, 1.1), (0.3, 1.8)], *thick)]
+    parts += [slab([(0.2, 1.6), (1.6, 1.1), (1.6, 1.5), (0.3, 2.2)], *thick)]
     return solid("emblem", [_placed(part, np.radians(tilt), 7.05) for part in parts])
 
 
@@ -67,8 +70,8 @@ def gem() -> Target:
 
 
 def _placed(mesh: Mesh, angle: float, height: float) -> Mesh:
-    """Turn a mesh about x and lift it."""
+    """Turn a mesh about x, lift it, and move its widest gap to above the origin."""
     vertices, faces = mesh
     c, s = np.cos(angle), np.sin(angle)
     turned = vertices @ np.array([[1.0, 0.0, 0.0], [0.0, c, s], [0.0, -s, c]])
-    return turned + np.array([0.0, height + 4.0 * s, 0.0]), faces
+    return turned + np.array([-2.6, height + 4.0 * s, 0.8]), faces

@@ -1,0 +1,207 @@
+"""Figure 5.9: the best score that so many particles find, by four ways to search.
+
+Three models on our own targets and, where NIWAKI_REFERENCE_TARGETS names their folder, on the original's. At each number of
+particles ten searches by stochastic order, ten depth-first, both weighted by whole scores as in the original; ten
+Metropolis-Hastings chains for as many CPU seconds as the first took on average; and ten by the way we recommend: weights
+that are ratios, and a temperature that rises. One thread; sigma 0.02; the original's rule for intersections (`surface`).
+
+The chains' score is sharpened to sigma 0.005, as the original's was, and reported at 0.02: both are the same square of
+the same error, so a score at one gives the score at the other. Their first possible state is outside the budget.
+A population that becomes impossible counts with the score of the empty scene.
+"""
+
+import os
+import statistics
+import time
+from collections.abc import Callable, Iterator
+from math import log, pi
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import niwaki as nw
+from niwaki.gallery import entry, named_target
+from niwaki.gallery.experiments import RECOMMENDED
+
+SIGMA, SHARP = 0.02, 0.005
+RUNS = 10
+PARTICLES = (10, 30, 100, 300, 1000)
+#: Model, cell size, our target, the original's.
+CASES = (
+    ("spaceship", 0.25, "ship", "shipProxy2.obj"),
+    ("building", 0.25, "crescent", "buildingProxy1_thicker.obj"),
+    ("gnarly-tree", 0.4, "bent_tube", "treeProxy_long_2.obj"),
+)
+#: The original's means and standard deviations in stochastic order (ten runs each), and means depth-first and of chains.
+PUBLISHED = {
+    "spaceship": {
+        10: (-35.91, 6.63, -49.66, -55.76),
+        100: (-20.28, 2.98, -35.31, -32.53),
+        300: (-15.98, 2.19, -27.23, -28.03),
+        1000: (-13.40, 1.10, -18.83, -15.36),
+    },
+    "building": {
+        10: (-20.12, 4.00, -21.66, -30.80),
+        100: (-11.62, 2.88, -16.06, -18.85),
+        300: (-9.17, 2.17, -9.63, -11.38),
+        1000: (-6.48, 1.10, -13.75, -6.67),
+    },
+    "gnarly-tree": {
+        10: (-25.74, 5.19, -24.43, None),
+        100: (-12.46, 3.58, -14.00, -16.10),
+        300: (-8.83, 1.82, -10.90, -14.18),
+        1000: (-5.77, 1.10, -8.86, -12.89),
+    },
+}
+WAYS = {
+    "stochastic": {"weights": "absolute"},
+    "depth-first": {"weights": "absolute", "order": "depth-first"},
+    "recommended": RECOMMENDED,
+}
+CHAINS = "chains, same time"
+COLORS = {"stochastic": "#ca6702", "depth-first": "#5a9a8f", CHAINS: "#7a6c9c", "recommended": "#1b4965"}
+
+
+def draw(folder: Path, tell: Callable[[dict], None], quick: bool) -> None:
+    """Measure and draw one panel for each model and target."""
+    sizes, runs = ((10, 20), 2) if quick else (PARTICLES, RUNS)
+    for whose, targets in meshes().items():
+        rows = []
+        for (model, voxel, _, _), target in zip(CASES, targets, strict=True):
+            for row in measured(model, target, voxel, sizes, runs):
+                rows.append({"model": model, "target": target.name, "whose": whose} | row)
+                tell(rows[-1])
+                print(described(rows[-1]), flush=True)
+        curves(rows, folder / f"figure-5-9-{whose}.png")
+
+
+def meshes() -> dict[str, list[nw.Target]]:
+    """Targets in the order of `CASES`: ours, and the original's where a folder is named."""
+    found = {"ours": [named_target(case[2]) for case in CASES]}
+    named = os.environ.get("NIWAKI_REFERENCE_TARGETS")
+    if named:
+        found["reference"] = [nw.Target.load(Path(named) / case[3]) for case in CASES]
+    else:
+        print(
+            "figure 5.9 on our own targets only: NIWAKI_REFERENCE_TARGETS names no folder of reference meshes"
+        )
+    return found
+
+
+def measured(
+    model: str, target: nw.Target, voxel: float, sizes: tuple[int, ...], runs: int
+) -> Iterator[dict]:
+    """One row for each number of particles and way: all best scores, and mean CPU seconds."""
+    program = entry(model).model
+    rule = nw.no_self_intersection("surface")
+    score = rule * nw.volume_match(target, voxel, SIGMA)
+    sharp = rule * nw.volume_match(target, voxel, SHARP)
+    # The first run compiles.
+    searched(program, score, 2, {}, 0)
+    for particles in sizes:
+        budget = 0.0
+        # Searches of the ways take turns, so that a busy machine is busy for all of them.
+        found: dict[str, list[tuple[float | None, float]]] = {way: [] for way in WAYS}
+        for seed in range(1, runs + 1):
+            for way, settings in WAYS.items():
+                found[way].append(searched(program, score, particles, settings, seed))
+        budget = statistics.fmean(cpu for _, cpu in found["stochastic"])
+        found[CHAINS] = [chained(program, sharp, budget, seed) for seed in range(1, runs + 1)]
+        for way, ends in found.items():
+            scores = [one for one, _ in ends if one is not None]
+            yield {
+                "particles": particles,
+                "way": way,
+                "scores": scores,
+                "impossible": len(ends) - len(scores),
+                "cpu": statistics.fmean(cpu for _, cpu in ends),
+            }
+
+
+def searched(
+    program: nw.Model, score: nw.Score, particles: int, settings: dict, seed: int
+) -> tuple[float | None, float]:
+    """The best log score of one population, nothing where it died, and its CPU seconds."""
+    start = time.process_time()
+    try:
+        found = nw.run(program, method=nw.smc(particles, **settings), score=score, seed=seed, threads=1)
+    except nw.InputError as error:
+        if error.code != "everything-impossible":
+            raise
+        return None, time.process_time() - start
+    return found.best.log_score, found.cpu_seconds
+
+
+def chained(program: nw.Model, score: nw.Score, budget: float, seed: int) -> tuple[float, float]:
+    """The best log score, at `SIGMA`, that a chain came through in `budget` CPU seconds, and those it took."""
+    chain = nw.run(program, method=nw.mh(1, keep=0, tries=10_000), score=score, seed=seed, threads=1)
+    before, steps = chain.cpu_seconds, 16
+    while (spent := chain.cpu_seconds - before) < budget:
+        chain.more(steps)
+        # As many as a tenth of the budget allows, by the rate so far.
+        rate = (chain.cpu_seconds - before - spent) / steps
+        steps = max(1, min(4 * steps, int(0.1 * budget / max(rate, 1e-9))))
+    return reported(chain.best.log_score), chain.cpu_seconds - before
+
+
+def reported(log_score: float) -> float:
+    """The log score at `SIGMA` of a scene whose log score at `SHARP` is known: two normal densities of the same errors."""
+    most = {sigma: -log(2.0 * pi) - 2.0 * log(sigma) for sigma in (SIGMA, SHARP)}
+    return most[SIGMA] + (log_score - most[SHARP]) * (SHARP / SIGMA) ** 2
+
+
+def described(row: dict) -> str:
+    """A row for people, beside what the original's paper data has."""
+    scores = row["scores"]
+    worst = min(scores, default=float("nan"))
+    spread = statistics.stdev(scores) if len(scores) > 1 else 0.0
+    known = PUBLISHED[row["model"]].get(row["particles"]) if row["whose"] == "reference" else None
+    text = (
+        f"{row['model']:<12}{row['target']:<24}{row['particles']:>5}  {row['way']:<18}"
+        f"{statistics.fmean(scores) if scores else float('nan'):8.2f} ({spread:5.2f})  worst {worst:8.2f}"
+        f"  {row['cpu']:7.3f} s"
+    )
+    text += f"  {row['impossible']} impossible" if row["impossible"] else ""
+    if known is None:
+        return text
+    beside = {"stochastic": known[0], "depth-first": known[2], CHAINS: known[3]}.get(row["way"])
+    text += "" if beside is None else f"  published {beside:7.2f}"
+    if row["way"] == "stochastic":
+        text += f" ({known[1]:.2f})"
+    return text
+
+
+def curves(rows: list[dict], path: Path) -> None:
+    """One panel for each model: mean best score against CPU seconds, a band of one standard deviation."""
+    models = list(dict.fromkeys(row["model"] for row in rows))
+    figure, panels = plt.subplots(1, len(models), figsize=(12, 4), layout="constrained")
+    for panel, model in zip(panels, models, strict=True):
+        for way, color in COLORS.items():
+            points = [row for row in rows if (row["model"], row["way"]) == (model, way) and row["scores"]]
+            means = [statistics.fmean(row["scores"]) for row in points]
+            spread = [statistics.stdev(row["scores"]) if len(row["scores"]) > 1 else 0.0 for row in points]
+            at = [row["particles"] for row in points]
+            panel.plot(at, means, "o-", color=color, label=way, markersize=3.5)
+            low, high = ([m + sign * s for m, s in zip(means, spread, strict=True)] for sign in (-1, 1))
+            panel.fill_between(at, low, high, color=color, alpha=0.15, linewidth=0)
+            panel.plot(at, [min(row["scores"]) for row in points], "_", color=color, markersize=8)
+        if rows[0]["whose"] == "reference":
+            known = PUBLISHED[model]
+            panel.errorbar(
+                list(known),
+                [row[0] for row in known.values()],
+                [row[1] for row in known.values()],
+                fmt="x",
+                color="#444444",
+                markersize=5,
+                linewidth=0.8,
+                label="published, stochastic",
+            )
+        panel.set(xscale="log", xlabel="particles", title=model, ylim=(-60, 6))
+        panel.grid(alpha=0.3)
+    panels[0].set_ylabel("best log score, sigma 0.02")
+    panels[-1].legend(frameon=False, fontsize=8, loc="lower right")
+    figure.savefig(path, dpi=90)
+    plt.close(figure)

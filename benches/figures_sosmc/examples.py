@@ -1,0 +1,180 @@
+"""Figures 5.1 to 5.8 and table 5.1: every experiment of chapter 5 on our own targets.
+
+Each row of a picture is one search: above, or alone, with the original's settings (so many particles, whole scores);
+below, with ours where the experiment names them. What was asked for stands beside what was found. A shadow is shown from
+where it can be seen, and then the scene from the side; so are silhouettes.
+"""
+
+import statistics
+from collections.abc import Callable
+from pathlib import Path
+
+import niwaki as nw
+from niwaki.draw.sheet import sheet
+from niwaki.draw.views import view_sheet
+from niwaki.gallery import entry, named_target
+from niwaki.gallery.experiments import EXPERIMENTS, Experiment
+from niwaki.gallery.pictures import written
+from niwaki.gallery.simple_ship import MODEL as SIMPLE_SHIP
+from niwaki.scene import Scene
+from niwaki._engine import Shape
+from PIL import Image, ImageDraw, ImageFont
+
+#: Particles and seconds of table 5.1: Core i7-3840QM of 2012, one thread. The trees of 5.4 are one row there.
+PUBLISHED = {
+    "ship": 3.09,
+    "tree": 598.34,
+    "building": 24.14,
+    "tree-and-ledges": 164.25,
+    "tree-and-emblem": 164.25,
+    "skyline": 38.44,
+    "ship-front": 7.33,
+    "face-of-blocks": 135.91,
+    "digits-of-pipes": 675.81,
+}
+TITLES = {"original": "with the original's settings", "ours": "with ours"}
+SEEDS = (1, 2, 3, 4)
+SIZE = (300, 300)
+GREY = (0.72, 0.72, 0.71)
+#: From where each model shows itself: azimuth and elevation, degrees; the second beside a view that was asked for.
+EYES = {"spaceship": (38.0, 30.0), "building": (30.0, 26.0), "gnarly-tree": (20.0, 14.0)}
+SIDES = {
+    "toy-blocks": (25.0, 22.0),
+    "pipes": (25.0, 24.0),
+    "building": (0.0, 62.0),
+    "spaceship": (50.0, 28.0),
+}
+
+
+def draw(folder: Path, tell: Callable[[dict], None], quick: bool) -> None:
+    """Search, draw a picture of each experiment and of figure 5.2, and print the table."""
+    seeds = SEEDS[:1] if quick else SEEDS
+    print(
+        f"{'experiment':<18}{'particles':>10}{'their s':>9}{'CPU s':>8}{'s, all threads':>16}{'times':>7}  scores"
+    )
+    for one in EXPERIMENTS:
+        if one.name not in PUBLISHED:
+            continue
+        rows = []
+        for way in ("original", "ours"):
+            found = searches(one, way, seeds, quick)
+            if not found:
+                tell({"experiment": one.name, "way": way, "impossible": len(seeds)})
+                print(f"{one.name}, {way}: all {len(seeds)} searches became impossible", flush=True)
+                continue
+            told = row(one, way, found, len(seeds) - len(found))
+            tell(told)
+            print(line(told), flush=True)
+            best = max(found, key=lambda pair: pair[0].best.log_score)[0].best
+            rows.append((TITLES[way], panels(one, best, draft=quick)))
+        if rows:
+            written(folder / f"figure-{one.figure.replace('.', '-')}-{one.name}.png", stacked(rows))
+    written(folder / "figure-5-2.png", order_matters(quick))
+
+
+def searches(one: Experiment, way: str, seeds: tuple[int, ...], quick: bool) -> list[tuple[nw.Result, float]]:
+    """Results of all seeds, on one thread, each with the seconds that it takes on all threads."""
+    found = []
+    for seed in seeds:
+        particles = 60 if quick else None
+        try:
+            result = one.run(way=way, particles=particles, seed=seed, threads=1)
+        except nw.InputError as error:
+            if error.code != "everything-impossible":
+                raise
+            continue
+        found.append((result, one.run(way=way, particles=particles, seed=seed).seconds))
+    return found
+
+
+def row(one: Experiment, way: str, found: list[tuple[nw.Result, float]], impossible: int) -> dict:
+    """What the table says about an experiment."""
+    return {
+        "experiment": one.name,
+        "way": way,
+        "particles": one.settings(way)["particles"],
+        "published": PUBLISHED[one.name] if way == "original" else None,
+        "cpu": statistics.fmean(result.cpu_seconds for result, _ in found),
+        "wall": statistics.fmean(seconds for _, seconds in found),
+        "scores": [result.best.log_score for result, _ in found],
+        "impossible": impossible,
+        "primitives": [result.best.primitives for result, _ in found],
+    }
+
+
+def line(told: dict) -> str:
+    """A row of the table for people."""
+    name = told["experiment"] if told["way"] == "original" else "  our settings"
+    known = told["published"]
+    text = f"{name:<18}{told['particles']:>10}{known or '':>9}{told['cpu']:>8.2f}{told['wall']:>16.2f}"
+    text += f"{known / told['cpu']:>7.0f}" if known else f"{'':>7}"
+    text += "  " + " ".join(f"{score:.1f}" for score in told["scores"])
+    return text + (f"  {told['impossible']} impossible" if told["impossible"] else "")
+
+
+def panels(one: Experiment, sample: nw.Sample, draft: bool) -> Image.Image:
+    """What was asked for, beside what was found."""
+    scene, samples = sample.scene, 2 if draft else 16
+    if one.image is not None:
+        left = view_sheet(scene, one.score().views[0], height=SIZE[1], samples=samples, captions=False)
+        azimuth, elevation = SIDES[one.model]
+        side = scene.picture(size=SIZE, samples=samples, azimuth=azimuth, elevation=elevation, margin=0.04)
+        return beside([left, side.convert("RGB")])
+    target = named_target(one.fill)
+    asked = together(Scene([]), target)
+    azimuth, elevation = EYES[one.model]
+    look = {"size": SIZE, "samples": samples, "elevation": elevation, "margin": 0.03}
+    obstacle = None if one.avoid is None else named_target(one.avoid)
+    shown = scene if obstacle is None else together(scene, obstacle)
+    look["frame"] = together(shown, target)
+    views = [asked.picture(azimuth=azimuth, **look), scene.picture(target, azimuth=azimuth, **look)]
+    views += [shown.picture(azimuth=turned, **look) for turned in (azimuth, azimuth + 110.0)]
+    return beside([view.convert("RGB") for view in views])
+
+
+def together(scene: Scene, target: nw.Target) -> Scene:
+    """A scene with a target, in grey, as one more part."""
+    return Scene([*scene.parts, ("target", [Shape.mesh(target.vertices, target.faces, color=GREY)])])
+
+
+def order_matters(quick: bool) -> Image.Image:
+    """Figure 5.2: simple ships by the same particles, depth-first above and in a stochastic order below."""
+    target = entry("simple-ship").target()
+    scenes, captions = [], []
+    for order in ("depth-first", "stochastic"):
+        found = nw.grow(
+            SIMPLE_SHIP, target, particles=20 if quick else 100, order=order, runs=2 if quick else 4, seed=1
+        )
+        for sample in sorted(found, key=lambda sample: -sample.log_score)[: 2 if quick else 4]:
+            scenes.append(sample.scene)
+            captions.append(f"{order}: {sample.log_score:.1f}")
+    samples = 2 if quick else 16
+    page = sheet(
+        scenes, captions, target, columns=2 if quick else 4, size=(280, 190), samples=samples, elevation=35.0
+    )
+    return page.convert("RGB")
+
+
+def beside(images: list[Image.Image], gap: int = 4) -> Image.Image:
+    """Paste pictures of one height in a row."""
+    page = Image.new(
+        "RGB", (sum(i.width + gap for i in images) - gap, max(i.height for i in images)), "white"
+    )
+    x = 0
+    for image in images:
+        page.paste(image, (x, 0))
+        x += image.width + gap
+    return page
+
+
+def stacked(rows: list[tuple[str, Image.Image]]) -> Image.Image:
+    """Paste rows below each other, each with its title above it."""
+    font, strip = ImageFont.load_default(13), 22
+    width, height = max(i.width for _, i in rows), sum(i.height + strip for _, i in rows)
+    page = Image.new("RGB", (width, height), "white")
+    pen, y = ImageDraw.Draw(page), 0
+    for title, image in rows:
+        pen.text((4, y + 0.5 * strip), title, (84, 82, 78), font, anchor="lm")
+        page.paste(image, (0, y + strip))
+        y += image.height + strip
+    return page

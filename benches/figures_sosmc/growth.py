@@ -1,0 +1,88 @@
+"""What a primitive costs when there are many already: the gnarly tree, made larger by its arguments.
+
+The tree's least radius, and the coins for a side branch and for going on, are arguments: SIZES makes trees of about 50,
+200, 800 and 3200 segments. A population grows each, with a score that looks at volume and intersections and hardly
+selects, so that all sizes cost what their segments cost. Reported are microseconds of one thread for each segment that
+stands in the final population. Then the memory of a thousand particles of a thousand primitives: how much the largest
+resident set of a process grows over that of the same process with one particle.
+"""
+
+import os
+import resource
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import niwaki as nw
+from niwaki.gallery import targets
+from niwaki.gallery.gnarly_tree import gnarly_tree
+
+#: Least radius as a share of the trunk's, odds of a side branch, decay of going on; by the segments that they give.
+SIZES = {50: (0.12, 0.5, 0.0), 200: (0.03, 0.5, 0.0), 800: (0.004, 0.5, 0.0), 3200: (0.0012, 0.5, 0.0)}
+PARTICLES, SEEDS = 30, (1, 2, 3)
+FLAT = 1.5
+#: Particles and primitives of the largest population, and the megabytes that they may take.
+LARGEST, MEGABYTES = (1000, 1000), 1000
+
+
+@nw.model
+def tower(n):
+    """Pile up `n` turned boxes: every particle has as many primitives, and none is like another's."""
+    for k in range(n):
+        turn = nw.uniform(0.0, 1.5)
+        size = (nw.uniform(0.5, 2.0), 0.1, nw.uniform(0.5, 2.0))
+        nw.emit(nw.box((0.0, 0.05 + 0.1 * k, 0.0), size, rotation=nw.rotation(UP, turn)))
+
+
+UP = nw.vec(0.0, 1.0, 0.0)
+
+
+def draw(folder: Path, tell: Callable[[dict], None], quick: bool) -> None:
+    """Measure and print; the folder gets no picture of its own."""
+    costs = []
+    for wanted, habit in list(SIZES.items())[: 2 if quick else None]:
+        grown, spent = [], 0.0
+        for seed in SEEDS[: 1 if quick else None]:
+            found = nw.run(gnarly_tree, *habit, method=nw.smc(PARTICLES), score=score(), seed=seed, threads=1)
+            grown += [sample.primitives for sample in found]
+            spent += found.cpu_seconds
+        costs.append(1e6 * spent / sum(grown))
+        mean = sum(grown) / len(grown)
+        tell({"segments wanted": wanted, "mean segments": mean, "microseconds a segment": costs[-1]})
+        print(
+            f"trees of about {wanted:>5}: {mean:7.0f} segments, {costs[-1]:6.1f} us of CPU for each",
+            flush=True,
+        )
+    print(f"largest over smallest: {max(costs) / min(costs):.2f}, asked for at most {FLAT}")
+    particles, primitives = (50, 50) if quick else LARGEST
+    for sigma, name in ((0.02, "that are selected as in a search"), (1e3, "of which none is like another")):
+        few, many = (resident(count, primitives, sigma) for count in (1, particles))
+        megabytes = many - few
+        tell({"particles": particles, "primitives": primitives, "sigma": sigma, "megabytes": megabytes})
+        text = f"{particles} particles of {primitives} primitives {name}: {megabytes:.0f} MB"
+        print(f"{text}, asked for under {MEGABYTES}", flush=True)
+
+
+def score() -> nw.Score:
+    """Volume and intersections, the volume so wide that it hardly selects."""
+    return nw.no_self_intersection() * nw.volume_match(targets.umbrella(), 0.4, 0.5)
+
+
+def resident(particles: int, primitives: int, sigma: float) -> float:
+    """Largest resident set, megabytes, of a process that grows such a population."""
+    program = f"import growth; growth.populate({particles}, {primitives}, {sigma})"
+    here = os.fspath(Path(__file__).parent)
+    done = subprocess.run(
+        [sys.executable, "-c", program], cwd=here, check=True, capture_output=True, text=True
+    )
+    return float(done.stdout)
+
+
+def populate(particles: int, primitives: int, sigma: float) -> None:
+    """Grow a population of towers and print this process's largest resident set, megabytes."""
+    wanted = nw.no_self_intersection() * nw.volume_match(targets.gem(), 0.4, sigma)
+    method = nw.smc(particles)
+    found = nw.run(tower, primitives, method=method, score=wanted, seed=1, threads=1, max_memory=1 << 34)
+    assert min(sample.primitives for sample in found) == primitives
+    print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0)
