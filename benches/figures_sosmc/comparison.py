@@ -1,13 +1,14 @@
 """Figure 5.9: the best score that so many particles find, by four ways to search.
 
-Three models on our own targets and, where NIWAKI_REFERENCE_TARGETS names their folder, on the original's. At each number of
-particles ten searches by stochastic order, ten depth-first, both weighted by whole scores as in the original; ten
-Metropolis-Hastings chains for as many CPU seconds as the first took on average; and ten by the way we recommend: weights
-that are ratios, and a temperature that rises. One thread; sigma 0.02; the original's rule for intersections (`surface`).
+Three models on our own targets and, where NIWAKI_REFERENCE_TARGETS names their folder, on the original's. At each
+number of particles ten searches by stochastic order, ten depth-first, both weighted by whole scores as in the original;
+ten Metropolis-Hastings chains for as many CPU seconds as the first took on average; and ten by the way we recommend:
+weights that are ratios, and a temperature that rises. One thread; sigma 0.02; the original's rule for intersections
+(`surface`).
 
 The chains' score is sharpened to sigma 0.005, as the original's was, and reported at 0.02: both are the same square of
 the same error, so a score at one gives the score at the other. Their first possible state is outside the budget.
-A population that becomes impossible counts with the score of the empty scene.
+Populations that became impossible are counted apart.
 """
 
 import os
@@ -34,7 +35,7 @@ CASES = (
     ("building", 0.25, "crescent", "buildingProxy1_thicker.obj"),
     ("gnarly-tree", 0.4, "bent_tube", "treeProxy_long_2.obj"),
 )
-#: The original's means and standard deviations in stochastic order (ten runs each), and means depth-first and of chains.
+#: The original's means and standard deviations in stochastic order (ten runs each), means depth-first and of chains.
 PUBLISHED = {
     "spaceship": {
         10: (-35.91, 6.63, -49.66, -55.76),
@@ -71,7 +72,7 @@ def draw(folder: Path, tell: Callable[[dict], None], quick: bool) -> None:
         rows = []
         for (model, voxel, _, _), target in zip(CASES, targets, strict=True):
             for row in measured(model, target, voxel, sizes, runs):
-                rows.append({"model": model, "target": target.name, "whose": whose} | row)
+                rows.append({"model": model, "target": Path(target.name).stem, "whose": whose} | row)
                 tell(rows[-1])
                 print(described(rows[-1]), flush=True)
         curves(rows, folder / f"figure-5-9-{whose}.png")
@@ -147,7 +148,7 @@ def chained(program: nw.Model, score: nw.Score, budget: float, seed: int) -> tup
 
 
 def reported(log_score: float) -> float:
-    """The log score at `SIGMA` of a scene whose log score at `SHARP` is known: two normal densities of the same errors."""
+    """The log score at `SIGMA` of what has this one at `SHARP`: both are normal densities of the same two errors."""
     most = {sigma: -log(2.0 * pi) - 2.0 * log(sigma) for sigma in (SIGMA, SHARP)}
     return most[SIGMA] + (log_score - most[SHARP]) * (SHARP / SIGMA) ** 2
 

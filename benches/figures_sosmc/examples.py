@@ -1,8 +1,8 @@
 """Figures 5.1 to 5.8 and table 5.1: every experiment of chapter 5 on our own targets.
 
-Each row of a picture is one search: above, or alone, with the original's settings (so many particles, whole scores);
-below, with ours where the experiment names them. What was asked for stands beside what was found. A shadow is shown from
-where it can be seen, and then the scene from the side; so are silhouettes.
+Each row of a picture is the best of a few searches: above with the original's settings (so many particles, whole
+scores), below with ours. What was asked for stands beside what was found. A silhouette or a shadow is shown as it was
+asked for, and the scene from one other side.
 """
 
 import statistics
@@ -10,6 +10,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import niwaki as nw
+from niwaki._engine import Shape
 from niwaki.draw.sheet import sheet
 from niwaki.draw.views import view_sheet
 from niwaki.gallery import entry, named_target
@@ -17,7 +18,6 @@ from niwaki.gallery.experiments import EXPERIMENTS, Experiment
 from niwaki.gallery.pictures import written
 from niwaki.gallery.simple_ship import MODEL as SIMPLE_SHIP
 from niwaki.scene import Scene
-from niwaki._engine import Shape
 from PIL import Image, ImageDraw, ImageFont
 
 #: Particles and seconds of table 5.1: Core i7-3840QM of 2012, one thread. The trees of 5.4 are one row there.

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 Triple = tuple[float, float, float]
 
-#: How we would search instead of by whole scores: for correct weights, judging ever more sharply up to a power of eight.
+#: How we would search instead of by whole scores: with correct weights, judging more sharply barrier by barrier.
 RECOMMENDED: dict[str, Any] = {"temper": 8.0, "anneal": [min(8.0, 2.0 + 0.2 * k) for k in range(1, 32)]}
 
 
@@ -117,8 +117,8 @@ class Experiment:
         seed, threads
             As for `niwaki.run`.
         """
-        from niwaki.search import run
         from niwaki.methods import smc
+        from niwaki.search import run
 
         found = entry(self.model)
         assert found is not None
