@@ -67,7 +67,7 @@ COLORS = {"stochastic": "#ca6702", "depth-first": "#5a9a8f", CHAINS: "#7a6c9c", 
 
 def draw(folder: Path, tell: Callable[[dict], None], quick: bool) -> None:
     """Measure and draw one panel for each model and target."""
-    sizes, runs = ((10, 20), 2) if quick else (PARTICLES, RUNS)
+    sizes, runs = ((10,), 2) if quick else (PARTICLES, RUNS)
     for whose, targets in meshes().items():
         rows = []
         for (model, voxel, _, _), target in zip(CASES, targets, strict=True):
@@ -175,17 +175,17 @@ def described(row: dict) -> str:
 
 
 def curves(rows: list[dict], path: Path) -> None:
-    """One panel for each model: mean best score against CPU seconds, a band of one standard deviation."""
+    """One panel for each model: mean best score against particles, a band of the middle two thirds."""
     models = list(dict.fromkeys(row["model"] for row in rows))
     figure, panels = plt.subplots(1, len(models), figsize=(12, 4), layout="constrained")
     for panel, model in zip(panels, models, strict=True):
         for way, color in COLORS.items():
             points = [row for row in rows if (row["model"], row["way"]) == (model, way) and row["scores"]]
             means = [statistics.fmean(row["scores"]) for row in points]
-            spread = [statistics.stdev(row["scores"]) if len(row["scores"]) > 1 else 0.0 for row in points]
             at = [row["particles"] for row in points]
             panel.plot(at, means, "o-", color=color, label=way, markersize=3.5)
-            low, high = ([m + sign * s for m, s in zip(means, spread, strict=True)] for sign in (-1, 1))
+            sixths = [statistics.quantiles(row["scores"], n=6, method="inclusive") for row in points]
+            low, high = ([cut[end] for cut in sixths] for end in (0, -1))
             panel.fill_between(at, low, high, color=color, alpha=0.15, linewidth=0)
             panel.plot(at, [min(row["scores"]) for row in points], "_", color=color, markersize=8)
         if rows[0]["whose"] == "reference":

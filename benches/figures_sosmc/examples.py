@@ -76,14 +76,14 @@ def searches(one: Experiment, way: str, seeds: tuple[int, ...], quick: bool) -> 
     """Results of all seeds, on one thread, each with the seconds that it takes on all threads."""
     found = []
     for seed in seeds:
-        particles = 60 if quick else None
+        less = {"particles": 30, "populations": 1} if quick else {}
         try:
-            result = one.run(way=way, particles=particles, seed=seed, threads=1)
+            result = one.run(way, seed=seed, threads=1, **less)
         except nw.InputError as error:
             if error.code != "everything-impossible":
                 raise
             continue
-        found.append((result, one.run(way=way, particles=particles, seed=seed).seconds))
+        found.append((result, one.run(way, seed=seed, **less).seconds))
     return found
 
 

@@ -61,8 +61,8 @@ def test_every_search_is_measured(drawn: Path) -> None:
         "recommended",
         "chains, same time",
     }
-    assert len(compared) == 3 * 2 * 4
-    assert len(rows(drawn / "growth.jsonl")) == 2 + 2
+    assert len(compared) == 3 * 4
+    assert len(rows(drawn / "growth.jsonl")) == 1 + 2
 
 
 def test_a_sharpened_score_tells_the_other(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -66,7 +66,7 @@ def on(name: str) -> NDArray[np.bool_]:
 @pytest.mark.parametrize(
     ("name", "side", "share"),
     [
-        ("digits", 250, 0.08),
+        ("digits", 250, 0.09),
         ("face", 250, 0.32),
         ("face_stroke", 250, 0.08),
         ("ship_front", 250, 0.09),
