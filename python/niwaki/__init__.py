@@ -14,6 +14,8 @@ from niwaki._engine import __version__
 from niwaki.words import *  # noqa: F403
 
 if TYPE_CHECKING:
+    from niwaki.constraints import Residuals, residuals
+    from niwaki.camera import Camera
     from niwaki.errors import InputError, ModelError, ModelFault, NiwakiError
     from niwaki.infer import Progress, grow, run
     from niwaki.lang.plain import run_python
@@ -21,20 +23,40 @@ if TYPE_CHECKING:
     from niwaki.mh_result import ChainResult
     from niwaki.result import Result, Sample
     from niwaki.scene import Scene
-    from niwaki.sketches import Score, no_self_intersection, volume_match
-    from niwaki.target import Target
+    from niwaki.sketches import (
+        Score,
+        avoid,
+        floor,
+        match_image,
+        match_shadow,
+        no_self_intersection,
+        overshoot,
+        volume_match,
+    )
+    from niwaki.target import Receiver, Target
 
 #: Where the names live that are imported when they are used.
 _HOMES = {
+    "niwaki.camera": ("Camera",),
     "niwaki.errors": ("InputError", "ModelError", "ModelFault", "NiwakiError"),
     "niwaki.infer": ("Progress", "grow", "run"),
     "niwaki.lang.plain": ("run_python",),
     "niwaki.methods": ("enumerate_all", "forward", "importance", "mh", "rejection", "smc"),
     "niwaki.mh_result": ("ChainResult",),
+    "niwaki.constraints": ("Residuals", "residuals"),
     "niwaki.result": ("Result", "Sample"),
     "niwaki.scene": ("Scene",),
-    "niwaki.sketches": ("Score", "no_self_intersection", "volume_match"),
-    "niwaki.target": ("Target",),
+    "niwaki.sketches": (
+        "Score",
+        "avoid",
+        "floor",
+        "match_image",
+        "match_shadow",
+        "no_self_intersection",
+        "overshoot",
+        "volume_match",
+    ),
+    "niwaki.target": ("Receiver", "Target"),
 }
 _HOME = {name: home for home, names in _HOMES.items() for name in names}
 
@@ -42,23 +64,32 @@ __all__ = [  # noqa: PLE0604
     "__version__",
     *words.__all__,
     "ChainResult",
+    "Camera",
     "InputError",
     "ModelError",
     "ModelFault",
     "NiwakiError",
     "Progress",
+    "Residuals",
+    "Receiver",
     "Result",
     "Sample",
     "Scene",
     "Score",
     "Target",
+    "avoid",
     "enumerate_all",
     "forward",
+    "floor",
     "grow",
     "importance",
     "mh",
+    "match_image",
+    "match_shadow",
     "no_self_intersection",
+    "overshoot",
     "rejection",
+    "residuals",
     "run",
     "run_python",
     "smc",

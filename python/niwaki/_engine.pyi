@@ -12,6 +12,7 @@ __all__ = [
     "EngineFault",
     "Opaque",
     "Outcome",
+    "Picture",
     "Program",
     "Shape",
     "Sketch",
@@ -20,14 +21,19 @@ __all__ = [
     "Task",
     "Trace",
     "__version__",
+    "avoid",
     "draw",
     "draw_at",
     "enumerate_support",
     "family_names",
     "fine_mesh",
+    "floor",
     "frame_camera",
     "log_density",
+    "match_image",
+    "match_shadow",
     "no_self_intersection",
+    "overshoot",
     "parameter_names",
     "render",
     "support",
@@ -38,7 +44,10 @@ __version__: str
 
 _Triple = Sequence[float]
 _Rows = Sequence[Sequence[float]]
+_Frame = tuple[_Triple, _Triple, _Triple, float]
+_Bark = tuple[_Triple, float, _Triple, float]
 _Corner = tuple[float, float, float]
+_Lens = tuple[_Triple, _Triple, _Triple, bool, float, float]
 _Eye = tuple[_Corner, _Corner, _Corner, float]
 _Mesh = tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.float64] | None, _Corner, _Corner]
 
@@ -73,6 +82,14 @@ class Shape:
         end_radius: float,
         start_normal: _Triple | None = None,
         end_normal: _Triple | None = None,
+        color: _Triple | None = None,
+    ) -> Shape: ...
+    @staticmethod
+    def segment(
+        start: _Frame,
+        split: _Frame,
+        end: _Frame,
+        onto: _Bark | None = None,
         color: _Triple | None = None,
     ) -> Shape: ...
     @staticmethod
@@ -128,6 +145,30 @@ class Sketch:
 
 def volume_match(target: Target, sigma: float = 0.02) -> SketchSpec: ...
 def no_self_intersection(rule: str = "solid") -> SketchSpec: ...
+
+@final
+class Picture:
+    def __new__(
+        cls,
+        camera: _Lens,
+        on: NDArray[np.bool_],
+        greys: NDArray[np.uint8] | None = None,
+        multiplier: float = 10.0,
+        receiver: tuple[NDArray[np.float64], NDArray[np.int64]] | None = None,
+        light: _Triple | None = None,
+    ) -> Picture: ...
+    @property
+    def size(self) -> tuple[int, int]: ...
+    @property
+    def on_fraction(self) -> float: ...
+    def mask(self, shapes: Sequence[Shape]) -> NDArray[np.bool_]: ...
+    def seen(self) -> NDArray[np.bool_]: ...
+
+def match_image(picture: Picture, sigma: float = 0.02) -> SketchSpec: ...
+def match_shadow(picture: Picture, sigma: float = 0.02) -> SketchSpec: ...
+def avoid(obstacle: Target) -> SketchSpec: ...
+def floor(height: float) -> SketchSpec: ...
+def overshoot(low: _Triple, high: _Triple, sigma: float = 0.02) -> SketchSpec: ...
 def render(
     meshes: Sequence[_Mesh],
     ghost: _Mesh | None = None,

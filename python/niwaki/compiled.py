@@ -128,6 +128,8 @@ def _error(fault: Any, name: str, replay: str, choices: Mapping[str, Any]) -> Ex
         return InputError("no-start", name=name, tries=fault.barrier, constraint=causes)
     if fault.kind == "impossible":
         total = sum(count for _, count in fault.causes)
+        if fault.barrier == 1 and all(cause == "avoid" for cause, _ in fault.causes):
+            return InputError("obstacle-at-start", count=total)
         causes = ", ".join(f"{cause} ({count})" for cause, count in fault.causes)
         return InputError(
             "everything-impossible", barrier=f"barrier {fault.barrier}", count=total, constraint=causes

@@ -129,9 +129,27 @@ class Sample:
 
         return Scene(self._trace.parts)
 
-    def export(self, path: str | PathLike[str]) -> Path:
-        """Write the scene as .glb, .obj, .stl or .ply."""
-        return self.scene.export(path)
+    def export(
+        self, path: str | PathLike[str], *, scale: float | None = None, fuse: float | None = None
+    ) -> Path:
+        """Write the scene as .glb, .obj, .ply, .stl, .3mf, .gif or .apng; see `niwaki.draw.files.export`."""
+        from niwaki.draw.animation import FORMATS
+
+        if Path(path).suffix.lower() in FORMATS and scale is None and fuse is None:
+            return self.animate(path)
+        return self.scene.export(path, scale=scale, fuse=fuse)
+
+    def animate(
+        self, path: str | PathLike[str], target: Target | None | bool = True, **settings: Any
+    ) -> Path:
+        """Write the scene growing, in the order in which a run adds its parts, as .gif or .apng.
+
+        Settings are those of `niwaki.draw.animation.growth`; the target is a ghost unless it is None.
+        """
+        from niwaki.scene import Part
+
+        parts = [Part(address, tuple(shapes)) for address, shapes in self._trace.parts]
+        return self.scene.animate(path, self._ghost(target), parts=parts, **settings)
 
     def picture(self, target: Target | None | bool = True, **settings: Any) -> Any:
         """Draw the scene, with the target as a ghost; `target=None` leaves that out."""
@@ -259,9 +277,11 @@ class Result(Sequence[Sample]):
             found[key] = found.get(key, 0.0) + share
         return found
 
-    def export(self, path: str | PathLike[str]) -> Path:
-        """Write the best scene as .glb, .obj, .stl or .ply."""
-        return self.best.export(path)
+    def export(
+        self, path: str | PathLike[str], *, scale: float | None = None, fuse: float | None = None
+    ) -> Path:
+        """Write the best scene as .glb, .obj, .ply, .stl, .3mf, .gif or .apng."""
+        return self.best.export(path, scale=scale, fuse=fuse)
 
     def save(self, path: str | PathLike[str], **settings: Any) -> Path:
         """Draw the best scene into an image file."""

@@ -119,11 +119,19 @@ class Scene:
 
         return save(self, path, target, **settings)
 
-    def export(self, path: str | PathLike[str]) -> Path:
-        """Write the scene as .glb, .obj, .stl or .ply; see `niwaki.draw.files.export`."""
+    def export(
+        self, path: str | PathLike[str], *, scale: float | None = None, fuse: float | None = None
+    ) -> Path:
+        """Write the scene as .glb, .obj, .ply, .stl, .3mf, .gif or .apng; see `niwaki.draw.files.export`."""
         from niwaki.draw.files import export
 
-        return export(self, path)
+        return export(self, path, scale=scale, fuse=fuse)
+
+    def animate(self, path: str | PathLike[str], target: Target | None = None, **settings: Any) -> Path:
+        """Write the scene growing part by part, as .gif or .apng; see `niwaki.draw.animation.growth`."""
+        from niwaki.draw.animation import growth
+
+        return growth(self, path, target, **settings)
 
     def _repr_png_(self) -> bytes:
         from niwaki.draw.picture import png

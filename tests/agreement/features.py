@@ -47,6 +47,13 @@ def m():
             s += v * flip(0.5)
     return s, ARR[1][0], INTS[2] + 1, len(ARR), [r[0] for r in ARR], NEST, D['c'], D.get('z', 3)
 """,
+    "soft": """
+def m():
+    x, y, w = gaussian(), uniform(-2, 2), uniform(0.01, 3)
+    factor(softeq(x, y, w) + soft_at_least(x, b=y, width=w) + soft_at_most(x, 0.5, w))
+    edge = [soft_at_least(1, 1, 0.5), smooth_max(2, 2.0, 0.5), smooth_min(True, 1, 1e-9), smooth_abs(0, 3)]
+    return edge, smooth_max(x, y, w), smooth_min(x, y, w), smooth_abs(x, w), list(map(softeq, [x], [y], [w]))
+""",
     "vectors": """
 def m():
     a = vec(1, 2, gaussian())

@@ -27,6 +27,17 @@ impl Convex {
         Convex::with_normals(vertices, topology, normals, false)
     }
 
+    /// As [`Convex::new`], for a solid that is convex but for a little; a face without a normal is left out.
+    pub(crate) fn nearly(vertices: Vec<Vec3>, topology: Arc<Topology>) -> Option<Convex> {
+        let mut normals = Vec::with_capacity(topology.faces.len());
+        for face in &topology.faces {
+            if let Some(normal) = face_normal(face, &vertices) {
+                push_direction(&mut normals, normal);
+            }
+        }
+        Convex::with_normals(vertices, topology, normals, false)
+    }
+
     /// A box whose sides point along the columns of `rotation`.
     pub(crate) fn cuboid(vertices: Vec<Vec3>, rotation: &Mat3) -> Option<Convex> {
         let aligned =

@@ -6,7 +6,8 @@ use std::fmt;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct GeomError {
     /// Which rule was broken, in kebab case: `bad-shape`, `empty-mesh`, `non-finite-mesh`, `mesh-index`,
-    /// `no-cell-filled`, `bad-voxel`, `bad-sigma`, `large-grid`.
+    /// `no-cell-filled`, `bad-voxel`, `bad-sigma`, `large-grid`, `bad-camera`, `bad-light`, `light-grazes`,
+    /// `receiver-unseen`, `bad-picture`, `one-color`, `bad-weight`, `bad-floor`, `bad-domain`.
     pub code: &'static str,
     /// What was found and what was expected.
     pub message: String,

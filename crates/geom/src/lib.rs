@@ -1,10 +1,11 @@
 //! Shapes, voxels, intersections, sketches and pictures.
 //!
 //! - [`bounds`]: boxes along the axes
-//! - [`mesh`], [`topology`], [`hull`], [`limb`], [`convex`]: surfaces and convex solids
+//! - [`mesh`], [`topology`], [`hull`], [`limb`], [`segment`], [`convex`]: surfaces and convex solids
 //! - [`shape`], [`words`], [`primitive`]: what a model emits
 //! - [`voxel`]: which cells of a grid a shape fills
 //! - [`intersect`]: whether two shapes intersect
+//! - [`view`]: the rays of a picture, and which of them meet a shape
 //! - [`tree`]: a bag of boxes that copies share
 //! - [`sketch`]: running scores of what was emitted
 //! - [`fine`], [`render`]: meshes with many sides, and pictures of them
@@ -20,10 +21,12 @@ pub mod limb;
 pub mod mesh;
 pub mod primitive;
 pub mod render;
+pub mod segment;
 pub mod shape;
 pub mod sketch;
 pub mod topology;
 pub mod tree;
+pub mod view;
 pub mod voxel;
 pub mod words;
 
@@ -34,8 +37,13 @@ pub use intersect::{Rule, intersects};
 pub use mesh::TriMesh;
 pub use niwaki_math::vector::{self, Mat3, Vec3, vec3};
 pub use primitive::Primitive;
+pub use segment::{Bark, Frame};
 pub use shape::{Placement, Ring, Shape, Solid};
+pub use sketch::avoid::{Avoid, avoid};
+pub use sketch::floor::{Floor, floor};
 pub use sketch::intersection::{NoSelfIntersection, no_self_intersection};
+pub use sketch::overshoot::{Overshoot, no_overshoot};
+pub use sketch::picture::{Picture, PictureMatch, Wish, match_image, match_shadow};
 pub use sketch::product::Sketches;
 pub use sketch::volume::{Target, VolumeMatch, volume_match};
 pub use sketch::{Sketch, SketchSpec};

@@ -6,6 +6,7 @@
 use crate::convex::Convex;
 use crate::hull::hull;
 use crate::limb::band;
+use crate::segment;
 use crate::shape::{Placement, Solid};
 use crate::topology::Topology;
 use crate::vector::{Vec3, vec3};
@@ -30,6 +31,9 @@ pub(crate) fn convex(solid: &Solid, placement: &Placement) -> Option<Convex> {
                 Some(topology) => Convex::new(vertices, Arc::new(topology)),
                 None => hulled(vertices),
             }
+        }
+        Solid::Segment { frames, onto } => {
+            Convex::nearly(segment::corners(frames, onto.as_ref())?, segment::tube())
         }
         Solid::Mesh(_) => None,
     }

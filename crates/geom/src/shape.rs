@@ -9,6 +9,7 @@ use crate::convex::Convex;
 use crate::error::GeomError;
 use crate::light::{convex, ring};
 use crate::mesh::TriMesh;
+use crate::segment::{self, Bark, Frame};
 use crate::vector::{Mat3, Vec3, vec3};
 use std::sync::{Arc, OnceLock};
 
@@ -84,6 +85,13 @@ pub enum Solid {
         /// Of both rings.
         sides: usize,
     },
+    /// A bent, tapered tube over three rings whose base may lie on a parent's bark: see [`crate::segment`].
+    Segment {
+        /// Start, split and end.
+        frames: [Frame; 3],
+        /// What the base lies on.
+        onto: Option<Bark>,
+    },
     /// Any closed mesh.
     Mesh(Arc<TriMesh>),
 }
@@ -116,6 +124,7 @@ struct Inner {
     color: Option<[f32; 3]>,
     aabb: Aabb,
     convex: Option<Convex>,
+    pieces: OnceLock<Vec<Convex>>,
     world: OnceLock<TriMesh>,
 }
 
@@ -178,7 +187,16 @@ impl Shape {
         if reach.is_nan() || reach > 1e12 {
             return bad("the shape is farther than 1e12 from the origin".to_string());
         }
-        Ok(Shape(Arc::new(Inner { solid, placement, bevel, color, aabb, convex, world: OnceLock::new() })))
+        Ok(Shape(Arc::new(Inner {
+            solid,
+            placement,
+            bevel,
+            color,
+            aabb,
+            convex,
+            pieces: OnceLock::new(),
+            world: OnceLock::new(),
+        })))
     }
 
     /// The solid, in its own coordinates.
@@ -201,7 +219,7 @@ impl Shape {
         self.0.color
     }
 
-    /// `box`, `tapered-box`, `cylinder`, `tapered-cylinder`, `limb` or `mesh`.
+    /// `box`, `tapered-box`, `cylinder`, `tapered-cylinder`, `limb`, `segment` or `mesh`.
     pub fn kind(&self) -> &'static str {
         kind(&self.0.solid)
     }
@@ -212,10 +230,20 @@ impl Shape {
         &self.0.aabb
     }
 
-    /// The convex solid; `None` for a mesh.
+    /// The convex solid; `None` for a mesh. A segment's is a little larger than it: see [`Shape::pieces`].
     #[inline]
     pub fn convex(&self) -> Option<&Convex> {
         self.0.convex.as_ref()
+    }
+
+    /// The convex solids whose union it is, where [`Shape::convex`] is larger than the shape.
+    pub fn pieces(&self) -> Option<&[Convex]> {
+        match (&self.0.solid, &self.0.convex) {
+            (Solid::Segment { onto, .. }, Some(convex)) => {
+                Some(self.0.pieces.get_or_init(|| segment::pieces(convex.corners(), onto.is_some())))
+            }
+            _ => None,
+        }
     }
 
     /// The light geometry as triangles in the world; made when first asked for.
@@ -247,6 +275,7 @@ fn kind(solid: &Solid) -> &'static str {
         Solid::Cylinder { .. } => "cylinder",
         Solid::TaperedCylinder { .. } => "tapered-cylinder",
         Solid::Limb { .. } => "limb",
+        Solid::Segment { .. } => "segment",
         Solid::Mesh(_) => "mesh",
     }
 }
@@ -291,6 +320,22 @@ fn check_solid(solid: &Solid) -> Result<(), GeomError> {
                 }
             }
             polygon(*sides)
+        }
+        Solid::Segment { frames, onto } => {
+            for frame in frames {
+                positive("radius", frame.radius)?;
+                let square = (frame.forward.norm() - 1.0).abs().max((frame.up.norm() - 1.0).abs())
+                    + frame.forward.dot(frame.up).abs();
+                if !frame.center.is_finite() || square.is_nan() || square > 1e-6 {
+                    return bad(format!(
+                        "a segment's frame is {frame:?}, expected a finite centre and two unit directions at right angles"
+                    ));
+                }
+            }
+            onto.as_ref().map_or(Ok(()), |bark| {
+                positive("parent's radius", bark.low_radius)?;
+                positive("parent's radius", bark.high_radius)
+            })
         }
         Solid::Mesh(_) => Ok(()),
     }

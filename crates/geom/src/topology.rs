@@ -47,6 +47,18 @@ impl Topology {
         CUBOID.get_or_init(build).clone()
     }
 
+    /// A prism or frustum over an `n`-gon whose caps have no middle.
+    pub fn frustum(n: usize) -> Arc<Topology> {
+        static FRUSTA: [OnceLock<Arc<Topology>>; 17] = [const { OnceLock::new() }; 17];
+        let build = || {
+            let (n, next) = (n as u32, |k: u32| (k + 1) % n as u32);
+            let sides = (0..n).map(|k| vec![k, next(k), n + next(k), n + k]);
+            let caps = [(0..n).rev().collect(), (n..2 * n).collect()];
+            Arc::new(Topology::from_faces(2 * n as usize, sides.chain(caps).collect()))
+        };
+        FRUSTA.get(n).map_or_else(build, |cell| cell.get_or_init(build).clone())
+    }
+
     /// A prism or frustum over an `n`-gon.
     pub fn prism(n: usize) -> Arc<Topology> {
         static PRISMS: [OnceLock<Arc<Topology>>; 65] = [const { OnceLock::new() }; 65];
@@ -78,7 +90,8 @@ mod tests {
 
     #[test]
     fn solids_are_closed() {
-        for t in [Topology::cuboid(), Topology::prism(8), Topology::prism(3), Topology::prism(70)] {
+        let prisms = [Topology::prism(8), Topology::prism(3), Topology::prism(70)];
+        for t in [Topology::cuboid(), Topology::frustum(4), Topology::frustum(20)].into_iter().chain(prisms) {
             assert_eq!(t.corners + t.faces.len(), t.edges.len() + 2);
             let mut sides: Vec<(u32, u32)> =
                 t.triangles.iter().flat_map(|t| [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])]).collect();

@@ -1,7 +1,8 @@
-//! Shapes as a model says them: `box`, `cylinder`, `limb` and `mesh`, with centres, axes and defaults.
+//! Shapes as a model says them: `box`, `cylinder`, `limb`, `segment` and `mesh`, with centres, axes and defaults.
 
 use crate::error::GeomError;
 use crate::mesh::TriMesh;
+use crate::segment::{Bark, Frame};
 use crate::shape::{CYLINDER_SIDES, LIMB_SIDES, Placement, Ring, Shape, Solid};
 use crate::vector::{Mat3, Vec3, vec3};
 use std::sync::Arc;
@@ -91,6 +92,14 @@ impl Shape {
         let end = Ring { center: end, normal: normal(normals.1)?, radius: radii.1 };
         let solid = Solid::Limb { start, end, sides: LIMB_SIDES };
         place(solid, Vec3::ZERO, Mat3::IDENTITY, look)
+    }
+
+    /// A segment of a tree over the frames `[start, split, end]`, its base on `onto` where that is given.
+    ///
+    /// # Errors
+    /// `bad-shape`, as for [`Shape::new`].
+    pub fn segment(frames: [Frame; 3], onto: Option<Bark>, look: &Look) -> Result<Shape, GeomError> {
+        place(Solid::Segment { frames, onto }, Vec3::ZERO, Mat3::IDENTITY, look)
     }
 
     /// A mesh, scaled about its own origin, turned and moved to `center`.

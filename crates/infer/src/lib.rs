@@ -7,6 +7,7 @@
 //! * [`enumeration`], [`rejection`], [`importance`]: exact and direct answers, the oracles for the rest;
 //! * [`particles`]: sequential Monte Carlo, in program order and in stochastic order;
 //! * [`chain`]: Metropolis-Hastings over kept runs, kernels as values.
+//! * [`hamiltonian`]: chains that follow the gradient of a log density over real coordinates.
 //!
 //! Not here: opcodes, shapes, Python.
 
@@ -14,6 +15,7 @@ pub mod chain;
 pub mod enumeration;
 pub mod failure;
 pub mod forward;
+pub mod hamiltonian;
 pub mod importance;
 pub mod log;
 pub mod particles;

@@ -10,6 +10,7 @@ use std::convert::Infallible;
 /// A source of random bits; `rand_core` calls it `Rng`.
 pub use rand_core::Rng as RngCore;
 use rand_core::TryRng;
+use rand_distr::{Distribution, StandardNormal};
 
 /// Multipliers of the two lanes (Salmon et al. 2011, table 2).
 const MULTIPLIER: [u32; 2] = [0xD251_1F53, 0xCD9E_8D57];
@@ -105,6 +106,12 @@ impl Stream {
     #[inline]
     pub fn uniform(&mut self) -> f64 {
         open_unit(self)
+    }
+
+    /// A number from the normal distribution of mean 0 and standard deviation 1.
+    #[inline]
+    pub fn normal(&mut self) -> f64 {
+        StandardNormal.sample(self)
     }
 }
 

@@ -4,7 +4,7 @@
 //! Python's table of messages has the words.
 
 use niwaki_geom::{
-    GeomError, Look, Mat3, Primitive, Rule, Shape, SketchSpec, Sketches, Target, TriMesh, Vec3,
+    Bark, Frame, GeomError, Look, Mat3, Primitive, Rule, Shape, SketchSpec, Sketches, Target, TriMesh, Vec3,
     no_self_intersection, volume_match,
 };
 use numpy::ndarray::{Array2, Array3};
@@ -16,6 +16,10 @@ use std::sync::Arc;
 
 type Triple = [f64; 3];
 type Rows = [[f64; 3]; 3];
+/// Centre, forward, up, radius.
+type FrameWord = (Triple, Triple, Triple, f64);
+/// Low, its radius, high, its radius.
+type BarkWord = (Triple, f64, Triple, f64);
 
 /// A `ValueError` that carries its code.
 pub fn value_error(py: Python<'_>, error: &GeomError) -> PyErr {
@@ -167,6 +171,33 @@ impl PyShape {
             .map_err(|e| value_error(py, &e))
     }
 
+    /// A bent, tapered tube over three frames, each (center, forward, up, radius); its base lies ``onto`` a piece of a
+    /// parent's cone, (low, low radius, high, high radius).
+    #[staticmethod]
+    #[pyo3(signature = (start, split, end, onto=None, color=None))]
+    fn segment(
+        py: Python<'_>,
+        start: FrameWord,
+        split: FrameWord,
+        end: FrameWord,
+        onto: Option<BarkWord>,
+        color: Option<[f32; 3]>,
+    ) -> PyResult<PyShape> {
+        let frames = [start, split, end].map(|(center, forward, up, radius)| Frame {
+            center: center.into(),
+            forward: forward.into(),
+            up: up.into(),
+            radius,
+        });
+        let onto = onto.map(|(low, low_radius, high, high_radius)| Bark {
+            low: low.into(),
+            low_radius,
+            high: high.into(),
+            high_radius,
+        });
+        Shape::segment(frames, onto, &look(None, None, color)).map(PyShape).map_err(|e| value_error(py, &e))
+    }
+
     /// A closed triangle mesh: ``vertices`` (n, 3) float64, ``faces`` (m, 3) int64.
     #[staticmethod]
     #[pyo3(signature = (vertices, faces, center=[0.0; 3], rotation=None, scale=1.0, color=None))]
@@ -185,7 +216,7 @@ impl PyShape {
             .map_err(|e| value_error(py, &e))
     }
 
-    /// ``box``, ``tapered-box``, ``cylinder``, ``tapered-cylinder``, ``limb`` or ``mesh``.
+    /// ``box``, ``tapered-box``, ``cylinder``, ``tapered-cylinder``, ``limb``, ``segment`` or ``mesh``.
     #[getter]
     fn kind(&self) -> &'static str {
         self.0.kind()
@@ -356,15 +387,25 @@ impl PySketch {
         self.0.log_score()
     }
 
-    /// Share of cells equal in scene and target; None without a target.
+    /// Share of cells, or of weighted pixels, equal in scene and target, of the first sketch that has one.
     fn similarity(&self) -> Option<f64> {
         self.0.measures().into_iter().find(|(name, _)| *name == "similarity").map(|(_, value)| value)
     }
 
-    /// Named numbers behind the score.
+    /// Named numbers behind the score; those of a second sketch with the same names are numbered.
     fn measures<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let measures = PyDict::new(py);
-        self.0.measures().into_iter().try_for_each(|(name, value)| measures.set_item(name, value))?;
+        for (name, value) in self.0.measures() {
+            // Two sketches of one kind, such as a front and a side view: the second is numbered.
+            let mut key = name.to_string();
+            for number in 2.. {
+                if !measures.contains(&key)? {
+                    break;
+                }
+                key = format!("{name}_{number}");
+            }
+            measures.set_item(key, value)?;
+        }
         Ok(measures)
     }
 

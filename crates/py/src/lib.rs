@@ -4,7 +4,7 @@
 //!
 //! * `values`: Python's objects to the machine's values, and back; `faults`: faults as data;
 //! * `model`: compiled models; `search`: algorithms; `chains`: Markov chains; `outcome`: what they find;
-//! * `distributions`, `geometry`, `pictures`: the rooms below, by themselves.
+//! * `distributions`, `geometry`, `views`, `pictures`: the rooms below, by themselves.
 
 mod chains;
 mod distributions;
@@ -15,6 +15,7 @@ mod outcome;
 mod pictures;
 mod search;
 mod values;
+mod views;
 
 use pyo3::prelude::*;
 
@@ -29,6 +30,7 @@ fn _engine(module: &Bound<'_, PyModule>) -> PyResult<()> {
     distributions::register(module)?;
     geometry::register(module)?;
     pictures::register(module)?;
+    views::register(module)?;
     values::register(module)?;
     faults::register(module)?;
     model::register(module)?;

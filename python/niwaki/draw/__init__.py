@@ -2,6 +2,14 @@
 
 picture.py  a scene, and its target as a ghost, as one picture
 sheet.py    several pictures on one page, with captions
-files.py    a scene as GLB, OBJ, STL or PLY
 palette.py  colours for parts that have none of their own
+
+files.py        a scene as a file; the end of its name says which
+parts.py        the meshes of its parts, by their paints
+instances.py    which parts are one mesh in several places
+glb.py          GLB: a node for each part
+mesh_files.py   OBJ and PLY: plain meshes
+solid.py        the union as one solid, for printing
+print_files.py  the solid as STL and 3MF
+animation.py    growth, or any sequence of scenes, as GIF or animated PNG
 """

@@ -25,6 +25,9 @@ ACCENTS: tuple[Color, ...] = ((0.80, 0.37, 0.20), (0.84, 0.45, 0.24))
 BARKS: tuple[Color, ...] = ((0.44, 0.35, 0.29),)
 PINES: tuple[Color, ...] = ((0.36, 0.47, 0.28), (0.32, 0.43, 0.28), (0.41, 0.50, 0.30))
 
+#: Kinds of shapes that a garden is told by, and that have bark.
+WOODEN = ("limb", "segment")
+
 
 @dataclass(frozen=True)
 class Paint:
@@ -48,16 +51,17 @@ class Paint:
     pitch: float = 0.0
 
 
-def paints(scene: Scene) -> list[list[Paint]]:
-    """Choose the paint of each shape of each part, in order."""
-    garden = any(shape.kind == "limb" for part in scene.parts for shape in part.shapes)
-    extent = scene.size.max() if len(scene) else 1.0
+def paints(scene: Scene, like: Scene | None = None) -> list[list[Paint]]:
+    """Choose the paint of each shape of each part, in order; by the kinds and the size of `like` where it is given."""
+    whole = scene if like is None else like
+    garden = any(shape.kind in WOODEN for part in whole.parts for shape in part.shapes)
+    extent = whole.size.max() if len(whole) else 1.0
     return [[_paint(part, shape, garden, extent) for shape in part.shapes] for part in scene.parts]
 
 
 def _paint(part: Part, shape: Shape, garden: bool, extent: float) -> Paint:
     own = None if shape.color is None else _triple(shape.color)
-    limb = shape.kind == "limb"
+    limb = shape.kind in WOODEN
     dice = zlib.crc32(part.address.encode())
     if garden:
         color = own or (_vary(BARKS, dice, 0.012, 0.0) if limb else _vary(PINES, dice, 0.04, 0.012))

@@ -55,6 +55,7 @@ def picture(
     backdrop: Backdrop = "studio",
     lift: float = 0.0,
     frame: Scene | None = None,
+    like: Scene | None = None,
 ) -> Image.Image:
     """Draws a scene.
 
@@ -82,6 +83,9 @@ def picture(
         How far the scene floats above the floor, as a share of its height.
     frame
         Another scene whose framing to take, so that pictures of several can be compared.
+    like
+        Another scene whose framing, floor and palette to take, so that pictures of its states agree; this one may
+        then be empty.
 
     Returns
     -------
@@ -90,7 +94,7 @@ def picture(
     """
     if backdrop not in get_args(Backdrop):
         raise FileError("setting", name="backdrop", found=backdrop, expected=", ".join(get_args(Backdrop)))
-    if len(scene) == 0 and target is None:
+    if len(scene) == 0 and target is None and like is None:
         raise FileError("scene-empty", verb="draw")
     width, height = size
     for name, number in (("width", width), ("height", height), ("samples", samples)):
@@ -98,7 +102,8 @@ def picture(
             raise FileError(
                 "setting", name=name, found=number, expected=f"a whole number from 1 to {LARGEST}"
             )
-    meshes = surfaces(scene)
+    meshes = surfaces(scene, like)
+    frame = like if frame is None else frame
     ghost = None if target is None else _ghost(target)
     if camera is None:
         seen = surfaces(frame) if frame is not None else meshes
@@ -107,7 +112,8 @@ def picture(
         camera = _engine.frame_camera(
             points, azimuth=azimuth, elevation=elevation, fov_y=fov, margin=margin, aspect=width / height
         )
-    low, high = scene.bounds if len(scene) else target.bounds  # type: ignore[union-attr]
+    standing = scene if like is None else like
+    low, high = standing.bounds if len(standing) else target.bounds  # type: ignore[union-attr]
     pixels = _engine.render(
         meshes,
         ghost,
@@ -121,10 +127,10 @@ def picture(
     return Image.fromarray(pixels, "RGBA")
 
 
-def surfaces(scene: Scene) -> list[tuple[Any, ...]]:
+def surfaces(scene: Scene, like: Scene | None = None) -> list[tuple[Any, ...]]:
     """Make the fine meshes of all shapes with their paint, as the engine's `render` takes them."""
     meshes = []
-    for part, part_paints in zip(scene.parts, paints(scene), strict=True):
+    for part, part_paints in zip(scene.parts, paints(scene, like), strict=True):
         for shape, paint in zip(part.shapes, part_paints, strict=True):
             vertices, faces, normals = _engine.fine_mesh(shape)
             meshes.append((vertices, faces, normals, paint.color, (paint.gloss, paint.rough, paint.pitch)))

@@ -57,9 +57,10 @@ def is_named_tuple(value: Any) -> bool:
 
 def is_record_class(value: Any) -> bool:
     """Whether it is a class whose instances are records; vectors and distributions are values of their own."""
-    if not isinstance(value, type) or value.__module__.startswith("niwaki.words."):
+    if not isinstance(value, type):
         return False
-    return is_named_tuple(value) or dataclasses.is_dataclass(value)
+    own = value.__module__.startswith("niwaki.words.")
+    return is_named_tuple(value) or (dataclasses.is_dataclass(value) and not own)
 
 
 def record_fields(value: Any) -> tuple[str, ...]:

@@ -15,6 +15,7 @@ from dataclasses import dataclass, field
 from types import FrameType, FunctionType
 from typing import Any
 
+from niwaki.constraints import Constraint
 from niwaki.errors import Call, InputError, ModelFault, NiwakiError, place
 from niwaki.lang import densities, vocabulary
 from niwaki.lang.instrument import instrumented
@@ -46,6 +47,8 @@ class Run:
         The primitives, by the address of their `emit`.
     queries : dict
         Answers by key.
+    constraints : list of Constraint
+        The soft constraints, in the order met.
     """
 
     value: Any
@@ -54,6 +57,7 @@ class Run:
     log_score: float
     scene: list[tuple[str, list[Any]]] = field(default_factory=list)
     queries: dict[str, Any] = field(default_factory=dict)
+    constraints: list[Constraint] = field(default_factory=list, compare=False)
 
     @property
     def log_joint(self) -> float:
@@ -112,7 +116,9 @@ def run(
         raise state.fault(error) from error
     finally:
         current.reset(token)
-    return Run(value, state.made, state.log_prior, state.log_score, state.scene, state.answers)
+    return Run(
+        value, state.made, state.log_prior, state.log_score, state.scene, state.answers, state.constraints
+    )
 
 
 class PlainRun:
@@ -130,6 +136,7 @@ class PlainRun:
         self.scene: list[tuple[str, list[Any]]] = []
         self.answers: dict[str, Any] = {}
         self.answered: dict[str, str] = {}
+        self.constraints: list[Constraint] = []
         self.functions: dict[FunctionType, FunctionType] = {}
         self.codes: set[Any] = set()
 
@@ -321,6 +328,12 @@ class PlainRun:
     def force(self, value: Any) -> Any:
         """A future is its value already."""
         return value
+
+    def constraint(self, kind: str, a: float, b: float, width: float) -> None:
+        """Keep what a soft constraint compares."""
+        calls = self.stack()
+        span = calls[-1].span if calls else None
+        self.constraints.append(Constraint(kind, "/".join([*self.path, kind]), span, a, b, width))
 
     # faults
 

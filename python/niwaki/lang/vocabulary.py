@@ -96,7 +96,15 @@ _VECTORS = (
     words.rotation,
 )
 _NUMBERS = (words.clip, words.lerp, words.sign)
-_SHAPES = (words.box, words.cylinder, words.limb, words.mesh)
+_SOFT = (
+    words.softeq,
+    words.soft_at_least,
+    words.soft_at_most,
+    words.smooth_max,
+    words.smooth_min,
+    words.smooth_abs,
+)
+_SHAPES = (words.box, words.cylinder, words.limb, words.segment, words.mesh)
 
 
 def _word(function: Any, omit: bool) -> Op:
@@ -107,7 +115,7 @@ def _word(function: Any, omit: bool) -> Op:
 
 
 WORDS: dict[Any, Op] = {
-    **{function: _word(function, True) for function in (*_VECTORS, *_NUMBERS)},
+    **{function: _word(function, True) for function in (*_VECTORS, *_NUMBERS, *_SOFT)},
     **{function: _word(function, False) for function in _SHAPES},
 }
 

@@ -4,9 +4,10 @@ models          `@model`, `@host`
 choices         `sample`, `flip`, `gaussian`, ...: draws
 distributions   `Gaussian`, `Uniform`, ...: distributions as values
 effects         `factor`, `condition`, `observe`, `query`, `emit`, `future`, `force`
-shapes          `box`, `cylinder`, `limb`, `mesh`
+shapes          `box`, `cylinder`, `limb`, `segment`, `mesh`
 vectors         `vec`, `dot`, `cross`, `norm`, `normalize`, `distance`, `rotate`, `rotation`
 numbers         `clip`, `lerp`, `sign`
+soft            `softeq`, `soft_at_least`, `soft_at_most`, `smooth_max`, `smooth_min`, `smooth_abs`
 running         which run a word belongs to
 """
 
@@ -63,10 +64,12 @@ from niwaki.words.distributions import (
 from niwaki.words.effects import condition, emit, factor, force, future, observe, query
 from niwaki.words.models import Host, Model, host, model
 from niwaki.words.numbers import clip, lerp, sign
-from niwaki.words.shapes import box, cylinder, limb, mesh
+from niwaki.words.shapes import Bark, Frame, box, cylinder, limb, mesh, segment
+from niwaki.words.soft import smooth_abs, smooth_max, smooth_min, soft_at_least, soft_at_most, softeq
 from niwaki.words.vectors import Vec, cross, distance, dot, norm, normalize, rotate, rotation, vec
 
 __all__ = [
+    "Bark",
     "Bernoulli",
     "Beta",
     "Binomial",
@@ -77,6 +80,7 @@ __all__ = [
     "DiscreteUniform",
     "Distribution",
     "Exponential",
+    "Frame",
     "Gamma",
     "Gaussian",
     "Geometric",
@@ -134,7 +138,14 @@ __all__ = [
     "rotate",
     "rotation",
     "sample",
+    "segment",
     "sign",
+    "smooth_abs",
+    "smooth_max",
+    "smooth_min",
+    "soft_at_least",
+    "soft_at_most",
+    "softeq",
     "student_t",
     "truncated_gaussian",
     "uniform",

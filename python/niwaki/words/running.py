@@ -45,6 +45,10 @@ class Runner(Protocol):
         """Wait for a future."""
         ...
 
+    def constraint(self, kind: str, a: float, b: float, width: float) -> None:
+        """Keep what a soft constraint compares."""
+        ...
+
 
 current: ContextVar[Runner | None] = ContextVar("niwaki_runner", default=None)
 

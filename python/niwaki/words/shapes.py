@@ -9,13 +9,51 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from niwaki.words.vectors import VecLike
 
 Rotation = Sequence[Sequence[float]]
 Color = Sequence[float]
 Axis = str | VecLike
+
+
+class Frame(NamedTuple):
+    """Where a `segment` begins, splits or ends; a tuple of four will do.
+
+    Attributes
+    ----------
+    center
+        The middle of the ring.
+    forward
+        Unit direction towards the tip.
+    up
+        Unit direction at right angles to `forward`: which way the ring is turned.
+    radius
+        Greater than 0.
+    """
+
+    center: VecLike
+    forward: VecLike
+    up: VecLike
+    radius: float
+
+
+class Bark(NamedTuple):
+    """The piece of a parent's cone that the base of a `segment` lies on; a tuple of four will do.
+
+    Attributes
+    ----------
+    low, high
+        Points of the parent's axis, below and above the branch.
+    low_radius, high_radius
+        The parent's radius there.
+    """
+
+    low: VecLike
+    low_radius: float
+    high: VecLike
+    high_radius: float
 
 
 @dataclass(frozen=True)
@@ -138,6 +176,30 @@ def limb(
         `(r, g, b)` in [0, 1].
     """
     return _make("limb", start, end, start_radius, end_radius, start_normal, end_normal, color)
+
+
+def segment(
+    start: Frame,
+    split: Frame,
+    end: Frame,
+    onto: Bark | None = None,
+    color: Color | None = None,
+) -> Any:
+    """A bent, tapering segment of a tree: a wedge from `start` to `split`, a clean cone from there to `end`.
+
+    A segment that starts with the frame in which another ends only touches it. A branch starts on its parent's bark
+    and names it: its base is laid onto the cone, and drawn as grown out of it.
+
+    Parameters
+    ----------
+    start, split, end
+        Frames `(center, forward, up, radius)`: the two directions are unit vectors at right angles.
+    onto
+        What the base lies on, `(low, low_radius, high, high_radius)`.
+    color
+        `(r, g, b)` in [0, 1].
+    """
+    return _make("segment", start, split, end, onto, color)
 
 
 def mesh(

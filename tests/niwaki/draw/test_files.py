@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 import trimesh
 from niwaki._engine import Shape
-from niwaki.draw.files import glb
+from niwaki.draw.glb import glb
 from niwaki.file_errors import FileError
 from niwaki.scene import Scene
 
@@ -61,13 +61,23 @@ def test_glb_is_the_same_to_the_byte() -> None:
     assert glb(scene()) == glb(scene(-1))
 
 
-@pytest.mark.parametrize("suffix", ["obj", "stl", "ply"])
-def test_other_formats_open_again(tmp_path: Path, suffix: str) -> None:
+@pytest.mark.parametrize("suffix", ["obj", "ply"])
+def test_plain_meshes_open_again(tmp_path: Path, suffix: str) -> None:
     path = scene().export(tmp_path / f"ship.{suffix}")
     again = trimesh.load_mesh(path)
     assert again.volume == pytest.approx(8.0 + 2.0 + np.pi / 2, rel=5e-3)
+    assert np.allclose(again.bounds, scene().bounds, atol=1e-6)
+    colors = np.asarray(again.visual.vertex_colors)[:, :3]
+    assert (colors == [128, 51, 26]).all(axis=1).any()
     first = path.read_bytes()
     assert scene(-1).export(path).read_bytes() == first
+
+
+def test_an_obj_has_an_object_for_each_part(tmp_path: Path) -> None:
+    path = scene().export(tmp_path / "ship.obj")
+    again = trimesh.load_scene(path, split_objects=True, group_material=False)
+    assert set(again.geometry) == {"ship/body", "ship/engine", "ship/wings"}
+    assert again.geometry["ship/body"].volume == pytest.approx(8.0, rel=1e-6)
 
 
 def test_bad_places_are_refused_and_leave_nothing(tmp_path: Path) -> None:
@@ -75,8 +85,17 @@ def test_bad_places_are_refused_and_leave_nothing(tmp_path: Path) -> None:
         (tmp_path / "ship.blend", scene(), "file-format"),
         (tmp_path / "ship.glb", Scene([]), "scene-empty"),
         (tmp_path / "no folder" / "ship.glb", scene(), "file-unwritable"),
+        (tmp_path / "no folder" / "ship.stl", scene(), "file-unwritable"),
+        (tmp_path / "no folder" / "ship.gif", Scene(scene().parts[:1]), "file-unwritable"),
     ]:
         with pytest.raises(FileError) as caught:
             made.export(path)
         assert caught.value.code == code
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_only_print_formats_are_scaled(tmp_path: Path) -> None:
+    for setting in ("scale", "fuse"):
+        with pytest.raises(FileError, match=f"`{setting}` cannot be 2.0"):
+            scene().export(tmp_path / "ship.glb", **{setting: 2.0})
     assert list(tmp_path.iterdir()) == []

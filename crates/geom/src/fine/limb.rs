@@ -35,31 +35,38 @@ pub fn domed(start: &Ring, end: &Ring) -> FineMesh {
 
     // The base is flat.
     let base = row(&mut mesh, start, |out| (start.center + out * start.radius, start.normal * -1.0));
-    let middle = mesh.point(start.center, start.normal * -1.0);
+    close(&mut mesh, &base, start.center, start.normal * -1.0);
+    dome(&mut mesh, end, high);
+    mesh
+}
+
+/// Closes the base with a fan about `middle`.
+pub(super) fn close(mesh: &mut FineMesh, base: &[u32], middle: Vec3, normal: Vec3) {
+    let middle = mesh.point(middle, normal);
     for k in 0..ROUND {
         mesh.face([middle, base[(k + 1) % ROUND], base[k]]);
     }
+}
 
-    // The dome is half of a flattened sphere; its normals are its gradient's.
-    let mut below = high;
+/// Half of a flattened sphere over the row `below`, which lies on `end`; its normals are its gradient's.
+pub(super) fn dome(mesh: &mut FineMesh, end: &Ring, mut below: Vec<u32>) {
     for latitude in 1..LATITUDES {
         let (sin, cos) = (std::f64::consts::FRAC_PI_2 * latitude as f64 / LATITUDES as f64).sin_cos();
-        let above = row(&mut mesh, end, |out| {
+        let above = row(mesh, end, |out| {
             let place = out * cos + end.normal * (sin * DOME);
             (end.center + place * end.radius, out * cos + end.normal * (sin / DOME))
         });
-        join(&mut mesh, &below, &above);
+        join(mesh, &below, &above);
         below = above;
     }
     let top = mesh.point(end.center + end.normal * (DOME * end.radius), end.normal);
     for k in 0..ROUND {
         mesh.face([top, below[k], below[(k + 1) % ROUND]]);
     }
-    mesh
 }
 
 /// The ring at `t` of the way; the given rings themselves, to the bit, at 0 and 1.
-fn between(start: &Ring, end: &Ring, t: f64) -> Ring {
+pub(super) fn between(start: &Ring, end: &Ring, t: f64) -> Ring {
     if t == 0.0 || t == 1.0 {
         return if t == 0.0 { *start } else { *end };
     }
@@ -75,7 +82,7 @@ fn between(start: &Ring, end: &Ring, t: f64) -> Ring {
 }
 
 /// A row of vertices made from the ring's outward directions.
-fn row(mesh: &mut FineMesh, ring: &Ring, make: impl Fn(Vec3) -> (Vec3, Vec3)) -> Vec<u32> {
+pub(super) fn row(mesh: &mut FineMesh, ring: &Ring, make: impl Fn(Vec3) -> (Vec3, Vec3)) -> Vec<u32> {
     let unit = Ring { center: Vec3::ZERO, normal: ring.normal, radius: 1.0 };
     unit.vertices(ROUND)
         .map(|out| {
@@ -85,7 +92,7 @@ fn row(mesh: &mut FineMesh, ring: &Ring, make: impl Fn(Vec3) -> (Vec3, Vec3)) ->
         .collect()
 }
 
-fn join(mesh: &mut FineMesh, below: &[u32], above: &[u32]) {
+pub(super) fn join(mesh: &mut FineMesh, below: &[u32], above: &[u32]) {
     for k in 0..ROUND {
         let next = (k + 1) % ROUND;
         mesh.quad([below[k], below[next], above[next], above[k]]);

@@ -7,12 +7,14 @@
 //! - `boxes.rs`   rounded boxes, tapered or not
 //! - `revolve.rs` cylinders and cones with rounded rims
 //! - `limb.rs`    smooth tubes with a domed end
+//! - `segment.rs` the same, growing out of a parent's bark
 //! - `crease.rs`  normals of any mesh, sharp where it is sharp
 
 mod boxes;
 mod crease;
 mod limb;
 mod revolve;
+mod segment;
 
 use crate::shape::{Shape, Solid};
 use crate::vector::Vec3;
@@ -73,6 +75,7 @@ pub fn fine_mesh(shape: &Shape) -> FineMesh {
             revolve::rounded(*radius, *top_radius, *length, bevel(RIM_BEVEL))
         }
         Solid::Limb { start, end, .. } => limb::domed(start, end),
+        Solid::Segment { frames, onto } => segment::grown(frames, onto.as_ref()),
         Solid::Mesh(mesh) => crease::creased(mesh, crease::SHARP),
     };
     let placement = shape.placement();

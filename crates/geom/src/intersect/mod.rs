@@ -14,6 +14,7 @@ pub mod triangles;
 
 use crate::primitive::Primitive;
 use crate::shape::Shape;
+use std::slice::from_ref;
 use triangles::Crossing;
 
 /// What counts as an intersection.
@@ -47,7 +48,13 @@ pub fn intersects(a: &Shape, b: &Shape, rule: Rule) -> bool {
             if axes::boxes_apart(a.aabb(), b.aabb(), tolerance) {
                 return false;
             }
-            (p.is_aligned_box() && q.is_aligned_box()) || axes::overlap(p, q, tolerance)
+            if p.is_aligned_box() && q.is_aligned_box() {
+                return true;
+            }
+            !axes::faces_apart(p, q, tolerance) && {
+                let (p, q) = (a.pieces().unwrap_or(from_ref(p)), b.pieces().unwrap_or(from_ref(q)));
+                p.iter().any(|p| q.iter().any(|q| axes::overlap(p, q, tolerance)))
+            }
         }
         (Rule::Solid, _, _) => {
             let tolerance = SOLID_TOLERANCE * thickness;

@@ -1,24 +1,14 @@
-//! How many shapes fill each cell, as bit-sliced binary counters in bricks that copies share.
+//! How many shapes fill each cell of a grid, in bricks that copies share.
 //!
-//! A brick is 64 by 8 by 8 cells: 64 words, one bit for each cell. Plane `k` holds bit `k` of every cell's count.
-//! Adding a set of cells is a ripple carry, removing one a ripple borrow, 64 cells for each word operation:
-//!
-//! ```text
-//! carry = cells;   plane, carry = plane ^ carry, plane & carry      (then the next plane)
-//! borrow = cells;  plane, borrow = plane ^ borrow, !plane & borrow
-//! ```
-//!
-//! Planes appear when a count needs them and go when the last one of it is gone, and a brick without counts is not
-//! stored, so that equal counts are equal data.
+//! A brick is 64 by 8 by 8 cells: 64 words, one bit for each cell. A brick without counts is not stored, so that
+//! equal counts are equal data.
 
+use super::brick::{Brick, Plane};
 use crate::voxel::{CellBox, Voxels};
 use std::sync::Arc;
 
-/// Cells along x, y and z in one brick.
+/// Cells along x, y and z in one brick; row (y, z) of it is word `8 * z + y`.
 pub const BRICK: [usize; 3] = [64, 8, 8];
-
-/// One bit for each cell of a brick; word `8 * z + y`.
-pub type Plane = [u64; 64];
 
 /// Cells of a grid as planes, brick by brick, x fastest.
 pub fn bricks_of(dims: [usize; 3]) -> [usize; 3] {
@@ -33,8 +23,6 @@ pub struct Change {
     /// The same, among the cells of the target.
     pub inside: i64,
 }
-
-type Brick = Vec<Plane>;
 
 /// A count for every cell of a grid. Cloning shares all bricks.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,19 +46,7 @@ impl Counters {
             let brick = Arc::make_mut(bricks[index].get_or_insert_with(Arc::default));
             for (word, y, z) in words {
                 let cells = voxels.word(column, y, z);
-                let (mut carry, mut before) = (cells, 0);
-                for plane in brick.iter_mut() {
-                    let old = plane[word];
-                    before |= old;
-                    plane[word] = old ^ carry;
-                    carry &= old;
-                }
-                if carry != 0 {
-                    brick.push([0; 64]);
-                    let top = brick.len() - 1;
-                    brick[top][word] = carry;
-                }
-                let new = cells & !before;
+                let new = brick.raise(word, cells);
                 change.filled += i64::from(new.count_ones());
                 change.inside += i64::from((new & target[index][word]).count_ones());
             }
@@ -90,22 +66,11 @@ impl Counters {
             let brick = Arc::make_mut(brick);
             for (word, y, z) in words {
                 let cells = voxels.word(column, y, z);
-                let (mut borrow, mut after) = (cells, 0);
-                for plane in brick.iter_mut() {
-                    let old = plane[word];
-                    plane[word] = old ^ borrow;
-                    borrow &= !old;
-                    after |= plane[word];
-                }
-                debug_assert_eq!(borrow, 0, "a cell was emptied that nothing filled");
-                let gone = cells & !after;
+                let gone = brick.lower(word, cells);
                 change.filled -= i64::from(gone.count_ones());
                 change.inside -= i64::from((gone & target[index][word]).count_ones());
             }
-            while brick.last().is_some_and(|top| top.iter().all(|w| *w == 0)) {
-                brick.pop();
-            }
-            if brick.is_empty() {
+            if brick.trim() {
                 bricks[index] = None;
             }
         });
@@ -116,9 +81,7 @@ impl Counters {
     pub fn get(&self, cell: [usize; 3]) -> u32 {
         let [x, y, z] = cell;
         let index = ((z / 8) * self.across[1] + y / 8) * self.across[0] + x / 64;
-        let planes = self.bricks[index].as_ref().map_or(&[][..], |b| &b[..]);
-        let bit = |(k, plane): (usize, &Plane)| ((plane[z % 8 * 8 + y % 8] >> (x % 64) & 1) as u32) << k;
-        planes.iter().enumerate().map(bit).sum()
+        self.bricks[index].as_ref().map_or(0, |brick| brick.get(z % 8 * 8 + y % 8, x % 64))
     }
 
     /// Bricks that this and `other` share in memory.
@@ -129,7 +92,7 @@ impl Counters {
 }
 
 /// Walks the bricks that `cells` touch: index of the brick, its place along x, and its words with their rows (y, z).
-fn visit(cells: &CellBox, across: [usize; 3], mut f: impl FnMut(usize, usize, Words)) {
+pub(super) fn visit(cells: &CellBox, across: [usize; 3], mut f: impl FnMut(usize, usize, Words)) {
     let range = |a: usize| cells.low[a] / BRICK[a]..=cells.high[a] / BRICK[a];
     for bz in range(2) {
         for by in range(1) {
@@ -149,7 +112,7 @@ fn visit(cells: &CellBox, across: [usize; 3], mut f: impl FnMut(usize, usize, Wo
     }
 }
 
-struct Words {
+pub(super) struct Words {
     first_y: usize,
     last_y: usize,
     last_z: usize,

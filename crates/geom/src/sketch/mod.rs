@@ -4,14 +4,26 @@
 //! order of adding, and adding then removing gives the old sketch back.
 //!
 //! - [`volume`], over [`counters`]: fill a target's volume
+//! - [`picture`], over [`tiles`]: look like a picture, or cast a shadow like one
 //! - [`intersection`]: parts must not run into each other
+//! - [`avoid`], [`floor`]: keep out of an obstacle, stay above a floor
+//! - [`overshoot`]: stay inside of a box
+//! - [`bag`]: what a sketch holds and can give back
 //! - [`product`]: several sketches of one scene
 
+pub mod avoid;
+pub mod bag;
+pub mod brick;
 pub mod counters;
+pub mod floor;
 pub mod intersection;
+pub mod overshoot;
+pub mod picture;
 pub mod product;
+pub mod tiles;
 pub mod volume;
 
+use crate::error::GeomError;
 use crate::primitive::Primitive;
 use crate::tree::BoxTree;
 
@@ -45,4 +57,19 @@ pub(crate) fn same_bag(a: &BoxTree<Primitive>, b: &BoxTree<Primitive>) -> bool {
     let mut same = a.len() == b.len();
     b.each(|aabb, primitive| same = same && rest.remove(aabb, |p| p == primitive).is_some());
     same
+}
+
+/// ln N(x; mean, sd), nats.
+pub(crate) fn log_normal(x: f64, mean: f64, sd: f64) -> f64 {
+    const HALF_LOG_TAU: f64 = 0.918_938_533_204_672_8;
+    let z = (x - mean) / sd;
+    -HALF_LOG_TAU - sd.ln() - 0.5 * z * z
+}
+
+/// Refuses a standard deviation that is none: `bad-sigma`.
+pub(crate) fn check_sigma(sigma: f64) -> Result<(), GeomError> {
+    if sigma > 0.0 && sigma.is_finite() {
+        return Ok(());
+    }
+    Err(GeomError::new("bad-sigma", format!("sigma is {sigma}, expected a positive number")))
 }

@@ -9,13 +9,14 @@
 //! Dissertation 5.5.1. differs: similarity is over exactly the domain's cells (the original pads to words of 32);
 //! overshoot is a sum over the sides, as the original's code has it, where its text says the maximum.
 
-use super::counters::{Counters, Plane, planes_of};
-use super::{Sketch, SketchSpec};
-use crate::bounds::Aabb;
+use super::bag::Bag;
+use super::brick::Plane;
+use super::counters::{Counters, bricks_of, planes_of, visit};
+use super::overshoot::overshoot;
+use super::{Sketch, SketchSpec, log_normal};
 use crate::error::GeomError;
 use crate::mesh::TriMesh;
 use crate::primitive::Primitive;
-use crate::tree::BoxTree;
 use crate::voxel::{Grid, Voxels};
 use std::sync::Arc;
 
@@ -60,10 +61,23 @@ impl Target {
         self.filled
     }
 
+    /// Number of cells that the target and `voxels`, of the same grid, both fill.
+    pub fn shared_with(&self, voxels: &Voxels) -> u64 {
+        let mut shared = 0;
+        visit(&voxels.cells, bricks_of(self.grid.dims()), |index, column, words| {
+            let plane = &self.planes[index];
+            let both = words.map(|(word, y, z)| (plane[word], y, z)).filter(|(cells, ..)| *cells != 0);
+            shared += both
+                .map(|(cells, y, z)| u64::from((cells & voxels.word(column, y, z)).count_ones()))
+                .sum::<u64>();
+        });
+        shared
+    }
+
     /// True when the target fills the cell.
     pub fn contains(&self, cell: [usize; 3]) -> bool {
         let [x, y, z] = cell;
-        let across = super::counters::bricks_of(self.grid.dims());
+        let across = bricks_of(self.grid.dims());
         let brick = ((z / 8) * across[1] + y / 8) * across[0] + x / 64;
         self.planes[brick][z % 8 * 8 + y % 8] >> (x % 64) & 1 == 1
     }
@@ -79,9 +93,7 @@ struct VolumeSpec {
 /// # Errors
 /// `bad-sigma` when it is not positive.
 pub fn volume_match(target: Arc<Target>, sigma: f64) -> Result<Arc<dyn SketchSpec>, GeomError> {
-    if !(sigma > 0.0 && sigma.is_finite()) {
-        return Err(GeomError::new("bad-sigma", format!("sigma is {sigma}, expected a positive number")));
-    }
+    super::check_sigma(sigma)?;
     Ok(Arc::new(VolumeSpec { target, sigma }))
 }
 
@@ -104,14 +116,14 @@ pub struct VolumeMatch {
     /// Filled cells, and those of them that the target fills too.
     filled: i64,
     inside: i64,
-    boxes: BoxTree<Primitive>,
+    bag: Bag,
 }
 
 impl VolumeMatch {
     /// The empty scene.
     pub fn new(target: Arc<Target>, sigma: f64) -> VolumeMatch {
         let counters = Counters::new(target.grid.dims());
-        VolumeMatch { target, sigma, counters, filled: 0, inside: 0, boxes: BoxTree::default() }
+        VolumeMatch { target, sigma, counters, filled: 0, inside: 0, bag: Bag::default() }
     }
 
     /// Number of cells that are filled in both or empty in both.
@@ -134,7 +146,7 @@ impl VolumeMatch {
 
     /// Sum over the six sides of the length outside the domain, as a share of the domain's extent.
     pub fn overshoot(&self) -> f64 {
-        overshoot(&self.boxes.bounds(), self.target.grid.domain())
+        overshoot(&self.bag.bounds(), self.target.grid.domain())
     }
 
     /// Counts of shapes for each cell.
@@ -143,33 +155,13 @@ impl VolumeMatch {
     }
 }
 
-fn overshoot(scene: &Aabb, domain: &Aabb) -> f64 {
-    if scene.is_empty() {
-        return 0.0;
-    }
-    let extent = domain.extent();
-    let side = |a: usize| {
-        let below = (domain.low[a] - scene.low[a]).max(0.0);
-        let above = (scene.high[a] - domain.high[a]).max(0.0);
-        below / extent[a] + above / extent[a]
-    };
-    side(0) + side(1) + side(2)
-}
-
-/// ln N(x; mean, sd), nats.
-fn log_normal(x: f64, mean: f64, sd: f64) -> f64 {
-    const HALF_LOG_TAU: f64 = 0.918_938_533_204_672_8;
-    let z = (x - mean) / sd;
-    -HALF_LOG_TAU - sd.ln() - 0.5 * z * z
-}
-
 impl PartialEq for VolumeMatch {
     fn eq(&self, other: &VolumeMatch) -> bool {
         Arc::ptr_eq(&self.target, &other.target)
             && self.sigma == other.sigma
             && (self.filled, self.inside) == (other.filled, other.inside)
             && self.counters == other.counters
-            && super::same_bag(&self.boxes, &other.boxes)
+            && self.bag == other.bag
     }
 }
 
@@ -186,11 +178,11 @@ impl Sketch for VolumeMatch {
                 self.inside += change.inside;
             }
         }
-        self.boxes.insert(*primitive.aabb(), primitive.clone());
+        self.bag.add(primitive);
     }
 
     fn remove(&mut self, primitive: &Primitive) -> bool {
-        if self.boxes.remove(primitive.aabb(), |p| p == primitive).is_none() {
+        if !self.bag.remove(primitive) {
             return false;
         }
         for shape in primitive.shapes() {

@@ -2,6 +2,7 @@
 //!
 //! - [`arithmetic`]: conversions, rounding, small functions of numbers
 //! - [`mathematics`]: Python's `math`
+//! - [`soft`]: soft constraints and smooth bends
 //! - [`sequences`]: making, ordering and folding sequences
 //! - [`strings`]: text, formatting and methods of built-in values
 //! - [`vectors`], [`shapes`]: points, directions, rotations, solids
@@ -15,6 +16,7 @@ pub mod dist;
 pub mod mathematics;
 pub mod sequences;
 pub mod shapes;
+pub mod soft;
 pub mod strings;
 pub mod vectors;
 
@@ -177,6 +179,13 @@ table! {
     "lgamma" 1 1 mathematics::lgamma;
     "erf" 1 1 mathematics::erf;
 
+    "softeq" 3 3 soft::softeq;
+    "soft_at_least" 3 3 soft::soft_at_least;
+    "soft_at_most" 3 3 soft::soft_at_most;
+    "smooth_max" 3 3 soft::smooth_max;
+    "smooth_min" 3 3 soft::smooth_min;
+    "smooth_abs" 2 2 soft::smooth_abs;
+
     "sum" 1 2 sequences::sum;
     "min" 1 ANY |a| sequences::extreme("min", &one_or_many(a)?, None);
     "max" 1 ANY |a| sequences::extreme("max", &one_or_many(a)?, None);
@@ -212,6 +221,7 @@ table! {
     "box" 2 7 shapes::cuboid;
     "cylinder" 3 8 shapes::cylinder;
     "limb" 4 7 shapes::limb;
+    "segment" 3 5 shapes::segment;
     "mesh" 2 6 shapes::mesh;
 }
 

@@ -1,4 +1,4 @@
-//! Shapes from values: the words `box`, `cylinder`, `limb` and `mesh`, their arguments in the order of their signatures.
+//! Shapes from values: the words `box`, `cylinder`, `limb`, `segment` and `mesh`, their arguments in the order of their signatures.
 //!
 //! A scene is made of plain numbers: what a recording scalar remembers ends here.
 
@@ -6,7 +6,7 @@ use std::any::Any;
 use std::cell::RefCell;
 use std::sync::Arc;
 
-use niwaki_geom::{GeomError, Look, Mat3, Shape, TriMesh, Vec3, vec3};
+use niwaki_geom::{Bark, Frame, GeomError, Look, Mat3, Shape, TriMesh, Vec3, vec3};
 
 use super::arithmetic::{real, whole};
 use super::vectors::three;
@@ -46,6 +46,24 @@ impl<S: Scalar> Arguments<'_, S> {
 
     fn direction(&self, at: usize) -> Result<Option<Vec3>, Fault> {
         self.given(at).map(|arg| point(self.word, arg)).transpose()
+    }
+
+    /// The parts of a tuple, list or record of `count`.
+    fn several(&self, at: usize, count: usize, expected: &str) -> Result<Vec<Value<S>>, Fault> {
+        let arg = self.needed(at)?;
+        let several = matches!(arg, Value::Tuple(_) | Value::List(_) | Value::Record(_));
+        if !several || iter_len(arg)? != count {
+            return Err(unfit(self.word, expected, arg));
+        }
+        iter_all(arg)
+    }
+
+    fn frame(&self, at: usize) -> Result<Frame, Fault> {
+        let parts = self.several(at, 4, "a frame (center, forward, up, radius)")?;
+        let [center, forward, up, radius] = &parts[..] else { unreachable!("counted above") };
+        let place = |value| point(self.word, value);
+        let radius = real(self.word, radius)?.value();
+        Ok(Frame { center: place(center)?, forward: place(forward)?, up: place(up)?, radius })
     }
 
     fn rotation(&self, at: usize) -> Result<Option<Mat3>, Fault> {
@@ -124,6 +142,19 @@ pub fn limb<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let radii = (given.number(2)?, given.number(3)?);
     let normals = (given.direction(4)?, given.direction(5)?);
     shape(Shape::limb(given.point(0)?, given.point(1)?, radii, normals, &given.look(None, None, 6)?))
+}
+
+/// `segment(start, split, end, onto, color)`.
+pub fn segment<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
+    let given = Arguments { word: "segment", args };
+    let onto = given.given(3).map(|_| {
+        let parts = given.several(3, 4, "a piece of bark (low, low_radius, high, high_radius)")?;
+        let place = |at: usize| point("segment", &parts[at]);
+        let radius = |at: usize| real("segment", &parts[at]).map(Scalar::value);
+        Ok(Bark { low: place(0)?, low_radius: radius(1)?, high: place(2)?, high_radius: radius(3)? })
+    });
+    let frames = [given.frame(0)?, given.frame(1)?, given.frame(2)?];
+    shape(Shape::segment(frames, onto.transpose()?, &given.look(None, None, 4)?))
 }
 
 /// `mesh(vertices, faces, center, rotation, scale, color)`.

@@ -280,6 +280,19 @@ pub enum SiteKind {
     },
     /// The value of a future.
     Force,
+    /// An element of a collection: the register holds the element, the result refers to it. Where activations are
+    /// dropped, the result is the element.
+    Cell {
+        /// Holds the element.
+        content: Operand,
+    },
+    /// As `Cell`, with the list that it is appended to: the list, then the element; the result is the longer list.
+    Append {
+        /// Holds the element.
+        content: Operand,
+    },
+    /// An element of a collection, read: `args[0]` at `args[1]`.
+    Read,
 }
 
 /// A lifted loop: its iterations are activations of their own.
@@ -308,6 +321,8 @@ pub struct Site {
     pub kind: SiteKind,
     /// Register for the result.
     pub to: Operand,
+    /// Whether the result is read.
+    pub is_read: bool,
     /// Arguments.
     pub args: Args,
     /// Hash of qualified function, what is called, the name assigned to, and the occurrence among equals:

@@ -8,6 +8,7 @@
 //! * [`state`]: nodes, registers, futures;
 //! * [`kept`]: traces: kept activations, and re-running what changed;
 //! * `interpret`: the loop over instructions; `registers`: from operands to values;
+//! * `known`: distributions of weights that were made before;
 //! * `operate`: operations of two operands; `construct`: instructions that make or take apart an aggregate;
 //! * `question`: choices and factors; `suspend`: what happens at any other site; `loops`: lifted loops;
 //! * [`stack`]: the model's own call stack, for messages.
@@ -18,6 +19,7 @@ mod construct;
 mod interpret;
 mod keep;
 pub mod kept;
+mod known;
 mod loops;
 mod operate;
 mod question;
@@ -31,6 +33,7 @@ use crate::fault::Fault;
 use crate::value::Value;
 use answers::Answers;
 use keep::Dropped;
+use known::Known;
 use niwaki_geom::Shape;
 use niwaki_math::Scalar;
 use stack::RunFault;
@@ -89,6 +92,7 @@ pub struct Machine<'p, S: Scalar = f64> {
     pure: Vec<PureCall>,
     buffer: Vec<Value<S>>,
     shapes: Vec<Shape>,
+    known: Known<S>,
     here: Here,
 }
 
@@ -102,6 +106,7 @@ impl<'p, S: Scalar> Machine<'p, S> {
             pure: Vec::new(),
             buffer: Vec::new(),
             shapes: Vec::new(),
+            known: Known::default(),
             here: Here { node: NodeId::NONE, function: program.entry, pc: 0 },
         }
     }

@@ -127,6 +127,11 @@ impl<S: Scalar> Machine<'_, S> {
         match site.kind {
             SiteKind::SampleDist | SiteKind::ObserveDist => as_dist(get!(0)),
             SiteKind::Sample { family } | SiteKind::Observe { family } => {
+                if let [only] = r.f.operands[args.range()]
+                    && let Some(row) = self.known.row(r.get(state, &self.scratch, only))
+                {
+                    return self.known.dist(row, family, r.get(state, &self.scratch, only));
+                }
                 Ok(made.insert(self.made(state, r, args, family)?))
             }
             _ => match index::index_ref(get!(0), get!(1)) {
@@ -186,7 +191,9 @@ impl<S: Scalar> Machine<'_, S> {
                 let args = Args { len: last as u16, ..site.args };
                 let dist = self.dist(state, r, site, args, &mut made)?;
                 let log = log_density(dist, &value)?;
-                state.registers[r.own + site.to.index()].store(value);
+                if site.is_read {
+                    state.registers[r.own + site.to.index()].store(value);
+                }
                 (Factor::Observe, log)
             }
         };

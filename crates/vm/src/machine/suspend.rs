@@ -7,7 +7,7 @@ use super::state::{FutureId, NodeId, State, Status};
 use super::{Machine, Stop};
 use crate::code::{Function, FunctionId, Mode, Operand, Place, Site, SiteId, SiteKind};
 use crate::fault::Fault;
-use crate::value::{Value, iter_get, iter_len};
+use crate::value::{Value, index, iter_get, iter_len, ops};
 use niwaki_math::Scalar;
 
 /// How to go on after a site.
@@ -111,6 +111,21 @@ impl<S: Scalar> Machine<'_, S> {
                 state.futures[future.0 as usize].status = Status::Waiting(node, FutureId(wanted));
                 state.runnable.retain(|f| *f != future);
                 Ok(After::Stop(Stop::Waiting))
+            }
+            SiteKind::Cell { .. } => {
+                let value = get!(0).clone();
+                state.registers[r.own + site.to.index()].store(value);
+                Ok(After::Next)
+            }
+            SiteKind::Append { .. } => {
+                let list = ops::append(get!(0).clone(), get!(1).clone())?;
+                state.registers[r.own + site.to.index()].store(list);
+                Ok(After::Next)
+            }
+            SiteKind::Read => {
+                let value = index::index(get!(0), get!(1))?;
+                state.registers[r.own + site.to.index()].store(value);
+                Ok(After::Next)
             }
             SiteKind::Loop(l) => self.begin_loop(state, r, node, site_id, site, l),
             other => unreachable!("`interpret` carries out {other:?} itself"),

@@ -54,6 +54,11 @@ impl<S: Scalar> Builder<'_, '_, S> {
         {
             return Ok(site);
         }
+        if self.mode != crate::code::Mode::Pure
+            && let Some(at) = self.collection(e)?
+        {
+            return Ok(at);
+        }
         match &e.kind {
             Literal(l) => Ok(self.literal(l)),
             Data(k) => self.data(*k),

@@ -71,6 +71,9 @@ pub(crate) fn reads_and_writes<S: Scalar>(f: &Function<S>, op: &Op) -> (Vec<Oper
                 reads.extend(l.over.into_iter().chain(run(l.carried)).chain(run(l.captures)));
                 writes.extend(run(l.out).into_iter().chain(l.exit.into_iter().flat_map(|(a, b)| [a, b])));
             }
+            if let SiteKind::Cell { content } | SiteKind::Append { content } = s.kind {
+                writes.push(content);
+            }
             (reads, writes)
         }
     }
@@ -129,15 +132,21 @@ pub(crate) fn place<S: Scalar>(f: &mut Function<S>, registers: usize) {
             node.join(&after[at]);
             let s = f.sites[site.0 as usize].clone();
             reads_and_writes(f, op).1.into_iter().for_each(|w| node.set(w));
-            // A proposal draws and scores from the node and the site alone; a query table is read in the same way.
+            // A proposal draws and scores from the node and the site alone; a query table is read in the same way; an
+            // append knows its list by where it lies, so it must live.
             let read_again = matches!(
                 s.kind,
-                SiteKind::Sample { .. } | SiteKind::SampleDist | SiteKind::SampleIndexed | SiteKind::Query
+                SiteKind::Sample { .. }
+                    | SiteKind::SampleDist
+                    | SiteKind::SampleIndexed
+                    | SiteKind::Query
+                    | SiteKind::Append { .. }
             );
             if read_again {
                 f.operands[s.args.range()].iter().for_each(|o| node.set(*o));
             }
             let unread = !after[at].has(s.to);
+            f.sites[site.0 as usize].is_read = !unread;
             match &mut f.sites[site.0 as usize].kind {
                 SiteKind::Future { detached, .. } | SiteKind::FutureApply { detached } => *detached = unread,
                 _ => {}
@@ -215,6 +224,9 @@ fn rewrite<S: Scalar>(f: &mut Function<S>, map: impl Fn(Operand) -> Operand) {
         if let SiteKind::Loop(l) = &mut s.kind {
             l.over = l.over.map(&map);
             l.exit = l.exit.map(|(a, b)| (map(a), map(b)));
+        }
+        if let SiteKind::Cell { content } | SiteKind::Append { content } = &mut s.kind {
+            *content = map(*content);
         }
     }
     for op in &mut f.code {

@@ -6,7 +6,7 @@
 
 use super::CompileError;
 use super::emit::{Builder, Result};
-use crate::code::{Args, Op, Operand, Site, SiteKind};
+use crate::code::{Args, Op, Operand, Place, Site, SiteKind};
 use crate::core::{Expr, ExprKind, Name};
 use crate::machine::address;
 use niwaki_math::{Family, Scalar};
@@ -121,7 +121,9 @@ impl<S: Scalar> Builder<'_, '_, S> {
                 }
                 Ok((pick(SiteKind::Sample { family }, SiteKind::Observe { family }), name.clone(), operands))
             }
-            ExprKind::Op(op, parts) if &**op == "index" && parts.len() == 2 => {
+            ExprKind::Op(op, parts)
+                if &**op == "index" && parts.len() == 2 && !self.unit.collections.contains(d) =>
+            {
                 let operands = self.exprs(parts)?;
                 Ok((pick(SiteKind::SampleIndexed, SiteKind::ObserveIndexed), Name::from("dist"), operands))
             }
@@ -130,6 +132,56 @@ impl<S: Scalar> Builder<'_, '_, S> {
                 Ok((pick(SiteKind::SampleDist, SiteKind::ObserveDist), Name::from("dist"), vec![at]))
             }
         }
+    }
+
+    /// Lowers what makes elements of a collection or reads one, outside of pure functions.
+    pub fn collection(&mut self, e: &Expr) -> Result<Option<Operand>> {
+        if !self.unit.collections.contains(e) {
+            return Ok(None);
+        }
+        match &e.kind {
+            ExprKind::List(items) => {
+                let cells = items.iter().map(|item| self.cell(item)).collect::<Result<Vec<_>>>()?;
+                let (to, args) = (self.register()?, self.args(&cells));
+                self.op(Op::List { to, args });
+                Ok(Some(to))
+            }
+            ExprKind::Op(name, parts) if &**name == "append" => {
+                let list = self.expr(&parts[0])?;
+                Ok(Some(self.append(list, &parts[1])?))
+            }
+            // `xs + [x]`
+            ExprKind::Op(name, parts) if &**name == "add" => match &parts[1].kind {
+                ExprKind::List(items) if items.len() == 1 => {
+                    let list = self.expr(&parts[0])?;
+                    Ok(Some(self.append(list, &items[0])?))
+                }
+                _ => Ok(None),
+            },
+            ExprKind::Op(_, parts) => {
+                let operands = self.exprs(parts)?;
+                let name = Name::from("[read]");
+                Ok(Some(self.add_site(SiteKind::Read, &name, (&None, name.clone()), &operands)?))
+            }
+            _ => Ok(None),
+        }
+    }
+
+    /// A collection made longer by one element.
+    fn append(&mut self, list: Operand, item: &Expr) -> Result<Operand> {
+        let value = self.expr(item)?;
+        let (name, content) = (Name::from("[cell]"), self.register()?);
+        self.add_site(SiteKind::Append { content }, &name, (&None, name.clone()), &[list, value])
+    }
+
+    /// An element of a collection. Constants are elements as they are.
+    fn cell(&mut self, item: &Expr) -> Result<Operand> {
+        let value = self.expr(item)?;
+        if value.place() == Place::Constant {
+            return Ok(value);
+        }
+        let (name, content) = (Name::from("[cell]"), self.register()?);
+        self.add_site(SiteKind::Cell { content }, &name, (&None, name.clone()), &[value])
     }
 
     /// Adds a site; its result goes into a register of its own. `label` is the one given in the text, and the one
@@ -153,7 +205,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
             (None, n) => Name::from(format!("{named}#{n}")),
         };
         let key = address::site_key(&key.0, key.1);
-        self.sites.push(Site { kind, to, args, key, label, span: self.span, next: 0 });
+        self.sites.push(Site { kind, to, is_read: true, args, key, label, span: self.span, next: 0 });
         self.op(Op::Site { site: crate::code::SiteId((self.sites.len() - 1) as u16) });
         Ok(to)
     }

@@ -48,6 +48,12 @@ impl<S: Scalar> Tuple<S> {
         }
     }
 
+    /// Where it lies in memory: as long as the tuple lives, no other tuple has that address.
+    #[inline]
+    pub fn address(&self) -> usize {
+        Arc::as_ptr(&self.0) as usize
+    }
+
     /// True when both are the same tuple in memory.
     #[inline]
     pub fn ptr_eq(&self, other: &Tuple<S>) -> bool {

@@ -132,6 +132,12 @@ impl<S: Scalar> List<S> {
         self.0.len == 0
     }
 
+    /// Where it lies in memory: as long as the list lives, no other list has that address.
+    #[inline]
+    pub fn address(&self) -> usize {
+        Arc::as_ptr(&self.0) as usize
+    }
+
     /// True when both are the same list in memory.
     #[inline]
     pub fn ptr_eq(&self, other: &List<S>) -> bool {

@@ -133,4 +133,74 @@ pub const PROGRAMS: &[(&str, &str)] = &[
             (set $x (cond $b (sample (dist gaussian 1.0 1.0)) (call "coin" 0.5)))
             (do (factor (cond $b $x 0.1))) (return (tuple $a $b $x))) (entry "m"))"#,
     ),
+    (
+        "a list of components, read by points",
+        r#"(module (fn "m" (params)
+            (set $k (add 2 (sample (dist categorical (list 0.5 0.5)))))
+            (set $mus (list)) (for $i (range $k) (body (set $mus (append $mus (sample (dist gaussian 0.0 3.0))))))
+            (set $sds (list)) (for $i (range 3) (body (set $sds (add $sds (list (sample (dist uniform 0.5 2.0)))))))
+            (for $i (range 9) (body
+              (set $z (sample (dist discrete_uniform 0 (sub $k 1))))
+              (do (observe (dist gaussian (index $mus $z) (index $sds $z)) (sub (mod $i 3) 1.0)))
+              (do (query $i (index $mus $z)))))
+            (return $mus)) (entry "m"))"#,
+    ),
+    (
+        "a list that grows while it is read",
+        r#"(module (fn "m" (params)
+            (set $xs (list 0.5))
+            (for $i (range 10) (body
+              (set $x (sample (dist gaussian (index $xs -1) 1.0)))
+              (do (observe (dist gaussian $x 2.0) 1.0))
+              (if (gt $x 0.0) (then (set $xs (append $xs $x))))
+              (if (gt $x 3.0) (then (break)))))
+            (do (factor (mul -0.1 (len $xs))))
+            (return $xs)) (entry "m"))"#,
+    ),
+    (
+        "sums along a list",
+        r#"(module (fn "m" (params)
+            (set $s (list 0.0))
+            (for $i (range 8) (body (set $s (append $s (add (index $s -1) (sample (dist gaussian 0.0 1.0)))))))
+            (do (observe (dist gaussian (index $s 8) 0.5) 2.0))
+            (do (observe (dist gaussian (index $s 4) 0.5) -1.0))
+            (return $s)) (entry "m"))"#,
+    ),
+    (
+        "lists by recursion, by halves and passed down",
+        r#"(module
+          (fn "halves" (params $i $j $mus)
+            (if (eq (sub $j $i) 1) (then
+              (set $z (sample (dist categorical (list 0.5 0.3 0.2))))
+              (do (observe (dist gaussian (index $mus $z) 1.0) (mul 0.3 $i)))
+              (return (list (index $mus $z)))))
+            (set $m (floordiv (add $i $j) 2))
+            (return (add (call "halves" $i $m $mus) (call "halves" $m $j $mus))))
+          (fn "down" (params $n $mus)
+            (if (eq $n 0) (then (return $mus)))
+            (return (call "down" (sub $n 1) (append $mus (sample (dist gaussian (index $mus 0) 1.0))))))
+          (fn "m" (params)
+            (set $mus (call "down" 3 (list (sample (dist gaussian 0.0 2.0)))))
+            (set $all (call "halves" 0 7 $mus))
+            (set $c (sample (dist bernoulli 0.5)))
+            (do (factor (cond $c (index $all 2) (mul -1.0 (index $all 3)))))
+            (return $all)) (entry "m"))"#,
+    ),
+    (
+        "indices that switch, elements that steer",
+        r#"(module
+          (fn "use" (params $xs $i)
+            (set $x (index $xs $i))
+            (if (gt $x 0.0) (then (set $y (sample (dist gaussian $x 1.0))) (do (factor (neg (mul $y $y)))) (return $y)))
+            (return $x))
+          (fn "m" (params)
+            (set $xs (list)) (for $i (range 4) (body (set $xs (append $xs (sample (dist gaussian 0.0 1.0))))))
+            (set $which (sample (dist discrete_uniform 0 3)))
+            (set $a (call "use" $xs $which))
+            (set $b (call "use" $xs (sub 3 $which)))
+            (set $ys (list $a $b))
+            (set $d (sample (dist gaussian (index $ys (mod $which 2)) 1.0)))
+            (do (observe (dist gaussian (add $d $a) 1.0) 0.5))
+            (return $ys)) (entry "m"))"#,
+    ),
 ];

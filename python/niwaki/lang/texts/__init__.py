@@ -4,6 +4,7 @@ message    the shape of an entry
 language   the compiler: a model breaks a rule
 faults     the engine and the plain run: a model failed while it ran
 inputs     settings and arguments
+views      images to match, cameras, lights, receivers and obstacles; part of inputs
 files      files, and the settings of targets and pictures
 doors      settings, models and run files at Python's and the shell's door
 """

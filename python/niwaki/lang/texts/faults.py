@@ -192,7 +192,7 @@ FAULTS = (
         "not-a-shape",
         "a value that is not a shape is added to the scene",
         "not a shape",
-        help="emit what `box`, `cylinder`, `limb` and `mesh` give, or lists of those",
+        help="emit what `box`, `cylinder`, `limb`, `segment` and `mesh` give, or lists of those",
         example="emit((0, 0, 0))",
         cure="emit(box((0, 0, 0), (1, 1, 1)))",
     ),

@@ -77,4 +77,20 @@ FILES = (
         example="a folder that is not there",
         cure="a folder that is there",
     ),
+    Message(
+        "not-a-solid",
+        "{count} of {total} shapes are not solids that can be printed",
+        why="{listed}",
+        help="close these meshes in the program that made them, or write .glb, .obj or .ply, which take any mesh",
+        example='a mesh with a hole, and result.export("ship.stl")',
+        cure='result.export("ship.glb")',
+    ),
+    Message(
+        "missing-extra",
+        "{task} needs the extra `{extra}`, which is not installed",
+        why="the core install is kept small",
+        help="install it with `pip install 'niwaki[{extra}]'`",
+        example='result.export("ship.stl") where manifold3d is not installed',
+        cure="the same after installing the extra",
+    ),
 )

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from niwaki.lang.texts.message import Message
+from niwaki.lang.texts.views import VIEWS
 
 INPUTS = (
+    *VIEWS,
     Message(
         "no-cell-filled",
         "no cell of the grid is filled by `{path}`",
@@ -34,6 +36,14 @@ INPUTS = (
         help="ask for at least one",
         example="importance(0)",
         cure="importance(1000)",
+    ),
+    Message(
+        "no-arviz",
+        "the package ArviZ is not installed",
+        why="draws are handed to ArviZ in its own containers",
+        help="install it with `pip install 'niwaki[arviz]'`, or use `niwaki.diagnostics`, which needs NumPy only",
+        example="result.to_arviz() without ArviZ",
+        cure="pip install 'niwaki[arviz]'",
     ),
     Message(
         "too-many-runs",

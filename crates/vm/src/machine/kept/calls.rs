@@ -125,6 +125,7 @@ impl<S: Scalar> Kept<S> {
 
     #[inline]
     fn enter_call(&mut self, child: NodeId) -> After {
+        self.leaves_its_activation();
         self.depth += 1;
         self.counters.entered += 1;
         self.note(Step::Entered(child));
@@ -160,6 +161,7 @@ impl<S: Scalar> Kept<S> {
         } else if self.early && !changed {
             return None;
         } else {
+            self.leaves_its_activation();
             self.counters.entered += 1;
             self.note(Step::Entered(parent));
         }
@@ -180,13 +182,15 @@ impl<S: Scalar> Kept<S> {
             | SiteKind::Future { .. }
             | SiteKind::FutureApply { .. }
             | SiteKind::Loop(_) => self.remove(program, state, NodeId(slot.held)),
-            _ => self.withdraw(kind, at),
+            SiteKind::Read => return self.withdraw(kind, at, node, site),
+            _ => self.withdraw(kind, at, node, site),
         }
         self.write_slot(self.is_new(state, node), at, Slot::EMPTY);
     }
 
     /// Takes an activation away with all below it. Its nodes stay as they are until the transaction is kept.
     pub(super) fn remove(&mut self, program: &Program<S>, state: &State<S>, node: NodeId) {
+        self.leaves_its_activation();
         let from = self.journal.removed.len();
         self.journal.removed.push(node);
         let mut next = from;
@@ -212,7 +216,7 @@ impl<S: Scalar> Kept<S> {
                     | SiteKind::Future { .. }
                     | SiteKind::FutureApply { .. }
                     | SiteKind::Loop(_) => self.journal.removed.push(NodeId(slot.held)),
-                    kind => self.withdraw(kind, at),
+                    kind => self.withdraw(kind, at, id, i as u16),
                 }
             }
         }

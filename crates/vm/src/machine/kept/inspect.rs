@@ -105,9 +105,12 @@ impl<S: Scalar> Trace<S> {
                     }
                     SiteKind::Query => {
                         let [key, written] = f.operands[site.args.range()] else { continue };
-                        each(place, Item::Query(value(key), value(written)));
+                        each(
+                            place,
+                            Item::Query(value(key), &self.kept.resolved(&self.state, value(written))),
+                        );
                     }
-                    SiteKind::Force => {}
+                    SiteKind::Force | SiteKind::Cell { .. } | SiteKind::Append { .. } | SiteKind::Read => {}
                 }
             }
         }

@@ -4,6 +4,7 @@
 //! gets its first value back. An activation made in the transaction needs no entries: it goes as a whole.
 
 use super::super::state::NodeId;
+use super::cells::Reader;
 use super::slot::Slot;
 use crate::value::Value;
 use niwaki_math::Scalar;
@@ -24,6 +25,11 @@ pub(crate) struct Journal<S: Scalar> {
     pub retracted: Vec<u32>,
     pub births: Vec<Birth>,
     pub deaths: Vec<u32>,
+    /// Reads that went to another list of readers, and where they stood.
+    pub reads: Vec<(Reader, u32)>,
+    /// Lists of readers of cells that were made, and of those taken away.
+    pub cells: Vec<u32>,
+    pub dead_cells: Vec<u32>,
     /// Choices that were drawn anew where they stand: address, and the value before.
     pub anew: Vec<(u128, Value<S>)>,
 }
@@ -58,6 +64,9 @@ impl<S: Scalar> Default for Journal<S> {
             retracted: vec![],
             births: vec![],
             deaths: vec![],
+            reads: vec![],
+            cells: vec![],
+            dead_cells: vec![],
             anew: vec![],
         }
     }
@@ -76,6 +85,9 @@ impl<S: Scalar> Journal<S> {
         self.retracted.clear();
         self.births.clear();
         self.deaths.clear();
+        self.reads.clear();
+        self.cells.clear();
+        self.dead_cells.clear();
         self.anew.clear();
     }
 }

@@ -114,6 +114,7 @@ impl<S: Scalar> Kept<S> {
             }
             let element = (count != usize::MAX).then(|| iter_get(&over, i));
             let Some(child) = self.loops[list].get(i).copied() else {
+                self.leaves_its_activation();
                 if handed == Handed::Unchanged {
                     // The loop has grown: what its last iteration left is what it left the owner.
                     self.gather_left(machine, state, header);
@@ -153,6 +154,7 @@ impl<S: Scalar> Kept<S> {
                 }
             }
             if changed || !self.reuse || self.is_marked(child) {
+                self.leaves_its_activation();
                 self.counters.entered += 1;
                 self.note(Step::Entered(child));
                 return Ok(Next::Enter(child));
@@ -185,6 +187,46 @@ impl<S: Scalar> Kept<S> {
         let next = self.loops[above.slots as usize].get(i + 1).copied();
         let is_new = n.made == self.now;
         let operands = &r.f.operands[carried.range()];
+        let is_base = self.depth == 0;
+        let active = match self.active.last() {
+            Some(active) if active.header == header && !is_base => *active,
+            _ => Active { header, captures: false, over: false },
+        };
+        if let Some(next) = next
+            && self.reuse
+            && !active.over
+            && (self.early || !is_base)
+            && kind == exit::NEXT
+            && i64::from(n.pc) == kind
+        {
+            // The frequent case: nothing but what is handed on, or what all iterations capture, can have changed.
+            let mut changed = false;
+            if !operands.is_empty() {
+                let first = usize::from(!matches!(state.registers[above.registers as usize], Value::None));
+                let to = state.nodes[next.0 as usize].registers as usize + first;
+                for (k, o) in operands.iter().enumerate() {
+                    let value = r.get(state, &machine.scratch, *o);
+                    if !same(value, &state.registers[to + k]) {
+                        let value = value.clone();
+                        let old = std::mem::replace(&mut state.registers[to + k], value);
+                        self.journal.registers.push(((to + k) as u32, old));
+                        changed = true;
+                    }
+                }
+            }
+            if changed || active.captures || self.is_marked(next) {
+                self.leaves_its_activation();
+                self.counters.entered += 1;
+                self.note(Step::Entered(next));
+                return Ok(Some((next, 0)));
+            }
+            if is_base {
+                return Ok(None);
+            }
+            if !self.is_marked(header) {
+                return Ok(self.go_on(machine, state, header, false, false));
+            }
+        }
         let mut unchanged = !is_new && i64::from(n.pc) == kind;
         if unchanged {
             let value = |k: usize| r.get(state, &machine.scratch, operands[k]);
@@ -206,11 +248,6 @@ impl<S: Scalar> Kept<S> {
             }
             state.nodes[node.0 as usize].pc = kind as u32;
         }
-        let is_base = self.depth == 0;
-        let active = match self.active.last() {
-            Some(active) if active.header == header && !is_base => *active,
-            _ => Active { header, captures: false, over: false },
-        };
         if unchanged && self.reuse {
             if is_base && self.early {
                 return Ok(None);
@@ -251,6 +288,7 @@ impl<S: Scalar> Kept<S> {
         let n = &state.nodes[header.0 as usize];
         let owner = &state.nodes[n.parent.0 as usize];
         if is_base {
+            self.leaves_its_activation();
             self.counters.entered += 1;
             self.note(Step::Entered(n.parent));
         }

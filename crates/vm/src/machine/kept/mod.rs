@@ -8,6 +8,7 @@
 //! * `slot`, `journal`: what is remembered, and what can be undone;
 //! * `questions`: choices, factors, emits and queries that are reached again;
 //! * `calls`, `loops`: activations that are entered, skipped, made and taken away;
+//! * `cells`: elements of collections, and those who read them;
 //! * `transaction`: changing choices, keeping or undoing it; `changes`: what that did to the choices;
 //! * [`inspect`]: what a trace holds, in program order.
 //!
@@ -16,6 +17,7 @@
 //! Source: C3, dissertation chapter 3: its cache is the slots, its continuations are (node, program counter).
 
 mod calls;
+mod cells;
 mod changes;
 pub mod inspect;
 mod journal;
@@ -37,6 +39,7 @@ use super::suspend::After;
 use crate::code::{Args, Mode, Program, SiteId};
 use crate::fault::Fault;
 use crate::value::{Value, same};
+use cells::{Reader, Readers};
 use journal::Journal;
 use niwaki_geom::Primitive;
 use niwaki_math::Scalar;
@@ -133,6 +136,9 @@ pub(crate) struct Kept<S: Scalar> {
     pub choices: Vec<ChoiceAt>,
     pub emits: Vec<Option<Primitive>>,
     pub free_emits: Vec<u32>,
+    /// Those who read each cell.
+    pub readers: Vec<Readers>,
+    pub free_readers: Vec<u32>,
     pub result: Value<S>,
     pub totals: Totals,
     pub counters: Counters,
@@ -158,6 +164,12 @@ pub(crate) struct Kept<S: Scalar> {
     /// Transaction in which a node was marked as standing above a changed choice.
     marks: Vec<u32>,
     marking: bool,
+    /// Readers of changed cells, and how many of them have been taken up.
+    woken: Vec<Reader>,
+    taken: usize,
+    /// The run must not leave the activation in hand; and whether it did.
+    confined: bool,
+    tangled: bool,
 }
 
 /// A run whose activations are kept.
@@ -175,6 +187,8 @@ impl<S: Scalar> Kept<S> {
             choices: vec![],
             emits: vec![],
             free_emits: vec![],
+            readers: vec![],
+            free_readers: vec![],
             result: Value::None,
             totals: Totals::default(),
             counters: Counters::default(),
@@ -194,6 +208,10 @@ impl<S: Scalar> Kept<S> {
             active: vec![],
             marks: vec![],
             marking: false,
+            woken: vec![],
+            taken: 0,
+            confined: false,
+            tangled: false,
         }
     }
 
@@ -326,7 +344,8 @@ impl<S: Scalar> Keep<S> for Kept<S> {
         node: NodeId,
         number: SiteId,
     ) -> Result<After, Halt> {
-        self.carry_out(machine, state, answers, r, node, number)
+        let after = self.carry_out(machine, state, answers, r, node, number)?;
+        if self.tangled { Err(Halt::Impossible) } else { Ok(after) }
     }
 
     fn clear(&mut self, machine: &Machine<'_, S>, state: &mut State<S>, node: NodeId, from: u16, to: u16) {
@@ -342,7 +361,8 @@ impl<S: Scalar> Keep<S> for Kept<S> {
         node: NodeId,
         value: Value<S>,
     ) -> Option<(NodeId, u32)> {
-        self.return_to_caller(machine.program, state, node, value)
+        let next = self.return_to_caller(machine.program, state, node, value);
+        next.filter(|_| !self.tangled)
     }
 
     fn end_iteration(
@@ -354,7 +374,8 @@ impl<S: Scalar> Keep<S> for Kept<S> {
         exit: i64,
         carried: Args,
     ) -> Result<Option<(NodeId, u32)>, Fault> {
-        self.end_of_iteration(machine, state, r, node, exit, carried)
+        let next = self.end_of_iteration(machine, state, r, node, exit, carried)?;
+        Ok(next.filter(|_| !self.tangled))
     }
 
     fn count(&mut self, instructions: u64) {
@@ -374,8 +395,8 @@ impl<S: Scalar> Trace<S> {
     }
 
     /// What the program returned.
-    pub fn result(&self) -> &Value<S> {
-        &self.kept.result
+    pub fn result(&self) -> Value<S> {
+        self.kept.resolved(&self.state, &self.kept.result)
     }
 
     /// How many choices it has.

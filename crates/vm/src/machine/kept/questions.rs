@@ -6,6 +6,7 @@ use super::super::question::{Halt, as_real};
 use super::super::registers::Registers;
 use super::super::state::{NodeId, State};
 use super::super::suspend::After;
+use super::cells::Reader;
 use super::journal::Birth;
 use super::{Kept, Slot};
 use crate::code::{Args, Site, SiteId, SiteKind};
@@ -62,6 +63,7 @@ impl<S: Scalar> Kept<S> {
     }
 
     /// Carries out a site.
+    #[inline(always)]
     pub(super) fn carry_out<A: Answers<S>>(
         &mut self,
         machine: &mut Machine<'_, S>,
@@ -97,6 +99,20 @@ impl<S: Scalar> Kept<S> {
                 if !self.slots[at].is_filled() {
                     self.write_slot(self.quiet, at, Slot { held: 0, mark: 0, log: 0.0 });
                 }
+                Ok(After::Next)
+            }
+            SiteKind::Cell { content } => {
+                let at = Kept::slot_at(state, node, number.0 as usize);
+                self.cell(state, &machine.scratch, r, at, site, *content);
+                Ok(After::Next)
+            }
+            SiteKind::Append { content } => {
+                let at = Kept::slot_at(state, node, number.0 as usize);
+                self.append(state, &machine.scratch, r, at, site, *content)?;
+                Ok(After::Next)
+            }
+            SiteKind::Read => {
+                self.read(state, &machine.scratch, r, node, number.0, site)?;
                 Ok(After::Next)
             }
             SiteKind::Force => {
@@ -138,6 +154,7 @@ impl<S: Scalar> Kept<S> {
             }
             return if log == f64::NEG_INFINITY { Err(Halt::Impossible) } else { Ok(()) };
         }
+        self.leaves_its_activation();
         let question = At { site, function: r.f, node, state, program };
         let address = question.address();
         let Answer::Go(value) = answers.choice(&question, dist)? else { return Err(Halt::Paused) };
@@ -187,7 +204,9 @@ impl<S: Scalar> Kept<S> {
                 let value = r.get(state, &machine.scratch, operand).clone();
                 let dist = machine.dist(state, r, site, args, &mut made)?;
                 let log = log_density(dist, &value)?.value();
-                self.write_to(state, self.quiet, r.own + site.to.index(), value);
+                if site.is_read {
+                    self.write_to(state, self.quiet, r.own + site.to.index(), value);
+                }
                 log
             }
         };
@@ -243,8 +262,9 @@ impl<S: Scalar> Kept<S> {
     }
 
     /// Takes away what a question's slot holds.
-    pub(super) fn withdraw(&mut self, kind: &SiteKind, at: usize) {
+    pub(super) fn withdraw(&mut self, kind: &SiteKind, at: usize, node: NodeId, site: u16) {
         let slot = self.slots[at];
+        self.leaves_its_activation();
         match kind {
             SiteKind::Sample { .. } | SiteKind::SampleDist | SiteKind::SampleIndexed => {
                 debug_assert!(slot.held & Slot::BORN == 0, "a site is met once in a transaction");
@@ -260,6 +280,12 @@ impl<S: Scalar> Kept<S> {
             | SiteKind::Factor
             | SiteKind::Condition => self.add(false, -slot.log),
             SiteKind::Emit => self.journal.retracted.push(slot.held),
+            SiteKind::Cell { .. } | SiteKind::Append { .. } => self.journal.dead_cells.push(slot.held),
+            SiteKind::Read => {
+                let reader = Reader { node, site, slot: at as u32 };
+                self.journal.reads.push((reader, slot.held));
+                self.subscribe(reader, Slot::NOTHING);
+            }
             _ => {}
         }
     }

@@ -8,6 +8,8 @@
 //! | loop | the loop's node | | |
 //! | emit | row of its primitive | | |
 //! | query, force | 0 | | |
+//! | cell | the list of its readers | | (append: address of the list before, as bits) |
+//! | read | the list in which it stands (or `UNWATCHED`) | its place there | |
 //!
 //! The value of a choice, the result of a call and what a query wrote lie in registers.
 
@@ -22,6 +24,9 @@ pub(crate) struct Slot {
 impl Slot {
     /// `held` of a slot whose site has not run, or is not on the path taken.
     pub const NOTHING: u32 = u32::MAX;
+
+    /// `held` of a read whose element is no cell; every list of readers has a smaller number.
+    pub const UNWATCHED: u32 = u32::MAX - 1;
 
     /// The slot of a site that is not on the path.
     pub const EMPTY: Slot = Slot { held: Slot::NOTHING, mark: 0, log: 0.0 };

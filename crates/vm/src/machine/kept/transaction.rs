@@ -75,6 +75,9 @@ impl<S: Scalar> Kept<S> {
         self.depth = 0;
         self.active.clear();
         self.marking = false;
+        self.woken.clear();
+        self.taken = 0;
+        (self.confined, self.tangled) = (false, false);
     }
 
     /// Log densities of the proposal itself: of changing the changed choices, and of changing them back.
@@ -146,12 +149,25 @@ impl<S: Scalar> Trace<S> {
             kept.emits[row as usize] = None;
             kept.free_emits.push(row);
         }
+        while let Some(id) = kept.journal.dead_cells.pop() {
+            debug_assert!(kept.readers[id as usize].all.is_empty(), "a cell is read by those who can see it");
+            kept.free_readers.push(id);
+        }
         kept.close();
     }
 
     /// Undoes what the open transaction did: the trace is as before, bit for bit.
     pub fn rollback(&mut self, program: &Program<S>) {
+        self.undo(program);
+        self.kept.close();
+    }
+
+    /// Undoes what was done, and leaves the transaction open.
+    fn undo(&mut self, program: &Program<S>) {
         let (state, kept) = (&mut self.state, &mut self.kept);
+        while let Some((reader, held)) = kept.journal.reads.pop() {
+            kept.subscribe(reader, held);
+        }
         while let Some((place, old)) = kept.journal.registers.pop() {
             state.registers[place as usize] = old;
         }
@@ -173,11 +189,15 @@ impl<S: Scalar> Trace<S> {
             kept.emits[row as usize] = None;
             kept.free_emits.push(row);
         }
+        while let Some(id) = kept.journal.cells.pop() {
+            kept.free_readers.push(id);
+        }
         kept.totals = kept.before;
+        (kept.fresh, kept.stale) = (0.0, 0.0);
         if let Some(result) = kept.result_before.take() {
             kept.result = result;
         }
-        kept.close();
+        kept.journal.clear();
     }
 }
 
@@ -228,18 +248,33 @@ impl<S: Scalar> Machine<'_, S> {
         kept.prepare(strategy);
         kept.changed.push((at as u32, proposed.forward, proposed.backward));
         kept.slots[at].mark |= Slot::CHANGED;
-        kept.write_to(state, false, place, proposed.value);
+        let value = proposed.value;
+        kept.write_to(state, false, place, value.clone());
         if log == f64::NEG_INFINITY {
             return Ok(Change::Impossible);
         }
         if strategy.starts_at_choice() {
             kept.set_log(false, at, log, true);
             let next = site.next as usize;
-            self.run_kept(trace, node, next, answers)
-        } else {
-            kept.mark_above(state, node);
-            self.run_kept(trace, NodeId(0), 0, answers)
+            let change = self.run_kept(trace, node, next, answers);
+            if trace.kept.woken.is_empty() {
+                return change;
+            }
+            if let (Ok(Change::Done), false) = (&change, trace.kept.tangled) {
+                if let Some(change) = self.take_up_readers(trace, answers)? {
+                    return Ok(change);
+                }
+            } else if !trace.kept.tangled {
+                return change;
+            }
+            // Once more, in program order.
+            trace.undo(program);
+            trace.kept.prepare(Strategy::Cache);
+            trace.kept.slots[at].mark |= Slot::CHANGED;
+            trace.kept.write_to(&mut trace.state, false, place, value);
         }
+        trace.kept.mark_above(&trace.state, node);
+        self.run_kept(trace, NodeId(0), 0, answers)
     }
 
     /// Changes many choices at once, and runs. It starts at the root: in program order the changed choices are met

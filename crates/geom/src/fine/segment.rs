@@ -1,0 +1,100 @@
+//! A segment of a tree: the smooth tube of a limb, which flares where it grows out of its parent's bark.
+//!
+//! The collar is what makes a fork look grown rather than stuck on. Its foot is a ring wider than the branch, dropped
+//! onto the parent's cone; over the first part of the branch the rows narrow to the branch and rise from the bark.
+//! At the foot the normals are the parent's own, so that light runs from one to the other without a seam.
+
+use super::limb::{between, close, dome, domed, join, row};
+use super::{FineMesh, unit_or};
+use crate::segment::{Bark, Frame};
+use crate::shape::Ring;
+use crate::vector::Vec3;
+
+/// The foot of the collar, in radii of the branch.
+const FOOT: f64 = 1.6;
+/// Widest foot, as a share of the parent's radius: a wider one would reach past its sides.
+const WIDEST: f64 = 0.96;
+/// The collar rises over this many radii of the branch.
+const RISE: f64 = 1.5;
+/// Rows of the collar.
+const COLLAR: usize = 8;
+/// Rows from the collar to the end.
+const STEPS: usize = 6;
+/// The foot is sunk to this share of the parent's radius, so that no crack shows.
+const SUNK: f64 = 0.985;
+
+/// The segment over `[start, split, end]`. The split ring is for the light geometry: a smooth bend needs none.
+pub fn grown(frames: &[Frame; 3], onto: Option<&Bark>) -> FineMesh {
+    let ring = |f: &Frame| Ring { center: f.center, normal: f.forward, radius: f.radius };
+    let (start, end) = (ring(&frames[0]), ring(&frames[2]));
+    match onto.and_then(|bark| Some((bark, bark.down(start.center)?))) {
+        None => domed(&start, &end),
+        Some((bark, down)) => collared(&start, &end, bark, down),
+    }
+}
+
+fn collared(start: &Ring, end: &Ring, bark: &Bark, down: Vec3) -> FineMesh {
+    let mut mesh = FineMesh::default();
+    let wide = 0.5 * (bark.low_radius + bark.high_radius);
+    let foot = FOOT.min(WIDEST * wide / start.radius).max(1.0);
+    let rise = (RISE * start.radius / (end.center - start.center).norm().max(1e-12)).min(0.8);
+    let mut below: Vec<u32> = Vec::new();
+    for step in 0..=COLLAR + STEPS {
+        // How much of the collar is left: 1 at the foot, 0 where the branch is itself.
+        let left = 1.0 - step.min(COLLAR) as f64 / COLLAR as f64;
+        let t = match step.checked_sub(COLLAR) {
+            None => rise * (1.0 - left) * (1.0 - left),
+            Some(more) => rise + (1.0 - rise) * more as f64 / STEPS as f64,
+        };
+        let ring = between(start, end, t);
+        let spread = ring.radius * (1.0 + (foot - 1.0) * left * left);
+        let next = row(&mut mesh, &ring, |out| {
+            let place = ring.center + out * spread;
+            let lowered = place + down * (bark.drop(place, down, SUNK) * left * left);
+            let (axis, _) = bark.below(place, 1.0);
+            let skin = unit_or(lowered - axis, out);
+            (lowered, skin * left + out * (1.0 - left))
+        });
+        match step {
+            0 => close(&mut mesh, &next, start.center + down * (start.radius * 0.5), down),
+            _ => join(&mut mesh, &below, &next),
+        }
+        below = next;
+    }
+    dome(&mut mesh, end, below);
+    mesh
+}
+
+#[cfg(test)]
+mod tests {
+    //! Claim: a collared segment is closed, its foot lies on the parent, and its end is the ring of the next one.
+    use super::*;
+    use crate::mesh::TriMesh;
+    use crate::vector::vec3;
+
+    #[test]
+    fn a_collar_is_closed_and_lies_on_the_bark() {
+        let up = vec3(0.0, 1.0, 0.0);
+        let frame = |x: f64, radius: f64| Frame {
+            center: vec3(x, 0.2 * (x - 1.05), 0.0),
+            forward: vec3(1.0, 0.0, 0.0),
+            up,
+            radius,
+        };
+        let bark =
+            Bark { low: vec3(0.0, -1.0, 0.0), low_radius: 1.1, high: vec3(0.0, 1.0, 0.0), high_radius: 0.9 };
+        for radius in [0.1, 0.4, 0.9] {
+            let frames = [frame(1.05, radius), frame(1.1, radius), frame(4.0, 0.8 * radius)];
+            let fine = grown(&frames, Some(&bark));
+            let mesh = TriMesh::new(fine.vertices.clone(), fine.faces.clone()).unwrap();
+            assert_eq!(mesh.open_edges(), 0);
+            for p in &fine.vertices[..super::super::ROUND] {
+                let out = (p.x * p.x + p.z * p.z).sqrt();
+                let here = 1.0 - 0.1 * p.y;
+                assert!((out / here / SUNK - 1.0).abs() < 0.02, "{out} {here}");
+            }
+            let six: f64 = mesh.corners().map(|[a, b, c]| a.dot(b.cross(c))).sum();
+            assert!(six > 0.0);
+        }
+    }
+}

@@ -1,0 +1,211 @@
+//! A segment of a tree: three rings, the middle one behind the bend, and perhaps a base that lies on a parent's bark.
+//!
+//! ```text
+//!        ___ end            From the split ring to the end the segment is a clean cone, on which branches stand.
+//!       /  /                From the start to the split it bends: a wedge that is thin on the inside of the bend.
+//!      /  / ___ split       The start ring is the end ring of the segment below, or is moved down onto the parent's
+//!     /__/--                cone (the weld).
+//!     |__| start
+//! ```
+//!
+//! The light geometry is the tube over the three rings (dissertation 2.3.3 and 5.5, the tree). Voxels take it as
+//! convex, which it nearly is: the hull bulges by a few hundredths of the radius, and where a base is welded on, over
+//! the hollow that the parent fills. Intersections may not: a branch stands on the cone without any gap. So a segment
+//! also has *pieces*, each convex, that stay clear of what they touch: the wedge, the cone, and instead of the wedge
+//! over a welded base one wedge for each strip of the base.
+
+use crate::convex::Convex;
+use crate::topology::Topology;
+use crate::vector::Vec3;
+use std::sync::{Arc, OnceLock};
+
+/// Sides of a segment's rings (dissertation chapter 5's light geometry). Four into it leaves two: see [`strips`].
+pub const SEGMENT_SIDES: usize = 10;
+
+/// A ring with a mark: a place, a direction, and where the first vertex lies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// Middle of the ring, scene units.
+    pub center: Vec3,
+    /// Unit direction across the ring, towards the tip.
+    pub forward: Vec3,
+    /// Unit direction to the first vertex, at right angles to `forward`.
+    pub up: Vec3,
+    /// Distance of the vertices from the middle.
+    pub radius: f64,
+}
+
+/// A piece of a parent's cone, on whose bark a branch begins.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bark {
+    /// A point of the axis, where the base begins.
+    pub low: Vec3,
+    /// The cone's radius there.
+    pub low_radius: f64,
+    /// A point of the axis, where the base ends.
+    pub high: Vec3,
+    /// The cone's radius there.
+    pub high_radius: f64,
+}
+
+impl Frame {
+    /// The point of the ring at `turn` (cosine and sine) from the mark, counter-clockwise seen against `forward`.
+    fn at(&self, (sin, cos): (f64, f64)) -> Vec3 {
+        let side = self.forward.cross(self.up);
+        self.center + (self.up * cos + side * sin) * self.radius
+    }
+}
+
+impl Bark {
+    /// Foot of `point` on the axis line and the radius there times `swell`.
+    pub(crate) fn below(&self, point: Vec3, swell: f64) -> (Vec3, f64) {
+        let along = self.high - self.low;
+        let t = (point - self.low).dot(along) / along.dot(along);
+        (self.low + along * t, swell * (self.low_radius + (self.high_radius - self.low_radius) * t))
+    }
+
+    /// How far `point` must move along the unit direction `down` to lie at the radius times `swell` from its foot.
+    ///
+    /// The smaller root of `|point + k down - foot| = radius`, its discriminant kept from falling below zero: the
+    /// foot stays where it is, which is exact for a cylinder and close for a slender cone.
+    pub(crate) fn drop(&self, point: Vec3, down: Vec3, swell: f64) -> f64 {
+        let (foot, radius) = self.below(point, swell);
+        let from = point - foot;
+        let half = from.dot(down);
+        -half - (half * half - from.dot(from) + radius * radius).max(0.0).sqrt()
+    }
+
+    /// The direction from the middle of a base at `center` to the axis.
+    pub(crate) fn down(&self, center: Vec3) -> Option<Vec3> {
+        ((self.low + self.high) * 0.5 - center).unit()
+    }
+}
+
+/// Corners of the three rings, start first; the start lies on the bark when there is one.
+pub(crate) fn corners(frames: &[Frame; 3], onto: Option<&Bark>) -> Option<Vec<Vec3>> {
+    let around = || crate::light::ring(SEGMENT_SIDES);
+    let mut corners: Vec<Vec3> = frames.iter().flat_map(|f| around().map(|turn| f.at(turn))).collect();
+    if let Some(bark) = onto {
+        let down = bark.down(frames[0].center)?;
+        // Chords between points this far out stay outside of the parent's inscribed polygon.
+        let swell = 1.0 / (std::f64::consts::PI / SEGMENT_SIDES as f64).cos();
+        for corner in &mut corners[..SEGMENT_SIDES] {
+            *corner = *corner + down * bark.drop(*corner, down, swell);
+        }
+    }
+    Some(corners)
+}
+
+/// The tube over three rings: both caps, and two bands of quadrangles.
+pub(crate) fn tube() -> Arc<Topology> {
+    static TUBE: OnceLock<Arc<Topology>> = OnceLock::new();
+    let build = || {
+        let n = SEGMENT_SIDES as u32;
+        let next = |k: u32| (k + 1) % n;
+        let band =
+            |row: u32| (0..n).map(move |k| vec![row + k, row + next(k), row + n + next(k), row + n + k]);
+        let caps = [(0..n).rev().collect(), (2 * n..3 * n).collect()];
+        let faces: Vec<Vec<u32>> = band(0).chain(band(n)).chain(caps).collect();
+        let mut tube = Topology::from_faces(3 * SEGMENT_SIDES, faces);
+        // Caps are cut along strips that run like the mark: on a welded base they lie along the parent.
+        tube.triangles.truncate(4 * SEGMENT_SIDES);
+        for [a, b, c, d] in strips() {
+            tube.triangles.extend([[a, c, b], [a, d, c]]);
+            tube.triangles.extend([[2 * n + a, 2 * n + b, 2 * n + c], [2 * n + a, 2 * n + c, 2 * n + d]]);
+        }
+        Arc::new(tube)
+    };
+    TUBE.get_or_init(build).clone()
+}
+
+/// A ring cut into quadrangles by lines parallel to the one from the mark to the vertex opposite.
+fn strips() -> impl Iterator<Item = [u32; 4]> {
+    const { assert!(SEGMENT_SIDES % 4 == 2) };
+    let (n, half) = (SEGMENT_SIDES as u32, SEGMENT_SIDES as u32 / 2);
+    [0, half].into_iter().flat_map(move |first| {
+        (0..half / 2).map(move |j| [first + j, first + j + 1, first + half - j - 1, (first + half - j) % n])
+    })
+}
+
+/// The convex pieces: the cone, and below the bend a wedge, or one over each strip of a welded base.
+pub(crate) fn pieces(corners: &[Vec3], welded: bool) -> Vec<Convex> {
+    let n = SEGMENT_SIDES;
+    let wedge = |strip: [u32; 4]| {
+        let low = strip.iter().map(|k| corners[*k as usize]);
+        low.chain(strip.iter().map(|k| corners[n + *k as usize])).collect::<Vec<Vec3>>()
+    };
+    // A piece without inside hides nothing.
+    let solid = |points: Vec<Vec3>, sides: usize| Convex::nearly(points, Topology::frustum(sides));
+    let cone = solid(corners[n..].to_vec(), n);
+    let below: Vec<Convex> = match welded {
+        true => strips().filter_map(|strip| solid(wedge(strip), 4)).collect(),
+        false => solid(corners[..2 * n].to_vec(), n).into_iter().collect(),
+    };
+    cone.into_iter().chain(below).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    //! Claim: a tube is closed; a welded base lies on its parent, and its pieces stay clear of it.
+    use super::*;
+    use crate::intersect::{Rule, intersects};
+    use crate::shape::Shape;
+    use crate::vector::vec3;
+    use crate::words::Look;
+
+    const UP: Vec3 = vec3(0.0, 1.0, 0.0);
+
+    fn frame(center: Vec3, forward: Vec3, up: Vec3, radius: f64) -> Frame {
+        Frame { center, forward, up, radius }
+    }
+
+    /// A cone along +y, and a branch at its middle whose base is as wide as `share` of it.
+    fn fork(share: f64) -> (Shape, Shape) {
+        let look = Look::default();
+        let x = vec3(1.0, 0.0, 0.0);
+        let trunk = [(0.0, 1.0), (0.2, 0.98), (4.0, 0.8)].map(|(y, r)| frame(UP * y, UP, x, r));
+        let bark = |y: f64| 0.98 + (0.8 - 0.98) * (y - 0.2) / 3.8;
+        let wide = share * bark(2.0);
+        let out = bark(2.0) / (std::f64::consts::PI / 10.0).cos();
+        let start = frame(x * out + UP * 2.0, x, UP, wide);
+        let split = frame(start.center + x * 0.3, x, UP, wide * 0.95);
+        let end = frame(start.center + x * 3.0, x, UP, wide * 0.8);
+        let onto = Bark {
+            low: UP * (2.0 - wide),
+            low_radius: bark(2.0 - wide),
+            high: UP * (2.0 + wide),
+            high_radius: bark(2.0 + wide),
+        };
+        let trunk = Shape::segment(trunk, None, &look).unwrap();
+        (trunk, Shape::segment([start, split, end], Some(onto), &look).unwrap())
+    }
+
+    #[test]
+    fn a_welded_branch_touches_its_parent_by_both_rules() {
+        for share in [0.2, 0.5, 0.8, 0.9] {
+            let (trunk, branch) = fork(share);
+            assert_eq!((trunk.world_mesh().open_edges(), branch.world_mesh().open_edges()), (0, 0));
+            for rule in [Rule::Solid, Rule::Surface] {
+                assert!(!intersects(&trunk, &branch, rule), "{share} {rule:?}");
+            }
+            // The base is on the bark, not above it: a tenth of the branch's radius lower, it is inside.
+            let lower: Vec<Vec3> =
+                branch.world_mesh().vertices().iter().map(|v| *v - vec3(0.12, 0.0, 0.0)).collect();
+            let mesh = crate::TriMesh::new(lower, tube().triangles.clone()).unwrap();
+            let lower = Shape::mesh(&Arc::new(mesh), Vec3::ZERO, 1.0, &Look::default()).unwrap();
+            for rule in [Rule::Solid, Rule::Surface] {
+                assert!(intersects(&trunk, &lower, rule), "{share} {rule:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn another_branch_through_a_welded_one_is_seen() {
+        let (_, branch) = fork(0.5);
+        let across =
+            Shape::cylinder(vec3(2.0, 2.0, 0.0), 0.2, 4.0, vec3(0.0, 0.0, 1.0), None, &Look::default());
+        for rule in [Rule::Solid, Rule::Surface] {
+            assert!(intersects(&branch, across.as_ref().unwrap(), rule));
+        }
+    }
+}

@@ -1,0 +1,76 @@
+//! A small block of counts, bit-sliced: plane `k` holds bit `k` of every count, one bit of 64 words for each cell.
+//!
+//! Adding a set of cells is a ripple carry, removing one a ripple borrow, 64 cells for each word operation:
+//!
+//! ```text
+//! carry = cells;   plane, carry = plane ^ carry, plane & carry      (then the next plane)
+//! borrow = cells;  plane, borrow = plane ^ borrow, !plane & borrow
+//! ```
+//!
+//! Planes appear when a count needs them and go when the last one of it is gone, so that equal counts are equal data.
+
+/// One bit for each cell of a brick.
+pub type Plane = [u64; 64];
+
+/// Counts of 64 words of cells.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Brick(Vec<Plane>);
+
+impl Brick {
+    /// Adds one to `cells` of a word; returns those of them that had none.
+    #[inline]
+    pub fn raise(&mut self, word: usize, cells: u64) -> u64 {
+        let (mut carry, mut before) = (cells, 0);
+        for plane in &mut self.0 {
+            let old = plane[word];
+            before |= old;
+            plane[word] = old ^ carry;
+            carry &= old;
+        }
+        if carry != 0 {
+            self.0.push([0; 64]);
+            let top = self.0.len() - 1;
+            self.0[top][word] = carry;
+        }
+        cells & !before
+    }
+
+    /// Takes one from `cells` of a word, all of which must have one; returns those of them that have none now.
+    #[inline]
+    pub fn lower(&mut self, word: usize, cells: u64) -> u64 {
+        let (mut borrow, mut after) = (cells, 0);
+        for plane in &mut self.0 {
+            let old = plane[word];
+            plane[word] = old ^ borrow;
+            borrow &= !old;
+            after |= plane[word];
+        }
+        debug_assert_eq!(borrow, 0, "a cell was emptied that nothing filled");
+        cells & !after
+    }
+
+    /// Drops planes that hold nothing; true when none is left.
+    #[inline]
+    pub fn trim(&mut self) -> bool {
+        while self.0.last().is_some_and(|top| top.iter().all(|w| *w == 0)) {
+            self.0.pop();
+        }
+        self.0.is_empty()
+    }
+
+    /// True when there is no count.
+    #[inline]
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Cells of a word that have a count.
+    pub fn any(&self, word: usize) -> u64 {
+        self.0.iter().fold(0, |all, plane| all | plane[word])
+    }
+
+    /// Count of one cell.
+    pub fn get(&self, word: usize, bit: usize) -> u32 {
+        self.0.iter().enumerate().map(|(k, plane)| ((plane[word] >> bit & 1) as u32) << k).sum()
+    }
+}

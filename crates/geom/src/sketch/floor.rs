@@ -1,0 +1,89 @@
+//! A floor: nothing may reach below it. Standing on it is free.
+//!
+//! The original's setting of object avoidance (a scene with any vertex below the floor scores zero), as a sketch of
+//! its own. Touching has the tolerance of intersections: a millionth of a shape's thickness.
+
+use super::bag::Bag;
+use super::{Sketch, SketchSpec};
+use crate::error::GeomError;
+use crate::intersect::SOLID_TOLERANCE;
+use crate::primitive::Primitive;
+use std::sync::Arc;
+
+struct FloorSpec {
+    height: f64,
+}
+
+/// Forbids scenes that reach below `height`, scene units along y.
+///
+/// # Errors
+/// `bad-floor` when the height is not finite.
+pub fn floor(height: f64) -> Result<Arc<dyn SketchSpec>, GeomError> {
+    if !height.is_finite() {
+        let message = format!("the floor is at {height}, expected a finite number");
+        return Err(GeomError::new("bad-floor", message));
+    }
+    Ok(Arc::new(FloorSpec { height }))
+}
+
+impl SketchSpec for FloorSpec {
+    fn name(&self) -> &'static str {
+        "floor"
+    }
+
+    fn start(&self) -> Box<dyn Sketch> {
+        Box::new(Floor { height: self.height, below: 0, bag: Bag::default() })
+    }
+}
+
+/// How many shapes reach below the floor.
+#[derive(Clone, Debug)]
+pub struct Floor {
+    height: f64,
+    below: u64,
+    bag: Bag,
+}
+
+impl Floor {
+    fn below(&self, primitive: &Primitive) -> u64 {
+        let under = |s: &&crate::shape::Shape| s.aabb().low.y < self.height - SOLID_TOLERANCE * s.thickness();
+        primitive.shapes().iter().filter(under).count() as u64
+    }
+}
+
+impl PartialEq for Floor {
+    fn eq(&self, other: &Floor) -> bool {
+        (self.height, self.below) == (other.height, other.below) && self.bag == other.bag
+    }
+}
+
+impl Sketch for Floor {
+    fn name(&self) -> &'static str {
+        "floor"
+    }
+
+    fn add(&mut self, primitive: &Primitive) {
+        self.below += self.below(primitive);
+        self.bag.add(primitive);
+    }
+
+    fn remove(&mut self, primitive: &Primitive) -> bool {
+        let there = self.bag.remove(primitive);
+        if there {
+            self.below -= self.below(primitive);
+        }
+        there
+    }
+
+    fn log_score(&self) -> f64 {
+        if self.below == 0 { 0.0 } else { f64::NEG_INFINITY }
+    }
+
+    fn fork(&self) -> Box<dyn Sketch> {
+        Box::new(self.clone())
+    }
+
+    fn measures(&self) -> Vec<(&'static str, f64)> {
+        vec![("below_floor", self.below as f64)]
+    }
+}

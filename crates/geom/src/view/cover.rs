@@ -1,0 +1,107 @@
+//! Which rays meet a shape: one bit for each ray, word by word, words without a bit left out.
+//!
+//! The tree of rays is walked once for each convex piece: a solid, or a triangle of a mesh. Boxes of rays outside of
+//! the outline are left, those inside are taken whole, and only bundles on its border are looked at ray by ray. So
+//! the price is that of the shape's own pixels.
+
+use super::outline::{Asked, Outline, of_convex, of_triangle};
+use super::rays::{Node, Rays};
+use crate::mesh::TriMesh;
+use crate::shape::Shape;
+
+/// A set of rays: words with their numbers, ascending, none zero.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Cover(Vec<(u32, u64)>);
+
+impl Cover {
+    /// Numbers and words, ascending.
+    pub fn words(&self) -> &[(u32, u64)] {
+        &self.0
+    }
+
+    /// Number of rays.
+    pub fn count(&self) -> usize {
+        self.0.iter().map(|(_, bits)| bits.count_ones() as usize).sum()
+    }
+
+    /// The numbers of the rays, ascending.
+    pub fn rays(&self) -> impl Iterator<Item = usize> + '_ {
+        self.0.iter().flat_map(|(word, bits)| {
+            (0..64).filter(move |k| bits >> k & 1 == 1).map(move |k| *word as usize * 64 + k)
+        })
+    }
+
+    /// Words may have come several times and in any order.
+    fn settled(mut words: Vec<(u32, u64)>) -> Cover {
+        words.sort_unstable_by_key(|(word, _)| *word);
+        words.dedup_by(|next, kept| {
+            let same = next.0 == kept.0;
+            if same {
+                kept.1 |= next.1;
+            }
+            same
+        });
+        Cover(words)
+    }
+}
+
+impl Rays {
+    /// The rays that meet `shape`.
+    pub fn meeting(&self, shape: &Shape) -> Cover {
+        let mut words = Vec::new();
+        let mut pieces = 0;
+        match shape.convex() {
+            Some(convex) => of_convex(convex, self.projection(), self.near, |outline| {
+                self.take(outline, &mut words);
+                pieces += 1;
+            }),
+            None => return self.meeting_mesh(shape.world_mesh()),
+        }
+        // The walk of one piece is in order.
+        if pieces == 1 { Cover(words) } else { Cover::settled(words) }
+    }
+
+    /// The rays that meet a triangle of `mesh`.
+    pub fn meeting_mesh(&self, mesh: &TriMesh) -> Cover {
+        let mut words = Vec::new();
+        for corners in mesh.corners() {
+            of_triangle(&corners, self.projection(), self.near, |outline| self.take(outline, &mut words));
+            // Not more than a few words for each bundle at any time, however many triangles there are.
+            if words.len() > 8 * self.words() + 1024 {
+                words = Cover::settled(std::mem::take(&mut words)).0;
+            }
+        }
+        Cover::settled(words)
+    }
+
+    /// The rays that meet one triangle.
+    pub(super) fn meeting_triangle(&self, corners: &[crate::vector::Vec3; 3]) -> Cover {
+        let mut words = Vec::new();
+        of_triangle(corners, self.projection(), self.near, |outline| self.take(outline, &mut words));
+        Cover(words)
+    }
+
+    fn take(&self, outline: &Outline, words: &mut Vec<(u32, u64)>) {
+        if let Some(root) = self.nodes.first() {
+            self.walk(root, 0, outline, outline.everything(), words);
+        }
+    }
+
+    /// The tree halves its rays, so this is shallow.
+    fn walk(&self, node: &Node, index: usize, outline: &Outline, asked: Asked, words: &mut Vec<(u32, u64)>) {
+        let Some(asked) = outline.ask(node, asked) else { return };
+        if asked.nothing() {
+            let range = node.first..node.first + node.count;
+            words.extend(range.map(|word| (word, self.bundles[word as usize].live)));
+        } else if node.second == 0 {
+            let bits = outline.meets(&self.bundles[node.first as usize], asked);
+            if bits != 0 {
+                words.push((node.first, bits));
+            }
+        } else {
+            for child in [index + 1, node.second as usize] {
+                self.walk(&self.nodes[child], child, outline, asked, words);
+            }
+        }
+    }
+}

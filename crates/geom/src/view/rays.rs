@@ -1,0 +1,200 @@
+//! A family of rays in bundles of 64, ordered so that near rays are in one bundle, in a tree over their plane.
+//!
+//! The rays of a camera meet in its place, those to a light are parallel. Either way each falls as a point on a
+//! plane, and a convex solid as a convex polygon: a ray's line meets the solid when the point lies in the polygon. A
+//! bundle is a word of bits in every set of rays; 64 bundles make a tile.
+
+use crate::vector::Vec3;
+
+/// Rays of one bundle.
+pub const BUNDLE: usize = 64;
+
+/// How points of space fall on the plane of a family of rays.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Projection {
+    /// Where depth is zero: the eye, or any point.
+    pub origin: Vec3,
+    /// Unit; first coordinate of the plane.
+    pub right: Vec3,
+    /// Unit; second coordinate of the plane.
+    pub up: Vec3,
+    /// Unit; the direction in which depth grows.
+    pub forward: Vec3,
+    /// Rays leave the origin, so that plane coordinates are divided by depth; they are parallel otherwise.
+    pub perspective: bool,
+}
+
+impl Projection {
+    /// Depth of a point, scene units along `forward`.
+    #[inline]
+    pub fn depth(&self, p: Vec3) -> f64 {
+        self.forward.dot(p - self.origin)
+    }
+
+    /// Where a point falls. In perspective its depth must be positive.
+    #[inline]
+    pub fn fall(&self, p: Vec3) -> [f64; 2] {
+        let q = p - self.origin;
+        let (u, v) = (self.right.dot(q), self.up.dot(q));
+        if self.perspective {
+            let depth = self.forward.dot(q);
+            [u / depth, v / depth]
+        } else {
+            [u, v]
+        }
+    }
+
+    /// Where a point at a known depth falls.
+    #[inline]
+    pub fn fall_at(&self, p: Vec3, depth: f64) -> [f64; 2] {
+        let q = p - self.origin;
+        [self.right.dot(q) / depth, self.up.dot(q) / depth]
+    }
+
+    /// Direction of the ray at a point of the plane; depth grows by one along it.
+    #[inline]
+    pub fn direction(&self, at: [f64; 2]) -> Vec3 {
+        if self.perspective { self.forward + self.right * at[0] + self.up * at[1] } else { self.forward }
+    }
+
+    /// The point at a depth that falls on a point of the plane.
+    pub fn point(&self, at: [f64; 2], depth: f64) -> Vec3 {
+        let spread = if self.perspective { depth } else { 1.0 };
+        self.origin + self.forward * depth + self.right * (at[0] * spread) + self.up * (at[1] * spread)
+    }
+}
+
+/// One ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ray {
+    /// Where it falls on the plane.
+    pub at: [f64; 2],
+    /// Where it begins, world space.
+    pub start: Vec3,
+    /// The pixel that it speaks for.
+    pub pixel: u32,
+}
+
+/// Sixty-four rays, coordinate by coordinate; those beyond `live` repeat one of the others.
+#[derive(Clone, Debug)]
+pub(super) struct Bundle {
+    pub at: [[f64; BUNDLE]; 2],
+    pub start: [[f64; BUNDLE]; 3],
+    pub live: u64,
+}
+
+/// A box of the plane and the range of depths at which its rays begin, over the bundles `first..first + count`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Node {
+    pub low: [f64; 2],
+    pub high: [f64; 2],
+    pub depth: [f64; 2],
+    pub first: u32,
+    pub count: u32,
+    /// The first child is the next node; zero at a leaf.
+    pub second: u32,
+}
+
+/// A family of rays.
+#[derive(Clone, Debug)]
+pub struct Rays {
+    projection: Projection,
+    /// The depth at which all rays begin, where there is one.
+    pub(super) near: Option<f64>,
+    pub(super) nodes: Vec<Node>,
+    pub(super) bundles: Vec<Bundle>,
+    pixels: Vec<u32>,
+}
+
+impl Rays {
+    /// The family of `rays`; `near` is the depth at which all of them begin, where there is one.
+    pub fn new(projection: Projection, near: Option<f64>, mut rays: Vec<Ray>) -> Rays {
+        let mut made = Rays { projection, near, nodes: Vec::new(), bundles: Vec::new(), pixels: Vec::new() };
+        if !rays.is_empty() {
+            made.build(&mut rays);
+        }
+        made.pixels = rays.iter().map(|r| r.pixel).collect();
+        made
+    }
+
+    fn build(&mut self, rays: &mut [Ray]) -> u32 {
+        let index = self.nodes.len();
+        let first = self.bundles.len() as u32;
+        let mut node = Node {
+            low: [f64::INFINITY; 2],
+            high: [f64::NEG_INFINITY; 2],
+            depth: [f64::INFINITY, f64::NEG_INFINITY],
+            first,
+            count: 1,
+            second: 0,
+        };
+        for ray in rays.iter() {
+            let depth = self.projection.depth(ray.start);
+            node.depth = [node.depth[0].min(depth), node.depth[1].max(depth)];
+            for a in 0..2 {
+                node.low[a] = node.low[a].min(ray.at[a]);
+                node.high[a] = node.high[a].max(ray.at[a]);
+            }
+        }
+        self.nodes.push(node);
+        if rays.len() <= BUNDLE {
+            // Left to right, top to bottom, so that the order of rays is a function of the set of them.
+            rays.sort_unstable_by_key(|r| r.pixel);
+            self.bundles.push(bundle(rays));
+            return index as u32;
+        }
+        let axis = usize::from(node.high[1] - node.low[1] > node.high[0] - node.low[0]);
+        // Full bundles, and full tiles above them.
+        let unit = if rays.len() > BUNDLE * BUNDLE { BUNDLE * BUNDLE } else { BUNDLE };
+        let half = rays.len().div_ceil(unit).div_ceil(2) * unit;
+        let order = |r: &Ray, s: &Ray| r.at[axis].total_cmp(&s.at[axis]).then(r.pixel.cmp(&s.pixel));
+        rays.select_nth_unstable_by(half, order);
+        let (left, right) = rays.split_at_mut(half);
+        self.build(left);
+        self.nodes[index].second = self.build(right);
+        self.nodes[index].count = self.bundles.len() as u32 - first;
+        index as u32
+    }
+
+    /// How points of space fall on the rays' plane.
+    pub fn projection(&self) -> &Projection {
+        &self.projection
+    }
+
+    /// Number of rays.
+    pub fn len(&self) -> usize {
+        self.pixels.len()
+    }
+
+    /// True when there is no ray.
+    pub fn is_empty(&self) -> bool {
+        self.pixels.is_empty()
+    }
+
+    /// Number of words of a set of rays.
+    pub fn words(&self) -> usize {
+        self.bundles.len()
+    }
+
+    /// The pixel of each ray, in the order of bits: word by word, lowest bit first. Only the last word has fewer
+    /// than 64.
+    pub fn pixels(&self) -> &[u32] {
+        &self.pixels
+    }
+
+    /// The ray with this number, in the order of bits.
+    pub fn ray(&self, number: usize) -> Ray {
+        let (bundle, k) = (&self.bundles[number / BUNDLE], number % BUNDLE);
+        let [x, y, z] = bundle.start.map(|c| c[k]);
+        Ray { at: bundle.at.map(|c| c[k]), start: Vec3::from([x, y, z]), pixel: self.pixels[number] }
+    }
+}
+
+fn bundle(rays: &[Ray]) -> Bundle {
+    let of = |k: usize| rays[k.min(rays.len() - 1)];
+    Bundle {
+        at: std::array::from_fn(|a| std::array::from_fn(|k| of(k).at[a])),
+        start: std::array::from_fn(|a| std::array::from_fn(|k| of(k).start[a])),
+        live: u64::MAX >> (BUNDLE - rays.len()),
+    }
+}

@@ -1,0 +1,361 @@
+//! Whole chains, side by side: warm-up, then draws from a kernel that no longer changes.
+//!
+//! Random streams are keyed by (seed, chain, what for, step), so a chain's draws do not depend on the number of
+//! threads, nor on the other chains.
+
+use super::hmc::Hmc;
+use super::leapfrog::Phase;
+use super::metric::{Metric, Shape};
+use super::nuts::Nuts;
+use super::potential::{Cause, Potential, Stop};
+use super::step_size::first_guess;
+use super::transition::{Divergence, Kernel, Transition};
+use super::warmup::Adaptation;
+use niwaki_math::Stream;
+use rayon::prelude::*;
+
+/// How the length of a trajectory is found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Length {
+    /// A fixed number of leapfrog steps, jittered by a share of it.
+    Fixed {
+        /// Leapfrog steps.
+        steps: u32,
+        /// In `[0, 1]`.
+        jitter: f64,
+    },
+    /// Until it turns back, at most so many doublings.
+    NoUTurn {
+        /// Most doublings.
+        max_depth: u32,
+    },
+}
+
+/// What a chain is told.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// How long trajectories are.
+    pub length: Length,
+    /// Transitions during which step size and metric are adapted; their draws are not given out.
+    pub warmup: u32,
+    /// Draws afterwards.
+    pub draws: u32,
+    /// Transitions for each draw, at least one.
+    pub thin: u32,
+    /// Mean acceptance that the step size is adapted to.
+    pub target_accept: f64,
+    /// What shape of metric is fitted.
+    pub shape: Shape,
+    /// A step size to keep throughout; adapted when left out.
+    pub step_size: Option<f64>,
+    /// An energy error above this many nats is a divergence.
+    pub max_energy_error: f64,
+}
+
+impl Settings {
+    /// NUTS as in Stan: at most ten doublings, acceptance 0.8, a diagonal metric, 1000 transitions to warm up.
+    pub fn nuts() -> Settings {
+        Settings {
+            length: Length::NoUTurn { max_depth: 10 },
+            warmup: 1000,
+            draws: 1000,
+            thin: 1,
+            target_accept: 0.8,
+            shape: Shape::Diagonal,
+            step_size: None,
+            max_energy_error: 1000.0,
+        }
+    }
+
+    /// The dissertation's length (100 steps, not jittered) and acceptance (0.65; dissertation 4.4).
+    pub fn hmc() -> Settings {
+        Settings {
+            length: Length::Fixed { steps: 100, jitter: 0.0 },
+            target_accept: 0.65,
+            ..Settings::nuts()
+        }
+    }
+
+    /// The kernel that these settings describe.
+    pub fn kernel(&self) -> Kernel {
+        match self.length {
+            Length::Fixed { steps, jitter } => Kernel::Hmc(Hmc::new(steps, jitter, self.max_energy_error)),
+            Length::NoUTurn { max_depth } => Kernel::Nuts(Nuts::new(max_depth, self.max_energy_error)),
+        }
+    }
+}
+
+/// What a stream of random bits is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub enum Purpose {
+    /// Momentum, directions, acceptance of one transition.
+    Transition,
+    /// The search for a first step size.
+    Guess,
+    /// The exchange of two rungs.
+    Exchange,
+}
+
+/// One chain: where it stands and how it moves.
+pub struct Chain<P> {
+    /// What it draws from.
+    pub target: P,
+    /// Where it stands.
+    pub phase: Phase,
+    /// The metric in use.
+    pub metric: Metric,
+    /// The step size in use.
+    pub step_size: f64,
+    /// How it moves.
+    pub kernel: Kernel,
+    /// The seed of all chains.
+    pub seed: u64,
+    /// Which chain.
+    pub number: u64,
+    /// Which rung of a tempered chain; 0 else.
+    pub rung: u32,
+    /// Transitions made.
+    pub visit: u64,
+}
+
+impl<P: Potential> Chain<P> {
+    /// A chain at `start` with the identity as its metric.
+    ///
+    /// # Errors
+    /// The target's refusal of `start`.
+    pub fn new(
+        mut target: P,
+        start: &[f64],
+        settings: &Settings,
+        seed: u64,
+        number: u64,
+    ) -> Result<Self, Stop> {
+        let phase = Phase::at(&mut target, start)?;
+        let metric = Metric::unit(start.len());
+        let (kernel, step_size) = (settings.kernel(), settings.step_size.unwrap_or(1.0));
+        Ok(Chain { target, phase, metric, step_size, kernel, seed, number, rung: 0, visit: 0 })
+    }
+
+    /// The random bits of this visit, for one purpose.
+    pub fn stream(&self, purpose: Purpose) -> Stream {
+        let address = u128::from(self.rung) << 8 | purpose as u128;
+        Stream::new(self.seed, self.number, address, self.visit)
+    }
+
+    /// One transition.
+    pub fn advance(&mut self) -> Transition {
+        let mut stream = self.stream(Purpose::Transition);
+        self.visit += 1;
+        self.kernel.step(&mut self.target, &self.metric, self.step_size, &mut self.phase, &mut stream)
+    }
+
+    /// Sets the step size to one that suits a single step, found from a guess.
+    pub fn guess_step(&mut self, from: f64) {
+        let mut stream = self.stream(Purpose::Guess);
+        self.step_size = first_guess(&mut self.target, &self.metric, &self.phase, from, &mut stream);
+    }
+}
+
+/// What a chain gave.
+#[derive(Clone, Debug, Default)]
+pub struct Draws {
+    /// How many coordinates.
+    pub dim: usize,
+    /// The draws by rows, unconstrained, `(n, dim)`.
+    pub x: Vec<f64>,
+    /// Log density of each draw, nats.
+    pub log_density: Vec<f64>,
+    /// The Hamiltonian at each draw, with the momentum that led there, nats.
+    pub energy: Vec<f64>,
+    /// Mean acceptance of each draw's trajectory.
+    pub accept: Vec<f64>,
+    /// Leapfrog steps for each draw.
+    pub steps: Vec<u32>,
+    /// Doublings for each draw.
+    pub depth: Vec<u32>,
+    /// Whether a trajectory on the way to each draw broke off.
+    pub diverging: Vec<bool>,
+    /// The trajectories that broke off after warm-up.
+    pub divergences: Vec<Divergence>,
+    /// How many of those the target refused, by [`Cause`]; the rest drifted in energy.
+    pub refused: [u64; Cause::COUNT],
+    /// How many broke off in warm-up.
+    pub warmup_divergences: u64,
+    /// Gradients taken after warm-up.
+    pub gradients: u64,
+    /// Gradients taken in warm-up, without those of first guesses.
+    pub warmup_gradients: u64,
+    /// The frozen step size.
+    pub step_size: f64,
+    /// The frozen metric.
+    pub metric: Option<Metric>,
+    /// Whether it was stopped before its end.
+    pub interrupted: bool,
+}
+
+impl Draws {
+    /// How many draws there are.
+    pub fn len(&self) -> usize {
+        self.energy.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.energy.is_empty()
+    }
+
+    /// The draws in order.
+    pub fn rows(&self) -> impl Iterator<Item = &[f64]> {
+        self.x.chunks_exact(self.dim.max(1))
+    }
+
+    /// Counts a transition of the warm-up.
+    pub(super) fn count_warmup(&mut self, made: &Transition) {
+        self.warmup_gradients += u64::from(made.steps);
+        self.warmup_divergences += u64::from(made.divergence.is_some());
+    }
+
+    /// Counts a transition after warm-up; whether it diverged.
+    pub(super) fn count(&mut self, made: &Transition) -> bool {
+        self.gradients += u64::from(made.steps);
+        let Some(divergence) = &made.divergence else { return false };
+        if let Some(stop) = divergence.stop {
+            self.refused[stop.cause as usize] += 1;
+        }
+        self.divergences.push(divergence.clone());
+        true
+    }
+
+    /// Adds where a chain stands.
+    pub(super) fn push(&mut self, phase: &Phase, made: &Transition, diverging: bool) {
+        self.x.extend_from_slice(&phase.x);
+        self.log_density.push(phase.log_density);
+        self.energy.push(made.energy);
+        self.accept.push(made.accept);
+        self.steps.push(made.steps);
+        self.depth.push(made.depth);
+        self.diverging.push(diverging);
+    }
+}
+
+/// A chain could not start.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BadStart {
+    /// Which chain.
+    pub chain: usize,
+    /// Why the target refused its start.
+    pub stop: Stop,
+}
+
+/// Told now and then (chain, transitions made); the chains end, with what they have, when it answers false.
+pub type Watch<'a> = &'a (dyn Fn(usize, u32) -> bool + Sync);
+
+/// Transitions between two looks of whoever watches.
+const GLANCE: u64 = 32;
+
+/// One chain for each start, in parallel; `make` gives each its own target.
+///
+/// # Errors
+/// A start that its target refuses: the first such chain.
+pub fn sample<P: Potential>(
+    make: impl Fn(usize) -> P + Sync,
+    starts: &[Vec<f64>],
+    settings: &Settings,
+    seed: u64,
+    watch: Watch,
+) -> Result<Vec<Draws>, BadStart> {
+    let made: Vec<Result<Draws, BadStart>> = starts
+        .par_iter()
+        .enumerate()
+        .map(|(k, start)| {
+            let chain = Chain::new(make(k), start, settings, seed, k as u64);
+            let chain = chain.map_err(|stop| BadStart { chain: k, stop })?;
+            Ok(run(chain, settings, &|done| watch(k, done)))
+        })
+        .collect();
+    made.into_iter().collect()
+}
+
+/// Warms a chain up, then draws.
+pub fn run<P: Potential>(mut chain: Chain<P>, settings: &Settings, watch: &dyn Fn(u32) -> bool) -> Draws {
+    let mut draws = Draws { dim: chain.phase.x.len(), ..Draws::default() };
+    let mut adaptation = Adaptation::new(&mut chain, settings);
+    let goes_on = |visit: u64| visit % GLANCE != 0 || watch(visit as u32);
+    for _ in 0..settings.warmup {
+        let made = chain.advance();
+        draws.count_warmup(&made);
+        adaptation.learn(&mut chain, &made);
+        if !goes_on(chain.visit) {
+            draws.interrupted = true;
+            break;
+        }
+    }
+    'draws: for _ in 0..if draws.interrupted { 0 } else { settings.draws } {
+        let mut diverging = false;
+        for left in (0..settings.thin.max(1)).rev() {
+            let made = chain.advance();
+            diverging |= draws.count(&made);
+            if left == 0 {
+                draws.push(&chain.phase, &made, diverging);
+            }
+            if !goes_on(chain.visit) {
+                draws.interrupted = true;
+                break 'draws;
+            }
+        }
+    }
+    draws.step_size = chain.step_size;
+    draws.metric = Some(chain.metric);
+    draws
+}
+
+#[cfg(test)]
+mod tests {
+    //! Chains do not depend on threads or on one another; they can be stopped; a bad start is named.
+    use super::*;
+    use crate::hamiltonian::potential::tests::{By, normals};
+
+    fn chains(threads: usize, count: usize) -> Vec<Draws> {
+        let settings = Settings { warmup: 150, draws: 50, ..Settings::nuts() };
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        let starts = vec![vec![0.3, -1.0, 2.0]; count];
+        pool.install(|| sample(|_| normals(vec![0.1, 1.0, 10.0]), &starts, &settings, 7, &|_, _| true))
+            .expect("the starts are points of the target")
+    }
+
+    #[test]
+    fn draws_do_not_depend_on_threads_or_on_other_chains() {
+        let (one, many) = (chains(1, 4), chains(3, 5));
+        for (a, b) in one.iter().zip(&many) {
+            assert_eq!((&a.x, &a.energy, a.step_size), (&b.x, &b.energy, b.step_size));
+        }
+        assert_ne!(one[0].x, one[1].x);
+    }
+
+    #[test]
+    fn a_chain_can_be_stopped() {
+        let settings = Settings { warmup: 100, draws: 1000, ..Settings::nuts() };
+        let stopped = |at: u32| {
+            let found = sample(|_| normals(vec![1.0]), &[vec![0.0]], &settings, 1, &|_, done| done < at);
+            let draws = found.expect("a start").pop().expect("one chain");
+            (draws.interrupted, draws.len())
+        };
+        assert_eq!(stopped(20), (true, 0));
+        assert_eq!(stopped(164), (true, 92));
+        assert_eq!(stopped(u32::MAX), (false, 1000));
+    }
+
+    #[test]
+    fn a_start_that_is_refused_is_named() {
+        let make = |_| {
+            By(1, |x: &[f64], g: &mut [f64]| {
+                g[0] = 0.0;
+                Ok(x[0].ln())
+            })
+        };
+        let bad = sample(make, &[vec![1.0], vec![-1.0]], &Settings::nuts(), 1, &|_, _| true);
+        let stop = Stop { cause: Cause::NotFinite, place: 0 };
+        assert_eq!(bad.err(), Some(BadStart { chain: 1, stop }));
+    }
+}

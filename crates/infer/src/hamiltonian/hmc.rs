@@ -1,0 +1,121 @@
+//! Hamiltonian Monte Carlo with a length that is fixed beforehand: draw a momentum, roll, accept or stay.
+//!
+//! Accepts with probability `min(1, exp(H(x, p) - H(x', p')))` (dissertation 4.3; Neal 2011, section 3.3). The
+//! number of steps may be jittered: it is drawn before the trajectory starts, so that a length which happens to be a
+//! period of the target does no harm (Neal 2011, section 3.2).
+
+use super::leapfrog::{Phase, leapfrog};
+use super::metric::Metric;
+use super::potential::Potential;
+use super::transition::{Divergence, Transition, acceptance};
+use niwaki_math::Stream;
+
+/// A fixed length.
+#[derive(Clone, Debug)]
+pub struct Hmc {
+    /// Leapfrog steps of a trajectory (the dissertation's `L`).
+    pub steps: u32,
+    /// The number of steps is uniform within this share of `steps`; 0 for a constant one.
+    pub jitter: f64,
+    /// An energy error above this many nats is a divergence.
+    pub max_energy_error: f64,
+    /// Where the trajectory started, to go back to.
+    before: Option<Phase>,
+}
+
+impl Hmc {
+    /// `steps` leapfrog steps, at least one; `jitter` in `[0, 1]`.
+    pub fn new(steps: u32, jitter: f64, max_energy_error: f64) -> Hmc {
+        Hmc { steps: steps.max(1), jitter, max_energy_error, before: None }
+    }
+
+    /// How many steps this time.
+    fn length(&self, stream: &mut Stream) -> u32 {
+        if self.jitter == 0.0 {
+            return self.steps;
+        }
+        let reach = (f64::from(self.steps) * self.jitter).floor();
+        let offset = (stream.uniform() * (2.0 * reach + 1.0)).floor() - reach;
+        (f64::from(self.steps) + offset).max(1.0) as u32
+    }
+
+    /// One transition of `phase`.
+    pub fn step(
+        &mut self,
+        target: &mut (impl Potential + ?Sized),
+        metric: &Metric,
+        step: f64,
+        phase: &mut Phase,
+        stream: &mut Stream,
+    ) -> Transition {
+        phase.refresh(metric, stream);
+        let steps = self.length(stream);
+        let before = self.before.get_or_insert_with(|| phase.clone());
+        before.copy_from(phase);
+        let start_energy = before.energy();
+
+        let refused = leapfrog(target, metric, phase, step, steps).err();
+
+        let energy_error = if refused.is_some() { f64::NAN } else { phase.energy() - start_energy };
+        let accept = acceptance(-energy_error);
+        // Written so that a NaN is a divergence.
+        let diverged = !(energy_error <= self.max_energy_error);
+        let divergence = diverged.then(|| Divergence {
+            start: before.x.clone(),
+            end: phase.x.clone(),
+            energy_error,
+            stop: refused,
+        });
+        let moved = !diverged && stream.uniform() < accept;
+        if !moved {
+            phase.copy_from(before);
+        }
+        Transition { accept, moved, steps, depth: 0, start_energy, energy: phase.energy(), divergence }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! A refused trajectory leaves the point where it was and is reported; jitter is uniform.
+    use super::*;
+    use crate::hamiltonian::potential::tests::{By, normals};
+    use crate::hamiltonian::potential::{Cause, Stop};
+
+    #[test]
+    fn a_stop_ends_the_trajectory_as_a_rejection() {
+        let guard = Stop { cause: Cause::Guard, place: 7 };
+        let mut walled = By(1, |x: &[f64], g: &mut [f64]| {
+            g[0] = 0.0;
+            if x[0].abs() < 1.0 { Ok(0.0) } else { Err(guard) }
+        });
+        let metric = Metric::unit(1);
+        let mut phase = Phase::at(&mut walled, &[0.25]).expect("a point of the target");
+        let mut hmc = Hmc::new(1000, 0.0, 1000.0);
+        let made = hmc.step(&mut walled, &metric, 0.5, &mut phase, &mut Stream::new(1, 0, 0, 0));
+        let divergence = made.divergence.expect("the wall is met");
+        assert_eq!((phase.x[0], made.moved, made.accept), (0.25, false, 0.0));
+        assert_eq!((divergence.stop, divergence.start), (Some(guard), vec![0.25]));
+        assert!(divergence.end[0].abs() >= 1.0 && divergence.energy_error.is_nan());
+    }
+
+    #[test]
+    fn an_energy_that_is_not_a_number_is_rejected() {
+        // The value is NaN beyond 1: `evaluate` refuses it. A step that is too long ends in a huge energy error.
+        let mut narrow = normals(vec![1e-3]);
+        let mut phase = Phase::at(&mut narrow, &[1e-3]).expect("a point of the target");
+        let mut hmc = Hmc::new(50, 0.0, 1000.0);
+        let made = hmc.step(&mut narrow, &Metric::unit(1), 1.0, &mut phase, &mut Stream::new(1, 0, 0, 0));
+        assert!(!made.moved && made.divergence.is_some() && made.accept == 0.0);
+        assert_eq!(phase.x, [1e-3]);
+    }
+
+    #[test]
+    fn jittered_lengths_are_uniform_around_the_middle() {
+        // Chi-square with 10 degrees of freedom, false alarm 1e-6: threshold 47.6.
+        let hmc = Hmc::new(10, 0.5, 1000.0);
+        let mut counts = [0.0; 16];
+        (0..11_000).for_each(|k| counts[hmc.length(&mut Stream::new(3, 0, 0, k)) as usize] += 1.0);
+        let statistic: f64 = counts[5..=15].iter().map(|c: &f64| (c - 1000.0).powi(2) / 1000.0).sum();
+        assert!(counts[..5].iter().all(|c| *c == 0.0) && statistic < 47.6, "{statistic}");
+    }
+}

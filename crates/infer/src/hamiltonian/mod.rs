@@ -1,0 +1,32 @@
+//! Hamiltonian Monte Carlo: a point that rolls over the log density, and is kept or put back.
+//!
+//! In the order of a step: momentum from the metric, leapfrog steps along the gradient, acceptance by the change of
+//! the total energy `H(x, p) = p . v / 2 - log_density(x)`, with velocity `v = M^-1 p` (dissertation 4.3).
+//!
+//! * [`potential`]: the door: a log density with its gradient, and what may stop a trajectory;
+//! * [`metric`]: the mass matrix `M`: diagonal, dense, or diagonal with a low-rank correction;
+//! * [`leapfrog`]: the integrator;
+//! * [`hmc`], [`nuts`]: one transition, with a fixed length and with one that it finds itself;
+//! * [`step_size`], [`estimate`], [`warmup`]: what is adapted in warm-up and frozen afterwards;
+//! * [`chains`]: whole chains, side by side;
+//! * [`tempering`]: a path of targets from loose to tight, walked down once or by all rungs at a time.
+//!
+//! Not here: programs, how a gradient is made, diagnostics of the draws (they are the package's).
+
+pub mod chains;
+pub mod estimate;
+pub mod hmc;
+pub mod leapfrog;
+pub mod metric;
+pub mod nuts;
+pub mod potential;
+pub mod step_size;
+pub mod tempering;
+pub mod transition;
+pub mod warmup;
+
+pub use chains::{Chain, Draws, Settings, sample};
+pub use leapfrog::Phase;
+pub use metric::{Metric, Shape};
+pub use potential::{Cause, Potential, Stop};
+pub use transition::{Divergence, Kernel, Transition};

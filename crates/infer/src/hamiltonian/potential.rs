@@ -1,0 +1,139 @@
+//! What a gradient sampler asks of its target: the log density and its gradient over real coordinates.
+//!
+//! Coordinates are unconstrained: a bounded choice enters through its transform, and the log density has the
+//! transform's Jacobian (dissertation 4.3, "bounded variables"). The target may refuse a point; the trajectory that
+//! reached it then ends and is rejected, which leaves the target distribution as it is.
+
+/// A log density over `dim` real coordinates, with its gradient.
+pub trait Potential {
+    /// How many coordinates.
+    fn dim(&self) -> usize;
+
+    /// The log density at `x`, nats, upward; its gradient is written to `gradient`. Both slices have `dim` elements.
+    ///
+    /// # Errors
+    /// A point that the target refuses; `gradient` is then unspecified.
+    fn value_and_gradient(&mut self, x: &[f64], gradient: &mut [f64]) -> Result<f64, Stop>;
+}
+
+impl<P: Potential + ?Sized> Potential for &mut P {
+    fn dim(&self) -> usize {
+        (**self).dim()
+    }
+    fn value_and_gradient(&mut self, x: &[f64], gradient: &mut [f64]) -> Result<f64, Stop> {
+        (**self).value_and_gradient(x, gradient)
+    }
+}
+
+impl<P: Potential + ?Sized> Potential for Box<P> {
+    fn dim(&self) -> usize {
+        (**self).dim()
+    }
+    fn value_and_gradient(&mut self, x: &[f64], gradient: &mut [f64]) -> Result<f64, Stop> {
+        (**self).value_and_gradient(x, gradient)
+    }
+}
+
+/// Why a trajectory ended before its time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stop {
+    /// The kind of reason.
+    pub cause: Cause,
+    /// Which one of its kind, as the target numbers them (a guard, an operation, a coordinate).
+    pub place: u32,
+}
+
+/// The kinds of reasons for which a trajectory ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cause {
+    /// The program would take another path here, on which the set of choices is another.
+    Guard,
+    /// The density is zero.
+    Impossible,
+    /// The density or its gradient is not a number, or infinite.
+    NotFinite,
+}
+
+impl Cause {
+    /// How many kinds there are.
+    pub const COUNT: usize = 3;
+}
+
+/// The log density and gradient at `x`, both finite.
+///
+/// # Errors
+/// The target's own refusal, a density of zero, a value or gradient that is not finite (its coordinate is the place).
+#[inline]
+pub fn evaluate(target: &mut (impl Potential + ?Sized), x: &[f64], g: &mut [f64]) -> Result<f64, Stop> {
+    let value = target.value_and_gradient(x, g)?;
+    if value == f64::NEG_INFINITY {
+        return Err(Stop { cause: Cause::Impossible, place: 0 });
+    }
+    // A sum is finite only where every term is; which one was not is asked afterwards.
+    let sum: f64 = g.iter().map(|slope| slope * 0.0).sum();
+    if value.is_finite() && sum == 0.0 {
+        return Ok(value);
+    }
+    let place = g.iter().position(|slope| !slope.is_finite()).unwrap_or(0);
+    Err(Stop { cause: Cause::NotFinite, place: place as u32 })
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    //! What is not finite is a stop with its coordinate.
+    use super::*;
+
+    /// A target given by a function of (x, gradient).
+    pub struct By<F>(pub usize, pub F);
+
+    impl<F: FnMut(&[f64], &mut [f64]) -> Result<f64, Stop>> Potential for By<F> {
+        fn dim(&self) -> usize {
+            self.0
+        }
+        fn value_and_gradient(&mut self, x: &[f64], g: &mut [f64]) -> Result<f64, Stop> {
+            (self.1)(x, g)
+        }
+    }
+
+    /// Independent normals with these standard deviations.
+    pub fn normals(deviations: Vec<f64>) -> impl Potential + Clone {
+        #[derive(Clone)]
+        struct Normals(Vec<f64>);
+        impl Potential for Normals {
+            fn dim(&self) -> usize {
+                self.0.len()
+            }
+            fn value_and_gradient(&mut self, x: &[f64], g: &mut [f64]) -> Result<f64, Stop> {
+                let mut value = 0.0;
+                for ((x, g), s) in x.iter().zip(g).zip(&self.0) {
+                    *g = -x / (s * s);
+                    value += 0.5 * x * *g;
+                }
+                Ok(value)
+            }
+        }
+        Normals(deviations)
+    }
+
+    #[test]
+    fn what_is_not_finite_stops() {
+        let mut g = [0.0; 3];
+        let mut slopes = By(3, |x: &[f64], g: &mut [f64]| {
+            g.copy_from_slice(x);
+            Ok(1.0)
+        });
+        assert_eq!(evaluate(&mut slopes, &[1.0, -1e308, 3.0], &mut g), Ok(1.0));
+        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            let stop = Stop { cause: Cause::NotFinite, place: 1 };
+            assert_eq!(evaluate(&mut slopes, &[1.0, bad, 3.0], &mut g), Err(stop));
+        }
+        let mut values = By(1, |x: &[f64], g: &mut [f64]| {
+            g[0] = 0.0;
+            Ok(x[0])
+        });
+        let mut cause = |x: f64| evaluate(&mut values, &[x], &mut [0.0]).map_err(|stop| stop.cause);
+        assert_eq!(cause(f64::NAN), Err(Cause::NotFinite));
+        assert_eq!(cause(f64::INFINITY), Err(Cause::NotFinite));
+        assert_eq!(cause(f64::NEG_INFINITY), Err(Cause::Impossible));
+    }
+}

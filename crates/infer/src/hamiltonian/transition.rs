@@ -1,0 +1,90 @@
+//! What every transition reports, and the choice between the two that there are.
+
+use super::hmc::Hmc;
+use super::leapfrog::Phase;
+use super::metric::Metric;
+use super::nuts::Nuts;
+use super::potential::{Potential, Stop};
+use niwaki_math::Stream;
+
+/// What one transition did.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Transition {
+    /// Mean acceptance probability over the trajectory's proposals, in `[0, 1]`: what the step size is adapted to.
+    pub accept: f64,
+    /// Whether the point moved.
+    pub moved: bool,
+    /// Leapfrog steps, each of which is one gradient.
+    pub steps: u32,
+    /// Doublings of a trajectory that finds its own length; 0 for a fixed length.
+    pub depth: u32,
+    /// The Hamiltonian at the start, with the fresh momentum, nats.
+    pub start_energy: f64,
+    /// The Hamiltonian at the point that was kept, nats.
+    pub energy: f64,
+    /// Why the trajectory broke off, if it did.
+    pub divergence: Option<Divergence>,
+}
+
+/// A trajectory that broke off.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Divergence {
+    /// Where the trajectory started, unconstrained.
+    pub start: Vec<f64>,
+    /// Where it broke off, unconstrained; may hold numbers that are not finite.
+    pub end: Vec<f64>,
+    /// How far the energy had drifted, nats; NaN where the target refused the point.
+    pub energy_error: f64,
+    /// The target's refusal, if that was the reason.
+    pub stop: Option<Stop>,
+}
+
+/// A transition with the memory that it works in.
+#[derive(Clone, Debug)]
+pub enum Kernel {
+    /// A fixed number of leapfrog steps.
+    Hmc(Hmc),
+    /// As many steps as it takes to turn back.
+    Nuts(Nuts),
+}
+
+impl Kernel {
+    /// One transition of `phase`, whose momentum is drawn afresh.
+    pub fn step(
+        &mut self,
+        target: &mut (impl Potential + ?Sized),
+        metric: &Metric,
+        step: f64,
+        phase: &mut Phase,
+        stream: &mut Stream,
+    ) -> Transition {
+        match self {
+            Kernel::Hmc(hmc) => hmc.step(target, metric, step, phase, stream),
+            Kernel::Nuts(nuts) => nuts.step(target, metric, step, phase, stream),
+        }
+    }
+}
+
+/// `min(1, exp(log_ratio))`, and 0 for a NaN. (`f64::min(1.0, NaN)` is 1: it would accept what diverged.)
+#[inline]
+pub fn acceptance(log_ratio: f64) -> f64 {
+    if log_ratio >= 0.0 {
+        1.0
+    } else if log_ratio < 0.0 {
+        log_ratio.exp()
+    } else {
+        0.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_not_a_number_is_not_accepted() {
+        assert_eq!(acceptance(f64::NAN), 0.0);
+        assert_eq!(acceptance(f64::NEG_INFINITY), 0.0);
+        assert_eq!((acceptance(3.0), acceptance(0.0), acceptance(-1.0)), (1.0, 1.0, (-1.0_f64).exp()));
+    }
+}

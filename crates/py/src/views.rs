@@ -1,0 +1,153 @@
+//! Images to match, obstacles and floors, as Python sees them.
+//!
+//! Every error is a `ValueError` with an attribute `code`, as in `geometry`.
+
+use crate::geometry::{PyShape, PySketchSpec, PyTarget, mesh_from, value_error};
+use niwaki_geom::view::{Camera, Lens, Light, shadow_rays};
+use niwaki_geom::{
+    Aabb, GeomError, Picture, Primitive, Shape, SketchSpec, Vec3, Wish, avoid, floor, match_image,
+    match_shadow, no_overshoot,
+};
+use numpy::ndarray::Array2;
+use numpy::{IntoPyArray, PyArray2, PyReadonlyArray2};
+use pyo3::prelude::*;
+use std::sync::Arc;
+
+type Triple = [f64; 3];
+type Mesh<'py> = (PyReadonlyArray2<'py, f64>, PyReadonlyArray2<'py, i64>);
+
+/// Position, look_at, up, perspective or not, field of view in radians or height, near.
+type Eye = (Triple, Triple, Triple, bool, f64, f64);
+
+fn camera((position, look_at, up, perspective, number, near): Eye) -> Result<Camera, GeomError> {
+    let lens = match perspective {
+        true => Lens::Perspective { fov: number, near },
+        false => Lens::Orthographic { height: number },
+    };
+    Camera::new(position.into(), look_at.into(), up.into(), lens)
+}
+
+/// An image to match and the rays that tell which pixels of a scene are on.
+#[pyclass(frozen, name = "Picture", module = "niwaki._engine")]
+pub struct PyPicture(Arc<Picture>);
+
+#[pymethods]
+impl PyPicture {
+    /// ``on`` (rows, columns) bool and ``greys`` (rows, columns) uint8, seen by ``camera``: silhouettes, or with a
+    /// ``receiver`` (vertices, faces) and the direction of a ``light`` the shadows on it.
+    #[new]
+    #[pyo3(signature = (camera, on, greys=None, multiplier=10.0, receiver=None, light=None))]
+    fn new(
+        py: Python<'_>,
+        camera: Eye,
+        on: PyReadonlyArray2<'_, bool>,
+        greys: Option<PyReadonlyArray2<'_, u8>>,
+        multiplier: f64,
+        receiver: Option<Mesh<'_>>,
+        light: Option<Triple>,
+    ) -> PyResult<PyPicture> {
+        let on = on.as_array();
+        let wish = Wish {
+            size: [on.ncols(), on.nrows()],
+            on: on.iter().copied().collect(),
+            greys: greys.map(|greys| greys.as_array().iter().copied().collect()),
+            multiplier,
+        };
+        let receiver = receiver.map(|(vertices, faces)| mesh_from(&vertices, &faces)).transpose();
+        py.detach(|| {
+            let camera = self::camera(camera)?;
+            niwaki_geom::view::camera::check_size(wish.size)?;
+            let rays = match receiver? {
+                Some(mesh) => {
+                    let light = Light::new(Vec3::from(light.unwrap_or([0.0, -1.0, 0.0])))?;
+                    shadow_rays(&mesh, &camera, &light, wish.size)?
+                }
+                None => camera.rays(wish.size),
+            };
+            Picture::new(&wish, rays)
+        })
+        .map(|picture| PyPicture(Arc::new(picture)))
+        .map_err(|e| value_error(py, &e))
+    }
+
+    /// Columns and rows.
+    #[getter]
+    fn size(&self) -> (usize, usize) {
+        self.0.size().into()
+    }
+
+    /// Share of the weight that should be on.
+    #[getter]
+    fn on_fraction(&self) -> f64 {
+        self.0.on_fraction()
+    }
+
+    /// Which pixels are on in a scene of ``shapes``, (rows, columns) bool.
+    fn mask<'py>(&self, py: Python<'py>, shapes: Vec<PyShape>) -> Bound<'py, PyArray2<bool>> {
+        let shapes: Vec<Shape> = shapes.into_iter().map(|s| s.0).collect();
+        let mask = py.detach(|| self.0.mask(&[Primitive::new(shapes)]));
+        self.array(py, &mask)
+    }
+
+    /// Which pixels can be on at all, (rows, columns) bool: for shadows, those that see the receiver.
+    fn seen<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<bool>> {
+        let mut seen = vec![false; self.0.size()[0] * self.0.size()[1]];
+        self.0.rays().pixels().iter().for_each(|pixel| seen[*pixel as usize] = true);
+        self.array(py, &seen)
+    }
+}
+
+impl PyPicture {
+    fn array<'py>(&self, py: Python<'py>, pixels: &[bool]) -> Bound<'py, PyArray2<bool>> {
+        let [columns, rows] = self.0.size();
+        Array2::from_shape_fn((rows, columns), |(row, column)| pixels[row * columns + column])
+            .into_pyarray(py)
+    }
+}
+
+fn spec(py: Python<'_>, made: Result<Arc<dyn SketchSpec>, GeomError>) -> PyResult<PySketchSpec> {
+    made.map(PySketchSpec).map_err(|e| value_error(py, &e))
+}
+
+/// Scores a scene by how well its silhouette is ``picture``.
+#[pyfunction(name = "match_image")]
+#[pyo3(signature = (picture, sigma=0.02))]
+fn py_match_image(py: Python<'_>, picture: &PyPicture, sigma: f64) -> PyResult<PySketchSpec> {
+    spec(py, match_image(picture.0.clone(), sigma))
+}
+
+/// Scores a scene by how well its shadow is ``picture``.
+#[pyfunction(name = "match_shadow")]
+#[pyo3(signature = (picture, sigma=0.02))]
+fn py_match_shadow(py: Python<'_>, picture: &PyPicture, sigma: f64) -> PyResult<PySketchSpec> {
+    spec(py, match_shadow(picture.0.clone(), sigma))
+}
+
+/// Forbids scenes that fill a cell of ``obstacle``.
+#[pyfunction(name = "avoid")]
+fn py_avoid(obstacle: &PyTarget) -> PySketchSpec {
+    PySketchSpec(avoid(obstacle.0.clone()))
+}
+
+/// Forbids scenes that reach below ``height``.
+#[pyfunction(name = "floor")]
+fn py_floor(py: Python<'_>, height: f64) -> PyResult<PySketchSpec> {
+    spec(py, floor(height))
+}
+
+/// Scores a scene by how far it reaches out of the box from ``low`` to ``high``.
+#[pyfunction(name = "overshoot")]
+#[pyo3(signature = (low, high, sigma=0.02))]
+fn py_overshoot(py: Python<'_>, low: Triple, high: Triple, sigma: f64) -> PyResult<PySketchSpec> {
+    spec(py, no_overshoot(Aabb { low: low.into(), high: high.into() }, sigma))
+}
+
+/// Puts this room into the module.
+pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_class::<PyPicture>()?;
+    module.add_function(wrap_pyfunction!(py_match_image, module)?)?;
+    module.add_function(wrap_pyfunction!(py_match_shadow, module)?)?;
+    module.add_function(wrap_pyfunction!(py_avoid, module)?)?;
+    module.add_function(wrap_pyfunction!(py_floor, module)?)?;
+    module.add_function(wrap_pyfunction!(py_overshoot, module)?)
+}

@@ -1,0 +1,138 @@
+"""A scene as a GLB file: a node for each part, named by its address; equal parts share a mesh.
+
+Written here rather than by a library, so that the same scene gives the same bytes (glTF 2.0, section 4 for the
+container, 3.6 for buffers, 3.5.3 for nodes). Each node also carries its address as an extra, because Blender cuts
+names after 63 bytes. Parts of equal geometry (`niwaki.draw.instances`) share its buffers; where their paints are
+equal too they share the whole mesh, so that a modelling program opens them as linked copies.
+
+Lengths are scene units, y is up, as glTF asks. A node's origin is the middle of its part.
+"""
+
+from __future__ import annotations
+
+import json
+import struct
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from niwaki.draw.instances import Geometry, Instance, instances, quaternion
+from niwaki.draw.palette import Paint
+from niwaki.draw.parts import part_meshes
+
+if TYPE_CHECKING:
+    from niwaki.scene import Scene
+
+# glTF's names for numbers.
+FLOAT, UNSIGNED_INT, ARRAY_BUFFER, ELEMENT_ARRAY_BUFFER, TRIANGLES = 5126, 5125, 34962, 34963, 4
+
+
+class _Buffer:
+    """Bytes with their descriptions."""
+
+    def __init__(self) -> None:
+        self.data = bytearray()
+        self.views: list[dict[str, Any]] = []
+        self.accessors: list[dict[str, Any]] = []
+
+    def add(self, array: NDArray[Any], kind: str, component: int, target: int) -> int:
+        """Append an array and return the number of its accessor."""
+        data = array.tobytes()
+        view = {"buffer": 0, "byteOffset": len(self.data), "byteLength": len(data), "target": target}
+        self.views.append(view)
+        self.data.extend(data)  # all components have four bytes, so offsets stay aligned
+        entry = {
+            "bufferView": len(self.views) - 1,
+            "componentType": component,
+            "count": len(array),
+            "type": kind,
+        }
+        if kind == "VEC3":
+            entry |= {"min": array.min(axis=0).tolist(), "max": array.max(axis=0).tolist()}
+        self.accessors.append(entry)
+        return len(self.accessors) - 1
+
+
+def glb(scene: Scene) -> bytes:
+    """Return the scene as the bytes of a GLB file; equal scenes give equal bytes."""
+    parts = part_meshes(scene)
+    geometries, placed = instances(parts)
+    buffer = _Buffer()
+    stored = [_stored(geometry, buffer) for geometry in geometries]
+    materials: dict[Paint, int] = {}
+    meshes: dict[tuple[int, tuple[Paint, ...]], int] = {}
+    written: list[dict[str, Any]] = []
+    nodes = []
+    for part, instance in zip(parts, placed, strict=True):
+        worn = tuple(piece.paint for piece in part.pieces)
+        if (instance.mesh, worn) not in meshes:
+            meshes[instance.mesh, worn] = len(written)
+            primitives = [
+                {**shared, "material": materials.setdefault(paint, len(materials)), "mode": TRIANGLES}
+                for shared, paint in zip(stored[instance.mesh], worn, strict=True)
+            ]
+            written.append({"name": geometries[instance.mesh].part.address, "primitives": primitives})
+        nodes.append(_node(part.address, meshes[instance.mesh, worn], instance))
+    return _container(
+        {
+            "asset": {"version": "2.0", "generator": "niwaki"},
+            "scene": 0,
+            "scenes": [{"nodes": list(range(len(nodes)))}],
+            "nodes": nodes,
+            "meshes": written,
+            "materials": [_material(paint, k) for paint, k in materials.items()],
+            "accessors": buffer.accessors,
+            "bufferViews": buffer.views,
+            "buffers": [{"byteLength": len(buffer.data)}],
+        },
+        bytes(buffer.data),
+    )
+
+
+def _stored(geometry: Geometry, buffer: _Buffer) -> list[dict[str, Any]]:
+    """Put a geometry into the buffer; for each piece what its primitives refer to."""
+    found = []
+    for piece in geometry.part.pieces:
+        local = (piece.vertices - geometry.pivot).astype("<f4")
+        attributes = {
+            "POSITION": buffer.add(local, "VEC3", FLOAT, ARRAY_BUFFER),
+            "NORMAL": buffer.add(piece.normals.astype("<f4"), "VEC3", FLOAT, ARRAY_BUFFER),
+        }
+        corners = piece.faces.astype("<u4").reshape(-1)
+        indices = buffer.add(corners, "SCALAR", UNSIGNED_INT, ELEMENT_ARRAY_BUFFER)
+        found.append({"attributes": attributes, "indices": indices})
+    return found
+
+
+def _node(address: str, mesh: int, instance: Instance) -> dict[str, Any]:
+    node: dict[str, Any] = {"name": address, "mesh": mesh, "extras": {"address": address}}
+    node["translation"] = instance.translation.tolist()
+    if not np.allclose(instance.rotation, np.eye(3), rtol=0.0, atol=1e-9):
+        node["rotation"] = list(quaternion(instance.rotation))
+    return node
+
+
+def _material(paint: Paint, number: int) -> dict[str, Any]:
+    return {
+        "name": f"paint {number}",
+        "pbrMetallicRoughness": {
+            "baseColorFactor": [*(round(_linear(c), 6) for c in paint.color), 1.0],
+            "metallicFactor": 0.0,
+            "roughnessFactor": round(0.9 - 0.55 * paint.gloss, 6),
+        },
+    }
+
+
+def _linear(c: float) -> float:
+    """From sRGB, as colours are written, to linear, as glTF wants them."""
+    c = min(max(c, 0.0), 1.0)
+    return c / 12.92 if c <= 0.04045 else float(((c + 0.055) / 1.055) ** 2.4)
+
+
+def _container(document: dict[str, Any], data: bytes) -> bytes:
+    """The two chunks of a GLB file."""
+    text = json.dumps(document, separators=(",", ":"), ensure_ascii=True).encode()
+    text += b" " * (-len(text) % 4)
+    chunks = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(data), b"BIN\0") + data
+    return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks

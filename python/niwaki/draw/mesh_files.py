@@ -1,0 +1,58 @@
+"""A scene as the plain files of meshes: OBJ (text, an object for each part) and PLY (binary, one mesh).
+
+Both keep scene units with y up, smooth normals and colours at the vertices (in OBJ by the common extension of the `v`
+line that Blender, MeshLab and trimesh read). Nothing is joined: parts that overlap, overlap.
+"""
+
+from __future__ import annotations
+
+import io
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from niwaki.draw.parts import part_meshes
+
+if TYPE_CHECKING:
+    from niwaki.scene import Scene
+
+
+def obj(scene: Scene) -> bytes:
+    """The bytes of an OBJ file; equal scenes give equal bytes."""
+    out = io.StringIO()
+    out.write("# niwaki: scene units, y up\n")
+    start = 1
+    for part in part_meshes(scene):
+        # A name ends at the first space in some readers.
+        out.write(f"o {'_'.join(part.address.split())}\n")
+        for piece in part.pieces:
+            red, green, blue = piece.paint.color
+            color = f"{red:.6g} {green:.6g} {blue:.6g}"
+            out.writelines(f"v {x:.9g} {y:.9g} {z:.9g} {color}\n" for x, y, z in piece.vertices.tolist())
+            out.writelines(f"vn {x:.6g} {y:.6g} {z:.6g}\n" for x, y, z in piece.normals.tolist())
+            faces = (piece.faces + start).tolist()
+            out.writelines(f"f {a}//{a} {b}//{b} {c}//{c}\n" for a, b, c in faces)
+            start += len(piece.vertices)
+    return out.getvalue().encode()
+
+
+def ply(scene: Scene) -> bytes:
+    """The bytes of a binary PLY file; equal scenes give equal bytes."""
+    pieces = [piece for part in part_meshes(scene) for piece in part.pieces]
+    starts = np.cumsum([0, *(len(piece.vertices) for piece in pieces)])
+    corner = np.dtype([("place", "<f4", 3), ("normal", "<f4", 3), ("color", "u1", 3)])
+    vertices = np.zeros(starts[-1], corner)
+    vertices["place"] = np.concatenate([piece.vertices for piece in pieces])
+    vertices["normal"] = np.concatenate([piece.normals for piece in pieces])
+    for piece, start in zip(pieces, starts, strict=False):
+        vertices["color"][start : start + len(piece.vertices)] = [round(255 * c) for c in piece.paint.color]
+    triangle = np.dtype([("count", "u1"), ("corners", "<i4", 3)])
+    faces = np.zeros(sum(len(piece.faces) for piece in pieces), triangle)
+    faces["count"] = 3
+    faces["corners"] = np.concatenate([p.faces + start for p, start in zip(pieces, starts, strict=False)])
+    header = ["ply", "format binary_little_endian 1.0", "comment niwaki: scene units, y up"]
+    header.append(f"element vertex {len(vertices)}")
+    header += [f"property float {name}" for name in ("x", "y", "z", "nx", "ny", "nz")]
+    header += [f"property uchar {name}" for name in ("red", "green", "blue")]
+    header += [f"element face {len(faces)}", "property list uchar int vertex_indices", "end_header", ""]
+    return "\n".join(header).encode() + vertices.tobytes() + faces.tobytes()

@@ -1,0 +1,159 @@
+"""A scene as one watertight solid, for printing: the union of its shapes, through manifold3d (extra `print`).
+
+Every shape is checked alone first; a mesh with holes or inside out is said by the address of its part. Parts that may
+not run through one another only touch, and what only touches falls apart on a printer (or hangs together by the
+rounding of a number), so every shape is swollen along its normals by `FUSE` of the scene's longest side before
+joining: far less than a printer resolves, and enough. Printers take millimetres and have z up, so the solid is
+scaled, turned and moved to where all coordinates are positive.
+"""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from niwaki import _engine
+from niwaki.file_errors import FileError
+
+if TYPE_CHECKING:
+    from niwaki.scene import Scene
+
+#: Details of the union below this share of its longest side are melted away: slivers that a float cannot keep.
+SMALLEST = 1e-6
+
+#: How far each shape is swollen, as a share of the scene's longest side; 0.002 mm for a print of 100 mm.
+FUSE = 2e-5
+
+#: Millimetres in a scene unit when nobody says otherwise: scenes are in metres.
+METRE = 1000.0
+
+
+class PrintWarning(UserWarning):
+    """A solid can be printed, but perhaps not as its author meant."""
+
+
+@dataclass(frozen=True)
+class Solid:
+    """A closed surface ready to print.
+
+    Attributes
+    ----------
+    vertices : (n, 3) float32
+        Millimetres, z up, not negative.
+    faces : (m, 3) int64
+        Counter-clockwise seen from outside; each edge lies between exactly two.
+    volume : float
+        Cubic millimetres.
+    pieces : int
+        How many bodies that do not hang together.
+    """
+
+    vertices: NDArray[np.float32]
+    faces: NDArray[np.int64]
+    volume: float
+    pieces: int
+
+
+def union(scene: Scene, scale: float = METRE, fuse: float | None = None) -> Solid:
+    """Join all shapes of a scene to one solid.
+
+    Parameters
+    ----------
+    scene
+        What to join.
+    scale
+        Millimetres for each scene unit; 1000 when left out, because scenes are in metres.
+    fuse
+        How far each shape is swollen, scene units, so that shapes closer than twice this hang together; when left out
+        `FUSE` of the longest side, enough for shapes that touch.
+
+    Raises
+    ------
+    FileError
+        The extra `print` is not installed, or a part is not a solid.
+
+    Warns
+    -----
+    PrintWarning
+        The result is in several pieces.
+    """
+    if not 0.0 < scale < float("inf"):
+        raise FileError("setting", name="scale", found=scale, expected="a finite number above 0")
+    longest = float(scene.size.max())
+    if fuse is not None and not 0.0 <= fuse < longest:
+        expected = f"a number of scene units from 0 to less than the scene's longest side, {longest:.4g}"
+        raise FileError("setting", name="fuse", found=fuse, expected=expected)
+    kernel = _kernel()
+    solids = _solids(scene, kernel, FUSE * longest if fuse is None else fuse)
+    joined = kernel.Manifold.batch_boolean(solids, kernel.OpType.Add)
+    # (x, y, z) to (x, -z, y): what is up on the screen is up on the printer's bed.
+    turned = joined.transform([[scale, 0, 0, 0], [0, 0, -scale, 0], [0, scale, 0, 0]])
+    low, high = np.reshape(turned.bounding_box(), (2, 3))
+    placed = turned.translate(-low).simplify(SMALLEST * float((high - low).max()))
+    mesh = placed.to_mesh()
+    pieces = len(placed.decompose())
+    if pieces > 1:
+        warnings.warn(
+            f"the solid is in {pieces} pieces that do not hang together, and a printer makes each of them alone; "
+            "a larger `fuse` closes gaps",
+            PrintWarning,
+            stacklevel=2,
+        )
+    vertices = np.maximum(np.asarray(mesh.vert_properties[:, :3], dtype=np.float32), 0.0)
+    return Solid(vertices, np.asarray(mesh.tri_verts, dtype=np.int64), float(placed.volume()), pieces)
+
+
+def _kernel() -> Any:
+    try:
+        import manifold3d
+    except ImportError:
+        raise FileError("missing-extra", task="joining parts to a solid", extra="print") from None
+    return manifold3d
+
+
+def _solids(scene: Scene, kernel: Any, swell: float) -> list[Any]:
+    """Each shape as a solid of the kernel; those that are none are said together."""
+    found, bad = [], []
+    for part in scene.parts:
+        for number, shape in enumerate(part.shapes):
+            vertices, faces = _swollen(*_engine.fine_mesh(shape), swell)
+            solid = kernel.Manifold(kernel.Mesh64(vertices, faces.astype(np.uint64)))
+            reason = ""
+            if (count := _open_edges(faces)) or solid.status() != kernel.Error.NoError:
+                reason = f"{count} open edges" if count else "edges between more than two triangles"
+            elif solid.volume() <= 0.0:
+                reason = "its triangles face inwards" if solid.volume() < 0.0 else "no volume"
+            if reason:
+                name = part.address if len(part.shapes) == 1 else f"{part.address}, shape {number + 1}"
+                bad.append(f"{name} ({reason})")
+            found.append(solid)
+    if bad:
+        listed = "; ".join(bad[:4]) + (f"; and {len(bad) - 4} more" if len(bad) > 4 else "")
+        raise FileError("not-a-solid", count=len(bad), total=len(found), listed=listed)
+    return found
+
+
+def _swollen(
+    vertices: NDArray[Any], faces: NDArray[Any], normals: NDArray[Any], swell: float
+) -> tuple[NDArray[Any], NDArray[Any]]:
+    """A fine mesh with the vertices at one place made one (it has several where normals differ), moved outwards."""
+    places, index = np.unique(vertices, axis=0, return_inverse=True)
+    index = index.reshape(-1)
+    outwards = np.zeros_like(places)
+    np.add.at(outwards, index, normals)
+    lengths = np.linalg.norm(outwards, axis=1, keepdims=True)
+    corners = index[faces]
+    a, b, c = corners.T
+    kept = corners[(a != b) & (b != c) & (c != a)]
+    return places + swell * outwards / np.where(lengths > 0.0, lengths, 1.0), kept
+
+
+def _open_edges(faces: NDArray[Any]) -> int:
+    """Edges without a neighbour that runs along them the other way."""
+    a, b = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]).T
+    base = int(faces.max()) + 1
+    return int(np.setxor1d(a * base + b, b * base + a).size // 2)

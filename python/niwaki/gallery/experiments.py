@@ -1,0 +1,115 @@
+"""The experiments of dissertation chapter 5 on our own targets: which model, asked for what, with how many particles.
+
+Table 5.1 with the cameras, lights and widths of figures 5.1 to 5.8. All of them also forbid self-intersection. Targets
+are ours throughout, and so is the camera in front of the ship, which is not on record.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+Triple = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Experiment:
+    """What one figure asks of a model.
+
+    Attributes
+    ----------
+    name : str
+        Of the experiment.
+    figure : str
+        In the dissertation.
+    model : str
+        Entry of the gallery.
+    particles : int
+        How many the original took.
+    sigma : float
+        Standard deviation of the score.
+    fill, avoid : str or None
+        Targets: what to fill, what to stay away from.
+    voxel : float or None
+        Cell size of both, scene units.
+    image, weights : str or None
+        What the silhouette or the shadow should be, and where it matters most.
+    camera : dict
+        From where the image is seen, as in a camera's JSON file.
+    light : triple of float or None
+        Direction in which light travels, where the image is that of a shadow.
+    floor : float
+        Half the side of the square floor that the shadow falls on, scene units.
+    """
+
+    name: str
+    figure: str
+    model: str
+    particles: int
+    sigma: float
+    fill: str | None = None
+    avoid: str | None = None
+    voxel: float | None = None
+    image: str | None = None
+    weights: str | None = None
+    camera: dict[str, Any] = field(default_factory=dict)
+    light: Triple | None = None
+    floor: float = 13.65
+
+
+#: From a street corner, across the first tower.
+STREET = {
+    "kind": "perspective",
+    "position": [31.0552, 1.83332, 33.0193],
+    "look_at": [-3.07631, 5.13738, 0.527147],
+    "up": [0.0506582, 0.997551, 0.0482248],
+    "fov_degrees": 45.0,
+}
+#: Level with the ship, in front of its nose: about 12 units across.
+BOW = {"kind": "perspective", "position": [0.0, 0.3, 14.5], "look_at": [0.0, 0.3, 0.0], "fov_degrees": 45.0}
+#: Straight down on the floor.
+CEILING = {
+    "kind": "perspective",
+    "position": [0.0, 38.0, 0.0],
+    "look_at": [0.0, 0.0, 0.0],
+    "up": [0.0, 0.0, -1.0],
+    "fov_degrees": 45.0,
+}
+#: The same without perspective: the floor from edge to edge.
+PLAN = {
+    "kind": "orthographic",
+    "position": [0.0, 38.0, 0.0],
+    "look_at": [0.0, 0.0, 0.0],
+    "up": [0.0, 0.0, -1.0],
+    "height": 27.3,
+}
+
+EXPERIMENTS = (
+    Experiment("ship", "5.1", "spaceship", 300, 0.02, fill="ship", voxel=0.25),
+    Experiment("tree", "5.1", "gnarly-tree", 300, 0.02, fill="forked_tree", voxel=0.4),
+    Experiment("tall-tree", "5.9c", "gnarly-tree", 300, 0.02, fill="bent_tube", voxel=0.4),
+    Experiment("building", "5.3", "building", 300, 0.02, fill="crescent", voxel=0.25),
+    Experiment("tree-and-ledges", "5.4", "gnarly-tree", 100, 0.05, fill="funnel", avoid="ledges", voxel=0.4),
+    Experiment("tree-and-emblem", "5.4", "gnarly-tree", 100, 0.05, fill="gem", avoid="emblem", voxel=0.4),
+    Experiment("skyline", "5.5", "building", 300, 0.02, image="skyline", camera=STREET),
+    Experiment("ship-front", "5.6", "spaceship", 300, 0.02, image="ship_front", camera=BOW),
+    Experiment(
+        "face-of-blocks",
+        "5.7",
+        "toy-blocks",
+        1500,
+        0.002,
+        image="face",
+        weights="face_stroke",
+        camera=CEILING,
+        light=(-1.0, -0.3, 0.0),
+    ),
+    Experiment(
+        "digits-of-pipes", "5.8", "pipes", 100, 0.0005, image="digits", camera=PLAN, light=(0.0, -1.0, 0.0)
+    ),
+)
+
+
+def experiment(name: str) -> Experiment:
+    """Find the experiment of that name."""
+    return next(one for one in EXPERIMENTS if one.name == name)

@@ -1,0 +1,63 @@
+"""The application that the commands hang on, and what they share.
+
+What a person asked for goes to files and stdout, how it goes to stderr.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from niwaki.infer import Progress
+
+app = typer.Typer(
+    name="niwaki",
+    help="Grow procedural models into the shapes you ask for.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+)
+
+ModelName = Annotated[str, typer.Argument(metavar="MODEL", help="A gallery name, or file.py:function.")]
+Folder = Annotated[
+    Path | None, typer.Option("-o", "--output", metavar="DIR", help="Where files go; default: out.")
+]
+
+
+def made_folder(place: Path) -> Path:
+    """The folder, made where it is not there."""
+    from niwaki.file_errors import FileError
+
+    try:
+        place.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise FileError("file-unwritable", place, reason=error.strerror or str(error)) from error
+    return place
+
+
+@contextmanager
+def progress_line(name: str, particles: int) -> Iterator[Callable[[Progress], None]]:
+    """A line on stderr that tells how far the search is; nothing where stderr is not a terminal."""
+    from rich.console import Console
+
+    console = Console(stderr=True)
+    if not console.is_terminal:
+        yield lambda _: None
+        return
+    with console.status(f"growing {name}") as status:
+
+        def show(now: Progress) -> None:
+            best = f"{now.best:.2f}" if math.isfinite(now.best) else "-"
+            status.update(
+                f"growing {name}: run {now.run + 1} of {now.runs}, barrier {now.done}, "
+                f"{now.ended} of {particles} ended, best {best}   (Ctrl-C keeps the best so far)"
+            )
+
+        yield show

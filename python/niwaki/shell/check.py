@@ -1,0 +1,51 @@
+"""`niwaki check`: compile a model and report what it is made of."""
+
+from __future__ import annotations
+
+import sys
+import time
+from typing import Annotated
+
+import typer
+
+from niwaki.errors import ModelError
+from niwaki.shell.app import ModelName, app
+
+
+@app.command()
+def check(
+    model: ModelName,
+    core: Annotated[bool, typer.Option("--core", help="Print the core form.")] = False,
+    bytecode: Annotated[bool, typer.Option("--bytecode", help="Print the bytecode.")] = False,
+) -> None:
+    """Compile MODEL and report what it is made of; exit 1 when it does not compile."""
+    from niwaki.finding import find
+
+    found = find(model)
+    start = time.perf_counter()
+    try:
+        made = found.model.core()
+    except ModelError as error:
+        print(error, file=sys.stderr)
+        raise typer.Exit(1) from None
+    lowered = time.perf_counter() - start
+    program = found.model.program()
+    if core:
+        print(made.text, end="")
+    if bytecode:
+        print(program.disassemble(), end="")
+    if core or bytecode:
+        return
+    own = [row for row in program.functions if "/" not in row[0]]
+    print(f"{found.reference}: compiled in {1e3 * (lowered + program.seconds):.1f} ms")
+    print(f"  constants   {len(made.constants)}")
+    print(f"  functions   {len(own)}")
+    width = max(len(name) for name, _, _ in own)
+    for name, kind, sites in own:
+        inner = [row[2] for row in program.functions if row[0].startswith(f"{name}/")]
+        total = sites + sum(inner)
+        what = "pure" if kind == "pure" else f"{total} site{'' if total == 1 else 's'}"
+        print(f"    {name:<{width}}  {what}")
+    print(f"  choices     {len(program.choices)}")
+    for name, component, line in program.choices:
+        print(f"    {name.split('/')[0]:<{width}}  {component:<20} line {line}")

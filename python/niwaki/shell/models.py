@@ -1,0 +1,14 @@
+"""`niwaki models`: the gallery, a line each."""
+
+from __future__ import annotations
+
+from niwaki.shell.app import app
+
+
+@app.command()
+def models() -> None:
+    """List the gallery: name, target, what it makes."""
+    from niwaki.gallery import entries
+
+    for entry in entries():
+        print(f"{entry.name:<16} {entry.target_name or '-':<16} {entry.title}")

@@ -1,0 +1,87 @@
+"""Claim: in a moving picture the parts appear one after another in the order asked for, and nothing else moves."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from niwaki._engine import Shape
+from niwaki.draw.animation import animate, growth
+from niwaki.file_errors import FileError
+from niwaki.scene import Scene
+from PIL import Image
+
+SMALL = {"size": (96, 72), "samples": 1}
+
+
+def row(count: int = 4) -> Scene:
+    """Boxes from left to right."""
+    return Scene((f"box[{k}]", [Shape.box((2.0 * k, 0.5, 0), (1, 1, 1))]) for k in range(count))
+
+
+def frames(path: Path) -> list[np.ndarray]:
+    found = []
+    with Image.open(path) as image:
+        for k in range(image.n_frames):
+            image.seek(k)
+            found.append(np.asarray(image.convert("RGB"), dtype=int))
+    return found
+
+
+def changed(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """Columns with a pixel that differs by more than a palette's step."""
+    return np.nonzero((np.abs(first - second).max(axis=2) > 40).any(axis=0))[0]
+
+
+@pytest.mark.parametrize("suffix", ["gif", "apng"])
+def test_parts_appear_from_left_to_right(tmp_path: Path, suffix: str) -> None:
+    found = frames(growth(row(), tmp_path / f"row.{suffix}", azimuth=0.0, elevation=0.0, **SMALL))
+    assert len(found) == 4
+    middles = [changed(a, b).mean() for a, b in zip(found, found[1:], strict=False)]
+    assert middles == sorted(middles) and middles[-1] - middles[0] > 20
+    # What was there stays as it is: the first box has the same pixels in every frame.
+    start = changed(found[0], found[1]).min() - 6
+    assert all(np.abs(frame[:, : start - 4] - found[0][:, : start - 4]).max() <= 24 for frame in found)
+
+
+def test_the_order_of_appearing_can_be_given(tmp_path: Path) -> None:
+    back = growth(row(), tmp_path / "row.gif", parts=row().parts[::-1], azimuth=0.0, elevation=0.0, **SMALL)
+    found = frames(back)
+    middles = [changed(a, b).mean() for a, b in zip(found, found[1:], strict=False)]
+    assert middles == sorted(middles, reverse=True)
+
+
+def test_many_parts_share_a_frame_and_the_last_has_all(tmp_path: Path) -> None:
+    path = growth(row(10), tmp_path / "row.apng", frames=3, **SMALL)
+    assert len(frames(path)) == 3
+    alone = animate([row(10)], tmp_path / "all.apng", **SMALL)
+    assert np.array_equal(frames(path)[-1], frames(alone)[0])
+
+
+def test_time_and_size_are_what_was_asked_for(tmp_path: Path) -> None:
+    with Image.open(growth(row(), tmp_path / "row.gif", seconds=2.0, **SMALL)) as image:
+        assert image.size == (96, 72)
+        assert image.info["duration"] == 500 and image.info["loop"] == 0
+        image.seek(3)
+        assert image.info["duration"] == 2000
+
+
+def test_states_may_be_empty_and_come_back(tmp_path: Path) -> None:
+    found = frames(animate([Scene([]), row(), Scene([])], tmp_path / "blink.apng", **SMALL))
+    assert np.array_equal(found[0], found[2]) and len(changed(found[0], found[1])) > 10
+
+
+def test_bad_settings_are_refused_and_leave_nothing(tmp_path: Path) -> None:
+    for name, states, settings, code in [
+        ("row.mp4", [row()], {}, "file-format"),
+        ("row.gif", [Scene([])], {}, "scene-empty"),
+        ("row.gif", [row()], {"seconds": 0.0}, "setting"),
+        ("row.gif", [row()], {"backdrop": "clear"}, "setting"),
+    ]:
+        with pytest.raises(FileError) as caught:
+            animate(states, tmp_path / name, **{**SMALL, **settings})
+        assert caught.value.code == code
+    with pytest.raises(FileError):
+        growth(row(), tmp_path / "row.gif", frames=0)
+    assert list(tmp_path.iterdir()) == []

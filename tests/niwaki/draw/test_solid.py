@@ -1,0 +1,184 @@
+"""Claim: a printed solid is the union of the shapes, closed, in millimetres with z up; what is not a solid is said by
+its address. The files are read by trimesh (STL) and lib3mf (3MF), which did not write them."""
+
+from __future__ import annotations
+
+import sys
+import warnings
+import zipfile
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import trimesh
+from niwaki import rotation
+from niwaki._engine import Shape
+from niwaki.draw.solid import PrintWarning, Solid, union
+from niwaki.file_errors import FileError
+from niwaki.scene import Scene
+
+TETRAHEDRON = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype=np.float64)
+FACES = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
+
+
+def box(x: float, y: float, z: float, size: tuple[float, float, float] = (2, 2, 2)) -> Shape:
+    return Shape.box((x, y, z), size, bevel=0.0)
+
+
+def overlapping() -> Scene:
+    """Two cubes of side 2 that share a cube of side 1: volume 8 + 8 - 1, 3 wide along each axis."""
+    return Scene([("a", [box(0, 0, 0)]), ("b", [box(1, 1, 1)])])
+
+
+def tower() -> Scene:
+    """A box of 4 x 1 x 2 with one of 1 x 3 x 1 standing on it: they only touch; 5 + ... high is y."""
+    return Scene([("foot", [box(0, 0.5, 0, (4, 1, 2))]), ("mast", [box(1.5, 2.5, 0.5, (1, 3, 1))])])
+
+
+def read_stl(path: Path) -> trimesh.Trimesh:
+    found = trimesh.load_mesh(path)
+    assert isinstance(found, trimesh.Trimesh)
+    return found
+
+
+def read_3mf(path: Path) -> tuple[Any, Any]:
+    """The model and its first mesh, by the consortium's own reader, in its strict mode."""
+    from lib3mf import get_wrapper
+
+    model = get_wrapper().CreateModel()
+    reader = model.QueryReader("3mf")
+    reader.SetStrictModeActive(True)
+    reader.ReadFromFile(str(path))
+    assert reader.GetWarningCount() == 0
+    found = model.GetMeshObjects()
+    assert found.MoveNext()
+    return model, found.GetCurrentMeshObject()
+
+
+def corners(mesh: Any) -> np.ndarray:
+    return np.array([list(vertex.Coordinates) for vertex in mesh.GetVertices()])
+
+
+def volume(vertices: np.ndarray, faces: np.ndarray) -> float:
+    a, b, c = (vertices[faces[:, k]] for k in range(3))
+    return float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6.0)
+
+
+def test_an_stl_is_the_union_in_millimetres(tmp_path: Path) -> None:
+    found = read_stl(overlapping().export(tmp_path / "cubes.stl", scale=10.0))
+    assert found.is_watertight and found.is_winding_consistent
+    assert found.volume == pytest.approx(15_000.0, rel=1e-3)
+    assert np.allclose(found.bounds, [[0, 0, 0], [30, 30, 30]], atol=0.01)
+
+
+def test_a_scene_is_in_metres_unless_said_otherwise(tmp_path: Path) -> None:
+    found = read_stl(overlapping().export(tmp_path / "cubes.stl"))
+    assert np.allclose(found.extents, 3000.0, rtol=1e-4)
+
+
+def test_what_is_up_on_the_screen_is_up_on_the_bed(tmp_path: Path) -> None:
+    found = read_stl(tower().export(tmp_path / "tower.stl", scale=1.0))
+    assert np.allclose(found.extents, [4, 2, 4], atol=1e-3)
+    # The mast stands at x from 1 to 2 and z from 0 to 1 of the scene; a mirrored file would have it elsewhere.
+    high = found.vertices[found.vertices[:, 2] > 2.0]
+    assert np.allclose([high.min(axis=0)[:2], high.max(axis=0)[:2]], [[3, 0], [4, 1]], atol=1e-3)
+
+
+def test_a_3mf_says_its_unit_and_name_and_is_closed(tmp_path: Path) -> None:
+    from lib3mf import ModelUnit
+
+    model, mesh = read_3mf(tower().export(tmp_path / "a <tower>.3mf", scale=10.0))
+    assert model.GetUnit() == ModelUnit.MilliMeter
+    assert mesh.GetName() == "a <tower>"
+    assert mesh.IsValid() and mesh.IsManifoldAndOriented()
+    found = corners(mesh)
+    faces = np.array([list(triangle.Indices) for triangle in mesh.GetTriangleIndices()])
+    assert volume(found, faces) == pytest.approx(11_000.0, rel=1e-3)
+    assert np.allclose([found.min(axis=0), found.max(axis=0)], [[0, 0, 0], [40, 20, 40]], atol=0.01)
+    assert model.GetBuildItems().Count() == 1
+
+
+def test_what_touches_hangs_together_and_what_does_not_is_said() -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert union(tower()).pieces == 1
+    apart = Scene([("a", [box(0, 0, 0)]), ("b", [box(2.1, 0, 0)])])
+    with pytest.warns(PrintWarning, match="2 pieces"):
+        assert union(apart).pieces == 2
+    assert union(apart, fuse=0.1).pieces == 1
+
+
+@pytest.mark.parametrize("angle", np.linspace(0.1, 3.0, 7))
+def test_parts_that_touch_in_any_turn_make_one_closed_solid(angle: float, tmp_path: Path) -> None:
+    turn = rotation((0.36, 0.48, 0.8), float(angle))
+    column = np.array(turn)[:, 0]
+    row = [Shape.box(tuple(2.0 * k * column), (2, 1, 1), rotation=turn) for k in range(4)]
+    scene = Scene((f"{k}", [shape]) for k, shape in enumerate(row))
+    assert union(scene).pieces == 1
+    assert read_stl(scene.export(tmp_path / "row.stl", scale=20.0)).is_watertight
+
+
+@pytest.mark.parametrize(
+    "shape",
+    [
+        Shape.box((0, 0, 0), (1, 2, 3)),
+        Shape.box((0, 0, 0), (1, 2, 3), taper=0.3),
+        Shape.cylinder((0, 0, 0), 1.0, 2.0),
+        Shape.cylinder((0, 0, 0), 1.0, 2.0, top_radius=0.2),
+        Shape.limb((0, 0, 0), (1, 2, 0), 0.5, 0.3, (0, 1, 0), (1, 0, 0)),
+        Shape.mesh(TETRAHEDRON, FACES),
+    ],
+    ids=lambda shape: shape.kind,
+)
+def test_every_kind_of_shape_is_a_solid(shape: Shape) -> None:
+    solid = union(Scene([("one", [shape])]), scale=1.0, fuse=0.0)
+    from niwaki._engine import fine_mesh
+
+    vertices, faces, _ = fine_mesh(shape)
+    assert solid.volume == pytest.approx(volume(vertices, faces), rel=1e-4)
+    assert solid.pieces == 1 and closed(solid)
+
+
+def closed(solid: Solid) -> bool:
+    return bool(trimesh.Trimesh(solid.vertices, solid.faces, process=False).is_watertight)
+
+
+def test_what_is_not_a_solid_is_said_by_its_address(tmp_path: Path) -> None:
+    scene = Scene(
+        [
+            ("ship/hull", [box(0, 0, 0)]),
+            ("ship/sail", [box(4, 0, 0), Shape.mesh(TETRAHEDRON, FACES[:3])]),
+            ("ship/keel", [Shape.mesh(TETRAHEDRON, FACES[:, ::-1])]),
+        ]
+    )
+    with pytest.raises(FileError) as caught:
+        scene.export(tmp_path / "ship.stl")
+    assert str(caught.value) == (
+        "error[not-a-solid]: 2 of 4 shapes are not solids that can be printed\n"
+        " = why: ship/keel (its triangles face inwards); ship/sail, shape 2 (3 open edges)\n"
+        " = help: close these meshes in the program that made them, or write .glb, .obj or .ply, which take any mesh"
+    )
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_without_the_extra_the_message_says_how_to_install_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "manifold3d", None)
+    with pytest.raises(FileError, match=r"pip install 'niwaki\[print\]'"):
+        union(tower())
+
+
+@pytest.mark.parametrize("setting", [{"scale": 0.0}, {"scale": float("nan")}, {"fuse": -1.0}, {"fuse": 9.0}])
+def test_scale_and_fuse_are_lengths(setting: dict[str, float]) -> None:
+    with pytest.raises(FileError) as caught:
+        union(tower(), **setting)
+    assert caught.value.code == "setting"
+
+
+@pytest.mark.parametrize("suffix", ["stl", "3mf"])
+def test_equal_scenes_give_equal_bytes(tmp_path: Path, suffix: str) -> None:
+    first = tower().export(tmp_path / f"a.{suffix}").read_bytes()
+    second = Scene(tower().parts[::-1]).export(tmp_path / f"a.{suffix}").read_bytes()
+    assert first == second
+    if suffix == "3mf":
+        assert zipfile.ZipFile(tmp_path / "a.3mf").testzip() is None

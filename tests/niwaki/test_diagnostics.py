@@ -1,0 +1,227 @@
+"""Claim: our diagnostics are ArviZ's figures, and see what they should see.
+
+The reference numbers of `REFERENCE` were computed with ArviZ 0.23.4 from the chains that `chains` makes of whole-number
+arithmetic; where ArviZ is installed, it is asked as well. Nothing here is random.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import math
+import warnings
+from typing import Any
+
+import niwaki as nw
+import numpy as np
+import pytest
+from niwaki import diagnostics
+
+HAS_ARVIZ = importlib.util.find_spec("arviz") is not None
+needs_arviz = pytest.mark.skipif(not HAS_ARVIZ, reason="ArviZ is not installed (extra `arviz`)")
+
+
+def noise(chains: int, draws: int) -> Any:
+    """Uniform numbers in (0, 1) by a linear congruence: the same in every NumPy."""
+    state, made = 12345, []
+    for _ in range(chains * draws):
+        state = (6364136223846793005 * state + 1442695040888963407) % 2**64
+        made.append(((state >> 11) + 0.5) / 2**53)
+    return np.array(made).reshape(chains, draws)
+
+
+def walk(persistence: float, chains: int, draws: int) -> Any:
+    x = noise(chains, draws) - 0.5
+    for t in range(1, draws):
+        x[:, t] += persistence * x[:, t - 1]
+    return x
+
+
+def chains() -> dict[str, Any]:
+    return {
+        "independent": walk(0.0, 4, 500),
+        "sticky": walk(0.9, 4, 500),
+        "alternating": walk(-0.7, 4, 251),
+        "heavy": np.tan(math.pi * (noise(2, 333) - 0.5)),
+        "apart": walk(0.3, 4, 100) + np.arange(4)[:, None],
+        "ties": np.floor(3 * noise(4, 100)),
+        "short": walk(0.0, 2, 10),
+    }
+
+
+#: R-hat, bulk, tail and mean ESS, MCSE of the mean, E-BFMI of the first chain; ArviZ 0.23.4.
+REFERENCE: dict[str, tuple[float, ...]] = {
+    "independent": (
+        1.0011391779436507,
+        1897.5348481506198,
+        1972.5410124096659,
+        1871.3883946672515,
+        0.006671468772571586,
+        2.012803325248192,
+    ),
+    "sticky": (
+        1.046144780650925,
+        82.89021833955913,
+        97.1369661888561,
+        79.02618497551569,
+        0.07802063293234593,
+        0.2515556598693523,
+    ),
+    "alternating": (
+        1.0038036386486313,
+        3000.0,
+        891.6562017091169,
+        3000.0,
+        0.007322996188623407,
+        3.2903680843801872,
+    ),
+    "heavy": (
+        1.0008282771783124,
+        693.8087585663212,
+        523.1313211605369,
+        674.302942754053,
+        1.693681842922507,
+        1.999729972559225,
+    ),
+    "apart": (
+        2.8226848608276423,
+        5.003276995127672,
+        43.446315049675775,
+        4.6483430052737145,
+        0.5387172509675077,
+        1.3983022711370419,
+    ),
+    "ties": (
+        0.9957966951896454,
+        449.39652428395203,
+        400.0,
+        449.1368888159344,
+        0.039383593528949615,
+        2.0526315789473686,
+    ),
+    "short": (
+        1.0825416640040135,
+        24.29028275228291,
+        21.73913043478261,
+        26.020599913279625,
+        0.05633475432545237,
+        1.907353546821222,
+    ),
+}
+
+
+def ours(x: Any) -> tuple[float, ...]:
+    d = diagnostics
+    sizes = (d.ess_bulk(x), d.ess_tail(x), d.ess_mean(x))
+    return (d.rhat(x), *sizes, d.mcse_mean(x), float(d.ebfmi(x)[0]))
+
+
+@pytest.mark.parametrize("name", chains())
+def test_figures_are_those_of_arviz(name: str) -> None:
+    assert ours(chains()[name]) == pytest.approx(REFERENCE[name], rel=1e-10)
+
+
+@needs_arviz
+@pytest.mark.parametrize("name", chains())
+def test_figures_are_those_of_the_installed_arviz(name: str) -> None:
+    assert ours(chains()[name]) == pytest.approx(theirs(chains()[name]), rel=1e-10)
+
+
+def theirs(x: Any) -> tuple[float, ...]:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        import arviz
+
+        asked: dict[str, Any] = {"bulk": {}, "tail": {"prob": (0.05, 0.95)}, "mean": {}}
+        if int(arviz.__version__.split(".")[0]) >= 1:
+            from arviz_stats.base import array_stats as stats
+
+            sizes = [stats.ess(x, method=method, **extra) for method, extra in asked.items()]
+            found = (stats.rhat(x), *sizes, stats.mcse(x, method="mean"), np.ravel(stats.bfmi(x))[0])
+        else:
+            sizes = [arviz.ess(x, method=method, **extra) for method, extra in asked.items()]
+            found = (arviz.rhat(x), *sizes, arviz.mcse(x, method="mean"), arviz.bfmi(x)[0])
+    return tuple(float(one) for one in found)
+
+
+def test_what_has_not_mixed_is_seen() -> None:
+    made = chains()
+    assert diagnostics.rhat(made["independent"]) < 1.01
+    assert diagnostics.rhat(made["apart"]) > 2.0
+    # Chains that agree in place and not in spread: only the folded ranks see it.
+    spread = walk(0.0, 4, 500) * np.array([1, 1, 1, 5])[:, None]
+    assert diagnostics.rhat(spread) > 1.1
+    # A chain that drifts disagrees with its own second half.
+    drifting = walk(0.0, 1, 500) + np.linspace(0, 2, 500)
+    assert diagnostics.rhat(drifting) > 1.3
+
+
+def test_draws_without_worth() -> None:
+    assert math.isnan(diagnostics.rhat(np.full((4, 100), 3.0)))
+    assert diagnostics.ess_bulk(np.full((4, 100), 3.0)) == 400
+    for bad in (math.nan, math.inf):
+        x = walk(0.0, 4, 100)
+        x[1, 3] = bad
+        assert math.isnan(diagnostics.rhat(x)) and math.isnan(diagnostics.ess_tail(x))
+
+
+def test_autocorrelation_of_a_vector_is_that_of_its_parts_weighted_by_variance() -> None:
+    x = np.stack([walk(0.9, 1, 400)[0], 0.1 * walk(0.0, 1, 400)[0]], axis=1)
+    n, centred = len(x), x - x.mean(axis=0)
+    by_hand = [float((centred[: n - t] * centred[t:]).sum() / (n - t)) for t in (0, 1, 7)]
+    found = diagnostics.autocorrelation(x)
+    assert found[0] == pytest.approx(1.0)
+    assert found[[1, 7]] == pytest.approx([by_hand[1] / by_hand[0], by_hand[2] / by_hand[0]])
+    alone = diagnostics.autocorrelation(x[:, 0])
+    assert found[1] < alone[1]
+
+
+def test_a_vector_of_one_coordinate_is_worth_what_the_coordinate_is() -> None:
+    # phi = 0.9: (1 - phi) / (1 + phi) of the draws, 53 of 1000; one chain's estimate is within a factor of 2.
+    x = walk(0.9, 1, 1000)[0]
+    assert 26 < diagnostics.ess_vector(x[:, None]) < 106
+    assert 700 < diagnostics.ess_vector(walk(0.0, 1, 1000)[0][:, None]) < 1400
+
+
+@pytest.mark.parametrize("share", [0.05, 0.5, 0.9])
+def test_the_error_of_a_quantile_shrinks_as_it_should(share: float) -> None:
+    # Uniform draws: the standard error of a quantile is sqrt(share (1 - share) / n) / density, density 1.
+    x = noise(4, 2500)
+    assert diagnostics.mcse_quantile(x, share) == pytest.approx(
+        math.sqrt(share * (1 - share) / 10_000), rel=0.25
+    )
+
+
+def test_a_summary_is_a_table() -> None:
+    made = diagnostics.summarise({"x": walk(0.0, 4, 100), "v": np.stack([walk(0.5, 4, 100)] * 2, axis=2)})
+    assert [one.name for one in made] == ["x", "v[0]", "v[1]"]
+    lines = repr(made).splitlines()
+    assert len(lines) == 4 and lines[0].split()[:2] == ["mean", "sd"]
+
+
+def test_rank_histograms_are_flat_for_what_is_calibrated() -> None:
+    counts = diagnostics.rank_histogram(list(noise(1, 1000)[0]), noise(1000, 9), 10)
+    # Chi-square with 9 degrees of freedom: 44.8 is exceeded in 1e-6. The mutant's values are squared.
+    statistic = lambda found: float(((found - 100.0) ** 2 / 100.0).sum())  # noqa: E731
+    assert statistic(counts) < 44.8
+    mutant = diagnostics.rank_histogram(list(noise(1, 1000)[0] ** 2), noise(1000, 9), 10)
+    assert statistic(mutant) > 44.8
+
+
+@needs_arviz
+def test_draws_go_to_arviz() -> None:
+    draws = {"x": walk(0.0, 4, 50), "v": noise(4, 150).reshape(4, 50, 3)}
+    stats = {"energy": noise(4, 50), "diverging": noise(4, 50) < 0.1}
+    data = diagnostics.to_arviz(draws, stats)
+    posterior, sample_stats = data["posterior"], data["sample_stats"]
+    assert dict(posterior.sizes)["chain"] == 4 and dict(posterior.sizes)["draw"] == 50
+    assert np.array_equal(np.asarray(posterior["v"]), draws["v"])
+    assert np.array_equal(np.asarray(sample_stats["diverging"]), stats["diverging"])
+
+
+def test_without_arviz_the_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    import sys
+
+    monkeypatch.setitem(sys.modules, "arviz", None)
+    with pytest.raises(nw.InputError, match="niwaki\\[arviz\\]") as caught:
+        diagnostics.to_arviz({"x": walk(0.0, 2, 10)})
+    assert caught.value.code == "no-arviz"

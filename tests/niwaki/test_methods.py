@@ -1,0 +1,48 @@
+"""Claim: the settings of chains are checked when they are made, and each refusal names its setting."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import niwaki as nw
+import pytest
+from niwaki.methods import Hmc, Nuts, hmc, nuts
+
+BAD: dict[str, list[Any]] = {
+    "draws": [0, -1, 1.5, True, "9"],
+    "chains": [0, 2.0],
+    "warmup": [-1, 10.0, None],
+    "thin": [0],
+    "target_accept": [0, 1, math.nan, "0.8"],
+    "metric": ["sparse", None],
+    "step_size": [0, -1, math.inf, math.nan, "1"],
+}
+
+
+@pytest.mark.parametrize("method", [hmc, nuts])
+@pytest.mark.parametrize(("name", "value"), [(name, value) for name in BAD for value in BAD[name]])
+def test_settings_are_checked(method: Any, name: str, value: Any) -> None:
+    with pytest.raises(nw.InputError, match=f"`{name}`") as caught:
+        method(**{name: value})
+    assert caught.value.code == "bad-setting"
+
+
+@pytest.mark.parametrize(
+    ("make", "name"),
+    [
+        (lambda: hmc(steps=0), "steps"),
+        (lambda: hmc(jitter=1.5), "jitter"),
+        (lambda: hmc(jitter=math.nan), "jitter"),
+        (lambda: nuts(max_depth=0), "max_depth"),
+        (lambda: nuts(max_depth=21), "max_depth"),
+    ],
+)
+def test_settings_of_one_method_are_checked(make: Any, name: str) -> None:
+    with pytest.raises(nw.InputError, match=f"`{name}`"):
+        make()
+
+
+def test_defaults_are_what_the_functions_say() -> None:
+    assert hmc() == Hmc() and nuts() == Nuts()
+    assert hmc(500, steps=1000, metric="unit") == Hmc(draws=500, steps=1000, metric="unit")
