@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from niwaki.errors import InputError
+from niwaki.kernels import Kernel
 
 ORDERS = ("stochastic", "depth-first")
 WEIGHTS = ("ratio", "absolute")
@@ -62,6 +63,7 @@ class Mh:
 
     steps: int = 10_000
     strategy: str = "c3"
+    kernel: Kernel | None = None
     chains: int = 1
     thin: int | None = None
     keep: int = 1000
@@ -152,6 +154,7 @@ def smc(
 def mh(
     steps: int = 10_000,
     strategy: str = "c3",
+    kernel: Kernel | None = None,
     chains: int = 1,
     thin: int | None = None,
     keep: int = 1000,
@@ -169,6 +172,8 @@ def mh(
         How much of the model is run again for a proposal: "c3" (from the changed choice on, skipping calls whose inputs
         are unchanged), "resume" (from the choice on), "cache" (from the start, skipping), "rerun" (all of it). The states
         are the same to the bit; only the time differs.
+    kernel
+        How it proposes, a value of `niwaki.kernels`; `kernels.mh()` when left out.
     chains
         How many, side by side on the machine's threads.
     thin
@@ -205,7 +210,15 @@ def mh(
             suggestion=repr(steps // 5),
         )
     _one_of("strategy", strategy, STRATEGIES)
-    return Mh(steps, strategy, chains, thin, keep, warmup, seed, tries)
+    if kernel is not None and not isinstance(kernel, Kernel):
+        raise InputError(
+            "bad-setting",
+            name="kernel",
+            found=repr(kernel),
+            expected="a kernel",
+            suggestion="one of `niwaki.kernels`, such as `kernels.drift()`",
+        )
+    return Mh(steps, strategy, kernel, chains, thin, keep, warmup, seed, tries)
 
 
 def enumerate_all(max_runs: int = 1_000_000) -> EnumerateAll:

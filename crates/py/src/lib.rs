@@ -3,13 +3,14 @@
 //! One file for each room behind the door; this one only registers them.
 //!
 //! * `values`: Python's objects to the machine's values, and back; `faults`: faults as data;
-//! * `model`: compiled models; `search`: algorithms; `chains`: Markov chains; `outcome`: what they find;
+//! * `model`: compiled models; `search`: algorithms; `chains`, `kernels`: Markov chains; `outcome`: what they find;
 //! * `distributions`, `geometry`, `views`, `pictures`: the rooms below, by themselves.
 
 mod chains;
 mod distributions;
 mod faults;
 mod geometry;
+mod kernels;
 mod model;
 mod outcome;
 mod pictures;

@@ -3,6 +3,8 @@
 app.py       the application they hang on, and what they share: arguments, folders, the line that shows progress
 grow.py      `niwaki grow`: a search, written to a folder
 replay.py    `niwaki replay`: the best of a search once more
+sample.py    `niwaki sample`: Markov chains, written to a folder
+explain.py   `niwaki explain`: what each strategy does for one proposal, as a picture
 models.py    `niwaki models`: the gallery
 check.py     `niwaki check`: what a model is made of
 """

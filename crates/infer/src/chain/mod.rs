@@ -7,7 +7,7 @@
 //! * [`accept`]: the acceptance ratio, in plain letters; `decide`: a proposal is kept or undone;
 //! * [`counts`], [`best`], [`samples`], [`snapshot`]: what is told afterwards;
 //! * [`ladder`]: parallel tempering; [`many`]: several searches side by side;
-//! * [`agreement`]: four strategies in step, compared to the bit.
+//! * [`agreement`]: four strategies in step, compared to the bit; [`explain`]: what each of them does for one proposal.
 //!
 //! A chain's states depend on its seed and number only: not on the strategy, not on the number of threads.
 
@@ -18,6 +18,7 @@ pub mod block;
 pub mod counts;
 mod decide;
 pub mod drift;
+pub mod explain;
 pub mod glob;
 pub mod kernel;
 pub mod ladder;
@@ -138,7 +139,8 @@ impl<R: Rules> Chain<R> {
         let (program, streams) = (&*task.program, Streams::new(settings.seed, number));
         let counts = Counts::new(program);
         let mut plan = Plan::new(&settings.kernel, counts.sites.len())?;
-        let (state, spreads) = State::start(task, streams, settings.tries, known)?;
+        let (mut state, spreads) = State::start(task, streams, settings.tries, known)?;
+        R::begin(&mut state.trace);
         let mut tables = Vec::new();
         for leaf in &mut plan.leaves {
             if !leaf.selection.is_all() {
