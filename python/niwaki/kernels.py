@@ -247,7 +247,10 @@ def _made(part: ast.expr) -> Any:
         near = get_close_matches(name, _WRITTEN, n=1)
         hint = f"; did you mean `{near[0]}`?" if near else f"; there are {', '.join(_WRITTEN)}"
         raise ValueError(f"there is no kernel `{name}`{hint}")
-    return ast.literal_eval(part)
+    try:
+        return ast.literal_eval(part)
+    except ValueError:
+        raise ValueError(f"`{ast.unparse(part)}` is no call, number, text or list") from None
 
 
 #: What can be written as text.

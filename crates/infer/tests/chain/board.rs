@@ -146,7 +146,7 @@ fn worst<R: Rules>(text: &str, row: &Row, seed: u64) -> f64 {
     for share in &mut shares {
         for _ in 0..1000 {
             chain.advance(&task, 1, &mut |_, _| true).expect("a run");
-            let value = repr(chain.rungs[0].state.trace.result()).expect("a value");
+            let value = repr(&chain.rungs[0].state.trace.result()).expect("a value");
             *share.entry(value).or_default() += 0.001;
         }
     }
