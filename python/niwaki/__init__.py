@@ -15,12 +15,21 @@ from niwaki.words import *  # noqa: F403
 
 if TYPE_CHECKING:
     from niwaki import kernels
-    from niwaki.constraints import Residuals, residuals
     from niwaki.camera import Camera
+    from niwaki.constraints import Residuals, residuals
     from niwaki.errors import InputError, ModelError, ModelFault, NiwakiError
     from niwaki.infer import Progress, grow, run
     from niwaki.lang.plain import run_python
-    from niwaki.methods import enumerate_all, forward, importance, mh, rejection, smc
+    from niwaki.methods import (
+        enumerate_all,
+        forward,
+        importance,
+        mh,
+        particle_gibbs,
+        pimh,
+        rejection,
+        smc,
+    )
     from niwaki.mh_result import ChainResult
     from niwaki.result import Result, Sample
     from niwaki.scene import Scene
@@ -42,7 +51,16 @@ _HOMES = {
     "niwaki.errors": ("InputError", "ModelError", "ModelFault", "NiwakiError"),
     "niwaki.infer": ("Progress", "grow", "run"),
     "niwaki.lang.plain": ("run_python",),
-    "niwaki.methods": ("enumerate_all", "forward", "importance", "mh", "rejection", "smc"),
+    "niwaki.methods": (
+        "enumerate_all",
+        "forward",
+        "importance",
+        "mh",
+        "particle_gibbs",
+        "pimh",
+        "rejection",
+        "smc",
+    ),
     "niwaki.mh_result": ("ChainResult",),
     "niwaki.constraints": ("Residuals", "residuals"),
     "niwaki.result": ("Result", "Sample"),
@@ -92,6 +110,8 @@ __all__ = [  # noqa: PLE0604
     "match_shadow",
     "no_self_intersection",
     "overshoot",
+    "particle_gibbs",
+    "pimh",
     "rejection",
     "residuals",
     "run",

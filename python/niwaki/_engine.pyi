@@ -23,6 +23,7 @@ __all__ = [
     "__version__",
     "agreement",
     "avoid",
+    "different",
     "draw",
     "draw_at",
     "enumerate_support",
@@ -39,6 +40,7 @@ __all__ = [
     "parameter_names",
     "render",
     "support",
+    "unique_models",
     "volume_match",
 ]
 
@@ -254,12 +256,43 @@ class Task:
     ) -> tuple[list[Outcome], float]: ...
     def smc(
         self,
-        particles: int,
+        plan: Sequence[int],
         seed: int,
         *,
         order: str = "stochastic",
         weights: str = "ratio",
         temper: float = 1.0,
+        anneal: float | Sequence[float] | None = None,
+        resampling: str = "systematic",
+        ess: float | None = None,
+        seconds: float | None = None,
+        threads: int | None = None,
+        watch: _Watch | None = None,
+    ) -> dict[str, Any]: ...
+    def particle_gibbs(
+        self,
+        particles: int,
+        sweeps: int,
+        seed: int,
+        *,
+        order: str = "stochastic",
+        temper: float = 1.0,
+        anneal: float | Sequence[float] | None = None,
+        ess: float | None = None,
+        ancestors: bool = True,
+        start: Outcome | None = None,
+        threads: int | None = None,
+        watch: _Watch | None = None,
+    ) -> dict[str, Any]: ...
+    def pimh(
+        self,
+        particles: int,
+        sweeps: int,
+        seed: int,
+        *,
+        order: str = "stochastic",
+        temper: float = 1.0,
+        anneal: float | Sequence[float] | None = None,
         resampling: str = "systematic",
         ess: float | None = None,
         threads: int | None = None,
@@ -277,6 +310,7 @@ def agreement(
     warmup: int = 0,
 ) -> tuple[str | None, int, int, int]: ...
 def explain(task: Task, seed: int, address: str, tries: int = 1000) -> dict[str, Any]: ...
+
 @final
 class Chains:
     def __new__(
@@ -349,3 +383,6 @@ class Trace:
 
 @final
 class Opaque: ...
+
+def unique_models(outcomes: Sequence[Outcome]) -> int: ...
+def different(outcomes: Sequence[Outcome], k: int) -> list[int]: ...

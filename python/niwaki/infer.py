@@ -9,7 +9,7 @@ from __future__ import annotations
 import secrets
 import time
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from os import PathLike
 from typing import TYPE_CHECKING, Any
@@ -17,7 +17,18 @@ from typing import TYPE_CHECKING, Any
 from niwaki import _engine
 from niwaki.compiled import as_model, task, translated
 from niwaki.errors import InputError
-from niwaki.methods import EnumerateAll, Forward, Importance, Method, Mh, Rejection, Smc, smc
+from niwaki.methods import (
+    EnumerateAll,
+    Forward,
+    Importance,
+    Method,
+    Mh,
+    ParticleGibbs,
+    Pimh,
+    Rejection,
+    Smc,
+    smc,
+)
 from niwaki.result import Result, Sample
 from niwaki.sketches import Score, no_self_intersection, volume_match
 from niwaki.words.models import Model
@@ -78,8 +89,9 @@ def run(
     args, kwargs
         Its arguments.
     method
-        `smc(...)`, `mh(...)`, `enumerate_all(...)`, `rejection(...)`, `importance(...)` or `forward(...)`, which is also
-        what happens when it is left out. It may also stand right after the model.
+        `smc(...)`, `particle_gibbs(...)`, `pimh(...)`, `mh(...)`, `enumerate_all(...)`, `rejection(...)`,
+        `importance(...)` or `forward(...)`, which is also what happens when it is left out. It may also stand right
+        after the model.
     score
         What its scene should be like.
     seed
@@ -106,15 +118,7 @@ def run(
         method, args = args[0], args[1:]
     if seed is None and isinstance(method, Mh):
         seed = method.seed
-    score = score if score is not None else Score()
-    if not isinstance(score, Score):
-        raise InputError(
-            "bad-setting",
-            name="score",
-            found=repr(score),
-            expected="a product of sketches",
-            suggestion="`no_self_intersection() * volume_match(target)`",
-        )
+    score = _asked(score)
     given_seed = check_seed(seed)
     made = task(model, args, kwargs, score.specs, max_steps, max_memory)
     if choices is not None and not isinstance(method, Mh):
@@ -125,7 +129,9 @@ def run(
         with translated(model.name, choices=choices):
             first = made.replay(dict(choices), given_seed)
         known = {choice[1]: choice[3] for choice in first.choices}
-        return _chains(model, made, method, score, given_seed, check_threads(threads), _told(progress, 0, 1), known)
+        return _chains(
+            model, made, method, score, given_seed, check_threads(threads), _told(progress, 0, 1), known
+        )
     return _search(
         model, made, method or Forward(), score, given_seed, check_threads(threads), progress, 0, 1
     )
@@ -133,9 +139,11 @@ def run(
 
 def grow(
     model: Model[..., Any] | Callable[..., Any],
-    target: Target | str | PathLike[str],
+    target: Target | str | PathLike[str] | None = None,
     *args: Any,
-    particles: int = 300,
+    score: Score | None = None,
+    method: Method | None = None,
+    particles: int | Sequence[int] = 300,
     voxel: float | None = None,
     sigma: float = 0.02,
     order: str = "stochastic",
@@ -143,6 +151,10 @@ def grow(
     temper: float | None = None,
     resampling: str = "systematic",
     ess: float | None = None,
+    anneal: float | Sequence[float] | None = None,
+    populations: int | None = None,
+    diverse: int | None = None,
+    seconds: float | None = None,
     rule: str = "solid",
     runs: int = 1,
     seed: int | None = None,
@@ -152,18 +164,25 @@ def grow(
     progress: Watch | None = None,
     **kwargs: Any,
 ) -> Result:
-    """Grow a model into a target: the best of a population, `runs` times.
+    """Grow a model into a target, or into anything else that can be asked for: the best of a population, `runs` times.
 
     Parameters
     ----------
     model
         A model that emits shapes.
     target
-        What to fill: a `Target`, or a file.
+        What to fill: a `Target`, or a file; may be left out where `score` says what to match.
     args, kwargs
         The model's arguments.
-    particles, order, weights, resampling, ess
+    score
+        What else is asked for, such as `floor(0) * match_image("skyline.png", "cam.json")`; it multiplies
+        `no_self_intersection(rule)` and, where there is a target, `volume_match(target, voxel, sigma)`.
+    method
+        Another search than `smc` with the settings below, which are then left out.
+    particles, order, weights, resampling, ess, anneal, populations, seconds
         As for `smc`.
+    diverse
+        As for `smc`: so many results that differ, for each run.
     temper
         As for `smc`; when left out 16 with ratio weights, 1 with absolute ones.
     voxel, sigma
@@ -178,14 +197,23 @@ def grow(
     Returns
     -------
     Result
-        One sample for each run, the best of its population; runs in which every particle became impossible are left
-        out with a warning, and are an error when there is no other.
+        One sample for each run, the best of its population, or as many as are `diverse`; runs in which every particle
+        became impossible are left out with a warning, and are an error when there is no other.
     """
     from niwaki.target import Target
 
     model = as_model(model)
-    chosen = smc(
-        particles, order, weights, default_temper(weights) if temper is None else temper, resampling, ess
+    chosen = method or smc(
+        particles,
+        order,
+        weights,
+        default_temper(weights) if temper is None else temper,
+        resampling,
+        ess,
+        anneal=anneal,
+        populations=populations,
+        diverse=diverse,
+        seconds=seconds,
     )
     if not isinstance(runs, int) or runs < 1:
         raise InputError(
@@ -196,12 +224,17 @@ def grow(
             suggestion="1 or more",
         )
     first, threads = check_seed(seed), check_threads(threads)
-    aim = target if isinstance(target, Target) else Target.load(target)
-    score = no_self_intersection(rule) * volume_match(aim, voxel, sigma)
+    score = no_self_intersection(rule) * _asked(score)
+    if target is not None:
+        aim = target if isinstance(target, Target) else Target.load(target)
+        score *= volume_match(aim, voxel, sigma)
+    elif len(score.specs) == 1:
+        raise InputError("no-target", name=model.name)
     made = task(model, args, kwargs, score.specs, max_steps, max_memory)
     found: list[Sample] = []
     failed: list[InputError] = []
-    seconds, interrupted = 0.0, False
+    spent, interrupted = 0.0, False
+    plan: tuple[int, ...] = ()
     for number in range(runs):
         try:
             one = _search(
@@ -218,11 +251,11 @@ def grow(
                 raise
             interrupted = True
             break
-        seconds += one.seconds
+        spent, plan = spent + one.seconds, one.plan
         interrupted = one.interrupted
         if one.interrupted and found and not any(sample.has_ended for sample in one):
             break
-        found.append(one.best)
+        found.extend(one.samples if isinstance(chosen, Smc) and chosen.diverse is not None else [one.best])
         if interrupted:
             break
     if failed and not found:
@@ -233,9 +266,22 @@ def grow(
             SearchWarning,
             stacklevel=2,
         )
-    result = Result(model, found, first, chosen, score, interrupted=interrupted)
-    result.seconds = seconds
+    result = Result(model, found, first, chosen, score, interrupted=interrupted, plan=plan)
+    result.seconds = spent
     return result
+
+
+def _asked(score: Score | None) -> Score:
+    """What was asked for; nothing where nothing was."""
+    if score is not None and not isinstance(score, Score):
+        raise InputError(
+            "bad-setting",
+            name="score",
+            found=repr(score),
+            expected="a product of sketches",
+            suggestion="`no_self_intersection() * volume_match(target)`",
+        )
+    return score or Score()
 
 
 def default_temper(weights: str) -> float:
@@ -306,6 +352,21 @@ def check_threads(threads: int | None) -> int | None:
     return threads
 
 
+def _diverse(outcomes: list[_engine.Outcome], wanted: int, populations: int) -> list[_engine.Outcome]:
+    """The best of those that differ; runs that did not end or are impossible are none."""
+    ended = [one for one in outcomes if one.has_ended and one.cause is None]
+    ranked = sorted(ended, key=lambda one: -one.log_score)
+    chosen = [ranked[place] for place in _engine.different(ranked, wanted)]
+    if len(chosen) < wanted:
+        warnings.warn(
+            f"{len(chosen)} of {wanted} results that differ were found in {populations} "
+            f"population{'' if populations == 1 else 's'}; give more `populations`",
+            SearchWarning,
+            stacklevel=4,
+        )
+    return chosen
+
+
 def _search(
     model: Model[..., Any],
     made: _engine.Task,
@@ -327,19 +388,51 @@ def _search(
     with translated(model.name, f"seed={seed}"):
         match method:
             case Smc():
-                found = made.smc(
-                    method.particles,
+                facts = made.smc(
+                    method.plan,
                     seed,
                     order=method.order,
                     weights=method.weights,
                     temper=method.temper,
+                    anneal=method.anneal,
+                    resampling=method.resampling,
+                    ess=method.ess,
+                    seconds=method.seconds,
+                    threads=threads,
+                    watch=watch,
+                )
+                outcomes = facts.pop("particles")
+                if method.diverse is not None:
+                    outcomes = _diverse(outcomes, method.diverse, len(facts["plan"]))
+            case ParticleGibbs():
+                facts = made.particle_gibbs(
+                    method.particles,
+                    method.sweeps,
+                    seed,
+                    order=method.order,
+                    temper=method.temper,
+                    anneal=method.anneal,
+                    ess=method.ess,
+                    ancestors=method.ancestors,
+                    start=None if method.start is None else method.start._outcome,
+                    threads=threads,
+                    watch=watch,
+                )
+                outcomes = facts.pop("particles")
+            case Pimh():
+                facts = made.pimh(
+                    method.particles,
+                    method.sweeps,
+                    seed,
+                    order=method.order,
+                    temper=method.temper,
+                    anneal=method.anneal,
                     resampling=method.resampling,
                     ess=method.ess,
                     threads=threads,
                     watch=watch,
                 )
-                outcomes = found.pop("particles")
-                facts = found
+                outcomes = facts.pop("particles")
             case EnumerateAll():
                 table, log_evidence, count = made.enumerate(method.max_runs, watch)
                 outcomes, facts = [], {"log_evidence": log_evidence, "table": table, "tries": count}
@@ -359,7 +452,7 @@ def _search(
                     "bad-setting",
                     name="method",
                     found=repr(method),
-                    expected="smc, mh, enumerate_all, rejection, importance or forward",
+                    expected="smc, particle_gibbs, pimh, mh, enumerate_all, rejection, importance or forward",
                     suggestion="such a method, for instance `smc(particles=300)`",
                 )
     seconds, cpu_seconds = time.perf_counter() - wall, time.process_time() - cpu

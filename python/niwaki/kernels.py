@@ -230,7 +230,9 @@ def parse(text: str) -> Kernel:
     except (SyntaxError, ValueError, TypeError) as error:
         raise InputError("unreadable-kernel", found=text, reason=str(error).split(" (<")[0]) from None
     if not isinstance(made, Kernel):
-        raise InputError("unreadable-kernel", found=text, reason="it is not a call of a kernel, such as `mh()`")
+        raise InputError(
+            "unreadable-kernel", found=text, reason="it is not a call of a kernel, such as `mh()`"
+        )
     return made
 
 
@@ -267,7 +269,9 @@ def _parts(name: str, kernels: Sequence[Any]) -> tuple[Kernel, ...]:
         if not isinstance(one, Kernel):
             raise _wrong(name, one, "kernels", "one of `niwaki.kernels`, such as `kernels.mh()`")
         if one.name == "temper":
-            raise _wrong(name, one, "kernels other than `temper`, which can only be outermost", "`temper` around it")
+            raise _wrong(
+                name, one, "kernels other than `temper`, which can only be outermost", "`temper` around it"
+            )
     return tuple(kernels)
 
 

@@ -1,4 +1,4 @@
-"""What Markov chains give back: the best state, samples, acceptance by site, and the chains themselves, to go on with."""
+"""What Markov chains give back: the best state, samples, acceptance by site, and the chains, to go on with."""
 
 from __future__ import annotations
 

@@ -196,8 +196,19 @@ class Result(Sequence[Sample]):
     seconds, cpu_seconds : float
         Wall and processor time of the search alone.
     barriers, steps, resampled, ancestors, tries : int or None
-        Barriers of a population, how often a particle ran to one, at how many it was resampled, ancestors left; runs
-        that rejection or enumeration took.
+        Barriers of a population, how often a particle ran to one, at how many it was resampled, ancestors left (rows
+        of the first barrier that the final set descends from); runs that rejection or enumeration took, chances that
+        a chain had to move.
+    plan : tuple of int
+        Sizes of the populations; `smc(particles=plan)` with the same seed repeats a search by `seconds`.
+    died : int
+        Populations in which every particle became impossible.
+    temperatures : tuple of float
+        The power at each barrier where it is not constant, of the first population.
+    moves : int or None
+        How often a chain took its chance to move.
+    renewed : tuple of float
+        The share of choices that each sweep of a chain made new.
     """
 
     def __init__(
@@ -215,12 +226,19 @@ class Result(Sequence[Sample]):
         resampled: int | None = None,
         ancestors: int | None = None,
         tries: int | None = None,
+        plan: Sequence[int] = (),
+        died: int = 0,
+        temperatures: Sequence[float] = (),
+        moves: int | None = None,
+        renewed: Sequence[float] = (),
         table: list[tuple[Any, float]] | None = None,
     ) -> None:
         self.model, self.samples, self.seed, self.method, self.score = model, samples, seed, method, score
         self.log_evidence, self.interrupted = log_evidence, interrupted
         self.barriers, self.steps = barriers, steps
         self.resampled, self.ancestors, self.tries = resampled, ancestors, tries
+        self.plan, self.died, self.temperatures = tuple(plan), died, tuple(temperatures)
+        self.moves, self.renewed = moves, tuple(renewed)
         self._table = table
         self.seconds = sum(sample.seconds for sample in samples)
         self.cpu_seconds = sum(sample.cpu_seconds for sample in samples)
@@ -241,6 +259,14 @@ class Result(Sequence[Sample]):
             raise InputError("no-runs", detail=repr(self))
         possible = [s for s in self.samples if s.has_ended and s.log_score > -math.inf]
         return max(possible or self.samples, key=lambda sample: sample.log_score)
+
+    @cached_property
+    def unique_models(self) -> int:
+        """Of how many samples no other shares more than half of its choices, as (address, value) pairs."""
+        from niwaki import _engine
+
+        outcomes = [s._outcome for s in self.samples]
+        return _engine.unique_models([one for one in outcomes if isinstance(one, _engine.Outcome)])
 
     @property
     def value(self) -> Any:

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 FORMAT = 1
 
 
-def written(result: Result, found: Found, settings: dict[str, Any], target: str) -> dict[str, Any]:
+def written(result: Result, found: Found, settings: dict[str, Any], target: str | None) -> dict[str, Any]:
     """A search as plain data."""
     return {
         "format": FORMAT,
@@ -129,6 +129,15 @@ def replayed(data: dict[str, Any], number: int | None = None) -> Sample:
     if now != data["model"]["hash"]:
         recorded = data["model"]["hash"][:12]
         raise InputError("changed-model", name=found.reference, recorded=recorded, found=now[:12])
+    count = len(data["runs"])
+    if number is not None and not 0 <= number < count:
+        raise InputError(
+            "bad-setting",
+            name="run",
+            found=repr(number),
+            expected=f"one of the {count} results of this search, from 0 to {count - 1}",
+            suggestion=f"such a number, or leave it out for the best, {data['best']}",
+        )
     run = data["runs"][data["best"] if number is None else number]
     choices = {part["address"]: _chosen(part["value"]) for part in run["choices"]}
     made = task(found.model)

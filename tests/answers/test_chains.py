@@ -103,9 +103,7 @@ KERNELS = {
 def t_values(model: Any, kernel: k.Kernel, seed: int = 5, **settings: Any) -> float:
     """The largest |t| over the values of a model."""
     exact = nw.run(model, method=nw.enumerate_all()).distribution()
-    result = nw.run(
-        model, nw.mh(steps=42_000, warmup=2_000, thin=2, kernel=kernel, seed=seed, **settings)
-    )
+    result = nw.run(model, nw.mh(steps=42_000, warmup=2_000, thin=2, kernel=kernel, seed=seed, **settings))
     values = [sample.value for sample in result]
     stretches = np.array_split(np.arange(len(values)), 40)
     largest = 0.0
@@ -129,7 +127,8 @@ def test_strategies_answer_as_enumeration_does(strategy: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "sites"), [("coins", {"a": 3.0, "*": 0.5}), ("shapes", {"*bernoulli*": 0.3}), ("bounds", {"j": 4.0})]
+    ("name", "sites"),
+    [("coins", {"a": 3.0, "*": 0.5}), ("shapes", {"*bernoulli*": 0.3}), ("bounds", {"j": 4.0})],
 )
 def test_odds_by_site_answer_as_enumeration_does(name: str, sites: dict[str, float]) -> None:
     assert t_values(MODELS[name], k.odds(k.mh(), sites=sites)) < 6

@@ -242,9 +242,13 @@ def test_a_proposal_outside_the_support_is_rejected_and_counted() -> None:
 
 
 def test_kernels_are_read_as_they_are_written() -> None:
-    text = "cycle(on(['z', 'a/*'], mh()), repeat(3, drift(0.2)), mixture(block(share=0.5), mh, weights=[1, 2]))"
+    text = (
+        "cycle(on(['z', 'a/*'], mh()), repeat(3, drift(0.2)), mixture(block(share=0.5), mh, weights=[1, 2]))"
+    )
     expected = k.cycle(
-        k.on(["z", "a/*"], k.mh()), k.repeat(3, k.drift(0.2)), k.mixture(k.block(share=0.5), k.mh(), weights=[1, 2])
+        k.on(["z", "a/*"], k.mh()),
+        k.repeat(3, k.drift(0.2)),
+        k.mixture(k.block(share=0.5), k.mh(), weights=[1, 2]),
     )
     assert k.parse(text) == expected
 

@@ -224,6 +224,7 @@ SETTINGS: dict[str, Callable[[], Any]] = {
     "voxel": lambda: nw.volume_match(tetrahedron(), voxel=-1.0),
     "sigma": lambda: nw.volume_match(tetrahedron(), sigma=0.0),
     "a grid too large": lambda: nw.volume_match(tetrahedron(), voxel=1e-6),
+    "nothing to grow into": lambda: nw.grow(COINS),
     "runs": lambda: nw.grow(COINS, tetrahedron(), runs=0),
 }
 

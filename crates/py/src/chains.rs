@@ -2,7 +2,8 @@
 
 use crate::kernels;
 use crate::outcome::PyOutcome;
-use crate::search::{PyTask, detached, unknown};
+use crate::search::{PyTask, detached};
+use crate::settings::unknown;
 use niwaki_infer::chain::agreement::compare;
 use niwaki_infer::chain::counts::{Count, Counts};
 use niwaki_infer::chain::explain::What;

@@ -3,7 +3,8 @@
 //! One file for each room behind the door; this one only registers them.
 //!
 //! * `values`: Python's objects to the machine's values, and back; `faults`: faults as data;
-//! * `model`: compiled models; `search`: algorithms; `chains`, `kernels`: Markov chains; `outcome`: what they find;
+//! * `model`: compiled models; `search`: algorithms; `settings`: theirs; `chains`, `kernels`: Markov chains;
+//!   `outcome`: what they find;
 //! * `distributions`, `geometry`, `views`, `pictures`: the rooms below, by themselves.
 
 mod chains;
@@ -15,6 +16,7 @@ mod model;
 mod outcome;
 mod pictures;
 mod search;
+mod settings;
 mod values;
 mod views;
 

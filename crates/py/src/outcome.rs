@@ -3,7 +3,8 @@
 use crate::geometry::PyShape;
 use crate::values::{Classes, Opaque};
 use niwaki_infer::chain::snapshot::Snapshot;
-use niwaki_infer::log::Log;
+use niwaki_infer::log::{Entry, Log};
+use niwaki_infer::particles::distinct::Choices;
 use niwaki_infer::record::Record;
 use niwaki_infer::replay::{Trace, by_address};
 use niwaki_vm::value::Value;
@@ -85,6 +86,10 @@ impl PyOutcome {
 
     pub fn ended(&self) -> bool {
         self.has_ended
+    }
+
+    pub fn entries(&self) -> Vec<Entry> {
+        self.log.entries()
     }
 
     pub fn by_address(&self) -> HashMap<u128, Value> {
@@ -183,8 +188,29 @@ impl PyTrace {
     }
 }
 
+fn choices_of(py: Python<'_>, outcomes: &[Py<PyOutcome>]) -> Choices {
+    py.detach(|| Choices::of(outcomes.iter().map(|outcome| &outcome.get().log)))
+}
+
+/// Of how many no other has more than half of the choices.
+#[pyfunction]
+fn unique_models(py: Python<'_>, outcomes: Vec<Py<PyOutcome>>) -> usize {
+    let choices = choices_of(py, &outcomes);
+    py.detach(|| choices.unique())
+}
+
+/// The places of up to ``k`` outcomes that differ from each other, taken greedily from the first on.
+#[pyfunction]
+fn different(py: Python<'_>, outcomes: Vec<Py<PyOutcome>>, k: usize) -> Vec<usize> {
+    let choices = choices_of(py, &outcomes);
+    let ranked: Vec<usize> = (0..outcomes.len()).collect();
+    py.detach(|| choices.choose(&ranked, k))
+}
+
 /// Puts this room into the module.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_function(wrap_pyfunction!(unique_models, module)?)?;
+    module.add_function(wrap_pyfunction!(different, module)?)?;
     module.add_class::<PyOutcome>()?;
     module.add_class::<PyTrace>()
 }

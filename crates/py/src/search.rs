@@ -7,15 +7,15 @@ use crate::faults;
 use crate::geometry::PySketchSpec;
 use crate::model::PyProgram;
 use crate::outcome::{PyOutcome, PyTrace};
+use crate::settings::{Way, Words, settings};
 use niwaki_infer::enumeration::enumerate;
 use niwaki_infer::forward::{Sample, forward};
 use niwaki_infer::importance::importance;
-use niwaki_infer::particles::{Order, Resampling, Settings, Weights, When, smc};
+use niwaki_infer::particles::{self, Ancestors, Chain, Progress, particle_gibbs, pimh, populations, within};
 use niwaki_infer::rejection::rejection;
 use niwaki_infer::replay::{Missing, Source, replay};
 use niwaki_infer::{Failure, Task};
 use niwaki_vm::code::Program;
-use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Limits;
 use niwaki_vm::value::Value;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
@@ -104,12 +104,6 @@ pub(crate) fn detached<T: Send>(
         Some(error) if done.is_err() || !error.is_instance_of::<PyKeyboardInterrupt>(py) => Err(error),
         _ => done.map(|found| (found, pressed)).map_err(|failure| faults::raise(py, &failure, program)),
     }
-}
-
-pub(crate) fn unknown(py: Python<'_>, program: &Program, name: &str, found: &str, known: &str) -> PyErr {
-    let fault =
-        Fault::new("bad-setting", format!("`{name}` cannot be {found:?}")).with_help(format!("use {known}"));
-    faults::raise(py, &fault.into(), program)
 }
 
 /// A model with its arguments and the sketches that score its scene.
@@ -219,53 +213,40 @@ impl PyTask {
         Ok((self.outcomes(found.samples, false, |s| s.record.log_score()), found.log_evidence))
     }
 
-    /// Sequential Monte Carlo: a dict with ``particles`` (outcomes), ``log_evidence`` (None for absolute weights),
-    /// ``barriers``, ``resampled``, ``ancestors``, ``interrupted``.
-    #[pyo3(signature = (particles, seed, *, order="stochastic", weights="ratio", temper=1.0, resampling="systematic",
-                        ess=None, threads=None, watch=None))]
+    /// Sequential Monte Carlo: a dict with ``particles`` (outcomes), ``log_evidence`` (None where there is none),
+    /// ``barriers``, ``steps``, ``resampled``, ``ancestors``, ``plan``, ``died``, ``temperatures``, ``interrupted``.
+    /// ``plan`` holds the sizes of the populations; with ``seconds`` the measured costs decide them.
+    #[pyo3(signature = (plan, seed, *, order="stochastic", weights="ratio", temper=1.0, anneal=None,
+                        resampling="systematic", ess=None, seconds=None, threads=None, watch=None))]
     #[expect(clippy::too_many_arguments, reason = "the settings of the method")]
     fn smc<'py>(
         &self,
         py: Python<'py>,
-        particles: usize,
+        plan: Vec<usize>,
         seed: u64,
         order: &str,
         weights: &str,
         temper: f64,
+        anneal: Option<Way>,
         resampling: &str,
         ess: Option<f64>,
+        seconds: Option<f64>,
         threads: Option<usize>,
         watch: Option<Py<PyAny>>,
     ) -> PyResult<Bound<'py, PyDict>> {
         let program = &*self.task.program;
-        let settings = Settings {
-            particles,
-            seed,
-            temper,
-            order: match order {
-                "stochastic" => Order::Stochastic,
-                "depth-first" => Order::DepthFirst,
-                _ => return Err(unknown(py, program, "order", order, "\"stochastic\" or \"depth-first\"")),
-            },
-            weights: match weights {
-                "ratio" => Weights::Ratio,
-                "absolute" => Weights::Absolute,
-                _ => return Err(unknown(py, program, "weights", weights, "\"ratio\" or \"absolute\"")),
-            },
-            resampling: match resampling {
-                "systematic" => Resampling::Systematic,
-                "residual" => Resampling::Residual,
-                "stratified" => Resampling::Stratified,
-                "multinomial" => Resampling::Multinomial,
-                _ => {
-                    let known = "\"systematic\", \"residual\", \"stratified\" or \"multinomial\"";
-                    return Err(unknown(py, program, "resampling", resampling, known));
-                }
-            },
-            when: ess.map_or(When::Always, When::EffectiveBelow),
-        };
+        let particles = plan.first().copied().unwrap_or(1);
+        let words = Words { particles, seed, order, weights, temper, anneal, resampling, ess };
+        let settings = settings(py, program, words)?;
         let (found, pressed) = detached(py, program, threads, watch.as_ref(), |watch| {
-            smc(&self.task, &settings, &mut |p| watch.look(p.barriers as u64, p.ended, p.best))
+            let mut look = |p: Progress| watch.look(p.barriers as u64, p.ended, p.best);
+            match seconds {
+                Some(time) => {
+                    let time = Duration::try_from_secs_f64(time).unwrap_or(Duration::ZERO);
+                    within(&self.task, &settings, time, &mut look)
+                }
+                None => populations(&self.task, &settings, &plan, &mut look),
+            }
         })?;
         let facts = PyDict::new(py);
         facts.set_item("log_evidence", found.log_evidence)?;
@@ -273,15 +254,65 @@ impl PyTask {
         facts.set_item("steps", found.steps)?;
         facts.set_item("resampled", found.resampled)?;
         facts.set_item("ancestors", found.ancestors)?;
+        facts.set_item("plan", PyTuple::new(py, found.plan)?)?;
+        facts.set_item("died", found.died)?;
+        facts.set_item("temperatures", PyTuple::new(py, found.temperatures)?)?;
         facts.set_item("interrupted", found.interrupted || pressed)?;
-        let classes = &self.model.get().classes;
-        let outcomes: Vec<PyOutcome> = found
-            .particles
-            .into_iter()
-            .map(|p| PyOutcome::new(p.record, p.value, p.log_weight, p.has_ended, classes.clone()))
-            .collect();
-        facts.set_item("particles", outcomes)?;
+        facts.set_item("particles", self.of_particles(found.particles))?;
         Ok(facts)
+    }
+
+    /// Particle Gibbs: a dict with ``particles`` (an outcome for each sweep), ``tries``, ``moves``, ``renewed``,
+    /// ``interrupted``. It starts from ``start``, or from a run that SMC finds.
+    #[pyo3(signature = (particles, sweeps, seed, *, order="stochastic", temper=1.0, anneal=None, ess=None,
+                        ancestors=true, start=None, threads=None, watch=None))]
+    #[expect(clippy::too_many_arguments, reason = "the settings of the method")]
+    fn particle_gibbs<'py>(
+        &self,
+        py: Python<'py>,
+        particles: usize,
+        sweeps: usize,
+        seed: u64,
+        order: &str,
+        temper: f64,
+        anneal: Option<Way>,
+        ess: Option<f64>,
+        ancestors: bool,
+        start: Option<Py<PyOutcome>>,
+        threads: Option<usize>,
+        watch: Option<Py<PyAny>>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let (weights, resampling) = ("ratio", "multinomial");
+        let words = Words { particles, seed, order, weights, temper, anneal, resampling, ess };
+        let settings = settings(py, &self.task.program, words)?;
+        let ancestors = if ancestors { Ancestors::Sampled } else { Ancestors::Kept };
+        let from = start.map(|start| start.get().entries());
+        self.chain(py, threads, watch.as_ref(), |look| {
+            particle_gibbs(&self.task, &settings, ancestors, sweeps, from.as_deref(), look)
+        })
+    }
+
+    /// Particle independent Metropolis-Hastings: as ``particle_gibbs``, and ``log_evidence``.
+    #[pyo3(signature = (particles, sweeps, seed, *, order="stochastic", temper=1.0, anneal=None,
+                        resampling="systematic", ess=None, threads=None, watch=None))]
+    #[expect(clippy::too_many_arguments, reason = "the settings of the method")]
+    fn pimh<'py>(
+        &self,
+        py: Python<'py>,
+        particles: usize,
+        sweeps: usize,
+        seed: u64,
+        order: &str,
+        temper: f64,
+        anneal: Option<Way>,
+        resampling: &str,
+        ess: Option<f64>,
+        threads: Option<usize>,
+        watch: Option<Py<PyAny>>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let words = Words { particles, seed, order, weights: "ratio", temper, anneal, resampling, ess };
+        let settings = settings(py, &self.task.program, words)?;
+        self.chain(py, threads, watch.as_ref(), |look| pimh(&self.task, &settings, sweeps, look))
     }
 
     /// Runs once more with the choices of an outcome; one that had not ended as far as its choices go.
@@ -326,6 +357,35 @@ impl PyTask {
         work: impl FnOnce() -> Result<T, Failure> + Send,
     ) -> PyResult<T> {
         py.detach(work).map_err(|failure| faults::raise(py, &failure, &self.task.program))
+    }
+
+    /// Runs a chain of whole runs: its facts.
+    fn chain<'py>(
+        &self,
+        py: Python<'py>,
+        threads: Option<usize>,
+        callable: Option<&Py<PyAny>>,
+        work: impl FnOnce(&mut particles::Watch<'_>) -> Result<Chain, Failure> + Send,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let (found, pressed) = detached(py, &self.task.program, threads, callable, |watch| {
+            work(&mut |p: Progress| watch.look(p.barriers as u64, p.ended, p.best))
+        })?;
+        let facts = PyDict::new(py);
+        facts.set_item("tries", found.tries)?;
+        facts.set_item("moves", found.moves)?;
+        facts.set_item("renewed", found.renewed)?;
+        facts.set_item("log_evidence", found.log_evidence)?;
+        facts.set_item("interrupted", found.interrupted || pressed)?;
+        facts.set_item("particles", self.of_particles(found.states))?;
+        Ok(facts)
+    }
+
+    fn of_particles(&self, particles: Vec<particles::Outcome>) -> Vec<PyOutcome> {
+        let classes = &self.model.get().classes;
+        let made = |p: particles::Outcome| {
+            PyOutcome::new(p.record, p.value, p.log_weight, p.has_ended, classes.clone())
+        };
+        particles.into_iter().map(made).collect()
     }
 
     fn object<'py>(&self, py: Python<'py>, value: &Value) -> PyResult<Bound<'py, PyAny>> {

@@ -102,7 +102,13 @@ def _marks(explained: dict[str, Any]) -> tuple[list[_Mark], int]:
     spans = _spans(rows)
     marks = [
         _Mark("text", MARGIN, 18, text=f"a proposal to {explained['path']}", size=15),
-        _Mark("text", MARGIN, 38, text=f"{said(explained['old'])} becomes {said(explained['new'])}", fill="#777777"),
+        _Mark(
+            "text",
+            MARGIN,
+            38,
+            text=f"{said(explained['old'])} becomes {said(explained['new'])}",
+            fill="#777777",
+        ),
     ]
     if top > 0 or bottom < deepest:
         shown = f"levels {top} to {bottom} of 0 to {deepest}"
@@ -172,7 +178,14 @@ def _panel(
             text = row[0] if len(row[0]) <= most else row[0][: max(most - 2, 1)] + ".."
             dark = what in ("untouched", "skipped", "invoked")
             boxes.append(
-                _Mark("text", x + 4, place + down / 2 - 6, text=text, fill="#333333" if dark else "#ffffff", size=10)
+                _Mark(
+                    "text",
+                    x + 4,
+                    place + down / 2 - 6,
+                    text=text,
+                    fill="#333333" if dark else "#ffffff",
+                    size=10,
+                )
             )
         if number == home:
             rings.append(_Mark("ring", x - 1, place - 1, max(wide, 3) + 2, max(down, 3) + 2, line="#111111"))
@@ -193,7 +206,9 @@ def _svg(marks: Sequence[_Mark], height: int) -> str:
             )
             continue
         fill = "none" if mark.kind == "ring" else mark.fill
-        stroke = f' stroke="{mark.line}" stroke-width="{2 if mark.kind == "ring" else 0.5}"' if mark.line else ""
+        stroke = (
+            f' stroke="{mark.line}" stroke-width="{2 if mark.kind == "ring" else 0.5}"' if mark.line else ""
+        )
         lines.append(
             f'<rect x="{mark.x:.2f}" y="{mark.y:.2f}" width="{mark.width:.2f}" height="{mark.height:.2f}" '
             f'fill="{fill}"{stroke}/>'

@@ -87,15 +87,17 @@ def union(scene: Scene, scale: float = METRE, fuse: float | None = None) -> Soli
     if fuse is not None and not 0.0 <= fuse < longest:
         expected = f"a number of scene units from 0 to less than the scene's longest side, {longest:.4g}"
         raise FileError("setting", name="fuse", found=fuse, expected=expected)
-    kernel = _kernel()
-    solids = _solids(scene, kernel, FUSE * longest if fuse is None else fuse)
-    joined = kernel.Manifold.batch_boolean(solids, kernel.OpType.Add)
+    tools = kernel()
+    solids = _solids(scene, tools, FUSE * longest if fuse is None else fuse)
+    joined = tools.Manifold.batch_boolean(solids, tools.OpType.Add)
     # (x, y, z) to (x, -z, y): what is up on the screen is up on the printer's bed.
     turned = joined.transform([[scale, 0, 0, 0], [0, 0, -scale, 0], [0, scale, 0, 0]])
     low, high = np.reshape(turned.bounding_box(), (2, 3))
     placed = turned.translate(-low).simplify(SMALLEST * float((high - low).max()))
     mesh = placed.to_mesh()
-    pieces = len(placed.decompose())
+    vertices = np.maximum(np.asarray(mesh.vert_properties[:, :3], dtype=np.float32), 0.0)
+    faces = np.asarray(mesh.tri_verts, dtype=np.int64)
+    pieces = _pieces(vertices, faces)
     if pieces > 1:
         warnings.warn(
             f"the solid is in {pieces} pieces that do not hang together, and a printer makes each of them alone; "
@@ -103,11 +105,17 @@ def union(scene: Scene, scale: float = METRE, fuse: float | None = None) -> Soli
             PrintWarning,
             stacklevel=2,
         )
-    vertices = np.maximum(np.asarray(mesh.vert_properties[:, :3], dtype=np.float32), 0.0)
-    return Solid(vertices, np.asarray(mesh.tri_verts, dtype=np.int64), float(placed.volume()), pieces)
+    return Solid(vertices, faces, float(placed.volume()), pieces)
 
 
-def _kernel() -> Any:
+def kernel() -> Any:
+    """The library that joins solids.
+
+    Raises
+    ------
+    FileError
+        It is not installed.
+    """
     try:
         import manifold3d
     except ImportError:
@@ -115,15 +123,15 @@ def _kernel() -> Any:
     return manifold3d
 
 
-def _solids(scene: Scene, kernel: Any, swell: float) -> list[Any]:
-    """Each shape as a solid of the kernel; those that are none are said together."""
+def _solids(scene: Scene, tools: Any, swell: float) -> list[Any]:
+    """Each shape as a solid of manifold3d; those that are none are said together."""
     found, bad = [], []
     for part in scene.parts:
         for number, shape in enumerate(part.shapes):
             vertices, faces = _swollen(*_engine.fine_mesh(shape), swell)
-            solid = kernel.Manifold(kernel.Mesh64(vertices, faces.astype(np.uint64)))
+            solid = tools.Manifold(tools.Mesh64(vertices, faces.astype(np.uint64)))
             reason = ""
-            if (count := _open_edges(faces)) or solid.status() != kernel.Error.NoError:
+            if (count := _open_edges(faces)) or solid.status() != tools.Error.NoError:
                 reason = f"{count} open edges" if count else "edges between more than two triangles"
             elif solid.volume() <= 0.0:
                 reason = "its triangles face inwards" if solid.volume() < 0.0 else "no volume"
@@ -150,6 +158,24 @@ def _swollen(
     a, b, c = corners.T
     kept = corners[(a != b) & (b != c) & (c != a)]
     return places + swell * outwards / np.where(lengths > 0.0, lengths, 1.0), kept
+
+
+def _pieces(vertices: NDArray[Any], faces: NDArray[Any]) -> int:
+    """How many bodies a closed surface bounds; the walls of a hollow, which face inwards, are no body.
+
+    Each vertex takes the smallest number among its neighbours', and that number's own, until nothing changes.
+    """
+    label = np.arange(len(vertices))
+    while True:
+        smallest = label.copy()
+        np.minimum.at(smallest, faces.reshape(-1), np.repeat(label[faces].min(axis=1), 3))
+        smallest = smallest[smallest]
+        if np.array_equal(smallest, label):
+            break
+        label = smallest
+    a, b, c = (vertices[faces[:, k]].astype(np.float64) for k in range(3))
+    volumes = np.bincount(label[faces[:, 0]], np.einsum("ij,ij->i", a, np.cross(b, c)))
+    return int((volumes > 0.0).sum())
 
 
 def _open_edges(faces: NDArray[Any]) -> int:

@@ -1,9 +1,9 @@
-"""The README's pictures, made again by one command.
+"""The pictures of the README and the manual, made again by one command.
 
     python -m niwaki.gallery.pictures docs/pictures
 
-ships.png: ten ships in one target; tree.png: three trees in one target and, below, three that no target asked for.
-Each stays below `LARGEST` bytes.
+ships.png: ten ships in one target; tree.png: three trees in one target and, below, three that no target asked for;
+growth.gif: the best of the ships, growing. Each stays below `LARGEST` bytes.
 """
 
 from __future__ import annotations
@@ -49,6 +49,7 @@ def draw(folder: Path) -> list[Path]:
     return [
         written(folder / "ships.png", fleet(ships)),
         written(folder / "tree.png", garden(trees)),
+        ships.best.animate(folder / "growth.gif", seconds=3.0, size=(320, 200), elevation=30.0, margin=0.03),
     ]
 
 

@@ -10,14 +10,16 @@ import sys
 from pathlib import Path
 
 from niwaki.errors import fill
-from niwaki.lang.messages import DOORS, FAULTS, FILES, INPUTS, LANGUAGE, Message
+from niwaki.lang.messages import ADVICE, CHAINS, DOORS, FAULTS, FILES, INPUTS, LANGUAGE, Message
 
 KINDS = (
     (LANGUAGE, "Found when a model is compiled, before anything runs."),
     (FAULTS, "Found while a model runs; the message shows the model's own calls, outermost first."),
     (INPUTS, "Found when a setting or an argument is looked at."),
     (FILES, "Found when a file is read or written."),
+    (CHAINS, "Found when a Markov chain starts or runs."),
     (DOORS, "Found when a setting, a model's name or a run's file is looked at."),
+    (ADVICE, "Advice of `niwaki check`: the model is right, and a search of it could be better."),
 )
 
 

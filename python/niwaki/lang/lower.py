@@ -30,16 +30,13 @@ def lower(function: FunctionType) -> Core:
     """
     program = Program()
     entry = program.unit(function)
-    lowered: list[Expr] = []
-    while program.waiting:
-        unit = program.waiting.pop(0)
-        lowered += [_function(program, unit, scope) for scope in functions(unit.scopes)]
+    made = _functions(program)
     module: list[Expr] = [Form("file", [str(n), literal(file.path)]) for n, file in enumerate(program.files)]
     for number, record in enumerate(program.classes):
         fields = Form("", [literal(field) for field in record_fields(record)])
         kind = ["namedtuple"] if is_named_tuple(record) else []
         module.append(Form("class", [str(number), literal(record.__name__), fields, *kind]))
-    module += [*lowered, Form("entry", [literal(entry.name)])]
+    module += [*made, Form("entry", [literal(entry.name)])]
     form = Form("module", module)
     parameters = entry.scopes.root.parameters
     defaults = len(function.__defaults__ or ()) + len(function.__kwdefaults__ or {})
@@ -53,6 +50,23 @@ def lower(function: FunctionType) -> Core:
         len(parameters) - defaults,
         form,
     )
+
+
+def lowered(function: FunctionType) -> Program:
+    """What lowering a model finds out: its functions, their texts, what their names mean."""
+    program = Program()
+    program.unit(function)
+    _functions(program)
+    return program
+
+
+def _functions(program: Program) -> list[Expr]:
+    """Every function that waits, and those that they call."""
+    made: list[Expr] = []
+    while program.waiting:
+        unit = program.waiting.pop(0)
+        made += [_function(program, unit, scope) for scope in functions(unit.scopes)]
+    return made
 
 
 def _function(program: Program, unit: Unit, scope: Scope) -> Form:

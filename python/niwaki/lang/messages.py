@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from niwaki.lang.texts.advice import ADVICE
 from niwaki.lang.texts.chains import CHAINS
 from niwaki.lang.texts.doors import DOORS
 from niwaki.lang.texts.faults import FAULTS
@@ -11,7 +12,7 @@ from niwaki.lang.texts.language import LANGUAGE
 from niwaki.lang.texts.message import Message
 
 MESSAGES: dict[str, Message] = {
-    message.code: message for message in (*LANGUAGE, *FAULTS, *INPUTS, *FILES, *DOORS, *CHAINS)
+    message.code: message for message in (*LANGUAGE, *FAULTS, *INPUTS, *FILES, *DOORS, *ADVICE, *CHAINS)
 }
 
-__all__ = ["CHAINS", "DOORS", "FAULTS", "FILES", "INPUTS", "LANGUAGE", "MESSAGES", "Message"]
+__all__ = ["ADVICE", "CHAINS", "DOORS", "FAULTS", "FILES", "INPUTS", "LANGUAGE", "MESSAGES", "Message"]

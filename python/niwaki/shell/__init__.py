@@ -1,10 +1,13 @@
 """The shell's commands, one a file; `niwaki.cli` puts them together.
 
 app.py       the application they hang on, and what they share: arguments, folders, the line that shows progress
+asking.py    what a person asks of a shape, as flags
+searching.py how to search, as flags
+writing.py   which files a result becomes
 grow.py      `niwaki grow`: a search, written to a folder
-replay.py    `niwaki replay`: the best of a search once more
+replay.py    `niwaki replay`: a result once more, in any format
 sample.py    `niwaki sample`: Markov chains, written to a folder
 explain.py   `niwaki explain`: what each strategy does for one proposal, as a picture
 models.py    `niwaki models`: the gallery
-check.py     `niwaki check`: what a model is made of
+check.py     `niwaki check`: what a model is made of, with advice
 """

@@ -1,4 +1,4 @@
-"""`niwaki check`: compile a model and report what it is made of."""
+"""`niwaki check`: compile a model and report what it is made of, with advice."""
 
 from __future__ import annotations
 
@@ -18,8 +18,9 @@ def check(
     core: Annotated[bool, typer.Option("--core", help="Print the core form.")] = False,
     bytecode: Annotated[bool, typer.Option("--bytecode", help="Print the bytecode.")] = False,
 ) -> None:
-    """Compile MODEL and report what it is made of; exit 1 when it does not compile."""
+    """Compile MODEL and report what it is made of, with advice; exit 1 when it does not compile."""
     from niwaki.finding import find
+    from niwaki.lang.advice import advise
 
     found = find(model)
     start = time.perf_counter()
@@ -49,3 +50,5 @@ def check(
     print(f"  choices     {len(program.choices)}")
     for name, component, line in program.choices:
         print(f"    {name.split('/')[0]:<{width}}  {component:<20} line {line}")
+    for one in advise(found.model.function):
+        print(f"\n{one}")

@@ -14,7 +14,8 @@ from niwaki.shell.app import ModelName, app, made_folder
 def explain(
     model: ModelName,
     choice: Annotated[
-        str, typer.Option("--choice", metavar="ADDRESS", help="The choice that is changed; patterns may be used.")
+        str,
+        typer.Option("--choice", metavar="ADDRESS", help="The choice that is changed; patterns may be used."),
     ],
     seed: Annotated[int, typer.Option(help="Of the first state and the proposal.")] = 0,
     output: Annotated[

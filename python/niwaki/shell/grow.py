@@ -9,88 +9,127 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from niwaki.shell import asking, searching, writing
 from niwaki.shell.app import Folder, ModelName, app, made_folder, progress_line
 
 if TYPE_CHECKING:
     from niwaki.finding import Found
     from niwaki.result import Result, Sample
-    from niwaki.target import Target
 
 
 @app.command()
 def grow(
     model: ModelName,
-    target: Annotated[
-        str | None,
-        typer.Option(
-            "--target", metavar="FILE", help="A mesh (OBJ, STL, PLY, GLB); default: the model's own."
-        ),
-    ] = None,
-    particles: Annotated[
-        int | None,
-        typer.Option(
-            "-n", "--particles", help="Size of the population; default: what suits the model, or 300."
-        ),
-    ] = None,
-    order: Annotated[str, typer.Option(help="stochastic or depth-first.")] = "stochastic",
-    weights: Annotated[str, typer.Option(help="ratio or absolute.")] = "ratio",
-    temper: Annotated[
-        float | None, typer.Option(help="Sharpening of the search; default: 16, with absolute weights 1.")
-    ] = None,
-    voxel: Annotated[
-        float | None, typer.Option(metavar="SIZE", help="Cell size; default: what suits model or target.")
-    ] = None,
-    sigma: Annotated[float, typer.Option(help="Strictness of the match; smaller is stricter.")] = 0.02,
+    target: asking.TargetFile = None,
+    avoid: asking.AvoidFiles = None,
+    floor: asking.Floor = None,
+    within: asking.Within = None,
+    match_image: asking.ImageFile = None,
+    match_shadow: asking.ShadowFile = None,
+    camera: asking.CameraFile = None,
+    weight_image: asking.WeightFile = None,
+    weight: asking.Weight = None,
+    light: asking.Light = None,
+    receiver: asking.ReceiverFile = None,
+    voxel: asking.Voxel = None,
+    sigma: asking.Sigma = 0.02,
     rule: Annotated[str, typer.Option(help="What intersects: solid or surface.")] = "solid",
+    particles: searching.Particles = None,
+    method: searching.MethodName = "smc",
+    order: searching.Order = "stochastic",
+    weights: searching.Weights = None,
+    temper: searching.Temper = None,
+    anneal: searching.Anneal = None,
+    resampling: searching.Resampling = None,
+    ess: searching.Ess = None,
+    populations: searching.Populations = None,
+    diverse: searching.Diverse = None,
+    seconds: searching.Seconds = None,
+    sweeps: searching.Sweeps = None,
     runs: Annotated[int, typer.Option(help="How many results, with seeds SEED, SEED + 1, ...")] = 1,
     seed: Annotated[int | None, typer.Option(help="Default: a fresh one, which is written down.")] = None,
     threads: Annotated[
         int | None, typer.Option(help="Default: all cores. Results do not depend on it.")
     ] = None,
-    resampling: Annotated[
-        str, typer.Option(help="systematic, residual, stratified or multinomial.")
-    ] = "systematic",
-    ess: Annotated[
-        float | None, typer.Option(help="Resample below this share of effective particles; default: always.")
-    ] = None,
     max_steps: Annotated[int, typer.Option(help="Most calls and loop steps of one run.")] = 20_000_000,
     output: Folder = None,
+    formats: writing.Formats = "glb",
+    scale: writing.Scale = None,
+    fuse: writing.Fuse = None,
+    frames: writing.Frames = None,
+    size: writing.Size = None,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print the numbers as JSON; files are written only with -o.")
     ] = False,
     picture: Annotated[
-        bool, typer.Option("--picture/--no-picture", help="Draw best.png and sheet.png.")
+        bool, typer.Option("--picture/--no-picture", help="Draw best.png, sheet.png and what was matched.")
     ] = True,
 ) -> None:
-    """Grow MODEL into a target; writes best.glb, best.png, sheet.png and run.json."""
+    """Grow MODEL into what is asked for; writes best.glb, best.png, sheet.png and run.json."""
     from niwaki import infer
     from niwaki.finding import find
     from niwaki.gallery import PARTICLES
 
+    asked = asking.Asked(
+        target,
+        tuple(avoid or ()),
+        floor,
+        within,
+        match_image,
+        camera,
+        match_shadow,
+        weight_image,
+        weight,
+        light,
+        receiver,
+    )
+    search = searching.Search(
+        method,
+        particles,
+        order,
+        weights,
+        temper,
+        anneal,
+        resampling,
+        ess,
+        populations,
+        diverse,
+        seconds,
+        sweeps,
+    )
+    files = writing.Files.asked(formats, scale, fuse, frames, size)
     found = find(model)
-    aim, reference = _target(found, target)
-    if voxel is None and target is None and found.entry is not None:
+    aim, reference = asked.aim(found)
+    controls = asked.controls(voxel, sigma)
+    if voxel is None and target is None and aim is not None and found.entry is not None:
         voxel = found.entry.voxel
-    if particles is None:
-        particles = found.entry.particles if found.entry is not None else PARTICLES
-    settings: dict[str, Any] = {
-        "particles": particles,
-        "order": order,
-        "weights": weights,
-        "temper": infer.default_temper(weights) if temper is None else temper,
-        "resampling": resampling,
-        "ess": ess,
+    settings = search.settings(found.entry.particles if found.entry is not None else PARTICLES)
+    chosen = searching.method(settings)
+    rest: dict[str, Any] = {
         "voxel": voxel,
         "sigma": sigma,
         "rule": rule,
         "runs": runs,
         "max_steps": max_steps,
     }
-    with progress_line(found.reference, particles) as progress:
-        result = infer.grow(found.model, aim, seed=seed, threads=threads, progress=progress, **settings)
-    settings["voxel"] = result.score.settings["voxel"]
+    with progress_line(found.reference, settings["particles"]) as progress:
+        result = infer.grow(
+            found.model,
+            aim,
+            score=controls,
+            method=chosen,
+            seed=seed,
+            threads=threads,
+            progress=progress,
+            **rest,
+        )
+    settings |= rest | {
+        "plan": list(result.plan),
+        "voxel": result.score.settings.get("voxel"),
+        "asked": asked.record(),
+    }
     if output is not None or not as_json:
-        _write(output or Path("out"), result, found, settings, reference, picture)
+        _write(output or Path("out"), result, found, settings, reference, files, picture)
     if as_json:
         from niwaki.run_files import numbers
 
@@ -101,23 +140,16 @@ def grow(
         raise typer.Exit(130)
 
 
-def _target(found: Found, given: str | None) -> tuple[Target, str]:
-    """The target and how to find it again."""
-    from niwaki.errors import InputError
-    from niwaki.target import Target
-
-    if given is not None:
-        return Target.load(given), str(Path(given).resolve())
-    if found.entry is None or found.entry.target_name is None:
-        raise InputError("no-target", name=found.reference)
-    own = found.entry.target()
-    assert own is not None
-    return own, f"gallery:{found.entry.target_name}"
-
-
 def _write(
-    output: Path, result: Result, found: Found, settings: dict[str, Any], target: str, picture: bool
+    output: Path,
+    result: Result,
+    found: Found,
+    settings: dict[str, Any],
+    target: str | None,
+    files: writing.Files,
+    picture: bool,
 ) -> None:
+    """The record first: whatever fails after it can be made again from there."""
     from niwaki import run_files
 
     folder = made_folder(output)
@@ -126,12 +158,15 @@ def _write(
     if best.primitives == 0:
         print("warning: the best run emitted nothing, so there is no mesh and no picture", file=sys.stderr)
         return
-    best.export(folder / "best.glb")
     if picture:
         from niwaki.draw.picture import save_image
+        from niwaki.draw.views import save_view
 
         best.save(folder / "best.png")
         save_image(lambda: result.sheet(), folder / "sheet.png")
+        for view in result.score.views:
+            save_view(folder / f"{view.kind}.png", best.scene, view)
+    files.write(best, folder)
 
 
 def _summary(result: Result, folder: Path) -> None:

@@ -109,6 +109,16 @@ def test_what_touches_hangs_together_and_what_does_not_is_said() -> None:
     assert union(apart, fuse=0.1).pieces == 1
 
 
+def test_a_hollow_is_no_piece() -> None:
+    walls = [box(2.0 * s, 0, 0, (1, 5, 5)) for s in (1, -1)]
+    walls += [box(0, 2.0 * s, 0, (5, 1, 5)) for s in (1, -1)] + [
+        box(0, 0, 2.0 * s, (5, 5, 1)) for s in (1, -1)
+    ]
+    solid = union(Scene([("room", walls)]), scale=1.0)
+    assert solid.pieces == 1
+    assert solid.volume == pytest.approx(125.0 - 27.0, rel=1e-3)
+
+
 @pytest.mark.parametrize("angle", np.linspace(0.1, 3.0, 7))
 def test_parts_that_touch_in_any_turn_make_one_closed_solid(angle: float, tmp_path: Path) -> None:
     turn = rotation((0.36, 0.48, 0.8), float(angle))

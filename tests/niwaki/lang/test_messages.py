@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from niwaki.errors import Call, InputError, ModelError, ModelFault, NiwakiError, place
-from niwaki.lang.messages import CHAINS, DOORS, FAULTS, FILES, INPUTS, LANGUAGE, MESSAGES, Message
+from niwaki.lang.messages import ADVICE, CHAINS, DOORS, FAULTS, FILES, INPUTS, LANGUAGE, MESSAGES, Message
 from specification import PRELUDE, load
 
 REPOSITORY = Path(__file__).parents[3]
@@ -33,7 +33,8 @@ AWAITED = {
 
 
 def test_codes_and_titles_have_the_house_style() -> None:
-    assert len(MESSAGES) == len(LANGUAGE) + len(FAULTS) + len(INPUTS) + len(FILES) + len(DOORS) + len(CHAINS) >= 45
+    tables = (LANGUAGE, FAULTS, INPUTS, FILES, DOORS, ADVICE, CHAINS)
+    assert len(MESSAGES) == sum(len(table) for table in tables) >= 45
     for message in MESSAGES.values():
         assert re.fullmatch(r"[a-z]+(-[a-z]+)*", message.code)
         assert not message.title.endswith("."), message.code

@@ -281,7 +281,7 @@ pub fn sample<P: Potential>(
 pub fn run<P: Potential>(mut chain: Chain<P>, settings: &Settings, watch: &dyn Fn(u32) -> bool) -> Draws {
     let mut draws = Draws { dim: chain.phase.x.len(), ..Draws::default() };
     let mut adaptation = Adaptation::new(&mut chain, settings);
-    let goes_on = |visit: u64| visit % GLANCE != 0 || watch(visit as u32);
+    let goes_on = |visit: u64| !visit.is_multiple_of(GLANCE) || watch(visit as u32);
     for _ in 0..settings.warmup {
         let made = chain.advance();
         draws.count_warmup(&made);

@@ -250,8 +250,7 @@ fn eigen(a: &[f64], m: usize) -> (Vec<f64>, Vec<Vec<f64>>) {
     for _ in 0..60 {
         let size: f64 = a.iter().map(|x| x * x).sum();
         let off: f64 = (0..m * m).filter(|k| k / m != k % m).map(|k| a[k] * a[k]).sum();
-        // Written so that a NaN ends it.
-        if !(off > 1e-30 * size) {
+        if off.is_nan() || off <= 1e-30 * size {
             break;
         }
         for p in 0..m {
@@ -289,15 +288,16 @@ fn eigen(a: &[f64], m: usize) -> (Vec<f64>, Vec<Vec<f64>>) {
 mod tests {
     //! Each shape finds the covariance of a normal, as far as its shape allows.
     use super::*;
+    use crate::hamiltonian::metric::Direction;
 
     /// A normal with standard deviations 10^-3 to 10^3 and one tight and one loose direction across them.
-    fn window(n: usize, dim: usize) -> (Window, Vec<f64>, Vec<(Vec<f64>, f64)>) {
+    fn window(n: usize, dim: usize) -> (Window, Vec<f64>, Vec<Direction>) {
         let scales: Vec<f64> =
             (0..dim).map(|i| 10f64.powf(6.0 * i as f64 / (dim - 1) as f64 - 3.0)).collect();
         let unit = |sign: f64| -> Vec<f64> {
             (0..dim).map(|i| if i % 2 == 0 { 1.0 } else { sign } / (dim as f64).sqrt()).collect()
         };
-        let directions: Vec<(Vec<f64>, f64)> = vec![(unit(1.0), 1e-4), (unit(-1.0), 1e4)];
+        let directions: Vec<Direction> = vec![(unit(1.0), 1e-4), (unit(-1.0), 1e4)];
         let mut window = Window::new(dim);
         for k in 0..n {
             let mut stream = Stream::new(1, 0, k as u128, 0);
@@ -316,7 +316,7 @@ mod tests {
 
     /// Ratio of the largest to the smallest variance that a metric leaves to be integrated: the eigenvalues of
     /// `M C`, over the random directions and the two that matter.
-    fn spread(metric: &Metric, scales: &[f64], directions: &[(Vec<f64>, f64)]) -> f64 {
+    fn spread(metric: &Metric, scales: &[f64], directions: &[Direction]) -> f64 {
         // q^T M^-1 q against q^T C q for the covectors q = D^-1 u.
         let dim = scales.len();
         let mut stream = Stream::new(2, 0, 0, 0);

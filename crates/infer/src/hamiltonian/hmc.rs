@@ -58,8 +58,7 @@ impl Hmc {
 
         let energy_error = if refused.is_some() { f64::NAN } else { phase.energy() - start_energy };
         let accept = acceptance(-energy_error);
-        // Written so that a NaN is a divergence.
-        let diverged = !(energy_error <= self.max_energy_error);
+        let diverged = energy_error.is_nan() || energy_error > self.max_energy_error;
         let divergence = diverged.then(|| Divergence {
             start: before.x.clone(),
             end: phase.x.clone(),

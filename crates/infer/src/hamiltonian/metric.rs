@@ -20,6 +20,9 @@ pub enum Shape {
     LowRank,
 }
 
+/// A unit vector, and the variance along it.
+pub type Direction = (Vec<f64>, f64);
+
 /// An inverse mass matrix.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Metric {
@@ -42,7 +45,7 @@ pub enum Metric {
         /// The diagonal of `D`.
         deviation: Vec<f64>,
         /// The directions `u_k`, each with the variance along it in units of `D`.
-        directions: Vec<(Vec<f64>, f64)>,
+        directions: Vec<Direction>,
     },
 }
 
@@ -65,7 +68,7 @@ impl Metric {
     }
 
     /// A low-rank metric: scales, and orthonormal directions with the variance along each.
-    pub fn low_rank(deviation: Vec<f64>, directions: Vec<(Vec<f64>, f64)>) -> Metric {
+    pub fn low_rank(deviation: Vec<f64>, directions: Vec<Direction>) -> Metric {
         Metric::LowRank { deviation, directions }
     }
 

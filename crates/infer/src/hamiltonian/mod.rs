@@ -7,6 +7,7 @@
 //! * [`metric`]: the mass matrix `M`: diagonal, dense, or diagonal with a low-rank correction;
 //! * [`leapfrog`]: the integrator;
 //! * [`hmc`], [`nuts`]: one transition, with a fixed length and with one that it finds itself;
+//! * [`transition`]: what both report, and the choice between them;
 //! * [`step_size`], [`estimate`], [`warmup`]: what is adapted in warm-up and frozen afterwards;
 //! * [`chains`]: whole chains, side by side;
 //! * [`tempering`]: a path of targets from loose to tight, walked down once or by all rungs at a time.

@@ -179,8 +179,7 @@ impl<P: Potential + ?Sized> Growth<'_, P> {
             let energy = if refused.is_some() { f64::NAN } else { edge.energy() };
             let energy_error = energy - self.start_energy;
             self.accepts += acceptance(-energy_error);
-            // Written so that a NaN is a divergence.
-            if !(energy_error <= self.max_energy_error) {
+            if energy_error.is_nan() || energy_error > self.max_energy_error {
                 self.broken = Some((energy_error, refused, edge.x.clone()));
                 return None;
             }
@@ -254,6 +253,29 @@ mod tests {
             let made = transition(&mut normals(vec![1.0; 5]), &[0.5, -0.5, 1.0, 0.1, 0.7], 0.1, 10, seed);
             assert!((15..=63).contains(&made.steps), "{made:?}");
             assert!(made.divergence.is_none() && made.accept > 0.9);
+        }
+    }
+
+    #[test]
+    fn trajectories_are_as_long_as_an_independent_samplers() {
+        // BlackJAX 1.7.1's NUTS on the same normals (deviations 1 + i / dim, unit metric), 20 000 transitions: mean steps
+        // and acceptance. Both means have a standard error of about 0.3 %; ours ask the two halves as well, and BlackJAX
+        // takes half of the end momenta off the sum, which makes some 3 % at 50 coordinates.
+        for (dim, step, steps, accept, within) in
+            [(1, 0.9, 2.8635, 0.9386, 0.01), (10, 0.5, 12.528, 0.9672, 0.01), (50, 0.3, 20.514, 0.9755, 0.04)]
+        {
+            let mut target = normals((0..dim).map(|i| 1.0 + f64::from(i) / f64::from(dim)).collect());
+            let mut phase = Phase::at(&mut target, &vec![0.5; dim as usize]).expect("a point of the target");
+            let (metric, mut nuts) = (Metric::unit(dim as usize), Nuts::new(10, 1000.0));
+            let (mut total, mut accepts, n) = (0.0, 0.0, 20_000);
+            for visit in 0..n {
+                let mut stream = Stream::new(5, 0, 0, visit);
+                let made = nuts.step(&mut target, &metric, step, &mut phase, &mut stream);
+                total += f64::from(made.steps) / n as f64;
+                accepts += made.accept / n as f64;
+            }
+            assert!((total / steps - 1.0).abs() < within, "{dim}: {total}");
+            assert!((accepts - accept).abs() < 0.002, "{dim}: {accepts}");
         }
     }
 

@@ -79,6 +79,19 @@ impl Particle {
         ((u * n as f64) as usize).min(n - 1)
     }
 
+    /// A copy, for a trial: it has the same lineage, so it must draw nothing.
+    pub fn fork(&mut self) -> Particle {
+        Particle {
+            state: self.state.clone(),
+            record: self.record.fork(),
+            lineage: self.lineage,
+            stream: self.stream,
+            picks: self.picks,
+            weighed: self.weighed,
+            log_weight: self.log_weight,
+        }
+    }
+
     /// Becomes a copy of `parent`, with a random stream of its own.
     pub fn copy_from(&mut self, parent: &mut Particle, lineage: u64, seed: u64) {
         self.state.clone_from(&parent.state);

@@ -6,25 +6,42 @@
 //! 1. *Advance*: each particle that has not ended runs to its next barrier (`advance`). After each barrier
 //!    and whenever a future returns, the order policy picks the future that runs next.
 //! 2. *Weigh* (`weights`): `w *= (s(r_n) / s(r_{n-1}))^T`. One that has ended carries its last score.
-//! 3. *Resample* ([`resampling`]): at every barrier, or when the effective sample size is low; weights are reset.
+//! 3. *Resample* ([`resampling`]): at every barrier, or when the effective sample size is low; weights are reset. Copies
+//!    are made side by side (`copies`).
+//!
+//! The temperature may differ from barrier to barrier ([`Anneal`]): weights then count `s(r_n)^(T_n) / s(r_{n-1})^(T_{n-1})`, and
+//! the final set is weighed by the declared `T`, so that the way there changes neither law nor constant.
 //!
 //! The evidence is the score of the empty scene times the product of the mean weights at each resampling, times
 //! the last mean weight; it is unbiased for `T = 1` and ratio weights, under any order policy (appendix C). The
 //! original weighed by the whole score `s(r_n)` at every step ([`Weights::Absolute`]): an undeclared sharpening
 //! that grows with the model, kept under its own name, without evidence.
 //!
+//! On top of one population stand [`populations`] (several, by a plan or [`within`] a time), [`particle_gibbs`] and [`pimh`]
+//! (chains of whole runs), and [`distinct`] (which results are really different).
+//!
 //! Random streams belong to a particle's lineage: at resampling the first copy keeps its parent's, every other
 //! copy gets a fresh one, and none is used again.
 
 mod advance;
+mod copies;
+pub mod distinct;
+mod gibbs;
+mod many;
+mod path;
+mod pimh;
 mod population;
 pub mod resampling;
 mod settings;
+mod smc;
 mod weights;
 
 #[cfg(test)]
 mod tests;
 
-pub use population::{Outcome, Progress, Result, smc};
+pub use gibbs::{Ancestors, Chain, particle_gibbs};
+pub use many::{Watch, populations, within};
+pub use pimh::pimh;
 pub use resampling::Resampling;
-pub use settings::{Order, Settings, Weights, When};
+pub use settings::{Anneal, Order, Settings, Weights, When};
+pub use smc::{Outcome, Progress, Result, smc};

@@ -2,6 +2,7 @@
 
 use super::Resampling;
 use niwaki_vm::fault::Fault;
+use std::sync::Arc;
 
 /// Which future runs next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,6 +31,19 @@ pub enum When {
     EffectiveBelow(f64),
 }
 
+/// The way of the temperature from barrier to barrier. Whatever it is, the final law is that of the declared
+/// temperature: what a barrier's temperature over- or understates, the weights take back.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Anneal {
+    /// The declared temperature at every barrier.
+    Constant,
+    /// The temperature at each barrier, the last one also at those after it.
+    Schedule(Arc<[f64]>),
+    /// From zero up to the declared temperature, at each barrier as far as the conditional effective sample size
+    /// (Zhou, Johansen & Aston 2016, eq. 13) stays at this share of the particles.
+    Adaptive(f64),
+}
+
 /// What can be set.
 #[derive(Clone, Debug)]
 pub struct Settings {
@@ -39,8 +53,10 @@ pub struct Settings {
     pub order: Order,
     /// Weighting.
     pub weights: Weights,
-    /// The power to which the score is raised while searching (1: the posterior).
+    /// The power to which the score is raised in the final law (1: the posterior).
     pub temper: f64,
+    /// The power on the way there.
+    pub anneal: Anneal,
     /// Resampling method.
     pub resampling: Resampling,
     /// When to resample.
@@ -59,6 +75,7 @@ impl Default for Settings {
             order: Order::Stochastic,
             weights: Weights::Ratio,
             temper: 1.0,
+            anneal: Anneal::Constant,
             resampling: Resampling::Systematic,
             when: When::Always,
             seed: 0,
@@ -72,7 +89,8 @@ impl Settings {
     /// Refuses settings that make no sense.
     ///
     /// # Errors
-    /// No particles, a temperature that is not positive, or a threshold outside `[0, 1]`.
+    /// No particles, a temperature that is not positive, a threshold outside `[0, 1]`, a way of the temperature that
+    /// is empty or that absolute weights cannot take.
     pub fn check(&self) -> Result<(), Fault> {
         if self.particles == 0 {
             return Err(
@@ -88,6 +106,21 @@ impl Settings {
         {
             return Err(Fault::new("bad-threshold", format!("the resampling threshold is {share}"))
                 .with_help("use a share of the particles between 0 and 1"));
+        }
+        let fits = match &self.anneal {
+            Anneal::Constant => return Ok(()),
+            Anneal::Schedule(path) => !path.is_empty() && path.iter().all(|t| *t >= 0.0 && t.is_finite()),
+            Anneal::Adaptive(share) => *share > 0.0 && *share < 1.0,
+        };
+        if !fits {
+            return Err(Fault::new("bad-anneal", format!("{:?} is no way of the temperature", self.anneal))
+                .with_help(
+                    "give the temperature at each barrier, or a share of the particles between 0 and 1",
+                ));
+        }
+        if self.weights == Weights::Absolute {
+            return Err(Fault::new("bad-anneal", "absolute weights have no way of the temperature")
+                .with_help("use ratio weights"));
         }
         Ok(())
     }

@@ -30,4 +30,58 @@ impl Normalised {
         self.effective = sum * sum / squares;
         true
     }
+
+    /// The row into whose share of the total `u`, between 0 and 1, falls.
+    pub fn row(&self, u: f64) -> usize {
+        let mut left = u * self.relative.iter().sum::<f64>();
+        let last = self.relative.iter().rposition(|w| *w > 0.0).unwrap_or(0);
+        self.relative[..last]
+            .iter()
+            .position(|w| {
+                left -= w;
+                left < 0.0
+            })
+            .unwrap_or(last)
+    }
+}
+
+/// The conditional effective sample size, as a share of the particles, of a step from weights `old` (logs) by
+/// increments `step` (logs): `(sum W u)^2 / sum W u^2` with `W` normalised (Zhou, Johansen & Aston 2016, eq. 13).
+pub(super) fn conditional_share(
+    old: impl Iterator<Item = f64>,
+    step: impl Iterator<Item = f64> + Clone,
+) -> f64 {
+    let top = step.clone().fold(f64::NEG_INFINITY, f64::max);
+    if top == f64::NEG_INFINITY {
+        return 0.0;
+    }
+    let (mut total, mut sum, mut squares) = (0.0, 0.0, 0.0);
+    for (w, u) in old.zip(step) {
+        let (w, u) = (w.exp(), (u - top).exp());
+        total += w;
+        sum += w * u;
+        squares += w * u * u;
+    }
+    sum * sum / (squares * total)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_conditional_share_is_one_for_equal_steps_and_counts_survivors() {
+        let old = || [0.0, -1.0, 0.5, 0.0].into_iter();
+        assert!((conditional_share(old(), [3.0; 4].into_iter()) - 1.0).abs() < 1e-12);
+        let half = [0.0, f64::NEG_INFINITY, f64::NEG_INFINITY, 0.0];
+        let equal = || [0.0; 4].into_iter();
+        assert!((conditional_share(equal(), half.into_iter()) - 0.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_row_is_drawn_by_its_share() {
+        let mut w = Normalised::default();
+        assert!(w.read([0.0f64.ln(), 1.0f64.ln(), 3.0f64.ln(), 0.0f64.ln()].into_iter()));
+        assert_eq!([0.001, 0.2499, 0.2501, 0.9999].map(|u| w.row(u)), [1, 1, 2, 2]);
+    }
 }

@@ -3,10 +3,13 @@
 use niwaki_infer::hamiltonian::{Potential, Stop};
 use niwaki_math::Stream;
 
+/// Log density of a point; its gradient is written.
+type Slope = dyn Fn(&[f64], &mut [f64]) -> f64 + Send + Sync;
+
 /// A log density with its gradient, as a function.
 pub struct By {
     dim: usize,
-    run: Box<dyn Fn(&[f64], &mut [f64]) -> f64 + Send + Sync>,
+    run: Box<Slope>,
 }
 
 impl By {

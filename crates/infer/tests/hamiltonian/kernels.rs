@@ -55,7 +55,9 @@ fn kernels() -> [(&'static str, Kernel); 3] {
     ]
 }
 
-fn metrics() -> [(&'static str, fn(usize) -> Metric); 4] {
+type Make = fn(usize) -> Metric;
+
+fn metrics() -> [(&'static str, Make); 4] {
     [
         ("unit", Metric::unit),
         ("diagonal", |dim| Metric::diagonal((0..dim).map(|i| 0.3 + 0.5 * i as f64).collect())),

@@ -11,9 +11,12 @@ use niwaki_math::{Dist, Family, Scalar};
 /// Rows of the table; which one depends on the place in memory.
 const ROWS: usize = 64;
 
+/// A distribution: its family, what it was made of, and itself.
+type Row<S> = (Family, Value<S>, Dist<S>);
+
 /// A small table of distributions.
 pub(super) struct Known<S: Scalar> {
-    rows: Vec<Option<(Family, Value<S>, Dist<S>)>>,
+    rows: Vec<Option<Row<S>>>,
 }
 
 impl<S: Scalar> Default for Known<S> {

@@ -7,4 +7,5 @@ inputs     settings and arguments
 views      images to match, cameras, lights, receivers and obstacles; part of inputs
 files      files, and the settings of targets and pictures
 doors      settings, models and run files at Python's and the shell's door
+advice     `niwaki check`: a model is right and could be better
 """

@@ -77,6 +77,14 @@ INPUTS = (
         cure="smc(temper=1)",
     ),
     Message(
+        "bad-anneal",
+        "the temperature cannot go the way of {found}",
+        why="{reason}",
+        help="give the power at each barrier, or the share of particles to keep, or leave it out",
+        example="smc(anneal=[])",
+        cure="smc(temper=16, anneal=[1, 2, 4, 8, 16])",
+    ),
+    Message(
         "bad-threshold",
         "the resampling threshold cannot be {found}",
         help="set it to a share of the particles, from 0 to 1",
@@ -97,6 +105,14 @@ INPUTS = (
         help="loosen the constraint, use more particles, or start the model where the constraint holds",
         example="a ship that starts inside of the obstacle",
         cure="a ship that starts beside it",
+    ),
+    Message(
+        "impossible-start",
+        "the run that the chain starts from is impossible",
+        why="a chain goes from one possible run to another, so its first must have a score",
+        help="start it from a run that the model can make, or leave `start` out",
+        example="particle_gibbs(start=a sample that breaks a condition)",
+        cure="particle_gibbs(start=result.best)",
     ),
     Message(
         "not-enumerable",

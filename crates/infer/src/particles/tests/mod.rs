@@ -16,6 +16,10 @@ use niwaki_vm::value::repr;
 use std::collections::HashMap;
 use std::sync::Arc;
 
+mod annealed;
+mod chains;
+mod several;
+
 /// Deliberate errors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mutant {
@@ -27,6 +31,16 @@ pub enum Mutant {
     WeightedOrder,
     /// A new barrier counts its whole score again.
     ForgetsOldScore,
+    /// The final set keeps the temperature of the last barrier.
+    KeepsLastTemper,
+    /// No other row descends from the one that is held.
+    HeldNotDrawn,
+    /// Ancestors are drawn by weight alone.
+    BlindAncestors,
+    /// The probability of the order of what follows does not count for an ancestor.
+    OrderFreeAncestors,
+    /// A chain accepts every proposal.
+    AcceptsAll,
 }
 
 /// What a mutant does to a particle after resampling.
@@ -40,12 +54,20 @@ pub(super) fn corrupt(p: &mut Particle, row: usize, settings: &Settings, copies:
     }
 }
 
+/// What a mutant does to the weights by which the rows beside the held one are drawn.
+pub(super) fn corrupt_draw(population: &mut super::population::Population<'_>, held: usize) {
+    let others = population.weights.relative.iter().enumerate().any(|(i, w)| i != held && *w > 0.0);
+    if population.settings.is(Mutant::HeldNotDrawn) && others {
+        population.weights.relative[held] = 0.0;
+    }
+}
+
 fn task(text: &str) -> Task {
     Task::new(Arc::new(compile(&parse(text).unwrap(), vec![]).unwrap()))
 }
 
 /// Programs whose answer enumeration knows.
-const PROGRAMS: [(&str, &str); 7] = [
+const PROGRAMS: [(&str, &str); 8] = [
     (
         "two coins and a condition on each",
         r#"(module (fn "m" (params)
@@ -121,10 +143,28 @@ const PROGRAMS: [(&str, &str); 7] = [
             (fn "m" (params) (set $h (future "late")) (set $u (future "user" $h)) (do (factor 0.1))
               (return (force $u))) (entry "m"))"#,
     ),
+    (
+        "a wait that comes sooner or later: as many barriers, and other futures that can run",
+        r#"(module (fn "early" (params $c) (if $c (then (do (factor 0.0))))
+              (set $v (sample (dist bernoulli 0.4))) (do (factor (cond $v 0.3 -0.3))) (return $v))
+            (fn "user" (params $h $c) (if (not $c) (then (do (factor -0.1)))) (set $v (force $h))
+              (do (factor (cond $v -0.2 0.0))) (return $v))
+            (fn "m" (params) (set $c (sample (dist bernoulli 0.5))) (set $h (future "early" $c))
+              (set $u (future "user" $h $c)) (return $c)) (entry "m"))"#,
+    ),
 ];
 
 /// Mean and standard error of the evidence, relative to the truth, and of each outcome's share of it.
 fn z_scores(task: &Task, settings: &Settings, seeds: std::ops::Range<u64>) -> Vec<(String, f64)> {
+    z_scores_of(task, &|seed| smc(task, &Settings { seed, ..settings.clone() }, &mut |_| true), seeds)
+}
+
+/// The same of any search that has a seed.
+fn z_scores_of(
+    task: &Task,
+    search: &dyn Fn(u64) -> std::result::Result<Result, crate::Failure>,
+    seeds: std::ops::Range<u64>,
+) -> Vec<(String, f64)> {
     let n = (seeds.end - seeds.start) as f64;
     let exact = enumerate(task, 100_000, &mut |_| true).unwrap();
     let z = exact.log_evidence;
@@ -133,7 +173,7 @@ fn z_scores(task: &Task, settings: &Settings, seeds: std::ops::Range<u64>) -> Ve
     // Estimates of Z p(outcome) / Z: the run's evidence times the outcome's share of the weight, unbiased.
     let mut sums: HashMap<&str, (f64, f64)> = HashMap::new();
     for seed in seeds {
-        let run = match smc(task, &Settings { seed, ..settings.clone() }, &mut |_| true) {
+        let run = match search(seed) {
             Ok(run) => run,
             // All impossible: an estimate of zero.
             Err(crate::Failure::Impossible { .. }) => continue,

@@ -1,0 +1,183 @@
+//! The claim: particle Gibbs, with and without ancestor sampling, and PIMH leave the posterior as it is, on programs
+//! with changing structure and with futures; and they move.
+//!
+//! Particle Gibbs is started from an exact draw (by rejection, its order drawn by the policy) and makes three sweeps;
+//! the value after them has the exact posterior, independently for each of 6,000 seeds, so that the count of each
+//! outcome is binomial. PIMH has no exact start: 4,000 chains of three particles take 40 sweeps, and their last
+//! values are counted. A z beyond 5 happens once in 1.7 million; about 100 are looked at.
+
+use super::*;
+use crate::rejection::rejection;
+
+const SEEDS: u64 = 6000;
+
+/// An upper bound of the log scores of all programs.
+const BOUND: f64 = 2.5;
+
+fn last_values(task: &Task, settings: &Settings, ancestors: Ancestors) -> Vec<String> {
+    values_after(task, settings, ancestors, SEEDS, 3)
+}
+
+fn values_after(
+    task: &Task,
+    settings: &Settings,
+    ancestors: Ancestors,
+    seeds: u64,
+    sweeps: usize,
+) -> Vec<String> {
+    (0..seeds)
+        .map(|seed| {
+            let exact = rejection(task, 1, BOUND, 1_000_000, seed + 1_000_000, &mut |_| true).unwrap();
+            let from = exact.samples[0].record.log.entries();
+            let own = Settings { seed, ..settings.clone() };
+            let chain = particle_gibbs(task, &own, ancestors, sweeps, Some(&from), &mut |_| true).unwrap();
+            repr(&chain.states.last().unwrap().value).unwrap()
+        })
+        .collect()
+}
+
+/// Z-scores of the counts of all outcomes.
+fn counted(task: &Task, values: &[String]) -> Vec<(String, f64)> {
+    let exact = enumerate(task, 100_000, &mut |_| true).unwrap();
+    let n = values.len() as f64;
+    exact
+        .outcomes
+        .iter()
+        .map(|(value, log)| {
+            let (name, p) = (repr(value).unwrap(), (log - exact.log_evidence).exp());
+            let count = values.iter().filter(|v| **v == name).count() as f64;
+            // A certain outcome has no error.
+            ((count - n * p) / (n * p * (1.0 - p)).sqrt().max(1e-9), name)
+        })
+        .map(|(z, name)| (name, z))
+        .collect()
+}
+
+fn small(particles: usize, order: Order) -> Settings {
+    Settings { particles, ..settings(order, Resampling::Systematic) }
+}
+
+#[test]
+fn particle_gibbs_keeps_the_posterior() {
+    for (name, text) in PROGRAMS {
+        for order in [Order::DepthFirst, Order::Stochastic] {
+            for ancestors in [Ancestors::Kept, Ancestors::Sampled] {
+                let task = task(text);
+                let scores = counted(&task, &last_values(&task, &small(4, order), ancestors));
+                assert!(worst(&scores) < LIMIT, "{name}, {order:?}, {ancestors:?}: {scores:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn it_keeps_it_when_resampling_is_adaptive_and_the_temperature_goes_a_way() {
+    for (name, text) in PROGRAMS {
+        let own = Settings {
+            when: When::EffectiveBelow(0.7),
+            anneal: Anneal::Schedule([0.4, 2.0, 0.8].as_slice().into()),
+            ..small(4, Order::Stochastic)
+        };
+        let task = task(text);
+        let scores = counted(&task, &last_values(&task, &own, Ancestors::Sampled));
+        assert!(worst(&scores) < LIMIT, "{name}: {scores:?}");
+    }
+}
+
+#[test]
+fn mutants_of_particle_gibbs_are_rejected() {
+    for (mutant, ancestors) in
+        [(Mutant::HeldNotDrawn, Ancestors::Kept), (Mutant::BlindAncestors, Ancestors::Sampled)]
+    {
+        let own = Settings { mutant: Some(mutant), ..small(3, Order::Stochastic) };
+        let caught = PROGRAMS.iter().any(|(_, text)| {
+            worst(&counted(&task(text), &last_values(&task(text), &own, ancestors))) > LIMIT
+        });
+        assert!(caught, "{mutant:?} passes");
+    }
+}
+
+/// A small error, seen on the program made for it: twenty thousand seeds. The right kernel passes there too.
+#[test]
+fn ancestors_count_the_order_of_what_follows() {
+    let task = task(PROGRAMS[7].1);
+    let z = |mutant| {
+        let own = Settings { mutant, ..small(3, Order::Stochastic) };
+        worst(&counted(&task, &values_after(&task, &own, Ancestors::Sampled, 20_000, 4)))
+    };
+    assert!(z(None) < LIMIT);
+    let caught = z(Some(Mutant::OrderFreeAncestors));
+    assert!(caught > LIMIT, "{caught}");
+}
+
+#[test]
+fn ancestor_sampling_moves_what_a_kept_path_does_not() {
+    let task = task(PROGRAMS[1].1);
+    let run = |ancestors| {
+        let own = Settings { seed: 1, ..small(5, Order::Stochastic) };
+        particle_gibbs(&task, &own, ancestors, 200, None, &mut |_| true).unwrap()
+    };
+    let (kept, sampled) = (run(Ancestors::Kept), run(Ancestors::Sampled));
+    assert_eq!((kept.tries, kept.moves), (0, 0));
+    assert!(sampled.moves > sampled.tries / 4, "{} of {}", sampled.moves, sampled.tries);
+    let mean = |chain: &Chain| chain.renewed.iter().sum::<f64>() / chain.renewed.len() as f64;
+    assert!(mean(&sampled) > mean(&kept), "{} and {}", mean(&sampled), mean(&kept));
+}
+
+fn pimh_scores(text: &str, mutant: Option<Mutant>) -> Vec<(String, f64)> {
+    let task = task(text);
+    let values: Vec<String> = (0..4000)
+        .filter_map(|seed| {
+            let own = Settings { seed, mutant, ..small(3, Order::Stochastic) };
+            match pimh(&task, &own, 40, &mut |_| true) {
+                Ok(chain) => Some(repr(&chain.states.last().unwrap().value).unwrap()),
+                Err(crate::Failure::Impossible { .. }) => None,
+                Err(other) => panic!("{other}"),
+            }
+        })
+        .collect();
+    counted(&task, &values)
+}
+
+#[test]
+fn pimh_finds_the_posterior() {
+    for (name, text) in PROGRAMS {
+        let scores = pimh_scores(text, None);
+        assert!(worst(&scores) < LIMIT, "{name}: {scores:?}");
+    }
+}
+
+#[test]
+fn pimh_that_accepts_everything_is_rejected() {
+    assert!(PROGRAMS.iter().any(|(_, text)| worst(&pimh_scores(text, Some(Mutant::AcceptsAll))) > LIMIT));
+}
+
+#[test]
+fn a_chain_is_the_same_on_any_number_of_threads() {
+    let run = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let own = Settings { seed: 2, ..small(40, Order::Stochastic) };
+            let chain =
+                particle_gibbs(&task(PROGRAMS[5].1), &own, Ancestors::Sampled, 10, None, &mut |_| true)
+                    .unwrap();
+            let values: Vec<String> = chain.states.iter().map(|s| repr(&s.value).unwrap()).collect();
+            (values, chain.moves, chain.tries)
+        })
+    };
+    assert_eq!(run(1), run(2));
+    assert_eq!(run(1), run(5));
+}
+
+#[test]
+fn settings_without_a_law_are_refused() {
+    let task = task(PROGRAMS[0].1);
+    let refused = |own: &Settings| {
+        particle_gibbs(&task, own, Ancestors::Kept, 1, None, &mut |_| true).is_err()
+            && pimh(&task, own, 1, &mut |_| true).is_err()
+    };
+    assert!(refused(&Settings { weights: Weights::Absolute, ..Settings::default() }));
+    assert!(refused(&Settings { anneal: Anneal::Adaptive(0.5), ..Settings::default() }));
+    let alone = Settings { particles: 1, ..Settings::default() };
+    assert!(particle_gibbs(&task, &alone, Ancestors::Kept, 1, None, &mut |_| true).is_err());
+}

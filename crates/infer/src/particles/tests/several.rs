@@ -1,0 +1,83 @@
+//! The claim: several populations are one estimate, unbiased and of the right posterior, with sizes that differ and
+//! with populations that die; the plan repeats them; threads change nothing.
+
+use super::*;
+use std::time::Duration;
+
+/// Z-scores as in the parent module, over 2,000 searches of three small populations each.
+#[test]
+fn populations_of_any_size_are_one_right_answer() {
+    for (name, text) in PROGRAMS {
+        let own = settings(Order::Stochastic, Resampling::Systematic);
+        let search =
+            |seed| populations(&task(text), &Settings { seed, ..own.clone() }, &[2, 9, 4], &mut |_| true);
+        let scores = z_scores_of(&task(text), &search, 0..2000);
+        assert!(worst(&scores) < LIMIT, "{name}: {scores:?}");
+    }
+}
+
+/// Populations of one particle die often here; one that died must count as zero, and sizes must count.
+#[test]
+fn a_population_that_died_counts_as_zero() {
+    let text = r#"(module (fn "m" (params) (set $x (sample (dist bernoulli 0.3))) (do (condition $x))
+        (set $y (sample (dist bernoulli 0.5))) (do (factor (cond $y 0.0 -1.0))) (return $y)) (entry "m"))"#;
+    let own = settings(Order::Stochastic, Resampling::Systematic);
+    let search =
+        |seed| populations(&task(text), &Settings { seed, ..own.clone() }, &[1, 1, 3, 1], &mut |_| true);
+    let scores = z_scores_of(&task(text), &search, 0..4000);
+    assert!(worst(&scores) < LIMIT, "{scores:?}");
+    let died = (0..100).filter_map(|seed| search(seed).ok()).map(|found| found.died).sum::<usize>();
+    assert!(died > 100, "{died}");
+}
+
+/// What the combination must not do: weigh populations alike.
+#[test]
+fn populations_that_weigh_alike_are_rejected() {
+    let search = |text| {
+        move |seed| {
+            let own = settings(Order::Stochastic, Resampling::Systematic);
+            let mut found = populations(&task(text), &Settings { seed, ..own }, &[2, 2, 2], &mut |_| true)?;
+            // As if each population's particles were drawn from the posterior.
+            let mut from = 0;
+            for size in found.plan.clone() {
+                let part = &mut found.particles[from..from + size];
+                let sum = part.iter().map(|p| p.log_weight.exp()).sum::<f64>().ln();
+                part.iter_mut().for_each(|p| p.log_weight -= sum);
+                from += size;
+            }
+            Ok(found)
+        }
+    };
+    let caught = |(_, text): &(&'static str, &'static str)| {
+        worst(&z_scores_of(&task(text), &search(text), 0..4000)) > LIMIT
+    };
+    assert!(PROGRAMS.iter().any(caught));
+}
+
+#[test]
+fn threads_change_nothing_in_populations() {
+    let run = |threads: usize, plan: &[usize]| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let own = Settings { seed: 3, ..Settings::default() };
+        let found = pool.install(|| populations(&task(PROGRAMS[5].1), &own, plan, &mut |_| true)).unwrap();
+        let values: Vec<String> = found.particles.iter().map(|p| repr(&p.value).unwrap()).collect();
+        let weights: Vec<u64> = found.particles.iter().map(|p| p.log_weight.to_bits()).collect();
+        (found.log_evidence.unwrap().to_bits(), values, weights)
+    };
+    for plan in [&[40, 7, 64][..], &[200][..]] {
+        assert_eq!(run(1, plan), run(2, plan));
+        assert_eq!(run(1, plan), run(8, plan));
+    }
+}
+
+#[test]
+fn a_search_by_time_is_repeated_by_its_plan() {
+    let task = task(PROGRAMS[5].1);
+    let own = Settings { seed: 11, ..Settings::default() };
+    let timed = within(&task, &own, Duration::from_millis(50), &mut |_| true).unwrap();
+    assert!(timed.plan.len() > 1 && timed.plan.iter().sum::<usize>() == timed.particles.len());
+    let again = populations(&task, &own, &timed.plan, &mut |_| true).unwrap();
+    assert_eq!(timed.log_evidence.unwrap().to_bits(), again.log_evidence.unwrap().to_bits());
+    let weights = |r: &Result| r.particles.iter().map(|p| p.log_weight.to_bits()).collect::<Vec<_>>();
+    assert_eq!(weights(&timed), weights(&again));
+}

@@ -1,0 +1,69 @@
+//! Settings of a population, from Python's words for them.
+
+use crate::faults;
+use niwaki_infer::particles::{Anneal, Order, Resampling, Settings, Weights, When};
+use niwaki_vm::code::Program;
+use niwaki_vm::fault::Fault;
+use pyo3::prelude::*;
+
+/// The way of the temperature: a share of the particles to keep, or the temperature at each barrier.
+#[derive(FromPyObject)]
+pub enum Way {
+    Share(f64),
+    Path(Vec<f64>),
+}
+
+/// What is asked for in words.
+pub struct Words<'a> {
+    pub particles: usize,
+    pub seed: u64,
+    pub order: &'a str,
+    pub weights: &'a str,
+    pub temper: f64,
+    pub anneal: Option<Way>,
+    pub resampling: &'a str,
+    pub ess: Option<f64>,
+}
+
+/// The fault of a setting that is none of those known.
+pub fn unknown(py: Python<'_>, program: &Program, name: &str, found: &str, known: &str) -> PyErr {
+    let fault =
+        Fault::new("bad-setting", format!("`{name}` cannot be {found:?}")).with_help(format!("use {known}"));
+    faults::raise(py, &fault.into(), program)
+}
+
+/// The settings, or an error that says which word is not known.
+pub fn settings(py: Python<'_>, program: &Program, words: Words<'_>) -> PyResult<Settings> {
+    let unknown = |name: &str, found: &str, known: &str| unknown(py, program, name, found, known);
+    Ok(Settings {
+        particles: words.particles,
+        seed: words.seed,
+        temper: words.temper,
+        order: match words.order {
+            "stochastic" => Order::Stochastic,
+            "depth-first" => Order::DepthFirst,
+            other => return Err(unknown("order", other, "\"stochastic\" or \"depth-first\"")),
+        },
+        weights: match words.weights {
+            "ratio" => Weights::Ratio,
+            "absolute" => Weights::Absolute,
+            other => return Err(unknown("weights", other, "\"ratio\" or \"absolute\"")),
+        },
+        anneal: match words.anneal {
+            None => Anneal::Constant,
+            Some(Way::Share(share)) => Anneal::Adaptive(share),
+            Some(Way::Path(path)) => Anneal::Schedule(path.into()),
+        },
+        resampling: match words.resampling {
+            "systematic" => Resampling::Systematic,
+            "residual" => Resampling::Residual,
+            "stratified" => Resampling::Stratified,
+            "multinomial" => Resampling::Multinomial,
+            other => {
+                let known = "\"systematic\", \"residual\", \"stratified\" or \"multinomial\"";
+                return Err(unknown("resampling", other, known));
+            }
+        },
+        when: words.ess.map_or(When::Always, When::EffectiveBelow),
+    })
+}

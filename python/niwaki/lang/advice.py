@@ -1,0 +1,316 @@
+"""Advice on a model that compiles: what keeps particles from being judged while they can still be saved.
+
+Two things cost a search more than anything else (dissertation 5.4 and 5.6.1): a decision on a random value that is made
+in place where it could be a future, and a choice that is drawn before a barrier that does not need it. Both are seen in
+the text: `emit`, `factor`, `observe` and `condition` are barriers, and so is a call that reaches one.
+
+Only what can be moved is pointed at. A branch or call is left alone where later code reads what it assigned or
+returned, where it leaves the function or the loop, and where nothing that builds follows it: what the next part builds
+upon is no future. A choice is pointed at only where a later part in the same block is the first to read it. Chance
+is followed through variables and calls, not through arguments.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from types import FunctionType
+from typing import Any
+
+from niwaki import words
+from niwaki.errors import fill, notes, snippet
+from niwaki.lang import vocabulary
+from niwaki.lang.lower import lowered
+from niwaki.lang.messages import MESSAGES
+from niwaki.lang.names import MISSING, hashable, is_library
+from niwaki.lang.program import Program, Unit
+from niwaki.lang.scope import Scope, Variable
+from niwaki.lang.source import Span, span_of
+from niwaki.words.models import underlying
+
+BARRIERS = (words.emit, words.factor, words.observe, words.condition)
+LEAVES = (ast.Return, ast.Break, ast.Continue)
+FUNCTIONS = (ast.FunctionDef, ast.Lambda)
+
+
+@dataclass(frozen=True)
+class Advice:
+    """One piece of advice: a place, and another that explains it.
+
+    Attributes
+    ----------
+    code : str
+        Its name; each has a page in docs/errors.
+    span, second : Span
+        Where, and what it stands in the way of.
+    values : dict
+        What the message's templates name.
+    """
+
+    code: str
+    span: Span
+    second: Span
+    values: dict[str, str] = field(default_factory=dict)
+
+    def __str__(self) -> str:
+        message = MESSAGES[self.code]
+        first = (self.span, fill(message.label, self.values))
+        lines = snippet(first, (self.second, fill(message.second, self.values)))
+        head = f"advice[{self.code}]: {fill(message.title, self.values)}"
+        return "\n".join([head, *lines, *notes(message, self.values, margin=lines[-1].removesuffix("|"))])
+
+
+def advise(function: FunctionType) -> list[Advice]:
+    """Advice on a model and on every function that it can call, in the order of the source."""
+    program = lowered(function)
+    knows = _Facts(program)
+    found = [one for unit in program.units.values() for one in _Reader(unit, knows).read()]
+    return sorted(found, key=lambda one: (one.span.file.path, one.span.line, one.span.column))
+
+
+class _Facts:
+    """What each function of a program can reach: barriers, random choices, decisions on them."""
+
+    def __init__(self, program: Program) -> None:
+        self.program = program
+        self.builds: set[ast.AST] = set()
+        self.draws: set[ast.AST] = set()
+        self.decides: set[ast.AST] = set()
+        grown = -1
+        # A fixed point: what a callee reaches its callers reach.
+        while grown != (grown := len(self.builds) + len(self.draws) + len(self.decides)):
+            for unit in program.units.values():
+                reader = _Reader(unit, self)
+                for node in ast.walk(unit.node):
+                    if isinstance(node, FUNCTIONS):
+                        self._look(reader, node)
+
+    def _look(self, reader: _Reader, node: ast.FunctionDef | ast.Lambda) -> None:
+        body = node.body if isinstance(node, ast.FunctionDef) else [node.body]
+        if any(map(reader.is_barrier, body)):
+            self.builds.add(node)
+        if any(map(reader.is_random, body)):
+            self.draws.add(node)
+        in_place = (
+            reader.function(value) in self.decides for part in body for _, value in reader.calls(part)
+        )
+        if reader.decisions(body) or any(in_place):
+            self.decides.add(node)
+
+
+class _Reader:
+    """Reads one unit."""
+
+    def __init__(self, unit: Unit, facts: _Facts) -> None:
+        self.unit = unit
+        self.facts = facts
+        self.owner: dict[ast.AST, Scope] = {}
+        self._own(unit.node, unit.scopes.root)
+
+    def _own(self, node: ast.AST, scope: Scope) -> None:
+        for child in ast.iter_child_nodes(node):
+            inner = self.unit.scopes.of.get(child, scope)
+            self.owner[child] = scope
+            self._own(child, inner)
+
+    def read(self) -> Iterator[Advice]:
+        """The advice on this unit."""
+        for node in ast.walk(self.unit.node):
+            if isinstance(node, ast.FunctionDef):
+                yield from self.block(node.body, [], None)
+
+    # what is called
+
+    def meaning(self, node: ast.expr) -> Any:
+        """The live object, or the node of a nested function, that a callee is; else MISSING."""
+        if isinstance(node, ast.Lambda):
+            return node
+        if isinstance(node, ast.Name):
+            found = self.unit.scopes.find(node.id, self.owner.get(node, self.unit.scopes.root))
+            if isinstance(found, Scope):
+                return found.node
+            return MISSING if isinstance(found, Variable) else underlying(self.unit.namespace.find(node.id))
+        if isinstance(node, ast.Attribute):
+            owner = self.meaning(node.value)
+            return MISSING if owner is MISSING else underlying(getattr(owner, node.attr, MISSING))
+        return MISSING
+
+    def calls(self, part: ast.AST) -> Iterator[tuple[ast.Call, Any]]:
+        """The calls that a part makes in place, with what is called; not those inside of functions that it defines."""
+        waiting = [part]
+        while waiting:
+            node = waiting.pop()
+            if isinstance(node, ast.Call):
+                value = self.meaning(node.func)
+                yield node, value if isinstance(value, ast.AST) or hashable(value) else MISSING
+            if not isinstance(node, FUNCTIONS):
+                waiting.extend(ast.iter_child_nodes(node))
+
+    def function(self, value: Any) -> ast.AST | None:
+        """The node of a user's function."""
+        if isinstance(value, FUNCTIONS):
+            return value
+        if isinstance(value, FunctionType) and not is_library(value) and value in self.facts.program.units:
+            return self.facts.program.units[value].node
+        return None
+
+    def is_barrier(self, part: ast.AST) -> bool:
+        """Whether it adds to the scene or the score, itself or by a call."""
+        return any(
+            value in BARRIERS or self.function(value) in self.facts.builds for _, value in self.calls(part)
+        )
+
+    def is_random(self, part: ast.AST) -> bool:
+        """Whether it makes a random choice, itself or by a call."""
+        chosen = (words.sample, words.choose)
+        return any(
+            value in vocabulary.DRAWS or value in chosen or self.function(value) in self.facts.draws
+            for _, value in self.calls(part)
+        )
+
+    def makes_futures(self, part: ast.AST) -> bool:
+        """Whether it leaves a call for later."""
+        return any(value is words.future for _, value in self.calls(part))
+
+    # what depends on chance
+
+    def random_names(self, body: Sequence[ast.AST]) -> set[str]:
+        """Variables of a function that depend on a random choice."""
+        names: set[str] = set()
+        grown = -1
+        while grown != (grown := len(names)):
+            for part in body:
+                for node in inside(part):
+                    if (
+                        isinstance(node, (ast.Assign, ast.AnnAssign, ast.AugAssign))
+                        and node.value is not None
+                    ):
+                        if self.is_random(node.value) or reads(node.value) & names:
+                            names |= writes(node)
+                    elif isinstance(node, ast.For) and (
+                        self.is_random(node.iter) or reads(node.iter) & names
+                    ):
+                        names |= writes(node.target)
+        return names
+
+    def decisions(self, body: Sequence[ast.AST]) -> list[ast.If]:
+        """The branches on random values that build."""
+        names = self.random_names(body)
+        found = [node for part in body for node in inside(part) if isinstance(node, ast.If)]
+        return [
+            node
+            for node in found
+            if (self.is_random(node.test) or reads(node.test) & names)
+            and any(map(self.is_barrier, [*node.body, *node.orelse]))
+        ]
+
+    # one block of statements
+
+    def block(
+        self, body: Sequence[ast.stmt], after: Sequence[ast.stmt], loop: ast.stmt | None
+    ) -> Iterator[Advice]:
+        """Advice on a block. `after` is what the function still does behind it; that of a `loop` follows itself."""
+        decided = self.decisions(body)
+        for number, part in enumerate(body):
+            later = [*body[number + 1 :], *after]
+            again = [*later, *(body[: number + 1] if loop is not None else [])]
+            builds = (other for other in later if self.is_barrier(other) or self.makes_futures(other))
+            rest = next(builds, loop)
+            if isinstance(part, ast.If) and part in decided:
+                free = not (writes_in(part) & reads_of(again)) and not leaves(part)
+                if free and rest is not None:
+                    yield self.advice("decides-in-place", part.test, rest)
+            elif isinstance(part, ast.Expr) and isinstance(part.value, ast.Call) and rest is not None:
+                callee = self.function(self.meaning(part.value.func))
+                if callee is not None and callee in self.facts.decides:
+                    yield self.call_advice(part.value, rest)
+            yield from self.early(part, body[number + 1 :], again)
+            for inner, own in blocks(part):
+                yield from self.block(inner, again, own or loop)
+
+    def call_advice(self, call: ast.Call, rest: ast.stmt) -> Advice:
+        """Advice on a call that could be a future."""
+        name = ast.unparse(call.func)
+        given = [ast.unparse(argument) for argument in call.args]
+        given += [f"{keyword.arg}={ast.unparse(keyword.value)}" for keyword in call.keywords]
+        return self.advice(
+            "calls-in-place", call, rest, name=name, cure=f"future({', '.join([name, *given])})"
+        )
+
+    def early(self, part: ast.stmt, later: Sequence[ast.stmt], again: Sequence[ast.stmt]) -> Iterator[Advice]:
+        """Advice on a choice that the next barrier does not need."""
+        if not isinstance(part, ast.Assign) or not self.is_random(part.value) or self.is_barrier(part):
+            return
+        depends = writes(part)
+        for number, other in enumerate(later):
+            needed = bool(reads_of([other]) & depends)
+            if self.is_barrier(other):
+                if not needed and any(reads_of([last]) & depends for last in later[number + 1 :]):
+                    name = next(iter(sorted(writes(part))))
+                    yield self.advice("chosen-early", part, other, name=name)
+                return
+            if needed and not isinstance(other, (ast.Assign, ast.AnnAssign)):
+                return
+            if needed:
+                depends |= writes(other)
+
+    def advice(self, code: str, node: ast.AST, rest: ast.AST, **values: str) -> Advice:
+        return Advice(code, span_of(node, self.unit.file), first_line(span_of(rest, self.unit.file)), values)
+
+
+def first_line(span: Span) -> Span:
+    """A place without the lines after its first."""
+    if span.end_line == span.line:
+        return span
+    return Span(span.file, span.line, span.column, span.line, len(span.file.line(span.line).rstrip()) + 1)
+
+
+def inside(part: ast.AST) -> Iterator[ast.AST]:
+    """A part and all in it, but not what belongs to functions that it defines."""
+    yield part
+    for child in ast.iter_child_nodes(part):
+        if not isinstance(child, FUNCTIONS):
+            yield from inside(child)
+
+
+def reads(part: ast.AST) -> set[str]:
+    """The names that a part reads, also in functions that it defines."""
+    return {
+        node.id for node in ast.walk(part) if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load)
+    } | {
+        node.target.id
+        for node in ast.walk(part)
+        if isinstance(node, ast.AugAssign) and isinstance(node.target, ast.Name)
+    }
+
+
+def reads_of(parts: Iterable[ast.AST]) -> set[str]:
+    """The names that any of them reads."""
+    return {name for part in parts for name in reads(part)}
+
+
+def writes(part: ast.AST) -> set[str]:
+    """The names that an assignment or a target gives a value."""
+    return {
+        node.id for node in ast.walk(part) if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)
+    }
+
+
+def writes_in(part: ast.If) -> set[str]:
+    """The names that the arms of a branch give a value."""
+    return {name for arm in (*part.body, *part.orelse) for name in writes(arm)}
+
+
+def leaves(part: ast.If) -> bool:
+    """Whether an arm leaves the function or the loop around it."""
+    return any(isinstance(node, LEAVES) for arm in (*part.body, *part.orelse) for node in inside(arm))
+
+
+def blocks(part: ast.stmt) -> Iterator[tuple[list[ast.stmt], ast.stmt | None]]:
+    """The blocks of a compound statement, and the loop that repeats each."""
+    if isinstance(part, ast.If):
+        yield part.body, None
+        yield part.orelse, None
+    elif isinstance(part, (ast.For, ast.While)):
+        yield part.body, part

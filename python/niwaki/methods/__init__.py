@@ -1,0 +1,65 @@
+"""Methods as values: what `run` is asked to do, with every setting checked when it is made.
+
+direct      forward runs, enumeration, rejection, likelihood weighting
+particles   sequential Monte Carlo, and the chains made of it
+chains      Metropolis-Hastings
+gradients   Hamiltonian Monte Carlo
+checks      what their settings are checked for
+"""
+
+from niwaki.methods.chains import STRATEGIES, Mh, mh
+from niwaki.methods.checks import at_least_one
+from niwaki.methods.direct import (
+    EnumerateAll,
+    Forward,
+    Importance,
+    Rejection,
+    enumerate_all,
+    forward,
+    importance,
+    rejection,
+)
+from niwaki.methods.gradients import METRICS, Hmc, Nuts, hmc, nuts
+from niwaki.methods.particles import (
+    ORDERS,
+    RESAMPLING,
+    WEIGHTS,
+    ParticleGibbs,
+    Pimh,
+    Smc,
+    particle_gibbs,
+    pimh,
+    smc,
+)
+
+Method = Smc | ParticleGibbs | Pimh | EnumerateAll | Rejection | Importance | Forward | Mh
+
+__all__ = [
+    "METRICS",
+    "ORDERS",
+    "RESAMPLING",
+    "STRATEGIES",
+    "WEIGHTS",
+    "EnumerateAll",
+    "Forward",
+    "Hmc",
+    "Importance",
+    "Method",
+    "Mh",
+    "Nuts",
+    "ParticleGibbs",
+    "Pimh",
+    "Rejection",
+    "Smc",
+    "at_least_one",
+    "enumerate_all",
+    "forward",
+    "hmc",
+    "importance",
+    "mh",
+    "nuts",
+    "particle_gibbs",
+    "pimh",
+    "rejection",
+    "smc",
+]

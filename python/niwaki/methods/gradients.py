@@ -1,0 +1,160 @@
+"""Chains that follow the gradient."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from niwaki.errors import InputError
+from niwaki.methods.checks import at_least_one, is_number, is_whole, one_of
+
+METRICS = ("diagonal", "dense", "low-rank", "unit")
+
+
+@dataclass(frozen=True)
+class Hmc:
+    """Hamiltonian Monte Carlo; see `hmc`."""
+
+    draws: int = 1000
+    steps: int = 100
+    jitter: float = 0.0
+    chains: int = 4
+    warmup: int = 1000
+    thin: int = 1
+    target_accept: float = 0.65
+    metric: str = "diagonal"
+    step_size: float | None = None
+
+
+@dataclass(frozen=True)
+class Nuts:
+    """The no-U-turn sampler; see `nuts`."""
+
+    draws: int = 1000
+    max_depth: int = 10
+    chains: int = 4
+    warmup: int = 1000
+    thin: int = 1
+    target_accept: float = 0.8
+    metric: str = "diagonal"
+    step_size: float | None = None
+
+
+def hmc(
+    draws: int = 1000,
+    steps: int = 100,
+    jitter: float = 0.0,
+    chains: int = 4,
+    warmup: int = 1000,
+    thin: int = 1,
+    target_accept: float = 0.65,
+    metric: str = "diagonal",
+    step_size: float | None = None,
+) -> Hmc:
+    """Chains that follow the gradient for a fixed number of steps (dissertation 4.3).
+
+    Parameters
+    ----------
+    draws
+        Of each chain, after warm-up.
+    steps
+        Leapfrog steps of a trajectory; the dissertation takes 100 for colours and 1000 for stacks.
+    jitter
+        The number of steps varies by this share of itself, [0, 1]; 0, the dissertation's setting, keeps it.
+    chains
+        How many; two or more show whether they agree.
+    warmup
+        Transitions of each chain in which step size and metric are adapted; not among the draws.
+    thin
+        Transitions for each draw.
+    target_accept
+        Mean acceptance that the step size is adapted to, (0, 1).
+    metric
+        What is learnt of the target's shape: "diagonal", a scale for each coordinate; "low-rank", and a few directions;
+        "dense", the whole covariance, which suits what is nearly normal; "unit", nothing (the dissertation's setting).
+    step_size
+        A step to keep instead of an adapted one.
+    """
+    common = _chain_settings(draws, chains, warmup, thin, target_accept, metric, step_size)
+    if not is_number(jitter) or not 0 <= jitter <= 1:
+        raise InputError(
+            "bad-setting", name="jitter", found=repr(jitter), expected="a share in [0, 1]", suggestion="0.5"
+        )
+    return Hmc(steps=at_least_one("steps", steps), jitter=float(jitter), **common)
+
+
+def nuts(
+    draws: int = 1000,
+    max_depth: int = 10,
+    chains: int = 4,
+    warmup: int = 1000,
+    thin: int = 1,
+    target_accept: float = 0.8,
+    metric: str = "diagonal",
+    step_size: float | None = None,
+) -> Nuts:
+    """Chains that follow the gradient until they turn back (Hoffman & Gelman 2014; Betancourt 2017).
+
+    Parameters
+    ----------
+    max_depth
+        Most doublings of a trajectory: 2^max_depth - 1 steps; up to 20.
+    draws, chains, warmup, thin, target_accept, metric, step_size
+        As for `hmc`.
+    """
+    common = _chain_settings(draws, chains, warmup, thin, target_accept, metric, step_size)
+    if not is_whole(max_depth) or not 1 <= max_depth <= 20:
+        raise InputError(
+            "bad-setting",
+            name="max_depth",
+            found=repr(max_depth),
+            expected="a whole number from 1 to 20",
+            suggestion="10",
+        )
+    return Nuts(max_depth=max_depth, **common)
+
+
+def _chain_settings(
+    draws: int,
+    chains: int,
+    warmup: int,
+    thin: int,
+    target_accept: float,
+    metric: str,
+    step_size: float | None,
+) -> dict[str, Any]:
+    """Check what all chains have in common."""
+    if not is_whole(warmup) or warmup < 0:
+        raise InputError(
+            "bad-setting",
+            name="warmup",
+            found=repr(warmup),
+            expected="a whole number, 0 or more",
+            suggestion="1000",
+        )
+    if not is_number(target_accept) or not 0 < target_accept < 1:
+        raise InputError(
+            "bad-setting",
+            name="target_accept",
+            found=repr(target_accept),
+            expected="a share between 0 and 1",
+            suggestion="0.8",
+        )
+    if step_size is not None and (not is_number(step_size) or not 0 < step_size < float("inf")):
+        raise InputError(
+            "bad-setting",
+            name="step_size",
+            found=repr(step_size),
+            expected="a number above 0",
+            suggestion="0.1, or leave it out",
+        )
+    one_of("metric", metric, METRICS)
+    return {
+        "draws": at_least_one("draws", draws),
+        "chains": at_least_one("chains", chains),
+        "warmup": warmup,
+        "thin": at_least_one("thin", thin),
+        "target_accept": float(target_accept),
+        "metric": metric,
+        "step_size": None if step_size is None else float(step_size),
+    }

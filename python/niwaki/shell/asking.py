@@ -1,0 +1,219 @@
+"""What a person asks of a shape, as flags: each is one control, and controls multiply.
+
+    --target crown.obj --avoid wall.obj --floor 0
+    --match-image skyline.png --camera cam.json
+    --match-shadow face.png --weight-image face_w.png --light -1,-0.3,0 --receiver floor.obj
+
+Flags that contradict one another, or lack a companion, are refused before any file is read.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from niwaki.errors import InputError
+
+if TYPE_CHECKING:
+    from niwaki.finding import Found
+    from niwaki.sketches import Score
+    from niwaki.target import Target
+
+Triple = tuple[float, float, float]
+
+
+def _file(flag: str, text: str) -> Any:
+    return typer.Option(flag, metavar="FILE", help=text)
+
+
+TargetFile = Annotated[str | None, _file("--target", "A mesh to fill (OBJ, STL, PLY, GLB).")]
+AvoidFiles = Annotated[list[str] | None, _file("--avoid", "A mesh to keep away from; may be repeated.")]
+Floor = Annotated[float | None, typer.Option("--floor", metavar="Y", help="A height to stay above.")]
+Within = Annotated[
+    str | None,
+    typer.Option("--within", metavar="X,Y,Z,X,Y,Z", help="Low and high corner of a box to stay in, softly."),
+]
+ImageFile = Annotated[str | None, _file("--match-image", "A silhouette to match; needs --camera.")]
+ShadowFile = Annotated[str | None, _file("--match-shadow", "A shadow to cast; needs --light and --receiver.")]
+CameraFile = Annotated[str | None, _file("--camera", "Who sees the image or the shadow, as JSON.")]
+WeightFile = Annotated[str | None, _file("--weight-image", "Where the match matters more: white.")]
+Weight = Annotated[float | None, typer.Option("--weight", help="How much more white weighs; default: 10.")]
+Light = Annotated[
+    str | None, typer.Option("--light", metavar="X,Y,Z", help="The direction in which the light travels.")
+]
+ReceiverFile = Annotated[str | None, _file("--receiver", "A mesh that the shadow falls on.")]
+Voxel = Annotated[
+    float | None,
+    typer.Option("--voxel", metavar="SIZE", help="Cell size; default: what suits model or target."),
+]
+Sigma = Annotated[float, typer.Option("--sigma", help="Strictness of the match; smaller is stricter.")]
+
+
+@dataclass(frozen=True)
+class Asked:
+    """The controls as they were typed; None where nothing was said."""
+
+    target: str | None = None
+    avoid: tuple[str, ...] = ()
+    floor: float | None = None
+    within: str | None = None
+    match_image: str | None = None
+    camera: str | None = None
+    match_shadow: str | None = None
+    weight_image: str | None = None
+    weight: float | None = None
+    light: str | None = None
+    receiver: str | None = None
+
+    def __post_init__(self) -> None:
+        if self.match_image is not None and self.match_shadow is not None:
+            raise InputError(
+                "flags-exclude",
+                flag="--match-image",
+                other="--match-shadow",
+                reason="both are seen by the one --camera and weighed by the one --weight-image",
+                cure="multiply `match_image(...)` and `match_shadow(...)` in Python",
+            )
+        image, shadow = self.match_image is not None, self.match_shadow is not None
+        pictures = "`--match-image` or `--match-shadow`"
+        for flag, given, other, there, reason in (
+            (
+                "--match-image",
+                image,
+                "`--camera`",
+                self.camera is not None,
+                "it says from where the image is seen",
+            ),
+            ("--match-shadow", shadow, "`--light`", self.light is not None, "it says where a shadow falls"),
+            (
+                "--match-shadow",
+                shadow,
+                "`--receiver`",
+                self.receiver is not None,
+                "a shadow falls on something",
+            ),
+            ("--light", self.light is not None, "`--match-shadow`", shadow, "only a shadow has a light"),
+            (
+                "--receiver",
+                self.receiver is not None,
+                "`--match-shadow`",
+                shadow,
+                "only a shadow falls on something",
+            ),
+            (
+                "--camera",
+                self.camera is not None,
+                pictures,
+                image or shadow,
+                "only a picture is seen by a camera",
+            ),
+            (
+                "--weight-image",
+                self.weight_image is not None,
+                pictures,
+                image or shadow,
+                "it weighs a picture",
+            ),
+            (
+                "--weight",
+                self.weight is not None,
+                "`--weight-image`",
+                self.weight_image is not None,
+                "it says where",
+            ),
+        ):
+            if given and not there:
+                raise InputError("flag-alone", flag=flag, other=other, reason=reason)
+
+    def aim(self, found: Found) -> tuple[Target | None, str | None]:
+        """The volume to fill and how to find it again.
+
+        It is the one named; else the model's own, unless a picture is asked for.
+        """
+        from niwaki.target import Target
+
+        if self.target is not None:
+            return Target.load(self.target), str(Path(self.target).resolve())
+        if self.match_image is not None or self.match_shadow is not None:
+            return None, None
+        if found.entry is None or found.entry.target_name is None:
+            raise InputError("no-target", name=found.reference)
+        return found.entry.target(), f"gallery:{found.entry.target_name}"
+
+    def controls(self, voxel: float | None, sigma: float) -> Score:
+        """Everything but the volume: what forbids comes before what scores."""
+        from niwaki import sketches
+
+        score = sketches.Score()
+        if self.floor is not None:
+            score *= sketches.floor(self.floor)
+        for obstacle in self.avoid:
+            score *= sketches.avoid(obstacle, voxel)
+        weigh = {} if self.weight is None else {"weight": self.weight}
+        if self.match_image is not None:
+            assert self.camera is not None
+            score *= sketches.match_image(
+                self.match_image, self.camera, weight_image=self.weight_image, sigma=sigma, **weigh
+            )
+        if self.match_shadow is not None:
+            assert self.light is not None and self.receiver is not None
+            score *= sketches.match_shadow(
+                self.match_shadow,
+                numbers("--light", self.light, 3),
+                self.receiver,
+                self.camera,
+                weight_image=self.weight_image,
+                sigma=sigma,
+                **weigh,
+            )
+        if self.within is not None:
+            score *= sketches.overshoot(_box("--within", self.within), sigma)
+        return score
+
+    def record(self) -> dict[str, Any]:
+        """What was asked for, for the record of a run: files by their full paths."""
+        paths = {"target", "match_image", "camera", "match_shadow", "weight_image", "receiver"}
+        found: dict[str, Any] = {}
+        for one in fields(self):
+            value = getattr(self, one.name)
+            if one.name == "avoid" and value:
+                found["avoid"] = [str(Path(place).resolve()) for place in value]
+            elif one.name != "avoid" and value is not None:
+                found[one.name] = str(Path(value).resolve()) if one.name in paths else value
+        return found
+
+
+def numbers(flag: str, text: str, count: int) -> tuple[float, ...]:
+    """Numbers that were typed with commas between them."""
+    try:
+        found = tuple(float(part) for part in text.split(","))
+    except ValueError:
+        found = ()
+    if len(found) != count:
+        example = "-5,0,-5,5,10,5" if count == 6 else "-1,-0.3,0"
+        raise InputError(
+            "bad-setting",
+            name=flag,
+            found=repr(text),
+            expected=f"{count} numbers with commas between them",
+            suggestion=f"such numbers, for instance {example}",
+        )
+    return found
+
+
+def _box(flag: str, text: str) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """The low and the high corner of a box."""
+    found = numbers(flag, text, 6)
+    low, high = found[:3], found[3:]
+    if not all(a < b for a, b in zip(low, high, strict=True)):
+        raise InputError(
+            "bad-setting",
+            name=flag,
+            found=repr(text),
+            expected="a low corner, then one that is higher along x, y and z",
+            suggestion="such a box, for instance -5,0,-5,5,10,5",
+        )
+    return low, high

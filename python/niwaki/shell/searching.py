@@ -1,0 +1,162 @@
+"""How to search, as flags: `--method smc`, `particle-gibbs` or `pimh`, and the settings of each.
+
+A setting that the chosen method does not have is refused, not forgotten.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from niwaki.errors import InputError
+
+if TYPE_CHECKING:
+    from niwaki.methods import Method
+
+METHODS = ("smc", "particle-gibbs", "pimh")
+
+MethodName = Annotated[
+    str, typer.Option("--method", metavar="NAME", help="smc, particle-gibbs or pimh.", show_default=True)
+]
+Particles = Annotated[
+    int | None,
+    typer.Option("-n", "--particles", help="Size of a population; default: what suits the model, or 300."),
+]
+Order = Annotated[str, typer.Option("--order", help="stochastic or depth-first.")]
+Weights = Annotated[str | None, typer.Option("--weights", help="smc: ratio (the default) or absolute.")]
+Temper = Annotated[
+    float | None,
+    typer.Option("--temper", help="Sharpening of the search; default: 16, with absolute weights 1."),
+]
+Anneal = Annotated[
+    str | None,
+    typer.Option(
+        "--anneal",
+        metavar="WAY",
+        help="Sharpening on the way: a share of the particles to keep, or one number for each barrier, with commas.",
+    ),
+]
+Resampling = Annotated[
+    str | None,
+    typer.Option("--resampling", help="systematic (the default), residual, stratified or multinomial."),
+]
+Ess = Annotated[
+    float | None,
+    typer.Option("--ess", help="Resample below this share of effective particles; default: always."),
+]
+Populations = Annotated[
+    int | None, typer.Option("--populations", metavar="M", help="smc: so many populations side by side.")
+]
+Diverse = Annotated[
+    int | None, typer.Option("--diverse", metavar="K", help="smc: so many results that differ, for each run.")
+]
+Seconds = Annotated[
+    float | None, typer.Option("--seconds", metavar="S", help="smc: a time to spend instead of -n.")
+]
+Sweeps = Annotated[
+    int | None, typer.Option("--sweeps", help="particle-gibbs, pimh: length of the chain; default: 100.")
+]
+
+#: Which methods have a setting that not all have.
+OWNERS = {
+    "weights": ("smc",),
+    "populations": ("smc",),
+    "diverse": ("smc",),
+    "seconds": ("smc",),
+    "sweeps": ("particle-gibbs", "pimh"),
+    "resampling": ("smc", "pimh"),
+}
+
+
+@dataclass(frozen=True)
+class Search:
+    """The search as it was typed; None where nothing was said."""
+
+    method: str = "smc"
+    particles: int | None = None
+    order: str = "stochastic"
+    weights: str | None = None
+    temper: float | None = None
+    anneal: str | None = None
+    resampling: str | None = None
+    ess: float | None = None
+    populations: int | None = None
+    diverse: int | None = None
+    seconds: float | None = None
+    sweeps: int | None = None
+
+    def __post_init__(self) -> None:
+        if self.method not in METHODS:
+            listed = ", ".join(METHODS[:-1]) + " or " + METHODS[-1]
+            raise InputError(
+                "bad-setting",
+                name="--method",
+                found=repr(self.method),
+                expected=f"one of {listed}",
+                suggestion="smc",
+            )
+        for name, owners in OWNERS.items():
+            if getattr(self, name) is not None and self.method not in owners:
+                other = " or ".join(f"`--method {owner}`" for owner in owners)
+                reason = f"`--method {self.method}` has no such setting"
+                raise InputError("flag-alone", flag=f"--{name}", other=other, reason=reason)
+        if self.seconds is not None:
+            for flag, given in (("-n", self.particles), ("--populations", self.populations)):
+                if given is not None:
+                    raise InputError(
+                        "flags-exclude",
+                        flag="--seconds",
+                        other=flag,
+                        reason="a time to spend decides how many particles there are, in how many populations",
+                        cure=f"give the one or the other; run.json keeps what {self.seconds:g} s came to",
+                    )
+
+    def settings(self, usual: int) -> dict[str, Any]:
+        """The search as plain data, every default filled in; `usual` is the number of particles that suits."""
+        from niwaki.infer import default_temper
+
+        weights = self.weights or "ratio"
+        found: dict[str, Any] = {
+            "method": self.method,
+            "particles": usual if self.particles is None else self.particles,
+            "order": self.order,
+            "temper": default_temper(weights) if self.temper is None else self.temper,
+            "anneal": _way(self.anneal),
+            "ess": self.ess,
+        }
+        if self.method == "smc":
+            found |= {"weights": weights, "populations": self.populations, "diverse": self.diverse}
+            found["seconds"] = self.seconds
+        else:
+            found["sweeps"] = 100 if self.sweeps is None else self.sweeps
+        if self.method != "particle-gibbs":
+            found["resampling"] = self.resampling or "systematic"
+        return found
+
+
+def method(settings: dict[str, Any]) -> Method:
+    """The method that such settings name, checked."""
+    from niwaki.methods import particle_gibbs, pimh, smc
+
+    makers: dict[str, Callable[..., Method]] = {"smc": smc, "particle-gibbs": particle_gibbs, "pimh": pimh}
+    return makers[settings["method"]](**{key: value for key, value in settings.items() if key != "method"})
+
+
+def _way(text: str | None) -> float | list[float] | None:
+    """One number is a share, several are the way."""
+    if text is None:
+        return None
+    try:
+        found = [float(part) for part in text.split(",")]
+    except ValueError:
+        raise InputError(
+            "bad-setting",
+            name="--anneal",
+            found=repr(text),
+            expected="a share of the particles, or numbers with commas between them",
+            suggestion="such numbers, for instance 1,2,4,8,16",
+        ) from None
+    return found[0] if len(found) == 1 else found

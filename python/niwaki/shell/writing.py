@@ -1,0 +1,122 @@
+"""Which files a result becomes: `--format glb,stl,gif`, and the settings of each kind.
+
+The names are `best.` and the format; a moving picture is `growth.gif` or `growth.apng`. All settings are checked before
+the search, so that no search is lost to a slip of the hand.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from niwaki.errors import InputError, NiwakiError
+
+if TYPE_CHECKING:
+    from niwaki.result import Sample
+    from niwaki.target import Target
+
+MESHES, SOLIDS, ANIMATIONS = ("glb", "obj", "ply"), ("stl", "3mf"), ("gif", "apng")
+FORMATS = (*MESHES, *SOLIDS, *ANIMATIONS)
+
+Formats = Annotated[
+    str, typer.Option("--format", metavar="LIST", help=f"Which files, with commas: {', '.join(FORMATS)}.")
+]
+Scale = Annotated[
+    float | None,
+    typer.Option("--scale", metavar="MM", help="stl, 3mf: millimetres for a scene unit; default: 1000."),
+]
+Fuse = Annotated[
+    float | None,
+    typer.Option("--fuse", metavar="GAP", help="stl, 3mf: close gaps up to twice this, scene units."),
+]
+Frames = Annotated[int | None, typer.Option("--frames", help="gif, apng: most frames; default: 48.")]
+Size = Annotated[
+    str | None, typer.Option("--size", metavar="WxH", help="gif, apng: pixels; default: 480x360.")
+]
+
+
+@dataclass(frozen=True)
+class Files:
+    """What to write, checked."""
+
+    formats: tuple[str, ...] = ("glb",)
+    scale: float | None = None
+    fuse: float | None = None
+    frames: int | None = None
+    size: tuple[int, int] | None = None
+
+    @classmethod
+    def asked(
+        cls, formats: str, scale: float | None, fuse: float | None, frames: int | None, size: str | None
+    ) -> Files:
+        """The files that were typed; a setting for a format that is not among them is an error."""
+        chosen = tuple(dict.fromkeys(part.strip().lower().lstrip(".") for part in formats.split(",")))
+        unknown = [name for name in chosen if name not in FORMATS]
+        if unknown or not chosen:
+            raise _refused("--format", repr(formats), f"formats among {', '.join(FORMATS)}", "glb,stl")
+        for flag, given, kinds in (
+            ("--scale", scale, SOLIDS),
+            ("--fuse", fuse, SOLIDS),
+            ("--frames", frames, ANIMATIONS),
+            ("--size", size, ANIMATIONS),
+        ):
+            if given is not None and not set(kinds) & set(chosen):
+                other = " or ".join(f"`{kind}`" for kind in kinds) + " in `--format`"
+                raise InputError(
+                    "flag-alone", flag=flag, other=other, reason="no other format has this setting"
+                )
+        if scale is not None and not 0.0 < scale < float("inf"):
+            raise _refused("--scale", repr(scale), "millimetres above 0", "10, for a centimetre a scene unit")
+        if fuse is not None and not 0.0 <= fuse < float("inf"):
+            raise _refused("--fuse", repr(fuse), "scene units, 0 or more", "half the gap to close")
+        if frames is not None and not 1 <= frames <= 10_000:
+            raise _refused("--frames", repr(frames), "a whole number from 1 to 10000", "48")
+        if set(SOLIDS) & set(chosen):
+            from niwaki.draw.solid import kernel
+
+            kernel()
+        return cls(chosen, scale, fuse, frames, _pixels(size))
+
+    def write(self, sample: Sample, folder: Path, target: Target | None = None) -> list[Path]:
+        """Write each file, moving ones with the target as a ghost.
+
+        Where one cannot be written the others are, and then it is an error.
+        """
+        found, failed = [], None
+        for name in self.formats:
+            try:
+                found.append(self._written(sample, folder, name, target))
+            except NiwakiError as error:
+                failed = failed or error
+        if failed is not None:
+            raise failed
+        return found
+
+    def _written(self, sample: Sample, folder: Path, name: str, target: Target | None) -> Path:
+        if name in ANIMATIONS:
+            settings = {"frames": self.frames, "size": self.size}
+            given: dict[str, Any] = {key: value for key, value in settings.items() if value is not None}
+            return sample.animate(folder / f"growth.{name}", target or sample.target, **given)
+        if name in SOLIDS:
+            return sample.export(folder / f"best.{name}", scale=self.scale, fuse=self.fuse)
+        return sample.export(folder / f"best.{name}")
+
+
+def _pixels(text: str | None) -> tuple[int, int] | None:
+    if text is None:
+        return None
+    width, _, height = text.partition("x")
+    if not (
+        width.isdecimal() and height.isdecimal() and 16 <= int(width) <= 4096 and 16 <= int(height) <= 4096
+    ):
+        raise _refused(
+            "--size", repr(text), "a width and a height from 16 to 4096, with x between", "480x360"
+        )
+    return int(width), int(height)
+
+
+def _refused(flag: str, found: str, expected: str, suggestion: str) -> InputError:
+    return InputError("bad-setting", name=flag, found=found, expected=expected, suggestion=suggestion)
