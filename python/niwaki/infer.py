@@ -379,7 +379,6 @@ def _search(
     runs: int,
 ) -> Result:
     """One search with one seed, timed."""
-
     watch = _told(progress, number, runs)
     if isinstance(method, Mh):
         return _chains(model, made, method, score, seed, threads, watch)

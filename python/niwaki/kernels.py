@@ -129,7 +129,7 @@ def block(step: float = 0.2, share: float = 1.0, target: float = 0.234) -> Kerne
 
 
 def regenerate(levels: int = 0) -> Kernel:
-    """A call and all that it makes are drawn anew: the one that stands `levels` calls or loop iterations above a choice."""
+    """A call and all that it makes are drawn anew: the one that stands `levels` calls or iterations above a choice."""
     return Kernel("regenerate", (_whole("levels", levels, 0),))
 
 

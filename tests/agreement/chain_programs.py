@@ -49,7 +49,7 @@ class ChainMaker(Maker):
             ],
             # A count of activations that is a choice.
             lambda: [
-                f"for {i} in range({self.random.choice(['poisson(2)', 'geometric(0.5) % 5', 'discrete_uniform(0, 3)'])}):",
+                f"for {i} in range({self.pick('poisson(2)', 'geometric(0.5) % 5', 'discrete_uniform(0, 3)')}):",
                 f"    {w} = {self.sampled()}",
                 f"    factor(-0.3 * abs({w} - x))",
                 f"    emit(box(({i}, {w}, 0), (1, 1, {self.random.choice(['1', w + ' * ' + w + ' + 1'])})))",

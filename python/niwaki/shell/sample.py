@@ -54,6 +54,7 @@ def sample(
     """Sample MODEL by Markov chains; writes samples.csv and run.json, and best.glb, best.png, sheet.png of scenes."""
     from niwaki import infer, kernels, methods
     from niwaki.finding import find
+    from niwaki.mh_result import ChainResult
     from niwaki.sketches import Score, no_self_intersection, volume_match
 
     found = find(model)
@@ -75,6 +76,7 @@ def sample(
         result = infer.run(
             found.model, method=method, score=score, seed=seed, threads=threads, progress=progress
         )
+    assert isinstance(result, ChainResult)
     if output is not None or not as_json:
         _write(output or Path("out"), result, found, {"kernel": kernel, **settings}, reference, picture)
     if as_json:
