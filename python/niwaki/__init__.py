@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from niwaki.camera import Camera
     from niwaki.constraints import Residuals, residuals
     from niwaki.errors import InputError, ModelError, ModelFault, NiwakiError
-    from niwaki.infer import Progress, grow, run
     from niwaki.lang.plain import run_python
     from niwaki.methods import (
         enumerate_all,
@@ -31,8 +30,10 @@ if TYPE_CHECKING:
         smc,
     )
     from niwaki.mh_result import ChainResult
+    from niwaki.outline import load_polygon
     from niwaki.result import Result, Sample
     from niwaki.scene import Scene
+    from niwaki.search import Progress, grow, run
     from niwaki.sketches import (
         Score,
         avoid,
@@ -49,7 +50,7 @@ if TYPE_CHECKING:
 _HOMES = {
     "niwaki.camera": ("Camera",),
     "niwaki.errors": ("InputError", "ModelError", "ModelFault", "NiwakiError"),
-    "niwaki.infer": ("Progress", "grow", "run"),
+    "niwaki.search": ("Progress", "grow", "run"),
     "niwaki.lang.plain": ("run_python",),
     "niwaki.methods": (
         "enumerate_all",
@@ -63,6 +64,7 @@ _HOMES = {
     ),
     "niwaki.mh_result": ("ChainResult",),
     "niwaki.constraints": ("Residuals", "residuals"),
+    "niwaki.outline": ("load_polygon",),
     "niwaki.result": ("Result", "Sample"),
     "niwaki.scene": ("Scene",),
     "niwaki.sketches": (
@@ -105,6 +107,7 @@ __all__ = [  # noqa: PLE0604
     "grow",
     "importance",
     "kernels",
+    "load_polygon",
     "mh",
     "match_image",
     "match_shadow",

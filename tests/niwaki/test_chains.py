@@ -216,7 +216,7 @@ def failing() -> dict[str, Callable[[], Any]]:
         "no strategy": lambda: nw.mh(strategy="c4"),
         "a kernel misspelt": lambda: k.parse("cycl(mh())"),
         "a kernel that is code": lambda: k.parse("mh().__class__"),
-        "explained: no such choice": lambda: nw.infer.explain(GARDEN, "hight"),
+        "explained: no such choice": lambda: nw.search.explain(GARDEN, "hight"),
     }
 
 
@@ -254,7 +254,7 @@ def test_kernels_are_read_as_they_are_written() -> None:
 
 
 def test_explain_tells_what_each_strategy_did() -> None:
-    told = nw.infer.explain(GARDEN, "x", seed=1)
+    told = nw.search.explain(GARDEN, "x", seed=1)
     assert set(told["runs"]) == {"rerun", "resume", "cache", "c3"}
     from niwaki.draw.reuse import counts
 

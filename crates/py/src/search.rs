@@ -7,17 +7,18 @@ use crate::faults;
 use crate::geometry::PySketchSpec;
 use crate::model::PyProgram;
 use crate::outcome::{PyOutcome, PyTrace};
-use crate::settings::{Way, Words, settings};
+use crate::settings::{Way, Words, settings, unknown};
 use niwaki_infer::enumeration::enumerate;
 use niwaki_infer::forward::{Sample, forward};
 use niwaki_infer::importance::importance;
+use niwaki_infer::nested::Method;
 use niwaki_infer::particles::{self, Ancestors, Chain, Progress, particle_gibbs, pimh, populations, within};
 use niwaki_infer::rejection::rejection;
 use niwaki_infer::replay::{Missing, Source, replay};
 use niwaki_infer::{Failure, Task};
 use niwaki_vm::code::Program;
 use niwaki_vm::machine::Limits;
-use niwaki_vm::value::Value;
+use niwaki_vm::value::{Closure, Value};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
@@ -128,12 +129,14 @@ impl PyTask {
     ) -> PyResult<PyTask> {
         let own = program.get();
         let values: Vec<Value> = args.iter().map(|a| own.classes.value(a)).collect::<PyResult<_>>()?;
+        let limits = Limits { steps: max_steps, bytes: max_memory };
         let task = Task {
             program: own.program.clone(),
+            model: None,
             args: values,
             sketches: sketches.into_iter().map(|s| s.0).collect(),
-            hosts: own.hosts.clone(),
-            limits: Limits { steps: max_steps, bytes: max_memory },
+            hosts: own.hosts(limits),
+            limits,
         };
         Ok(PyTask { task, model: program.clone_ref(py) })
     }
@@ -260,6 +263,30 @@ impl PyTask {
         facts.set_item("interrupted", found.interrupted || pressed)?;
         facts.set_item("particles", self.of_particles(found.particles))?;
         Ok(facts)
+    }
+
+    /// The value that an ``infer`` of this task gives to the model around it: ``method`` as the front end writes it.
+    fn infer<'py>(
+        &self,
+        py: Python<'py>,
+        method: &Bound<'py, PyAny>,
+        seed: u64,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let read = self.model.get().classes.value(method)?;
+        let program = &self.task.program;
+        let Some(method) = Method::read(&read) else {
+            return Err(unknown(
+                py,
+                program,
+                "method",
+                &method.repr()?.to_string(),
+                "what the front end writes",
+            ));
+        };
+        let inner = self.model.get().inferences(self.task.limits);
+        let entry = Arc::new(Closure { function: program.entry.0, captures: vec![] });
+        let value = self.at_once(py, || Ok(inner.infer(&method, &entry, &self.task.args, seed)?))?;
+        self.object(py, &value)
     }
 
     /// Particle Gibbs: a dict with ``particles`` (an outcome for each sweep), ``tries``, ``moves``, ``renewed``,

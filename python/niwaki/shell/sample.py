@@ -18,7 +18,7 @@ from niwaki.shell.app import Folder, ModelName, app, made_folder
 
 if TYPE_CHECKING:
     from niwaki.finding import Found
-    from niwaki.infer import Progress
+    from niwaki.search import Progress
     from niwaki.mh_result import ChainResult
 
 
@@ -52,7 +52,7 @@ def sample(
     ] = True,
 ) -> None:
     """Sample MODEL by Markov chains; writes samples.csv and run.json, and best.glb, best.png, sheet.png of scenes."""
-    from niwaki import infer, kernels, methods
+    from niwaki import kernels, methods, search
     from niwaki.finding import find
     from niwaki.mh_result import ChainResult
     from niwaki.sketches import Score, no_self_intersection, volume_match
@@ -73,7 +73,7 @@ def sample(
     }
     method = methods.mh(kernel=kernels.parse(kernel), **settings)
     with _shown(found.reference, steps * chains) as progress:
-        result = infer.run(
+        result = search.run(
             found.model, method=method, score=score, seed=seed, threads=threads, progress=progress
         )
     assert isinstance(result, ChainResult)

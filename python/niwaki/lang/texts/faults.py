@@ -266,6 +266,14 @@ FAULTS = (
         cure="@nw.host\ndef look_up(name):\n    return TABLE.get(name, 0)",
     ),
     Message(
+        "infer-failed",
+        "an `infer` inside of the model found nothing",
+        "searched here",
+        help="loosen the inner model's conditions, or search it longer; run it alone with the same arguments",
+        example="infer(never, rejection(1, max_tries=10))",
+        cure="infer(never, rejection(1, max_tries=100_000))",
+    ),
+    Message(
         "bad-choice",
         "a given choice cannot have this value",
         "chosen here",
