@@ -18,8 +18,8 @@ from niwaki.shell.app import Folder, ModelName, app, made_folder
 
 if TYPE_CHECKING:
     from niwaki.finding import Found
-    from niwaki.search import Progress
     from niwaki.mh_result import ChainResult
+    from niwaki.search import Progress
 
 
 @app.command()
