@@ -196,9 +196,9 @@ const NOWHERE: u32 = u32::MAX;
 fn reads(density: &Density, id: Id) -> impl Iterator<Item = Id> {
     let graph = density.graph();
     let node = *graph.node(id);
-    let test = *graph.node(node.arg(0));
-    let fused = node.op == Op::Select && test.op == Op::Less;
-    let test_args = fused.then(|| [test.arg(0), test.arg(1)]);
+    let test = (node.op == Op::Select).then(|| *graph.node(node.arg(0))).filter(|test| test.op == Op::Less);
+    let fused = test.is_some();
+    let test_args = test.map(|test| [test.arg(0), test.arg(1)]);
     let own = (usize::from(fused)..node.op.arity()).map(move |k| node.arg(k));
     test_args.into_iter().flatten().chain(own)
 }

@@ -112,11 +112,6 @@ pub struct Run<'a> {
     pub host: &'a dyn Fn(u16, &[Value]) -> Result<Value, Fault>,
 }
 
-/// A value without what was recorded of it.
-fn plain(value: &Value<Var>) -> Value {
-    value.convert(&|x: Var| x.value())
-}
-
 struct Recorder<'a> {
     run: &'a Run<'a>,
     choices: &'a HashMap<u128, Value>,

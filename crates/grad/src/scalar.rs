@@ -91,6 +91,21 @@ impl Var {
         self.unary(Op::Round, self.value.round_ties_even())
     }
 
+    /// `yes` where the number is below the bound or at it, else `no`: one operation, and no guard.
+    #[must_use]
+    pub fn below_or(self, bound: f64, yes: Var, no: Var) -> Var {
+        let taken = if self.value <= bound { yes } else { no };
+        if self.node == FIXED {
+            return taken;
+        }
+        Var::written(taken.value, |sheet| {
+            let g = &mut sheet.graph;
+            let (bound, yes, no) = (g.constant(bound), yes.id(g), no.id(g));
+            let above = g.binary(Op::Less, bound, Id(self.node));
+            g.select(above, no, yes)
+        })
+    }
+
     fn written(value: f64, write: impl FnOnce(&mut Sheet) -> Id) -> Var {
         SHEET.with_borrow_mut(|sheet| match sheet {
             Some(sheet) => {
