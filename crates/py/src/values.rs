@@ -132,7 +132,7 @@ impl Classes {
         }
         let inner = |value: &Value| self.object_at(py, value, depth + 1);
         Ok(match value {
-            Value::None | Value::Unset => py.None().into_bound(py),
+            Value::None | Value::Unset | Value::Cell(_) => py.None().into_bound(py),
             Value::Bool(b) => PyBool::new(py, *b).to_owned().into_any(),
             Value::Int(n) => n.into_pyobject(py)?.into_any(),
             Value::Real(x) => PyFloat::new(py, *x).into_any(),

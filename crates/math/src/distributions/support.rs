@@ -70,6 +70,18 @@ pub(super) enum Measure {
 const LONGEST_LIST: i64 = 1 << 20;
 
 impl<S: Scalar> Dist<S> {
+    /// How many components its values have, of a family of vectors.
+    pub fn dimension(&self) -> Option<usize> {
+        match self {
+            Dist::Dirichlet(_) | Dist::MultivariateGaussian(_) | Dist::Mixture(_) => match self.support() {
+                Support::Simplex(n) | Support::Vectors(n) => Some(n),
+                _ => None,
+            },
+            Dist::Delta(Draw::Vector(x)) => Some(x.len()),
+            _ => None,
+        }
+    }
+
     /// Where the values lie.
     pub fn support(&self) -> Support {
         let reals = |lo, hi| Support::Reals { lo, hi };

@@ -70,6 +70,7 @@ fn instruction<S: Scalar>(f: &Function<S>, op: &Op) -> String {
         }
         Op::CheckSet { a, name } => format!("check {a:?} is set ({})", f.names[name as usize]),
         Op::Assert { a, message } => format!("assert {a:?}, {message:?}"),
+        Op::Clear { from, to } => format!("clear sites {from}..{to}"),
         Op::Return { a } => format!("return {a:?}"),
         Op::ReturnIteration { exit, args } => format!("end iteration {exit} {}", run(f, args)),
         Op::Site { site } => {

@@ -221,6 +221,8 @@ pub enum Op {
     Assert { a: Operand, message: Operand },
     /// Suspend or not: what the numbered site says.
     Site { site: SiteId },
+    /// The sites numbered `from..to` are not on the path taken: what they hold goes.
+    Clear { from: u16, to: u16 },
     /// Return from the function.
     Return { a: Operand },
     /// Return from an iteration: how it ended, carried values (and the returned value).
@@ -279,6 +281,14 @@ pub enum SiteKind {
     },
     /// The value of a future.
     Force,
+    /// An element of a collection: the register holds the element, the result refers to it. Where activations are
+    /// dropped, the result is the element.
+    Cell {
+        /// Holds the element.
+        content: Operand,
+    },
+    /// An element of a collection, read: `args[0]` at `args[1]`.
+    Read,
 }
 
 /// A lifted loop: its iterations are activations of their own.

@@ -108,6 +108,7 @@ fn function<S: Scalar>(program: &Program<S>, f: &Function<S>, outer: usize) -> R
                     return fail(at, "a pure call that does not fit its function");
                 }
             }
+            Op::Clear { to, .. } if to as usize > f.sites.len() => return fail(at, "no such site"),
             Op::Return { .. } if f.mode == Mode::Iteration => {
                 return fail(at, "a plain return in an iteration");
             }

@@ -2,6 +2,7 @@
 //! `interpret` they would cost every other instruction the processor's registers.
 
 use super::Machine;
+use super::keep::{Keep, put};
 use super::registers::Registers;
 use super::state::State;
 use crate::builtins;
@@ -15,9 +16,10 @@ use std::sync::Arc;
 impl<S: Scalar> Machine<'_, S> {
     /// Carries out an instruction that `interpret` leaves to this file.
     #[inline(never)]
-    pub(super) fn construct(
+    pub(super) fn construct<K: Keep<S>>(
         &mut self,
         state: &mut State<S>,
+        keep: &mut K,
         r: Registers<'_, S>,
         op: Op,
     ) -> Result<(), Fault> {
@@ -70,7 +72,7 @@ impl<S: Scalar> Machine<'_, S> {
                     ));
                 }
                 for (k, o) in f.operands[to.range()].iter().enumerate() {
-                    r.put(state, &mut self.scratch, *o, iter_get(&value, k));
+                    put(keep, state, &mut self.scratch, r, *o, iter_get(&value, k));
                 }
                 return Ok(());
             }
@@ -93,7 +95,7 @@ impl<S: Scalar> Machine<'_, S> {
                             Value::list((star..star + rest).map(|j| iter_get(&value, j)).collect())
                         }
                     };
-                    r.put(state, &mut self.scratch, *o, item);
+                    put(keep, state, &mut self.scratch, r, *o, item);
                 }
                 return Ok(());
             }
@@ -106,7 +108,7 @@ impl<S: Scalar> Machine<'_, S> {
             }
             other => unreachable!("`interpret` carries out {other:?} itself"),
         };
-        r.put(state, &mut self.scratch, to, value);
+        put(keep, state, &mut self.scratch, r, to, value);
         Ok(())
     }
 }

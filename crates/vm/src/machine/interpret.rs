@@ -1,9 +1,10 @@
 //! The loop over instructions. Long for one reason: it is one table.
 
 use super::answers::Answers;
+use super::keep::{Keep, put};
 use super::question::Halt;
 use super::registers::Registers;
-use super::state::{FutureId, State, Status};
+use super::state::{FutureId, NodeId, State, Status};
 use super::suspend::After;
 use super::{Here, Machine, PureCall, Stop, operate};
 use crate::builtins;
@@ -13,20 +14,24 @@ use crate::value::{Value, iter_get, iter_len, ops};
 use niwaki_math::Scalar;
 
 impl<S: Scalar> Machine<'_, S> {
-    pub(super) fn interpret<A: Answers<S>>(
+    /// Runs on from an instruction of a node. `future` is the one that runs; where activations are kept there are
+    /// none.
+    pub(super) fn interpret<A: Answers<S>, K: Keep<S>>(
         &mut self,
         state: &mut State<S>,
+        keep: &mut K,
         future: FutureId,
+        (mut node, mut pc): (NodeId, usize),
         answers: &mut A,
     ) -> Result<Stop, Fault> {
         let program = self.program;
-        let Status::Runnable(mut node) = state.futures[future.0 as usize].status else {
-            return Err(Fault::new("not-runnable", "this future cannot run now"));
-        };
         let mut id = state.nodes[node.0 as usize].function;
         let mut f = program.function(id);
         let mut code = f.code.as_slice();
-        let mut pc = state.nodes[node.0 as usize].pc as usize;
+        let mut executed = 0u64;
+        if K::KEEPS {
+            keep.enter(state, node);
+        }
         let mut scratch = 0;
         // First registers of this node, and of the loop node above an iteration.
         let (mut own, mut outer) = self.bases(state, f, node);
@@ -50,14 +55,19 @@ impl<S: Scalar> Machine<'_, S> {
             };
         }
         macro_rules! slot {
-            ($o:expr) => {
-                r!().slot(state, &mut self.scratch, $o)
-            };
+            ($o:expr, $store:ident, $as:expr, $x:expr) => {{
+                let (o, x) = ($o, $x);
+                if K::KEEPS && o.is_node() {
+                    keep.write(state, own + o.index(), $as(x));
+                } else {
+                    r!().slot(state, &mut self.scratch, o).$store(x);
+                }
+            }};
         }
         macro_rules! put {
             ($o:expr, $v:expr) => {{
                 let value = $v;
-                r!().put(state, &mut self.scratch, $o, value);
+                put(keep, state, &mut self.scratch, r!(), $o, value);
             }};
         }
         macro_rules! check {
@@ -65,6 +75,9 @@ impl<S: Scalar> Machine<'_, S> {
                 match $e {
                     Ok(value) => value,
                     Err(fault) => {
+                        if K::KEEPS {
+                            keep.count(executed);
+                        }
                         self.here = Here { node, function: id, pc };
                         return Err(fault);
                     }
@@ -83,6 +96,11 @@ impl<S: Scalar> Machine<'_, S> {
                     Halt::Paused => {
                         state.pause(future, node, $pc);
                         return Ok(Stop::Paused);
+                    }
+                    Halt::Impossible => {
+                        keep.count(executed);
+                        self.here = Here { node, function: id, pc };
+                        return Ok(Stop::Impossible);
                     }
                     Halt::Fault(fault) => check!(Err(fault)),
                 }
@@ -116,6 +134,9 @@ impl<S: Scalar> Machine<'_, S> {
                 pc = $pc as usize;
                 (own, outer) = self.bases(state, f, node);
                 self.room(scratch + f.scratch_registers as usize);
+                if K::KEEPS {
+                    keep.enter(state, node);
+                }
                 continue;
             }};
         }
@@ -130,11 +151,11 @@ impl<S: Scalar> Machine<'_, S> {
                     _ => None,
                 };
                 if let Some(z) = real {
-                    slot!($to).store_real(z);
+                    slot!($to, store_real, Value::Real, z);
                 } else if let (Value::Int(x), Value::Int(y)) = (a, b)
                     && let Some(z) = operate::ints($op, *x, *y)
                 {
-                    slot!($to).store_int(z);
+                    slot!($to, store_int, Value::Int, z);
                 } else {
                     put!($to, check!(operate::values($op, a, b)));
                 }
@@ -162,6 +183,9 @@ impl<S: Scalar> Machine<'_, S> {
         }
 
         loop {
+            if K::KEEPS {
+                executed += 1;
+            }
             match code[pc] {
                 Op::Move { to, from } => {
                     let value = get!(from).clone();
@@ -176,7 +200,7 @@ impl<S: Scalar> Machine<'_, S> {
                     if let (Value::Int(x), Value::Int(y)) = (a, b)
                         && let Some(z) = operate::ints(op, *x, *y)
                     {
-                        slot!(to).store_int(z);
+                        slot!(to, store_int, Value::Int, z);
                     } else {
                         put!(to, check!(operate::values(op, a, b)));
                     }
@@ -203,6 +227,18 @@ impl<S: Scalar> Machine<'_, S> {
                 Op::JumpUnlessCompare { op, a, b, target } => {
                     if !check!(operate::holds(op, get!(a), get!(b))) {
                         goto!(target);
+                    }
+                }
+                Op::Site { site: number } if K::KEEPS => {
+                    match keep.site(self, state, answers, r!(), node, number) {
+                        Ok(After::Next) => {}
+                        Ok(After::Enter(inner)) => {
+                            step!();
+                            enter!(inner, 0);
+                        }
+                        Ok(After::Pure { function, to, .. }) => call_pure!(function, to, false),
+                        Ok(After::Stop(stop)) => return Ok(stop),
+                        Err(halt) => stop!(halt, pc),
                     }
                 }
                 Op::Site { site: number } => {
@@ -251,7 +287,7 @@ impl<S: Scalar> Machine<'_, S> {
                     if let Value::Real(x) = value {
                         // Nothing to drop, which the compiler does not see.
                         std::mem::forget(value);
-                        slot!(to).store_real(x);
+                        slot!(to, store_real, Value::Real, x);
                     } else {
                         put!(to, value);
                     }
@@ -290,6 +326,11 @@ impl<S: Scalar> Machine<'_, S> {
                         )));
                     }
                 }
+                Op::Clear { from, to } => {
+                    if K::KEEPS {
+                        keep.clear(self, state, node, from, to);
+                    }
+                }
                 Op::Return { a } => {
                     let value = get!(a).clone();
                     if let Some(call) = self.pure.pop() {
@@ -306,13 +347,35 @@ impl<S: Scalar> Machine<'_, S> {
                         put!(call.to, value);
                         continue;
                     }
-                    match self.give_back(state, future, node, value) {
+                    let next = if K::KEEPS {
+                        keep.give_back(self, state, node, value)
+                    } else {
+                        self.give_back(state, future, node, value)
+                    };
+                    match next {
                         Some((parent, next)) => enter!(parent, next),
-                        None => return Ok(Stop::Returned),
+                        None => {
+                            if K::KEEPS {
+                                keep.count(executed);
+                            }
+                            return Ok(Stop::Returned);
+                        }
                     }
                 }
                 Op::ReturnIteration { exit: kind, args } => {
                     let kind = i64::from(kind);
+                    if K::KEEPS {
+                        match check!(keep.end_iteration(self, state, r!(), node, kind, args)) {
+                            Some((next, at)) => {
+                                step!();
+                                enter!(next, at);
+                            }
+                            None => {
+                                keep.count(executed);
+                                return Ok(Stop::Returned);
+                            }
+                        }
+                    }
                     if kind == exit::NEXT && check!(self.next_iteration(state, r!(), node, args)) {
                         step!();
                         pc = 0;
@@ -322,7 +385,7 @@ impl<S: Scalar> Machine<'_, S> {
                     let (parent, next) = self.end_loop(state, node, kind);
                     enter!(parent, next);
                 }
-                op => check!(self.construct(state, r!(), op)),
+                op => check!(self.construct(state, keep, r!(), op)),
             }
             pc += 1;
         }

@@ -3,7 +3,7 @@
 use super::Machine;
 use super::address::{iteration_key, join};
 use super::registers::Registers;
-use super::state::{NodeId, State};
+use super::state::{Node, NodeId, State};
 use super::suspend::After;
 use crate::code::{Args, Loop, Site, SiteId, SiteKind, exit};
 use crate::fault::Fault;
@@ -60,9 +60,8 @@ impl<S: Scalar> Machine<'_, S> {
         node: NodeId,
         carried: Args,
     ) -> Result<bool, Fault> {
-        let header = state.nodes[node.0 as usize].parent.0 as usize;
-        let header = &mut state.nodes[header];
-        let i = header.iteration + 1;
+        let Node { parent: header, iteration, .. } = state.nodes[node.0 as usize];
+        let i = iteration + 1;
         // The loop node's first register is what the loop runs over.
         let element = match &state.registers[r.outer] {
             Value::Range(range) if (i as usize) < range.len => Some(Value::Int(range.at(i as usize))),
@@ -71,9 +70,9 @@ impl<S: Scalar> Machine<'_, S> {
             over if (i as usize) < iter_len(over)? => Some(iter_get(over, i as usize)),
             _ => return Ok(false),
         };
-        header.iteration = i;
-        let path = join(header.path, iteration_key(i));
-        state.nodes[node.0 as usize].path = path;
+        let path = join(state.nodes[header.0 as usize].path, iteration_key(i));
+        let n = &mut state.nodes[node.0 as usize];
+        (n.iteration, n.path) = (i, path);
         // Carried values are read before any is written: they may have changed places.
         let at = r.own + usize::from(element.is_some());
         match r.f.operands[carried.range()] {

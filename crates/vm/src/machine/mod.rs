@@ -6,6 +6,7 @@
 //! * [`address`]: paths of sites as 128-bit hashes;
 //! * [`answers`]: what is asked, and the trait of those who answer;
 //! * [`state`]: nodes, registers, futures;
+//! * [`kept`]: traces: kept activations, and re-running what changed;
 //! * `interpret`: the loop over instructions; `registers`: from operands to values;
 //! * `operate`: operations of two operands; `construct`: instructions that make or take apart an aggregate;
 //! * `question`: choices and factors; `suspend`: what happens at any other site; `loops`: lifted loops;
@@ -15,6 +16,8 @@ pub mod address;
 pub mod answers;
 mod construct;
 mod interpret;
+mod keep;
+pub mod kept;
 mod loops;
 mod operate;
 mod question;
@@ -27,6 +30,7 @@ use crate::code::{FunctionId, Operand, Program};
 use crate::fault::Fault;
 use crate::value::Value;
 use answers::Answers;
+use keep::Dropped;
 use niwaki_geom::Shape;
 use niwaki_math::Scalar;
 use stack::RunFault;
@@ -56,6 +60,8 @@ pub enum Stop {
     Returned,
     /// The future that ran waits for another.
     Waiting,
+    /// The score is minus infinity. Only where activations are kept: elsewhere the answers tell.
+    Impossible,
 }
 
 /// A call of a pure function in progress: where to go on when it returns.
@@ -157,7 +163,13 @@ impl<'p, S: Scalar> Machine<'p, S> {
         answers: &mut A,
     ) -> Result<Stop, Box<RunFault>> {
         self.pure.clear();
-        match self.interpret(state, future, answers) {
+        let Status::Runnable(node) = state.futures[future.0 as usize].status else {
+            return Err(Box::new(
+                self.report(state, Fault::new("not-runnable", "this future cannot run now")),
+            ));
+        };
+        let pc = state.nodes[node.0 as usize].pc as usize;
+        match self.interpret(state, &mut Dropped, future, (node, pc), answers) {
             Ok(stop) => Ok(stop),
             Err(fault) => Err(Box::new(self.report(state, fault))),
         }

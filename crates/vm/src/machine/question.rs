@@ -39,7 +39,7 @@ fn as_dist<S: Scalar>(value: &Value<S>) -> Result<&Dist<S>, Fault> {
 
 /// A real number for `factor`.
 #[inline(always)]
-fn as_real<S: Scalar>(value: &Value<S>) -> Result<S, Fault> {
+pub(super) fn as_real<S: Scalar>(value: &Value<S>) -> Result<S, Fault> {
     match value {
         Value::Real(x) => Ok(*x),
         Value::Int(i) => Ok(S::from_f64(*i as f64)),
@@ -52,6 +52,8 @@ fn as_real<S: Scalar>(value: &Value<S>) -> Result<S, Fault> {
 pub(super) enum Halt {
     /// The answer was to pause.
     Paused,
+    /// The score is minus infinity.
+    Impossible,
     /// The question cannot be asked, or was answered by a fault.
     Fault(Fault),
 }
@@ -65,7 +67,7 @@ impl From<Fault> for Halt {
 
 /// The log density of a value: of numbers at once, of anything else by way of a draw.
 #[inline(always)]
-fn log_density<S: Scalar>(dist: &Dist<S>, value: &Value<S>) -> Result<S, Fault> {
+pub(super) fn log_density<S: Scalar>(dist: &Dist<S>, value: &Value<S>) -> Result<S, Fault> {
     match value {
         Value::Real(x) => Ok(dist.log_density_of_real(*x)),
         Value::Int(k) => Ok(dist.log_density_of_int(*k)),
@@ -107,6 +109,33 @@ impl<S: Scalar> Machine<'_, S> {
         }
     }
 
+    /// The distribution of a choice or observation: where it lies, or made of the parameters `args`.
+    #[inline(always)]
+    pub(super) fn dist<'b>(
+        &'b mut self,
+        state: &'b State<S>,
+        r: Registers<'b, S>,
+        site: &Site,
+        args: Args,
+        made: &'b mut Option<Dist<S>>,
+    ) -> Result<&'b Dist<S>, Fault> {
+        macro_rules! get {
+            ($i:expr) => {
+                r.get(state, &self.scratch, r.f.operands[args.start as usize + $i])
+            };
+        }
+        match site.kind {
+            SiteKind::SampleDist | SiteKind::ObserveDist => as_dist(get!(0)),
+            SiteKind::Sample { family } | SiteKind::Observe { family } => {
+                Ok(made.insert(self.made(state, r, args, family)?))
+            }
+            _ => match index::index_ref(get!(0), get!(1)) {
+                Some(value) => as_dist(value),
+                None => Ok(made.insert(as_dist(&index::index(get!(0), get!(1))?)?.clone())),
+            },
+        }
+    }
+
     /// Asks for a random choice and puts it into its register.
     #[inline(never)]
     pub(super) fn choose<A: Answers<S>>(
@@ -117,27 +146,9 @@ impl<S: Scalar> Machine<'_, S> {
         node: NodeId,
         site: &Site,
     ) -> Result<(), Halt> {
-        macro_rules! get {
-            ($i:expr) => {
-                r.get(state, &self.scratch, r.f.operands[site.args.start as usize + $i])
-            };
-        }
-        let made;
-        let dist = match site.kind {
-            SiteKind::SampleDist => as_dist(get!(0))?,
-            SiteKind::Sample { family } => {
-                made = self.made(state, r, site.args, family)?;
-                &made
-            }
-            _ => match index::index_ref(get!(0), get!(1)) {
-                Some(value) => as_dist(value)?,
-                None => {
-                    made = as_dist(&index::index(get!(0), get!(1))?)?.clone();
-                    &made
-                }
-            },
-        };
-        match answers.choice(&At { site, function: r.f, node, state, program: self.program }, dist)? {
+        let (program, mut made) = (self.program, None);
+        let dist = self.dist(state, r, site, site.args, &mut made)?;
+        match answers.choice(&At { site, function: r.f, node, state, program }, dist)? {
             Answer::Go(value) => {
                 state.registers[r.own + site.to.index()].store(value);
                 Ok(())
@@ -169,25 +180,12 @@ impl<S: Scalar> Machine<'_, S> {
                 (Factor::Condition, S::from_f64(log))
             }
             _ => {
-                let made;
-                let dist = match site.kind {
-                    SiteKind::ObserveDist => as_dist(get!(0))?,
-                    SiteKind::Observe { family } => {
-                        made = self.made(state, r, Args { len: last as u16, ..site.args }, family)?;
-                        &made
-                    }
-                    _ => match index::index_ref(get!(0), get!(1)) {
-                        Some(value) => as_dist(value)?,
-                        None => {
-                            made = as_dist(&index::index(get!(0), get!(1))?)?.clone();
-                            &made
-                        }
-                    },
-                };
-                let value = get!(last);
-                let log = log_density(dist, value)?;
                 // The value of `observe` is the value observed, so that it can stand where a choice stood.
-                let value = value.clone();
+                let value = get!(last).clone();
+                let mut made = None;
+                let args = Args { len: last as u16, ..site.args };
+                let dist = self.dist(state, r, site, args, &mut made)?;
+                let log = log_density(dist, &value)?;
                 state.registers[r.own + site.to.index()].store(value);
                 (Factor::Observe, log)
             }

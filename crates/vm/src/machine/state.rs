@@ -5,8 +5,9 @@
 //! | --- | --- |
 //! | function, parent, site | whose activation this is, who called it and where |
 //! | registers | first of its registers in the state's register file |
-//! | iteration | of a loop node: the iteration that runs |
+//! | iteration | of an iteration: which one |
 //! | pc | where a suspended activation goes on |
+//! | slots | first of its slots, where activations are kept (`kept`) |
 //! | path | hash of the path of sites from the root |
 //!
 //! A released node keeps its block of registers and waits in its function's free list, so that after the first
@@ -40,8 +41,14 @@ pub(crate) struct Node {
     /// Site in the parent's function; of the first node of a future: the future's number.
     pub site: u32,
     pub registers: u32,
+    /// Of an iteration: which one.
     pub iteration: u32,
+    /// Of a suspended activation: where it goes on. Of a kept iteration: how it ended.
     pub pc: u32,
+    /// Of a kept activation: its first slot; of a kept loop node: its number among the loops.
+    pub slots: u32,
+    /// Of a kept activation: the transaction that made it.
+    pub made: u32,
 }
 
 /// Where a future stands.
@@ -198,12 +205,22 @@ impl<S: Scalar> State<S> {
         if self.free.is_empty() {
             self.free.resize(program.functions.len(), NodeId::NONE);
         }
-        let made = Node { path, function, parent, site, registers: 0, iteration: 0, pc: 0 };
+        let made = Node {
+            path,
+            function,
+            parent,
+            site,
+            registers: 0,
+            iteration: 0,
+            pc: 0,
+            slots: u32::MAX,
+            made: 0,
+        };
         let free = self.free[function.0 as usize];
         if free != NodeId::NONE {
             let node = &mut self.nodes[free.0 as usize];
             self.free[function.0 as usize] = node.parent;
-            *node = Node { registers: node.registers, ..made };
+            *node = Node { registers: node.registers, slots: node.slots, ..made };
             return free;
         }
         let at = self.registers.len();
@@ -295,7 +312,7 @@ impl<S: Scalar> State<S> {
                 // The component of a loop is made from the loop node's site and the iteration.
                 let above = &self.nodes[parent.parent.0 as usize];
                 let label = &program.function(above.function).sites[parent.site as usize].label;
-                parts.push(label.replacen("[]", &format!("[{}]", parent.iteration), 1));
+                parts.push(label.replacen("[]", &format!("[{}]", n.iteration), 1));
                 at = parent.parent;
             } else {
                 parts.push(program.function(parent.function).sites[n.site as usize].label.to_string());

@@ -7,7 +7,7 @@ use super::state::{FutureId, NodeId, State, Status};
 use super::{Machine, Stop};
 use crate::code::{Function, FunctionId, Mode, Operand, Place, Site, SiteId, SiteKind};
 use crate::fault::Fault;
-use crate::value::{Value, iter_get, iter_len};
+use crate::value::{Value, index, iter_get, iter_len};
 use niwaki_math::Scalar;
 
 /// How to go on after a site.
@@ -112,13 +112,28 @@ impl<S: Scalar> Machine<'_, S> {
                 state.runnable.retain(|f| *f != future);
                 Ok(After::Stop(Stop::Waiting))
             }
+            SiteKind::Cell { .. } => {
+                let value = get!(0).clone();
+                state.registers[r.own + site.to.index()].store(value);
+                Ok(After::Next)
+            }
+            SiteKind::Read => {
+                let value = index::index(get!(0), get!(1))?;
+                state.registers[r.own + site.to.index()].store(value);
+                Ok(After::Next)
+            }
             SiteKind::Loop(l) => self.begin_loop(state, r, node, site_id, site, l),
             other => unreachable!("`interpret` carries out {other:?} itself"),
         }
     }
 
     /// The shapes of an `emit`: its arguments, lists and tuples of them taken apart.
-    fn collect_shapes(&mut self, state: &State<S>, r: Registers<'_, S>, site: &Site) -> Result<(), Fault> {
+    pub(super) fn collect_shapes(
+        &mut self,
+        state: &State<S>,
+        r: Registers<'_, S>,
+        site: &Site,
+    ) -> Result<(), Fault> {
         self.shapes.clear();
         r.gather(state, &self.scratch, site.args, &mut self.buffer);
         self.buffer.reverse();
@@ -140,7 +155,7 @@ impl<S: Scalar> Machine<'_, S> {
     }
 
     /// Takes the function value off the front of the buffer; adds its defaults and captures behind the arguments.
-    fn unwrap_callee(&mut self) -> Result<(FunctionId, bool), Fault> {
+    pub(super) fn unwrap_callee(&mut self) -> Result<(FunctionId, bool), Fault> {
         let callee = self.buffer.remove(0);
         let Value::Function(closure) = &callee else {
             let found = callee.described();

@@ -136,6 +136,12 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
                 *target = at.ok_or_else(|| CompileError("a jump to nowhere".into()))? as u32;
             }
         }
+        let sites = self.sites.len() as u16;
+        for op in &mut self.code {
+            if let Op::Clear { to, .. } = op {
+                *to = sites.min(*to);
+            }
+        }
         let mut f = Function {
             name: self.name,
             file: self.file,
@@ -172,6 +178,25 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
         }
         self.registers += 1;
         Ok(Operand::new(Place::Node, self.registers - 1))
+    }
+
+    /// From here on, sites made after the first `from` sites and before `to` are not on the path.
+    pub fn clear(&mut self, from: usize, to: usize) {
+        if from < to {
+            self.op(Op::Clear { from: from as u16, to: to as u16 });
+        }
+    }
+
+    /// As [`clear`](Self::clear), before the instruction at `at`.
+    pub fn clear_at(&mut self, at: usize, from: usize, to: usize) {
+        if from < to {
+            self.insert(at, vec![Op::Clear { from: from as u16, to: to as u16 }]);
+        }
+    }
+
+    /// The run leaves the function here: no later site of it is on the path. How many there are is known at the end.
+    pub fn clear_rest(&mut self) {
+        self.clear(self.sites.len(), u16::MAX as usize);
     }
 
     pub fn args(&mut self, operands: &[Operand]) -> Args {

@@ -54,6 +54,11 @@ impl<S: Scalar> Builder<'_, '_, S> {
         {
             return Ok(site);
         }
+        if self.mode != crate::code::Mode::Pure
+            && let Some(at) = self.collection(e)?
+        {
+            return Ok(at);
+        }
         match &e.kind {
             Literal(l) => Ok(self.literal(l)),
             Data(k) => self.data(*k),
@@ -196,6 +201,8 @@ impl<S: Scalar> Builder<'_, '_, S> {
         let end = self.label();
         let to = self.register()?;
         let mut merges = Vec::new();
+        // Where each operand that decides jumps to, and how many sites there were then.
+        let mut deciding = Vec::new();
         for (i, item) in items.iter().enumerate() {
             let a = self.expr(item)?;
             self.op(Op::Move { to, from: a });
@@ -203,13 +210,26 @@ impl<S: Scalar> Builder<'_, '_, S> {
                 merges.push(self.env.clone());
             }
             if i + 1 < items.len() {
-                let target = Self::jump_target(end);
+                let decided = self.label();
+                deciding.push((decided, self.sites.len()));
+                let target = Self::jump_target(decided);
                 self.op(if is_and { Op::JumpUnless { a: to, target } } else { Op::JumpIf { a: to, target } });
             }
         }
         // Checks that ran in a later operand do not hold when an earlier one decided.
         if let Some(first) = merges.pop() {
             self.env = first;
+        }
+        let last = self.sites.len();
+        if deciding.iter().any(|(_, sites)| *sites < last) {
+            self.jump(end);
+            for (decided, sites) in deciding {
+                self.bind(decided);
+                self.clear(sites, last);
+                self.jump(end);
+            }
+        } else {
+            deciding.into_iter().for_each(|(decided, _)| self.bind(decided));
         }
         self.bind(end);
         Ok(to)
@@ -220,14 +240,18 @@ impl<S: Scalar> Builder<'_, '_, S> {
         self.branch_unless(c, other)?;
         let to = self.register()?;
         let env = self.env.clone();
+        let (head_of_a, first) = (self.code.len(), self.sites.len());
         let x = self.expr(a)?;
         self.op(Op::Move { to, from: x });
         self.jump(end);
+        let between = self.sites.len();
         self.bind(other);
+        self.clear(first, between);
         self.env = env.clone();
         let y = self.expr(b)?;
         self.op(Op::Move { to, from: y });
         self.bind(end);
+        self.clear_at(head_of_a, between, self.sites.len());
         self.env = env;
         Ok(to)
     }

@@ -1,11 +1,13 @@
-//! Core form to bytecode, in four steps:
+//! Core form to bytecode, in five steps:
 //!
 //! 1. [`effects`]: which functions can suspend (the others are pure);
-//! 2. [`liveness`]: what a loop must hand from one iteration to the next;
-//! 3. `emit`, `expressions`, `sites`, `statements`: one walk over each function; static single assignment with
+//! 2. [`collections`]: which lists hold references to what their elements are made from;
+//! 3. [`liveness`]: what a loop must hand from one iteration to the next;
+//! 4. `emit`, `expressions`, `sites`, `statements`: one walk over each function; static single assignment with
 //!    merges written by each arm; loops that can suspend are *lifted* into functions of their own;
-//! 4. `place`: which registers live in the node and which are scratch, by liveness on bytecode.
+//! 5. `place`: which registers live in the node and which are scratch, by liveness on bytecode.
 
+pub mod collections;
 pub mod effects;
 mod emit;
 mod expressions;
@@ -19,6 +21,7 @@ use crate::code::{Function, FunctionId, Mode, Program, verify};
 use crate::core::{ExprKind, Literal, Module, Name};
 use crate::fault::Fault;
 use crate::value::Value;
+use collections::Collections;
 use effects::Effects;
 use emit::Builder;
 use niwaki_math::Scalar;
@@ -47,6 +50,7 @@ impl From<Fault> for CompileError {
 pub(crate) struct Unit<'m, S: Scalar> {
     pub module: &'m Module,
     pub effects: Effects,
+    pub collections: Collections,
     pub ids: HashMap<Name, FunctionId>,
     pub data: Vec<Value<S>>,
     /// Functions made so far; the module's own come first, lifted loops after them.
@@ -59,8 +63,10 @@ pub(crate) struct Unit<'m, S: Scalar> {
 /// Names that are not defined, wrong numbers of arguments to known functions, or a function too large for the
 /// machine (more than 16,384 registers).
 pub fn compile<S: Scalar>(module: &Module, data: Vec<Value<S>>) -> Result<Program<S>, CompileError> {
+    let effects = Effects::of(module);
+    let collections = Collections::of(module, &effects);
     let mut unit =
-        Unit { module, effects: Effects::of(module), ids: HashMap::new(), data, functions: Vec::new() };
+        Unit { module, effects, collections, ids: HashMap::new(), data, functions: Vec::new() };
     for (k, literal) in &module.constants {
         let value = constant(literal)?;
         if unit.data.len() <= *k {

@@ -2,7 +2,7 @@
 //!
 //! Only what is needed after a suspension site goes into the node, with the results of sites and the
 //! parameters of choices (a proposal draws and scores from node and site alone). Everything else is scratch.
-//! Moves into registers that nobody reads are dropped, and futures whose handle nobody reads are marked.
+//! Instructions without effect are dropped, and futures whose handle nobody reads are marked.
 
 use crate::code::{Args, Function, Mode, Op, Operand, Place, SiteKind};
 use niwaki_math::Scalar;
@@ -56,7 +56,7 @@ pub(crate) fn reads_and_writes<S: Scalar>(f: &Function<S>, op: &Op) -> (Vec<Oper
         | Op::Host { to, args, .. }
         | Op::CallPure { to, args, .. } => (run(args), vec![to]),
         Op::Unpack { from, to } | Op::UnpackStar { from, to, .. } => (vec![from], run(to)),
-        Op::Jump { .. } => (vec![], vec![]),
+        Op::Jump { .. } | Op::Clear { .. } => (vec![], vec![]),
         Op::JumpIf { a, .. } | Op::JumpUnless { a, .. } | Op::CheckSet { a, .. } | Op::Return { a } => {
             (vec![a], vec![])
         }
@@ -70,6 +70,9 @@ pub(crate) fn reads_and_writes<S: Scalar>(f: &Function<S>, op: &Op) -> (Vec<Oper
             if let SiteKind::Loop(l) = &s.kind {
                 reads.extend(l.over.into_iter().chain(run(l.carried)).chain(run(l.captures)));
                 writes.extend(run(l.out).into_iter().chain(l.exit.into_iter().flat_map(|(a, b)| [a, b])));
+            }
+            if let SiteKind::Cell { content } = s.kind {
+                writes.push(content);
             }
             (reads, writes)
         }
@@ -117,7 +120,7 @@ fn live_after<S: Scalar>(f: &Function<S>, registers: usize) -> Vec<Bits> {
 
 /// Chooses places for the `registers` virtual registers of a function.
 pub(crate) fn place<S: Scalar>(f: &mut Function<S>, registers: usize) {
-    drop_dead_moves(f, registers);
+    drop_dead(f, registers);
     let inputs = f.params as usize + f.captures as usize;
     let pure = f.mode == Mode::Pure;
     let mut node = Bits::empty(registers);
@@ -129,9 +132,12 @@ pub(crate) fn place<S: Scalar>(f: &mut Function<S>, registers: usize) {
             node.join(&after[at]);
             let s = f.sites[site.0 as usize].clone();
             reads_and_writes(f, op).1.into_iter().for_each(|w| node.set(w));
-            let proposes =
-                matches!(s.kind, SiteKind::Sample { .. } | SiteKind::SampleDist | SiteKind::SampleIndexed);
-            if proposes {
+            // A proposal draws and scores from the node and the site alone; a query table is read in the same way.
+            let read_again = matches!(
+                s.kind,
+                SiteKind::Sample { .. } | SiteKind::SampleDist | SiteKind::SampleIndexed | SiteKind::Query
+            );
+            if read_again {
                 f.operands[s.args.range()].iter().for_each(|o| node.set(*o));
             }
             let unread = !after[at].has(s.to);
@@ -163,12 +169,16 @@ pub(crate) fn place<S: Scalar>(f: &mut Function<S>, registers: usize) {
     rewrite(f, |o| if o.place() == Place::Node { map[o.index()] } else { o });
 }
 
-/// Turns moves into registers that are never read into nothing: a jump to the next instruction costs a step of
+/// Turns moves into registers that are never read, and clearing of no sites, into nothing: a jump to the next instruction costs a step of
 /// the interpreter, so they are removed and the jumps adjusted.
-fn drop_dead_moves<S: Scalar>(f: &mut Function<S>, registers: usize) {
+fn drop_dead<S: Scalar>(f: &mut Function<S>, registers: usize) {
     loop {
         let after = live_after(f, registers);
-        let dead = |at: usize, op: &Op| matches!(op, Op::Move { to, .. } if !after[at].has(*to));
+        let dead = |at: usize, op: &Op| match op {
+            Op::Move { to, .. } => !after[at].has(*to),
+            Op::Clear { from, to } => from >= to,
+            _ => false,
+        };
         let keep: Vec<bool> = f.code.iter().enumerate().map(|(at, op)| !dead(at, op)).collect();
         if keep.iter().all(|k| *k) {
             return;
@@ -209,6 +219,9 @@ fn rewrite<S: Scalar>(f: &mut Function<S>, map: impl Fn(Operand) -> Operand) {
             l.over = l.over.map(&map);
             l.exit = l.exit.map(|(a, b)| (map(a), map(b)));
         }
+        if let SiteKind::Cell { content } = &mut s.kind {
+            *content = map(*content);
+        }
     }
     for op in &mut f.code {
         match op {
@@ -239,7 +252,7 @@ fn rewrite<S: Scalar>(f: &mut Function<S>, map: impl Fn(Operand) -> Operand) {
                 (*to, *over, *index, *length) = (map(*to), map(*over), map(*index), map(*length));
             }
             Op::Assert { a, message } => (*a, *message) = (map(*a), map(*message)),
-            Op::Jump { .. } | Op::ReturnIteration { .. } | Op::Site { .. } => {}
+            Op::Jump { .. } | Op::ReturnIteration { .. } | Op::Site { .. } | Op::Clear { .. } => {}
         }
     }
 }

@@ -6,7 +6,8 @@
 
 use super::CompileError;
 use super::emit::{Builder, Result};
-use crate::code::{Args, Op, Operand, Site, SiteKind};
+use crate::builtins::builtin_id;
+use crate::code::{Args, Op, Operand, Place, Site, SiteKind};
 use crate::core::{Expr, ExprKind, Name};
 use crate::machine::address;
 use niwaki_math::{Family, Scalar};
@@ -121,7 +122,9 @@ impl<S: Scalar> Builder<'_, '_, S> {
                 }
                 Ok((pick(SiteKind::Sample { family }, SiteKind::Observe { family }), name.clone(), operands))
             }
-            ExprKind::Op(op, parts) if &**op == "index" && parts.len() == 2 => {
+            ExprKind::Op(op, parts)
+                if &**op == "index" && parts.len() == 2 && !self.unit.collections.contains(d) =>
+            {
                 let operands = self.exprs(parts)?;
                 Ok((pick(SiteKind::SampleIndexed, SiteKind::ObserveIndexed), Name::from("dist"), operands))
             }
@@ -130,6 +133,45 @@ impl<S: Scalar> Builder<'_, '_, S> {
                 Ok((pick(SiteKind::SampleDist, SiteKind::ObserveDist), Name::from("dist"), vec![at]))
             }
         }
+    }
+
+    /// Lowers what makes elements of a collection or reads one, outside of pure functions.
+    pub fn collection(&mut self, e: &Expr) -> Result<Option<Operand>> {
+        if !self.unit.collections.contains(e) {
+            return Ok(None);
+        }
+        match &e.kind {
+            ExprKind::List(items) => {
+                let cells = items.iter().map(|item| self.cell(item)).collect::<Result<Vec<_>>>()?;
+                let (to, args) = (self.register()?, self.args(&cells));
+                self.op(Op::List { to, args });
+                Ok(Some(to))
+            }
+            ExprKind::Op(name, parts) if &**name == "append" => {
+                let list = self.expr(&parts[0])?;
+                let cell = self.cell(&parts[1])?;
+                let (to, args) = (self.register()?, self.args(&[list, cell]));
+                let id = builtin_id("append").ok_or_else(|| CompileError("`append` is missing".into()))?;
+                self.op(Op::Builtin { to, id, args });
+                Ok(Some(to))
+            }
+            ExprKind::Op(_, parts) => {
+                let operands = self.exprs(parts)?;
+                let name = Name::from("[read]");
+                Ok(Some(self.add_site(SiteKind::Read, &name, (&None, name.clone()), &operands)?))
+            }
+            _ => Ok(None),
+        }
+    }
+
+    /// An element of a collection. Constants are elements as they are.
+    fn cell(&mut self, item: &Expr) -> Result<Operand> {
+        let value = self.expr(item)?;
+        if value.place() == Place::Constant {
+            return Ok(value);
+        }
+        let (name, content) = (Name::from("[cell]"), self.register()?);
+        self.add_site(SiteKind::Cell { content }, &name, (&None, name.clone()), &[value])
     }
 
     /// Adds a site; its result goes into a register of its own. `label` is the one given in the text, and the one

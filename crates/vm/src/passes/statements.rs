@@ -98,6 +98,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
         if self.mode == Mode::Iteration {
             self.return_iteration(exit::RETURN, Some(a));
         } else {
+            self.clear_rest();
             self.op(Op::Return { a });
         }
     }
@@ -108,6 +109,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
         let mut operands: Vec<Operand> = carried.iter().map(|x| self.current(x)).collect();
         operands.extend(value);
         let args = self.args(&operands);
+        self.clear_rest();
         self.op(Op::ReturnIteration { exit: kind as i8, args });
     }
 
@@ -123,13 +125,16 @@ impl<S: Scalar> Builder<'_, '_, S> {
         let (other, end) = (self.label(), self.label());
         self.branch_unless(c, other)?;
         let before = self.env.clone();
+        let (head_of_a, first) = (self.code.len(), self.sites.len());
         let a_goes_on = self.block(a)?;
         let after_a = std::mem::replace(&mut self.env, before.clone());
         let end_of_a = self.code.len();
         if a_goes_on {
             self.jump(end);
         }
+        let between = self.sites.len();
         self.bind(other);
+        self.clear(first, between);
         let b_goes_on = self.block(b)?;
         match (a_goes_on, b_goes_on) {
             (true, true) => {
@@ -140,6 +145,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
             _ => {}
         }
         self.bind(end);
+        self.clear_at(head_of_a, between, self.sites.len());
         Ok(a_goes_on || b_goes_on)
     }
 
@@ -391,13 +397,14 @@ impl<S: Scalar> Builder<'_, '_, S> {
         if let Some(test) = test {
             b.branch_unless(test, out)?;
         }
-        let at_test = b.env.clone();
+        let (at_test, tested) = (b.env.clone(), b.sites.len());
         if b.block(body)? {
             b.return_iteration(exit::NEXT, None);
         }
         b.bind(out);
         if test.is_some() {
             b.env = at_test;
+            b.clear(tested, b.sites.len());
             b.return_iteration(exit::BREAK, None);
         }
         let params = b.carried.len() + usize::from(element.is_some());

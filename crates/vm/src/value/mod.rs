@@ -57,6 +57,8 @@ pub enum Value<S: Scalar = f64> {
     Future(u32),
     /// What a variable holds before it is assigned; no model ever sees it.
     Unset,
+    /// An element of a kept collection: it lies in a register. Only lists hold cells, and no model ever sees one.
+    Cell(Cell),
     /// A string.
     Str(Text),
     /// A tuple.
@@ -105,6 +107,15 @@ impl<S: Scalar> Clone for Value<S> {
     }
 }
 
+/// A reference to an element of a kept collection, by the machine's numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cell {
+    /// The register that holds the element.
+    pub register: u32,
+    /// The list of those who read it.
+    pub readers: u32,
+}
+
 // The machine copies values between registers all the time; a third word would cost every copy.
 const _: () = assert!(std::mem::size_of::<Value<f64>>() == 16);
 const _: () = assert!(std::mem::size_of::<Result<Value<f64>, crate::fault::Fault>>() == 16);
@@ -123,6 +134,7 @@ impl<S: Scalar> Value<S> {
             Value::Real(x) => Value::Real(*x),
             Value::Future(id) => Value::Future(*id),
             Value::Unset => Value::Unset,
+            Value::Cell(cell) => Value::Cell(*cell),
             Value::Str(text) => Value::Str(text.clone()),
             Value::Tuple(tuple) => Value::Tuple(tuple.clone()),
             Value::List(list) => Value::List(list.clone()),
@@ -142,7 +154,13 @@ impl<S: Scalar> Value<S> {
     pub fn is_plain(&self) -> bool {
         matches!(
             self,
-            Value::None | Value::Bool(_) | Value::Int(_) | Value::Real(_) | Value::Future(_) | Value::Unset
+            Value::None
+                | Value::Bool(_)
+                | Value::Int(_)
+                | Value::Real(_)
+                | Value::Future(_)
+                | Value::Unset
+                | Value::Cell(_)
         )
     }
 
@@ -234,6 +252,7 @@ impl<S: Scalar> Value<S> {
             Value::Function(_) => "function",
             Value::Future(_) => "future",
             Value::Unset => "unassigned",
+            Value::Cell(_) => "cell",
         }
     }
 

@@ -162,6 +162,7 @@ fn begin<'a, S: Scalar>(value: &'a Value<S>, out: &mut String) -> Result<Option<
         Value::Function(closure) => out.push_str(&format!("<function {}>", closure.function)),
         Value::Future(n) => out.push_str(&format!("<future {n}>")),
         Value::Unset => out.push_str("<unassigned>"),
+        Value::Cell(_) => out.push_str("<cell>"),
     }
     Ok(None)
 }

@@ -91,6 +91,7 @@ fn glance<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Glance {
         (Value::Bool(a), Value::Bool(b)) => (a == b).into(),
         (Value::None, Value::None) | (Value::Unset, Value::Unset) => Glance::Same,
         (Value::Future(a), Value::Future(b)) => (a == b).into(),
+        (Value::Cell(a), Value::Cell(b)) => (a == b).into(),
         _ => glance_behind(a, b),
     }
 }

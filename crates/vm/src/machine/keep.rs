@@ -1,0 +1,131 @@
+//! What becomes of an activation: dropped when it returns, or kept as a node of the trace.
+//!
+//! The loop over instructions is one and compiled twice. With [`Dropped`] it runs particles and forward samples; with
+//! [`Kept`](super::kept::Kept) it also re-runs what a changed choice reaches.
+
+use super::Machine;
+use super::answers::Answers;
+use super::question::Halt;
+use super::registers::Registers;
+use super::state::{NodeId, State};
+use super::suspend::After;
+use crate::code::{Args, Operand, SiteId};
+use crate::fault::Fault;
+use crate::value::Value;
+use niwaki_math::Scalar;
+
+/// How activations live. Nothing but `KEEPS` is asked where they are dropped.
+pub(super) trait Keep<S: Scalar>: Sized {
+    /// Whether they are kept.
+    const KEEPS: bool;
+
+    /// The machine goes on in this activation.
+    fn enter(&mut self, state: &State<S>, node: NodeId);
+
+    /// Writes a register of the activation in hand.
+    fn write(&mut self, state: &mut State<S>, place: usize, value: Value<S>);
+
+    /// Carries out a site.
+    #[allow(clippy::too_many_arguments)] // the registers of the loop in `interpret`, by value
+    fn site<A: Answers<S>>(
+        &mut self,
+        machine: &mut Machine<'_, S>,
+        state: &mut State<S>,
+        answers: &mut A,
+        r: Registers<'_, S>,
+        node: NodeId,
+        number: SiteId,
+    ) -> Result<After, Halt>;
+
+    /// Sites that are not on the path taken.
+    fn clear(&mut self, machine: &Machine<'_, S>, state: &mut State<S>, node: NodeId, from: u16, to: u16);
+
+    /// An activation returns: where to go on, unless the run is over.
+    fn give_back(
+        &mut self,
+        machine: &Machine<'_, S>,
+        state: &mut State<S>,
+        node: NodeId,
+        value: Value<S>,
+    ) -> Option<(NodeId, u32)>;
+
+    /// An iteration ends: where to go on, unless the run is over.
+    fn end_iteration(
+        &mut self,
+        machine: &mut Machine<'_, S>,
+        state: &mut State<S>,
+        r: Registers<'_, S>,
+        node: NodeId,
+        exit: i64,
+        carried: Args,
+    ) -> Result<Option<(NodeId, u32)>, Fault>;
+
+    /// So many instructions were carried out.
+    fn count(&mut self, instructions: u64);
+}
+
+/// Puts a value into a register of the activation or of the machine.
+#[inline(always)]
+pub(super) fn put<S: Scalar, K: Keep<S>>(
+    keep: &mut K,
+    state: &mut State<S>,
+    scratch: &mut [Value<S>],
+    r: Registers<'_, S>,
+    o: Operand,
+    value: Value<S>,
+) {
+    if K::KEEPS && o.is_node() {
+        keep.write(state, r.own + o.index(), value);
+    } else {
+        r.put(state, scratch, o, value);
+    }
+}
+
+/// Activations are given back when they return.
+pub(super) struct Dropped;
+
+impl<S: Scalar> Keep<S> for Dropped {
+    const KEEPS: bool = false;
+
+    fn enter(&mut self, _: &State<S>, _: NodeId) {}
+
+    fn write(&mut self, _: &mut State<S>, _: usize, _: Value<S>) {}
+
+    fn site<A: Answers<S>>(
+        &mut self,
+        _: &mut Machine<'_, S>,
+        _: &mut State<S>,
+        _: &mut A,
+        _: Registers<'_, S>,
+        _: NodeId,
+        _: SiteId,
+    ) -> Result<After, Halt> {
+        Ok(After::Next)
+    }
+
+    fn clear(&mut self, _: &Machine<'_, S>, _: &mut State<S>, _: NodeId, _: u16, _: u16) {}
+
+    fn give_back(
+        &mut self,
+        _: &Machine<'_, S>,
+        _: &mut State<S>,
+        _: NodeId,
+        _: Value<S>,
+    ) -> Option<(NodeId, u32)> {
+        None
+    }
+
+    fn end_iteration(
+        &mut self,
+        _: &mut Machine<'_, S>,
+        _: &mut State<S>,
+        _: Registers<'_, S>,
+        _: NodeId,
+        _: i64,
+        _: Args,
+    ) -> Result<Option<(NodeId, u32)>, Fault> {
+        Ok(None)
+    }
+
+    fn count(&mut self, _: u64) {}
+}

@@ -1,0 +1,224 @@
+//! Calls of kept activations: entered, skipped, made, taken away.
+
+use super::super::Machine;
+use super::super::address::join;
+use super::super::question::Halt;
+use super::super::registers::Registers;
+use super::super::state::{NodeId, State};
+use super::super::suspend::After;
+use super::{Kept, Slot, Step};
+use crate::code::{FunctionId, Mode, Program, Site, SiteId, SiteKind};
+use crate::fault::Fault;
+use crate::value::{Value, same};
+use niwaki_math::Scalar;
+
+impl<S: Scalar> Kept<S> {
+    /// A call of a known function. The callee is skipped when it is there with the same arguments.
+    #[allow(clippy::too_many_arguments)] // the registers of the loop in `interpret`, by value
+    pub(super) fn call_known(
+        &mut self,
+        machine: &mut Machine<'_, S>,
+        state: &mut State<S>,
+        r: Registers<'_, S>,
+        node: NodeId,
+        number: SiteId,
+        site: &Site,
+        function: FunctionId,
+    ) -> Result<After, Halt> {
+        if machine.program.function(function).mode == Mode::Pure {
+            // A future of a pure function.
+            r.gather(state, &machine.scratch, site.args, &mut machine.buffer);
+            return Ok(After::Pure { function, to: site.to, as_future: false });
+        }
+        let at = Kept::slot_at(state, node, number.0 as usize);
+        let held = self.slots[at].held;
+        let operands = &r.f.operands[site.args.range()];
+        if held == Slot::NOTHING {
+            let made = self.make(machine, state, node, number, site, function, at)?;
+            let to = state.nodes[made.0 as usize].registers as usize;
+            for (i, o) in operands.iter().enumerate() {
+                let value = r.get(state, &machine.scratch, *o).clone();
+                state.registers[to + i].store(value);
+            }
+            return Ok(self.enter_call(made));
+        }
+        let child = NodeId(held);
+        let to = state.nodes[held as usize].registers as usize;
+        let mut changed = false;
+        for (i, o) in operands.iter().enumerate() {
+            let value = r.get(state, &machine.scratch, *o);
+            if !same(value, &state.registers[to + i]) {
+                let value = value.clone();
+                let old = std::mem::replace(&mut state.registers[to + i], value);
+                self.journal.registers.push(((to + i) as u32, old));
+                changed = true;
+            }
+        }
+        Ok(self.call_again(child, changed))
+    }
+
+    /// A call of a function value. Another function than before is another activation.
+    pub(super) fn apply(
+        &mut self,
+        machine: &mut Machine<'_, S>,
+        state: &mut State<S>,
+        r: Registers<'_, S>,
+        node: NodeId,
+        number: SiteId,
+        site: &Site,
+    ) -> Result<After, Halt> {
+        r.gather(state, &machine.scratch, site.args, &mut machine.buffer);
+        let (function, pure) = machine.unwrap_callee()?;
+        if pure {
+            self.vacate(machine.program, state, node, number.0);
+            return Ok(After::Pure { function, to: site.to, as_future: false });
+        }
+        let at = Kept::slot_at(state, node, number.0 as usize);
+        let held = self.slots[at].held;
+        if held != Slot::NOTHING && state.nodes[held as usize].function == function {
+            let to = state.nodes[held as usize].registers as usize;
+            let mut changed = false;
+            for (i, value) in machine.buffer.drain(..).enumerate() {
+                changed |= self.write_to(state, false, to + i, value);
+            }
+            return Ok(self.call_again(NodeId(held), changed));
+        }
+        self.vacate(machine.program, state, node, number.0);
+        let made = self.make(machine, state, node, number, site, function, at)?;
+        let to = state.nodes[made.0 as usize].registers as usize;
+        for (i, value) in machine.buffer.drain(..).enumerate() {
+            state.registers[to + i].store(value);
+        }
+        Ok(self.enter_call(made))
+    }
+
+    #[allow(clippy::too_many_arguments)] // the registers of the loop in `interpret`, by value
+    fn make(
+        &mut self,
+        machine: &Machine<'_, S>,
+        state: &mut State<S>,
+        node: NodeId,
+        number: SiteId,
+        site: &Site,
+        function: FunctionId,
+        at: usize,
+    ) -> Result<NodeId, Fault> {
+        let path = join(state.nodes[node.0 as usize].path, site.key);
+        let made = self.new_node(machine.program, state, function, node, u32::from(number.0), path);
+        if state.bytes() > machine.limits.bytes {
+            return Err(machine.out_of_memory());
+        }
+        self.write_slot(self.quiet, at, Slot { held: made.0, mark: 0, log: 0.0 });
+        Ok(made)
+    }
+
+    /// A call that was made before: entered, unless it can be skipped. Its result is in the caller's register.
+    #[inline]
+    fn call_again(&mut self, child: NodeId, changed: bool) -> After {
+        if !changed && self.reuse && !self.is_marked(child) {
+            self.counters.skipped += 1;
+            self.note(Step::Skipped(child));
+            return After::Next;
+        }
+        self.enter_call(child)
+    }
+
+    #[inline]
+    fn enter_call(&mut self, child: NodeId) -> After {
+        self.leaves_its_activation();
+        self.depth += 1;
+        self.counters.entered += 1;
+        self.note(Step::Entered(child));
+        After::Enter(child)
+    }
+
+    /// An activation returns. The run ends when nothing that it left is changed.
+    pub(super) fn return_to_caller(
+        &mut self,
+        program: &Program<S>,
+        state: &mut State<S>,
+        node: NodeId,
+        value: Value<S>,
+    ) -> Option<(NodeId, u32)> {
+        self.note(Step::Unwound(node));
+        let (parent, number) = {
+            let n = &state.nodes[node.0 as usize];
+            (n.parent, n.site as usize)
+        };
+        if parent == NodeId::NONE {
+            if !same(&value, &self.result) {
+                let old = std::mem::replace(&mut self.result, value);
+                self.result_before.get_or_insert(old);
+            }
+            return None;
+        }
+        let above = &state.nodes[parent.0 as usize];
+        let (own, is_new) = (above.registers as usize, above.made == self.now);
+        let site = &program.function(above.function).sites[number];
+        let changed = self.write_to(state, is_new, own + site.to.index(), value);
+        if self.depth > 0 {
+            self.depth -= 1;
+        } else if self.early && !changed {
+            return None;
+        } else {
+            self.leaves_its_activation();
+            self.counters.entered += 1;
+            self.note(Step::Entered(parent));
+        }
+        Some((parent, site.next))
+    }
+
+    /// The site is not on the path taken: what its slot holds goes.
+    pub(super) fn vacate(&mut self, program: &Program<S>, state: &mut State<S>, node: NodeId, site: u16) {
+        let at = Kept::slot_at(state, node, site as usize);
+        let slot = self.slots[at];
+        if !slot.is_filled() {
+            return;
+        }
+        let kind = &program.function(state.nodes[node.0 as usize].function).sites[site as usize].kind;
+        match kind {
+            SiteKind::Call { .. }
+            | SiteKind::Apply
+            | SiteKind::Future { .. }
+            | SiteKind::FutureApply { .. }
+            | SiteKind::Loop(_) => self.remove(program, state, NodeId(slot.held)),
+            SiteKind::Read => return self.withdraw(kind, at, node, site),
+            _ => self.withdraw(kind, at, node, site),
+        }
+        self.write_slot(self.is_new(state, node), at, Slot::EMPTY);
+    }
+
+    /// Takes an activation away with all below it. Its nodes stay as they are until the transaction is kept.
+    pub(super) fn remove(&mut self, program: &Program<S>, state: &State<S>, node: NodeId) {
+        self.leaves_its_activation();
+        let from = self.journal.removed.len();
+        self.journal.removed.push(node);
+        let mut next = from;
+        while let Some(id) = self.journal.removed.get(next).copied() {
+            next += 1;
+            self.note(Step::Removed(id));
+            let n = &state.nodes[id.0 as usize];
+            let f = program.function(n.function);
+            if f.mode == Mode::Loop {
+                let children = &self.loops[n.slots as usize];
+                self.journal.removed.extend_from_slice(children);
+                continue;
+            }
+            for (i, site) in f.sites.iter().enumerate() {
+                let at = n.slots as usize + i;
+                let slot = self.slots[at];
+                if !slot.is_filled() {
+                    continue;
+                }
+                match &site.kind {
+                    SiteKind::Call { .. }
+                    | SiteKind::Apply
+                    | SiteKind::Future { .. }
+                    | SiteKind::FutureApply { .. }
+                    | SiteKind::Loop(_) => self.journal.removed.push(NodeId(slot.held)),
+                    kind => self.withdraw(kind, at, id, i as u16),
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,213 @@
+//! Collections: elements that lie in registers, and those who read them.
+//!
+//! A read subscribes to its element. When the element changes, its readers are *woken*: a run that starts at the root
+//! marks them and the activations above them; a run that started at a choice (C3) takes them up one by one when
+//! the rest has ended.
+//!
+//! C3 takes readers up in any order, which is right as long as none of them does more than score again: no
+//! activation is entered or left changed, no choice is made or taken away, no element changes while other readers
+//! wait. Where that does not hold the run is *tangled*: it is undone and done again from the root, where everything
+//! is met in program order.
+
+use super::super::Machine;
+use super::super::answers::Answers;
+use super::super::question::Halt;
+use super::super::registers::Registers;
+use super::super::stack::RunFault;
+use super::super::state::{NodeId, State};
+use super::{Change, Kept, Slot, Trace};
+use crate::code::{Operand, Site, SiteKind};
+use crate::value::{Cell, List, Value, index, same};
+use niwaki_math::Scalar;
+
+/// A read of an element.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Reader {
+    pub node: NodeId,
+    pub site: u16,
+    /// Its slot: `held` is the list it stands in, `mark` its place there.
+    pub slot: u32,
+}
+
+/// Those who read one element.
+#[derive(Debug, Default)]
+pub(crate) struct Readers {
+    /// The register that holds the element.
+    pub register: u32,
+    pub all: Vec<Reader>,
+}
+
+impl<S: Scalar> Kept<S> {
+    /// An element is made, or made again.
+    pub(super) fn cell(
+        &mut self,
+        state: &mut State<S>,
+        scratch: &[Value<S>],
+        r: Registers<'_, S>,
+        at: usize,
+        site: &Site,
+        content: Operand,
+    ) {
+        let value = r.get(state, scratch, r.f.operands[site.args.start as usize]).clone();
+        let place = r.own + content.index();
+        let changed = self.write_to(state, self.quiet, place, value);
+        let slot = self.slots[at];
+        if slot.is_filled() {
+            if changed {
+                self.wake(state, slot.held as usize);
+            }
+            return;
+        }
+        let register = place as u32;
+        let id = match self.free_readers.pop() {
+            Some(id) => {
+                self.readers[id as usize].register = register;
+                id
+            }
+            None => {
+                self.readers.push(Readers { register, all: vec![] });
+                self.readers.len() as u32 - 1
+            }
+        };
+        self.journal.cells.push(id);
+        self.write_slot(self.quiet, at, Slot { held: id, mark: 0, log: 0.0 });
+        let cell = Value::Cell(Cell { register, readers: id });
+        self.write_to(state, self.quiet, r.own + site.to.index(), cell);
+    }
+
+    /// An element is read, or read again.
+    #[inline]
+    pub(super) fn read(
+        &mut self,
+        state: &mut State<S>,
+        scratch: &[Value<S>],
+        r: Registers<'_, S>,
+        node: NodeId,
+        number: u16,
+        site: &Site,
+    ) -> Result<(), Halt> {
+        let operands = &r.f.operands[site.args.range()];
+        let (list, at) = (r.get(state, scratch, operands[0]), r.get(state, scratch, operands[1]));
+        let element = match index::index_ref(list, at) {
+            Some(element) => element.clone(),
+            None => index::index(list, at)?,
+        };
+        let slot = Kept::slot_at(state, node, number as usize);
+        let (value, held) = match element {
+            Value::Cell(cell) => (state.registers[cell.register as usize].clone(), cell.readers),
+            other => (other, Slot::UNWATCHED),
+        };
+        if self.slots[slot].held != held {
+            let reader = Reader { node, site: number, slot: slot as u32 };
+            self.journal.reads.push((reader, self.slots[slot].held));
+            self.subscribe(reader, held);
+        }
+        self.write_to(state, self.quiet, r.own + site.to.index(), value);
+        Ok(())
+    }
+
+    /// A reader leaves the list it stands in and enters another; `held` may say that there is none.
+    pub(super) fn subscribe(&mut self, reader: Reader, held: u32) {
+        let slot = self.slots[reader.slot as usize];
+        if slot.held < Slot::UNWATCHED {
+            let all = &mut self.readers[slot.held as usize].all;
+            all.swap_remove(slot.mark as usize);
+            if let Some(moved) = all.get(slot.mark as usize) {
+                self.slots[moved.slot as usize].mark = slot.mark;
+            }
+        }
+        let mut mark = 0;
+        if held < Slot::UNWATCHED {
+            let all = &mut self.readers[held as usize].all;
+            mark = all.len() as u32;
+            all.push(reader);
+        }
+        self.slots[reader.slot as usize] = Slot { held, mark, log: 0.0 };
+    }
+
+    /// An element has changed.
+    fn wake(&mut self, state: &State<S>, id: usize) {
+        if !self.reuse || self.readers[id].all.is_empty() {
+            return;
+        }
+        if self.marking {
+            for i in 0..self.readers[id].all.len() {
+                let node = self.readers[id].all[i].node;
+                self.mark_above(state, node);
+            }
+            return;
+        }
+        self.tangled |= self.taken < self.woken.len();
+        self.woken.extend_from_slice(&self.readers[id].all);
+        self.confined = true;
+    }
+
+    /// A run that must stay within one activation does not. It is of no use as it is.
+    #[inline(always)]
+    pub(super) fn leaves_its_activation(&mut self) {
+        self.tangled |= self.confined;
+    }
+
+    /// The first read of an activation whose element is not what it read: its site, and what it reads now.
+    fn stale_read(&self, machine: &Machine<'_, S>, state: &State<S>, node: NodeId) -> Option<(u16, u32)> {
+        let n = &state.nodes[node.0 as usize];
+        let f = machine.program.function(n.function);
+        f.sites.iter().enumerate().find_map(|(i, site)| {
+            if !matches!(site.kind, SiteKind::Read) {
+                return None;
+            }
+            let held = self.slots[n.slots as usize + i].held;
+            let register = self.readers.get(held as usize)?.register;
+            let place = n.registers as usize + site.to.index();
+            let stale = !same(&state.registers[register as usize], &state.registers[place]);
+            stale.then_some((i as u16, register))
+        })
+    }
+
+    /// The elements themselves, of a value that may be a collection.
+    pub(super) fn resolved(&self, state: &State<S>, value: &Value<S>) -> Value<S> {
+        let Value::List(list) = value else { return value.clone() };
+        if !list.iter().any(|item| matches!(item, Value::Cell(_))) {
+            return value.clone();
+        }
+        let element = |item: &Value<S>| match item {
+            Value::Cell(cell) => state.registers[cell.register as usize].clone(),
+            other => other.clone(),
+        };
+        Value::List(List::from_vec(list.iter().map(element).collect()))
+    }
+}
+
+impl<S: Scalar> Machine<'_, S> {
+    /// Takes up those who were woken; `None` when the run is tangled.
+    pub(super) fn take_up_readers<A: Answers<S>>(
+        &mut self,
+        trace: &mut Trace<S>,
+        answers: &mut A,
+    ) -> Result<Option<Change>, Box<RunFault>> {
+        while trace.kept.taken < trace.kept.woken.len() {
+            let (state, kept) = (&mut trace.state, &mut trace.kept);
+            let Reader { node, .. } = kept.woken[kept.taken];
+            kept.taken += 1;
+            let Some((site, register)) = kept.stale_read(self, state, node) else { continue };
+            let n = &state.nodes[node.0 as usize];
+            let (own, function) = (n.registers as usize, n.function);
+            let site = &self.program.function(function).sites[site as usize];
+            let value = state.registers[register as usize].clone();
+            kept.write_to(state, false, own + site.to.index(), value);
+            let alone = kept.woken.len() == 1;
+            let next = site.next as usize;
+            let change = self.run_kept(trace, node, next, answers);
+            if trace.kept.tangled {
+                return Ok(None);
+            }
+            match change {
+                Ok(Change::Done) => {}
+                // Met out of program order, a fault or a score of minus infinity may be none.
+                _ if !alone => return Ok(None),
+                other => return other.map(Some),
+            }
+        }
+        Ok(Some(Change::Done))
+    }
+}

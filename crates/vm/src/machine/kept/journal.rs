@@ -1,0 +1,89 @@
+//! The journal: what a transaction has overwritten, made and taken away.
+//!
+//! An entry is a place and what it held before. Undoing takes them last first, so that a place that was written twice
+//! gets its first value back. An activation made in the transaction needs no entries: it goes as a whole.
+
+use super::super::state::NodeId;
+use super::cells::Reader;
+use super::slot::Slot;
+use crate::value::Value;
+use niwaki_math::Scalar;
+
+/// What an open transaction can undo.
+#[derive(Debug)]
+pub(crate) struct Journal<S: Scalar> {
+    pub registers: Vec<(u32, Value<S>)>,
+    pub slots: Vec<(u32, Slot)>,
+    /// How an iteration had ended.
+    pub ends: Vec<(NodeId, u32)>,
+    /// Number of a loop, and how many iterations it had when its last ones were taken away or added.
+    pub loops: Vec<Cut>,
+    pub made: Vec<NodeId>,
+    pub removed: Vec<NodeId>,
+    /// Rows of primitives that were put into the scene, and those taken out.
+    pub emitted: Vec<u32>,
+    pub retracted: Vec<u32>,
+    pub births: Vec<Birth>,
+    pub deaths: Vec<u32>,
+    /// Reads that went to another list of readers, and where they stood.
+    pub reads: Vec<(Reader, u32)>,
+    /// Lists of readers of cells that were made, and of those taken away.
+    pub cells: Vec<u32>,
+    pub dead_cells: Vec<u32>,
+}
+
+/// A change of the iterations that a loop has.
+#[derive(Debug)]
+pub(crate) struct Cut {
+    pub number: u32,
+    pub len: u32,
+    /// The iterations from `len` on, where some were taken away.
+    pub removed: Vec<NodeId>,
+}
+
+/// A choice that was made in the open transaction.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Birth {
+    pub address: u128,
+    pub node: NodeId,
+    pub site: u16,
+}
+
+impl<S: Scalar> Default for Journal<S> {
+    fn default() -> Self {
+        Journal {
+            registers: vec![],
+            slots: vec![],
+            ends: vec![],
+            loops: vec![],
+            made: vec![],
+            removed: vec![],
+            emitted: vec![],
+            retracted: vec![],
+            births: vec![],
+            deaths: vec![],
+            reads: vec![],
+            cells: vec![],
+            dead_cells: vec![],
+        }
+    }
+}
+
+impl<S: Scalar> Journal<S> {
+    /// Forgets everything.
+    pub fn clear(&mut self) {
+        self.registers.clear();
+        self.slots.clear();
+        self.ends.clear();
+        self.loops.clear();
+        self.made.clear();
+        self.removed.clear();
+        self.emitted.clear();
+        self.retracted.clear();
+        self.births.clear();
+        self.deaths.clear();
+        self.reads.clear();
+        self.cells.clear();
+        self.dead_cells.clear();
+    }
+}

@@ -1,0 +1,359 @@
+//! Kept loops: a loop node with its iterations, each an activation of its own.
+//!
+//! When an iteration hands on what it handed on before, and neither what the loop runs over nor what its iterations
+//! capture has changed, all later iterations are unchanged.
+
+use super::super::Machine;
+use super::super::address::{iteration_key, join};
+use super::super::registers::Registers;
+use super::super::state::{NodeId, State};
+use super::super::suspend::After;
+use super::journal::Cut;
+use super::{Active, Kept, Slot, Step};
+use crate::code::{Args, Loop, Operand, Site, SiteId, SiteKind, exit};
+use crate::fault::Fault;
+use crate::value::{Value, iter_get, iter_len, same};
+use niwaki_math::Scalar;
+
+/// What an iteration is handed by the one before.
+#[derive(Clone, Copy, PartialEq)]
+enum Handed {
+    /// What it was handed the last time.
+    Unchanged,
+    /// What is in the machine's buffer.
+    Buffer,
+}
+
+/// Where a loop goes on.
+enum Next {
+    /// In this iteration.
+    Enter(NodeId),
+    /// It has ended, and left what it left before or something else.
+    Ended { changed: bool },
+}
+
+impl<S: Scalar> Kept<S> {
+    /// Reaches a loop from above.
+    #[allow(clippy::too_many_arguments)] // the registers of the loop in `interpret`, by value
+    pub(super) fn begin_loop(
+        &mut self,
+        machine: &mut Machine<'_, S>,
+        state: &mut State<S>,
+        r: Registers<'_, S>,
+        node: NodeId,
+        number: SiteId,
+        site: &Site,
+        l: &Loop,
+    ) -> Result<After, Fault> {
+        let at = Kept::slot_at(state, node, number.0 as usize);
+        let over = l.over.map(|o| r.get(state, &machine.scratch, o).clone());
+        if let Some(over) = &over
+            && iter_len(over)? == 0
+        {
+            self.vacate(machine.program, state, node, number.0);
+            r.gather(state, &machine.scratch, l.carried, &mut machine.buffer);
+            self.leave(machine, state, node, number, exit::NEXT);
+            return Ok(After::Next);
+        }
+        let over = over.unwrap_or_default();
+        let held = self.slots[at].held;
+        let mut active = Active { header: NodeId(held), captures: false, over: false };
+        let captures = &r.f.operands[l.captures.range()];
+        if held == Slot::NOTHING {
+            let path = join(state.nodes[node.0 as usize].path, site.key);
+            let header = self.new_node(machine.program, state, l.header, node, u32::from(number.0), path);
+            self.write_slot(self.quiet, at, Slot { held: header.0, mark: 0, log: 0.0 });
+            let to = state.nodes[header.0 as usize].registers as usize;
+            state.registers[to].store(over);
+            for (i, o) in captures.iter().enumerate() {
+                let value = r.get(state, &machine.scratch, *o).clone();
+                state.registers[to + 1 + i].store(value);
+            }
+            active.header = header;
+        } else {
+            let to = state.nodes[held as usize].registers as usize;
+            active.over = self.write_to(state, false, to, over);
+            for (i, o) in captures.iter().enumerate() {
+                let value = r.get(state, &machine.scratch, *o).clone();
+                active.captures |= self.write_to(state, false, to + 1 + i, value);
+            }
+        }
+        r.gather(state, &machine.scratch, l.carried, &mut machine.buffer);
+        self.counters.entered += 1;
+        self.note(Step::Entered(active.header));
+        match self.iterate(machine, state, active, 0, Handed::Buffer)? {
+            Next::Enter(child) => {
+                self.active.push(active);
+                self.depth += 1;
+                Ok(After::Enter(child))
+            }
+            Next::Ended { .. } => Ok(After::Next),
+        }
+    }
+
+    /// Goes on with iteration `i` of a loop: to the first that must be entered, or to its end.
+    fn iterate(
+        &mut self,
+        machine: &mut Machine<'_, S>,
+        state: &mut State<S>,
+        active: Active,
+        mut i: usize,
+        mut handed: Handed,
+    ) -> Result<Next, Fault> {
+        let header = active.header;
+        let (path, at, list) = {
+            let n = &state.nodes[header.0 as usize];
+            (n.path, n.registers as usize, n.slots as usize)
+        };
+        let over = state.registers[at].clone();
+        let count = if matches!(over, Value::None) { usize::MAX } else { iter_len(&over)? };
+        let first = usize::from(count != usize::MAX);
+        loop {
+            if i >= count {
+                return Ok(self.end(machine, state, header, i, exit::NEXT, handed));
+            }
+            let element = (count != usize::MAX).then(|| iter_get(&over, i));
+            let Some(child) = self.loops[list].get(i).copied() else {
+                self.leaves_its_activation();
+                if handed == Handed::Unchanged {
+                    // The loop has grown: what its last iteration left is what it left the owner.
+                    self.gather_left(machine, state, header);
+                }
+                let (owner, number) = {
+                    let n = &state.nodes[header.0 as usize];
+                    (n.parent, n.site as usize)
+                };
+                let f = machine.program.function(state.nodes[owner.0 as usize].function);
+                let SiteKind::Loop(l) = &f.sites[number].kind else { unreachable!("a loop's site") };
+                let path = join(path, iteration_key(i as u32));
+                let made = self.new_node(machine.program, state, l.body, header, 0, path);
+                let node = &mut state.nodes[made.0 as usize];
+                node.iteration = i as u32;
+                let to = node.registers as usize;
+                if !self.is_new(state, header) {
+                    self.journal.loops.push(Cut { number: list as u32, len: i as u32, removed: vec![] });
+                }
+                self.loops[list].push(made);
+                for (k, value) in element.into_iter().chain(machine.buffer.drain(..)).enumerate() {
+                    state.registers[to + k].store(value);
+                }
+                if state.bytes() > machine.limits.bytes {
+                    return Err(machine.out_of_memory());
+                }
+                self.counters.entered += 1;
+                return Ok(Next::Enter(made));
+            };
+            let to = state.nodes[child.0 as usize].registers as usize;
+            let mut changed = active.captures;
+            if let Some(element) = element {
+                changed |= self.write_to(state, false, to, element);
+            }
+            if handed == Handed::Buffer {
+                for (k, value) in machine.buffer.drain(..).enumerate() {
+                    changed |= self.write_to(state, false, to + first + k, value);
+                }
+            }
+            if changed || !self.reuse || self.is_marked(child) {
+                self.leaves_its_activation();
+                self.counters.entered += 1;
+                self.note(Step::Entered(child));
+                return Ok(Next::Enter(child));
+            }
+            self.counters.skipped += 1;
+            self.note(Step::Skipped(child));
+            let ended = i64::from(state.nodes[child.0 as usize].pc);
+            handed = Handed::Unchanged;
+            if ended != exit::NEXT || (!active.over && !self.is_marked(header)) {
+                return Ok(Next::Ended { changed: false });
+            }
+            i += 1;
+        }
+    }
+
+    /// An iteration ends. The run ends when it has left nothing that is changed.
+    pub(super) fn end_of_iteration(
+        &mut self,
+        machine: &mut Machine<'_, S>,
+        state: &mut State<S>,
+        r: Registers<'_, S>,
+        node: NodeId,
+        kind: i64,
+        carried: Args,
+    ) -> Result<Option<(NodeId, u32)>, Fault> {
+        self.note(Step::Unwound(node));
+        let n = state.nodes[node.0 as usize];
+        let (header, i) = (n.parent, n.iteration as usize);
+        let above = state.nodes[header.0 as usize];
+        let next = self.loops[above.slots as usize].get(i + 1).copied();
+        let is_new = n.made == self.now;
+        let operands = &r.f.operands[carried.range()];
+        let mut unchanged = !is_new && i64::from(n.pc) == kind;
+        if unchanged {
+            let value = |k: usize| r.get(state, &machine.scratch, operands[k]);
+            unchanged = match next {
+                Some(next) => {
+                    let to = state.nodes[next.0 as usize].registers as usize
+                        + usize::from(self.is_for(state, header));
+                    (0..operands.len()).all(|k| same(value(k), &state.registers[to + k]))
+                }
+                None => {
+                    let (own, left) = left(machine, state, header, kind);
+                    left.enumerate().all(|(k, o)| same(value(k), &state.registers[own + o.index()]))
+                }
+            };
+        }
+        if i64::from(n.pc) != kind {
+            if !is_new {
+                self.journal.ends.push((node, n.pc));
+            }
+            state.nodes[node.0 as usize].pc = kind as u32;
+        }
+        let is_base = self.depth == 0;
+        let active = match self.active.last() {
+            Some(active) if active.header == header && !is_base => *active,
+            _ => Active { header, captures: false, over: false },
+        };
+        if unchanged && self.reuse {
+            if is_base && self.early {
+                return Ok(None);
+            }
+            if !is_base && !active.captures && !active.over && !self.is_marked(header) {
+                return Ok(self.go_on(machine, state, header, is_base, false));
+            }
+        }
+        r.gather(state, &machine.scratch, carried, &mut machine.buffer);
+        let next = if kind == exit::NEXT {
+            self.iterate(machine, state, active, i + 1, Handed::Buffer)?
+        } else {
+            self.end(machine, state, header, i + 1, kind, Handed::Buffer)
+        };
+        Ok(match next {
+            Next::Enter(child) => Some((child, 0)),
+            Next::Ended { changed } => self.go_on(machine, state, header, is_base, changed),
+        })
+    }
+
+    /// The loop has ended: its owner goes on, unless nothing is changed for it.
+    fn go_on(
+        &mut self,
+        machine: &Machine<'_, S>,
+        state: &State<S>,
+        header: NodeId,
+        is_base: bool,
+        changed: bool,
+    ) -> Option<(NodeId, u32)> {
+        if is_base {
+            if self.early && !changed {
+                return None;
+            }
+        } else {
+            self.depth -= 1;
+            self.active.pop();
+        }
+        let n = &state.nodes[header.0 as usize];
+        let owner = &state.nodes[n.parent.0 as usize];
+        if is_base {
+            self.leaves_its_activation();
+            self.counters.entered += 1;
+            self.note(Step::Entered(n.parent));
+        }
+        Some((n.parent, machine.program.function(owner.function).sites[n.site as usize].next))
+    }
+
+    fn is_for(&self, state: &State<S>, header: NodeId) -> bool {
+        let at = state.nodes[header.0 as usize].registers as usize;
+        !matches!(state.registers[at], Value::None)
+    }
+
+    /// The loop ends before iteration `i`: later ones go, and what it leaves goes to its owner.
+    fn end(
+        &mut self,
+        machine: &mut Machine<'_, S>,
+        state: &mut State<S>,
+        header: NodeId,
+        i: usize,
+        kind: i64,
+        handed: Handed,
+    ) -> Next {
+        let n = state.nodes[header.0 as usize];
+        let list = n.slots as usize;
+        let shrunk = self.loops[list].len() > i;
+        if shrunk {
+            if handed == Handed::Unchanged {
+                // Iteration `i` was handed what the loop leaves now.
+                self.gather_handed(machine, state, header, i);
+            }
+            let removed = self.loops[list].split_off(i);
+            for child in &removed {
+                self.remove(machine.program, state, *child);
+            }
+            self.journal.loops.push(Cut { number: list as u32, len: i as u32, removed });
+        } else if handed == Handed::Unchanged {
+            return Next::Ended { changed: false };
+        }
+        let changed = self.leave(machine, state, n.parent, SiteId(n.site as u16), kind);
+        Next::Ended { changed }
+    }
+
+    /// Into the buffer: what the loop left its owner.
+    fn gather_left(&self, machine: &mut Machine<'_, S>, state: &State<S>, header: NodeId) {
+        let (own, left) = left(machine, state, header, exit::NEXT);
+        let values: Vec<Value<S>> = left.map(|o| state.registers[own + o.index()].clone()).collect();
+        machine.buffer.clear();
+        machine.buffer.extend(values);
+    }
+
+    /// Into the buffer: what iteration `i` was handed.
+    fn gather_handed(&self, machine: &mut Machine<'_, S>, state: &State<S>, header: NodeId, i: usize) {
+        let child = self.loops[state.nodes[header.0 as usize].slots as usize][i];
+        let n = &state.nodes[child.0 as usize];
+        let f = machine.program.function(n.function);
+        let first = usize::from(self.is_for(state, header));
+        let at = n.registers as usize;
+        machine.buffer.clear();
+        machine.buffer.extend(state.registers[at + first..at + f.params as usize].iter().cloned());
+    }
+
+    /// Writes what came out of a loop, in the buffer, to the registers of its owner; whether anything changed.
+    fn leave(
+        &mut self,
+        machine: &mut Machine<'_, S>,
+        state: &mut State<S>,
+        owner: NodeId,
+        number: SiteId,
+        kind: i64,
+    ) -> bool {
+        let n = &state.nodes[owner.0 as usize];
+        let (f, own, is_new) =
+            (machine.program.function(n.function), n.registers as usize, n.made == self.now);
+        let SiteKind::Loop(l) = &f.sites[number.0 as usize].kind else { return false };
+        let mut changed = false;
+        if let Some((how, value)) = l.exit {
+            if kind == exit::RETURN {
+                let returned = machine.buffer.pop().unwrap_or_default();
+                changed |= self.write_to(state, is_new, own + value.index(), returned);
+            }
+            changed |= self.write_to(state, is_new, own + how.index(), Value::Int(kind));
+        }
+        for (o, value) in f.operands[l.out.range()].iter().zip(machine.buffer.drain(..)) {
+            changed |= self.write_to(state, is_new, own + o.index(), value);
+        }
+        changed
+    }
+}
+
+/// Where a loop's last iteration left its carried values (and, by `return`, its value): first register of the owner, and
+/// the operands.
+fn left<'a, S: Scalar>(
+    machine: &Machine<'a, S>,
+    state: &State<S>,
+    header: NodeId,
+    kind: i64,
+) -> (usize, impl Iterator<Item = Operand> + use<'a, S>) {
+    let n = &state.nodes[header.0 as usize];
+    let owner = &state.nodes[n.parent.0 as usize];
+    let f = machine.program.function(owner.function);
+    let SiteKind::Loop(l) = &f.sites[n.site as usize].kind else { unreachable!("a loop's site") };
+    let value = l.exit.filter(|_| kind == exit::RETURN).map(|(_, value)| value);
+    (owner.registers as usize, f.operands[l.out.range()].iter().copied().chain(value))
+}

@@ -1,0 +1,464 @@
+//! Kept activations: a trace whose parts are run again where a choice changed.
+//!
+//! Every activation that can suspend stays as a node after it has returned, with one slot for each of its sites. A
+//! *transaction* changes choices and runs on from them: [`Machine::begin`], [`Machine::propose`] or
+//! [`Machine::change`], then [`Trace::commit`] or [`Trace::rollback`]. Two switches make four strategies
+//! ([`Strategy`]); they differ in what they skip and in nothing else.
+//!
+//! * `slot`, `journal`: what is remembered, and what can be undone;
+//! * `questions`: choices, factors, emits and queries that are reached again;
+//! * `calls`, `loops`: activations that are entered, skipped, made and taken away;
+//! * `cells`: elements of collections, and those who read them;
+//! * `transaction`: changing choices, keeping or undoing it;
+//! * [`inspect`]: what a trace holds, in program order.
+//!
+//! Futures run where they are made, so a future's handle is its value.
+//!
+//! Source: C3, dissertation chapter 3: its cache is the slots, its continuations are (node, program counter).
+
+mod calls;
+mod cells;
+pub mod inspect;
+mod journal;
+mod loops;
+mod questions;
+mod slot;
+mod transaction;
+
+pub use transaction::{Change, Changed, Propose, Proposed};
+
+use super::Machine;
+use super::address;
+use super::answers::Answers;
+use super::keep::Keep;
+use super::question::Halt;
+use super::registers::Registers;
+use super::state::{NodeId, State};
+use super::suspend::After;
+use crate::code::{Args, Mode, Program, SiteId};
+use crate::fault::Fault;
+use crate::value::{Value, same};
+use cells::{Reader, Readers};
+use journal::Journal;
+use niwaki_geom::Primitive;
+use niwaki_math::Scalar;
+use slot::Slot;
+
+/// How much of a run is done again when a choice changes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Strategy {
+    /// All of it, from the start: Lightweight MH.
+    Rerun,
+    /// Everything after the choice.
+    Resume,
+    /// From the start, but calls whose inputs are unchanged are skipped.
+    Cache,
+    /// From the choice on, skipping, until nothing that changed is left.
+    #[default]
+    C3,
+}
+
+impl Strategy {
+    /// Whether a run starts at the changed choice.
+    pub fn starts_at_choice(self) -> bool {
+        matches!(self, Strategy::Resume | Strategy::C3)
+    }
+
+    /// Whether calls with unchanged inputs are skipped.
+    pub fn reuses(self) -> bool {
+        matches!(self, Strategy::Cache | Strategy::C3)
+    }
+}
+
+/// Work done, for reports and tests.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counters {
+    /// Activations that were entered, from above or from inside.
+    pub entered: u64,
+    /// Calls and iterations that were skipped.
+    pub skipped: u64,
+    /// Instructions.
+    pub instructions: u64,
+}
+
+/// What happened to an activation in a run, for those who want to see it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Step {
+    /// Instructions of it were carried out.
+    Entered(NodeId),
+    /// It was skipped: its inputs were unchanged.
+    Skipped(NodeId),
+    /// It was made.
+    Made(NodeId),
+    /// It was taken away.
+    Removed(NodeId),
+    /// It returned to its caller.
+    Unwound(NodeId),
+}
+
+/// A choice's place in the trace.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct ChoiceAt {
+    pub node: NodeId,
+    pub site: u16,
+}
+
+/// A loop that was entered from above in the run in progress.
+#[derive(Clone, Copy, Debug)]
+struct Active {
+    header: NodeId,
+    /// What its iterations capture has changed.
+    captures: bool,
+    /// What it runs over has changed.
+    over: bool,
+}
+
+/// Sums over a trace, exact on their grid.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Totals {
+    /// Log densities of the choices, nats.
+    pub log_prior: f64,
+    /// Factors and observations, nats; those of minus infinity apart.
+    pub log_factors: f64,
+    /// How many choices and factors are minus infinity.
+    pub impossible: u32,
+    /// How many choices there are.
+    pub choices: usize,
+}
+
+/// The kept part of a trace.
+#[derive(Debug)]
+pub(crate) struct Kept<S: Scalar> {
+    pub slots: Vec<Slot>,
+    /// Iterations of each loop node.
+    pub loops: Vec<Vec<NodeId>>,
+    pub choices: Vec<ChoiceAt>,
+    pub emits: Vec<Option<Primitive>>,
+    pub free_emits: Vec<u32>,
+    /// Those who read each cell.
+    pub readers: Vec<Readers>,
+    pub free_readers: Vec<u32>,
+    pub result: Value<S>,
+    pub totals: Totals,
+    pub counters: Counters,
+    pub steps: Option<Vec<Step>>,
+    // The open transaction.
+    pub journal: Journal<S>,
+    pub open: bool,
+    pub before: Totals,
+    pub result_before: Option<Value<S>>,
+    /// Log densities of choices that were drawn, and of those that went.
+    pub fresh: f64,
+    pub stale: f64,
+    /// The changed choices: slot, and the log densities of changing it there and back.
+    pub changed: Vec<(u32, f64, f64)>,
+    pub now: u32,
+    // The run in progress.
+    depth: u32,
+    /// The activation in hand was made in this transaction: nothing of it needs to be journaled.
+    quiet: bool,
+    early: bool,
+    reuse: bool,
+    active: Vec<Active>,
+    /// Transaction in which a node was marked as standing above a changed choice.
+    marks: Vec<u32>,
+    marking: bool,
+    /// Readers of changed cells, and how many of them have been taken up.
+    woken: Vec<Reader>,
+    taken: usize,
+    /// The run must not leave the activation in hand; and whether it did.
+    confined: bool,
+    tangled: bool,
+}
+
+/// A run whose activations are kept.
+#[derive(Debug)]
+pub struct Trace<S: Scalar = f64> {
+    pub(crate) state: State<S>,
+    pub(crate) kept: Kept<S>,
+}
+
+impl<S: Scalar> Kept<S> {
+    fn new() -> Self {
+        Kept {
+            slots: vec![],
+            loops: vec![],
+            choices: vec![],
+            emits: vec![],
+            free_emits: vec![],
+            readers: vec![],
+            free_readers: vec![],
+            result: Value::None,
+            totals: Totals::default(),
+            counters: Counters::default(),
+            steps: None,
+            journal: Journal::default(),
+            open: false,
+            before: Totals::default(),
+            result_before: None,
+            fresh: 0.0,
+            stale: 0.0,
+            changed: vec![],
+            now: 0,
+            depth: 0,
+            quiet: false,
+            early: false,
+            reuse: false,
+            active: vec![],
+            marks: vec![],
+            marking: false,
+            woken: vec![],
+            taken: 0,
+            confined: false,
+            tangled: false,
+        }
+    }
+
+    #[inline(always)]
+    fn slot_at(state: &State<S>, node: NodeId, site: usize) -> usize {
+        state.nodes[node.0 as usize].slots as usize + site
+    }
+
+    #[inline]
+    fn is_new(&self, state: &State<S>, node: NodeId) -> bool {
+        state.nodes[node.0 as usize].made == self.now
+    }
+
+    #[inline(always)]
+    fn note(&mut self, step: Step) {
+        if let Some(steps) = &mut self.steps {
+            steps.push(step);
+        }
+    }
+
+    /// Puts a value into a register of a node; false when it holds that already.
+    #[inline]
+    fn write_to(&mut self, state: &mut State<S>, node_is_new: bool, place: usize, value: Value<S>) -> bool {
+        let register = &mut state.registers[place];
+        if same(register, &value) {
+            return false;
+        }
+        if node_is_new {
+            register.store(value);
+        } else {
+            let old = std::mem::replace(register, value);
+            self.journal.registers.push((place as u32, old));
+        }
+        true
+    }
+
+    /// Writes a slot.
+    #[inline]
+    fn write_slot(&mut self, node_is_new: bool, at: usize, slot: Slot) {
+        if !node_is_new {
+            self.journal.slots.push((at as u32, self.slots[at]));
+        }
+        self.slots[at] = slot;
+    }
+
+    /// A node with empty slots.
+    fn new_node(
+        &mut self,
+        program: &Program<S>,
+        state: &mut State<S>,
+        function: crate::code::FunctionId,
+        parent: NodeId,
+        site: u32,
+        path: u128,
+    ) -> NodeId {
+        let count = state.nodes.len();
+        let made = state.new_node(program, function, parent, site, path);
+        let node = &mut state.nodes[made.0 as usize];
+        node.made = self.now;
+        // How a new iteration ended is nothing that it can end with.
+        node.pc = u32::MAX;
+        if made.0 as usize == count {
+            let f = program.function(function);
+            if f.mode == Mode::Loop {
+                node.slots = self.loops.len() as u32;
+                self.loops.push(Vec::new());
+            } else {
+                node.slots = self.slots.len() as u32;
+                self.slots.resize(self.slots.len() + f.sites.len(), Slot::EMPTY);
+            }
+        }
+        self.journal.made.push(made);
+        self.note(Step::Made(made));
+        made
+    }
+
+    /// Gives a node back, its slots empty.
+    fn release(&mut self, program: &Program<S>, state: &mut State<S>, id: NodeId) {
+        let node = state.nodes[id.0 as usize];
+        let f = program.function(node.function);
+        if f.mode == Mode::Loop {
+            self.loops[node.slots as usize].clear();
+        } else {
+            let at = node.slots as usize;
+            self.slots[at..at + f.sites.len()].fill(Slot::EMPTY);
+        }
+        state.release(program, id);
+    }
+
+    /// Whether the node stands above a changed choice, in a run that starts at the root.
+    #[inline(always)]
+    fn is_marked(&self, node: NodeId) -> bool {
+        self.marking && self.marks.get(node.0 as usize).is_some_and(|mark| *mark == self.now)
+    }
+}
+
+impl<S: Scalar> Keep<S> for Kept<S> {
+    const KEEPS: bool = true;
+
+    #[inline(always)]
+    fn enter(&mut self, state: &State<S>, node: NodeId) {
+        self.quiet = state.nodes[node.0 as usize].made == self.now;
+    }
+
+    #[inline(always)]
+    fn write(&mut self, state: &mut State<S>, place: usize, value: Value<S>) {
+        let register = &mut state.registers[place];
+        if self.quiet {
+            register.store(value);
+            return;
+        }
+        let unchanged = match (&*register, &value) {
+            (Value::Real(a), Value::Real(b)) => a.value().to_bits() == b.value().to_bits(),
+            (Value::Int(a), Value::Int(b)) => a == b,
+            _ => false,
+        };
+        if !unchanged {
+            let old = std::mem::replace(register, value);
+            self.journal.registers.push((place as u32, old));
+        }
+    }
+
+    #[inline(never)]
+    fn site<A: Answers<S>>(
+        &mut self,
+        machine: &mut Machine<'_, S>,
+        state: &mut State<S>,
+        answers: &mut A,
+        r: Registers<'_, S>,
+        node: NodeId,
+        number: SiteId,
+    ) -> Result<After, Halt> {
+        let after = self.carry_out(machine, state, answers, r, node, number)?;
+        if self.tangled { Err(Halt::Impossible) } else { Ok(after) }
+    }
+
+    fn clear(&mut self, machine: &Machine<'_, S>, state: &mut State<S>, node: NodeId, from: u16, to: u16) {
+        for site in from..to {
+            self.vacate(machine.program, state, node, site);
+        }
+    }
+
+    fn give_back(
+        &mut self,
+        machine: &Machine<'_, S>,
+        state: &mut State<S>,
+        node: NodeId,
+        value: Value<S>,
+    ) -> Option<(NodeId, u32)> {
+        let next = self.return_to_caller(machine.program, state, node, value);
+        next.filter(|_| !self.tangled)
+    }
+
+    fn end_iteration(
+        &mut self,
+        machine: &mut Machine<'_, S>,
+        state: &mut State<S>,
+        r: Registers<'_, S>,
+        node: NodeId,
+        exit: i64,
+        carried: Args,
+    ) -> Result<Option<(NodeId, u32)>, Fault> {
+        let next = self.end_of_iteration(machine, state, r, node, exit, carried)?;
+        Ok(next.filter(|_| !self.tangled))
+    }
+
+    fn count(&mut self, instructions: u64) {
+        self.counters.instructions += instructions;
+    }
+}
+
+impl<S: Scalar> Trace<S> {
+    /// Sums over the trace.
+    pub fn totals(&self) -> Totals {
+        self.kept.totals
+    }
+
+    /// Work done since the trace began.
+    pub fn counters(&self) -> Counters {
+        self.kept.counters
+    }
+
+    /// What the program returned.
+    pub fn result(&self) -> Value<S> {
+        self.kept.resolved(&self.state, &self.kept.result)
+    }
+
+    /// How many choices it has.
+    pub fn len(&self) -> usize {
+        self.kept.choices.len()
+    }
+
+    /// Whether it has no choice.
+    pub fn is_empty(&self) -> bool {
+        self.kept.choices.is_empty()
+    }
+
+    /// Bytes that the trace holds, what is shared apart.
+    pub fn bytes(&self) -> usize {
+        self.state.bytes()
+            + self.kept.slots.len() * size_of::<Slot>()
+            + self.kept.choices.len() * size_of::<ChoiceAt>()
+            + self.kept.loops.iter().map(|l| l.capacity() * 4).sum::<usize>()
+    }
+
+    /// From now on the steps of each run are noted.
+    pub fn note_steps(&mut self) {
+        self.kept.steps = Some(Vec::new());
+    }
+
+    /// The steps noted since the last call.
+    pub fn take_steps(&mut self) -> Vec<Step> {
+        self.kept.steps.replace(Vec::new()).unwrap_or_default()
+    }
+}
+
+impl<'p, S: Scalar> Machine<'p, S> {
+    /// Runs the program from the start and keeps its activations. The transaction that made them is open; a start that
+    /// came to a score of minus infinity is of no further use.
+    ///
+    /// # Errors
+    /// The wrong number of arguments, or a fault of the program.
+    pub fn begin<A: Answers<S>>(
+        &mut self,
+        args: &[Value<S>],
+        answers: &mut A,
+    ) -> Result<(Trace<S>, Change), Box<super::stack::RunFault>> {
+        let bare = |fault| {
+            Box::new(super::stack::RunFault { fault, stack: vec![], omitted: 0, path: String::new() })
+        };
+        let template = self.start(args, true).map_err(bare)?;
+        let mut trace = Trace { state: State::empty(), kept: Kept::new() };
+        let (state, kept) = (&mut trace.state, &mut trace.kept);
+        state.depth_first = true;
+        kept.open();
+        let entry = self.program.entry;
+        let root = kept.new_node(self.program, state, entry, NodeId::NONE, 0, address::ROOT);
+        if self.program.function(entry).mode == Mode::Pure {
+            // A pure entry function reads its arguments at the start of the register file.
+            state.registers.extend(template.registers.iter().cloned());
+        } else {
+            let count = self.program.function(entry).params as usize;
+            for (i, value) in template.registers.iter().take(count).enumerate() {
+                state.registers[i] = value.clone();
+            }
+        }
+        kept.prepare(Strategy::Rerun);
+        let change = self.run_kept(&mut trace, root, 0, answers)?;
+        Ok((trace, change))
+    }
+}

@@ -1,0 +1,283 @@
+//! Choices, factors, emits and queries of kept activations, reached for the first time or again.
+
+use super::super::Machine;
+use super::super::answers::{Answer, Answers, At};
+use super::super::question::{Halt, as_real};
+use super::super::registers::Registers;
+use super::super::state::{NodeId, State};
+use super::super::suspend::After;
+use super::cells::Reader;
+use super::journal::Birth;
+use super::{Kept, Slot};
+use crate::code::{Args, Site, SiteId, SiteKind};
+use crate::fault::Fault;
+use crate::value::{Value, ops, same};
+use niwaki_geom::{Primitive, Shape};
+use niwaki_math::{Dist, Scalar, grid};
+
+pub(super) use super::super::question::log_density;
+
+/// Whether a kept value can be a value of that distribution at all: vectors have the right number of components,
+/// and the one value of a delta is drawn anew.
+#[inline]
+fn fits<S: Scalar>(dist: &Dist<S>, value: &Value<S>) -> bool {
+    match value {
+        Value::Real(_) | Value::Int(_) | Value::Bool(_) => !matches!(dist, Dist::Delta(_)),
+        other => dist.dimension().is_none_or(|n| crate::value::iter_len(other).is_ok_and(|len| len == n)),
+    }
+}
+
+/// A log density or factor must be a number below plus infinity (a density may be infinite at a point).
+fn check(log: f64, what: &str) -> Result<f64, Fault> {
+    if log.is_nan() || log == f64::INFINITY {
+        return Err(Fault::new("non-finite-score", format!("{what} of {log} nats"))
+            .with_help("a log factor is a finite number, or minus infinity for what is impossible"));
+    }
+    Ok(grid(log))
+}
+
+impl<S: Scalar> Kept<S> {
+    /// Sets the log of a filled slot and brings the sums up to date.
+    #[inline]
+    pub(super) fn set_log(&mut self, node_is_new: bool, at: usize, log: f64, prior: bool) {
+        let old = self.slots[at];
+        if !node_is_new {
+            self.journal.slots.push((at as u32, old));
+        }
+        self.slots[at].log = log;
+        self.add(prior, -old.log);
+        self.add(prior, log);
+    }
+
+    /// Adds a log, or (its sign changed) takes it away.
+    #[inline]
+    fn add(&mut self, prior: bool, log: f64) {
+        let total = if prior { &mut self.totals.log_prior } else { &mut self.totals.log_factors };
+        if log == f64::NEG_INFINITY {
+            self.totals.impossible += 1;
+        } else if log == f64::INFINITY {
+            self.totals.impossible -= 1;
+        } else {
+            *total += log;
+        }
+    }
+
+    /// Carries out a site.
+    pub(super) fn carry_out<A: Answers<S>>(
+        &mut self,
+        machine: &mut Machine<'_, S>,
+        state: &mut State<S>,
+        answers: &mut A,
+        r: Registers<'_, S>,
+        node: NodeId,
+        number: SiteId,
+    ) -> Result<After, Halt> {
+        let site = &r.f.sites[number.0 as usize];
+        match &site.kind {
+            SiteKind::Sample { .. } | SiteKind::SampleDist | SiteKind::SampleIndexed => {
+                self.choose(machine, state, answers, r, node, number, site)?;
+                Ok(After::Next)
+            }
+            SiteKind::Observe { .. }
+            | SiteKind::ObserveDist
+            | SiteKind::ObserveIndexed
+            | SiteKind::Factor
+            | SiteKind::Condition => {
+                self.factor(machine, state, r, node, number, site)?;
+                Ok(After::Next)
+            }
+            SiteKind::Call { function } | SiteKind::Future { function, .. } => {
+                self.call_known(machine, state, r, node, number, site, *function)
+            }
+            SiteKind::Apply | SiteKind::FutureApply { .. } => {
+                self.apply(machine, state, r, node, number, site)
+            }
+            SiteKind::Loop(l) => Ok(self.begin_loop(machine, state, r, node, number, site, l)?),
+            SiteKind::Query => {
+                let at = Kept::slot_at(state, node, number.0 as usize);
+                if !self.slots[at].is_filled() {
+                    self.write_slot(self.quiet, at, Slot { held: 0, mark: 0, log: 0.0 });
+                }
+                Ok(After::Next)
+            }
+            SiteKind::Cell { content } => {
+                let at = Kept::slot_at(state, node, number.0 as usize);
+                self.cell(state, &machine.scratch, r, at, site, *content);
+                Ok(After::Next)
+            }
+            SiteKind::Read => {
+                self.read(state, &machine.scratch, r, node, number.0, site)?;
+                Ok(After::Next)
+            }
+            SiteKind::Force => {
+                // A future has returned when its handle is seen: the handle is its value.
+                let value = r.get(state, &machine.scratch, r.f.operands[site.args.start as usize]).clone();
+                self.write_to(state, self.quiet, r.own + site.to.index(), value);
+                Ok(After::Next)
+            }
+            SiteKind::Emit => {
+                machine.collect_shapes(state, r, site)?;
+                let at = Kept::slot_at(state, node, number.0 as usize);
+                self.emit(at, &machine.shapes);
+                Ok(After::Next)
+            }
+        }
+    }
+
+    /// A choice keeps its value when family and dimension are unchanged, and is scored again; else it is drawn.
+    #[allow(clippy::too_many_arguments)] // the registers of the loop in `interpret`, by value
+    fn choose<A: Answers<S>>(
+        &mut self,
+        machine: &mut Machine<'_, S>,
+        state: &mut State<S>,
+        answers: &mut A,
+        r: Registers<'_, S>,
+        node: NodeId,
+        number: SiteId,
+        site: &Site,
+    ) -> Result<(), Halt> {
+        let (place, at) = (r.own + site.to.index(), Kept::slot_at(state, node, number.0 as usize));
+        let program = machine.program;
+        let mut made = None;
+        let dist = machine.dist(state, r, site, site.args, &mut made)?;
+        let (slot, family) = (self.slots[at], dist.family() as u32);
+        if slot.is_filled() && slot.mark & Slot::FAMILY == family && fits(dist, &state.registers[place]) {
+            let log = check(log_density(dist, &state.registers[place])?.value(), "a log density")?;
+            if log.to_bits() != slot.log.to_bits() {
+                self.set_log(self.quiet, at, log, true);
+            }
+            return if log == f64::NEG_INFINITY { Err(Halt::Impossible) } else { Ok(()) };
+        }
+        self.leaves_its_activation();
+        let question = At { site, function: r.f, node, state, program };
+        let address = question.address();
+        let Answer::Go(value) = answers.choice(&question, dist)? else { return Err(Halt::Paused) };
+        let log = check(log_density(dist, &value)?.value(), "a log density")?;
+        let held = if slot.is_filled() {
+            // Drawn anew: the old value goes, as if it had died and been born again at the same place in the table.
+            self.stale += slot.log;
+            self.forget_change(at);
+            self.add(true, -slot.log);
+            slot.held
+        } else {
+            self.journal.births.push(Birth { address, node, site: number.0 });
+            self.totals.choices += 1;
+            Slot::BORN | (self.journal.births.len() as u32 - 1)
+        };
+        self.fresh += log;
+        self.add(true, log);
+        self.write_slot(self.quiet, at, Slot { held, mark: family, log });
+        self.write_to(state, self.quiet, place, value);
+        if log == f64::NEG_INFINITY { Err(Halt::Impossible) } else { Ok(()) }
+    }
+
+    fn factor(
+        &mut self,
+        machine: &mut Machine<'_, S>,
+        state: &mut State<S>,
+        r: Registers<'_, S>,
+        node: NodeId,
+        number: SiteId,
+        site: &Site,
+    ) -> Result<(), Halt> {
+        let last = site.args.len as usize - 1;
+        let operand = r.f.operands[site.args.start as usize + last];
+        let log = match site.kind {
+            SiteKind::Factor => as_real(r.get(state, &machine.scratch, operand))?.value(),
+            SiteKind::Condition => {
+                if ops::truth(r.get(state, &machine.scratch, operand)) {
+                    0.0
+                } else {
+                    f64::NEG_INFINITY
+                }
+            }
+            _ => {
+                let mut made = None;
+                let args = Args { len: last as u16, ..site.args };
+                let value = r.get(state, &machine.scratch, operand).clone();
+                let dist = machine.dist(state, r, site, args, &mut made)?;
+                let log = log_density(dist, &value)?.value();
+                self.write_to(state, self.quiet, r.own + site.to.index(), value);
+                log
+            }
+        };
+        let log = check(log, "a factor")?;
+        let at = Kept::slot_at(state, node, number.0 as usize);
+        let slot = self.slots[at];
+        if !slot.is_filled() {
+            self.add(false, log);
+            self.write_slot(self.quiet, at, Slot { held: 0, mark: 0, log });
+        } else if log.to_bits() != slot.log.to_bits() {
+            self.set_log(self.quiet, at, log, false);
+        }
+        if log == f64::NEG_INFINITY { Err(Halt::Impossible) } else { Ok(()) }
+    }
+
+    fn emit(&mut self, at: usize, shapes: &[Shape]) {
+        let slot = self.slots[at];
+        if slot.is_filled() {
+            let unchanged = self.emits[slot.held as usize].as_ref().is_some_and(|p| {
+                p.shapes().len() == shapes.len()
+                    && p.shapes()
+                        .iter()
+                        .zip(shapes)
+                        .all(|(a, b)| same::<S>(&Value::Shape(a.clone()), &Value::Shape(b.clone())))
+            });
+            if unchanged {
+                return;
+            }
+            self.journal.retracted.push(slot.held);
+        }
+        let primitive = Some(Primitive::new(shapes));
+        let row = match self.free_emits.pop() {
+            Some(row) => {
+                self.emits[row as usize] = primitive;
+                row
+            }
+            None => {
+                self.emits.push(primitive);
+                self.emits.len() as u32 - 1
+            }
+        };
+        self.journal.emitted.push(row);
+        self.write_slot(self.quiet, at, Slot { held: row, mark: 0, log: 0.0 });
+    }
+
+    /// A changed choice is not met after all: its proposal has no part in the move.
+    fn forget_change(&mut self, at: usize) {
+        if self.slots[at].mark & Slot::CHANGED != 0
+            && let Some(change) = self.changed.iter_mut().find(|c| c.0 as usize == at)
+        {
+            (change.1, change.2) = (0.0, 0.0);
+        }
+    }
+
+    /// Takes away what a question's slot holds.
+    pub(super) fn withdraw(&mut self, kind: &SiteKind, at: usize, node: NodeId, site: u16) {
+        let slot = self.slots[at];
+        self.leaves_its_activation();
+        match kind {
+            SiteKind::Sample { .. } | SiteKind::SampleDist | SiteKind::SampleIndexed => {
+                debug_assert!(slot.held & Slot::BORN == 0, "a site is met once in a transaction");
+                self.stale += slot.log;
+                self.forget_change(at);
+                self.add(true, -slot.log);
+                self.totals.choices -= 1;
+                self.journal.deaths.push(slot.held);
+            }
+            SiteKind::Observe { .. }
+            | SiteKind::ObserveDist
+            | SiteKind::ObserveIndexed
+            | SiteKind::Factor
+            | SiteKind::Condition => self.add(false, -slot.log),
+            SiteKind::Emit => self.journal.retracted.push(slot.held),
+            SiteKind::Cell { .. } => self.journal.dead_cells.push(slot.held),
+            SiteKind::Read => {
+                let reader = Reader { node, site, slot: at as u32 };
+                self.journal.reads.push((reader, slot.held));
+                self.subscribe(reader, Slot::NOTHING);
+            }
+            _ => {}
+        }
+    }
+}

@@ -1,0 +1,48 @@
+//! Slots: what a kept activation remembers of each of its sites.
+//!
+//! | site | `held` | `mark` | `log` |
+//! | --- | --- | --- | --- |
+//! | choice | its number among the choices (or among the births) | its family | log density, nats |
+//! | factor, observation | 0 | | nats |
+//! | call, future | the callee's node | | |
+//! | loop | the loop's node | | |
+//! | emit | row of its primitive | | |
+//! | query, force | 0 | | |
+//! | cell | the list of its readers | | |
+//! | read | the list in which it stands (or `UNWATCHED`) | its place there | |
+//!
+//! The value of a choice, the result of a call and what a query wrote lie in registers.
+
+/// One slot.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Slot {
+    pub held: u32,
+    pub mark: u32,
+    pub log: f64,
+}
+
+impl Slot {
+    /// `held` of a slot whose site has not run, or is not on the path taken.
+    pub const NOTHING: u32 = u32::MAX;
+
+    /// `held` of a read whose element is no cell; every list of readers has a smaller number.
+    pub const UNWATCHED: u32 = u32::MAX - 1;
+
+    /// The slot of a site that is not on the path.
+    pub const EMPTY: Slot = Slot { held: Slot::NOTHING, mark: 0, log: 0.0 };
+
+    /// A choice that was born in the open transaction: its number is one among the births.
+    pub const BORN: u32 = 1 << 31;
+
+    /// The part of a choice's `mark` that is its family.
+    pub const FAMILY: u32 = 0xFF;
+
+    /// Set in the `mark` of a choice that the open transaction changes.
+    pub const CHANGED: u32 = 1 << 8;
+
+    /// Whether its site is on the path taken.
+    #[inline(always)]
+    pub fn is_filled(&self) -> bool {
+        self.held != Slot::NOTHING
+    }
+}

@@ -1,0 +1,348 @@
+//! Transactions: choices change, what they reach is run again, and all of it is kept or undone.
+
+use super::super::answers::{Answers, At};
+use super::super::stack::RunFault;
+use super::super::state::NodeId;
+use super::super::{Machine, Stop};
+use super::questions::log_density;
+use super::{ChoiceAt, Kept, Slot, Step, Strategy, Totals, Trace};
+use crate::code::Program;
+use crate::fault::Fault;
+use crate::value::{Value, same};
+use niwaki_geom::Primitive;
+use niwaki_math::{Dist, Scalar, grid};
+
+/// What became of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Change {
+    /// It went to its end.
+    Done,
+    /// Nothing changed: the new value is the old one.
+    Same,
+    /// The score became minus infinity; the run stopped there, so that all it can do is be rolled back.
+    Impossible,
+}
+
+/// A new value for a choice.
+#[derive(Clone, Debug)]
+pub struct Proposed<S: Scalar> {
+    /// The value.
+    pub value: Value<S>,
+    /// Log density of proposing it from the old one, nats.
+    pub forward: f64,
+    /// Log density of proposing the old one from it, nats.
+    pub backward: f64,
+}
+
+/// Whoever proposes a new value for one choice.
+pub trait Propose<S: Scalar> {
+    /// A new value for the choice, given its distribution, its value and that value's log density.
+    ///
+    /// # Errors
+    /// A fault ends the run.
+    fn propose(
+        &mut self,
+        at: &At<'_, S>,
+        dist: &Dist<S>,
+        old: &Value<S>,
+        log_density: f64,
+    ) -> Result<Proposed<S>, Fault>;
+}
+
+/// A changed choice: its number, and its new value.
+#[derive(Clone, Debug)]
+pub struct Changed<S: Scalar> {
+    /// Number of the choice.
+    pub choice: usize,
+    /// Its new value.
+    pub proposed: Proposed<S>,
+}
+
+impl<S: Scalar> Kept<S> {
+    /// Opens a transaction.
+    pub(super) fn open(&mut self) {
+        debug_assert!(!self.open, "one transaction at a time");
+        self.open = true;
+        self.now = self.now.wrapping_add(1);
+        self.before = self.totals;
+        (self.fresh, self.stale) = (0.0, 0.0);
+    }
+
+    /// Sets the switches of a run.
+    pub(super) fn prepare(&mut self, strategy: Strategy) {
+        self.early = strategy == Strategy::C3;
+        self.reuse = strategy.reuses();
+        self.depth = 0;
+        self.active.clear();
+        self.marking = false;
+        self.woken.clear();
+        self.taken = 0;
+        (self.confined, self.tangled) = (false, false);
+    }
+
+    /// Log densities of the proposal itself: of changing the changed choices, and of changing them back.
+    fn proposal(&self) -> (f64, f64) {
+        let sum = |of: fn(&(u32, f64, f64)) -> f64| self.changed.iter().map(of).sum::<f64>();
+        (sum(|c| c.1), sum(|c| c.2))
+    }
+
+    /// The transaction ends, kept or undone.
+    fn close(&mut self) {
+        for (at, ..) in self.changed.drain(..) {
+            self.slots[at as usize].mark &= !Slot::CHANGED;
+        }
+        self.journal.clear();
+        self.result_before = None;
+        self.open = false;
+    }
+}
+
+impl<S: Scalar> Trace<S> {
+    /// Sums over the trace before the open transaction.
+    pub fn before(&self) -> Totals {
+        self.kept.before
+    }
+
+    /// Log densities of the choices that the open transaction drew, and of those that it took away, nats.
+    pub fn fresh_and_stale(&self) -> (f64, f64) {
+        (self.kept.fresh, self.kept.stale)
+    }
+
+    /// Log densities of proposing what the open transaction changed, there and back, nats.
+    pub fn forward_and_backward(&self) -> (f64, f64) {
+        self.kept.proposal()
+    }
+
+    /// Primitives that the open transaction put into the scene.
+    pub fn emitted(&self) -> impl Iterator<Item = &Primitive> {
+        self.kept.journal.emitted.iter().filter_map(|row| self.kept.emits[*row as usize].as_ref())
+    }
+
+    /// Primitives that the open transaction took out of the scene.
+    pub fn retracted(&self) -> impl Iterator<Item = &Primitive> {
+        self.kept.journal.retracted.iter().filter_map(|row| self.kept.emits[*row as usize].as_ref())
+    }
+
+    /// Keeps what the open transaction did. Deaths leave the table of choices last first, births enter it in the
+    /// order of their addresses, so that it does not depend on the strategy.
+    pub fn commit(&mut self, program: &Program<S>) {
+        let (state, kept) = (&mut self.state, &mut self.kept);
+        kept.journal.deaths.sort_unstable();
+        while let Some(dead) = kept.journal.deaths.pop() {
+            kept.choices.swap_remove(dead as usize);
+            if let Some(moved) = kept.choices.get(dead as usize).copied() {
+                let at = Kept::slot_at(state, moved.node, moved.site as usize);
+                kept.slots[at].held = dead;
+            }
+        }
+        kept.journal.births.sort_unstable_by_key(|birth| birth.address);
+        for i in 0..kept.journal.births.len() {
+            let birth = kept.journal.births[i];
+            let at = Kept::slot_at(state, birth.node, birth.site as usize);
+            kept.slots[at].held = kept.choices.len() as u32;
+            kept.choices.push(ChoiceAt { node: birth.node, site: birth.site });
+        }
+        while let Some(id) = kept.journal.removed.pop() {
+            kept.release(program, state, id);
+        }
+        while let Some(row) = kept.journal.retracted.pop() {
+            kept.emits[row as usize] = None;
+            kept.free_emits.push(row);
+        }
+        while let Some(id) = kept.journal.dead_cells.pop() {
+            debug_assert!(kept.readers[id as usize].all.is_empty(), "a cell is read by those who can see it");
+            kept.free_readers.push(id);
+        }
+        kept.close();
+    }
+
+    /// Undoes what the open transaction did: the trace is as before, bit for bit.
+    pub fn rollback(&mut self, program: &Program<S>) {
+        self.undo(program);
+        self.kept.close();
+    }
+
+    /// Undoes what was done, and leaves the transaction open.
+    fn undo(&mut self, program: &Program<S>) {
+        let (state, kept) = (&mut self.state, &mut self.kept);
+        while let Some((reader, held)) = kept.journal.reads.pop() {
+            kept.subscribe(reader, held);
+        }
+        while let Some((place, old)) = kept.journal.registers.pop() {
+            state.registers[place as usize] = old;
+        }
+        while let Some((at, old)) = kept.journal.slots.pop() {
+            kept.slots[at as usize] = old;
+        }
+        while let Some((id, end)) = kept.journal.ends.pop() {
+            state.nodes[id.0 as usize].pc = end;
+        }
+        while let Some(cut) = kept.journal.loops.pop() {
+            let children = &mut kept.loops[cut.number as usize];
+            children.truncate(cut.len as usize);
+            children.extend(cut.removed);
+        }
+        while let Some(id) = kept.journal.made.pop() {
+            kept.release(program, state, id);
+        }
+        while let Some(row) = kept.journal.emitted.pop() {
+            kept.emits[row as usize] = None;
+            kept.free_emits.push(row);
+        }
+        while let Some(id) = kept.journal.cells.pop() {
+            kept.free_readers.push(id);
+        }
+        kept.totals = kept.before;
+        (kept.fresh, kept.stale) = (0.0, 0.0);
+        if let Some(result) = kept.result_before.take() {
+            kept.result = result;
+        }
+        kept.journal.clear();
+    }
+}
+
+impl<S: Scalar> Machine<'_, S> {
+    /// Changes one choice to what is proposed for it, and runs on. The transaction is open afterwards.
+    ///
+    /// # Errors
+    /// A fault of the program or of the proposer.
+    pub fn propose<A: Answers<S>, P: Propose<S>>(
+        &mut self,
+        trace: &mut Trace<S>,
+        choice: usize,
+        strategy: Strategy,
+        proposer: &mut P,
+        answers: &mut A,
+    ) -> Result<Change, Box<RunFault>> {
+        let ChoiceAt { node, site: number } = trace.kept.choices[choice];
+        let (state, kept) = (&mut trace.state, &mut trace.kept);
+        kept.open();
+        let program = self.program;
+        let f = program.function(state.nodes[node.0 as usize].function);
+        let site = &f.sites[number as usize];
+        let at = Kept::slot_at(state, node, number as usize);
+        let (own, outer) = self.bases(state, f, node);
+        let place = own + site.to.index();
+        let r = super::Registers { f, own, outer, scratch: 0 };
+        let mut made = None;
+        let proposal = self.dist(state, r, site, site.args, &mut made).and_then(|dist| {
+            let (question, old) = (At { site, function: f, node, state, program }, &state.registers[place]);
+            let proposed = proposer.propose(&question, dist, old, kept.slots[at].log)?;
+            let log = grid(log_density(dist, &proposed.value)?.value());
+            Ok((proposed, log))
+        });
+        let (proposed, log) = match proposal {
+            Ok(pair) => pair,
+            Err(fault) => {
+                self.here = super::super::Here {
+                    node,
+                    function: state.nodes[node.0 as usize].function,
+                    pc: site.next as usize - 1,
+                };
+                return Err(Box::new(self.report(state, fault)));
+            }
+        };
+        if same(&proposed.value, &state.registers[place]) {
+            return Ok(Change::Same);
+        }
+        kept.prepare(strategy);
+        kept.changed.push((at as u32, proposed.forward, proposed.backward));
+        kept.slots[at].mark |= Slot::CHANGED;
+        let value = proposed.value;
+        kept.write_to(state, false, place, value.clone());
+        if log == f64::NEG_INFINITY {
+            return Ok(Change::Impossible);
+        }
+        if strategy.starts_at_choice() {
+            kept.set_log(false, at, log, true);
+            let next = site.next as usize;
+            let change = self.run_kept(trace, node, next, answers);
+            if trace.kept.woken.is_empty() {
+                return change;
+            }
+            if let (Ok(Change::Done), false) = (&change, trace.kept.tangled) {
+                if let Some(change) = self.take_up_readers(trace, answers)? {
+                    return Ok(change);
+                }
+            } else if !trace.kept.tangled {
+                return change;
+            }
+            // Once more, in program order.
+            trace.undo(program);
+            trace.kept.prepare(Strategy::Cache);
+            trace.kept.slots[at].mark |= Slot::CHANGED;
+            trace.kept.write_to(&mut trace.state, false, place, value);
+        }
+        trace.kept.mark_above(&trace.state, node);
+        self.run_kept(trace, NodeId(0), 0, answers)
+    }
+
+    /// Changes many choices at once, and runs. It starts at the root: in program order the changed choices are met
+    /// one after the other, and calls that hold none of them are skipped unless the strategy is to skip nothing.
+    ///
+    /// # Errors
+    /// A fault of the program.
+    pub fn change<A: Answers<S>>(
+        &mut self,
+        trace: &mut Trace<S>,
+        changes: Vec<Changed<S>>,
+        strategy: Strategy,
+        answers: &mut A,
+    ) -> Result<Change, Box<RunFault>> {
+        let (state, kept) = (&mut trace.state, &mut trace.kept);
+        kept.open();
+        kept.prepare(if strategy.reuses() { Strategy::Cache } else { Strategy::Rerun });
+        let mut any = false;
+        for Changed { choice, proposed } in changes {
+            let ChoiceAt { node, site } = kept.choices[choice];
+            let n = &state.nodes[node.0 as usize];
+            let to = self.program.function(n.function).sites[site as usize].to;
+            let (place, at) = (n.registers as usize + to.index(), n.slots as usize + site as usize);
+            kept.changed.push((at as u32, proposed.forward, proposed.backward));
+            if kept.write_to(state, false, place, proposed.value) {
+                any = true;
+                kept.slots[at].mark |= Slot::CHANGED;
+                kept.mark_above(state, node);
+            }
+        }
+        if !any {
+            return Ok(Change::Same);
+        }
+        self.run_kept(trace, NodeId(0), 0, answers)
+    }
+
+    /// Runs on from an instruction of a node.
+    pub(super) fn run_kept<A: Answers<S>>(
+        &mut self,
+        trace: &mut Trace<S>,
+        node: NodeId,
+        pc: usize,
+        answers: &mut A,
+    ) -> Result<Change, Box<RunFault>> {
+        self.pure.clear();
+        let (state, kept) = (&mut trace.state, &mut trace.kept);
+        state.steps = 0;
+        kept.counters.entered += 1;
+        kept.note(Step::Entered(node));
+        match self.interpret(state, kept, super::super::state::FutureId(0), (node, pc), answers) {
+            Ok(Stop::Impossible) => Ok(Change::Impossible),
+            Ok(_) => Ok(Change::Done),
+            Err(fault) => Err(Box::new(self.report(state, fault))),
+        }
+    }
+}
+
+impl<S: Scalar> Kept<S> {
+    /// Marks a node and those above it: a run from the root must enter them.
+    pub(super) fn mark_above(&mut self, state: &super::State<S>, node: NodeId) {
+        self.marking = true;
+        if self.marks.len() < state.nodes.len() {
+            self.marks.resize(state.nodes.len(), 0);
+        }
+        let mut at = node;
+        while at != NodeId::NONE && self.marks[at.0 as usize] != self.now {
+            self.marks[at.0 as usize] = self.now;
+            at = state.nodes[at.0 as usize].parent;
+        }
+    }
+}

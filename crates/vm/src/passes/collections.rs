@@ -1,0 +1,261 @@
+//! Which lists are *collections*: lists that the program only builds, indexes, measures and returns.
+//!
+//! The elements of a collection are cells: references to registers of the activations that made them. When an element
+//! changes, the list does not: calls that were given the list, loops that carry it and callers that it was returned
+//! to see the same value, and only those who read the changed element run again. A list that is used in any other way
+//! (iterated over, compared, given to a pure function, put into another value) holds plain values.
+//!
+//! The analysis joins variables that may hold the same list into classes, over the whole program and without
+//! regard to order; one use of another kind makes the whole class plain. Where activations are dropped, cells are
+//! plain values from the start.
+
+use super::effects::Effects;
+use crate::core::{Expr, ExprKind, Function, Module, Name, Stmt, StmtKind};
+use std::collections::HashMap;
+
+/// What stands for a function's result among its variables.
+const RESULT: &str = "";
+
+/// The expressions that make elements of collections or read them, by their addresses in memory, stable while the
+/// module is borrowed.
+#[derive(Default)]
+pub struct Collections {
+    class_of: HashMap<*const Expr, usize>,
+    classes: Classes,
+}
+
+/// Classes of variables and lists.
+#[derive(Default)]
+struct Classes {
+    parent: Vec<usize>,
+    /// A list is built here element by element.
+    built: Vec<bool>,
+    /// Used in a way that needs plain values.
+    plain: Vec<bool>,
+}
+
+impl Classes {
+    fn fresh(&mut self) -> usize {
+        self.parent.push(self.parent.len());
+        self.built.push(false);
+        self.plain.push(false);
+        self.parent.len() - 1
+    }
+
+    fn root(&self, mut class: usize) -> usize {
+        while self.parent[class] != class {
+            class = self.parent[class];
+        }
+        class
+    }
+
+    fn join(&mut self, a: usize, b: usize) {
+        let (a, b) = (self.root(a), self.root(b));
+        if a != b {
+            self.parent[b] = a;
+            self.built[a] |= self.built[b];
+            self.plain[a] |= self.plain[b];
+        }
+    }
+}
+
+struct Analysis<'m> {
+    module: &'m Module,
+    effects: &'m Effects,
+    functions: HashMap<&'m Name, &'m Function>,
+    variables: HashMap<(&'m str, &'m str), usize>,
+    found: Collections,
+    /// The function in hand.
+    here: &'m Function,
+    /// Whether a site can stand here: not in a pure function, nor in a loop that is not lifted.
+    suspends: bool,
+}
+
+impl Collections {
+    /// Analyses a module.
+    pub fn of(module: &Module, effects: &Effects) -> Self {
+        let Some(first) = module.functions.first() else { return Collections::default() };
+        let mut analysis = Analysis {
+            module,
+            effects,
+            functions: module.functions.iter().map(|f| (&f.name, f)).collect(),
+            variables: HashMap::new(),
+            found: Collections::default(),
+            here: first,
+            suspends: false,
+        };
+        for f in &analysis.module.functions {
+            analysis.here = f;
+            analysis.suspends = effects.function(&f.name);
+            analysis.block(&f.body);
+        }
+        analysis.found
+    }
+
+    /// Whether the expression makes elements of a collection (a list, an `append`) or reads one (an `index`).
+    pub fn contains(&self, e: &Expr) -> bool {
+        self.class_of.get(&std::ptr::from_ref(e)).is_some_and(|class| {
+            let class = self.classes.root(*class);
+            self.classes.built[class] && !self.classes.plain[class]
+        })
+    }
+}
+
+impl<'m> Analysis<'m> {
+    fn variable(&mut self, function: &'m str, x: &'m str) -> usize {
+        let classes = &mut self.found.classes;
+        *self.variables.entry((function, x)).or_insert_with(|| classes.fresh())
+    }
+
+    fn joined(&mut self, a: Option<usize>, b: Option<usize>) -> Option<usize> {
+        if let (Some(a), Some(b)) = (a, b) {
+            self.found.classes.join(a, b);
+        }
+        a.or(b)
+    }
+
+    fn plain(&mut self, class: Option<usize>) {
+        if let Some(class) = class {
+            let class = self.found.classes.root(class);
+            self.found.classes.plain[class] = true;
+        }
+    }
+
+    /// A use that needs plain values.
+    fn escapes(&mut self, e: &'m Expr) {
+        let class = self.expr(e);
+        self.plain(class);
+    }
+
+    fn block(&mut self, block: &'m [Stmt]) {
+        for s in block {
+            let outside = self.suspends;
+            match &s.kind {
+                StmtKind::For(_, _, body) => {
+                    self.statement(s);
+                    self.suspends &= self.effects.in_block(body);
+                }
+                StmtKind::While(test, body) => {
+                    self.suspends &= self.effects.in_block(body) || self.effects.in_expr(test);
+                    self.statement(s);
+                }
+                _ => self.statement(s),
+            }
+            s.blocks().into_iter().for_each(|inner| self.block(inner));
+            self.suspends = outside;
+        }
+    }
+
+    fn statement(&mut self, s: &'m Stmt) {
+        let here = &*self.here.name;
+        match &s.kind {
+            StmtKind::Set(x, e) => {
+                let (to, from) = (self.variable(here, x), self.expr(e));
+                self.joined(Some(to), from);
+            }
+            StmtKind::Return(e) => {
+                let (to, from) = (self.variable(here, RESULT), self.expr(e));
+                self.joined(Some(to), from);
+            }
+            StmtKind::Do(e) => {
+                self.expr(e);
+            }
+            _ => s.expressions().into_iter().for_each(|e| self.escapes(e)),
+        }
+    }
+
+    /// Arguments go to parameters, then captures.
+    fn pass(&mut self, function: &'m Name, args: &'m [Expr], captures_only: bool) -> Option<usize> {
+        let Some(f) = self.functions.get(function).copied() else {
+            args.iter().for_each(|e| self.escapes(e));
+            return None;
+        };
+        let names = f.params.iter().filter(|_| !captures_only).chain(&f.captures);
+        for (x, e) in names.zip(args) {
+            let (to, from) = (self.variable(&f.name, x), self.expr(e));
+            self.joined(Some(to), from);
+        }
+        Some(self.variable(&f.name, RESULT))
+    }
+
+    fn built(&mut self, e: &'m Expr, class: usize) -> Option<usize> {
+        if self.suspends {
+            let root = self.found.classes.root(class);
+            self.found.classes.built[root] = true;
+            self.found.class_of.insert(std::ptr::from_ref(e), class);
+        }
+        Some(class)
+    }
+
+    /// The class of what an expression gives, if it can be a collection.
+    fn expr(&mut self, e: &'m Expr) -> Option<usize> {
+        use ExprKind::*;
+        match &e.kind {
+            Literal(_) | Data(_) => None,
+            Var(x) => Some(self.variable(&self.here.name, x)),
+            Call(f, args) | Future(f, args) => self.pass(f, args, false),
+            Closure(f, captures) => {
+                self.pass(f, captures, true);
+                // Who calls it with what, and where its result goes, is not known.
+                if let Some(f) = self.functions.get(f).copied() {
+                    for x in f.params.iter().map(|x| &**x).chain([RESULT]) {
+                        let class = self.variable(&f.name, x);
+                        self.plain(Some(class));
+                    }
+                }
+                None
+            }
+            Force(x) => self.expr(x),
+            Cond(test, a, b) => {
+                self.escapes(test);
+                let (a, b) = (self.expr(a), self.expr(b));
+                self.joined(a, b)
+            }
+            List(items) => {
+                items.iter().for_each(|item| self.escapes(item));
+                let class = self.found.classes.fresh();
+                self.built(e, class)
+            }
+            Query(key, value) => {
+                self.escapes(key);
+                self.expr(value);
+                None
+            }
+            Op(name, parts) => match (&**name, parts.as_slice()) {
+                ("append", [list, item]) => {
+                    self.escapes(item);
+                    match self.expr(list) {
+                        Some(class) => self.built(e, class),
+                        None => None,
+                    }
+                }
+                ("add", [a, b]) => {
+                    let (a, b) = (self.expr(a), self.expr(b));
+                    self.joined(a, b)
+                }
+                ("len", [list]) => {
+                    self.expr(list);
+                    None
+                }
+                ("index", [list, at]) => {
+                    self.escapes(at);
+                    let class = self.expr(list);
+                    if !self.suspends {
+                        self.plain(class);
+                    } else if let Some(class) = class {
+                        self.found.class_of.insert(std::ptr::from_ref(e), class);
+                    }
+                    None
+                }
+                _ => {
+                    parts.iter().for_each(|part| self.escapes(part));
+                    None
+                }
+            },
+            _ => {
+                e.parts().into_iter().for_each(|part| self.escapes(part));
+                None
+            }
+        }
+    }
+}

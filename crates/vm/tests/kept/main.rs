@@ -1,0 +1,85 @@
+//! The claim: however much of a run is done again, the trace is the same to the bit: four strategies agree, a rollback
+//! restores everything, and the sums are those of a fresh run with the same choices.
+
+mod chain;
+mod programs;
+
+use chain::{Chain, fresh_totals};
+use niwaki_vm::machine::kept::Strategy;
+use programs::{PROGRAMS, compiled};
+
+const STRATEGIES: [Strategy; 4] = [Strategy::Rerun, Strategy::Resume, Strategy::Cache, Strategy::C3];
+
+#[test]
+fn four_strategies_make_the_same_chain() {
+    for (name, text) in PROGRAMS {
+        let program = compiled(text);
+        for seed in 0..4 {
+            let mut chains: Vec<Chain> =
+                STRATEGIES.iter().map(|strategy| Chain::start(&program, *strategy, seed)).collect();
+            for step in 0..400 {
+                let outcomes: Vec<String> = chains.iter_mut().map(|chain| chain.step(step)).collect();
+                for (strategy, outcome) in STRATEGIES.iter().zip(&outcomes) {
+                    assert_eq!(outcome, &outcomes[0], "{name}, seed {seed}, step {step}, {strategy:?}");
+                }
+                if step % 20 == 0 {
+                    let dumps: Vec<String> = chains.iter().map(Chain::dump).collect();
+                    for (strategy, dump) in STRATEGIES.iter().zip(&dumps) {
+                        assert_eq!(dump, &dumps[0], "{name}, seed {seed}, step {step}, {strategy:?}");
+                    }
+                    let fresh = fresh_totals(&program, &chains[0]);
+                    assert_eq!(fresh, chains[3].trace.totals(), "{name}, seed {seed}, step {step}: sums");
+                }
+            }
+            assert!(chains[0].accepted > 0, "{name}: nothing was ever accepted");
+        }
+    }
+}
+
+#[test]
+fn a_block_of_changes_agrees_with_a_rerun() {
+    for (name, text) in PROGRAMS {
+        let program = compiled(text);
+        for seed in 0..4 {
+            let mut a = Chain::start(&program, Strategy::Rerun, seed);
+            let mut b = Chain::start(&program, Strategy::C3, seed);
+            for step in 0..200 {
+                assert_eq!(a.block(step), b.block(step), "{name}, seed {seed}, step {step}");
+            }
+            assert_eq!(a.dump(), b.dump(), "{name}, seed {seed}");
+            assert_eq!(fresh_totals(&program, &a), b.trace.totals(), "{name}, seed {seed}: sums");
+        }
+    }
+}
+
+#[test]
+fn a_rollback_restores_everything() {
+    for (name, text) in PROGRAMS {
+        let program = compiled(text);
+        for strategy in STRATEGIES {
+            let mut chain = Chain::start(&program, strategy, 7);
+            for step in 0..150 {
+                let before = chain.dump();
+                chain.propose_and_roll_back(step);
+                assert_eq!(before, chain.dump(), "{name}, {strategy:?}, step {step}");
+                chain.step(step);
+            }
+        }
+    }
+}
+
+#[test]
+fn nothing_is_left_behind() {
+    // Programs that make and take away activations hold no more after a long run than after a short one, up to
+    // the largest that they were.
+    let program = compiled(programs::GEOMETRIC);
+    let mut chain = Chain::start(&program, Strategy::C3, 3);
+    let mut largest = [0; 2];
+    for (half, largest) in largest.iter_mut().enumerate() {
+        for step in 0..20_000 {
+            chain.step(half as u64 * 20_000 + step);
+            *largest = (*largest).max(chain.trace.bytes());
+        }
+    }
+    assert!(largest[1] < 3 * largest[0], "{largest:?}");
+}
