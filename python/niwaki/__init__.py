@@ -15,6 +15,7 @@ from niwaki.words import *  # noqa: F403
 
 if TYPE_CHECKING:
     from niwaki.errors import InputError, ModelError, ModelFault, NiwakiError
+    from niwaki.gradient import LogDensity, log_density
     from niwaki.infer import Progress, grow, run
     from niwaki.lang.plain import run_python
     from niwaki.methods import enumerate_all, forward, importance, rejection, smc
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
 #: Where the names live that are imported when they are used.
 _HOMES = {
     "niwaki.errors": ("InputError", "ModelError", "ModelFault", "NiwakiError"),
+    "niwaki.gradient": ("LogDensity", "log_density"),
     "niwaki.infer": ("Progress", "grow", "run"),
     "niwaki.lang.plain": ("run_python",),
     "niwaki.methods": ("enumerate_all", "forward", "importance", "rejection", "smc"),
@@ -40,6 +42,7 @@ __all__ = [  # noqa: PLE0604
     "__version__",
     *words.__all__,
     "InputError",
+    "LogDensity",
     "ModelError",
     "ModelFault",
     "NiwakiError",
@@ -53,6 +56,7 @@ __all__ = [  # noqa: PLE0604
     "forward",
     "grow",
     "importance",
+    "log_density",
     "no_self_intersection",
     "rejection",
     "run",

@@ -125,6 +125,15 @@ impl Native {
     /// When `x` or `g` has not one number for each coordinate.
     #[inline]
     pub fn value_and_gradient(&mut self, x: &[f64], g: &mut [f64]) -> f64 {
+        self.inside(x, g).unwrap_or(f64::NAN)
+    }
+
+    /// The same; `None` outside the guards.
+    ///
+    /// # Panics
+    /// As for [`Native::value_and_gradient`].
+    #[inline]
+    pub fn inside(&mut self, x: &[f64], g: &mut [f64]) -> Option<f64> {
         assert!(x.len() == self.dim && g.len() == self.dim);
         self.both.run(x, g, &mut self.scratch[0])
     }
@@ -136,14 +145,14 @@ impl Native {
     #[inline]
     pub fn gradient(&mut self, x: &[f64], g: &mut [f64]) -> bool {
         assert!(x.len() == self.dim && g.len() == self.dim);
-        self.slope.run(x, g, &mut self.scratch[1]) == 0.0
+        self.slope.run(x, g, &mut self.scratch[1]).is_some()
     }
 }
 
 impl Routine {
-    /// The value, or 0 for a program without; NaN outside the guards.
+    /// The value, or 0 for a program without; `None` outside the guards.
     #[inline]
-    fn run(&self, x: &[f64], g: &mut [f64], scratch: &mut [f64]) -> f64 {
+    fn run(&self, x: &[f64], g: &mut [f64], scratch: &mut [f64]) -> Option<f64> {
         for step in &self.steps {
             match *step {
                 // SAFETY: the code reads one number of `x` and writes one of `g` for each coordinate, which the
@@ -159,10 +168,10 @@ impl Routine {
             }
         }
         if self.flags.iter().all(|&flag| scratch[flag as usize].to_bits() != 0) {
-            return self.value.map_or(0.0, |at| scratch[at as usize]);
+            return Some(self.value.map_or(0.0, |at| scratch[at as usize]));
         }
         g.fill(f64::NAN);
-        f64::NAN
+        None
     }
 }
 

@@ -30,6 +30,7 @@ use niwaki_vm::machine::{Limits, Machine};
 use niwaki_vm::value::Value;
 use std::collections::HashMap;
 use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
 
 /// How a choice's value follows from its coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -85,7 +86,7 @@ pub struct Continuous {
 #[derive(Clone)]
 pub struct Recorded {
     /// The log density over the coordinates.
-    pub density: Density,
+    pub density: Arc<Density>,
     /// The continuous choices, in the order of the run.
     pub choices: Vec<Continuous>,
     /// Addresses and values of the choices held fixed.
@@ -405,7 +406,7 @@ pub fn record(run: &Run<'_>, choices: &HashMap<u128, Value>) -> Result<Recorded,
     let outputs: Vec<Id> = choices.iter().flat_map(|choice| choice.values.iter().copied()).collect();
     let unpack = Tape::of(density.graph(), &outputs, &[]);
     Ok(Recorded {
-        density,
+        density: Arc::new(density),
         choices,
         fixed: recorder.fixed,
         start: recorder.start,

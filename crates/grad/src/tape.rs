@@ -195,6 +195,23 @@ impl<const L: usize> Lanes<L> {
 }
 
 impl Lanes<1> {
+    /// The same; `None` outside the guards.
+    ///
+    /// # Panics
+    /// As for [`Lanes::value_and_gradient`].
+    pub fn inside(&mut self, tape: &Tape, x: &[f64], g: &mut [f64]) -> Option<f64> {
+        assert!(g.len() == x.len() && tape.outputs.len() == x.len() + 1);
+        let [inside] = self.run(tape, x.as_chunks().0);
+        if !inside {
+            g.fill(f64::NAN);
+            return None;
+        }
+        for (g, slot) in g.iter_mut().zip(&tape.outputs) {
+            *g = self.memory[*slot as usize][0];
+        }
+        Some(self.memory[tape.outputs[x.len()] as usize][0])
+    }
+
     /// The outputs at one point.
     pub(crate) fn outputs(&mut self, tape: &Tape, x: &[f64]) -> Vec<f64> {
         self.run(tape, x.as_chunks().0);
@@ -206,6 +223,6 @@ impl Lanes<1> {
     /// # Panics
     /// As for [`Lanes::value_and_gradient`].
     pub fn one(&mut self, tape: &Tape, x: &[f64], g: &mut [f64]) -> f64 {
-        self.value_and_gradient(tape, x.as_chunks().0, g.as_chunks_mut().0)[0]
+        self.inside(tape, x, g).unwrap_or(f64::NAN)
     }
 }

@@ -12,6 +12,7 @@
 pub mod enumeration;
 pub mod failure;
 pub mod forward;
+pub mod gradient;
 pub mod importance;
 pub mod log;
 pub mod particles;

@@ -4,11 +4,13 @@
 //!
 //! * `values`: Python's objects to the machine's values, and back; `faults`: faults as data;
 //! * `model`: compiled models; `search`: algorithms; `outcome`: what they find;
+//! * `gradients`: log densities with their gradients;
 //! * `distributions`, `geometry`, `pictures`: the rooms below, by themselves.
 
 mod distributions;
 mod faults;
 mod geometry;
+mod gradients;
 mod model;
 mod outcome;
 mod pictures;
@@ -27,6 +29,7 @@ fn _engine(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     distributions::register(module)?;
     geometry::register(module)?;
+    gradients::register(module)?;
     pictures::register(module)?;
     values::register(module)?;
     faults::register(module)?;

@@ -45,6 +45,7 @@ impl<S: Scalar> Value<S> {
             Value::Real(x) => Value::Real(number(*x)),
             Value::Future(id) => Value::Future(*id),
             Value::Unset => Value::Unset,
+            Value::Cell(cell) => Value::Cell(*cell),
             Value::Str(text) => Value::Str(text.clone()),
             Value::Tuple(tuple) => Value::tuple(all(&mut tuple.items().iter())),
             Value::List(list) => Value::list(all(&mut list.iter())),
