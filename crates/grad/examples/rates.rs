@@ -87,7 +87,8 @@ fn measure(name: &str, x: &[f64], record: impl Fn() -> Density) {
 }
 
 fn main() {
-    let start = |name: &str| peers::known().into_iter().find(|k| k.name == name).map(|k| k.x).unwrap_or_default();
+    let start =
+        |name: &str| peers::known().into_iter().find(|k| k.name == name).map(|k| k.x).unwrap_or_default();
     let (ring, coloring) = (start("ring"), start("coloring"));
     let drawing = peers::drawing();
     measure("ring", &ring, || peers::recorded(&ring, peers::ring));

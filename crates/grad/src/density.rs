@@ -103,9 +103,11 @@ impl Density {
     /// When `x` or `g` has not one number for each coordinate.
     pub fn interpret(&self, x: &[f64], g: &mut [f64]) -> f64 {
         let values = self.values(x);
-        if self.guards.iter().all(|guard| {
-            guard.comparison.holds(values[guard.a.index()], values[guard.b.index()])
-        }) {
+        if self
+            .guards
+            .iter()
+            .all(|guard| guard.comparison.holds(values[guard.a.index()], values[guard.b.index()]))
+        {
             for (g, id) in g.iter_mut().zip(&self.gradient) {
                 *g = values[id.index()];
             }

@@ -498,7 +498,9 @@ impl Graph {
             Op::BesselRatio => Range::new(-1.0, 1.0, r(0).nonzero),
             Op::Atan2 => Range::new(-std::f64::consts::PI, std::f64::consts::PI, false),
             Op::Pow => Range::new(0.0, f64::INFINITY, r(0).nonzero),
-            Op::Input | Op::Tan | Op::Asin | Op::Sinh | Op::LnGamma | Op::Digamma | Op::LnBesselI0e => Range::ALL,
+            Op::Input | Op::Tan | Op::Asin | Op::Sinh | Op::LnGamma | Op::Digamma | Op::LnBesselI0e => {
+                Range::ALL
+            }
         }
     }
 }

@@ -50,7 +50,8 @@ pub(crate) fn log(x: f64) -> f64 {
     let s = f / (2.0 + f);
     let z = s * s;
     let w = z * z;
-    let t1 = w * (3.999_999_999_940_942e-1 + w * (2.222_219_843_214_978_4e-1 + w * 1.531_383_769_920_937_3e-1));
+    let t1 =
+        w * (3.999_999_999_940_942e-1 + w * (2.222_219_843_214_978_4e-1 + w * 1.531_383_769_920_937_3e-1));
     let t2 = z
         * (6.666_666_666_666_735e-1
             + w * (2.857_142_874_366_239e-1
@@ -72,15 +73,16 @@ pub(crate) fn pow(a: f64, b: f64) -> f64 {
 #[inline(always)]
 fn sin_cos(x: f64) -> (f64, f64, u64) {
     let k = (x * std::f64::consts::FRAC_2_PI + ROUND) - ROUND;
-    let r = ((x - k * 1.570_796_326_734_125_6) - k * 6.077_100_506_303_966e-11) - k * 2.022_266_248_795_950_6e-21;
+    let r =
+        ((x - k * 1.570_796_326_734_125_6) - k * 6.077_100_506_303_966e-11) - k * 2.022_266_248_795_950_6e-21;
     let z = r * r;
-    let sin = r
-        + r * z
-            * (-1.666_666_666_666_663_2e-1
-                + z * (8.333_333_333_322_49e-3
-                    + z * (-1.984_126_982_985_795e-4
-                        + z * (2.755_731_370_707_006_8e-6
-                            + z * (-2.505_076_025_340_686_3e-8 + z * 1.589_690_995_211_55e-10)))));
+    let sin = r + r
+        * z
+        * (-1.666_666_666_666_663_2e-1
+            + z * (8.333_333_333_322_49e-3
+                + z * (-1.984_126_982_985_795e-4
+                    + z * (2.755_731_370_707_006_8e-6
+                        + z * (-2.505_076_025_340_686_3e-8 + z * 1.589_690_995_211_55e-10)))));
     let cos = 1.0 - 0.5 * z
         + z * z
             * (4.166_666_666_666_66e-2
@@ -180,7 +182,10 @@ mod tests {
     fn close(name: &str, x: f64, found: f64, expected: f64, units: f64) {
         let same = found == expected || found.is_nan() && expected.is_nan();
         let size = expected.abs().max(f64::MIN_POSITIVE);
-        assert!(same || (found - expected).abs() <= units * f64::EPSILON * size, "{name}({x}): {found} {expected}");
+        assert!(
+            same || (found - expected).abs() <= units * f64::EPSILON * size,
+            "{name}({x}): {found} {expected}"
+        );
     }
 
     #[test]
@@ -205,7 +210,12 @@ mod tests {
             close("log", x, log(x), libm::log(x), 1.0);
             let x = f64::from(k) * 0.37;
             let near = |a: f64, b: f64| (a - b).abs() < 2e-16;
-            assert!(near(sin(x), libm::sin(x)) && near(cos(x), libm::cos(x)), "{x} {} {}", sin(x), libm::sin(x));
+            assert!(
+                near(sin(x), libm::sin(x)) && near(cos(x), libm::cos(x)),
+                "{x} {} {}",
+                sin(x),
+                libm::sin(x)
+            );
         }
     }
 

@@ -51,7 +51,12 @@ impl Drop for Memory {
 enum Step {
     Code(Entry),
     /// `n` numbers of each argument from `from` on, one argument after the other; results at `to`.
-    Calls { op: Op, from: u32, to: u32, n: u32 },
+    Calls {
+        op: Op,
+        from: u32,
+        to: u32,
+        n: u32,
+    },
 }
 
 /// One program: steps over an array of scratch.
@@ -91,9 +96,12 @@ impl Native {
     /// A processor that Cranelift does not know, or memory that may not be executed: the tape serves then.
     pub fn compile(density: &Density) -> Result<Native, String> {
         let mut flags = settings::builder();
-        for (name, value) in
-            [("opt_level", "none"), ("enable_verifier", "false"), ("is_pic", "false"), ("use_colocated_libcalls", "false")]
-        {
+        for (name, value) in [
+            ("opt_level", "none"),
+            ("enable_verifier", "false"),
+            ("is_pic", "false"),
+            ("use_colocated_libcalls", "false"),
+        ] {
             flags.set(name, value).map_err(|e| e.to_string())?;
         }
         let isa = cranelift_native::builder()
@@ -254,7 +262,9 @@ impl Layout {
             let op = graph.node(id).op;
             match layout.batches.last_mut() {
                 Some(batch) if batch.op == op && batch.level == level[id.index()] => batch.ids.push(id),
-                _ => layout.batches.push(Batch { level: level[id.index()], op, ids: vec![id], from: 0, to: 0 }),
+                _ => {
+                    layout.batches.push(Batch { level: level[id.index()], op, ids: vec![id], from: 0, to: 0 })
+                }
             }
         }
         let mut segment_of = vec![NOWHERE; graph.len()];
@@ -373,7 +383,8 @@ impl Writer<'_> {
                 (None, Some(b)) => b.level,
                 (None, None) => break,
             };
-            let level_batches: Vec<&Batch> = std::iter::from_fn(|| batches.next_if(|b| b.level == level)).collect();
+            let level_batches: Vec<&Batch> =
+                std::iter::from_fn(|| batches.next_if(|b| b.level == level)).collect();
             let copies: Vec<(Id, u32)> = early
                 .iter()
                 .copied()

@@ -128,10 +128,13 @@ struct Recorder<'a> {
 fn bounds(dist: &Dist<Var>) -> Option<(Option<Var>, Option<Var>)> {
     let c = Var::from_f64;
     Some(match dist {
-        Dist::Gaussian { .. } | Dist::Laplace { .. } | Dist::Cauchy { .. } | Dist::StudentT { .. } => (None, None),
-        Dist::LogNormal { .. } | Dist::Gamma { .. } | Dist::InverseGamma { .. } | Dist::Exponential { .. } => {
-            (Some(c(0.0)), None)
+        Dist::Gaussian { .. } | Dist::Laplace { .. } | Dist::Cauchy { .. } | Dist::StudentT { .. } => {
+            (None, None)
         }
+        Dist::LogNormal { .. }
+        | Dist::Gamma { .. }
+        | Dist::InverseGamma { .. }
+        | Dist::Exponential { .. } => (Some(c(0.0)), None),
         Dist::Beta { .. } => (Some(c(0.0)), Some(c(1.0))),
         Dist::Uniform { lo, hi } | Dist::TruncatedGaussian { lo, hi, .. } => (Some(*lo), Some(*hi)),
         Dist::VonMises { .. } => (Some(c(-PI)), Some(c(PI))),

@@ -87,8 +87,11 @@ impl Tape {
             done.sort_unstable();
             done.dedup();
             // Freed only now: what is written never lies where its arguments are.
-            free.extend(done.iter().filter(|arg| last[arg.index()] == id.0 && graph.node(**arg).op.arity() > 0)
-                .map(|arg| slot[arg.index()]));
+            free.extend(
+                done.iter()
+                    .filter(|arg| last[arg.index()] == id.0 && graph.node(**arg).op.arity() > 0)
+                    .map(|arg| slot[arg.index()]),
+            );
         }
         tape.outputs = outputs.iter().map(|id| slot[id.index()]).collect();
         tape
@@ -125,7 +128,12 @@ impl Tape {
                     // written; unused arguments are slot 0, which is read by no arm that does not take them, and
                     // `to` may be slot 0 only for a tape of no inputs, whose memory is still valid to read.
                     let (a, b, c, to) = unsafe {
-                        (&*base.add(a as usize), &*base.add(b as usize), &*base.add(c as usize), base.add(to as usize))
+                        (
+                            &*base.add(a as usize),
+                            &*base.add(b as usize),
+                            &*base.add(c as usize),
+                            base.add(to as usize),
+                        )
                     };
                     let mut out = [0.0; L];
                     kernels::any(op, a, b, c, &mut out);

@@ -8,14 +8,17 @@ use peers::{Known, drawing, known, peers, plain_choose, recorded, ring, stack, s
 /// Largest difference of two gradients over the largest component.
 fn apart(a: &[f64], b: &[f64]) -> f64 {
     let size = b.iter().fold(1e-300, |m: f64, x| m.max(x.abs()));
-    a.iter().zip(b).fold(0.0, |m: f64, (a, b)| if (a - b).is_nan() { f64::NAN } else { m.max((a - b).abs()) }) / size
+    a.iter().zip(b).fold(0.0, |m: f64, (a, b)| if (a - b).is_nan() { f64::NAN } else { m.max((a - b).abs()) })
+        / size
 }
 
 fn lanes<const L: usize>(tape: &Tape, x: &[f64]) -> (f64, Vec<f64>) {
     let mut memory = tape.lanes::<L>();
     // Other lanes elsewhere: none may leak into another.
-    let points: Vec<[f64; L]> =
-        x.iter().map(|x| std::array::from_fn(|l| if l == L - 1 { *x } else { x + 0.01 * l as f64 })).collect();
+    let points: Vec<[f64; L]> = x
+        .iter()
+        .map(|x| std::array::from_fn(|l| if l == L - 1 { *x } else { x + 0.01 * l as f64 }))
+        .collect();
     let mut g = vec![[0.0; L]; x.len()];
     let value = memory.value_and_gradient(tape, &points, &mut g);
     (value[L - 1], g.iter().map(|g| g[L - 1]).collect())
@@ -27,9 +30,11 @@ fn every_way(density: &Density, x: &[f64]) -> Vec<(&'static str, f64, Vec<f64>)>
     let value = density.interpret(x, &mut g);
     all.push(("interpreter", value, g.clone()));
     let tape = Tape::new(density);
-    for (name, (value, g)) in
-        [("tape of 1", lanes::<1>(&tape, x)), ("tape of 16", lanes::<16>(&tape, x)), ("tape of 64", lanes::<64>(&tape, x))]
-    {
+    for (name, (value, g)) in [
+        ("tape of 1", lanes::<1>(&tape, x)),
+        ("tape of 16", lanes::<16>(&tape, x)),
+        ("tape of 64", lanes::<64>(&tape, x)),
+    ] {
         all.push((name, value, g));
     }
     let mut native = Native::compile(density).expect("machine code for this processor");

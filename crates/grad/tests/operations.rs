@@ -31,7 +31,9 @@ fn total<S: Scalar>(value: &Value<S>) -> S {
         Value::Real(x) => *x,
         Value::Int(n) => S::from_f64(*n as f64),
         Value::Bool(b) => S::from_f64(f64::from(u8::from(*b))),
-        Value::Vector(v) => v.components().iter().fold(zero, |sum, x| sum + *x * S::from_f64(1.7) + sum * sum),
+        Value::Vector(v) => {
+            v.components().iter().fold(zero, |sum, x| sum + *x * S::from_f64(1.7) + sum * sum)
+        }
         Value::Rotation(r) => r.iter().fold(zero, |sum, x| sum * S::from_f64(0.6) + *x),
         Value::List(list) => list.iter().fold(zero, |sum, x| sum * S::from_f64(0.9) + total(x)),
         Value::Tuple(tuple) => tuple.items().iter().fold(zero, |sum, x| sum * S::from_f64(0.9) + total(x)),
@@ -106,9 +108,36 @@ const CASES: &[Case] = cases! {
 
 /// Functions without a real number in them, of text, of positions, or that make what is not scored.
 const WITHOUT: &[&str] = &[
-    "is_none", "in", "band", "bor", "bxor", "invert", "shl", "shr", "index", "slice", "append", "gcd", "factorial",
-    "comb", "argmin_by", "argmax_by", "sorted_by", "enumerate", "zip", "zip_strict", "range", "str", "repr", "format",
-    "fstr", "method", "box", "cylinder", "limb", "mesh",
+    "is_none",
+    "in",
+    "band",
+    "bor",
+    "bxor",
+    "invert",
+    "shl",
+    "shr",
+    "index",
+    "slice",
+    "append",
+    "gcd",
+    "factorial",
+    "comb",
+    "argmin_by",
+    "argmax_by",
+    "sorted_by",
+    "enumerate",
+    "zip",
+    "zip_strict",
+    "range",
+    "str",
+    "repr",
+    "format",
+    "fstr",
+    "method",
+    "box",
+    "cylinder",
+    "limb",
+    "mesh",
 ];
 
 fn recorded(x: &[f64], f: impl FnOnce(&[Var]) -> Var) -> Density {
@@ -121,12 +150,16 @@ fn recorded(x: &[f64], f: impl FnOnce(&[Var]) -> Var) -> Density {
 #[test]
 fn every_builtin_has_the_slope_of_central_differences_or_none_to_have() {
     for (name, plain, noted, x) in CASES {
-        let density = recorded(x, |vars| call(name, &noted(vars)).unwrap_or_else(|fault| panic!("{name}: {fault}")));
+        let density =
+            recorded(x, |vars| call(name, &noted(vars)).unwrap_or_else(|fault| panic!("{name}: {fault}")));
         let mut g = vec![0.0; x.len()];
         let value = density.interpret(x, &mut g);
         let at = |x: &[f64]| call(name, &plain(x)).unwrap_or(f64::NAN);
         let expected = at(x);
-        assert!((value - expected).abs() <= 1e-13 * expected.abs().max(1.0), "{name}({x:?}): {value} {expected}");
+        assert!(
+            (value - expected).abs() <= 1e-13 * expected.abs().max(1.0),
+            "{name}({x:?}): {value} {expected}"
+        );
         for k in 0..x.len() {
             let line = |t: f64| {
                 let mut point = x.to_vec();
@@ -204,8 +237,24 @@ fn random(seed: &mut u64) -> (Graph, Id, Vec<f64>) {
             g.add(one, scaled)
         };
         let unary = [
-            Op::Sqrt, Op::Exp, Op::Log, Op::Log1p, Op::Expm1, Op::Sin, Op::Cos, Op::Tan, Op::Atan, Op::Sinh, Op::Cosh,
-            Op::Tanh, Op::LnGamma, Op::Erf, Op::Erfcx, Op::LnBesselI0e, Op::Neg, Op::Abs,
+            Op::Sqrt,
+            Op::Exp,
+            Op::Log,
+            Op::Log1p,
+            Op::Expm1,
+            Op::Sin,
+            Op::Cos,
+            Op::Tan,
+            Op::Atan,
+            Op::Sinh,
+            Op::Cosh,
+            Op::Tanh,
+            Op::LnGamma,
+            Op::Erf,
+            Op::Erfcx,
+            Op::LnBesselI0e,
+            Op::Neg,
+            Op::Abs,
         ];
         let next = match (unit(seed) * 9.0) as usize {
             0 => g.add(a, b),

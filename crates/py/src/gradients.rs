@@ -6,7 +6,7 @@ use niwaki_grad::{Live, Refused, jax};
 use niwaki_infer::Failure;
 use niwaki_vm::code::Program;
 use niwaki_vm::fault::Fault;
-use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
+use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -31,8 +31,9 @@ impl PyDensity {
     fn point<'a>(&self, py: Python<'_>, x: &'a PyReadonlyArray1<'_, f64>) -> PyResult<&'a [f64]> {
         let dim = self.dim();
         let wrong = |found: &str| {
-            let fault = Fault::new("bad-setting", format!("`x` has {found}, but there are {dim} coordinates"))
-                .with_help(format!("give an array of shape ({dim},)"));
+            let fault =
+                Fault::new("bad-setting", format!("`x` has {found}, but there are {dim} coordinates"))
+                    .with_help(format!("give an array of shape ({dim},)"));
             faults::raise(py, &fault.into(), &self.program)
         };
         let point = x.as_slice().map_err(|_| wrong("gaps in memory"))?;
@@ -59,7 +60,8 @@ impl PyDensity {
     fn choices(&self) -> Vec<(String, &'static str, &'static str, usize, usize)> {
         self.with(|live| {
             let all = live.recorded().choices.iter();
-            all.map(|c| (c.path.clone(), c.family.name(), c.transform.name(), c.first, c.coordinates)).collect()
+            all.map(|c| (c.path.clone(), c.family.name(), c.transform.name(), c.first, c.coordinates))
+                .collect()
         })
     }
 

@@ -116,7 +116,9 @@ impl Fault {
             "no-derivative",
             format!("{what} has no derivative, and the number depends on the continuous choices"),
         )
-        .with_help("keep it out of what the score depends on, or use `mh()` or particles, which need no derivative")
+        .with_help(
+            "keep it out of what the score depends on, or use `mh()` or particles, which need no derivative",
+        )
     }
 
     /// The same fault with a cure.

@@ -112,7 +112,9 @@ impl<S: Scalar> Dist<S> {
             Family::Poisson => {
                 const EXPECTED: &str = "a number from 0 to 1e15";
                 Dist::Poisson {
-                    rate: r.real_where(0, EXPECTED, |x| x >= S::from_f64(0.0) && x <= S::from_f64(counts::LARGEST_RATE))?,
+                    rate: r.real_where(0, EXPECTED, |x| {
+                        x >= S::from_f64(0.0) && x <= S::from_f64(counts::LARGEST_RATE)
+                    })?,
                 }
             }
             Family::Binomial => {
@@ -123,7 +125,9 @@ impl<S: Scalar> Dist<S> {
                 Dist::Binomial { n, p: r.probability(1)? }
             }
             Family::Geometric => {
-                let p = r.real_where(0, "a number above 0 and up to 1", |x| x > S::from_f64(0.0) && x <= S::from_f64(1.0))?;
+                let p = r.real_where(0, "a number above 0 and up to 1", |x| {
+                    x > S::from_f64(0.0) && x <= S::from_f64(1.0)
+                })?;
                 Dist::Geometric { p }
             }
             Family::Uniform => {

@@ -7,11 +7,7 @@ use crate::streams::{RngCore, open_unit};
 /// `-ln(hi - lo)`; both ends belong to the support, since rounding can reach them.
 #[inline]
 pub(super) fn uniform_log_density<S: Scalar>(lo: S, hi: S, x: S) -> S {
-    if x >= lo && x <= hi {
-        -(hi - lo).ln()
-    } else {
-        S::from_f64(f64::NEG_INFINITY)
-    }
+    if x >= lo && x <= hi { -(hi - lo).ln() } else { S::from_f64(f64::NEG_INFINITY) }
 }
 
 /// `lo + (hi - lo) u`.

@@ -87,7 +87,7 @@ pub fn round<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
         (Some(Number::Int(n)), Some(digits)) => numbers::round_int(n, digits).map(Value::Int),
         (Some(Number::Real(x)), None) => {
             super::mathematics::stepped(x, f64::round_ties_even, -0.5, 0.5).map(Value::Int)
-        },
+        }
         (Some(Number::Real(x)), Some(digits)) => {
             if x.varies() {
                 return Err(Fault::no_derivative("`round` to decimals"));
@@ -129,13 +129,10 @@ pub fn sign<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
 /// A real number with the sign of another.
 pub(super) fn with_sign<S: Scalar>(x: S, sign: S) -> S {
     let (value, other) = (x.value(), sign.value());
-    exact_or(
-        value.copysign(other),
-        || {
-            let _ = (x < S::from_f64(0.0), sign < S::from_f64(0.0));
-            if value.is_sign_negative() == other.is_sign_negative() { x } else { -x }
-        },
-    )
+    exact_or(value.copysign(other), || {
+        let _ = (x < S::from_f64(0.0), sign < S::from_f64(0.0));
+        if value.is_sign_negative() == other.is_sign_negative() { x } else { -x }
+    })
 }
 
 #[cfg(test)]

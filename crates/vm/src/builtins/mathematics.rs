@@ -178,7 +178,11 @@ pub fn fmod<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
             print::float(b)
         )));
     }
-    pin(x / y, (a / b).trunc() - f64::from(u8::from(a / b < 0.0)), (a / b).trunc() + f64::from(u8::from(a / b >= 0.0)));
+    pin(
+        x / y,
+        (a / b).trunc() - f64::from(u8::from(a / b < 0.0)),
+        (a / b).trunc() + f64::from(u8::from(a / b >= 0.0)),
+    );
     Ok(Value::Real(exact_or(
         a % b,
         || if b.is_infinite() { x } else { x - y * S::from_f64((a / b).trunc()) },

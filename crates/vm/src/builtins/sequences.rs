@@ -31,7 +31,9 @@ pub fn extreme<S: Scalar>(name: &str, items: &[Value<S>], keys: Option<&[Value<S
     if std::ptr::eq(keys, items) && items.iter().any(|item| matches!(item, Value::Real(x) if x.varies())) {
         // Recorded as one operation, which has a slope on either side; comparing would tie the run to the winner.
         let numbers: Option<Vec<S>> = items.iter().map(|item| Number::of(item).map(Number::real)).collect();
-        if let Some(best) = numbers.and_then(|x| x.into_iter().reduce(if name == "min" { S::min } else { S::max })) {
+        if let Some(best) =
+            numbers.and_then(|x| x.into_iter().reduce(if name == "min" { S::min } else { S::max }))
+        {
             return Ok(Value::Real(best));
         }
     }

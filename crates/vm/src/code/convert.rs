@@ -37,7 +37,9 @@ impl Program<f64> {
 impl<S: Scalar> Value<S> {
     /// The same value over another kind of number. For constants and arguments: it recurses as deep as they nest.
     pub fn convert<T: Scalar>(&self, number: &impl Fn(S) -> T) -> Value<T> {
-        let all = |items: &mut dyn Iterator<Item = &Value<S>>| items.map(|item| item.convert(number)).collect::<Vec<_>>();
+        let all = |items: &mut dyn Iterator<Item = &Value<S>>| {
+            items.map(|item| item.convert(number)).collect::<Vec<_>>()
+        };
         match self {
             Value::None => Value::None,
             Value::Bool(b) => Value::Bool(*b),
@@ -51,7 +53,9 @@ impl<S: Scalar> Value<S> {
             Value::List(list) => Value::list(all(&mut list.iter())),
             Value::Dict(dict) => {
                 let keys = all(&mut dict.keys().iter());
-                Value::Dict(Arc::new(Dict::new(keys.into_iter().zip(all(&mut dict.values().iter())).collect())))
+                Value::Dict(Arc::new(Dict::new(
+                    keys.into_iter().zip(all(&mut dict.values().iter())).collect(),
+                )))
             }
             Value::Record(record) => Value::Record(Arc::new(Record {
                 class: record.class.clone(),
@@ -65,9 +69,10 @@ impl<S: Scalar> Value<S> {
             Value::Rotation(r) => Value::Rotation(Arc::new(r.map(number))),
             Value::Shape(shape) => Value::Shape(shape.clone()),
             Value::Dist(dist) => Value::Dist(Arc::new(dist.convert(number))),
-            Value::Function(f) => {
-                Value::Function(Arc::new(Closure { function: f.function, captures: all(&mut f.captures.iter()) }))
-            }
+            Value::Function(f) => Value::Function(Arc::new(Closure {
+                function: f.function,
+                captures: all(&mut f.captures.iter()),
+            })),
         }
     }
 }

@@ -65,8 +65,7 @@ pub(crate) struct Unit<'m, S: Scalar> {
 pub fn compile<S: Scalar>(module: &Module, data: Vec<Value<S>>) -> Result<Program<S>, CompileError> {
     let effects = Effects::of(module);
     let collections = Collections::of(module, &effects);
-    let mut unit =
-        Unit { module, effects, collections, ids: HashMap::new(), data, functions: Vec::new() };
+    let mut unit = Unit { module, effects, collections, ids: HashMap::new(), data, functions: Vec::new() };
     for (k, literal) in &module.constants {
         let value = constant(literal)?;
         if unit.data.len() <= *k {

@@ -83,8 +83,7 @@ fn leaves_ordered<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Option<Option<Orderi
 /// Equality of two values when no look inside is needed.
 #[inline]
 fn leaves_equal<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Option<bool> {
-    let scalars_equal =
-        |a: &[S], b: &[S]| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a == b);
+    let scalars_equal = |a: &[S], b: &[S]| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a == b);
     if let Some(order) = leaves_ordered(a, b) {
         return Some(order == Some(Ordering::Equal));
     }

@@ -100,7 +100,10 @@ impl<S: Scalar> Trace<S> {
                     }
                     SiteKind::Query => {
                         let [key, written] = f.operands[site.args.range()] else { continue };
-                        each(place, Item::Query(value(key), &self.kept.resolved(&self.state, value(written))));
+                        each(
+                            place,
+                            Item::Query(value(key), &self.kept.resolved(&self.state, value(written))),
+                        );
                     }
                     SiteKind::Force | SiteKind::Cell { .. } | SiteKind::Read => {}
                 }
