@@ -89,8 +89,7 @@ class Sample:
         """The log density around this run over its continuous choices: see `niwaki.log_density`."""
         from niwaki.gradient import LogDensity
 
-        found = self._outcome.choices()
-        choices = [(c[0], c[1]) if len(c) == 2 else (c[1], c[3]) for c in found]
+        choices = [(address, value) for _, address, _, value, _ in self._trace.choices]
         with translated("model"):
             return LogDensity(self._task.density(choices))
 

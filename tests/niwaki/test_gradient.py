@@ -8,10 +8,9 @@ import sys
 import types
 from typing import Any
 
+import niwaki as nw
 import numpy as np
 import pytest
-
-import niwaki as nw
 from niwaki import model
 
 

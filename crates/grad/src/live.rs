@@ -5,7 +5,7 @@
 //! refused: what moves there is not a gradient.
 
 use crate::compiled::Compiled;
-use crate::record::{Recorded, Run, record};
+use crate::record::{HostCall, Recorded, Run, record};
 use crate::scalar::Var;
 use niwaki_vm::code::Program;
 use niwaki_vm::fault::Fault;
@@ -16,7 +16,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 /// Pure functions of the host.
-pub type Host = Arc<dyn Fn(u16, &[Value]) -> Result<Value, Fault> + Send + Sync>;
+pub type Host = Arc<HostCall<'static>>;
 
 /// What is recorded again and again: a program with its arguments.
 #[derive(Clone)]

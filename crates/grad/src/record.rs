@@ -101,6 +101,9 @@ pub struct Recorded {
     unpack: Tape,
 }
 
+/// A call of a pure host function, by the number of the constant that names it.
+pub type HostCall<'a> = dyn Fn(u16, &[Value]) -> Result<Value, Fault> + Send + Sync + 'a;
+
 /// What is recorded.
 pub struct Run<'a> {
     /// The program, over recording numbers: [`Program::over`].
@@ -110,7 +113,7 @@ pub struct Run<'a> {
     /// How much the run may use.
     pub limits: Limits,
     /// Pure functions of the host, by the number of the constant that names them.
-    pub host: &'a dyn Fn(u16, &[Value]) -> Result<Value, Fault>,
+    pub host: &'a HostCall<'a>,
 }
 
 struct Recorder<'a> {
