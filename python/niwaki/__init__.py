@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from niwaki.camera import Camera
     from niwaki.constraints import Residuals, residuals
     from niwaki.errors import InputError, ModelError, ModelFault, NiwakiError
+    from niwaki.gradient import LogDensity, log_density
     from niwaki.lang.plain import run_python
     from niwaki.methods import (
         enumerate_all,
@@ -50,6 +51,7 @@ if TYPE_CHECKING:
 _HOMES = {
     "niwaki.camera": ("Camera",),
     "niwaki.errors": ("InputError", "ModelError", "ModelFault", "NiwakiError"),
+    "niwaki.gradient": ("LogDensity", "log_density"),
     "niwaki.search": ("Progress", "grow", "run"),
     "niwaki.lang.plain": ("run_python",),
     "niwaki.methods": (
@@ -89,6 +91,7 @@ __all__ = [  # noqa: PLE0604
     "ChainResult",
     "Camera",
     "InputError",
+    "LogDensity",
     "ModelError",
     "ModelFault",
     "NiwakiError",
@@ -111,6 +114,7 @@ __all__ = [  # noqa: PLE0604
     "mh",
     "match_image",
     "match_shadow",
+    "log_density",
     "no_self_intersection",
     "overshoot",
     "particle_gibbs",

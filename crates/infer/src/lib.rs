@@ -16,6 +16,7 @@ pub mod chain;
 pub mod enumeration;
 pub mod failure;
 pub mod forward;
+pub mod gradient;
 pub mod hamiltonian;
 pub mod importance;
 pub mod log;
