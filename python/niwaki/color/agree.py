@@ -64,7 +64,7 @@ def contradiction(rules: Rules) -> list[str]:
 def _bounds(rules: Rules) -> Iterator[_Bound]:
     from niwaki.color.rules import LEAST, STEP
 
-    seen = {name for rule in rules for name in (rule.first, rule.second)} | set(rules.pinned)
+    seen = {name for rule in rules for name in (rule.first, rule.second) if name} | set(rules.pinned)
     for name in sorted(seen):
         if name in rules.pinned:
             light = of_hex(rules.pinned[name])[0]
@@ -108,10 +108,11 @@ def _cycle(bounds: list[_Bound], slack: float) -> list[str]:
 
 
 def _chroma(rules: Rules) -> list[str]:
-    """Two pinned colours that are tied together as shades of one, and are not."""
+    """A pinned colour that is tied as a shade to another pinned one, or to a muted region, and is not like it."""
+    muted = {rule.first: rule for rule in rules if rule.kind == "muted"}
     ties = [rule for rule in rules if rule.kind == "same-chroma"]
     for start in rules.pinned:
-        reached = {start: ()}  # the rules that lead from `start` to each region
+        reached: dict[str, tuple[str, ...]] = {start: ()}  # the rules that lead from `start` to each region
         todo = [start]
         while todo:
             here = todo.pop(0)
@@ -122,6 +123,8 @@ def _chroma(rules: Rules) -> list[str]:
                         todo.append(b)
         _, a1, b1 = of_hex(rules.pinned[start])
         for other, path in reached.items():
+            if other in muted and (a1 * a1 + b1 * b1) ** 0.5 > muted[other].most + CHROMA_APART:
+                return [*path, str(muted[other]), f"`{start}` is pinned to {rules.pinned[start]}"]
             if other == start or other not in rules.pinned:
                 continue
             _, a2, b2 = of_hex(rules.pinned[other])

@@ -7,9 +7,14 @@ Each region that is not pinned draws red, green and blue, uniform on [0, 1]. The
     lightness           mean over neighbours: near 0.3 apart where one is the background, 0.2 elsewhere
     lightness relation  sum over rules: 15 units apart, within 5
     same chroma         sum over rules: equal a and b, within 5
-    lighter             sum over rules: at least 12 units apart, within 5 (ours: an order that asks for no more)
 
-Each is the log of a normal density. The means and sums are of different sizes on purpose: rules must hold, the other
+and three of ours, which a designer asks for and the dissertation's rules cannot say:
+
+    lighter             sum over rules: at least 12 units apart, within 5: an order that asks for no more
+    same hue            sum over rules: equal hue, strong or pale
+    muted               sum over rules: no farther from grey than so many units, within 5
+
+Each of the first five is the log of a normal density. The means and sums are of different sizes on purpose: rules must hold, the other
 terms decide among all that keeps them. `weight` is 100 as in the dissertation's own runs (its text leaves it out), which
 makes a rule's width of 5 act like 0.5.
 """
@@ -17,7 +22,7 @@ makes a rule's width of 5 act like 0.5.
 import math
 from typing import NamedTuple
 
-from niwaki import factor, model, soft_at_least, softeq, uniform
+from niwaki import factor, model, soft_at_least, soft_at_most, softeq, uniform
 
 # Below any difference that counts: keeps the slope of a square root finite where two colours are equal.
 TINY = 1e-24
@@ -34,7 +39,7 @@ class Lab(NamedTuple):
 
 
 @model
-def coloring(areas, pairs, lightness, lighter, same_chroma, background, pinned, weight=100.0):
+def coloring(areas, pairs, lightness, lighter, same_chroma, same_hue, muted, background, pinned, weight=100.0):
     """Color the regions of a drawing.
 
     Parameters
@@ -43,8 +48,10 @@ def coloring(areas, pairs, lightness, lighter, same_chroma, background, pinned, 
         The share of the picture of each region.
     pairs
         Neighbours, as pairs of region numbers.
-    lightness, lighter, same_chroma
+    lightness, lighter, same_chroma, same_hue
         Rules, as pairs of region numbers, the lighter one first.
+    muted
+        Rules, as pairs of a region number and the farthest from grey, CIELAB units.
     background
         The number of the background's region; -1 for none.
     pinned
@@ -65,6 +72,10 @@ def coloring(areas, pairs, lightness, lighter, same_chroma, background, pinned, 
         factor(weight * one_chroma(labs[i], labs[j]))
     for i, j in lighter:
         factor(weight * at_least_lighter(labs[i], labs[j]))
+    for i, j in same_hue:
+        factor(weight * one_hue(labs[i], labs[j]))
+    for i, most in muted:
+        factor(weight * near_grey(labs[i], most))
     return colors
 
 
@@ -101,6 +112,19 @@ def one_chroma(one, two):
     """Two colors are shades of one."""
     da, db = one.a - two.a, one.b - two.b
     return softeq(math.sqrt(da * da + db * db + TINY) / WIDEST, 0.0, 5.0 / WIDEST)
+
+
+def one_hue(one, two):
+    """Two colors have one hue: their directions from grey are the same; within 1 unit of grey that is loose."""
+    u = 1.0 / math.sqrt(one.a * one.a + one.b * one.b + 1.0)
+    v = 1.0 / math.sqrt(two.a * two.a + two.b * two.b + 1.0)
+    da, db = u * one.a - v * two.a, u * one.b - v * two.b
+    return softeq(math.sqrt(da * da + db * db + TINY), 0.0, 0.5)
+
+
+def near_grey(c, most):
+    """A color is no farther from grey than so many units."""
+    return soft_at_most(math.sqrt(c.a * c.a + c.b * c.b + TINY) / 100.0, most / 100.0, 5.0 / 100.0)
 
 
 def saturation(c):

@@ -18,7 +18,7 @@ import numpy as np
 from niwaki.color import lab
 from niwaki.color.drawing import Drawing
 from niwaki.color.model import coloring
-from niwaki.color.rules import LEAST, STEP, Rule, Rules
+from niwaki.color.rules import Rule, Rules
 from niwaki.errors import InputError
 from niwaki.methods import Method, Mh, at_least_one
 
@@ -37,8 +37,9 @@ SCORED = {
     "lightness_relation": ("lightness", 100.0),
     "at_least_lighter": ("lighter", 100.0),
     "one_chroma": ("same-chroma", 282.9),
+    "one_hue": ("same-hue", 57.3),
+    "near_grey": ("muted", 100.0),
 }
-WANTED = {"lightness": STEP, "lighter": LEAST, "same-chroma": 0.0}
 
 
 @dataclass(frozen=True)
@@ -50,9 +51,10 @@ class Kept:
     rule : Rule
         Which.
     wanted, found : float
-        The difference in lightness, or for shades of one colour the distance in a and b; CIELAB units.
+        The difference in lightness, the distance in a and b, or the distance from grey, CIELAB units; for a hue the
+        angle between, degrees.
     residual : float
-        How far it is from holding; CIELAB units, 0 where it holds.
+        How far it is from holding, in the same units; 0 where it holds.
     """
 
     rule: Rule
@@ -109,7 +111,7 @@ class Coloring:
                 found[place[2], int(place[1])] = one
         rows, count = [], dict.fromkeys(SCORED, 0)
         function_of = {kind: name for name, (kind, _) in SCORED.items()}
-        for rule in self.rules:
+        for rule in self.rules.on(self.drawing.names):
             name = function_of[rule.kind]
             one, units = found[name, count[name]], SCORED[name][1]
             count[name] += 1
@@ -127,9 +129,10 @@ def arguments(drawing: Drawing, rules: Rules, weight: float = 100.0) -> tuple[An
     """
     rules.check(drawing.names)
     number = {name: k for k, name in enumerate(drawing.names)}
-    by_kind: dict[str, list[tuple[int, int]]] = {kind: [] for kind in WANTED}
-    for rule in rules:
-        by_kind[rule.kind].append((number[rule.first], number[rule.second]))
+    by_kind: dict[str, list[tuple[int, float]]] = {kind: [] for kind, _ in SCORED.values()}
+    for rule in rules.on(drawing.names):
+        other = rule.most if rule.kind == "muted" else number[rule.second]
+        by_kind[rule.kind].append((number[rule.first], other))
     background = number[rules.background] if rules.background is not None else drawing.background
     pinned = [lab.parts(rules.pinned[name]) if name in rules.pinned else None for name in drawing.names]
     return (
@@ -138,6 +141,8 @@ def arguments(drawing: Drawing, rules: Rules, weight: float = 100.0) -> tuple[An
         by_kind["lightness"],
         by_kind["lighter"],
         by_kind["same-chroma"],
+        by_kind["same-hue"],
+        by_kind["muted"],
         -1 if background is None else background,
         pinned,
         weight,
