@@ -17,8 +17,8 @@ from niwaki.color.lab import of_hex
 if TYPE_CHECKING:
     from niwaki.color.rules import Rules
 
-#: A `lightness` rule that is off by this much, in units of lightness, is no longer kept in kind: its order is gone.
-ORDER_LOST = 15.0
+#: Of a rule about lightness so much must be left, in units, for its order to be seen.
+LEFT = 0.1
 #: Pinned shades of one colour may differ by this much in a and b.
 CHROMA_APART = 15.0
 GROUND = ""
@@ -26,13 +26,19 @@ GROUND = ""
 
 @dataclass(frozen=True)
 class _Bound:
-    """`L(high) - L(low) <= most + give * slack`."""
+    """`L(high) - L(low) <= most`, which may be loosened by `give` before the rule's order is gone; 0 for facts."""
 
     high: str
     low: str
     most: float
     give: float
     why: str
+
+    def loose(self, slack: float | None) -> float:
+        """The bound, looser by `slack` if it is a rule's; by all that it can give where that is None."""
+        if slack is None:
+            return self.most + self.give
+        return self.most + (slack if self.give else 0.0)
 
 
 def least_slack(rules: Rules) -> tuple[float, list[str]]:
@@ -55,10 +61,7 @@ def contradiction(rules: Rules) -> list[str]:
     for rule in rules:
         if rule.first == rule.second:
             return [f"{rule}"]
-    slack, found = least_slack(rules)
-    if slack > ORDER_LOST - 1e-6:
-        return found
-    return _chroma(rules)
+    return list(dict.fromkeys(_cycle(list(_bounds(rules)), None))) or _chroma(rules)
 
 
 def _bounds(rules: Rules) -> Iterator[_Bound]:
@@ -76,13 +79,13 @@ def _bounds(rules: Rules) -> Iterator[_Bound]:
             yield _Bound(GROUND, name, 0.0, 0.0, f"`{name}` is no darker than black")
     for rule in rules:
         if rule.kind == "lightness":
-            yield _Bound(rule.first, rule.second, STEP, 1.0, str(rule))
-            yield _Bound(rule.second, rule.first, -STEP, 1.0, str(rule))
+            yield _Bound(rule.first, rule.second, STEP, STEP - LEFT, str(rule))
+            yield _Bound(rule.second, rule.first, -STEP, STEP - LEFT, str(rule))
         elif rule.kind == "lighter":
-            yield _Bound(rule.second, rule.first, -LEAST, 1.0, str(rule))
+            yield _Bound(rule.second, rule.first, -LEAST, LEAST - LEFT, str(rule))
 
 
-def _cycle(bounds: list[_Bound], slack: float) -> list[str]:
+def _cycle(bounds: list[_Bound], slack: float | None) -> list[str]:
     """The reasons of a cycle of bounds that adds up to less than 0; none if there is no such cycle."""
     names = {GROUND} | {name for one in bounds for name in (one.high, one.low)}
     best = dict.fromkeys(names, 0.0)
@@ -91,7 +94,7 @@ def _cycle(bounds: list[_Bound], slack: float) -> list[str]:
     for _ in range(len(names) + 1):
         last = None
         for one in bounds:
-            reached = best[one.low] + one.most + one.give * slack
+            reached = best[one.low] + one.loose(slack)
             if reached < best[one.high] - 1e-12:
                 best[one.high], came[one.high], last = reached, one, one.high
         if last is None:

@@ -11,12 +11,13 @@ import re
 from dataclasses import dataclass
 from functools import cached_property
 from os import PathLike
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from niwaki.color import lab
-from niwaki.color.drawing import Drawing
+from niwaki.color.drawing import OWN, Drawing
 from niwaki.color.model import coloring
 from niwaki.color.rules import Rule, Rules
 from niwaki.errors import InputError
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
     from PIL import Image
 
     from niwaki.constraints import Constraint, Residuals
-    from niwaki.infer import Progress
+    from niwaki.search import Progress
     from niwaki.result import Sample
 
 # The functions of the model that score a rule, and what makes their residuals units of CIELAB.
@@ -194,11 +195,11 @@ def color(
     >>> sorted(one.colors) == sorted(two.colors), one.colors["wing"] != two.colors["wing"]
     (True, True)
     """
-    from niwaki.infer import run
+    from niwaki.search import run
 
     count = at_least_one("count", count)
     if rules is None:
-        rules = Rules.load(drawing) if isinstance(drawing, str) and drawing in _own() else Rules()
+        rules = Rules() if isinstance(drawing, Drawing) else rules_of(drawing)
     if not isinstance(drawing, Drawing):
         drawing = Drawing.load(drawing)
     if not isinstance(rules, Rules):
@@ -266,7 +267,7 @@ def farthest(
     return [int(best[k]) for k in chosen]
 
 
-def _own() -> set[str]:
-    from niwaki.color.drawing import OWN
-
-    return {path.stem for path in OWN.glob("*.svg")}
+def rules_of(drawing: str | PathLike[str]) -> Rules:
+    """The rules of one of our own drawings, by its name; none for any other."""
+    named = not Path(drawing).exists() and (OWN / f"{drawing}.toml").is_file()
+    return Rules.load(OWN / f"{drawing}.toml") if named else Rules()

@@ -20,7 +20,6 @@ import numpy as np
 from PIL import Image
 
 from niwaki.color.styles import INITIAL, SelectorError, Styles, declarations, tag_of
-from niwaki.errors import InputError
 from niwaki.file_errors import FileError
 
 if TYPE_CHECKING:
@@ -201,18 +200,20 @@ def raster(text: str, size: int, place: str | Path | None = None) -> Image.Image
 
     Raises
     ------
-    InputError
-        resvg is not installed.
+    FileError
+        resvg is not installed, or cannot read it.
     """
     try:
         import resvg_py
     except ImportError:
-        raise InputError("missing-extra", package="resvg_py", extra="color", what="drawing SVG files") from None
+        raise FileError("missing-extra", task="drawing SVG files", extra="color") from None
     try:
-        first = _open(resvg_py.svg_to_bytes(svg_string=text, width=size))
-        if first.height <= size and first.width <= size:
+        # Reading the system's fonts takes longer than the rest.
+        plain = "<text" not in text
+        first = _open(resvg_py.svg_to_bytes(svg_string=text, width=size, skip_system_fonts=plain))
+        if first.height <= size:
             return first
-        return _open(resvg_py.svg_to_bytes(svg_string=text, height=size))
+        return _open(resvg_py.svg_to_bytes(svg_string=text, height=size, skip_system_fonts=plain))
     except (ValueError, RuntimeError) as error:
         raise FileError("file-unreadable", place, suffix=".svg", reason=str(error)) from error
 

@@ -7,5 +7,6 @@ writing.py   which files a result becomes
 grow.py      `niwaki grow`: a search, written to a folder
 replay.py    `niwaki replay`: a result once more, in any format
 models.py    `niwaki models`: the gallery
+color.py     `niwaki color`: a drawing in colours that differ
 check.py     `niwaki check`: what a model is made of, with advice
 """
