@@ -1,4 +1,4 @@
-"""Colouring vector art: a drawing, rules about its regions, and colours that keep them (dissertation 4.5, appendix B.1).
+"""Coloring art: a drawing, rules about its regions, and colours that keep them (dissertation 4.5, appendix B.1).
 
 drawing    what is coloured: regions, their areas, which lie next to which
 svg        the regions of an SVG file, and the file painted

@@ -115,7 +115,9 @@ class Drawing:
 
     def __repr__(self) -> str:
         height, width = self.labels.shape
-        return f"<Drawing: {len(self.names)} regions, {len(self.pairs)} pairs of neighbours, {width} x {height}>"
+        return (
+            f"<Drawing: {len(self.names)} regions, {len(self.pairs)} pairs of neighbours, {width} x {height}>"
+        )
 
 
 def neighbours(labels: NDArray[np.int64], count: int, near: int = NEAR) -> list[tuple[int, int]]:

@@ -14,9 +14,9 @@ and three of ours, which a designer asks for and the dissertation's rules cannot
     same hue            sum over rules: equal hue, strong or pale
     muted               sum over rules: no farther from grey than so many units, within 5
 
-Each of the first five is the log of a normal density. The means and sums are of different sizes on purpose: rules must hold, the other
-terms decide among all that keeps them. `weight` is 100 as in the dissertation's own runs (its text leaves it out), which
-makes a rule's width of 5 act like 0.5.
+Each of the first five is the log of a normal density. The means and sums are of different sizes on purpose: rules must
+hold, the other terms decide among all that keeps them. `weight` is 100 as in the dissertation's own runs (its text
+leaves it out), which makes a rule's width of 5 act like 0.5.
 """
 
 import math
@@ -39,7 +39,9 @@ class Lab(NamedTuple):
 
 
 @model
-def coloring(areas, pairs, lightness, lighter, same_chroma, same_hue, muted, background, pinned, weight=100.0):
+def coloring(
+    areas, pairs, lightness, lighter, same_chroma, same_hue, muted, background, pinned, weight=100.0
+):
     """Color the regions of a drawing.
 
     Parameters
@@ -93,9 +95,7 @@ def apart(one, two, on_background):
     """How well two neighbours can be told apart."""
     dl, da, db = one.l - two.l, one.a - two.a, one.b - two.b
     distance = math.sqrt(dl * dl + da * da + db * db + TINY)
-    return softeq(distance / FARTHEST, 0.3, 0.2) + softeq(
-        abs(dl) / 100.0, 0.3 if on_background else 0.2, 0.4
-    )
+    return softeq(distance / FARTHEST, 0.3, 0.2) + softeq(abs(dl) / 100.0, 0.3 if on_background else 0.2, 0.4)
 
 
 def lightness_relation(light, dark):

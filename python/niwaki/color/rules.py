@@ -1,17 +1,17 @@
 """What is asked of the regions of a drawing; a small TOML file.
 
-    background = "sky"                            # one region; else the one that holds the picture's edge
-    lightness = [["wall", "wall-shade", "ink"]]   # each about 15 units of CIELAB lightness above the next
-    lighter = [["wall", "roof"]]                  # each at least 12 units above the next
-    same-chroma = [["wall", "wall-shade"]]        # shades of one colour: equal a and b
-    same-hue = [["roof", "door"]]                 # strong or pale, but of one hue
+background = "sky"                            # one region; else the one that holds the picture's edge
+lightness = [["wall", "wall-shade", "ink"]]   # each about 15 units of CIELAB lightness above the next
+lighter = [["wall", "roof"]]                  # each at least 12 units above the next
+same-chroma = [["wall", "wall-shade"]]        # shades of one colour: equal a and b
+same-hue = [["roof", "door"]]                 # strong or pale, but of one hue
 
-    [muted]                                       # how far from grey, most; CIELAB units
-    all = 60                                      # what has no number of its own
-    sky = 30
+[muted]                                       # how far from grey, most; CIELAB units
+all = 60                                      # what has no number of its own
+sky = 30
 
-    [pinned]
-    ink = "#1a1a2e"                               # a colour that is not to change
+[pinned]
+ink = "#1a1a2e"                               # a colour that is not to change
 """
 
 from __future__ import annotations
@@ -142,7 +142,9 @@ class Rules:
         for name, most in muted.items():
             if isinstance(most, bool) or not isinstance(most, int | float) or not 0 <= most <= 200:
                 raise FileError(
-                    "rules-unclear", place, reason=f"`{name}` is muted to {most!r}, not to a number from 0 to 200"
+                    "rules-unclear",
+                    place,
+                    reason=f"`{name}` is muted to {most!r}, not to a number from 0 to 200",
                 )
         if not isinstance(pinned, dict):
             raise FileError("rules-unclear", place, reason="`pinned` is not a table of colours by region")

@@ -30,8 +30,8 @@ if TYPE_CHECKING:
     from PIL import Image
 
     from niwaki.constraints import Constraint, Residuals
-    from niwaki.search import Progress
     from niwaki.result import Sample
+    from niwaki.search import Progress
 
 # The functions of the model that score a rule, and what makes their residuals units of CIELAB.
 SCORED = {
@@ -238,7 +238,10 @@ def color(
 
 
 def farthest(
-    labs: NDArray[np.float64], scores: NDArray[np.float64], areas: Sequence[float] | NDArray[np.float64], count: int
+    labs: NDArray[np.float64],
+    scores: NDArray[np.float64],
+    areas: Sequence[float] | NDArray[np.float64],
+    count: int,
 ) -> list[int]:
     """Choose colourings that differ, the best first.
 

@@ -234,7 +234,10 @@ def _parsed(text: bytes, place: str | Path | None) -> Element:
         raise FileError("file-unreadable", place, suffix=".svg", reason=f"it is not XML: {error}") from error
     if tag_of(root) != "svg":
         raise FileError(
-            "file-unreadable", place, suffix=".svg", reason=f"its outermost element is `{tag_of(root)}`, not `svg`"
+            "file-unreadable",
+            place,
+            suffix=".svg",
+            reason=f"its outermost element is `{tag_of(root)}`, not `svg`",
         )
     return root
 

@@ -52,7 +52,9 @@ def test_neighbours_agree_with_looking_at_each_pair_of_pixels() -> None:
 
 
 def test_areas_are_shares_of_the_whole_picture(tmp_path: Path) -> None:
-    found = drawing(tmp_path, '<rect class="a" width="50" height="40"/><rect class="b" x="50" width="30" height="40"/>')
+    found = drawing(
+        tmp_path, '<rect class="a" width="50" height="40"/><rect class="b" x="50" width="30" height="40"/>'
+    )
     assert found.names == ("a", "b")
     assert found.areas == pytest.approx([0.2, 0.12])
     assert found.pairs == [(0, 1)]
@@ -106,7 +108,8 @@ def test_each_use_may_have_a_region_of_its_own(tmp_path: Path) -> None:
         tmp_path,
         '<defs><rect id="tile" width="10" height="10"/>'
         '<symbol id="sign" viewBox="0 0 10 10"><circle r="5" cx="5" cy="5"/></symbol></defs>'
-        '<use href="#tile" class="a" x="0" y="0"/><use xlink:href="#tile" class="b" transform="translate(20 0) scale(2)"/>'
+        '<use href="#tile" class="a" x="0" y="0"/>'
+        '<use xlink:href="#tile" class="b" transform="translate(20 0) scale(2)"/>'
         '<use class="c" href="#sign" x="50" y="50" width="40" height="40"/>',
     )
     assert found.names == ("a", "b", "c")
@@ -143,7 +146,9 @@ def test_painting_changes_regions_and_nothing_else(tmp_path: Path) -> None:
 
 
 def test_what_covers_a_region_hides_it(tmp_path: Path) -> None:
-    found = drawing(tmp_path, '<rect class="a" width="9" height="9"/><rect class="b" width="99" height="99"/>')
+    found = drawing(
+        tmp_path, '<rect class="a" width="9" height="9"/><rect class="b" width="99" height="99"/>'
+    )
     assert found.hidden == ("a",)
 
 
@@ -165,9 +170,7 @@ def test_our_own_drawings_have_ten_to_twenty_regions_all_seen(name: str) -> None
         ("<g>", "file-unreadable", "not XML"),
         (
             "<defs>"
-            + "".join(
-                f'<g id="g{k}">' + f'<use href="#g{k + 1}"/>' * 10 + "</g>" for k in range(9)
-            )
+            + "".join(f'<g id="g{k}">' + f'<use href="#g{k + 1}"/>' * 10 + "</g>" for k in range(9))
             + '<g id="g9"/></defs><use href="#g0"/>',
             "drawing-unclear",
             "more than 20000 shapes",

@@ -13,7 +13,18 @@ from niwaki.color.model import to_lab
 
 # The dissertation's drawings as chains of regions, light to dark: lightness, then chroma (its author's data).
 ROBOT = (
-    [[1, 4, 11], [1, 10, 6], [4, 5], [14, 13, 15], [9, 8, 18], [10, 17], [6, 12], [7, 3], [16, 17, 3], [0, 2]],
+    [
+        [1, 4, 11],
+        [1, 10, 6],
+        [4, 5],
+        [14, 13, 15],
+        [9, 8, 18],
+        [10, 17],
+        [6, 12],
+        [7, 3],
+        [16, 17, 3],
+        [0, 2],
+    ],
     [[4, 5], [7, 3], [9, 8, 18], [14, 13, 15], [0, 2]],
 )
 HOUSE = (
@@ -46,7 +57,8 @@ def pairs(chains: list[list[int]]) -> list[tuple[int, int]]:
 
 def colors_of(count: int) -> list[tuple[float, float, float]]:
     return [
-        ((37 * i + 11) % 101 / 100, (53 * i + 29) % 101 / 100, (71 * i + 47) % 101 / 100) for i in range(count)
+        ((37 * i + 11) % 101 / 100, (53 * i + 29) % 101 / 100, (71 * i + 47) % 101 / 100)
+        for i in range(count)
     ]
 
 
@@ -91,8 +103,8 @@ def ring_score(rgb, weight):
     colors = lab.of_rgb(rgb)
     light, chroma = colors[:, 0], np.hypot(colors[:, 1], colors[:, 2])
     saturation = sum(
-        log_normal_density(c / math.hypot(c, l), 0.3 if i == 0 else 0.7, 1.0) / 6
-        for i, (c, l) in enumerate(zip(chroma, light, strict=True))
+        log_normal_density(c / math.hypot(c, high), 0.3 if i == 0 else 0.7, 1.0) / 6
+        for i, (c, high) in enumerate(zip(chroma, light, strict=True))
     )
     apart = 0.0
     for i in range(6):
