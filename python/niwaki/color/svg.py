@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 SVG = "http://www.w3.org/2000/svg"
 XLINK = "http://www.w3.org/1999/xlink"
 SHAPES = {"path", "rect", "circle", "ellipse", "line", "polyline", "polygon", "text"}
+NO_PAINT = ("none", "transparent")
 GROUPS = {"svg", "g", "a", "switch"}
 # A file whose `use`s copy more than this is hostile, or made by a machine for machines.
 MOST_SHAPES = 20_000
@@ -46,11 +47,11 @@ PLAIN = {
 
 @dataclass(frozen=True)
 class Shape:
-    """One painted shape: the regions of its fill and of its stroke; empty where it has none of that paint."""
+    """One painted shape: the regions of its fill and its stroke; None without that paint, empty without a name."""
 
     element: Element
-    fill: str
-    stroke: str
+    fill: str | None
+    stroke: str | None
 
 
 class Artwork:
@@ -95,15 +96,16 @@ class Artwork:
         root = deepcopy(self._tree)
         copies = {id(old): new for old, new in zip(self._tree.iter(), root.iter(), strict=True)}
         if plain:
-            named = {id(shape.element) for shape in self._shapes}
-            for old, new in copies.items():
-                _flatten(new, old in named)
+            for new in copies.values():
+                _flatten(new)
         for shape in self._shapes:
             element = copies[id(shape.element)]
             style = declarations(element.get("style", ""))
             for key, region in (("fill", shape.fill), ("stroke", shape.stroke)):
-                if region in colors:
+                if region is not None and region in colors:
                     style[key] = colors[region]
+                elif plain and region == "":
+                    style[key] = "#000000"
             element.set("style", _written(style))
         for one in root.iter():
             # A sheet's `!important` would win over what was just painted.
@@ -186,9 +188,9 @@ class Artwork:
         name = by_class or by_id
         if style["visibility"] != "visible":
             return
-        fill = name if style["fill"] not in ("none", "transparent") and tag != "line" else ""
-        stroke = element.get("data-stroke", name) if style["stroke"] not in ("none", "transparent") else ""
-        if fill or stroke:
+        fill = name if style["fill"] not in NO_PAINT and tag != "line" else None
+        stroke = element.get("data-stroke", name) if style["stroke"] not in NO_PAINT else None
+        if fill is not None or stroke is not None:
             self._shapes.append(Shape(element, fill, stroke))
 
 
@@ -242,7 +244,7 @@ def _parsed(text: bytes, place: str | Path | None) -> Element:
     return root
 
 
-def _flatten(element: Element, named: bool) -> None:
+def _flatten(element: Element) -> None:
     tag = tag_of(element)
     if tag not in SHAPES | GROUPS | {"tspan", "image"}:
         return

@@ -145,6 +145,16 @@ def test_painting_changes_regions_and_nothing_else(tmp_path: Path) -> None:
     assert Artwork(text.encode()).names == ("a", "b")
 
 
+def test_shapes_without_a_name_belong_to_no_region(tmp_path: Path) -> None:
+    found = drawing(
+        tmp_path,
+        '<rect class="a" width="50" height="100"/><rect class="b" x="50" width="50" height="100"/>'
+        '<path d="M40 40h20v20h-20z" fill="#123456"/><path d="M20 20h2v2h-2z" fill="none" stroke="red"/>',
+    )
+    assert (found.labels[40:60, 40:60] == -1).all() and found.areas.sum() < 0.96
+    assert found.picture({"a": "#ffffff"}, 100).getpixel((50, 50)) == (0x12, 0x34, 0x56, 255)
+
+
 def test_what_covers_a_region_hides_it(tmp_path: Path) -> None:
     found = drawing(
         tmp_path, '<rect class="a" width="9" height="9"/><rect class="b" width="99" height="99"/>'
