@@ -1,7 +1,7 @@
 """Colourings of a drawing that keep its rules and differ from one another.
 
-The compatibility model is sampled by Markov chains, each from a start of its own; of the better half of what they find
-the colourings are chosen one by one, each as far as can be in CIELAB from those already chosen (farthest-point choice,
+The compatibility model is sampled by Markov chains, each from a start of its own; what they find is moved uphill until
+rules are kept; of the better half of that the colourings are chosen one by one, each as far as can be in CIELAB from those already chosen (farthest-point choice,
 Gonzalez 1985).
 """
 
@@ -20,6 +20,7 @@ from niwaki.color import lab
 from niwaki.color.drawing import OWN, Drawing
 from niwaki.color.model import coloring
 from niwaki.color.rules import Rule, Rules
+from niwaki.color.settle import settled
 from niwaki.errors import InputError
 from niwaki.methods import Method, Mh, at_least_one
 
@@ -152,7 +153,7 @@ def arguments(drawing: Drawing, rules: Rules, weight: float = 100.0) -> tuple[An
 
 def default_method(count: int) -> Method:
     """How colourings are searched for where nobody said."""
-    return Mh(steps=8_000, chains=2 * count, warmup=4_000, keep=4)
+    return Mh(steps=400, chains=3 * count, warmup=200, keep=1)
 
 
 def color(
@@ -161,6 +162,7 @@ def color(
     count: int = 12,
     *,
     method: Method | None = None,
+    settle: int = 200,
     weight: float = 100.0,
     seed: int | None = None,
     threads: int | None = None,
@@ -178,6 +180,9 @@ def color(
         How many colourings.
     method
         A sampler; it gives the colourings to choose among. Markov chains by default.
+    settle
+        Steps uphill from each of them, until the rules are kept as well as they can be nearby (`niwaki.color.settle`);
+        0 for none, where the sampler's own draws are wanted.
     weight
         What the model's log score is multiplied with: the larger, the stricter.
     seed, threads, progress
@@ -213,7 +218,8 @@ def color(
         threads=threads,
         progress=progress,
     )
-    pool = [sample for sample in result if sample.has_ended and np.isfinite(sample.log_score)]
+    drawn = [sample for sample in result if sample.has_ended and np.isfinite(sample.log_score)]
+    pool = [run(coloring, *given, choices=settled(one, settle))[0] for one in drawn] if settle else drawn
     if len(pool) < count:
         raise InputError(
             "bad-setting",
