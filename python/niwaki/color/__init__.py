@@ -7,6 +7,8 @@ rules      what is asked of the regions; a small TOML file
 agree      whether rules can hold together, and which ones cannot
 model      the compatibility model
 search     colourings that differ
+settle     a colouring moved uphill until its rules are kept
+lab        CIELAB as the model sees it
 files      SVG, PNG, a sheet, the residuals
 drawings/  four drawings of our own, with rules
 """

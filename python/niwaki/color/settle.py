@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 #: Length of a step in logits, at first and at last; colours are on a logistic scale.
 FIRST, LAST = 0.1, 0.003
 SLOPE_MEMORY, SIZE_MEMORY = 0.9, 0.99
+#: Colours of this many digits; none is at the ends, where a logit has no end.
+DIGITS, GRAIN = 6, 1e-6
 
 
 def settled(sample: Sample, steps: int) -> dict[str, Any]:
@@ -46,5 +48,7 @@ def settled(sample: Sample, steps: int) -> dict[str, Any]:
         even = slope / (1.0 - SLOPE_MEMORY ** (k + 1))
         scale = np.sqrt(size / (1.0 - SIZE_MEMORY ** (k + 1))) + 1e-9
         x = x + FIRST * (LAST / FIRST) ** (k / steps) * even / scale
-    values = 1.0 / (1.0 + np.exp(-kept))
+    # Rounded far below what is seen: the engine's tape and its machine code, which takes over when it is ready, agree
+    # to rounding only, and a seed is to give the same colours.
+    values = np.round(np.clip(1.0 / (1.0 + np.exp(-kept)), GRAIN, 1.0 - GRAIN), DIGITS)
     return {choice.name: float(values[choice.first]) for choice in density.choices}
