@@ -1,8 +1,8 @@
 """Colourings of a drawing that keep its rules and differ from one another.
 
 The compatibility model is sampled by Markov chains, each from a start of its own; what they find is moved uphill until
-rules are kept; of the better half of that the colourings are chosen one by one, each as far as can be in CIELAB from those already chosen (farthest-point choice,
-Gonzalez 1985).
+rules are kept; of the better half of that the colourings are chosen one by one, each as far as can be in CIELAB from
+those already chosen (farthest-point choice, Gonzalez 1985).
 """
 
 from __future__ import annotations

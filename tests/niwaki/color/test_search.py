@@ -102,3 +102,28 @@ def test_the_command_writes_what_it_says(small, tmp_path) -> None:
         rows = list(csv.reader(file))
     assert rows[0] == ["rule", "first", "second", "wanted", "01", "02"] and len(rows) == 8
     assert rows[1][:4] == ["lightness", "wall", "roof", "15"]
+
+
+def test_moving_uphill_keeps_rules_better_and_pinned_colours_as_they_are(small, tmp_path) -> None:
+    rules = Rules.load(tmp_path / "rules.toml")
+    left, moved = (color(small, rules, 3, method=QUICK, settle=steps, seed=1) for steps in (0, 200))
+    assert min(one.log_score for one in moved) > max(one.log_score for one in left)
+    worst = [max(abs(kept.residual) for one in found for kept in one.kept) for found in (left, moved)]
+    assert worst[1] < 0.2 * worst[0]
+    assert {one.colors["wall"] for one in moved} == {"#e8d9b0"}
+
+
+@pytest.mark.parametrize("name", ["robot", "house", "bug", "rocket"])
+def test_twelve_colourings_of_our_drawings_keep_the_rules_and_differ(name: str) -> None:
+    found = color(name, count=12, seed=2)
+    for one in found:
+        for kept in one.kept:
+            # Three of the widths that rules act with: 0.5 CIELAB units, and 3 degrees of hue.
+            limit = 9.0 if kept.rule.kind == "same-hue" else 1.5
+            assert abs(kept.residual) < limit, kept
+    labs = np.array([[lab.of_hex(code) for code in one.colors.values()] for one in found])
+    weights = np.sqrt(found[0].drawing.areas)
+    for k in range(12):
+        for j in range(k):
+            # 10 units are a difference that nobody misses.
+            assert np.linalg.norm(labs[k] - labs[j], axis=1) @ weights / weights.sum() > 10.0
