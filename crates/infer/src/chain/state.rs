@@ -91,7 +91,7 @@ impl State {
             // The last visits, so that no proposal has their numbers.
             let (key, mut spreads) = (streams.fresh(u64::MAX - attempt), HashMap::new());
             let mut answers = Fresh { key, known, hosts: &*task.hosts, spreads: Some(&mut spreads) };
-            let (trace, change) = machine.begin(&task.args, &mut answers)?;
+            let (trace, change) = task.begin(&mut machine, &mut answers)?;
             let mut state = State {
                 trace,
                 sketches: Sketches::start(&task.sketches),
