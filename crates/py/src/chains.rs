@@ -162,7 +162,8 @@ impl PyChains {
         all.named(program).into_iter().map(row).collect()
     }
 
-    /// Sums over the chains: proposals, activations entered, calls skipped, instructions, choices and bytes held.
+    /// Sums over the chains: proposals, activations entered, calls skipped, instructions, primitives that were taken out
+    /// of the scene or put into it (`moved`); primitives, choices and bytes held.
     fn counters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let chains = self.lock();
         let facts = PyDict::new(py);
@@ -173,6 +174,8 @@ impl PyChains {
         facts.set_item("entered", sum(|c| c.state.trace.counters().entered))?;
         facts.set_item("skipped", sum(|c| c.state.trace.counters().skipped))?;
         facts.set_item("instructions", sum(|c| c.state.trace.counters().instructions))?;
+        facts.set_item("moved", sum(|c| c.state.moved))?;
+        facts.set_item("primitives", sum(|c| c.state.primitives as u64))?;
         facts.set_item("choices", sum(|c| c.state.trace.len() as u64))?;
         facts.set_item("bytes", sum(|c| c.state.trace.bytes() as u64))?;
         facts.set_item("many_proposed", sum(|c| c.counts.many.proposed))?;

@@ -24,7 +24,7 @@ def explain(
     """Draw which calls of MODEL a proposal makes each strategy run, go on with, skip, make and take away."""
     from niwaki.draw.reuse import WORDS, counts, draw
     from niwaki.finding import find
-    from niwaki.infer import explain as explained
+    from niwaki.search import explain as explained
 
     found = find(model)
     told = explained(found.model, choice, seed=seed)

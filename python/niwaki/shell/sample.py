@@ -18,7 +18,7 @@ from niwaki.shell.app import Folder, ModelName, app, made_folder
 
 if TYPE_CHECKING:
     from niwaki.finding import Found
-    from niwaki.infer import Progress
+    from niwaki.search import Progress
     from niwaki.mh_result import ChainResult
 
 
