@@ -313,6 +313,7 @@ def agreement(
     warmup: int = 0,
 ) -> tuple[str | None, int, int, int]: ...
 def explain(task: Task, seed: int, address: str, tries: int = 1000) -> dict[str, Any]: ...
+
 @final
 class Chains:
     def __new__(

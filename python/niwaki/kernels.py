@@ -129,7 +129,7 @@ def block(step: float = 0.2, share: float = 1.0, target: float = 0.234) -> Kerne
 
 
 def regenerate(levels: int = 0) -> Kernel:
-    """A call and all that it makes are drawn anew: the one that stands `levels` calls or loop iterations above a choice."""
+    """A call and all that it makes are drawn anew: the one that stands `levels` calls or iterations above a choice."""
     return Kernel("regenerate", (_whole("levels", levels, 0),))
 
 
@@ -230,7 +230,9 @@ def parse(text: str) -> Kernel:
     except (SyntaxError, ValueError, TypeError) as error:
         raise InputError("unreadable-kernel", found=text, reason=str(error).split(" (<")[0]) from None
     if not isinstance(made, Kernel):
-        raise InputError("unreadable-kernel", found=text, reason="it is not a call of a kernel, such as `mh()`")
+        raise InputError(
+            "unreadable-kernel", found=text, reason="it is not a call of a kernel, such as `mh()`"
+        )
     return made
 
 
@@ -247,7 +249,10 @@ def _made(part: ast.expr) -> Any:
         near = get_close_matches(name, _WRITTEN, n=1)
         hint = f"; did you mean `{near[0]}`?" if near else f"; there are {', '.join(_WRITTEN)}"
         raise ValueError(f"there is no kernel `{name}`{hint}")
-    return ast.literal_eval(part)
+    try:
+        return ast.literal_eval(part)
+    except ValueError:
+        raise ValueError(f"`{ast.unparse(part)}` is no call, number, text or list") from None
 
 
 #: What can be written as text.
@@ -264,7 +269,9 @@ def _parts(name: str, kernels: Sequence[Any]) -> tuple[Kernel, ...]:
         if not isinstance(one, Kernel):
             raise _wrong(name, one, "kernels", "one of `niwaki.kernels`, such as `kernels.mh()`")
         if one.name == "temper":
-            raise _wrong(name, one, "kernels other than `temper`, which can only be outermost", "`temper` around it")
+            raise _wrong(
+                name, one, "kernels other than `temper`, which can only be outermost", "`temper` around it"
+            )
     return tuple(kernels)
 
 

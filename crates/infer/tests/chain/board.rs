@@ -105,8 +105,8 @@ fn rows() -> Vec<Row> {
     let prior = || Kernel::Prior;
     let row = |name, kernel| Row { name, kernel, temperatures: vec![1.0], power: "1.0", only: "" };
     let block = || Kernel::Block { step: 0.3, share: 0.5, target: 0.23 };
-    let deep = Selection { depth: vec![1.0, 4.0, 0.3], ..Selection::default() };
-    let sites = Selection { odds: vec![("*b*".into(), 3.0), ("**".into(), 0.5)], ..Selection::default() };
+    let deep = Selection { depth: vec![1.0, 1.0, 3.0, 9.0, 27.0], ..Selection::default() };
+    let sites = Selection { odds: vec![("b".into(), 3.0), ("a".into(), 0.5)], ..Selection::default() };
     vec![
         row("prior", prior()),
         row("neighbour", Kernel::Neighbour { reach: 2 }),
@@ -114,24 +114,42 @@ fn rows() -> Vec<Row> {
         row("regenerate 0", Kernel::Regenerate { levels: 0 }),
         row("regenerate 1", Kernel::Regenerate { levels: 1 }),
         row("cycle", Kernel::Cycle(vec![prior(), block()])),
-        row("mixture", Kernel::Mixture(vec![(1.0, block()), (2.0, prior()), (1.0, Kernel::Regenerate { levels: 0 })])),
-        row("repeat", Kernel::Repeat(3, Box::new(Kernel::Cycle(vec![prior(), Kernel::Neighbour { reach: 1 }])))),
+        row(
+            "mixture",
+            Kernel::Mixture(vec![(1.0, block()), (2.0, prior()), (1.0, Kernel::Regenerate { levels: 0 })]),
+        ),
+        row(
+            "repeat",
+            Kernel::Repeat(3, Box::new(Kernel::Cycle(vec![prior(), Kernel::Neighbour { reach: 1 }]))),
+        ),
         row("odds by depth", Kernel::On(deep, Box::new(prior()))),
-        row("odds by site", Kernel::On(sites, Box::new(prior()))),
+        Row {
+            only: "a coin that decides how many more",
+            ..row("odds by site", Kernel::On(sites, Box::new(prior())))
+        },
         row("on", Kernel::Cycle(vec![on("**", prior()), on("**", Kernel::Regenerate { levels: 0 })])),
         Row {
             power: "0.5",
-            ..row("anneal, held at 2", Kernel::Anneal { hot: 2.0, cold: 2.0, steps: 9, kernel: Box::new(prior()) })
+            ..row(
+                "anneal, held at 2",
+                Kernel::Anneal { hot: 2.0, cold: 2.0, steps: 9, kernel: Box::new(prior()) },
+            )
         },
         Row { temperatures: vec![1.0, 2.0, 5.0], ..row("temper", prior()) },
-        Row { only: "a bound that is a choice", ..row("own proposal", Kernel::Cycle(vec![prior(), on("k", skewed())])) },
+        Row {
+            only: "a bound that is a choice",
+            ..row("own proposal", Kernel::Cycle(vec![prior(), on("k", skewed())]))
+        },
     ]
 }
 
 /// The largest |z| over the values of a program.
 fn worst<R: Rules>(text: &str, row: &Row, seed: u64) -> f64 {
     const STRETCHES: usize = 60;
-    let (task, exact) = (program(text, "1.0"), enumerate(&program(text, row.power), 100_000, &mut |_| true).expect("few runs"));
+    let (task, exact) = (
+        program(text, "1.0"),
+        enumerate(&program(text, row.power), 100_000, &mut |_| true).expect("few runs"),
+    );
     let settings = Settings {
         seed,
         kernel: row.kernel.clone(),
@@ -146,7 +164,7 @@ fn worst<R: Rules>(text: &str, row: &Row, seed: u64) -> f64 {
     for share in &mut shares {
         for _ in 0..1000 {
             chain.advance(&task, 1, &mut |_, _| true).expect("a run");
-            let value = repr(chain.rungs[0].state.trace.result()).expect("a value");
+            let value = repr(&chain.rungs[0].state.trace.result()).expect("a value");
             *share.entry(value).or_default() += 0.001;
         }
     }
