@@ -103,11 +103,11 @@ def tree(path: Path, found: list[Measured], target: object, fit: object) -> None
     for number, (smallest, color) in enumerate(zip(SMALLEST, colors(), strict=False)):
         rows = [one for one in found if one.smallest == smallest]
         rates = [[one.rates[name] for one in rows] for name in names]
-        where = np.arange(len(names)) + (number - 1.5) * 0.2
+        where = np.arange(len(names)) + (number - 1) * 0.25
         error = [spread(one) for one in rates] if len(rows) > 1 else None
         count = statistics.fmean(one.segments for one in rows)
         means = [statistics.fmean(one) for one in rates]
-        right.bar(where, means, 0.18, yerr=error, color=color, label=f"{count:.0f} segments", error_kw={"elinewidth": 1})
+        right.bar(where, means, 0.23, yerr=error, color=color, label=f"{count:.0f} segments", error_kw={"elinewidth": 1})
     right.set(xticks=range(len(names)), xticklabels=[NAMES[name] for name in names], yscale="log")
     right.set(ylabel="proposals per second")
     right.legend(frameon=False)

@@ -47,6 +47,7 @@ class Report:
 
     def ask(self, what: str, found: float, least: float | None = None, most: float | None = None) -> None:
         """Hold a figure against what is asked of it."""
+        found = float(found)
         holds = (least is None or found >= least) and (most is None or found <= most)
         asked = f"at least {short(least)}" if least is not None else f"at most {short(most or 0.0)}"
         self.missed += not holds
@@ -55,6 +56,7 @@ class Report:
 
     def answer(self, what: str, found: float, most: float) -> None:
         """Hold an error against what is allowed: above it, what was timed computes something else."""
+        found = float(found)
         holds = found <= most
         self.wrong += not holds
         self.targets.append((what, f"{found:.3g}", f"at most {most:.3g}", "right" if holds else "WRONG"))
