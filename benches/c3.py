@@ -6,8 +6,8 @@
 Hidden Markov model, topics, mixture, regression (dissertation, appendix A) at sizes 1, 4, 10: proposals per CPU second
 of our four strategies, of WebPPL's MH and incrementalMH, and of the limit, on one thread, taking turns, with the same
 proposals; then ways of writing a program, global choices, long chains, a tree, and the figures of section 3.4.
-Answers are checked before anything is timed. What is asked of each figure is printed beside it; a speed that is missed is
-said, a wrong answer fails.
+Answers are checked before anything is timed. What is asked of each figure is printed beside it; a speed that is missed
+is said, a wrong answer fails.
 
 Every measurement is a line of `c3.jsonl` in the folder (`benches/.cache/c3`), which also takes the figures.
 """
@@ -40,7 +40,9 @@ def main() -> int:
     parts, quick = given.only.split(","), given.quick
     report, peers = Report(given.out), Peers.prepared()
     report.note(**machine(), load=os.getloadavg()[0], quick=quick)
-    report.console.print(f"load average {os.getloadavg()[0]:.1f} on {os.cpu_count()} processors; CPU time of one thread")
+    report.console.print(
+        f"load average {os.getloadavg()[0]:.1f} on {os.cpu_count()} processors; CPU time of one thread"
+    )
     started = time.monotonic()
     for part in PARTS:
         if part in parts:

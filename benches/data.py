@@ -1,7 +1,7 @@
 """The data of the bench programs: made by the gallery's code, read by all systems.
 
-A size of 1 is 100 observations, of 10 a thousand. A hidden Markov chain of 10 states and 10 symbols; documents of 20 words
-out of 100, about 10 topics; points of 4 clusters; sequences of 5 measurements (dissertation, appendix A).
+A size of 1 is 100 observations, of 10 a thousand. A hidden Markov chain of 10 states and 10 symbols; documents of 20
+words out of 100, about 10 topics; points of 4 clusters; sequences of 5 measurements (dissertation, appendix A).
 """
 
 import json

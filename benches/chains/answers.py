@@ -90,9 +90,11 @@ def check(report: Report, peers: Peers, folder: Path, quick: bool) -> None:
             worst = max(abs(a - b) for a, b in zip(checked["moments"], exact, strict=True))
             report.answer("HMM, limit: marginals of two million proposals", worst, 0.01)
         if name == "hlr":
-            report.answer("HLR: means of global choices less the limit's, standard errors", regression(
-                checked["moments"], quick
-            ), 6.0)
+            report.answer(
+                "HLR: means of global choices less the limit's, standard errors",
+                regression(checked["moments"], quick),
+                6.0,
+            )
 
 
 def regression(limit: list[float], quick: bool) -> float:

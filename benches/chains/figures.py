@@ -35,7 +35,10 @@ def seconds_of(model: object, count: int, strategy: str, seed: int, steps: int, 
 
 def four_strategies(path: Path, report: Report, runs: int) -> None:
     """Figure 3.4: an HMM of 10 to 100 steps, 10,000 proposals; LDA of 5 to 50 documents, 1000 proposals."""
-    rows = ((hmm_forms.returned_list, "hidden Markov model", "steps", 10, 10_000), (lda, "topics", "documents", 5, 1000))
+    rows = (
+        (hmm_forms.returned_list, "hidden Markov model", "steps", 10, 10_000),
+        (lda, "topics", "documents", 5, 1000),
+    )
     figure, panels = plt.subplots(2, 2, figsize=(9, 6.4), layout="constrained")
     for row, (model, title, label, unit, steps) in zip(panels, rows, strict=True):
         series: Series = {strategy: {} for strategy in NAMES}
@@ -107,7 +110,15 @@ def tree(path: Path, found: list[Measured], target: object, fit: object) -> None
         error = [spread(one) for one in rates] if len(rows) > 1 else None
         count = statistics.fmean(one.segments for one in rows)
         means = [statistics.fmean(one) for one in rates]
-        right.bar(where, means, 0.23, yerr=error, color=color, label=f"{count:.0f} segments", error_kw={"elinewidth": 1})
+        right.bar(
+            where,
+            means,
+            0.23,
+            yerr=error,
+            color=color,
+            label=f"{count:.0f} segments",
+            error_kw={"elinewidth": 1},
+        )
     right.set(xticks=range(len(names)), xticklabels=[NAMES[name] for name in names], yscale="log")
     right.set(ylabel="proposals per second")
     right.legend(frameon=False)

@@ -1,8 +1,8 @@
 """Ways of writing one program; global choices alone; the first thousand proposals; chains of 100 to 100,000 steps.
 
-One proposal to a state in the middle of the first hundred must enter as many activations and execute as many instructions
-whether a hundred steps follow or a hundred thousand: the streams of random numbers depend on addresses, so that the
-same seed gives both chains the same first states, the same proposals and the same decisions.
+One proposal to a state in the middle of the first hundred must enter as many activations and execute as many
+instructions whether a hundred steps follow or a hundred thousand. Random numbers are functions of addresses, so the same
+seed gives both chains the same first states, the same proposals and the same decisions.
 """
 
 import statistics
@@ -27,10 +27,14 @@ LENGTHS = (100, 1000, 10_000, 100_000)
 
 def forms(report: Report, rounds: int, seconds: float) -> None:
     """Each form of the chain and of the mixture, in turns."""
-    table = report.table("forms at size 10: proposals per CPU second", "program", "form", "rate", "entered", "instructions")
+    table = report.table(
+        "forms at size 10: proposals per CPU second", "program", "form", "rate", "entered", "instructions"
+    )
     for name, all_forms in (("hmm", hmm_forms.FORMS), ("gmm", gmm_forms.FORMS)):
         kernel = None if name == "hmm" else of_gmm(POINTS)
-        chains = {form: Timed(made, POINTS, kernel=kernel).warm(seconds / 2) for form, made in all_forms.items()}
+        chains = {
+            form: Timed(made, POINTS, kernel=kernel).warm(seconds / 2) for form, made in all_forms.items()
+        }
         rates: dict[str, list[float]] = {form: [] for form in chains}
         counters: dict[str, dict[str, float]] = {}
         for _ in range(rounds):
@@ -43,9 +47,7 @@ def forms(report: Report, rounds: int, seconds: float) -> None:
             seen = counters[form]
             table.add_row(name, form, middle(found), f"{seen['entered']:.2f}", f"{seen['instructions']:.1f}")
             report.note(form=form, program=name, rates=found, counters=seen)
-            report.ask(
-                f"{name} {form}: fastest form over it", fastest / statistics.median(found), most=2
-            )
+            report.ask(f"{name} {form}: fastest form over it", fastest / statistics.median(found), most=2)
         report.ask(
             f"{name} returned list, proposals/s", statistics.median(rates["returned list"]), least=0.5e6
         )
@@ -70,17 +72,21 @@ def global_choices(report: Report, peers: Peers, rounds: int, seconds: float) ->
             found = peers.of_limit("globals", name, write_sized(CACHE / "data", name, 10), seconds, seed)
             theirs.append(1e9 * found["cpu_seconds"] / found["proposals"] / found["readers"])
         price = [1e9 / rate / readers for rate in ours]
-        table.add_row(
-            name, short(readers), middle(ours), f"{entered:.0f}", middle(price), middle(theirs)
-        )
+        table.add_row(name, short(readers), middle(ours), f"{entered:.0f}", middle(price), middle(theirs))
         report.note(globals=name, readers=readers, rates=ours, entered=entered, limit=theirs)
-        report.ask(f"{name}: ns for each call that reads a global choice (aim: 25)", statistics.median(price), most=100)
+        report.ask(
+            f"{name}: ns for each call that reads a global choice (aim: 25)",
+            statistics.median(price),
+            most=100,
+        )
     report.show(table)
 
 
 def beginnings(report: Report, seconds: float) -> None:
     """The first thousand proposals of fresh chains beside the steady rate, at size 10."""
-    table = report.table("the first thousand proposals, size 10", "program", "first 1000/s", "steady/s", "share")
+    table = report.table(
+        "the first thousand proposals, size 10", "program", "first 1000/s", "steady/s", "share"
+    )
     for name, program in PROGRAMS.items():
         count = program.count(10)
         kernel = program.kernel(count)
@@ -108,7 +114,14 @@ def lengths(report: Report, rounds: int, seconds: float, most: int = LENGTHS[-1]
             rate = chain.window(seconds)
             rates[length].append(rate.per_second)
             counters[length] = rate.counters
-    columns = ("steps", "proposals/s", "site 50: entered, instructions", "all: entered, instructions", "bytes/step", "resident/step")
+    columns = (
+        "steps",
+        "proposals/s",
+        "site 50: entered, instructions",
+        "all: entered, instructions",
+        "bytes/step",
+        "resident/step",
+    )
     table = report.table("a chain of 100 to 100,000 steps", *columns)
     for length in chosen:
         seen = counters[length]
@@ -120,7 +133,9 @@ def lengths(report: Report, rounds: int, seconds: float, most: int = LENGTHS[-1]
             f"{seen['bytes'] / length:.0f}",
             f"{held[length] / length:.0f}",
         )
-        report.note(length=length, rates=rates[length], counters=seen, site=counted[length], resident=held[length])
+        report.note(
+            length=length, rates=rates[length], counters=seen, site=counted[length], resident=held[length]
+        )
     report.show(table)
     different = max(abs(a - b) for c in counted.values() for a, b in zip(c, counted[100], strict=True))
     report.answer("HMM: entered and executed at one site, difference between lengths", different, 0.0)

@@ -1,7 +1,7 @@
 """Our rates: a chain in its first state, proposals before the clock starts, then proposals in CPU time.
 
-One thread; the CPU time is that of the process and holds nothing but the proposals: no samples are kept, and what a call
-of the engine costs by itself (a pool of one thread) is measured and taken off.
+One thread; the CPU time is that of the process and holds nothing but the proposals: no samples are kept, and what a
+call of the engine costs by itself (a pool of one thread) is measured and taken off.
 """
 
 import statistics
@@ -64,7 +64,9 @@ class Timed:
             aim = max(0.01, seconds / 5)
             block = max(16, min(int(block * aim / taken), block * 8))
         after = self.engine.counters()
-        per = {key: (after[key] - before[key]) / proposals for key in after if key not in ("bytes", "choices")}
+        per = {
+            key: (after[key] - before[key]) / proposals for key in after if key not in ("bytes", "choices")
+        }
         return Rate(proposals, spent, per | {key: after[key] for key in ("bytes", "choices")})
 
 

@@ -24,7 +24,9 @@ class Peers:
         """Install WebPPL from npm at the version that its lock file pins, and build the limit."""
         return cls(prepare_webppl(), prepare_limit())
 
-    def rate_of_webppl(self, program: str, size: int, method: str, seconds: float, seed: int) -> dict[str, Any]:
+    def rate_of_webppl(
+        self, program: str, size: int, method: str, seconds: float, seed: int
+    ) -> dict[str, Any]:
         """Proposals, CPU seconds and the rate of the first thousand; at least a thousand proposals."""
         path = write_sized(CACHE / "data", program, size)
         script = HERE / "webppl" / "chains.js"

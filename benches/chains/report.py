@@ -11,6 +11,8 @@ from rich.table import Table
 
 def middle(values: Sequence[float]) -> str:
     """The median, and the least and the most in brackets."""
+    if len(values) == 1:
+        return short(values[0])
     return f"{short(statistics.median(values))} ({short(min(values))} to {short(max(values))})"
 
 
@@ -29,7 +31,7 @@ class Report:
     def __init__(self, folder: Path) -> None:
         folder.mkdir(parents=True, exist_ok=True)
         self.folder = folder
-        self.console = Console(width=150)
+        self.console = Console(width=170)
         self.lines = (folder / "c3.jsonl").open("w")
         self.targets: list[tuple[str, str, str, str]] = []
         self.missed = self.wrong = 0

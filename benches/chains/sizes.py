@@ -41,7 +41,12 @@ def measure(report: Report, peers: Peers, sizes: tuple[int, ...], rounds: int, s
                     found = peers.rate_of_webppl(name, size, method, seconds, seed)
                     here[method].append(found["proposals"] / found["cpu_seconds"])
                     report.note(
-                        system=method, program=name, size=size, seed=seed, rate=here[method][-1], first=found["first"]
+                        system=method,
+                        program=name,
+                        size=size,
+                        seed=seed,
+                        rate=here[method][-1],
+                        first=found["first"],
                     )
     show(report, rates)
     hold(report, rates, sizes)
@@ -59,7 +64,9 @@ def show(report: Report, rates: dict[tuple[str, int], dict[str, list[float]]]) -
         systems = (*STRATEGIES, *METHODS, "limit")
         table.add_row(name, str(size), *(middle(here[system]) for system in systems))
     report.show(table)
-    table = report.table("ratios", "program", "size", "C3 / WebPPL C3", "C3 / WebPPL MH", "C3 / rerun", "limit / C3")
+    table = report.table(
+        "ratios", "program", "size", "C3 / WebPPL C3", "C3 / WebPPL MH", "C3 / rerun", "limit / C3"
+    )
     for (name, size), here in rates.items():
         pairs = (("c3", "incrementalMH"), ("c3", "MH"), ("c3", "rerun"), ("limit", "c3"))
         table.add_row(name, str(size), *(middle(ratios(here, *pair)) for pair in pairs))
@@ -78,7 +85,9 @@ def hold(
         here = rates[name, sizes[-1]]
         most = OF_LIMIT[name]
         found = statistics.median(ratios(here, "limit", "c3"))
-        report.ask(f"{name} {sizes[-1]}: limit over C3, {short(statistics.median(here['c3']))}/s", found, most=most)
+        report.ask(
+            f"{name} {sizes[-1]}: limit over C3, {short(statistics.median(here['c3']))}/s", found, most=most
+        )
     for name in PROGRAMS:
         found = statistics.median(ratios(rates[name, sizes[-1]], "c3", "rerun"))
         report.ask(f"{name} {sizes[-1]}: C3 over rerun", found, least=OVER_RERUN[name])

@@ -73,11 +73,7 @@ def measured(smallest: float, seed: int, warmup: int, steps: int, windows: int =
 def measure(report: Report, runs: int, quick: bool) -> list[Measured]:
     """Chains on trees of several sizes; answers what figure 3.5 shows."""
     warmup, steps = (200, 200) if quick else (300, 600)
-    found = [
-        measured(smallest, seed, warmup, steps)
-        for smallest in SMALLEST
-        for seed in range(1, runs + 1)
-    ]
+    found = [measured(smallest, seed, warmup, steps) for smallest in SMALLEST for seed in range(1, runs + 1)]
     columns = ("least radius", "segments", *STRATEGIES, "bound", "C3 / rerun", "of the bound")
     table = report.table(f"a tree in a bent tube: {steps} proposals after {warmup}, {runs} chains", *columns)
     for smallest in SMALLEST:
@@ -93,10 +89,18 @@ def measure(report: Report, runs: int, quick: bool) -> list[Measured]:
     report.show(table)
     for one in found:
         report.note(tree=one.smallest, segments=one.segments, bound=one.bound, rates=one.rates)
-    report.ask("tree: C3 over rerun, of the bound", statistics.median(one.gain / one.bound for one in found), least=0.7)
+    report.ask(
+        "tree: C3 over rerun, of the bound",
+        statistics.median(one.gain / one.bound for one in found),
+        least=0.7,
+    )
     large = [one.gain for one in found if one.segments >= 150]
     if large:
-        report.ask(f"tree of 150 segments or more ({len(large)} chains): C3 over rerun", statistics.median(large), least=10)
+        report.ask(
+            f"tree of 150 segments or more ({len(large)} chains): C3 over rerun",
+            statistics.median(large),
+            least=10,
+        )
     return found
 
 
@@ -107,7 +111,9 @@ def scene_of(target: Target) -> Scene:
 
 def fitted(folder: Path, proposals: int, chains: int = 4) -> Any:
     """The best tree of some long chains."""
-    result = run(gnarly_tree, method=mh(steps=proposals, chains=chains, keep=0), score=score(), seed=4, threads=1)
+    result = run(
+        gnarly_tree, method=mh(steps=proposals, chains=chains, keep=0), score=score(), seed=4, threads=1
+    )
     best = result.best
     best.save(folder / "tree.png", size=(480, 640))
     return best

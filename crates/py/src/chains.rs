@@ -107,10 +107,14 @@ impl PyChains {
     }
 
     /// The best state of each chain.
-    fn best(&self) -> Vec<PyOutcome> {
-        let (program, chains) = (&self.task.get().task.program, self.lock());
-        let best = chains.chains.iter().filter_map(Ladder::best);
-        best.map(|rung| self.outcome(&rung.best.get(&rung.state, program))).collect()
+    fn best(&self, py: Python<'_>) -> PyResult<Vec<PyOutcome>> {
+        let task = &self.task.get().task;
+        let (best, _) = detached(py, &task.program, None, None, |_| {
+            let chains = self.lock();
+            let rungs = chains.chains.iter().filter_map(Ladder::best);
+            rungs.map(|rung| rung.best.get(&rung.state, task)).collect::<Result<Vec<_>, _>>()
+        })?;
+        Ok(best.iter().map(|snapshot| self.outcome(snapshot)).collect())
     }
 
     /// The samples of a chain from the ``start``-th on: (number of proposals before it, outcome).
