@@ -1,9 +1,9 @@
 """The four programs of appendix A and the kernel of each: the same proposals in all systems.
 
 Every choice is picked with equal odds. Discrete choices, probability vectors and deviations are proposed from the
-prior; means, intercepts and slopes take a Gaussian step. A step is given in deviations of the choice's own distribution: 0.02
-of 10 is the peers' 0.2. An intercept of one sequence steps by 0.375 of the population's deviation, which is the peers'
-0.3 where that is the 0.8 that made the data, and a slope by 0.5 of it, their 0.2 at 0.4.
+prior; means, intercepts and slopes take a Gaussian step. A step is given in deviations of the choice's own
+distribution: 0.02 of 10 is the peers' 0.2. An intercept of one sequence steps by 0.375 of the population's deviation,
+which is the peers' 0.3 where that is the 0.8 that made the data, and a slope by 0.5 of it, their 0.2 at 0.4.
 """
 
 from collections.abc import Callable
