@@ -111,6 +111,10 @@ def regression(limit: list[float], quick: bool) -> float:
     return float(np.abs((means.mean(axis=0) - np.array(limit)) / error).max())
 
 
+#: Quantiles of the t distribution for a 95 % interval, by number of runs.
+QUANTILES = {2: 12.706, 3: 4.303, 20: 2.093}
+
+
 def spread(values: list[float]) -> float:
-    """Half the width of a 95 % interval for a mean, by Student's t with 19 degrees of freedom."""
-    return 2.093 * statistics.stdev(values) / len(values) ** 0.5
+    """Half the width of a 95 % interval for the mean of 2, 3 or 20 runs, by Student's t."""
+    return QUANTILES[len(values)] * statistics.stdev(values) / len(values) ** 0.5

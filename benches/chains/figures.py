@@ -33,33 +33,42 @@ def seconds_of(model: object, count: int, strategy: str, seed: int, steps: int, 
     return max(chain.seconds(steps) - chain.floor, 1e-9)
 
 
+#: Panels of figure 3.4: model, its name, what is counted, by how many, proposals.
+ROWS = (
+    (hmm_forms.returned_list, "hidden Markov model", "steps", 10, 10_000),
+    (lda, "topics", "documents", 5, 1000),
+)
+
+
 def four_strategies(path: Path, report: Report, runs: int) -> None:
     """Figure 3.4: an HMM of 10 to 100 steps, 10,000 proposals; LDA of 5 to 50 documents, 1000 proposals."""
-    rows = (
-        (hmm_forms.returned_list, "hidden Markov model", "steps", 10, 10_000),
-        (lda, "topics", "documents", 5, 1000),
-    )
-    figure, panels = plt.subplots(2, 2, figsize=(9, 6.4), layout="constrained")
-    for row, (model, title, label, unit, steps) in zip(panels, rows, strict=True):
-        series: Series = {strategy: {} for strategy in NAMES}
+    measured = []
+    for model, title, _, unit, steps in ROWS:
+        series: Series = {strategy: {unit * size: [] for size in SIZES} for strategy in NAMES}
         for size in SIZES:
-            for strategy in NAMES:
-                series[strategy][unit * size] = []
             for seed in range(runs):
                 for strategy in NAMES:
                     spent = seconds_of(model, unit * size, strategy, seed, steps)
                     series[strategy][unit * size].append(spent)
+        report.note(figure="3.4", model=title, seconds=series)
+        measured.append(series)
+    draw_strategies(path, measured, runs)
+
+
+def draw_strategies(path: Path, measured: list[Series], runs: int) -> None:
+    """Seconds and proposals per second of both models."""
+    figure, panels = plt.subplots(2, 2, figsize=(9, 6.4), layout="constrained")
+    for row, series, (_, title, label, _, steps) in zip(panels, measured, ROWS, strict=True):
         rates: Series = {
             strategy: {size: [steps / one for one in all_runs] for size, all_runs in points.items()}
             for strategy, points in series.items()
         }
-        report.note(figure="3.4", model=title, seconds=series)
         curves(row[0], series)
         curves(row[1], rates)
         row[0].set(ylabel=f"seconds, {steps:,} proposals", xlabel=label, title=title, yscale="log")
         row[1].set(ylabel="proposals per second", xlabel=label, title=title, yscale="log")
     panels[0, 0].legend(frameon=False, ncols=2)
-    save(figure, path)
+    save(figure, path, runs)
 
 
 def curves(panel: plt.Axes, series: Series) -> None:
@@ -76,7 +85,6 @@ def curves(panel: plt.Axes, series: Series) -> None:
 
 def speedups(path: Path, report: Report, runs: int, steps: int = 1000) -> None:
     """Speedup of C3 over rerun on the four programs at sizes 1 to 10."""
-    figure, panel = plt.subplots(figsize=(6, 4), layout="constrained")
     series: Series = {name: {size: [] for size in SIZES} for name in PROGRAMS}
     for name, program in PROGRAMS.items():
         for size in SIZES:
@@ -88,10 +96,16 @@ def speedups(path: Path, report: Report, runs: int, steps: int = 1000) -> None:
                 )
                 series[name][size].append(rerun / c3)
     report.note(figure="speedup", speedup=series)
+    draw_speedups(path, series, runs)
+
+
+def draw_speedups(path: Path, series: Series, runs: int) -> None:
+    """One curve for each program."""
+    figure, panel = plt.subplots(figsize=(6, 4), layout="constrained")
     curves(panel, {name.upper(): points for name, points in series.items()})
     panel.set(xlabel="model size", ylabel="C3 over rerun", yscale="log")
     panel.legend(frameon=False, ncols=2)
-    save(figure, path)
+    save(figure, path, runs)
 
 
 def tree(path: Path, found: list[Measured], target: object, fit: object) -> None:
@@ -123,10 +137,13 @@ def tree(path: Path, found: list[Measured], target: object, fit: object) -> None
     right.set(ylabel="proposals per second")
     right.legend(frameon=False)
     right.grid(alpha=0.3, axis="y", which="both", linewidth=0.5)
-    save(figure, path)
+    save(figure, path, len(found) // len(SMALLEST))
 
 
-def save(figure: plt.Figure, path: Path) -> None:
+def save(figure: plt.Figure, path: Path, runs: int) -> None:
+    """Write it, with how many runs it shows in its corner."""
+    figure.get_layout_engine().set(rect=(0.0, 0.025, 1.0, 0.975))
+    figure.text(0.995, 0.006, f"mean of {runs} runs, 95 % bounds", ha="right", fontsize=7, color="#666666")
     path.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(path, dpi=110)
     plt.close(figure)
