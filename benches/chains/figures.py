@@ -135,7 +135,7 @@ def tree(path: Path, found: list[Measured], target: object, fit: object) -> None
         )
     right.set(xticks=range(len(names)), xticklabels=[NAMES[name] for name in names], yscale="log")
     right.set(ylabel="proposals per second")
-    right.legend(frameon=False)
+    right.legend(frameon=False, loc="upper left")
     right.grid(alpha=0.3, axis="y", which="both", linewidth=0.5)
     save(figure, path, len(found) // len(SMALLEST))
 
