@@ -27,6 +27,9 @@ if TYPE_CHECKING:
 
 Reals = NDArray[np.float64]
 
+#: The share of trajectories without a finite gradient from which on a person is told.
+SOME = 0.01
+
 
 class GradientWarning(UserWarning):
     """Chains that follow a gradient gave draws, but not of all that was asked for."""
@@ -150,7 +153,10 @@ class HmcResult(Result):
         self.step_size: Reals = np.array([count["step_size"] for count in counts])
         self.gradients: int = sum(count["gradients"] + count["warmup_gradients"] for count in counts)
         self.divergences = Divergences(
-            *(sum(count[name] for count in counts) for name in ("energy", "guard", "impossible", "not_finite"))
+            *(
+                sum(count[name] for count in counts)
+                for name in ("energy", "guard", "impossible", "not_finite")
+            )
         )
         self.fixed: list[dict[str, Any]] = [
             {path: value for path, _, value in found.fixed(chain)} for chain in chains
@@ -175,6 +181,7 @@ class HmcResult(Result):
 
     @cached_property
     def draws(self) -> dict[str, Reals]:
+        """Values of the continuous choices by address, of those that all chains have."""
         by_chain: list[Mapping[str, Reals]] = []
         for chain in range(self.method.chains):
             values, found, at = self._found.values(chain), {}, 0
@@ -233,14 +240,17 @@ class HmcResult(Result):
             shown = ", ".join(f"`{path}`" for path in held[:5]) + (
                 f" and {len(held) - 5} more" if len(held) > 5 else ""
             )
+            many = len(held) > 1
             warnings.warn(
-                f"{len(held)} discrete choice{'s' if len(held) > 1 else ''} of `{self.model.name}` kept the value of each "
-                f"chain's start, because a gradient does not move {'them' if len(held) > 1 else 'it'}: {shown}; "
-                "draws are given those values; use `mh()` where they should vary",
+                f"{len(held)} discrete choice{'s' if many else ''} of `{self.model.name}` kept the value of each "
+                f"chain's start, because a gradient does not move {'them' if many else 'it'}: {shown}; "
+                f"draws are given {'those values' if many else 'that value'}; "
+                f"use `mh()` where {'they' if many else 'it'} should vary",
                 GradientWarning,
                 stacklevel=5,
             )
-        if self.fault is not None:
+        # A few trajectories that overshoot into overflow are of no consequence: they are rejected.
+        if self.fault is not None and self.divergences.not_finite > SOME * len(self) * self.method.thin:
             warnings.warn(
                 f"{self.divergences.not_finite} trajectories of `{self.model.name}` came to points without a finite "
                 f"gradient and were rejected; the first:\n{self.fault.render()}",

@@ -455,7 +455,7 @@ def _search(
                     "bad-setting",
                     name="method",
                     found=repr(method),
-                    expected="smc, particle_gibbs, pimh, mh, hmc, nuts, enumerate_all, rejection, importance or forward",
+                    expected="smc, particle_gibbs, pimh, mh, hmc, nuts, enumerate_all, rejection, importance, forward",
                     suggestion="such a method, for instance `smc(particles=300)`",
                 )
     seconds, cpu_seconds = time.perf_counter() - wall, time.process_time() - cpu

@@ -3,7 +3,7 @@
 Means of conjugate models and of models whose moments are sums over a grid, bounded, simplex and hierarchical ones among
 them, lie within 4.5 standard errors (the errors by the chains' effective sample sizes). A mean of a true sampler falls
 outside once in 150,000; about thirty means are judged for each method, so a false alarm comes once in 2,500 sets of
-seeds. The seeds are fixed. A mutant without the Jacobian of its bounds must fall outside.
+seeds. The seeds are fixed. R-hat stays below 1.1, so that errors by effective sample sizes mean something. A mutant without the Jacobian of its bounds must fall outside.
 """
 
 from __future__ import annotations
@@ -50,10 +50,13 @@ def tilted():
 
 
 @model
-def tilted_without_jacobian():
-    x = nw.uniform(-1.0, 2.0)
-    nw.factor(-3.0 * x - math.log(x + 1.0) - math.log(2.0 - x))
-    return x
+def coins_without_jacobian(data):
+    share = nw.beta(2.0, 3.0)
+    for y in data:
+        nw.observe(Bernoulli(share), y)
+    # What a density that forgets the slope of the logistic would say.
+    nw.factor(-math.log(share) - math.log(1.0 - share))
+    return share
 
 
 @model
@@ -186,9 +189,9 @@ def test_means_are_those_of_the_model(case: str, method: str) -> None:
     off = errors(result, answers())
     assert max(off.values()) < 4.5, off
     assert len(result) == 1500 * METHODS[method].chains
-    assert max(s.rhat for s in result.summary()) < 1.05, result.summary()
+    assert max(s.rhat for s in result.summary()) < 1.1, result.summary()
 
 
 def test_a_density_without_its_jacobian_is_found_out() -> None:
-    result = nw.run(tilted_without_jacobian, METHODS["nuts"], seed=11)
-    assert max(errors(result, tilted_answers()).values()) > 4.5
+    result = nw.run(coins_without_jacobian, METHODS["nuts"], COINS, seed=11)
+    assert max(errors(result, coin_answers()).values()) > 4.5

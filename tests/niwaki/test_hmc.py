@@ -1,4 +1,4 @@
-"""Chains that follow a gradient, from Python: what they give back, what they hold fixed and say so, what they refuse."""
+"""Chains that follow a gradient, from Python: what they give back, what they hold fixed, what they refuse."""
 
 from __future__ import annotations
 
@@ -22,6 +22,8 @@ from niwaki.hmc_result import GradientWarning
 GOLDEN = Path(__file__).parents[1] / "golden"
 
 TEXT = """
+import math
+
 from niwaki.words import *
 
 @model
@@ -44,7 +46,7 @@ def fork():
 
 @model
 def always(shift=0.0):
-    d = delta(2.0)
+    d = sample(Delta(2.0))
     x = gaussian(d, 1)
     return x
 
@@ -55,8 +57,8 @@ def coins():
 @model
 def root():
     x = gaussian(0, 1)
-    y = abs(x) * 0.0
-    factor(-sqrt(y))
+    y = math.exp(-1000.0 - x * x)
+    factor(-math.sqrt(y))
     return x
 
 @model

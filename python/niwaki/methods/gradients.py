@@ -101,7 +101,7 @@ def nuts(
     step_size: float | None = None,
     tries: int = 1000,
 ) -> Nuts:
-    """Chains that follow the gradient until they turn back, over all continuous choices (Hoffman & Gelman 2014; Betancourt 2017).
+    """Chains that follow the gradient until they turn back (Hoffman & Gelman 2014; Betancourt 2017).
 
     Parameters
     ----------

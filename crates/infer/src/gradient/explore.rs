@@ -92,7 +92,11 @@ pub fn explore(
     let (model, done) = (model(task)?, AtomicU64::new(0));
     let chains: Vec<Result<Explored, Failure>> = (0..plan.chains as u64)
         .into_par_iter()
-        .map(|number| one(task, model.clone(), plan, number, &|| watch(done.fetch_add(GLANCE, Ordering::Relaxed) + GLANCE)))
+        .map(|number| {
+            one(task, model.clone(), plan, number, &|| {
+                watch(done.fetch_add(GLANCE, Ordering::Relaxed) + GLANCE)
+            })
+        })
         .collect();
     chains.into_iter().collect()
 }
@@ -155,8 +159,11 @@ fn no_slope(target: &Live, start: &[f64]) -> Failure {
     match reason(target, start) {
         Some(fault) => Failure::Run(fault),
         None => Failure::Setting(
-            Fault::new("non-finite-gradient", "the log density at the start of a chain has no finite gradient")
-                .with_help("start from other `choices`"),
+            Fault::new(
+                "non-finite-gradient",
+                "the log density at the start of a chain has no finite gradient",
+            )
+            .with_help("start from other `choices`"),
         ),
     }
 }
