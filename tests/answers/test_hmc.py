@@ -3,7 +3,8 @@
 Means of conjugate models and of models whose moments are sums over a grid, bounded, simplex and hierarchical ones among
 them, lie within 4.5 standard errors (the errors by the chains' effective sample sizes). A mean of a true sampler falls
 outside once in 150,000; about thirty means are judged for each method, so a false alarm comes once in 2,500 sets of
-seeds. The seeds are fixed. R-hat stays below 1.1, so that errors by effective sample sizes mean something. A mutant without the Jacobian of its bounds must fall outside.
+seeds. The seeds are fixed. R-hat stays below 1.1, so that these errors mean something. A mutant without the Jacobian of
+its bounds must fall outside.
 """
 
 from __future__ import annotations
