@@ -212,7 +212,7 @@ impl Method {
                 let Some(rung) = rung else { return Err(impossible()) };
                 Ok(match self.keep {
                     Keep::Sample => rung.now(&task.program).facts.value,
-                    Keep::Best => rung.best.get(&rung.state, &task.program).facts.value,
+                    Keep::Best => rung.best.get(&rung.state, task)?.facts.value,
                 })
             }
             Search::Smc(settings) => {

@@ -69,6 +69,8 @@ pub struct State {
     pub log_sketches: f64,
     /// How many primitives the scene has.
     pub primitives: usize,
+    /// How many shapes proposals have taken out of the scene or put into it.
+    pub moved: u64,
     before: (f64, usize),
 }
 
@@ -97,6 +99,7 @@ impl State {
                 sketches: Sketches::start(&task.sketches),
                 log_sketches: 0.0,
                 primitives: 0,
+                moved: 0,
                 before: (0.0, 0),
             };
             let cause = if change == Change::Impossible {
@@ -136,6 +139,7 @@ impl State {
             return Ok(());
         }
         self.primitives = self.primitives + come - gone;
+        self.moved += (gone + come) as u64;
         if self.sketches.is_empty() {
             return Ok(());
         }

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from niwaki.lang.texts.drawings import DRAWINGS
 from niwaki.lang.texts.message import Message
 
 FILES = (
+    *DRAWINGS,
     Message(
         "file-missing",
         "there is no file at this path",
