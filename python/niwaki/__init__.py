@@ -19,12 +19,15 @@ if TYPE_CHECKING:
     from niwaki.constraints import Residuals, residuals
     from niwaki.errors import InputError, ModelError, ModelFault, NiwakiError
     from niwaki.gradient import LogDensity, log_density
+    from niwaki.hmc_result import HmcResult
     from niwaki.lang.plain import run_python
     from niwaki.methods import (
         enumerate_all,
         forward,
+        hmc,
         importance,
         mh,
+        nuts,
         particle_gibbs,
         pimh,
         rejection,
@@ -57,14 +60,17 @@ _HOMES = {
     "niwaki.methods": (
         "enumerate_all",
         "forward",
+        "hmc",
         "importance",
         "mh",
+        "nuts",
         "particle_gibbs",
         "pimh",
         "rejection",
         "smc",
     ),
     "niwaki.mh_result": ("ChainResult",),
+    "niwaki.hmc_result": ("HmcResult",),
     "niwaki.constraints": ("Residuals", "residuals"),
     "niwaki.outline": ("load_polygon",),
     "niwaki.result": ("Result", "Sample"),
@@ -90,6 +96,7 @@ __all__ = [  # noqa: PLE0604
     *words.__all__,
     "ChainResult",
     "Camera",
+    "HmcResult",
     "InputError",
     "LogDensity",
     "ModelError",
@@ -108,6 +115,7 @@ __all__ = [  # noqa: PLE0604
     "forward",
     "floor",
     "grow",
+    "hmc",
     "importance",
     "kernels",
     "load_polygon",
@@ -116,6 +124,7 @@ __all__ = [  # noqa: PLE0604
     "match_shadow",
     "log_density",
     "no_self_intersection",
+    "nuts",
     "overshoot",
     "particle_gibbs",
     "pimh",

@@ -21,6 +21,7 @@ __all__ = [
     "Target",
     "Task",
     "Trace",
+    "Trajectories",
     "__version__",
     "agreement",
     "avoid",
@@ -341,6 +342,39 @@ class Chains:
     def exchanges(self) -> list[tuple[int, int]]: ...
     def sites(self) -> list[tuple[str, str, int, int, int, int]]: ...
     def counters(self) -> dict[str, int]: ...
+
+@final
+class Trajectories:
+    def __new__(
+        cls,
+        task: Task,
+        seed: int,
+        *,
+        chains: int,
+        draws: int,
+        warmup: int,
+        thin: int,
+        target_accept: float,
+        metric: str,
+        step_size: float | None = None,
+        steps: int = 1,
+        jitter: float = 0.0,
+        max_depth: int | None = None,
+        tries: int = 1000,
+        known: Mapping[int, Any] | None = None,
+        threads: int | None = None,
+        watch: _Watch | None = None,
+    ) -> Trajectories: ...
+    @property
+    def interrupted(self) -> bool: ...
+    def choices(self, chain: int) -> list[tuple[str, str, str, int, int, int, bool]]: ...
+    def fixed(self, chain: int) -> list[tuple[str, str, Any]]: ...
+    def values(self, chain: int) -> NDArray[np.float64]: ...
+    def positions(self, chain: int) -> NDArray[np.float64]: ...
+    def draws(self, chain: int) -> dict[str, NDArray[Any]]: ...
+    def counters(self, chain: int) -> dict[str, Any]: ...
+    def fault(self, chain: int) -> BaseException | None: ...
+    def outcome(self, chain: int, draw: int) -> Outcome: ...
 
 @final
 class Density:

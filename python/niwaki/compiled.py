@@ -128,6 +128,8 @@ def _error(fault: Any, name: str, replay: str, choices: Mapping[str, Any]) -> Ex
         return error
     if fault.kind == "compile":
         return InputError("machine-limit", found=fault.message)
+    if fault.code == "no-continuous-choices":
+        return InputError(fault.code)
     if fault.code == "no-address":
         pattern = fault.message.partition("`")[2].partition("`")[0]
         return InputError("no-address", pattern=pattern, name=name, nearest=fault.help or "none")

@@ -20,9 +20,11 @@ from niwaki.errors import InputError
 from niwaki.methods import (
     EnumerateAll,
     Forward,
+    Hmc,
     Importance,
     Method,
     Mh,
+    Nuts,
     ParticleGibbs,
     Pimh,
     Rejection,
@@ -90,15 +92,15 @@ def run(
         Its arguments.
     method
         `smc(...)`, `particle_gibbs(...)`, `pimh(...)`, `mh(...)`, `enumerate_all(...)`, `rejection(...)`,
-        `importance(...)` or `forward(...)`, which is also what happens when it is left out. It may also stand right
-        after the model.
+        `importance(...)`, `hmc(...)`, `nuts(...)` or `forward(...)`, which is also what happens when it is left out.
+        It may also stand right after the model.
     score
         What its scene should be like.
     seed
         Decides every random choice; fresh when left out.
     choices
         Values of choices by address, for one run with those: others are drawn from `seed` where it is given, and
-        missing ones are an error where it is not. With `mh`, the chains start from them.
+        missing ones are an error where it is not. With `mh`, `hmc` and `nuts`, the chains start from them.
     max_steps
         Most calls and loop steps of one run.
     max_memory
@@ -121,17 +123,17 @@ def run(
     score = _asked(score)
     given_seed = check_seed(seed)
     made = task(model, args, kwargs, score.specs, max_steps, max_memory)
-    if choices is not None and not isinstance(method, Mh):
+    if choices is not None and not isinstance(method, Mh | Hmc | Nuts):
         with translated(model.name, choices=choices):
             trace = made.replay(dict(choices), given_seed if seed is not None else None)
         return Result(model, [Sample.of_trace(trace, made, score)], given_seed, "choices", score)
-    if choices is not None and isinstance(method, Mh):
+    if choices is not None and isinstance(method, Mh | Hmc | Nuts):
         with translated(model.name, choices=choices):
             first = made.replay(dict(choices), given_seed)
         known = {choice[1]: choice[3] for choice in first.choices}
-        return _chains(
-            model, made, method, score, given_seed, check_threads(threads), _told(progress, 0, 1), known
-        )
+        start = _chains if isinstance(method, Mh) else _trajectories
+        watch = _told(progress, 0, 1)
+        return start(model, made, method, score, given_seed, check_threads(threads), watch, known)  # type: ignore[arg-type]
     return _search(
         model, made, method or Forward(), score, given_seed, check_threads(threads), progress, 0, 1
     )
@@ -382,6 +384,8 @@ def _search(
     watch = _told(progress, number, runs)
     if isinstance(method, Mh):
         return _chains(model, made, method, score, seed, threads, watch)
+    if isinstance(method, Hmc | Nuts):
+        return _trajectories(model, made, method, score, seed, threads, watch)
     facts: dict[str, Any] = {}
     wall, cpu = time.perf_counter(), time.process_time()
     with translated(model.name, f"seed={seed}"):
@@ -451,7 +455,7 @@ def _search(
                     "bad-setting",
                     name="method",
                     found=repr(method),
-                    expected="smc, particle_gibbs, pimh, mh, enumerate_all, rejection, importance or forward",
+                    expected="smc, particle_gibbs, pimh, mh, hmc, nuts, enumerate_all, rejection, importance, forward",
                     suggestion="such a method, for instance `smc(particles=300)`",
                 )
     seconds, cpu_seconds = time.perf_counter() - wall, time.process_time() - cpu
@@ -503,3 +507,45 @@ def _chains(
             threads=threads,
         )
     return ChainResult(model, made, chains, seed, method, score, watch, threads).more(method.steps)
+
+
+def _trajectories(
+    model: Model[..., Any],
+    made: _engine.Task,
+    method: Hmc | Nuts,
+    score: Score,
+    seed: int,
+    threads: int | None,
+    watch: Callable[[int, int, float], None],
+    known: Mapping[int, Any] | None = None,
+) -> Result:
+    """Chains that follow the gradient, timed."""
+    from niwaki.hmc_result import HmcResult
+
+    length: dict[str, Any] = (
+        {"max_depth": method.max_depth}
+        if isinstance(method, Nuts)
+        else {"steps": method.steps, "jitter": method.jitter}
+    )
+    wall, cpu = time.perf_counter(), time.process_time()
+    with translated(model.name, f"seed={seed}"):
+        found = _engine.Trajectories(
+            made,
+            seed,
+            chains=method.chains,
+            draws=method.draws,
+            warmup=method.warmup,
+            thin=method.thin,
+            target_accept=method.target_accept,
+            metric=method.metric,
+            step_size=method.step_size,
+            tries=method.tries,
+            known=known,
+            threads=threads,
+            watch=watch,
+            **length,
+        )
+    seconds, cpu_seconds = time.perf_counter() - wall, time.process_time() - cpu
+    result = HmcResult(model, made, found, seed, method, score, seconds, cpu_seconds)
+    result.warn()
+    return result

@@ -66,6 +66,19 @@ def test_values_come_back_and_the_jacobian_is_of_a_uniform() -> None:
     assert np.isclose(density(np.zeros(1)), np.log(0.25 * 1.0))
 
 
+def test_values_follow_by_the_path_that_the_point_is_on() -> None:
+    @model
+    def step() -> float:
+        side = nw.gaussian(0, 1)
+        low = 1.0 if side > 0 else -2.0
+        return nw.uniform(low, low + 2.0)
+
+    density = nw.log_density(nw.run(step, seed=1).best)
+    for side, middle in ((0.5, 2.0), (-0.5, -1.0), (0.7, 2.0)):
+        assert list(density.values([side, 0.0]).values()) == [side, middle]
+    assert density.recordings <= 3
+
+
 def shim() -> dict[str, types.ModuleType]:
     """NumPy under the names of JAX, with what the text of the test's model needs of its special functions."""
     jax, special = types.ModuleType("jax"), types.ModuleType("jax.scipy.special")

@@ -1,16 +1,19 @@
 //! A density, ready at once and fast soon: its tape runs while machine code is made in the background.
+//!
+//! The two agree to rounding, not to the bit, so the change from one to the other comes after a fixed number of
+//! gradients, never when a clock or another thread says so: the same points give the same bits.
 
 use crate::density::Density;
 use crate::native::Native;
 use crate::tape::{Lanes, Tape};
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::sync::mpsc::{Receiver, channel};
 
 /// Gradients by tape before machine code is asked for: it must be worth its compilation.
 const WARM: u32 = 200;
 
-/// Gradients between two looks whether the machine code is there.
-const LOOK: u32 = 64;
+/// Gradients by tape while the machine code is made: about what it costs. Then it is waited for.
+const MEANWHILE: u32 = 2000;
 
 enum Code {
     /// Not asked for yet: gradients so far.
@@ -89,12 +92,8 @@ impl Compiled {
             }
             Code::Waiting(receiver, n) => {
                 *n += 1;
-                if *n % LOOK == 0 {
-                    match receiver.try_recv() {
-                        Ok(made) => self.code = ready(made),
-                        Err(TryRecvError::Disconnected) => self.code = Code::Refused,
-                        Err(TryRecvError::Empty) => {}
-                    }
+                if *n == MEANWHILE {
+                    self.code = ready(receiver.recv().unwrap_or_else(|e| Err(e.to_string())));
                 }
             }
             Code::Ready(_) | Code::Refused => {}

@@ -27,6 +27,6 @@ pub use graph::{Graph, Id};
 pub use live::{Live, Model, Refused};
 pub use native::Native;
 pub use operation::Op;
-pub use record::{Recorded, Run, Transform, record};
+pub use record::{Continuous, Recorded, Run, Transform, record};
 pub use scalar::Var;
 pub use tape::{Lanes, Tape};

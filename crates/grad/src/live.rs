@@ -5,7 +5,7 @@
 //! refused: what moves there is not a gradient.
 
 use crate::compiled::Compiled;
-use crate::record::{HostCall, Recorded, Run, record};
+use crate::record::{HostCall, Recorded, Run, blame, record};
 use crate::scalar::Var;
 use niwaki_vm::code::Program;
 use niwaki_vm::fault::Fault;
@@ -37,8 +37,17 @@ impl Model {
     /// # Errors
     /// As [`record`].
     pub fn record(&self, choices: &HashMap<u128, Value>) -> Result<Recorded, Box<RunFault>> {
-        let run = Run { program: &self.program, args: &self.args, limits: self.limits, host: &*self.host };
-        record(&run, choices)
+        record(&self.run(), choices)
+    }
+
+    /// The first term of the log density whose gradient is not finite in the run with these choices, as a fault of its
+    /// line; the fault of the run, where it has one.
+    pub fn blame(&self, choices: &HashMap<u128, Value>) -> Option<Box<RunFault>> {
+        blame(&self.run(), choices)
+    }
+
+    fn run(&self) -> Run<'_> {
+        Run { program: &self.program, args: &self.args, limits: self.limits, host: &*self.host }
     }
 }
 
@@ -53,12 +62,21 @@ pub enum Refused {
     Rounding,
 }
 
+/// Recordings at most before a point is given up.
+const DETOURS: usize = 4;
+
 /// Paths kept at most; the first to come goes first.
 const PATHS: usize = 64;
 
 struct Path {
     recorded: Arc<Recorded>,
     compiled: Compiled,
+}
+
+impl Path {
+    fn of(recorded: Recorded) -> Path {
+        Path { compiled: Compiled::new(recorded.density.clone()), recorded: Arc::new(recorded) }
+    }
 }
 
 /// A density that follows its program.
@@ -73,17 +91,21 @@ impl Live {
     /// The density around a recorded run.
     pub fn new(model: Model, recorded: Recorded) -> Live {
         let mut live = Live { model, paths: vec![], now: 0, recordings: 1 };
-        live.push(recorded);
+        live.keep(Path::of(recorded));
         live
     }
 
-    fn push(&mut self, recorded: Recorded) {
+    fn keep(&mut self, path: Path) {
         if self.paths.len() == PATHS {
             self.paths.remove(0);
         }
-        let compiled = Compiled::new(recorded.density.clone());
-        self.paths.push(Path { recorded: Arc::new(recorded), compiled });
+        self.paths.push(path);
         self.now = self.paths.len() - 1;
+    }
+
+    /// What it follows.
+    pub fn model(&self) -> &Model {
+        &self.model
     }
 
     /// How many coordinates there are.
@@ -136,18 +158,38 @@ impl Live {
             let bare = RunFault { fault, stack: vec![], omitted: 0, path: String::new() };
             return Err(Refused::Fault(Box::new(bare)));
         }
-        let choices = self.recorded().values(x);
-        self.recordings += 1;
-        let recorded = match self.model.record(&choices) {
-            Ok(recorded) => recorded,
-            Err(fault) if fault.fault.code == "missing-choice" => return Err(Refused::Structure),
-            Err(fault) => return Err(Refused::Fault(fault)),
-        };
-        if recorded.structure != self.recorded().structure {
-            return Err(Refused::Structure);
+        // Values follow from coordinates by the path: a bound may hang on a branch. So what is recorded at the values of
+        // one path may lie on another, whose values are then taken.
+        let mut at = self.recorded().clone();
+        for _ in 0..DETOURS {
+            self.recordings += 1;
+            let recorded = match self.model.record(&at.values(x)) {
+                Ok(recorded) => recorded,
+                Err(fault) if fault.fault.code == "missing-choice" => return Err(Refused::Structure),
+                Err(fault) => return Err(Refused::Fault(fault)),
+            };
+            if recorded.structure != at.structure {
+                return Err(Refused::Structure);
+            }
+            let mut path = Path::of(recorded);
+            if let Some(value) = path.compiled.inside(x, g) {
+                self.keep(path);
+                return Ok(value);
+            }
+            at = path.recorded;
         }
-        self.push(recorded);
-        let compiled = &mut self.paths[self.now].compiled;
-        compiled.inside(x, g).ok_or(Refused::Rounding)
+        Err(Refused::Rounding)
+    }
+
+    /// The values of all choices at `x`, fixed ones included.
+    ///
+    /// # Errors
+    /// As for [`Live::value_and_gradient`].
+    ///
+    /// # Panics
+    /// When there is not one number for each coordinate.
+    pub fn values(&mut self, x: &[f64]) -> Result<HashMap<u128, Value>, Refused> {
+        self.value_and_gradient(x, &mut vec![0.0; x.len()])?;
+        Ok(self.recorded().values(x))
     }
 }

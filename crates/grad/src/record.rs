@@ -82,6 +82,18 @@ pub struct Continuous {
     values: Vec<Id>,
 }
 
+impl Continuous {
+    /// How many numbers its value has.
+    pub fn width(&self) -> usize {
+        self.values.len()
+    }
+
+    /// Whether its value is a list of numbers rather than a number.
+    pub fn is_vector(&self) -> bool {
+        matches!(self.transform, Transform::Simplex | Transform::Vector)
+    }
+}
+
 /// A recorded run.
 #[derive(Clone)]
 pub struct Recorded {
@@ -125,6 +137,8 @@ struct Recorder<'a> {
     start: Vec<f64>,
     structure: u128,
     emitted: usize,
+    /// Whether each term must have a finite gradient.
+    strict: bool,
 }
 
 /// Lower and upper bound of a family of reals.
@@ -165,7 +179,31 @@ fn log_odds(share: f64) -> f64 {
     (share.ln() - (-share).ln_1p()).clamp(-FARTHEST, FARTHEST)
 }
 
-impl Recorder<'_> {
+impl<'a> Recorder<'a> {
+    fn new(run: &'a Run<'a>, choices: &'a HashMap<u128, Value>, strict: bool) -> Self {
+        Recorder {
+            run,
+            choices,
+            density: Var::from_f64(0.0),
+            continuous: vec![],
+            fixed: vec![],
+            start: vec![],
+            structure: 0,
+            emitted: 0,
+            strict,
+        }
+    }
+
+    /// Runs the program, on the sheet of this thread.
+    fn finish(&mut self) -> Result<(), Box<RunFault>> {
+        let run = self.run;
+        let mut machine = Machine::new(run.program, run.limits);
+        let bare = |fault| Box::new(RunFault { fault, stack: vec![], omitted: 0, path: String::new() });
+        let mut state = machine.start(run.args, true).map_err(bare)?;
+        state.remember_origins();
+        machine.finish(&mut state, self)
+    }
+
     fn coordinate(&mut self, v: f64) -> Var {
         self.start.push(v);
         Var::input(v)
@@ -250,6 +288,17 @@ impl Recorder<'_> {
         (values, log + total.ln_gamma())
     }
 
+    /// Adds a term to the log density.
+    fn add(&mut self, log: Var) -> Result<(), Fault> {
+        self.density = self.density + log;
+        if self.strict
+            && let Some(bad) = log.slopes(&self.start).into_iter().find(|slope| !slope.is_finite())
+        {
+            return Err(Fault::new("non-finite-gradient", format!("a gradient of {bad}")));
+        }
+        Ok(())
+    }
+
     fn mix(&mut self, part: u128) {
         const ODD: u128 = 0x9E37_79B9_7F4A_7C15_F39C_C060_5CED_C835;
         self.structure = (self.structure.rotate_left(41) ^ part).wrapping_mul(ODD);
@@ -273,6 +322,11 @@ fn impossible(what: &str) -> Fault {
 impl Answers<Var> for Recorder<'_> {
     fn choice(&mut self, at: &At<'_, Var>, dist: &Dist<Var>) -> Result<Answer<Value<Var>>, Fault> {
         let address = at.address();
+        if let Dist::Delta(value) = dist {
+            // It may vary with other choices.
+            self.mix(address);
+            return Ok(Answer::Go(draw_to_value(value.clone())));
+        }
         let Some(given) = self.choices.get(&address) else {
             let path = at.path();
             return Err(Fault::new("missing-choice", format!("there is no value for the choice `{path}`"))
@@ -284,11 +338,6 @@ impl Answers<Var> for Recorder<'_> {
         let first = self.start.len();
         let family = dist.family();
         let (transform, values, log, draw) = match (dist, &draw) {
-            (Dist::Delta(value), _) => {
-                // A fixed value may vary with other choices.
-                let value = value.clone();
-                return Ok(Answer::Go(draw_to_value(value)));
-            }
             (Dist::Dirichlet(a), Draw::Vector(x)) if a.len() == x.len() => {
                 let (values, log) = self.simplex(a, x);
                 (Transform::Simplex, values.clone(), log, Draw::Vector(values.into()))
@@ -310,7 +359,7 @@ impl Answers<Var> for Recorder<'_> {
                 if log.value() == f64::NEG_INFINITY {
                     return Err(impossible("a choice of probability zero"));
                 }
-                self.density = self.density + log;
+                self.add(log)?;
                 let kept = match &draw {
                     Draw::Bool(b) => u128::from(*b),
                     Draw::Int(i) => *i as u128,
@@ -326,7 +375,7 @@ impl Answers<Var> for Recorder<'_> {
             return Err(impossible("a choice outside its support"));
         }
         self.mix(1 + transform as u128);
-        self.density = self.density + log;
+        self.add(log)?;
         let coordinates = self.start.len() - first;
         let choice =
             Continuous { address, path: at.path(), family, transform, first, coordinates, values: vec![] };
@@ -347,7 +396,7 @@ impl Answers<Var> for Recorder<'_> {
                 Factor::Condition => "this condition",
             }));
         }
-        self.density = self.density + log;
+        self.add(log)?;
         Ok(Answer::Go(()))
     }
 
@@ -380,23 +429,8 @@ impl Answers<Var> for Recorder<'_> {
 /// A fault with the model's call stack: a missing choice, an impossible run, an operation without a derivative on
 /// the way to the score, or whatever the program meets.
 pub fn record(run: &Run<'_>, choices: &HashMap<u128, Value>) -> Result<Recorded, Box<RunFault>> {
-    let mut recorder = Recorder {
-        run,
-        choices,
-        density: Var::from_f64(0.0),
-        continuous: vec![],
-        fixed: vec![],
-        start: vec![],
-        structure: 0,
-        emitted: 0,
-    };
-    let (finished, sheet) = with_sheet(|| {
-        let mut machine = Machine::new(run.program, run.limits);
-        let bare = |fault| Box::new(RunFault { fault, stack: vec![], omitted: 0, path: String::new() });
-        let mut state = machine.start(run.args, true).map_err(bare)?;
-        state.remember_origins();
-        machine.finish(&mut state, &mut recorder)
-    });
+    let mut recorder = Recorder::new(run, choices, false);
+    let (finished, sheet) = with_sheet(|| recorder.finish());
     finished?;
     let mut graph = sheet.graph;
     let value = recorder.density.id(&mut graph);
@@ -422,6 +456,13 @@ pub fn record(run: &Run<'_>, choices: &HashMap<u128, Value>) -> Result<Recorded,
     })
 }
 
+/// The first term of the log density whose gradient is not finite, as a fault of its line; the fault of the run, where
+/// it has one.
+pub fn blame(run: &Run<'_>, choices: &HashMap<u128, Value>) -> Option<Box<RunFault>> {
+    let mut recorder = Recorder::new(run, choices, true);
+    with_sheet(|| recorder.finish()).0.err()
+}
+
 impl Recorded {
     /// How many coordinates there are.
     pub fn dim(&self) -> usize {
@@ -433,8 +474,23 @@ impl Recorded {
     /// # Panics
     /// When there is not one number for each coordinate.
     pub fn values(&self, x: &[f64]) -> HashMap<u128, Value> {
+        self.values_of(&self.numbers(x))
+    }
+
+    /// The values of the continuous choices at these coordinates, one after another: [`Continuous::width`] each.
+    ///
+    /// # Panics
+    /// When there is not one number for each coordinate.
+    pub fn numbers(&self, x: &[f64]) -> Vec<f64> {
         let mut lanes: Lanes<1> = self.unpack.lanes();
-        let numbers = lanes.outputs(&self.unpack, x);
+        lanes.outputs(&self.unpack, x).to_vec()
+    }
+
+    /// The values of all choices by address, from the numbers of the continuous ones.
+    ///
+    /// # Panics
+    /// When there are fewer numbers than [`Recorded::numbers`] gives.
+    pub fn values_of(&self, numbers: &[f64]) -> HashMap<u128, Value> {
         let mut all: HashMap<u128, Value> = self.fixed.iter().cloned().collect();
         let mut at = 0;
         for choice in &self.choices {

@@ -5,7 +5,7 @@
 //! or a density over `Var` instead of `f64` so writes itself down: the non-standard interpretation of dissertation
 //! 7.2.1.
 
-use crate::density::{Comparison, Guard};
+use crate::density::{Comparison, Density, Guard};
 use crate::graph::{Graph, Id, Mix};
 use crate::operation::Op;
 use niwaki_math::Scalar;
@@ -83,6 +83,18 @@ impl Var {
     #[must_use]
     pub fn at(self, value: f64) -> Var {
         Var { value, ..self }
+    }
+
+    /// Its derivatives by the coordinates of the recording so far, at `x`; none of what does not vary. It takes as long as
+    /// the whole recording: for messages.
+    pub fn slopes(self, x: &[f64]) -> Vec<f64> {
+        let mut slopes = vec![0.0; x.len()];
+        SHEET.with_borrow(|sheet| {
+            if let (Some(sheet), true) = (sheet, self.varies()) {
+                Density::new(sheet.graph.clone(), Id(self.node), &[]).interpret(x, &mut slopes);
+            }
+        });
+        slopes
     }
 
     /// The nearest whole number, with the slope zero.

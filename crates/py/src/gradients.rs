@@ -105,8 +105,13 @@ impl PyDensity {
     /// Values of the choices at ``x``, by path.
     fn values<'py>(&self, py: Python<'py>, x: PyReadonlyArray1<'py, f64>) -> PyResult<Bound<'py, PyDict>> {
         let point = self.point(py, &x)?;
-        let recorded = self.with(|live| live.recorded().clone());
-        let values = recorded.values(point);
+        // Values follow by the path that the point is on; where there is none, by the one used last.
+        let (recorded, values) = self.with(|live| {
+            let values = live.values(point);
+            let recorded = live.recorded().clone();
+            let values = values.unwrap_or_else(|_| recorded.values(point));
+            (recorded, values)
+        });
         let found = PyDict::new(py);
         for choice in &recorded.choices {
             if let Some(value) = values.get(&choice.address) {

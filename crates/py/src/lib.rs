@@ -4,7 +4,7 @@
 //!
 //! * `values`: Python's objects to the machine's values, and back; `faults`: faults as data;
 //! * `model`: compiled models; `search`: algorithms; `settings`: theirs; `chains`, `kernels`: Markov chains;
-//!   `outcome`: what they find; `gradients`: log densities with their gradients;
+//!   `outcome`: what they find; `gradients`: log densities with their gradients; `trajectories`: chains that follow them;
 //! * `distributions`, `geometry`, `views`, `pictures`: the rooms below, by themselves.
 
 mod chains;
@@ -18,6 +18,7 @@ mod outcome;
 mod pictures;
 mod search;
 mod settings;
+mod trajectories;
 mod values;
 mod views;
 
@@ -41,5 +42,6 @@ fn _engine(module: &Bound<'_, PyModule>) -> PyResult<()> {
     model::register(module)?;
     outcome::register(module)?;
     search::register(module)?;
-    chains::register(module)
+    chains::register(module)?;
+    trajectories::register(module)
 }

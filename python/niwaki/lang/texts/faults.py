@@ -283,6 +283,15 @@ FAULTS = (
         cure="factor(-abs(gaussian(0, 1)))",
     ),
     Message(
+        "non-finite-gradient",
+        "the gradient is not finite here",
+        "its slope is infinite or not a number",
+        why="a chain follows the slope of every term of the score, and one that is no number leads nowhere",
+        help="look for a root, a power or a quotient at zero, and keep its argument away from there",
+        example="factor(-math.sqrt(abs(x))) at x = 0",
+        cure="factor(-math.sqrt(x * x + 1e-6))",
+    ),
+    Message(
         "impossible-trace",
         "this run is impossible",
         "the score is minus infinity here",

@@ -125,8 +125,8 @@ INPUTS = (
     Message(
         "sketch-without-slope",
         "the score of the scene has no gradient",
-        why="{detail}",
-        help="use particles for it, or say with `factor` in the model what the shapes should be like",
+        why="sketches count cells and pixels, and a count has no slope to follow",
+        help="use `mh()` or particles for it, or say with `factor` in the model what the shapes should be like",
         example="log_density(grow(ship, target).best)",
         cure="log_density(run(ship).best)",
     ),

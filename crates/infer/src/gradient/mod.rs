@@ -1,4 +1,10 @@
 //! Gradients of a task: its log density over the continuous choices of one run.
+//!
+//! * [`follow`]: that density as a target of chains, with the reasons for which it refuses a point;
+//! * [`explore`]: chains of a task, each from a possible run of its own.
+
+pub mod explore;
+pub mod follow;
 
 use crate::Failure;
 use crate::task::Task;
@@ -43,7 +49,11 @@ pub fn record(task: &Task, choices: &HashMap<u128, Value>) -> Result<Recorded, F
 /// # Errors
 /// As [`record`]; also a run without continuous choices.
 pub fn live(task: &Task, choices: &HashMap<u128, Value>) -> Result<Live, Failure> {
-    let model = model(task)?;
+    live_of(model(task)?, choices)
+}
+
+/// The same, of a model that is made already.
+pub(crate) fn live_of(model: Model, choices: &HashMap<u128, Value>) -> Result<Live, Failure> {
     let recorded = model.record(choices)?;
     if recorded.dim() == 0 {
         return Err(Failure::Setting(
