@@ -11,7 +11,9 @@ Everything here is in the modelling language, so that gradients flow through it.
 
 from __future__ import annotations
 
-from niwaki import cross, dot, emit, mesh, normalize, sign, vec
+from math import sqrt
+
+from niwaki import cross, dot, emit, mesh, normalize, vec
 
 #: Corners of each face, counter-clockwise from outside.
 BOTTOM = (0, 3, 2, 1)
@@ -24,6 +26,9 @@ SIDES = (FRONT, RIGHT, BACK, LEFT)
 
 #: The faces that do not meet corner 0, each cut along its first diagonal; those that do are cut at corner 0.
 FAR_TRIANGLES = ((4, 5, 6), (4, 6, 7), (1, 2, 6), (1, 6, 5), (2, 3, 7), (2, 7, 6))
+
+#: The square of a volume, m^6, that counts as none when a block is drawn.
+FLAT = 1e-30
 
 #: A drawn block: a side is a fan about the middle of its outer diagonal (corners 8 to 11).
 DRAWN = (
@@ -163,6 +168,7 @@ def drawn(block, color):
     for face in SIDES:
         a, b, c, d = face
         first, second = 0.5 * (block[a] + block[c]), 0.5 * (block[b] + block[d])
-        # No branch: it would be one more path for a gradient to record.
-        points = points + [first + (0.5 + 0.5 * sign(bulge(block, face))) * (second - first)]
+        # No branch, and so no path for a gradient to record; a flat face takes the mean of both.
+        twist = bulge(block, face)
+        points = points + [first + (0.5 + 0.5 * twist / sqrt(twist * twist + FLAT)) * (second - first)]
     emit(mesh([(p.x, p.z, -p.y) for p in points], DRAWN, color=color))

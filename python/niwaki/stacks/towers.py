@@ -70,7 +70,7 @@ def slid(block, below, margin):
     mine, other = edges(block, BOTTOM_BY_X)
     long, deep = norm(along), norm(across)
     along, across = along / long, across / deep
-    if abs(dot(mine, along)) * norm(other) >= abs(dot(other, along)) * norm(mine):
+    if dot(mine, along) ** 2 * dot(other, other) >= dot(other, along) ** 2 * dot(mine, mine):
         x, y = norm(mine), norm(other)
     else:
         x, y = norm(other), norm(mine)
@@ -87,7 +87,7 @@ def aligned(block, along, across):
     """Turn a block about its bottom's middle until its front edge is parallel to the nearer of two directions."""
     front = normalize(block[1] - block[0])
     x, y = dot(front, along), dot(front, across)
-    if abs(x) >= abs(y):
+    if x * x >= y * y:
         goal = along if x >= 0.0 else -along
     else:
         goal = across if y >= 0.0 else -across
