@@ -11,8 +11,7 @@ from typing import Any
 import niwaki as nw
 import pytest
 from niwaki.gallery import entry
-from niwaki.infer import SearchWarning
-
+from niwaki.search import SearchWarning
 from tests.niwaki.test_infer import COINS, exact, load, refused
 
 GOLDEN = Path(__file__).parents[1] / "golden"

@@ -35,7 +35,8 @@ def test_each_example_gets_its_advice_and_its_cure_none(message: Message) -> Non
 
 
 def test_the_gallery_needs_none() -> None:
-    assert [(entry.name, str(one)) for entry in entries() for one in advise(entry.model.function)] == []
+    grown = [entry for entry in entries() if entry.target_name is not None]
+    assert [(entry.name, str(one)) for entry in grown for one in advise(entry.model.function)] == []
 
 
 def test_a_ship_without_futures_is_told_of_each() -> None:

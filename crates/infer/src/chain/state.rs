@@ -83,7 +83,7 @@ impl State {
         for attempt in 0..tries {
             // The last visits, so that no proposal has their numbers.
             let mut answers = Fresh { key: streams.fresh(u64::MAX - attempt), known, hosts: &*task.hosts };
-            let (trace, change) = machine.begin(&task.args, &mut answers)?;
+            let (trace, change) = task.begin(&mut machine, &mut answers)?;
             let mut state = State {
                 trace,
                 sketches: Sketches::start(&task.sketches),

@@ -78,6 +78,14 @@ FILES = (
         cure="a folder that is there",
     ),
     Message(
+        "polygon",
+        "this file holds no polygon that can be used",
+        why="{reason}",
+        help="give one closed outline of straight lines with at least three corners that does not cross itself",
+        example='load_polygon("two-rooms.svg")',
+        cure='load_polygon("room.svg")',
+    ),
+    Message(
         "not-a-solid",
         "{count} of {total} shapes are not solids that can be printed",
         why="{listed}",
