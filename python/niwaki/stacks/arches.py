@@ -26,7 +26,7 @@ from niwaki.stacks.blocks import (
     top_shear_x,
     welded,
 )
-from niwaki.stacks.contacts import DOWN, GROUND, Made, balance, contact, corners, positive_volume
+from niwaki.stacks.contacts import DOWN, GROUND, SAFETY, Made, asking, balance, contact, corners, positive_volume
 from niwaki.stacks.towers import OAK, PAINTS, UP, slope
 
 GROUND_TOP = 0.005
@@ -141,24 +141,24 @@ def show(pieces):
 
 
 @model
-def arch(width=0.01, blocks=11, cone=True, pieces_deep=None):
+def arch(width=0.01, blocks=11, friction="cone", safety=SAFETY):
     """One arch: 209 continuous choices with eleven blocks."""
     pieces = curve((ground_at(0.2), 0.3 * UP, ground_at(0.8), 0.3 * UP), blocks)
     touches = tuple(links(0, blocks, pieces) + feet(0, blocks, pieces))
-    balance(pieces, touches, OAK, width, DOWN, cone)
+    balance(pieces, touches, OAK, asking(width, friction, safety), DOWN)
     show(pieces)
     return Made(tuple(pieces), touches, OAK, (DOWN,), (blocks,))
 
 
 @model
-def symmetric_arch(width=0.01, blocks=11, cone=True, apart=0.002):
+def symmetric_arch(width=0.01, blocks=11, friction="cone", safety=SAFETY, apart=0.002):
     """One arch that is nearly its own mirror image."""
-    made = arch(width, blocks, cone)
+    made = arch(width, blocks, friction, safety)
     mirrored(made.blocks, made.blocks, apart)
     return made
 
 
-def three(starts, cone, width):
+def three(starts, asked):
     """Two arches on the ground and a third on their keystones."""
     a, b, c, d = starts
     left = curve((a, 0.3 * UP, b, 0.3 * UP), 9)
@@ -178,23 +178,24 @@ def three(starts, cone, width):
             contact(28, corners(pieces[28], TOP), 13, corners(pieces[13], BACK)),
         ]
     )
-    balance(pieces, touches, OAK, width, DOWN, cone)
+    balance(pieces, touches, OAK, asked, DOWN)
     show(pieces)
     return Made(tuple(pieces), touches, OAK, (DOWN,), (29,))
 
 
 @model
-def tri_arch(width=0.01, cone=True):
+def tri_arch(width=0.01, friction="cone", safety=SAFETY):
     """Two arches that carry a third: 555 continuous choices."""
-    return three((ground_at(0.05), ground_at(0.25), ground_at(0.6), ground_at(0.9)), cone, width)
+    return three((ground_at(0.05), ground_at(0.25), ground_at(0.6), ground_at(0.9)), asking(width, friction, safety))
 
 
 @model
-def symmetric_tri_arch(width=0.01, cone=True, apart=0.002):
+def symmetric_tri_arch(width=0.01, friction="cone", safety=SAFETY, apart=0.002):
     """Two arches that carry a third, nearly their own mirror image: 555 continuous choices."""
     pull = 1.0 / 3.0
     made = three(
-        (ground_at(0.18, pull), ground_at(0.43, pull), ground_at(0.57, pull), ground_at(0.82, pull)), cone, width
+        (ground_at(0.18, pull), ground_at(0.43, pull), ground_at(0.57, pull), ground_at(0.82, pull)),
+        asking(width, friction, safety),
     )
     mirrored(made.blocks[:9], made.blocks[9:18], apart)
     mirrored(made.blocks[18:], made.blocks[18:], apart)
@@ -213,7 +214,7 @@ def mirrored(one, other, apart):
 
 
 @model
-def wheel(width=0.01, cone=True):
+def wheel(width=0.01, friction="cone", safety=SAFETY):
     """An arch over another, and a spoke between their keystones: 555 continuous choices."""
     inner = curve((ground_at(0.2), 0.3 * UP, ground_at(0.8), 0.3 * UP), 9)
     outer = curve((ground_at(0.1), 0.6 * UP, ground_at(0.9), 0.6 * UP), 17)
@@ -232,6 +233,6 @@ def wheel(width=0.01, cone=True):
             contact(28, corners(pieces[28], TOP), 17, corners(pieces[17], FRONT)),
         ]
     )
-    balance(pieces, touches, OAK, width, DOWN, cone)
+    balance(pieces, touches, OAK, asking(width, friction, safety), DOWN)
     show(pieces)
     return Made(tuple(pieces), touches, OAK, (DOWN,), (29,))

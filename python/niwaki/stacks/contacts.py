@@ -32,6 +32,9 @@ GROUND = -1
 
 DOWN = vec(0.0, 0.0, -1.0)
 
+#: The share of a contact and of its friction that models spare unless told otherwise.
+SAFETY = 0.05
+
 #: Mean of the prior of a push, mean weights.
 PUSH = 10.0
 
@@ -56,6 +59,26 @@ class Contact(NamedTuple):
     normal: Any
     along: Any
     across: Any
+
+
+class Asked(NamedTuple):
+    """How exactly blocks should balance.
+
+    Attributes
+    ----------
+    width : float
+        The standard deviation of a net force in mean weights, and of a net torque in mean weights times the cube root of
+        the mean volume.
+    cone : bool
+        Friction in Coulomb's cone; otherwise in the original's square pyramid, which is up to 1.4 times too strong.
+    safety : float
+        What is spared: latent forces stand inside each contact by this share of the way to its middle, with this share
+        less of friction. 0 is the original; then a draw may balance on an edge, or within the tolerance only.
+    """
+
+    width: Any
+    cone: Any
+    safety: Any
 
 
 class Made(NamedTuple):
@@ -142,29 +165,44 @@ def torque_balance(total, width):
     factor(softeq(total.x, 0.0, width) + softeq(total.y, 0.0, width) + softeq(total.z, 0.0, width))
 
 
-def balance(blocks, contacts, friction, width, down=DOWN, cone=True):
+def asking(width, friction, safety):
+    """Name how exactly blocks should balance; friction is "cone" or "pyramid"."""
+    assert friction == "cone" or friction == "pyramid"
+    return Asked(width, friction == "cone", safety)
+
+
+def balance(blocks, contacts, friction, asked, down=DOWN):
     """Ask for equilibrium under latent forces: a force and a torque factor for each block.
 
-    `width` is the standard deviation of a net force in mean weights, and of a net torque in mean weights times the cube
-    root of the mean volume; `down` the direction of gravity. Every call has forces of its own.
+    `asked` is the tolerance of the balance (`Asked`), `down` the direction of gravity. Every call has forces of its own.
     """
+    safety = asked.safety
+    spared = [drawn_in(touch, safety) for touch in contacts]
     solids = [volume_and_centre(block) for block in blocks]
     mean_volume = sum([volume for volume, _ in solids]) / len(solids)
     size = mean_volume ** (1.0 / 3.0)
-    pushes = [forces(touch, friction, cone) for touch in contacts]
+    pushes = [forces(touch, (1.0 - safety) * friction, asked.cone) for touch in spared]
     for body in range(len(blocks)):
         volume, centre = solids[body]
         total = (volume / mean_volume) * down
         torque = vec(0.0, 0.0, 0.0)
-        for touch, push in zip(contacts, pushes):  # noqa: B905
+        for touch, push in zip(spared, pushes):  # noqa: B905
             if touch.second == body:
                 total = total + added(push)
                 torque = torque + turned(touch.points, push, centre)
             elif touch.first == body:
                 total = total - added(push)
                 torque = torque - turned(touch.points, push, centre)
-        force_balance(total, width)
-        torque_balance(torque / size, width)
+        force_balance(total, asked.width)
+        torque_balance(torque / size, asked.width)
+
+
+def drawn_in(touch, safety):
+    """A contact whose corners have moved to its middle by a share of the way."""
+    a, b, c, d = touch.points
+    middle = 0.25 * (a + b + c + d)
+    points = tuple([p + safety * (middle - p) for p in touch.points])
+    return Contact(touch.first, touch.second, points, touch.normal, touch.along, touch.across)
 
 
 def added(push):
@@ -181,7 +219,7 @@ def turned(points, push, centre):
 
 
 def positive_volume(block, least):
-    """Keep a block from turning inside out: a barrier that rises as its volume falls to `least`."""
+    """Keep a block from turning inside out: a barrier that rises as its volume falls to `least` cubic metres."""
     volume, _ = volume_and_centre(block)
     condition(volume > 0.0)
     factor(-least / volume)

@@ -11,7 +11,7 @@ from math import cos, radians, sin
 from niwaki import model, norm, uniform, vec
 from niwaki.stacks.arches import curve, feet, ground_at, links
 from niwaki.stacks.blocks import BOTTOM, TOP, box_corners, edges, middle, moved, outward, shear_x, standing, top_shear_x
-from niwaki.stacks.contacts import DOWN, Made, balance
+from niwaki.stacks.contacts import DOWN, SAFETY, Made, asking, balance
 from niwaki.stacks.towers import (
     FEET,
     POPLAR,
@@ -60,44 +60,44 @@ def raised(blocks, i, count, tall, wide, margin, turned):
     return raised(blocks + [block], i + 1, count, tall, wide, margin, turned)
 
 
-def finish(pieces, touches, downs, width, cone):
+def finish(pieces, touches, downs, asked):
     """Balance for each direction of gravity, and emit."""
     for down in downs:
-        balance(pieces, touches, POPLAR, width, down, cone)
+        balance(pieces, touches, POPLAR, asked, down)
     show(pieces)
     return Made(tuple(pieces), touches, POPLAR, downs, (len(pieces),))
 
 
 @model
-def cut_stack(width=0.01, cone=True):
+def cut_stack(width=0.01, friction="cone", safety=SAFETY):
     """A tower of outlines in one plane: 101 continuous choices."""
     pieces = pile(6, (0.04, 0.075), (0.015, 0.075), 0.01, False)
-    return finish(pieces, touching(pieces), (DOWN,), width, cone)
+    return finish(pieces, touching(pieces), (DOWN,), asking(width, friction, safety))
 
 
 @model
-def cut_lean(width=0.01, cone=True, astray=0.01):
+def cut_lean(width=0.01, friction="cone", safety=SAFETY, astray=0.01):
     """A leaning tower of outlines, every other one turned: 106 continuous choices."""
     pieces = pile(6, (0.03, 0.07), (0.015, 0.07), 0.008, True)
-    made = finish(pieces, touching(pieces), (DOWN,), width, cone)
+    made = finish(pieces, touching(pieces), (DOWN,), asking(width, friction, safety))
     lean_on(made.blocks, astray)
     return made
 
 
 @model
-def cut_top_heavy(width=0.01, cone=True, ratio=1.5):
+def cut_top_heavy(width=0.01, friction="cone", safety=SAFETY, ratio=1.5):
     """A tower of outlines that grow from the bottom to the top: 106 continuous choices."""
     pieces = pile(6, (0.015, 0.07), (0.015, 0.07), 0.008, True)
-    made = finish(pieces, touching(pieces), (DOWN,), width, cone)
+    made = finish(pieces, touching(pieces), (DOWN,), asking(width, friction, safety))
     grow_by(made.blocks, ratio)
     return made
 
 
 @model
-def tilt_stack(width=0.01, cone=True):
+def tilt_stack(width=0.01, friction="cone", safety=SAFETY):
     """A tower that stands on ground tilted by ten degrees either way: 178 continuous choices."""
     pieces = pile(6, (0.015, 0.07), (0.015, 0.07), 0.008, True)
-    return finish(pieces, touching(pieces), TILTED, width, cone)
+    return finish(pieces, touching(pieces), TILTED, asking(width, friction, safety))
 
 
 def cut_curve():
@@ -106,14 +106,14 @@ def cut_curve():
 
 
 @model
-def cut_arch(width=0.01, cone=True):
+def cut_arch(width=0.01, friction="cone", safety=SAFETY):
     """An arch of outlines: 130 continuous choices."""
     pieces = cut_curve()
-    return finish(pieces, tuple(links(0, 7, pieces) + feet(0, 7, pieces)), (DOWN,), width, cone)
+    return finish(pieces, tuple(links(0, 7, pieces) + feet(0, 7, pieces)), (DOWN,), asking(width, friction, safety))
 
 
 @model
-def tilt_arch(width=0.01, cone=True):
+def tilt_arch(width=0.01, friction="cone", safety=SAFETY):
     """An arch of outlines that stands on ground tilted by ten degrees either way: 226 continuous choices."""
     pieces = cut_curve()
-    return finish(pieces, tuple(links(0, 7, pieces) + feet(0, 7, pieces)), TILTED, width, cone)
+    return finish(pieces, tuple(links(0, 7, pieces) + feet(0, 7, pieces)), TILTED, asking(width, friction, safety))

@@ -22,7 +22,7 @@ from niwaki.stacks.blocks import (
     top_shear_x,
     welded,
 )
-from niwaki.stacks.contacts import DOWN, GROUND, Made, balance, contact, corners
+from niwaki.stacks.contacts import DOWN, GROUND, SAFETY, Made, asking, balance, contact, corners
 from niwaki.stacks.towers import GROUND_TOP, OAK, PAINTS, UP, WIDEST, slope
 
 HALF = 0.65
@@ -123,7 +123,7 @@ def joined(first, count, base, face, bar, pieces):
 
 
 @model
-def platforms(width=0.01, cone=True):
+def platforms(width=0.01, friction="cone", safety=SAFETY):
     """Two bars on four towers: 330 continuous choices."""
     low = bar_at(vec(0.0, 0.0, 0.2), 0.3)
     a = tower(4, on_ground(uniform(0.3, 0.4)), UP, under(low, uniform(0.75, 0.95)), low)
@@ -138,7 +138,7 @@ def platforms(width=0.01, cone=True):
         + joined(9, 2, 8, corners(low, TOP), 17, pieces)
         + joined(11, 6, GROUND, FLOOR, 17, pieces)
     )
-    balance(pieces, touches, OAK, width, DOWN, cone)
+    balance(pieces, touches, OAK, asking(width, friction, safety), DOWN)
     for i in range(len(pieces)):
         drawn(pieces[i], BAR if i == 8 or i == 17 else PAINTS[i % 5])
     return Made(tuple(pieces), touches, OAK, (DOWN,), (18,))

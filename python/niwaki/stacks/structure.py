@@ -98,6 +98,8 @@ class Structure:
         for number in range(len(self.corners)):
             if not self.solid(number)[0] > 0.0:
                 raise FileError("block-inside-out", block=_name(number))
+            if not self.is_convex(number):
+                raise FileError("block-not-convex", block=_name(number))
 
     def __len__(self) -> int:
         return len(self.corners)
@@ -116,6 +118,15 @@ class Structure:
             outer = np.linalg.det([q - p, r - p, s - p]) > 0.0
             found += [(a, b, d), (b, c, d)] if outer else [(a, b, c), (a, c, d)]
         return np.array(found, dtype=np.int64)
+
+    def is_convex(self, number: int) -> bool:
+        """Whether no corner of a block lies outside of one of its faces, by more than a thousandth of its size."""
+        corners = self.corners[number]
+        p, q, r = corners[self.faces(number)].transpose(1, 0, 2)
+        out = np.cross(q - p, r - p)
+        out /= np.maximum(np.linalg.norm(out, axis=1, keepdims=True), 1e-300)
+        heights = np.einsum("fi,cfi->cf", out, corners[:, None, :] - p)
+        return bool(heights.max() <= 1e-3 * float(np.ptp(corners, axis=0).max()))
 
     def solid(self, number: int) -> tuple[float, Floats]:
         """Volume and centre of mass of a block."""

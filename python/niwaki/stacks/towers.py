@@ -26,7 +26,7 @@ from niwaki.stacks.blocks import (
     top_shear_y,
     volume_and_centre,
 )
-from niwaki.stacks.contacts import DOWN, GROUND, Made, balance, contact, corners
+from niwaki.stacks.contacts import DOWN, GROUND, SAFETY, Made, asking, balance, contact, corners
 
 GROUND_TOP = -0.03
 FLOOR = (
@@ -122,19 +122,19 @@ def show(blocks):
 
 
 @model
-def stack(width=0.005, blocks=6, cone=True):
+def stack(width=0.005, blocks=6, friction="cone", safety=SAFETY):
     """A tower of random blocks that balances: 118 continuous choices."""
     pieces = pile(blocks, 0.01)
     touches = touching(pieces)
-    balance(pieces, touches, OAK, width, DOWN, cone)
+    balance(pieces, touches, OAK, asking(width, friction, safety), DOWN)
     show(pieces)
     return Made(tuple(pieces), touches, OAK, (DOWN,), (blocks,))
 
 
 @model
-def lean(width=0.005, blocks=6, cone=True, astray=0.01):
+def lean(width=0.005, blocks=6, friction="cone", safety=SAFETY, astray=0.01):
     """A tower whose blocks' centres of mass keep to a leaning line, within `astray` metres."""
-    made = stack(width, blocks, cone)
+    made = stack(width, blocks, friction, safety)
     lean_on(made.blocks, astray)
     return made
 
@@ -150,9 +150,9 @@ def lean_on(blocks, astray):
 
 
 @model
-def top_heavy(width=0.005, blocks=6, cone=True, ratio=2.0):
+def top_heavy(width=0.005, blocks=6, friction="cone", safety=SAFETY, ratio=2.0):
     """A tower in which each block has twice the volume of the one below."""
-    made = stack(width, blocks, cone)
+    made = stack(width, blocks, friction, safety)
     grow_by(made.blocks, ratio)
     return made
 
@@ -165,12 +165,12 @@ def grow_by(blocks, ratio):
 
 
 @model
-def every_step(width=0.005, blocks=5, cone=True):
+def every_step(width=0.005, blocks=5, friction="cone", safety=SAFETY):
     """A tower that balances whenever another block has been put on it: 198 continuous choices with five blocks."""
     pieces = centred([standing(sheared(0), FEET, UP)], 1, blocks)
     touches = touching(pieces)
     for built in range(2, blocks + 1):
-        balance(pieces[:built], touches[:built], OAK, width, DOWN, cone)
+        balance(pieces[:built], touches[:built], OAK, asking(width, friction, safety), DOWN)
     show(pieces)
     return Made(tuple(pieces), touches, OAK, (DOWN,), tuple([built for built in range(2, blocks + 1)]))
 

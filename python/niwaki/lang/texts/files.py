@@ -118,6 +118,14 @@ FILES = (
         cure="a block with its top above its bottom",
     ),
     Message(
+        "block-not-convex",
+        "{block} is not convex",
+        why="one of its corners lies outside of the plane of one of its faces",
+        help="shear it less; draws of the posterior hardly ever have one, a draw from the prior alone often",
+        example="an outline that crosses itself",
+        cure="an outline whose corners all turn the same way",
+    ),
+    Message(
         "program-unsolved",
         "the linear program of this structure has no answer",
         why="the solver says: {reason}",
