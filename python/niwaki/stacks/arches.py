@@ -1,15 +1,15 @@
 """Networks of arches: blocks along curves that stand on the ground or on one another (dissertation figures 4.8, 4.11).
 
 A curve is a cubic Bezier curve given by its ends and the tangents there, in the plane of x and z; block i lies between
-the curve's points i/n and (i+1)/n. Then each block slides along the face below, changes its height and its shear, and the
-next block's bottom follows. A curve that stands on another begins at a block's face with that face's own normal, so
+the curve's points i/n and (i+1)/n. Then each block slides along the face below, changes its height and its shear, and
+the next block's bottom follows. A curve that stands on another begins at a block's face with that face's own normal, so
 that it follows the random shape of what it stands on. Front is the inside of an arch, back its outside. Numbers are the
 original's; metres.
 """
 
 from __future__ import annotations
 
-from niwaki import dot, factor, model, norm, softeq, uniform, vec
+from niwaki import factor, model, norm, softeq, uniform, vec
 from niwaki.stacks.blocks import (
     BACK,
     BOTTOM,
@@ -26,7 +26,17 @@ from niwaki.stacks.blocks import (
     top_shear_x,
     welded,
 )
-from niwaki.stacks.contacts import DOWN, GROUND, SAFETY, Made, asking, balance, contact, corners, positive_volume
+from niwaki.stacks.contacts import (
+    DOWN,
+    GROUND,
+    SAFETY,
+    Made,
+    asking,
+    balance,
+    contact,
+    corners,
+    positive_volume,
+)
 from niwaki.stacks.towers import OAK, PAINTS, UP, slope
 
 GROUND_TOP = 0.005
@@ -43,7 +53,7 @@ THICK = (0.02, 0.06)
 
 
 def ground_at(t, pull=0.9):
-    """A point of the ground, which is itself a curve: from x = -0.5 to 0.5 with tangents of `pull` metres at its ends."""
+    """A point of the ground, itself a curve: from x = -0.5 to 0.5 with tangents of `pull` metres at its ends."""
     a, b, c, d = (1.0 - t) ** 3, 3.0 * (1.0 - t) ** 2 * t, 3.0 * (1.0 - t) * t**2, t**3
     return vec(-0.5 * a + (pull - 0.5) * b + (0.5 - pull) * c + 0.5 * d, 0.0, GROUND_TOP)
 
@@ -77,10 +87,11 @@ def size_of(thick, depth):
 
 
 def curve(ends, count, thick=THICK, depth=None, margin=MARGIN):
-    """Blocks along a curve, reshaped from its start to its end and welded to both ends; depth is random if not given."""
+    """Blocks along a curve, reshaped from start to end and welded to both ends; depth is random if not given."""
     sizes = [size_of(thick, depth) for _ in range(count)]
     pieces = [
-        face_at(ends, i / count, sizes[i][0], sizes[i][1]) + face_at(ends, (i + 1) / count, sizes[i][0], sizes[i][1])
+        face_at(ends, i / count, sizes[i][0], sizes[i][1])
+        + face_at(ends, (i + 1) / count, sizes[i][0], sizes[i][1])
         for i in range(count)
     ]
     first = welded(pieces[0], BOTTOM, ends[0], ends[1] / norm(ends[1]))
@@ -121,7 +132,8 @@ def on_face(block, face, tangent):
 def links(first, count, pieces):
     """Contacts within a curve."""
     return [
-        contact(i, corners(pieces[i], TOP), i + 1, corners(pieces[i + 1], BOTTOM)) for i in range(first, first + count - 1)
+        contact(i, corners(pieces[i], TOP), i + 1, corners(pieces[i + 1], BOTTOM))
+        for i in range(first, first + count - 1)
     ]
 
 
@@ -186,7 +198,9 @@ def three(starts, asked):
 @model
 def tri_arch(width=0.01, friction="cone", safety=SAFETY):
     """Two arches that carry a third: 555 continuous choices."""
-    return three((ground_at(0.05), ground_at(0.25), ground_at(0.6), ground_at(0.9)), asking(width, friction, safety))
+    return three(
+        (ground_at(0.05), ground_at(0.25), ground_at(0.6), ground_at(0.9)), asking(width, friction, safety)
+    )
 
 
 @model
@@ -203,7 +217,7 @@ def symmetric_tri_arch(width=0.01, friction="cone", safety=SAFETY, apart=0.002):
 
 
 def mirrored(one, other, apart):
-    """Ask that corners lie opposite in x = 0, within `apart` metres; an arch runs from left to right, its image back."""
+    """Ask that corners lie opposite in x = 0, within `apart` metres; the image of an arch runs backwards."""
     for i in range(len(one)):
         image = other[len(other) - 1 - i]
         for k in range(8):

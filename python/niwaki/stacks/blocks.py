@@ -3,8 +3,8 @@
 A block is a tuple of eight points: the four corners of its bottom, front left, front right, back right, back left, then
 those of its top in the same order. In its start position left is -x, front is -y and z is up. Lengths are metres.
 
-The solid of a block is the convex hull of its corners. A side that shears have twisted is not flat: there the hull takes
-the diagonal that lies outside, which `volume_and_centre` does exactly, without a branch.
+The solid of a block is the convex hull of its corners. A side that shears have twisted is not flat: there the hull
+takes the diagonal that lies outside, which `volume_and_centre` does exactly, without a branch.
 
 Everything here is in the modelling language, so that gradients flow through it.
 """

@@ -1,12 +1,12 @@
 """Contacts and equilibrium: latent forces at the corners of each contact, and a soft balance of every block.
 
-Dissertation 4.5 and appendix B.2. A contact's area is where two rectangles overlap; at each of its four corners stands a
-force of three latent numbers, twelve for a contact. Forces are in units of the structure's mean weight and torques in
+Dissertation 4.5 and appendix B.2. A contact's area is where two rectangles overlap; at each of its four corners stands
+a force of three latent numbers, twelve for a contact. Forces are in units of the structure's mean weight and torques in
 mean weight times the cube root of the mean volume, so that neither size nor density matters.
 
 Where this is not the original: friction is a true cone (the original's square pyramid is `friction="pyramid"`); the
-centre of mass is exact; a push has an exponential prior of ten mean weights, where the original's is flat in newtons and
-so prefers heavy structures by the power of the number of pushes.
+centre of mass is exact; a push has an exponential prior of ten mean weights, where the original's is flat in newtons
+and so prefers heavy structures by the power of the number of pushes.
 """
 
 from __future__ import annotations
@@ -67,8 +67,8 @@ class Asked(NamedTuple):
     Attributes
     ----------
     width : float
-        The standard deviation of a net force in mean weights, and of a net torque in mean weights times the cube root of
-        the mean volume.
+        The standard deviation of a net force in mean weights, and of a net torque in mean weights times the cube root
+        of the mean volume.
     cone : bool
         Friction in Coulomb's cone; otherwise in the original's square pyramid, which is up to 1.4 times too strong.
     safety : float
@@ -174,7 +174,7 @@ def asking(width, friction, safety):
 def balance(blocks, contacts, friction, asked, down=DOWN):
     """Ask for equilibrium under latent forces: a force and a torque factor for each block.
 
-    `asked` is the tolerance of the balance (`Asked`), `down` the direction of gravity. Every call has forces of its own.
+    `asked` is the tolerance of the balance, `down` the direction of gravity. Every call has forces of its own.
     """
     safety = asked.safety
     spared = [drawn_in(touch, safety) for touch in contacts]

@@ -10,7 +10,17 @@ from math import cos, radians, sin
 
 from niwaki import model, norm, uniform, vec
 from niwaki.stacks.arches import curve, feet, ground_at, links
-from niwaki.stacks.blocks import BOTTOM, TOP, box_corners, edges, middle, moved, outward, shear_x, standing, top_shear_x
+from niwaki.stacks.blocks import (
+    TOP,
+    box_corners,
+    edges,
+    middle,
+    moved,
+    outward,
+    shear_x,
+    standing,
+    top_shear_x,
+)
 from niwaki.stacks.contacts import DOWN, SAFETY, Made, asking, balance
 from niwaki.stacks.towers import (
     FEET,
@@ -109,11 +119,15 @@ def cut_curve():
 def cut_arch(width=0.01, friction="cone", safety=SAFETY):
     """An arch of outlines: 130 continuous choices."""
     pieces = cut_curve()
-    return finish(pieces, tuple(links(0, 7, pieces) + feet(0, 7, pieces)), (DOWN,), asking(width, friction, safety))
+    return finish(
+        pieces, tuple(links(0, 7, pieces) + feet(0, 7, pieces)), (DOWN,), asking(width, friction, safety)
+    )
 
 
 @model
 def tilt_arch(width=0.01, friction="cone", safety=SAFETY):
     """An arch of outlines that stands on ground tilted by ten degrees either way: 226 continuous choices."""
     pieces = cut_curve()
-    return finish(pieces, tuple(links(0, 7, pieces) + feet(0, 7, pieces)), TILTED, asking(width, friction, safety))
+    return finish(
+        pieces, tuple(links(0, 7, pieces) + feet(0, 7, pieces)), TILTED, asking(width, friction, safety)
+    )

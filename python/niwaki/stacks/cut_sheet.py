@@ -89,7 +89,9 @@ class Sheet:
     def svg(self, board: int = 0) -> str:
         """One board as SVG in millimetres: cuts in red, numbers in dark blue."""
         width, height = self.board
-        body = [f'<rect width="{width:g}" height="{height:g}" fill="none" stroke="#b8b8b8" stroke-width="0.3"/>']
+        body = [
+            f'<rect width="{width:g}" height="{height:g}" fill="none" stroke="#b8b8b8" stroke-width="0.3"/>'
+        ]
         for piece in self.on(board):
             path = " ".join(f"{x:.4f},{height - y:.4f}" for x, y in piece.cut)
             body.append(f'<polygon points="{path}" fill="none" stroke="{CUT}" stroke-width="0.1"/>')
@@ -137,7 +139,11 @@ class Sheet:
         writers = {".dxf": self.dxf, ".svg": self.svg}
         if place.suffix.lower() not in writers:
             raise FileError(
-                "file-format", place, suffix=place.suffix or "no suffix", done="cut", formats=", ".join(writers)
+                "file-format",
+                place,
+                suffix=place.suffix or "no suffix",
+                done="cut",
+                formats=", ".join(writers),
             )
         names = [place] + [place.with_stem(f"{place.stem}-{board + 1}") for board in range(1, self.boards)]
         texts = [writers[place.suffix.lower()](board) for board in range(self.boards)]
@@ -262,10 +268,14 @@ def assembly(structure: Structure) -> str:
     geometry = need("shapely.geometry")
     for name, across, sign, away in views:
         # What is nearer is drawn later: from the front that is smaller y, from the right larger x.
-        order = np.argsort(corners[:, :, away].mean(axis=1) * (-1.0 if name == "front" else 1.0), kind="stable")
+        order = np.argsort(
+            corners[:, :, away].mean(axis=1) * (-1.0 if name == "front" else 1.0), kind="stable"
+        )
         shadows = {}
         for number in order:
-            flat = np.stack([sign * (corners[number, :, across] - low[across]), corners[number, :, 2] - low[2]], axis=1)
+            flat = np.stack(
+                [sign * (corners[number, :, across] - low[across]), corners[number, :, 2] - low[2]], axis=1
+            )
             hull = geometry.MultiPoint(flat).convex_hull
             shadows[number] = hull
             path = " ".join(f"{left + x:.3f},{height - edge - y:.3f}" for x, y in hull.exterior.coords[:-1])
@@ -273,8 +283,8 @@ def assembly(structure: Structure) -> str:
         for number in sorted(shadows):
             (x, y), size = label(np.array(shadows[number].exterior.coords)[:-1])
             body.append(
-                f'<text x="{left + x:.3f}" y="{height - edge - y + 0.35 * size:.3f}" font-size="{size:.2f}" fill="{INK}">'
-                f"{number + 1}</text>"
+                f'<text x="{left + x:.3f}" y="{height - edge - y + 0.35 * size:.3f}" '
+                f'font-size="{size:.2f}" fill="{INK}">{number + 1}</text>'
             )
         wide = high[across] - low[across]
         floor = height - edge
@@ -295,7 +305,9 @@ def label(points: Floats) -> tuple[tuple[float, float], float]:
     x, y = points.T
     parts = x * np.roll(y, -1) - y * np.roll(x, -1)
     area = 0.5 * parts.sum()
-    centre = np.array([((x + np.roll(x, -1)) * parts).sum(), ((y + np.roll(y, -1)) * parts).sum()]) / (6.0 * area)
+    centre = np.array([((x + np.roll(x, -1)) * parts).sum(), ((y + np.roll(y, -1)) * parts).sum()]) / (
+        6.0 * area
+    )
     edges = np.roll(points, -1, axis=0) - points
     away = points - centre
     inner = np.abs(edges[:, 0] * away[:, 1] - edges[:, 1] * away[:, 0]) / np.linalg.norm(edges, axis=1)

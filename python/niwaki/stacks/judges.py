@@ -1,8 +1,8 @@
 """Two judges of a structure that share no assumption with the model's soft balance: a program, and a simulation.
 
 `balanced` asks a linear program (HiGHS, through SciPy) for contact forces in the friction cone that hold every block
-exactly; it is elastic, so it always answers: with the smallest residual there is. `simulated` hands the blocks to MuJoCo, each a
-rigid body of its own, and waits.
+exactly; it is elastic, so it always answers: with the smallest residual there is. `simulated` hands the blocks to
+MuJoCo, each a rigid body of its own, and waits.
 """
 
 from __future__ import annotations
@@ -36,8 +36,8 @@ class Balance:
         The largest force or torque that is left over, in mean weights and mean weights times the cube root of the mean
         volume, at the forces where it is smallest; the worst of all directions of gravity and steps of construction.
     margin : float
-        The largest share of its own weight by which every block can be pushed sideways, in the worst of eight directions,
-        while balance remains: the tangent of the tilt at which it falls. 0 where there is no balance.
+        The largest share of its own weight by which every block can be pushed sideways, in the worst of eight
+        directions, while balance remains: the tangent of the tilt at which it falls. 0 where there is no balance.
     """
 
     residual: float
@@ -57,7 +57,7 @@ def balanced(structure: Structure, cone: bool = True) -> Balance:
     structure
         What should stand.
     cone
-        Friction within Coulomb's cone, a polygon of 32 sides inside it; otherwise the original's square pyramid around it.
+        Friction within Coulomb's cone, a polygon of 32 sides inside it; otherwise the original's pyramid around it.
 
     Raises
     ------
@@ -172,7 +172,7 @@ def simulated(structure: Structure, seconds: float = 5.0, time_step: float = 0.0
     seconds
         Simulated time of each.
     time_step
-        Seconds. A contact gives way by about the square of twice this times gravity, so it also says how hard blocks are.
+        Seconds. A contact gives way by about gravity times the square of twice this: it says how hard blocks are.
 
     Raises
     ------
@@ -226,7 +226,8 @@ def _document(part: Structure, down: Floats, time_step: float) -> str:
  <option timestep="{time_step!r}" gravity="{gravity}" cone="elliptic" impratio="10" integrator="implicitfast"
   iterations="50"><flag multiccd="enable"/></option>
  <size memory="64M"/>
- <default><geom friction="{part.friction!r} 0 0" condim="3" solref="{2.0 * time_step!r} 1" solimp="0.95 0.99 0.0005"/></default>
+ <default><geom friction="{part.friction!r} 0 0" condim="3" solref="{2.0 * time_step!r} 1"
+  solimp="0.95 0.99 0.0005"/></default>
  <asset>{"".join(assets)}</asset>
  <worldbody><geom type="plane" size="0 0 1" pos="0 0 {floor!r}"/>{"".join(bodies)}</worldbody>
 </mujoco>"""

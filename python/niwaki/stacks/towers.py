@@ -42,7 +42,9 @@ WIDEST = radians(30.0)
 #: Oak, as the original has it, and poplar of which its pieces are cut.
 OAK, POPLAR = 0.5, 0.3
 #: The line that `lean` asks for: 20 degrees from upright.
-LEANING = vec(-sin(radians(20.0)) * cos(radians(45.0)), -sin(radians(20.0)) * sin(radians(45.0)), cos(radians(20.0)))
+LEANING = vec(
+    -sin(radians(20.0)) * cos(radians(45.0)), -sin(radians(20.0)) * sin(radians(45.0)), cos(radians(20.0))
+)
 
 PAINTS = ((0.79, 0.52, 0.27), (0.86, 0.66, 0.40), (0.66, 0.41, 0.22), (0.91, 0.75, 0.52), (0.72, 0.50, 0.33))
 TURN = 2.0 * pi

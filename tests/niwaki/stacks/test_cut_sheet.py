@@ -63,8 +63,15 @@ def test_a_piece_that_is_pushed_is_found_out() -> None:
     sheet = cut_sheet(structure(), (600.0, 400.0))
     first, second, *rest = sheet.pieces
     there = second.cut.min(axis=0) - first.cut.min(axis=0)
-    assert faults(replace(sheet, pieces=(replace(first, cut=first.cut + there, outline=first.outline + there), second, *rest)))
-    assert faults(replace(sheet, pieces=(replace(first, cut=first.cut - 10, outline=first.outline - 10), second, *rest)))
+    assert faults(
+        replace(
+            sheet,
+            pieces=(replace(first, cut=first.cut + there, outline=first.outline + there), second, *rest),
+        )
+    )
+    assert faults(
+        replace(sheet, pieces=(replace(first, cut=first.cut - 10, outline=first.outline - 10), second, *rest))
+    )
     assert faults(replace(sheet, pieces=(replace(first, cut=first.outline), second, *rest)))
 
 
@@ -99,13 +106,18 @@ def test_svg_is_in_millimetres() -> None:
 def test_the_assembly_drawing_shows_every_piece_in_both_views() -> None:
     root = ET.fromstring(assembly(structure()))
     texts = [text.text for text in root.iter("{http://www.w3.org/2000/svg}text")]
-    assert sorted(texts) == sorted(["front", "right", *(str(k) for k in range(1, 8)), *(str(k) for k in range(1, 8))])
+    assert sorted(texts) == sorted(
+        ["front", "right", *(str(k) for k in range(1, 8)), *(str(k) for k in range(1, 8))]
+    )
 
 
 def test_boards_are_saved_one_to_a_file(tmp_path: Path) -> None:
     sheet = cut_sheet(structure(), (160.0, 110.0))
     found = sheet.save(tmp_path / "arch.dxf")
-    assert [path.name for path in found] == ["arch.dxf", *(f"arch-{k + 1}.dxf" for k in range(1, sheet.boards))]
+    assert [path.name for path in found] == [
+        "arch.dxf",
+        *(f"arch-{k + 1}.dxf" for k in range(1, sheet.boards)),
+    ]
     assert all(path.stat().st_size for path in found)
 
 

@@ -98,7 +98,11 @@ def test_a_wedge_slides_from_between_two_blocks_where_friction_is_too_small() ->
         upper = np.concatenate([lower[4:], np.column_stack([low[:, :2], np.full(4, 0.02 + high)])])
         along = (lower[5] - lower[4]) / np.linalg.norm(lower[5] - lower[4])
         # From the upper one's side the normal points down.
-        frame = [np.cross(along, [0.0, -1.0, 0.0]) * np.sign(np.cross([0.0, 1.0, 0.0], along)[2]), [0.0, 1.0, 0.0], along]
+        frame = [
+            np.cross(along, [0.0, -1.0, 0.0]) * np.sign(np.cross([0.0, 1.0, 0.0], along)[2]),
+            [0.0, 1.0, 0.0],
+            along,
+        ]
         frame[0] = -np.abs(frame[0][2]) / frame[0][2] * frame[0]
         points = [lower[4], lower[7], lower[6], lower[5]]
         foot = [low[0], low[3], low[2], low[1]]

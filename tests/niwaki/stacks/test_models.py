@@ -118,7 +118,9 @@ def test_the_mean_of_the_corners_is_another_point() -> None:
 
 
 def cubes(count: int, side: float = 0.05) -> list[Any]:
-    return [box_corners(nw.vec(0.0, 0.0, GROUND_TOP + (k + 0.5) * side), side, side, side) for k in range(count)]
+    return [
+        box_corners(nw.vec(0.0, 0.0, GROUND_TOP + (k + 0.5) * side), side, side, side) for k in range(count)
+    ]
 
 
 @nw.model
