@@ -258,7 +258,10 @@ def _packed(
 
 
 def assembly(structure: Structure) -> str:
-    """The structure from the front and from the right as SVG in millimetres, its pieces numbered as on the boards."""
+    """Draw the structure from the front and from the right: SVG in millimetres, pieces numbered as on the boards.
+
+    A piece has no number in a view in which a nearer one hides its middle.
+    """
     views = (("front", 0, 1.0, 1), ("right", 1, 1.0, 0))
     corners = structure.corners * MILLIMETRES
     low, high = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))
@@ -280,7 +283,10 @@ def assembly(structure: Structure) -> str:
             shadows[number] = hull
             path = " ".join(f"{left + x:.3f},{height - edge - y:.3f}" for x, y in hull.exterior.coords[:-1])
             body.append(f'<polygon points="{path}" fill="#f4ead9" stroke="{INK}" stroke-width="0.4"/>')
-        for number in sorted(shadows):
+        for place, number in enumerate(order):
+            middle = shadows[number].centroid
+            if any(shadows[nearer].contains(middle) for nearer in order[place + 1 :]):
+                continue
             (x, y), size = label(np.array(shadows[number].exterior.coords)[:-1])
             body.append(
                 f'<text x="{left + x:.3f}" y="{height - edge - y + 0.35 * size:.3f}" '
