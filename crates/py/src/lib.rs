@@ -3,9 +3,8 @@
 //! One file for each room behind the door; this one only registers them.
 //!
 //! * `values`: Python's objects to the machine's values, and back; `faults`: faults as data;
-//! * `model`: compiled models; `search`: algorithms; `settings`: theirs; `chains`: Markov chains; `outcome`: what they
-//!   find;
-//! * `gradients`: log densities with their gradients;
+//! * `model`: compiled models; `search`: algorithms; `settings`: theirs; `chains`, `kernels`: Markov chains;
+//!   `outcome`: what they find; `gradients`: log densities with their gradients;
 //! * `distributions`, `geometry`, `views`, `pictures`: the rooms below, by themselves.
 
 mod chains;
@@ -13,6 +12,7 @@ mod distributions;
 mod faults;
 mod geometry;
 mod gradients;
+mod kernels;
 mod model;
 mod outcome;
 mod pictures;

@@ -88,8 +88,8 @@ class Experiment:
 
     def run(self, *, particles: int | None = None, weights: str = "absolute", seed: int = 1) -> Result:
         """Search as the original did: so many particles, in a stochastic order, weighted by whole scores."""
-        from niwaki.search import run
         from niwaki.methods import smc
+        from niwaki.search import run
 
         found = entry(self.model)
         assert found is not None

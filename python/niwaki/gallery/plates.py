@@ -16,9 +16,9 @@ from niwaki.draw.views import view_sheet
 from niwaki.gallery import Entry, entries
 from niwaki.gallery.experiments import EXPERIMENTS
 from niwaki.gallery.pictures import written
-from niwaki.search import grow, run
 from niwaki.methods import importance
 from niwaki.scene import Scene
+from niwaki.search import grow, run
 from niwaki.sketches import no_self_intersection
 
 #: Searches for a plate, of which the best is shown; forward runs from which a free one is taken.
