@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import io
+import sys
 import xml.etree.ElementTree as ET
+from collections.abc import Callable
 from dataclasses import replace
 from itertools import combinations
 from pathlib import Path
@@ -138,3 +140,25 @@ def test_boards_are_saved_one_to_a_file(tmp_path: Path) -> None:
 def test_what_cannot_be_cut_is_said(make: object, words: str) -> None:
     with pytest.raises(nw.NiwakiError, match=words):
         make()  # type: ignore[operator]
+
+
+@pytest.mark.parametrize(
+    ("library", "make"),
+    [
+        ("rectpack", lambda made: cut_sheet(made)),
+        ("shapely.geometry", lambda made: assembly(made)),
+        ("ezdxf", lambda made: cut_sheet(made).dxf()),
+        ("scipy.sparse", lambda made: stacks.balanced(made)),
+        ("mujoco", lambda made: stacks.simulated(made)),
+    ],
+    ids=["rectpack", "shapely", "ezdxf", "scipy", "mujoco"],
+)
+def test_a_missing_library_is_named_by_its_extra(
+    library: str, make: Callable[[Structure], object], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    made = structure()
+    monkeypatch.setitem(sys.modules, library, None)
+    with pytest.raises(
+        nw.NiwakiError, match=r"needs the extra `stacks`[\s\S]*pip install 'niwaki\[stacks\]'"
+    ):
+        make(made)
