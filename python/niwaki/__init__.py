@@ -14,15 +14,20 @@ from niwaki._engine import __version__
 from niwaki.words import *  # noqa: F403
 
 if TYPE_CHECKING:
+    from niwaki import kernels
     from niwaki.camera import Camera
     from niwaki.constraints import Residuals, residuals
     from niwaki.errors import InputError, ModelError, ModelFault, NiwakiError
+    from niwaki.gradient import LogDensity, log_density
+    from niwaki.hmc_result import HmcResult
     from niwaki.lang.plain import run_python
     from niwaki.methods import (
         enumerate_all,
         forward,
+        hmc,
         importance,
         mh,
+        nuts,
         particle_gibbs,
         pimh,
         rejection,
@@ -49,19 +54,23 @@ if TYPE_CHECKING:
 _HOMES = {
     "niwaki.camera": ("Camera",),
     "niwaki.errors": ("InputError", "ModelError", "ModelFault", "NiwakiError"),
+    "niwaki.gradient": ("LogDensity", "log_density"),
     "niwaki.search": ("Progress", "grow", "run"),
     "niwaki.lang.plain": ("run_python",),
     "niwaki.methods": (
         "enumerate_all",
         "forward",
+        "hmc",
         "importance",
         "mh",
+        "nuts",
         "particle_gibbs",
         "pimh",
         "rejection",
         "smc",
     ),
     "niwaki.mh_result": ("ChainResult",),
+    "niwaki.hmc_result": ("HmcResult",),
     "niwaki.constraints": ("Residuals", "residuals"),
     "niwaki.outline": ("load_polygon",),
     "niwaki.result": ("Result", "Sample"),
@@ -78,6 +87,8 @@ _HOMES = {
     ),
     "niwaki.target": ("Receiver", "Target"),
 }
+#: Modules that are used by name.
+_MODULES = ("kernels",)
 _HOME = {name: home for home, names in _HOMES.items() for name in names}
 
 __all__ = [  # noqa: PLE0604
@@ -85,7 +96,9 @@ __all__ = [  # noqa: PLE0604
     *words.__all__,
     "ChainResult",
     "Camera",
+    "HmcResult",
     "InputError",
+    "LogDensity",
     "ModelError",
     "ModelFault",
     "NiwakiError",
@@ -102,12 +115,16 @@ __all__ = [  # noqa: PLE0604
     "forward",
     "floor",
     "grow",
+    "hmc",
     "importance",
+    "kernels",
     "load_polygon",
     "mh",
     "match_image",
     "match_shadow",
+    "log_density",
     "no_self_intersection",
+    "nuts",
     "overshoot",
     "particle_gibbs",
     "pimh",
@@ -121,6 +138,8 @@ __all__ = [  # noqa: PLE0604
 
 
 def __getattr__(name: str) -> Any:
+    if name in _MODULES:
+        return import_module(f"niwaki.{name}")
     if name not in _HOME:
         raise AttributeError(f"module 'niwaki' has no attribute {name!r}")
     found = getattr(import_module(_HOME[name]), name)

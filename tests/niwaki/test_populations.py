@@ -12,7 +12,8 @@ import niwaki as nw
 import pytest
 from niwaki.gallery import entry
 from niwaki.search import SearchWarning
-from tests.niwaki.test_infer import COINS, exact, load, refused
+
+from tests.niwaki.test_search import COINS, exact, load, refused
 
 GOLDEN = Path(__file__).parents[1] / "golden"
 

@@ -7,8 +7,9 @@
 //! * [`enumeration`], [`rejection`], [`importance`]: exact and direct answers, the oracles for the rest;
 //! * [`nested`]: inference inside a model;
 //! * [`particles`]: sequential Monte Carlo, in program order and in stochastic order;
-//! * [`chain`]: Metropolis-Hastings over kept runs, kernels as values.
-//! * [`hamiltonian`]: chains that follow the gradient of a log density over real coordinates.
+//! * [`chain`]: Metropolis-Hastings over kept runs, kernels as values;
+//! * [`gradient`]: a task as a log density over its continuous choices, and chains that follow its slope;
+//! * [`hamiltonian`]: such chains over any log density of real coordinates.
 //!
 //! Not here: opcodes, shapes, Python.
 
@@ -16,6 +17,7 @@ pub mod chain;
 pub mod enumeration;
 pub mod failure;
 pub mod forward;
+pub mod gradient;
 pub mod hamiltonian;
 pub mod importance;
 pub mod log;

@@ -197,7 +197,7 @@ impl Method {
                 let settings = chain::Settings { seed, ..settings.clone() };
                 let mut found: Chains = Chains::start(task, &settings, *chains, None)?;
                 found.advance(task, *steps, &|_, _| true)?;
-                let score = |at: &usize| found.chains[*at].harvest.best_score();
+                let score = |at: &usize| found.chains[*at].best_score();
                 // The last state of a chain is a sample; one chain is as good as another.
                 let chain = match self.keep {
                     Keep::Sample => found.chains.first(),
@@ -205,10 +205,14 @@ impl Method {
                         .max_by(|a, b| score(a).total_cmp(&score(b)))
                         .map(|at| &found.chains[at]),
                 };
-                let Some(chain) = chain else { return Err(impossible()) };
+                let rung = chain.and_then(|chain| match self.keep {
+                    Keep::Sample => chain.rungs.first(),
+                    Keep::Best => chain.best(),
+                });
+                let Some(rung) = rung else { return Err(impossible()) };
                 Ok(match self.keep {
-                    Keep::Sample => chain.now(&task.program).facts.value,
-                    Keep::Best => chain.harvest.best(&chain.state, &task.program).facts.value,
+                    Keep::Sample => rung.now(&task.program).facts.value,
+                    Keep::Best => rung.best.get(&rung.state, task)?.facts.value,
                 })
             }
             Search::Smc(settings) => {

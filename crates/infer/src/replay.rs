@@ -87,6 +87,8 @@ impl Answers<f64> for Replay<'_> {
         };
         let value = match (found.cloned(), self.missing) {
             (Some(value), _) => value,
+            // It has one value, which a density leaves out.
+            (None, _) if let Dist::Delta(value) = dist => draw_to_value(value.clone()),
             (None, Missing::Draw { seed, stream }) => {
                 draw_to_value(dist.sample(&mut Stream::new(seed, stream, at.address(), 0)))
             }

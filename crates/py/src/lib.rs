@@ -3,19 +3,22 @@
 //! One file for each room behind the door; this one only registers them.
 //!
 //! * `values`: Python's objects to the machine's values, and back; `faults`: faults as data;
-//! * `model`: compiled models; `search`: algorithms; `settings`: theirs; `chains`: Markov chains; `outcome`: what they
-//!   find;
+//! * `model`: compiled models; `search`: algorithms; `settings`: theirs; `chains`, `kernels`: Markov chains;
+//!   `outcome`: what they find; `gradients`: log densities with their gradients; `trajectories`: chains that follow them;
 //! * `distributions`, `geometry`, `views`, `pictures`: the rooms below, by themselves.
 
 mod chains;
 mod distributions;
 mod faults;
 mod geometry;
+mod gradients;
+mod kernels;
 mod model;
 mod outcome;
 mod pictures;
 mod search;
 mod settings;
+mod trajectories;
 mod values;
 mod views;
 
@@ -31,6 +34,7 @@ fn _engine(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     distributions::register(module)?;
     geometry::register(module)?;
+    gradients::register(module)?;
     pictures::register(module)?;
     views::register(module)?;
     values::register(module)?;
@@ -38,5 +42,6 @@ fn _engine(module: &Bound<'_, PyModule>) -> PyResult<()> {
     model::register(module)?;
     outcome::register(module)?;
     search::register(module)?;
-    chains::register(module)
+    chains::register(module)?;
+    trajectories::register(module)
 }

@@ -5,11 +5,13 @@
 
 use crate::faults;
 use crate::geometry::PySketchSpec;
+use crate::gradients::PyDensity;
 use crate::model::PyProgram;
 use crate::outcome::{PyOutcome, PyTrace};
 use crate::settings::{Way, Words, settings, unknown};
 use niwaki_infer::enumeration::enumerate;
 use niwaki_infer::forward::{Sample, forward};
+use niwaki_infer::gradient::live;
 use niwaki_infer::importance::importance;
 use niwaki_infer::nested::Method;
 use niwaki_infer::particles::{self, Ancestors, Chain, Progress, particle_gibbs, pimh, populations, within};
@@ -340,6 +342,17 @@ impl PyTask {
         let words = Words { particles, seed, order, weights: "ratio", temper, anneal, resampling, ess };
         let settings = settings(py, &self.task.program, words)?;
         self.chain(py, threads, watch.as_ref(), |look| pimh(&self.task, &settings, sweeps, look))
+    }
+
+    /// The log density around the run with these choices, each an address with a value.
+    fn density(&self, py: Python<'_>, choices: Vec<(u128, Bound<'_, PyAny>)>) -> PyResult<PyDensity> {
+        let own = self.model.get();
+        let values = choices
+            .into_iter()
+            .map(|(address, value)| Ok((address, own.classes.value(&value)?)))
+            .collect::<PyResult<HashMap<u128, Value>>>()?;
+        let live = self.at_once(py, || live(&self.task, &values))?;
+        Ok(PyDensity::new(live, self.task.program.clone(), own.classes.clone()))
     }
 
     /// Runs once more with the choices of an outcome; one that had not ended as far as its choices go.

@@ -73,8 +73,18 @@ def is_method(value: Any) -> bool:
     return isinstance(value, (Smc, Mh, EnumerateAll, Rejection, Importance, Forward))
 
 
-#: What an inner search of particles may be.
+#: What an inner search of particles, or of chains, may be.
 ONE_POPULATION = "particles are one population at a constant temperature"
+PRIOR_MOVES = "chains draw from the prior, without `kernel`"
+
+
+def limit(method: Any) -> str:
+    """What an inner search of that kind may be, where this one is not; else nothing."""
+    if isinstance(method, Smc) and not is_plain(method):
+        return ONE_POPULATION
+    if isinstance(method, Mh) and method.kernel is not None:
+        return PRIOR_MOVES
+    return ""
 
 
 def is_plain(method: Smc) -> bool:
@@ -87,8 +97,8 @@ def check(method: Any, keep: Any) -> None:
     """Refuse what the compiler refuses too, in a plain run."""
     if not is_method(method):
         raise ModelFault("type-mismatch", f"`infer` takes a method such as `smc(100)`, found {method!r}")
-    if isinstance(method, Smc) and not is_plain(method):
-        raise ModelFault("bad-argument", f"inside a model {ONE_POPULATION}, found {method!r}")
+    if found := limit(method):
+        raise ModelFault("bad-argument", f"inside a model {found}, found {method!r}")
     if keep not in KEEP:
         raise ModelFault("bad-argument", f'`keep` is "sample" or "best", found {keep!r}')
 
@@ -165,10 +175,8 @@ def _method(body: Body, node: ast.expr) -> Method:
                 )
     if not is_method(found):
         body.refuse("infer-method", node, found=body.span(node).text)
-    if isinstance(found, Smc) and not is_plain(found):
-        body.refuse(
-            "infer-method", node, found=f"{body.span(node).text}, but inside a model {ONE_POPULATION}"
-        )
+    if wrong := limit(found):
+        body.refuse("infer-method", node, found=f"{body.span(node).text}, but inside a model {wrong}")
     method: Method = found
     return method
 

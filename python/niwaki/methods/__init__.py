@@ -32,7 +32,7 @@ from niwaki.methods.particles import (
     smc,
 )
 
-Method = Smc | ParticleGibbs | Pimh | EnumerateAll | Rejection | Importance | Forward | Mh
+Method = Smc | ParticleGibbs | Pimh | EnumerateAll | Rejection | Importance | Forward | Mh | Hmc | Nuts
 
 __all__ = [
     "METRICS",

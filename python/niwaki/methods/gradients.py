@@ -8,6 +8,8 @@ from typing import Any
 from niwaki.errors import InputError
 from niwaki.methods.checks import at_least_one, is_number, is_whole, one_of
 
+#: Transitions of a chain are counted in 32 bits.
+MOST = 2**32 - 1
 METRICS = ("diagonal", "dense", "low-rank", "unit")
 
 
@@ -24,6 +26,7 @@ class Hmc:
     target_accept: float = 0.65
     metric: str = "diagonal"
     step_size: float | None = None
+    tries: int = 1000
 
 
 @dataclass(frozen=True)
@@ -38,6 +41,7 @@ class Nuts:
     target_accept: float = 0.8
     metric: str = "diagonal"
     step_size: float | None = None
+    tries: int = 1000
 
 
 def hmc(
@@ -50,6 +54,7 @@ def hmc(
     target_accept: float = 0.65,
     metric: str = "diagonal",
     step_size: float | None = None,
+    tries: int = 1000,
 ) -> Hmc:
     """Chains that follow the gradient for a fixed number of steps (dissertation 4.3).
 
@@ -74,13 +79,15 @@ def hmc(
         "dense", the whole covariance, which suits what is nearly normal; "unit", nothing (the dissertation's setting).
     step_size
         A step to keep instead of an adapted one.
+    tries
+        Most forward runs for the start of each chain.
     """
-    common = _chain_settings(draws, chains, warmup, thin, target_accept, metric, step_size)
+    common = _chain_settings(draws, chains, warmup, thin, target_accept, metric, step_size, tries)
     if not is_number(jitter) or not 0 <= jitter <= 1:
         raise InputError(
             "bad-setting", name="jitter", found=repr(jitter), expected="a share in [0, 1]", suggestion="0.5"
         )
-    return Hmc(steps=at_least_one("steps", steps), jitter=float(jitter), **common)
+    return Hmc(steps=_count("steps", steps), jitter=float(jitter), **common)
 
 
 def nuts(
@@ -92,6 +99,7 @@ def nuts(
     target_accept: float = 0.8,
     metric: str = "diagonal",
     step_size: float | None = None,
+    tries: int = 1000,
 ) -> Nuts:
     """Chains that follow the gradient until they turn back (Hoffman & Gelman 2014; Betancourt 2017).
 
@@ -99,10 +107,10 @@ def nuts(
     ----------
     max_depth
         Most doublings of a trajectory: 2^max_depth - 1 steps; up to 20.
-    draws, chains, warmup, thin, target_accept, metric, step_size
+    draws, chains, warmup, thin, target_accept, metric, step_size, tries
         As for `hmc`.
     """
-    common = _chain_settings(draws, chains, warmup, thin, target_accept, metric, step_size)
+    common = _chain_settings(draws, chains, warmup, thin, target_accept, metric, step_size, tries)
     if not is_whole(max_depth) or not 1 <= max_depth <= 20:
         raise InputError(
             "bad-setting",
@@ -122,14 +130,15 @@ def _chain_settings(
     target_accept: float,
     metric: str,
     step_size: float | None,
+    tries: int,
 ) -> dict[str, Any]:
     """Check what all chains have in common."""
-    if not is_whole(warmup) or warmup < 0:
+    if not is_whole(warmup) or not 0 <= warmup <= MOST:
         raise InputError(
             "bad-setting",
             name="warmup",
             found=repr(warmup),
-            expected="a whole number, 0 or more",
+            expected=f"a whole number from 0 to {MOST}",
             suggestion="1000",
         )
     if not is_number(target_accept) or not 0 < target_accept < 1:
@@ -150,11 +159,25 @@ def _chain_settings(
         )
     one_of("metric", metric, METRICS)
     return {
-        "draws": at_least_one("draws", draws),
+        "draws": _count("draws", draws),
         "chains": at_least_one("chains", chains),
         "warmup": warmup,
-        "thin": at_least_one("thin", thin),
+        "thin": _count("thin", thin),
         "target_accept": float(target_accept),
         "metric": metric,
         "step_size": None if step_size is None else float(step_size),
+        "tries": at_least_one("tries", tries),
     }
+
+
+def _count(name: str, value: int) -> int:
+    """A number of transitions or steps that the engine can count."""
+    if at_least_one(name, value) > MOST:
+        raise InputError(
+            "bad-setting",
+            name=name,
+            found=repr(value),
+            expected=f"at most {MOST}",
+            suggestion="1000",
+        )
+    return value

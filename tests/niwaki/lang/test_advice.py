@@ -133,6 +133,6 @@ def leaf(n):
 def test_messages_of_advice(golden: Any) -> None:
     found = []
     for title, body in POINTED_AT.items():
-        advice = advise(load(f"@model\ndef m():{body}", "garden.py").function)
+        advice = advise(load(f"@model\ndef m():{body}", "hedge.py").function)
         found.append(f"## {title}\n\n" + "\n\n".join(map(str, advice)) + "\n")
     golden(GOLDEN / "advice.txt", "\n".join(found))

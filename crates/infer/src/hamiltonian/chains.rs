@@ -252,7 +252,7 @@ pub struct BadStart {
 pub type Watch<'a> = &'a (dyn Fn(usize, u32) -> bool + Sync);
 
 /// Transitions between two looks of whoever watches.
-const GLANCE: u64 = 32;
+pub(crate) const GLANCE: u64 = 32;
 
 /// One chain for each start, in parallel; `make` gives each its own target.
 ///

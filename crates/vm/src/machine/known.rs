@@ -9,7 +9,7 @@ use crate::value::Value;
 use niwaki_math::{Dist, Family, Scalar};
 
 /// Rows of the table; which one depends on the place in memory.
-const ROWS: usize = 64;
+const ROWS: usize = 512;
 
 /// A distribution: its family, what it was made of, and itself.
 type Row<S> = (Family, Value<S>, Dist<S>);

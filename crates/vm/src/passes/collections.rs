@@ -3,7 +3,7 @@
 //! The elements of a collection are cells: references to registers of the activations that made them. When an element
 //! changes, the list does not: calls that were given the list, loops that carry it and callers that it was returned
 //! to see the same value, and only those who read the changed element run again. A list that is used in any other way
-//! (iterated over, compared, given to a pure function, put into another value) holds plain values.
+//! (iterated over, compared, put into another value than a tuple) holds plain values.
 //!
 //! The analysis joins variables that may hold the same list into classes, over the whole program and without
 //! regard to order; one use of another kind makes the whole class plain. Where activations are dropped, cells are
@@ -32,6 +32,14 @@ struct Classes {
     built: Vec<bool>,
     /// Used in a way that needs plain values.
     plain: Vec<bool>,
+    /// Of tuples: the classes of their parts.
+    parts: Vec<Option<Vec<usize>>>,
+    /// Classes that are indexed: by which place, where it is written down, and the class of what is found there.
+    indexed: Vec<(usize, Option<i64>, usize)>,
+    /// Classes that are indexed where no site can stand: of a collection, a use that needs plain values.
+    read_plainly: Vec<usize>,
+    /// Classes that are unpacked, into these.
+    unpacked: Vec<(usize, Vec<usize>)>,
 }
 
 impl Classes {
@@ -39,6 +47,7 @@ impl Classes {
         self.parent.push(self.parent.len());
         self.built.push(false);
         self.plain.push(false);
+        self.parts.push(None);
         self.parent.len() - 1
     }
 
@@ -55,7 +64,101 @@ impl Classes {
             self.parent[b] = a;
             self.built[a] |= self.built[b];
             self.plain[a] |= self.plain[b];
+            match (self.parts[a].clone(), self.parts[b].take()) {
+                (None, parts) => self.parts[a] = parts,
+                (Some(_), None) => {}
+                (Some(p), Some(q)) if p.len() == q.len() => p.iter().zip(q).for_each(|(p, q)| self.join(*p, q)),
+                // Tuples of two lengths: nothing is known of either.
+                (Some(p), Some(q)) => {
+                    self.plain[a] = true;
+                    p.iter().chain(&q).for_each(|part| {
+                        let part = self.root(*part);
+                        self.plain[part] = true;
+                    });
+                }
+            }
         }
+    }
+
+    /// Draws the consequences: of indexing and unpacking tuples, and of plain uses for what tuples hold.
+    fn settle(&mut self) {
+        for (class, names) in std::mem::take(&mut self.unpacked) {
+            let class = self.root(class);
+            match self.parts[class].clone() {
+                Some(parts) if parts.len() == names.len() => {
+                    parts.iter().zip(names).for_each(|(part, name)| self.join(*part, name));
+                }
+                Some(_) => self.plain[class] = true,
+                None => {
+                    // A collection, or a tuple made elsewhere in another order of reading.
+                    self.parts[class] = Some(names);
+                }
+            }
+        }
+        loop {
+            let before = (self.parent.clone(), self.plain.clone());
+            for (class, place, part) in self.indexed.clone() {
+                let class = self.root(class);
+                let Some(parts) = self.parts[class].clone() else { continue };
+                let at = place.map(|k| if k < 0 { k + parts.len() as i64 } else { k });
+                match at.and_then(|k| parts.get(usize::try_from(k).ok()?)) {
+                    Some(found) => self.join(*found, part),
+                    None => parts.iter().for_each(|found| {
+                        let found = self.root(*found);
+                        self.plain[found] = true;
+                    }),
+                }
+            }
+            for class in self.read_plainly.clone() {
+                let class = self.root(class);
+                if self.parts[class].is_none() {
+                    self.plain[class] = true;
+                }
+            }
+            for class in 0..self.parent.len() {
+                let root = self.root(class);
+                let Some(parts) = self.parts[root].clone() else { continue };
+                // A list that is also a tuple, a tuple that holds itself, or one that is used in an unknown way.
+                self.plain[root] |= self.built[root] || self.holds_itself(root);
+                if self.plain[root] {
+                    for part in parts {
+                        let part = self.root(part);
+                        self.plain[part] = true;
+                    }
+                }
+            }
+            if before == (self.parent.clone(), self.plain.clone()) {
+                return;
+            }
+        }
+    }
+
+    fn holds_itself(&self, class: usize) -> bool {
+        let (mut work, mut seen) = (vec![class], vec![]);
+        while let Some(at) = work.pop() {
+            for part in self.parts[at].iter().flatten() {
+                let part = self.root(*part);
+                if part == class {
+                    return true;
+                }
+                if !seen.contains(&part) {
+                    seen.push(part);
+                    work.push(part);
+                }
+            }
+        }
+        false
+    }
+}
+
+/// Whether an expression is made of literals and data.
+pub(super) fn is_constant(e: &Expr) -> bool {
+    match &e.kind {
+        ExprKind::Literal(_) | ExprKind::Data(_) => true,
+        ExprKind::List(parts) | ExprKind::Tuple(parts) | ExprKind::Dist(_, parts) => {
+            parts.iter().all(is_constant)
+        }
+        _ => false,
     }
 }
 
@@ -89,6 +192,7 @@ impl Collections {
             analysis.suspends = effects.function(&f.name);
             analysis.block(&f.body);
         }
+        analysis.found.classes.settle();
         analysis.found
     }
 
@@ -160,6 +264,13 @@ impl<'m> Analysis<'m> {
             StmtKind::Do(e) => {
                 self.expr(e);
             }
+            StmtKind::Unpack(names, e) => {
+                let class = self.expr(e);
+                let parts: Vec<usize> = names.iter().map(|x| self.variable(here, x)).collect();
+                if let Some(class) = class {
+                    self.found.classes.unpacked.push((class, parts));
+                }
+            }
             _ => s.expressions().into_iter().for_each(|e| self.escapes(e)),
         }
     }
@@ -214,7 +325,20 @@ impl<'m> Analysis<'m> {
             List(items) => {
                 items.iter().for_each(|item| self.escapes(item));
                 let class = self.found.classes.fresh();
-                self.built(e, class)
+                // A list of constants is no collection for itself.
+                if items.iter().all(is_constant) { Some(class) } else { self.built(e, class) }
+            }
+            Tuple(items) => {
+                let parts = items
+                    .iter()
+                    .map(|item| {
+                        let part = self.expr(item);
+                        part.unwrap_or_else(|| self.found.classes.fresh())
+                    })
+                    .collect();
+                let class = self.found.classes.fresh();
+                self.found.classes.parts[class] = Some(parts);
+                Some(class)
             }
             Query(key, value) => {
                 self.escapes(key);
@@ -243,13 +367,20 @@ impl<'m> Analysis<'m> {
                 }
                 ("index", [list, at]) => {
                     self.escapes(at);
-                    let class = self.expr(list);
+                    let class = self.expr(list)?;
                     if !self.suspends {
-                        self.plain(class);
-                    } else if let Some(class) = class {
+                        self.found.classes.read_plainly.push(class);
+                    } else {
                         self.found.class_of.insert(std::ptr::from_ref(e), class);
                     }
-                    None
+                    // Of a tuple, a part: which one is known when the place is written down.
+                    let part = self.found.classes.fresh();
+                    let place = match &at.kind {
+                        Literal(crate::core::Literal::Int(k)) => Some(*k),
+                        _ => None,
+                    };
+                    self.found.classes.indexed.push((class, place, part));
+                    Some(part)
                 }
                 _ => {
                     parts.iter().for_each(|part| self.escapes(part));

@@ -140,6 +140,8 @@ impl<S: Scalar> Builder<'_, '_, S> {
             return Ok(None);
         }
         match &e.kind {
+            // Constants are elements as they are.
+            ExprKind::List(items) if items.iter().all(super::collections::is_constant) => Ok(None),
             ExprKind::List(items) => {
                 let cells = items.iter().map(|item| self.cell(item)).collect::<Result<Vec<_>>>()?;
                 let (to, args) = (self.register()?, self.args(&cells));

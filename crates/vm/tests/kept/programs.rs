@@ -203,4 +203,39 @@ pub const PROGRAMS: &[(&str, &str)] = &[
             (do (observe (dist gaussian (add $d $a) 1.0) 0.5))
             (return $ys)) (entry "m"))"#,
     ),
+    (
+        "collections in tuples",
+        r#"(module
+          (fn "components" (params $k)
+            (set $mus (list)) (set $sds (list))
+            (for $i (range $k) (body (set $mus (append $mus (sample (dist gaussian 0.0 3.0))))
+              (set $sds (append $sds (sample (dist uniform 0.5 2.0))))))
+            (return (tuple $k (tuple $mus $sds))))
+          (fn "point" (params $i $c $k)
+            (set $z (sample (dist discrete_uniform 0 (sub $k 1))))
+            (set $mus (index (index $c 1) 0)) (set $sds (index (index $c 1) 1))
+            (do (observe (dist gaussian (index $mus $z) (index $sds $z)) (sub (mod $i 3) 1.0)))
+            (if (gt $i 0) (then (return (call "point" (sub $i 1) $c $k))))
+            (return (tuple $z $mus)))
+          (fn "m" (params)
+            (set $k (add 2 (sample (dist categorical (list 0.5 0.5)))))
+            (set $c (call "components" $k))
+            (unpack ($n $lists) $c)
+            (unpack ($mus $sds) $lists)
+            (set $all (list)) (for $i (range 3) (body (set $all (add $all (list (index $mus (mod $i $n)))))))
+            (do (query "all" (tuple $all 1)))
+            (unpack ($z $again) (call "point" 7 $c $k))
+            (return (tuple $z $again $sds))) (entry "m"))"#,
+    ),
+    (
+        "a pair that is carried, with a list that grows",
+        r#"(module
+          (fn "h" (params $n)
+            (if (lt $n 0) (then (return (tuple 0 (list)))))
+            (set $before (call "h" (sub $n 1)))
+            (set $s (sample (dist categorical (list 0.2 0.3 0.5))))
+            (do (factor (cond (eq $s (index $before 0)) 0.5 -0.5)))
+            (return (tuple $s (append (index $before 1) $s))))
+          (fn "m" (params) (return (call "h" 7))) (entry "m"))"#,
+    ),
 ];

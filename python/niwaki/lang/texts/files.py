@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from niwaki.lang.texts.drawings import DRAWINGS
 from niwaki.lang.texts.message import Message
 
 FILES = (
+    *DRAWINGS,
     Message(
         "file-missing",
         "there is no file at this path",
@@ -100,5 +102,53 @@ FILES = (
         help="install it with `pip install 'niwaki[{extra}]'`",
         example='result.export("ship.stl") where manifold3d is not installed',
         cure="the same after installing the extra",
+    ),
+    Message(
+        "contact-vanished",
+        "{first} and {second} no longer touch",
+        why="their faces share no area, so no force can pass from one to the other",
+        help="slide them back over one another, or leave the contact out",
+        example="a block pushed beyond the edge of the one that it stands on",
+        cure="a block of which at least an edge's width stays on the one below",
+    ),
+    Message(
+        "block-inside-out",
+        "{block} is inside out",
+        why="its volume is not above 0: its top has passed through its bottom, or it is flat",
+        help="make it higher, or shear it less",
+        example="a block whose top lies below its bottom",
+        cure="a block with its top above its bottom",
+    ),
+    Message(
+        "block-not-convex",
+        "{block} is not convex",
+        why="one of its corners lies outside of the plane of one of its faces",
+        help="shear it less; draws of the posterior hardly ever have one, a draw from the prior alone often",
+        example="an outline that crosses itself",
+        cure="an outline whose corners all turn the same way",
+    ),
+    Message(
+        "program-unsolved",
+        "the linear program of this structure has no answer",
+        why="the solver says: {reason}",
+        help="look for corners that are huge or not finite",
+        example="a block of 10^12 metres",
+        cure="blocks of sizes that can be built",
+    ),
+    Message(
+        "piece-not-flat",
+        "{block} cannot be cut from a board",
+        why="its front and back are not the same outline {depth} mm apart",
+        help="use one of the structures of outlines, such as `cut_stack` or `cut_arch`",
+        example="cut_sheet(structure of `stack`)",
+        cure="cut_sheet(structure of `cut_stack`)",
+    ),
+    Message(
+        "board-too-small",
+        "the board is too small for {block}",
+        why="with kerf and gap the piece needs {needed} mm, and the board has {board} mm",
+        help="take a larger board",
+        example="cut_sheet(structure, board=(50, 50))",
+        cure="cut_sheet(structure, board=(600, 400))",
     ),
 )

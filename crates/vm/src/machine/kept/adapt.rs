@@ -2,7 +2,8 @@
 //! compared.
 //!
 //! Source: dissertation 3.3.4. A site is switched off when, after some proposals, it has been reached so many times in
-//! a row without one call being skipped on entry or found unchanged on return. Nothing depends on it but time.
+//! a row without one call being skipped on entry or found unchanged on return. Nothing depends on it but time. Here a
+//! proposal counts once, however often it reaches the site.
 
 use super::super::state::{NodeId, State};
 use super::{Kept, Slot, Trace};
@@ -14,7 +15,7 @@ use niwaki_math::Scalar;
 pub struct Adaptation {
     /// Proposals before any site is.
     pub proposals: u32,
-    /// Times in a row that it was reached for nothing.
+    /// Proposals in a row that reached it for nothing.
     pub reached: u32,
 }
 
@@ -32,8 +33,8 @@ pub(crate) struct Sites {
     adaptation: Option<Adaptation>,
     /// Number of each function's first site.
     first: Vec<u32>,
-    /// Times in a row that a site was reached for nothing; `OFF` for one that is switched off.
-    reached: Vec<u32>,
+    /// Proposals in a row that reached a site for nothing, and the last of them; `OFF` for one that is switched off.
+    reached: Vec<(u32, u32)>,
 }
 
 const OFF: u32 = u32::MAX;
@@ -46,7 +47,7 @@ impl Sites {
             count - f.sites.len() as u32
         });
         let first = first.collect();
-        Sites { adaptation, first, reached: vec![0; count as usize] }
+        Sites { adaptation, first, reached: vec![(0, 0); count as usize] }
     }
 
     #[inline]
@@ -57,15 +58,15 @@ impl Sites {
     /// Whether the arguments of calls at that site are compared.
     #[inline]
     pub fn is_on(&self, function: FunctionId, site: u32) -> bool {
-        self.reached[self.at(function, site)] != OFF
+        self.reached[self.at(function, site)].0 != OFF
     }
 
     /// A call at that site was skipped, or left nothing changed.
     #[inline]
     pub fn paid(&mut self, function: FunctionId, site: u32) {
         let at = self.at(function, site);
-        if self.reached[at] != OFF {
-            self.reached[at] = 0;
+        if self.reached[at].0 != OFF {
+            self.reached[at].0 = 0;
         }
     }
 
@@ -74,10 +75,16 @@ impl Sites {
     pub fn missed(&mut self, function: FunctionId, site: u32, proposal: u32) {
         let Some(adaptation) = self.adaptation else { return };
         let at = self.at(function, site);
-        if self.reached[at] < adaptation.reached {
-            self.reached[at] += 1;
+        let (reached, last) = &mut self.reached[at];
+        // A proposal that changes what all calls read reaches a site many times, and says no more than once.
+        if *last == proposal {
+            return;
+        }
+        *last = proposal;
+        if *reached < adaptation.reached {
+            *reached += 1;
         } else if proposal > adaptation.proposals {
-            self.reached[at] = OFF;
+            *reached = OFF;
         }
     }
 }

@@ -214,7 +214,13 @@ impl<S: Scalar> Kept<S> {
     }
 
     /// The elements themselves, of a value that may be a collection.
+    // Tuples that hold collections are no deeper than the text that makes them.
     pub(super) fn resolved(&self, state: &State<S>, value: &Value<S>) -> Value<S> {
+        if let Value::Tuple(tuple) = value
+            && self.readers.len() > self.free_readers.len()
+        {
+            return Value::tuple(tuple.items().iter().map(|item| self.resolved(state, item)).collect());
+        }
         let Value::List(list) = value else { return value.clone() };
         if !list.iter().any(|item| matches!(item, Value::Cell(_))) {
             return value.clone();

@@ -174,6 +174,8 @@ pub(crate) struct Kept<S: Scalar> {
     /// The run must not leave the activation in hand; and whether it did.
     confined: bool,
     tangled: bool,
+    /// A mutant: values that fall outside their new support are drawn anew.
+    pub redraws_outside: bool,
 }
 
 /// A run whose activations are kept.
@@ -213,6 +215,7 @@ impl<S: Scalar> Kept<S> {
             active: vec![],
             marks: vec![],
             marking: false,
+            redraws_outside: false,
             woken: vec![],
             taken: 0,
             confined: false,

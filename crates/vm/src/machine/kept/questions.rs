@@ -149,10 +149,15 @@ impl<S: Scalar> Kept<S> {
         let (slot, family) = (self.slots[at], dist.family() as u32);
         if slot.is_filled() && slot.mark & Slot::FAMILY == family && fits(dist, &state.registers[place]) {
             let log = check(log_density(dist, &state.registers[place])?.value(), "a log density")?;
-            if log.to_bits() != slot.log.to_bits() {
+            let stays = log > f64::NEG_INFINITY || !self.redraws_outside;
+            if stays && log.to_bits() != slot.log.to_bits() {
                 self.set_log(self.quiet, at, log, true);
             }
-            return if log == f64::NEG_INFINITY { Err(Halt::Impossible) } else { Ok(()) };
+            if log > f64::NEG_INFINITY {
+                return Ok(());
+            } else if stays {
+                return Err(Halt::Impossible);
+            }
         }
         self.leaves_its_activation();
         let question = At { site, function: r.f, node, state, program };

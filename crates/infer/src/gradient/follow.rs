@@ -1,0 +1,36 @@
+//! A task's density as a target: what a chain asks, and why a point was refused.
+
+use crate::hamiltonian::{Cause, Potential, Stop};
+use niwaki_grad::{Live, Refused};
+use niwaki_vm::machine::stack::RunFault;
+
+impl Potential for Live {
+    fn dim(&self) -> usize {
+        Live::dim(self)
+    }
+
+    /// What is not finite stops a trajectory by itself: see [`crate::hamiltonian::potential::evaluate`].
+    #[inline]
+    fn value_and_gradient(&mut self, x: &[f64], gradient: &mut [f64]) -> Result<f64, Stop> {
+        Live::value_and_gradient(self, x, gradient)
+            .map_err(|refused| Stop { cause: cause(&refused), place: 0 })
+    }
+}
+
+#[cold]
+fn cause(refused: &Refused) -> Cause {
+    match refused {
+        Refused::Structure | Refused::Rounding => Cause::Guard,
+        Refused::Fault(fault) if fault.fault.code == "impossible-trace" => Cause::Impossible,
+        Refused::Fault(_) => Cause::NotFinite,
+    }
+}
+
+/// Why there is no finite log density or gradient at `x`: the run's fault there, or the first term to blame, with its
+/// line. None for a point that has run away to infinity: that says nothing about the model.
+pub fn reason(live: &Live, x: &[f64]) -> Option<Box<RunFault>> {
+    if x.iter().any(|x| !x.is_finite()) {
+        return None;
+    }
+    live.model().blame(&live.recorded().values(x))
+}

@@ -1,0 +1,186 @@
+//! Chains that follow the gradient, behind the door.
+
+use crate::faults;
+use crate::outcome::PyOutcome;
+use crate::search::{PyTask, detached};
+use crate::settings::unknown;
+use niwaki_infer::Failure;
+use niwaki_infer::gradient::explore::{Explored, Plan, explore};
+use niwaki_infer::hamiltonian::chains::Length;
+use niwaki_infer::hamiltonian::{Cause, Settings, Shape};
+use niwaki_vm::value::Value;
+use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use pyo3::exceptions::PyIndexError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::collections::HashMap;
+
+/// What several chains of one seed found.
+#[pyclass(frozen, name = "Trajectories", module = "niwaki._engine")]
+pub struct PyTrajectories {
+    task: Py<PyTask>,
+    chains: Vec<Explored>,
+    /// Whether they were stopped before their end.
+    #[pyo3(get)]
+    interrupted: bool,
+}
+
+#[pymethods]
+impl PyTrajectories {
+    /// Runs the chains. With ``max_depth`` they are NUTS, else HMC of ``steps`` and ``jitter``. ``known`` are first values
+    /// by hash of the address.
+    #[new]
+    #[pyo3(signature = (task, seed, *, chains, draws, warmup, thin, target_accept, metric, step_size=None, steps=1,
+                        jitter=0.0, max_depth=None, tries=1000, known=None, threads=None, watch=None))]
+    #[expect(clippy::too_many_arguments, reason = "the settings of the method")]
+    fn new(
+        py: Python<'_>,
+        task: Py<PyTask>,
+        seed: u64,
+        chains: usize,
+        draws: u32,
+        warmup: u32,
+        thin: u32,
+        target_accept: f64,
+        metric: &str,
+        step_size: Option<f64>,
+        steps: u32,
+        jitter: f64,
+        max_depth: Option<u32>,
+        tries: u64,
+        known: Option<HashMap<u128, Bound<'_, PyAny>>>,
+        threads: Option<usize>,
+        watch: Option<Py<PyAny>>,
+    ) -> PyResult<PyTrajectories> {
+        let own = task.get();
+        let shape = match metric {
+            "unit" => Shape::Unit,
+            "diagonal" => Shape::Diagonal,
+            "dense" => Shape::Dense,
+            "low-rank" => Shape::LowRank,
+            _ => {
+                let expected = "\"diagonal\", \"dense\", \"low-rank\" or \"unit\"";
+                return Err(unknown(py, &own.task.program, "metric", metric, expected));
+            }
+        };
+        let length = match max_depth {
+            Some(max_depth) => Length::NoUTurn { max_depth },
+            None => Length::Fixed { steps, jitter },
+        };
+        let settings =
+            Settings { length, warmup, draws, thin, target_accept, shape, step_size, ..Settings::nuts() };
+        let known = match known {
+            None => None,
+            Some(given) => {
+                let value = |(address, value): (u128, Bound<'_, PyAny>)| {
+                    Ok((address, own.model.get().classes.value(&value)?))
+                };
+                Some(given.into_iter().map(value).collect::<PyResult<HashMap<u128, Value>>>()?)
+            }
+        };
+        let plan = Plan { settings: &settings, seed, chains, tries, known: known.as_ref() };
+        let (found, pressed) = detached(py, &own.task.program, threads, watch.as_ref(), |watch| {
+            explore(&own.task, &plan, &|done| watch.look(done, 0, f64::NEG_INFINITY))
+        })?;
+        let interrupted = pressed || found.iter().any(|chain| chain.draws.interrupted);
+        Ok(PyTrajectories { task, chains: found, interrupted })
+    }
+
+    /// Continuous choices of a chain: (path, family, transform, first coordinate, coordinates, numbers of its value, whether
+    /// that is a list).
+    #[expect(clippy::type_complexity, reason = "a row of a table")]
+    fn choices(
+        &self,
+        chain: usize,
+    ) -> PyResult<Vec<(String, &'static str, &'static str, usize, usize, usize, bool)>> {
+        let row = |c: &niwaki_grad::Continuous| {
+            let (path, family, transform) = (c.path.clone(), c.family.name(), c.transform.name());
+            (path, family, transform, c.first, c.coordinates, c.width(), c.is_vector())
+        };
+        Ok(self.chain(chain)?.choices().iter().map(row).collect())
+    }
+
+    /// Choices that a chain held fixed: (path, family, value).
+    fn fixed<'py>(
+        &self,
+        py: Python<'py>,
+        chain: usize,
+    ) -> PyResult<Vec<(String, &'static str, Bound<'py, PyAny>)>> {
+        let classes = &self.task.get().model.get().classes;
+        let fixed = &self.chain(chain)?.fixed;
+        fixed.iter().map(|c| Ok((c.path.clone(), c.family, classes.object(py, &c.value)?))).collect()
+    }
+
+    /// Values of the continuous choices of a chain, (draws, numbers).
+    fn values<'py>(&self, py: Python<'py>, chain: usize) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let chain = self.chain(chain)?;
+        PyArray1::from_slice(py, &chain.numbers).reshape([chain.draws.len(), chain.width()])
+    }
+
+    /// Coordinates of the draws of a chain, (draws, dim).
+    fn positions<'py>(&self, py: Python<'py>, chain: usize) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let draws = &self.chain(chain)?.draws;
+        PyArray1::from_slice(py, &draws.x).reshape([draws.len(), draws.dim])
+    }
+
+    /// Of each draw of a chain: ``log_density`` (over coordinates), ``log_prior``, ``log_score``, ``energy`` (nats),
+    /// ``accept``, ``steps``, ``depth``, ``diverging``.
+    fn draws<'py>(&self, py: Python<'py>, chain: usize) -> PyResult<Bound<'py, PyDict>> {
+        let (chain, facts) = (self.chain(chain)?, PyDict::new(py));
+        let draws = &chain.draws;
+        facts.set_item("log_density", PyArray1::from_slice(py, &draws.log_density))?;
+        facts.set_item("log_prior", PyArray1::from_slice(py, &chain.log_prior))?;
+        facts.set_item("log_score", PyArray1::from_slice(py, &chain.log_score))?;
+        facts.set_item("energy", PyArray1::from_slice(py, &draws.energy))?;
+        facts.set_item("accept", PyArray1::from_slice(py, &draws.accept))?;
+        facts.set_item("steps", PyArray1::from_slice(py, &draws.steps))?;
+        facts.set_item("depth", PyArray1::from_slice(py, &draws.depth))?;
+        facts.set_item("diverging", PyArray1::from_slice(py, &draws.diverging))?;
+        Ok(facts)
+    }
+
+    /// Of a chain: ``step_size``, ``gradients``, ``warmup_gradients``, ``warmup_divergences``, ``recordings``, and by
+    /// reason how many trajectories broke off: ``energy``, ``guard``, ``impossible``, ``not_finite``.
+    fn counters<'py>(&self, py: Python<'py>, chain: usize) -> PyResult<Bound<'py, PyDict>> {
+        let (chain, facts) = (self.chain(chain)?, PyDict::new(py));
+        let draws = &chain.draws;
+        facts.set_item("step_size", draws.step_size)?;
+        facts.set_item("gradients", draws.gradients)?;
+        facts.set_item("warmup_gradients", draws.warmup_gradients)?;
+        facts.set_item("warmup_divergences", draws.warmup_divergences)?;
+        facts.set_item("recordings", chain.recordings)?;
+        let refused = draws.refused.iter().sum::<u64>();
+        facts.set_item("energy", draws.divergences.len() as u64 - refused)?;
+        facts.set_item("guard", draws.refused[Cause::Guard as usize])?;
+        facts.set_item("impossible", draws.refused[Cause::Impossible as usize])?;
+        facts.set_item("not_finite", draws.refused[Cause::NotFinite as usize])?;
+        Ok(facts)
+    }
+
+    /// What the first trajectory of a chain met that came to a point without a finite gradient: an exception, or None.
+    fn fault(&self, py: Python<'_>, chain: usize) -> PyResult<Option<PyErr>> {
+        let program = &self.task.get().task.program;
+        let fault = self.chain(chain)?.fault.clone();
+        Ok(fault.map(|fault| faults::raise(py, &Failure::Run(fault), program)))
+    }
+
+    /// A draw of a chain as a run.
+    fn outcome(&self, py: Python<'_>, chain: usize, draw: usize) -> PyResult<PyOutcome> {
+        let (own, found) = (self.task.get(), self.chain(chain)?);
+        let run = py.detach(|| found.trace(&own.task, draw));
+        let run = run.ok_or_else(|| PyIndexError::new_err("no such draw"))?;
+        let trace = run.map_err(|failure| faults::raise(py, &failure, &own.task.program))?;
+        Ok(PyOutcome::new(trace.record, trace.value, 0.0, true, own.model.get().classes.clone()))
+    }
+}
+
+impl PyTrajectories {
+    fn chain(&self, chain: usize) -> PyResult<&Explored> {
+        self.chains.get(chain).ok_or_else(|| PyIndexError::new_err("no such chain"))
+    }
+}
+
+/// Puts this room into the module.
+pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_class::<PyTrajectories>()
+}

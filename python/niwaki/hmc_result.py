@@ -1,0 +1,270 @@
+"""What chains that follow a gradient give back: draws by address, their diagnostics, and each draw as a sample.
+
+Draws are kept as numbers; a draw becomes a `Sample`, with scene and choices, when it is asked for.
+"""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from niwaki.compiled import translated
+from niwaki.errors import InputError, ModelFault
+from niwaki.methods import Hmc, Nuts
+from niwaki.result import Result, Sample
+
+if TYPE_CHECKING:
+    from niwaki import _engine
+    from niwaki.diagnostics import Summaries
+    from niwaki.sketches import Score
+    from niwaki.words.models import Model
+
+Reals = NDArray[np.float64]
+
+#: The share of trajectories without a finite gradient from which on a person is told.
+SOME = 0.01
+
+
+class GradientWarning(UserWarning):
+    """Chains that follow a gradient gave draws, but not of all that was asked for."""
+
+
+@dataclass(frozen=True)
+class Divergences:
+    """Trajectories that broke off after the warm-up, by the reason; each was rejected.
+
+    Attributes
+    ----------
+    energy : int
+        The energy drifted: the step is too large for how sharply the density bends there.
+    structure : int
+        The run would make other choices there.
+    impossible : int
+        The density is zero there.
+    not_finite : int
+        The density or its gradient is no number there; see `HmcResult.fault`.
+    """
+
+    energy: int = 0
+    structure: int = 0
+    impossible: int = 0
+    not_finite: int = 0
+
+    @property
+    def total(self) -> int:
+        """All of them."""
+        return self.energy + self.structure + self.impossible + self.not_finite
+
+
+class Drawn(Sequence[Sample]):
+    """Samples that are made when they are asked for, those of the first chain first."""
+
+    def __init__(self, sizes: Sequence[int], make: Callable[[int, int], Sample]) -> None:
+        self._ends = np.cumsum(sizes, dtype=np.int64)
+        self._make = make
+
+    def __len__(self) -> int:
+        return int(self._ends[-1]) if len(self._ends) else 0
+
+    def __getitem__(self, index: Any) -> Any:
+        if isinstance(index, slice):
+            return [self[place] for place in range(*index.indices(len(self)))]
+        place = index + len(self) if index < 0 else index
+        if not 0 <= place < len(self):
+            raise IndexError("no such sample")
+        chain = int(np.searchsorted(self._ends, place, side="right"))
+        return self._make(chain, place - (int(self._ends[chain - 1]) if chain else 0))
+
+    def __iter__(self) -> Iterator[Sample]:
+        return (self[place] for place in range(len(self)))
+
+
+class HmcResult(Result):
+    """Draws of chains that follow the gradient; a sequence of samples, chain after chain.
+
+    Chains that were stopped may have different lengths; arrays (chains, draws) then hold as many draws as the shortest.
+
+    Attributes
+    ----------
+    samples : sequence of Sample
+        Every draw after the warm-up; all weigh the same. Each is made by a run of the model when it is asked for.
+    draws : dict of str to array
+        Values of the continuous choices by address, (chains, draws) or (chains, draws, n) for lists of n numbers, of
+        the choices that all chains have.
+    log_density : array of shape (chains, draws)
+        Over the coordinates in which the chains move, Jacobians included, nats.
+    log_prior, log_score : array of shape (chains, draws)
+        Of choices, and of factors and observations, nats, as for any sample.
+    stats : dict of str to array
+        Of each draw, (chains, draws): `energy` (nats), `acceptance_rate`, `n_steps`, `tree_depth`, `diverging`.
+    step_size : array of shape (chains,)
+        The step sizes that the warm-up ended with.
+    divergences : Divergences
+        Trajectories that broke off after the warm-up, all chains together.
+    gradients : int
+        Gradients taken, warm-up included.
+    fixed : list of dict
+        The choices that each chain held fixed, by address.
+    fault : ModelFault or None
+        With its line: what the first trajectory met that came to a point without a finite gradient.
+    """
+
+    def __init__(
+        self,
+        model: Model[..., Any],
+        made: _engine.Task,
+        found: _engine.Trajectories,
+        seed: int,
+        method: Hmc | Nuts,
+        score: Score,
+        seconds: float,
+        cpu_seconds: float,
+    ) -> None:
+        super().__init__(model, [], seed, method, score, interrupted=found.interrupted)
+        self.seconds, self.cpu_seconds = seconds, cpu_seconds
+        self._made, self._found = made, found
+        chains = range(method.chains)
+        rows = [found.draws(chain) for chain in chains]
+        counts = [found.counters(chain) for chain in chains]
+        sizes = [len(row["energy"]) for row in rows]
+        self._least = min(sizes)
+        self.samples = Drawn(sizes, self._sample)  # type: ignore[assignment]
+        self._log_scores = [row["log_score"] for row in rows]
+
+        def together(name: str) -> NDArray[Any]:
+            return np.array([row[name][: self._least] for row in rows])
+
+        self.log_density: Reals = together("log_density")
+        self.log_prior: Reals = together("log_prior")
+        self.log_score: Reals = together("log_score")
+        self.stats: dict[str, NDArray[Any]] = {
+            "energy": together("energy"),
+            "acceptance_rate": together("accept"),
+            "n_steps": together("steps"),
+            "tree_depth": together("depth"),
+            "diverging": together("diverging"),
+        }
+        self.step_size: Reals = np.array([count["step_size"] for count in counts])
+        self.gradients: int = sum(count["gradients"] + count["warmup_gradients"] for count in counts)
+        self.divergences = Divergences(
+            *(
+                sum(count[name] for count in counts)
+                for name in ("energy", "guard", "impossible", "not_finite")
+            )
+        )
+        self.fixed: list[dict[str, Any]] = [
+            {path: value for path, _, value in found.fixed(chain)} for chain in chains
+        ]
+        faults = (found.fault(chain) for chain in chains)
+        self.fault = self._fault(next((fault for fault in faults if fault is not None), None))
+
+    def _fault(self, found: BaseException | None) -> ModelFault | None:
+        """The engine's fault as ours."""
+        try:
+            with translated(self.model.name, f"seed={self.seed}"):
+                if found is not None:
+                    raise found
+        except ModelFault as fault:
+            return fault
+        return None
+
+    def _sample(self, chain: int, draw: int) -> Sample:
+        with translated(self.model.name, f"seed={self.seed}"):
+            outcome = self._found.outcome(chain, draw)
+        return Sample(outcome, self._made, self.score, self.seed, self.seconds, self.cpu_seconds)
+
+    @cached_property
+    def draws(self) -> dict[str, Reals]:
+        """Values of the continuous choices by address, of those that all chains have."""
+        by_chain: list[Mapping[str, Reals]] = []
+        for chain in range(self.method.chains):
+            values, found, at = self._found.values(chain), {}, 0
+            for path, _, _, _, _, width, is_vector in self._found.choices(chain):
+                part = values[: self._least, at : at + width]
+                found[path] = part if is_vector else part[:, 0]
+                at += width
+            by_chain.append(found)
+        first = by_chain[0]
+        common = [
+            path
+            for path in first
+            if all(path in found and found[path].shape == first[path].shape for found in by_chain)
+        ]
+        return {path: np.array([found[path] for found in by_chain]) for path in common}
+
+    @cached_property
+    def positions(self) -> list[Reals]:
+        """The coordinates of each chain's draws, (draws, dim); see `niwaki.log_density`."""
+        return [self._found.positions(chain) for chain in range(self.method.chains)]
+
+    @property
+    def best(self) -> Sample:
+        """The draw of the best log score."""
+        if not len(self.samples):
+            raise InputError("no-runs", detail=repr(self))
+        chain = max(
+            (chain for chain, scores in enumerate(self._log_scores) if len(scores)),
+            key=lambda chain: float(self._log_scores[chain].max()),
+        )
+        return self._sample(chain, int(self._log_scores[chain].argmax()))
+
+    def summary(self) -> Summaries:
+        """Mean, deviation, standard error, effective sizes and R-hat of every number, and of the log density."""
+        from niwaki.diagnostics import summarise
+
+        return summarise({**self.draws, "log density": self.log_density})
+
+    def to_arviz(self) -> Any:
+        """The draws for ArviZ: a `DataTree` with 1.x, an `InferenceData` before.
+
+        Raises
+        ------
+        InputError
+            ArviZ is not installed.
+        """
+        from niwaki.diagnostics import to_arviz
+
+        step = np.broadcast_to(self.step_size[:, None], self.log_density.shape)
+        return to_arviz(self.draws, {**self.stats, "lp": self.log_density, "step_size": step})
+
+    def warn(self) -> None:
+        """Say what a person must know before using the draws: what was held fixed, what broke off."""
+        held = sorted({path for fixed in self.fixed for path in fixed})
+        if held:
+            shown = ", ".join(f"`{path}`" for path in held[:5]) + (
+                f" and {len(held) - 5} more" if len(held) > 5 else ""
+            )
+            many = len(held) > 1
+            warnings.warn(
+                f"{len(held)} discrete choice{'s' if many else ''} of `{self.model.name}` kept the value of each "
+                f"chain's start, because a gradient does not move {'them' if many else 'it'}: {shown}; "
+                f"draws are given {'those values' if many else 'that value'}; "
+                f"use `mh()` where {'they' if many else 'it'} should vary",
+                GradientWarning,
+                stacklevel=5,
+            )
+        # A few trajectories that overshoot into overflow are of no consequence: they are rejected.
+        if self.fault is not None and self.divergences.not_finite > SOME * len(self) * self.method.thin:
+            warnings.warn(
+                f"{self.divergences.not_finite} trajectories of `{self.model.name}` came to points without a finite "
+                f"gradient and were rejected; the first:\n{self.fault.render()}",
+                GradientWarning,
+                stacklevel=5,
+            )
+
+    def __repr__(self) -> str:
+        chains = self.method.chains
+        parts = [f"{chains} chain{'s' if chains > 1 else ''}", f"{len(self)} draws"]
+        parts.append(f"{self.gradients} gradients")
+        if self.divergences.total:
+            parts.append(f"{self.divergences.total} divergences")
+        parts += [f"seed {self.seed}", f"{self.seconds:.2f} s"]
+        if self.interrupted:
+            parts.append("interrupted")
+        return f"<HmcResult of {self.model.name}: {', '.join(parts)}>"

@@ -1,0 +1,48 @@
+"""Structures of blocks that stand: models, judges, files (dissertation 4.5, figures 4.8 to 4.13).
+
+Models: `stack`, `lean`, `top_heavy`, `every_step`; `platforms`; `arch`, `symmetric_arch`, `tri_arch`,
+`symmetric_tri_arch`, `wheel`; of pieces to cut, `cut_stack`, `cut_lean`, `cut_top_heavy`, `cut_arch`, `tilt_stack`,
+`tilt_arch`. All their choices are continuous. `start` finds where a chain may begin. A sample becomes a `Structure`,
+which `balanced` and `simulated` judge and `cut_sheet` lays out on a board. What needs a library of the extra `stacks`
+imports it when it is used.
+"""
+
+from niwaki.stacks.arches import arch, symmetric_arch, symmetric_tri_arch, tri_arch, wheel
+from niwaki.stacks.cut_pieces import cut_arch, cut_lean, cut_stack, cut_top_heavy, tilt_arch, tilt_stack
+from niwaki.stacks.cut_sheet import Piece, Sheet, assembly, cut_sheet
+from niwaki.stacks.judges import Balance, Simulation, balanced, simulated
+from niwaki.stacks.platforms import platforms
+from niwaki.stacks.starting import start
+from niwaki.stacks.structure import Structure, Touch, plain
+from niwaki.stacks.towers import every_step, lean, stack, top_heavy
+
+__all__ = [
+    "Balance",
+    "Piece",
+    "Sheet",
+    "Simulation",
+    "Structure",
+    "Touch",
+    "arch",
+    "assembly",
+    "balanced",
+    "cut_arch",
+    "cut_lean",
+    "cut_sheet",
+    "cut_stack",
+    "cut_top_heavy",
+    "every_step",
+    "lean",
+    "plain",
+    "platforms",
+    "simulated",
+    "stack",
+    "start",
+    "symmetric_arch",
+    "symmetric_tri_arch",
+    "tilt_arch",
+    "tilt_stack",
+    "top_heavy",
+    "tri_arch",
+    "wheel",
+]

@@ -1,0 +1,225 @@
+"""Contacts and equilibrium: latent forces at the corners of each contact, and a soft balance of every block.
+
+Dissertation 4.5 and appendix B.2. A contact's area is where two rectangles overlap; at each of its four corners stands
+a force of three latent numbers, twelve for a contact. Forces are in units of the structure's mean weight and torques in
+mean weight times the cube root of the mean volume, so that neither size nor density matters.
+
+Where this is not the original: friction is a true cone (the original's square pyramid is `friction="pyramid"`); the
+centre of mass is exact; a push has an exponential prior of ten mean weights, where the original's is flat in newtons
+and so prefers heavy structures by the power of the number of pushes.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from niwaki import (
+    condition,
+    cross,
+    dot,
+    exponential,
+    factor,
+    norm,
+    softeq,
+    student_t,
+    uniform,
+    vec,
+)
+from niwaki.stacks.blocks import volume_and_centre
+
+#: The body that does not move.
+GROUND = -1
+
+DOWN = vec(0.0, 0.0, -1.0)
+
+#: The share of a contact and of its friction that models spare unless told otherwise.
+SAFETY = 0.05
+
+#: Mean of the prior of a push, mean weights.
+PUSH = 10.0
+
+
+class Contact(NamedTuple):
+    """Where two faces meet.
+
+    Attributes
+    ----------
+    first, second : int
+        Numbers of the two bodies; `GROUND` is the ground.
+    points : four vectors
+        The corners of what the faces share.
+    normal, along, across : vector
+        The outward normal of the first body's face and the directions of its edges. A force acts on the second body,
+        and its opposite on the first.
+    """
+
+    first: Any
+    second: Any
+    points: Any
+    normal: Any
+    along: Any
+    across: Any
+
+
+class Asked(NamedTuple):
+    """How exactly blocks should balance.
+
+    Attributes
+    ----------
+    width : float
+        The standard deviation of a net force in mean weights, and of a net torque in mean weights times the cube root
+        of the mean volume.
+    cone : bool
+        Friction in Coulomb's cone; otherwise in the original's square pyramid, which is up to 1.4 times too strong.
+    safety : float
+        What is spared: latent forces stand inside each contact by this share of the way to its middle, with this share
+        less of friction. 0 is the original; then a draw may balance on an edge, or within the tolerance only.
+    """
+
+    width: Any
+    cone: Any
+    safety: Any
+
+
+class Made(NamedTuple):
+    """What a model of stacks returns.
+
+    Attributes
+    ----------
+    blocks : tuple of blocks
+        Eight corners each, metres, z up.
+    contacts : tuple of Contact
+        Where they touch.
+    friction : float
+        Coulomb's coefficient.
+    downs : tuple of vectors
+        The directions of gravity in which it should stand, with the bodies held fixed.
+    prefixes : tuple of int
+        How many blocks there are at each step of the construction that should stand.
+    """
+
+    blocks: Any
+    contacts: Any
+    friction: Any
+    downs: Any
+    prefixes: Any
+
+
+def contact(first, face, second, other):
+    """The contact of body `first`'s rectangular `face` with `second`'s `other`, each four points.
+
+    The rectangles are compared in the first one's frame. Where they no longer overlap the run is impossible.
+    """
+    origin = face[0]
+    along, across = face[1] - origin, face[3] - origin
+    wide, deep = norm(along), norm(across)
+    along, across = along / wide, across / deep
+    xs = [dot(p - origin, along) for p in other]
+    ys = [dot(p - origin, across) for p in other]
+    low_x, high_x = max(0.0, min(xs)), min(wide, max(xs))
+    low_y, high_y = max(0.0, min(ys)), min(deep, max(ys))
+    condition(low_x < high_x and low_y < high_y)
+    points = (
+        origin + low_x * along + low_y * across,
+        origin + high_x * along + low_y * across,
+        origin + high_x * along + high_y * across,
+        origin + low_x * along + high_y * across,
+    )
+    return Contact(first, second, points, cross(along, across), along, across)
+
+
+def corners(block, face):
+    """The corners of a block's face."""
+    return tuple([block[i] for i in face])
+
+
+def force_at(touch, friction, cone):
+    """A latent force within its friction cone (uniform over the disc), or within the original's square pyramid."""
+    push = exponential(1.0 / PUSH)
+    if cone:
+        # Two draws of Student's t make a plane's bivariate t with two degrees of freedom, scaled so that
+        # (x, y) / sqrt(1 + x^2 + y^2) is uniform over the unit disc: smooth, and without a bound to hit.
+        x = student_t(2.0, 0.0, 0.5**0.5)
+        y = student_t(3.0, 0.0, ((1.0 + x * x) / 3.0) ** 0.5)
+        shrink = (1.0 + x * x + y * y) ** -0.5
+        x, y = x * shrink, y * shrink
+    else:
+        x = uniform(-1.0, 1.0)
+        y = uniform(-1.0, 1.0)
+    slide = friction * push
+    return push * touch.normal + slide * x * touch.along + slide * y * touch.across
+
+
+def forces(touch, friction, cone):
+    """Latent forces at the four corners of a contact."""
+    return [force_at(touch, friction, cone) for _ in touch.points]
+
+
+def force_balance(total, width):
+    """Ask for a net force of nothing, in mean weights."""
+    factor(softeq(total.x, 0.0, width) + softeq(total.y, 0.0, width) + softeq(total.z, 0.0, width))
+
+
+def torque_balance(total, width):
+    """Ask for a net torque of nothing, in mean weights times the mean size."""
+    factor(softeq(total.x, 0.0, width) + softeq(total.y, 0.0, width) + softeq(total.z, 0.0, width))
+
+
+def asking(width, friction, safety):
+    """Name how exactly blocks should balance; friction is "cone" or "pyramid"."""
+    assert friction == "cone" or friction == "pyramid"
+    return Asked(width, friction == "cone", safety)
+
+
+def balance(blocks, contacts, friction, asked, down=DOWN):
+    """Ask for equilibrium under latent forces: a force and a torque factor for each block.
+
+    `asked` is the tolerance of the balance, `down` the direction of gravity. Every call has forces of its own.
+    """
+    safety = asked.safety
+    spared = [drawn_in(touch, safety) for touch in contacts]
+    solids = [volume_and_centre(block) for block in blocks]
+    mean_volume = sum([volume for volume, _ in solids]) / len(solids)
+    size = mean_volume ** (1.0 / 3.0)
+    pushes = [forces(touch, (1.0 - safety) * friction, asked.cone) for touch in spared]
+    for body in range(len(blocks)):
+        volume, centre = solids[body]
+        total = (volume / mean_volume) * down
+        torque = vec(0.0, 0.0, 0.0)
+        for touch, push in zip(spared, pushes):  # noqa: B905
+            if touch.second == body:
+                total = total + added(push)
+                torque = torque + turned(touch.points, push, centre)
+            elif touch.first == body:
+                total = total - added(push)
+                torque = torque - turned(touch.points, push, centre)
+        force_balance(total, asked.width)
+        torque_balance(torque / size, asked.width)
+
+
+def drawn_in(touch, safety):
+    """A contact whose corners have moved to its middle by a share of the way."""
+    a, b, c, d = touch.points
+    middle = 0.25 * (a + b + c + d)
+    points = tuple([p + safety * (middle - p) for p in touch.points])
+    return Contact(touch.first, touch.second, points, touch.normal, touch.along, touch.across)
+
+
+def added(push):
+    """The sum of four forces."""
+    return push[0] + push[1] + push[2] + push[3]
+
+
+def turned(points, push, centre):
+    """The torque of four forces about a centre."""
+    torque = vec(0.0, 0.0, 0.0)
+    for point, force in zip(points, push):  # noqa: B905
+        torque = torque + cross(point - centre, force)
+    return torque
+
+
+def positive_volume(block, least):
+    """Keep a block from turning inside out: a barrier that rises as its volume falls to `least` cubic metres."""
+    volume, _ = volume_and_centre(block)
+    condition(volume > 0.0)
+    factor(-least / volume)

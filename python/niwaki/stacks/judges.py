@@ -1,0 +1,248 @@
+"""Two judges of a structure that share no assumption with the model's soft balance: a program, and a simulation.
+
+`balanced` asks a linear program (HiGHS, through SciPy) for contact forces in the friction cone that hold every block
+exactly; it is elastic, so it always answers: with the smallest residual there is. `simulated` hands the blocks to
+MuJoCo, each a rigid body of its own, and waits.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from importlib import import_module
+from typing import Any
+
+import numpy as np
+
+from niwaki.file_errors import FileError
+from niwaki.stacks.structure import Floats, Structure
+
+#: A residual below this share of the mean weight is balance.
+BALANCE = 1e-6
+
+#: Sides of the polygon inside the friction cone: at most half a percent too strict.
+SIDES = 32
+
+#: Directions in which `Balance.margin` pushes.
+PUSHES = 8
+
+
+@dataclass(frozen=True)
+class Balance:
+    """What the program says.
+
+    Attributes
+    ----------
+    residual : float
+        The largest force or torque that is left over, in mean weights and mean weights times the cube root of the mean
+        volume, at the forces where it is smallest; the worst of all directions of gravity and steps of construction.
+    margin : float
+        The largest share of its own weight by which every block can be pushed sideways, in the worst of eight
+        directions, while balance remains: the tangent of the tilt at which it falls. 0 where there is no balance.
+    """
+
+    residual: float
+    margin: float
+
+    @property
+    def holds(self) -> bool:
+        """Whether there are forces that hold everything."""
+        return self.residual <= BALANCE
+
+
+def balanced(structure: Structure, cone: bool = True) -> Balance:
+    """Look for contact forces that hold every block.
+
+    Parameters
+    ----------
+    structure
+        What should stand.
+    cone
+        Friction within Coulomb's cone, a polygon of 32 sides inside it; otherwise the original's pyramid around it.
+
+    Raises
+    ------
+    FileError
+        SciPy is missing (extra `stacks`).
+    """
+    worst = Balance(0.0, np.inf)
+    for count in structure.prefixes:
+        part = structure.first(count)
+        rays, weights = _program(part, cone)
+        for down in structure.downs:
+            residual = _residual(rays, weights, down)
+            holds = residual <= BALANCE
+            margin = min(_margin(rays, weights, down, k) for k in range(PUSHES)) if holds else 0.0
+            worst = Balance(max(worst.residual, residual), min(worst.margin, margin))
+    return worst
+
+
+def _program(part: Structure, cone: bool) -> tuple[Any, Floats]:
+    """The matrix from sizes of rays to forces and torques (6 blocks), scaled; and relative weights."""
+    sparse = need("scipy.sparse")
+    volumes, centres = part.solids()
+    weights = volumes / volumes.mean()
+    size = volumes.mean() ** (1.0 / 3.0)
+    sides = SIDES if cone else 4
+    angles = 2.0 * np.pi * np.arange(sides) / sides + (0.0 if cone else np.pi / 4.0)
+    reach = part.friction * (1.0 if cone else np.sqrt(2.0))
+    columns = []
+    for touch in part.touches:
+        normal, along, across = touch.frame
+        tangents = np.cos(angles)[:, None] * along + np.sin(angles)[:, None] * across
+        rays = normal + reach * tangents
+        for point in touch.points:
+            block = np.zeros((len(part), 6, sides))
+            for body, sign in ((touch.second, 1.0), (touch.first, -1.0)):
+                if body >= 0:
+                    block[body, :3] = sign * rays.T
+                    block[body, 3:] = sign * np.cross(point - centres[body], rays).T / size
+            columns.append(block.reshape(6 * len(part), sides))
+    return sparse.csc_array(np.concatenate(columns, axis=1)), weights
+
+
+def _loads(weights: Floats, direction: Floats) -> Floats:
+    """Weights in a direction, without torques."""
+    loads = np.zeros((len(weights), 6))
+    loads[:, :3] = weights[:, None] * direction
+    return loads.reshape(-1)
+
+
+def _residual(rays: Any, weights: Floats, down: Floats) -> float:
+    """The smallest largest residual."""
+    sparse, optimize = need("scipy.sparse"), need("scipy.optimize")
+    rows, columns = rays.shape
+    slack = sparse.csc_array(-np.ones((rows, 1)))
+    above = sparse.vstack([sparse.hstack([rays, slack]), sparse.hstack([-rays, slack])]).tocsc()
+    loads = _loads(weights, down)
+    cost = np.zeros(columns + 1)
+    cost[-1] = 1.0
+    found = _solved(optimize.linprog(cost, A_ub=above, b_ub=np.concatenate([-loads, loads])))
+    # The solver keeps rows to 1e-7 only: say what its forces really leave.
+    return float(np.abs(rays @ np.maximum(found.x[:-1], 0.0) + loads).max())
+
+
+def _margin(rays: Any, weights: Floats, down: Floats, direction: int) -> float:
+    """The largest push in one direction across gravity."""
+    sparse, optimize = need("scipy.sparse"), need("scipy.optimize")
+    side = np.cross(down, (0.0, 1.0, 0.0) if abs(down[1]) < 0.9 else (1.0, 0.0, 0.0))
+    side /= np.linalg.norm(side)
+    angle = 2.0 * np.pi * direction / PUSHES
+    push = np.cos(angle) * side + np.sin(angle) * np.cross(down, side)
+    equal = sparse.hstack([rays, sparse.csc_array(_loads(weights, push)[:, None])]).tocsc()
+    cost = np.zeros(equal.shape[1])
+    cost[-1] = -1.0
+    found = optimize.linprog(cost, A_eq=equal, b_eq=-_loads(weights, down))
+    return float(found.x[-1]) if found.status == 0 else 0.0
+
+
+def _solved(found: Any) -> Any:
+    if found.status != 0:
+        raise FileError("program-unsolved", reason=str(found.message))
+    return found
+
+
+@dataclass(frozen=True)
+class Simulation:
+    """What the simulation says.
+
+    Attributes
+    ----------
+    moved : float
+        The farthest that a block's centre of mass went, as a share of that block's size (the cube root of its volume).
+    block : int
+        Which one.
+    """
+
+    moved: float
+    block: int
+
+    @property
+    def stands(self) -> bool:
+        """Whether no block went farther than 5 % of its size."""
+        return self.moved <= 0.05
+
+
+def simulated(structure: Structure, seconds: float = 5.0, time_step: float = 0.00025) -> Simulation:
+    """Let go of the blocks in MuJoCo: rigid bodies, elliptic friction cones with the structure's coefficient.
+
+    Parameters
+    ----------
+    structure
+        What should stand, in every direction of gravity and at every step of construction that it names.
+    seconds
+        Simulated time of each.
+    time_step
+        Seconds. A contact gives way by about gravity times the square of twice this: it says how hard blocks are.
+
+    Raises
+    ------
+    FileError
+        MuJoCo is missing (extra `stacks`).
+    """
+    worst = Simulation(0.0, 0)
+    for count in structure.prefixes:
+        part = structure.first(count)
+        for down in structure.downs:
+            found = _run(part, down, seconds, time_step)
+            worst = max(worst, found, key=lambda one: one.moved)
+    return worst
+
+
+def _run(part: Structure, down: Floats, seconds: float, time_step: float) -> Simulation:
+    mujoco: Any = need("mujoco")
+    machine = mujoco.MjModel.from_xml_string(_document(part, down, time_step))
+    state = mujoco.MjData(machine)
+    mujoco.mj_forward(machine, state)
+    start = state.xipos[1:].copy()
+    volumes, _ = part.solids()
+    sizes = np.cbrt(volumes)
+    steps = round(seconds / time_step)
+    moved = np.zeros(len(part))
+    for step in range(steps):
+        mujoco.mj_step(machine, state)
+        if step % 50 == 49 or step == steps - 1:
+            moved = np.linalg.norm(state.xipos[1:] - start, axis=1) / sizes
+            if not np.isfinite(moved).all() or moved.max() > 1.0:
+                break
+    moved = np.nan_to_num(moved, nan=np.inf)
+    return Simulation(float(moved.max()), int(moved.argmax()))
+
+
+def _document(part: Structure, down: Floats, time_step: float) -> str:
+    """The structure in MuJoCo's format."""
+    gravity = " ".join(repr(float(x)) for x in 9.81 * down)
+    floor = _floor(part)
+    assets, bodies = [], []
+    for number, corners in enumerate(part.corners):
+        middle = corners.mean(axis=0)
+        text = " ".join(repr(float(x)) for x in (corners - middle).reshape(-1))
+        place = " ".join(repr(float(x)) for x in middle)
+        assets.append(f'<mesh name="b{number}" vertex="{text}"/>')
+        bodies.append(
+            f'<body pos="{place}"><freejoint/>'
+            f'<geom type="mesh" mesh="b{number}" density="700"/></body>'
+        )  # fmt: skip
+    return f"""<mujoco>
+ <option timestep="{time_step!r}" gravity="{gravity}" cone="elliptic" impratio="10" integrator="implicitfast"
+  iterations="50"><flag multiccd="enable"/></option>
+ <size memory="64M"/>
+ <default><geom friction="{part.friction!r} 0 0" condim="3" solref="{2.0 * time_step!r} 1"
+  solimp="0.95 0.99 0.0005"/></default>
+ <asset>{"".join(assets)}</asset>
+ <worldbody><geom type="plane" size="0 0 1" pos="0 0 {floor!r}"/>{"".join(bodies)}</worldbody>
+</mujoco>"""
+
+
+def _floor(part: Structure) -> float:
+    """The height of the ground."""
+    heights = [touch.points[:, 2].mean() for touch in part.touches if min(touch.first, touch.second) < 0]
+    return float(np.mean(heights))
+
+
+def need(module: str) -> Any:
+    """Import a library of the extra `stacks`, or say how to get it."""
+    try:
+        return import_module(module)
+    except ImportError:
+        task = "judging a structure"
+        raise FileError("missing-extra", task=task, extra="stacks") from None

@@ -1,0 +1,85 @@
+"""Where chains start: choices of a structure that balances within the tolerance, found by minimisation.
+
+From a draw of the prior the equilibrium factors are many thousand standard deviations away. The tolerance starts wide
+and narrows by tens, and at each the log density is maximised (L-BFGS, through SciPy).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from niwaki.errors import ModelFault
+from niwaki.stacks.judges import need
+
+if TYPE_CHECKING:
+    from niwaki.gradient import LogDensity
+    from niwaki.stacks.structure import Floats
+    from niwaki.words.models import Model
+
+#: Tolerances on the way, as multiples of the last.
+WIDER = (300.0, 30.0, 3.0, 1.0)
+
+#: Draws of the prior that may be impossible (a contact that vanishes) before giving up.
+TRIES = 1000
+
+#: Spread of the first coordinates about the middles of their ranges.
+SPREAD = 0.3
+
+STEPS = 800
+
+
+def start(model: Model[..., Any], seed: int, width: float, **arguments: Any) -> tuple[LogDensity, Floats]:
+    """Find coordinates near which a structure balances.
+
+    Parameters
+    ----------
+    model
+        A model of stacks.
+    seed
+        Decides where the search begins.
+    width
+        The model's tolerance.
+    arguments
+        The model's other arguments.
+
+    Returns
+    -------
+    LogDensity
+        Of the model at this tolerance; `values` gives its choices.
+    array of shape (dim,)
+        The coordinates found. They are a start, not a draw.
+    """
+    optimize = need("scipy.optimize")
+    random = np.random.default_rng(seed)
+    x: Floats | None = None
+    for wider in WIDER:
+        density = density_of(model, seed, width=wider * width, **arguments)
+        density.compile()
+        while x is None or not np.isfinite(density(x)):
+            x = SPREAD * random.normal(size=density.dim)
+        x = optimize.minimize(
+            _downhill, x, args=(density,), jac=True, method="L-BFGS-B", options={"maxiter": STEPS}
+        ).x
+    assert x is not None
+    return density, x
+
+
+def density_of(model: Model[..., Any], seed: int, **arguments: Any) -> LogDensity:
+    """The log density around the first draw of the prior that is possible."""
+    from niwaki.gradient import log_density
+    from niwaki.search import run
+
+    for number in range(TRIES):
+        try:
+            return log_density(run(model, seed=seed + number, **arguments).best)
+        except ModelFault as fault:
+            if fault.code != "impossible-trace" or number == TRIES - 1:
+                raise
+    raise AssertionError
+
+
+def _downhill(x: Floats, density: LogDensity) -> tuple[float, Floats]:
+    value, gradient = density.value_and_gradient(x)
+    return (-value, -gradient) if np.isfinite(value) else (1e30, np.zeros_like(x))

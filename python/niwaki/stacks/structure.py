@@ -1,0 +1,160 @@
+"""A structure as arrays: what judges, files and pictures take, made from what a model of stacks returns."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from niwaki.file_errors import FileError
+from niwaki.stacks.blocks import BOTTOM, SIDES, TOP
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Touch:
+    """Where two bodies touch.
+
+    Attributes
+    ----------
+    first, second : int
+        Their numbers; -1 is the ground. The normal points from the first to the second.
+    points : array of shape (4, 3)
+        Metres.
+    frame : array of shape (3, 3)
+        Rows: the normal and two directions of the contact's plane.
+    """
+
+    first: int
+    second: int
+    points: Floats
+    frame: Floats
+
+
+@dataclass(frozen=True)
+class Structure:
+    """Blocks, where they touch, and how they should stand.
+
+    Attributes
+    ----------
+    corners : array of shape (blocks, 8, 3)
+        Metres, z up; a block is the convex hull of its corners.
+    touches : tuple of Touch
+        The contacts.
+    friction : float
+        Coulomb's coefficient.
+    downs : array of shape (directions, 3)
+        The directions of gravity in which it should stand.
+    prefixes : tuple of int
+        How many blocks there are at each step at which it should stand.
+    """
+
+    corners: Floats
+    touches: tuple[Touch, ...]
+    friction: float
+    downs: Floats
+    prefixes: tuple[int, ...]
+
+    @classmethod
+    def of(cls, made: Any) -> Structure:
+        """Make a structure of a sample of a result, or of what a model of stacks returned.
+
+        Raises
+        ------
+        FileError
+            A contact has vanished: its faces no longer overlap.
+        """
+        made = getattr(made, "value", made)
+        corners = np.array([[list(point) for point in block] for block in made.blocks], dtype=np.float64)
+        touches = tuple(
+            Touch(
+                int(touch.first),
+                int(touch.second),
+                _points(touch.points),
+                _points((touch.normal, touch.along, touch.across)),
+            )
+            for touch in made.contacts
+        )
+        found = cls(
+            corners,
+            touches,
+            float(made.friction),
+            _points(made.downs),
+            tuple(int(count) for count in made.prefixes),
+        )
+        found.check()
+        return found
+
+    def check(self) -> None:
+        """Refuse contacts without area, and blocks that are inside out."""
+        for touch in self.touches:
+            wide, deep = touch.points[1] - touch.points[0], touch.points[3] - touch.points[0]
+            across, along = float(deep @ touch.frame[2]), float(wide @ touch.frame[1])
+            if not (along > 0.0 and across > 0.0):
+                raise FileError("contact-vanished", first=_name(touch.first), second=_name(touch.second))
+        for number in range(len(self.corners)):
+            if not self.solid(number)[0] > 0.0:
+                raise FileError("block-inside-out", block=_name(number))
+            if not self.is_convex(number):
+                raise FileError("block-not-convex", block=_name(number))
+
+    def __len__(self) -> int:
+        return len(self.corners)
+
+    def first(self, count: int) -> Structure:
+        """The structure when only its first blocks are there."""
+        kept = tuple(touch for touch in self.touches if max(touch.first, touch.second) < count)
+        return Structure(self.corners[:count], kept, self.friction, self.downs, (count,))
+
+    def faces(self, number: int) -> NDArray[np.int64]:
+        """Triangles of a block, counter-clockwise from outside; a twisted side is cut along its outer diagonal."""
+        corners = self.corners[number]
+        found = [(a, b, c) for a, b, c, _ in (BOTTOM, TOP)] + [(a, c, d) for a, _, c, d in (BOTTOM, TOP)]
+        for a, b, c, d in SIDES:
+            p, q, r, s = corners[[a, b, c, d]]
+            outer = np.linalg.det([q - p, r - p, s - p]) > 0.0
+            found += [(a, b, d), (b, c, d)] if outer else [(a, b, c), (a, c, d)]
+        return np.array(found, dtype=np.int64)
+
+    def is_convex(self, number: int) -> bool:
+        """Whether no corner of a block lies outside of one of its faces, by more than a thousandth of its size."""
+        corners = self.corners[number]
+        p, q, r = corners[self.faces(number)].transpose(1, 0, 2)
+        out = np.cross(q - p, r - p)
+        out /= np.maximum(np.linalg.norm(out, axis=1, keepdims=True), 1e-300)
+        heights = np.einsum("fi,cfi->cf", out, corners[:, None, :] - p)
+        return bool(heights.max() <= 1e-3 * float(np.ptp(corners, axis=0).max()))
+
+    def solid(self, number: int) -> tuple[float, Floats]:
+        """Volume and centre of mass of a block."""
+        corners = self.corners[number]
+        middle = corners.mean(axis=0)
+        p, q, r = (corners[self.faces(number)] - middle).transpose(1, 0, 2)
+        parts = np.einsum("ij,ij->i", p, np.cross(q, r)) / 6.0
+        volume = float(parts.sum())
+        return volume, middle + 0.25 * (parts[:, None] * (p + q + r)).sum(axis=0) / volume
+
+    def solids(self) -> tuple[Floats, Floats]:
+        """Volumes, of shape (blocks,), and centres of mass, of shape (blocks, 3)."""
+        found = [self.solid(number) for number in range(len(self))]
+        return np.array([volume for volume, _ in found]), np.array([centre for _, centre in found])
+
+
+def plain(corners: ArrayLike, touches: Any, friction: float, down: ArrayLike = (0.0, 0.0, -1.0)) -> Structure:
+    """Make a structure from arrays: corners (blocks, 8, 3), and for each contact (first, second, points, frame)."""
+    blocks = np.asarray(corners, dtype=np.float64)
+    made = tuple(Touch(a, b, np.asarray(p, float), np.asarray(f, float)) for a, b, p, f in touches)
+    found = Structure(blocks, made, friction, np.asarray([down], dtype=np.float64), (len(blocks),))
+    found.check()
+    return found
+
+
+def _points(points: Any) -> Floats:
+    return np.array([list(point) for point in points], dtype=np.float64)
+
+
+def _name(body: int) -> str:
+    return "the ground" if body < 0 else f"block {body + 1}"

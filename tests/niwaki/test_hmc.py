@@ -1,0 +1,208 @@
+"""Chains that follow a gradient, from Python: what they give back, what they hold fixed, what they refuse."""
+
+from __future__ import annotations
+
+import linecache
+import math
+import os
+import signal
+import threading
+import warnings
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import niwaki as nw
+import numpy as np
+import pytest
+from niwaki.errors import NiwakiError
+from niwaki.gallery.point import point
+from niwaki.hmc_result import GradientWarning
+
+GOLDEN = Path(__file__).parents[1] / "golden"
+
+TEXT = """
+import math
+
+from niwaki.words import *
+
+@model
+def garden(n=3):
+    size = gamma(2.0, 1.0)
+    share = dirichlet([1.0, 2.0, 3.0])
+    for i in range(n):
+        x = gaussian(0, size)
+        emit(box((3 * i, x, 0), (1, 1 + share[0], 1)))
+    return size
+
+@model
+def fork():
+    tall = flip(0.5)
+    x = gaussian(0, 1)
+    if x > 0.5:
+        y = gaussian(x, 1)
+        factor(-y * y)
+    return x
+
+@model
+def always(shift=0.0):
+    d = sample(Delta(2.0))
+    x = gaussian(d, 1)
+    return x
+
+@model
+def coins():
+    return flip(0.5)
+
+@model
+def root():
+    x = gaussian(0, 1)
+    y = math.exp(-1000.0 - x * x)
+    factor(-math.sqrt(y))
+    return x
+
+@model
+def never():
+    x = uniform(0, 1)
+    condition(x > 2)
+    return x
+
+@model
+def words():
+    x = gaussian(0, 1)
+    if str(x) == "0":
+        factor(-1)
+    return x
+"""
+
+
+def loaded() -> dict[str, Any]:
+    name = "hmc_models.py"
+    linecache.cache[name] = (len(TEXT), None, TEXT.splitlines(True), name)
+    space: dict[str, Any] = {"__name__": "hmc_models"}
+    exec(compile(TEXT, name, "exec"), space)
+    return space
+
+
+MODELS = loaded()
+GARDEN = MODELS["garden"]
+
+
+def few(**settings: Any) -> Any:
+    return nw.nuts(**{"draws": 30, "warmup": 60, "chains": 2} | settings)
+
+
+def test_draws_come_by_address_and_each_is_a_run() -> None:
+    result = nw.run(GARDEN, few(), seed=3)
+    assert {path.rsplit("/", 1)[-1] for path in result.draws} == {"size", "share", "x"}
+    assert len(result.draws) == 5 and len(result) == 60
+    for path, values in result.draws.items():
+        assert values.shape == ((2, 30, 3) if path.endswith("share") else (2, 30))
+    sample = result[37]
+    for path, value in sample.choices.items():
+        assert np.array_equal(result.draws[path][1, 7], value)
+    assert sample.log_score == result.log_score[1, 7]
+    assert sample.log_prior == pytest.approx(result.log_prior[1, 7])
+    assert sample.primitives == 3 and len(sample.scene.parts) == 3
+    assert sample.value == sample.choices[next(path for path in result.draws if path.endswith("size"))]
+    # The density over coordinates is that of `log_density` at the draw's coordinates.
+    density = nw.log_density(result[0])
+    assert density(result.positions[1][7]) == pytest.approx(result.log_density[1, 7])
+    again = nw.run(GARDEN, seed=1, choices=sample.choices).best
+    assert again.log_prior == sample.log_prior
+
+
+def test_a_seed_decides_every_bit_on_any_number_of_threads() -> None:
+    # More gradients than the tape serves, so that machine code has its part.
+    method = nw.hmc(draws=40, steps=50, warmup=60, chains=3)
+    one, many = (nw.run(point, method, seed=5, threads=threads) for threads in (1, 3))
+    assert all(np.array_equal(one.draws[path], many.draws[path]) for path in one.draws)
+    assert np.array_equal(one.step_size, many.step_size)
+    other = nw.run(point, method, seed=6)
+    assert not np.array_equal(one.log_density, other.log_density)
+
+
+def test_a_point_stays_near_its_curve() -> None:
+    result = nw.run(point, nw.nuts(draws=300, warmup=500, chains=2), 0.02, seed=2)
+    x, y = result.draws.values()
+    assert np.abs(y**4 - y**2 + x**2 - 0.25).max() < 0.02 * 6
+    # Both lobes of the curve are seen.
+    assert (y > 0.5).any() and (y < -0.5).any()
+    assert result.best.log_score == result.log_score.max()
+    assert result.gradients > 1000 and (result.step_size > 0).all()
+
+
+def test_what_is_discrete_is_held_fixed_with_a_warning_that_names_it() -> None:
+    with pytest.warns(GradientWarning, match=r"`fork/tall` kept|`.*tall`"):
+        result = nw.run(MODELS["fork"], few(chains=4), seed=1)
+    assert len(result.fixed) == 4
+    assert {type(value) for fixed in result.fixed for value in fixed.values()} == {bool}
+    # Whether there is a `y` hangs on the start of each chain, and no draw leaves its side.
+    (path,) = [path for path in result.draws if path.endswith("x")]
+    for chain, held in enumerate(result.draws[path]):
+        assert len({bool(x > 0.5) for x in held}) == 1
+        assert result[chain * 30].choices[path] == held[0]
+    assert result.divergences.structure > 0
+
+
+def test_a_choice_of_one_value_is_not_called_fixed() -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        result = nw.run(MODELS["always"], few(), seed=1)
+    assert result.fixed == [{}, {}]
+    assert len(result.draws) == 1 and len(result[3].choices) == 2
+
+
+def test_chains_start_where_they_are_told() -> None:
+    choices = {path: 0.3 for path in nw.run(point, seed=1).best.choices}
+    method = nw.hmc(draws=1, steps=1, warmup=0, chains=2, step_size=1e-9)
+    result = nw.run(point, method, 1.0, seed=1, choices=choices)
+    assert all(np.allclose(values, 0.3, atol=1e-6) for values in result.draws.values())
+
+
+def test_ctrl_c_gives_what_there_is() -> None:
+    timer = threading.Timer(0.7, lambda: os.kill(os.getpid(), signal.SIGINT))
+    timer.start()
+    result = nw.run(point, nw.hmc(draws=2**31, steps=10, warmup=20, chains=2), seed=1)
+    assert result.interrupted and 0 < len(result) < 2**31
+    assert math.isfinite(result.best.log_score)
+    assert result.log_density.shape == next(iter(result.draws.values())).shape
+
+
+def test_progress_is_told() -> None:
+    seen: list[int] = []
+    nw.run(point, nw.hmc(draws=4000, steps=60, chains=1), seed=1, progress=lambda p: seen.append(p.done))
+    assert seen == sorted(seen) and seen[-1] > 0
+
+
+def test_a_summary_and_arviz() -> None:
+    result = nw.run(GARDEN, few(), seed=3)
+    names = [row.name for row in result.summary()]
+    assert names[-1] == "log density" and len(names) == 1 + 3 + 3 + 1
+    pytest.importorskip("arviz", reason="ArviZ is not installed")
+    tree = result.to_arviz()
+    assert "energy" in tree["sample_stats"]
+
+
+def failing() -> dict[str, Callable[[], Any]]:
+    def run(name: str, **settings: Any) -> Callable[[], Any]:
+        return lambda: nw.run(MODELS[name], few(tries=50), seed=1, **settings)
+
+    return {
+        "a scene that is scored by sketches": run("garden", score=nw.no_self_intersection() * nw.floor(0.0)),
+        "no continuous choice": run("coins"),
+        "no possible start": run("never"),
+        "no derivative": run("words"),
+        "no finite gradient at the start": run("root"),
+        "too many draws": lambda: nw.hmc(draws=2**32),
+    }
+
+
+def test_errors_are_as_reviewed(golden) -> None:
+    lines = []
+    for what, fails in failing().items():
+        with pytest.raises(NiwakiError) as found:
+            fails()
+        text = found.value.render() if hasattr(found.value, "render") else str(found.value)
+        lines.append(f"# {what}\n{text}")
+    golden(GOLDEN / "gradients.txt", "\n\n".join(lines) + "\n")
