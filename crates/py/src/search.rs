@@ -101,6 +101,10 @@ pub(crate) fn detached<T: Send>(
             worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
         })
     });
+    // However short the search was, whoever watches is told how it ended.
+    if raised.is_none() && done.is_ok() {
+        raised = watch.tell(callable).err();
+    }
     let pressed = raised.is_some();
     match raised {
         // Stopped by Ctrl-C: what was found is a result.
