@@ -14,6 +14,7 @@ from niwaki._engine import __version__
 from niwaki.words import *  # noqa: F403
 
 if TYPE_CHECKING:
+    from niwaki import kernels
     from niwaki.camera import Camera
     from niwaki.constraints import Residuals, residuals
     from niwaki.errors import InputError, ModelError, ModelFault, NiwakiError
@@ -76,6 +77,8 @@ _HOMES = {
     ),
     "niwaki.target": ("Receiver", "Target"),
 }
+#: Modules that are used by name.
+_MODULES = ("kernels",)
 _HOME = {name: home for home, names in _HOMES.items() for name in names}
 
 __all__ = [  # noqa: PLE0604
@@ -101,6 +104,7 @@ __all__ = [  # noqa: PLE0604
     "floor",
     "grow",
     "importance",
+    "kernels",
     "mh",
     "match_image",
     "match_shadow",
@@ -118,6 +122,8 @@ __all__ = [  # noqa: PLE0604
 
 
 def __getattr__(name: str) -> Any:
+    if name in _MODULES:
+        return import_module(f"niwaki.{name}")
     if name not in _HOME:
         raise AttributeError(f"module 'niwaki' has no attribute {name!r}")
     found = getattr(import_module(_HOME[name]), name)

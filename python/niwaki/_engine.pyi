@@ -21,11 +21,13 @@ __all__ = [
     "Task",
     "Trace",
     "__version__",
+    "agreement",
     "avoid",
     "different",
     "draw",
     "draw_at",
     "enumerate_support",
+    "explain",
     "family_names",
     "fine_mesh",
     "floor",
@@ -299,6 +301,15 @@ class Task:
     def trace(self, outcome: Outcome) -> Trace: ...
     def replay(self, choices: Mapping[str, Any], seed: int | None = None, partial: bool = False) -> Trace: ...
 
+def agreement(
+    task: Task,
+    seed: int,
+    steps: int,
+    every: int = 20,
+    kernel: tuple[Any, ...] | None = None,
+    warmup: int = 0,
+) -> tuple[str | None, int, int, int]: ...
+def explain(task: Task, seed: int, address: str, tries: int = 1000) -> dict[str, Any]: ...
 @final
 class Chains:
     def __new__(
@@ -313,6 +324,9 @@ class Chains:
         room: int = ...,
         tries: int = 1000,
         known: Mapping[int, Any] | None = None,
+        kernel: tuple[Any, ...] | None = None,
+        temperatures: Sequence[float] | None = None,
+        every: int = 100,
         threads: int | None = None,
     ) -> Chains: ...
     def advance(self, steps: int, threads: int | None = None, watch: _Watch | None = None) -> bool: ...
@@ -320,6 +334,7 @@ class Chains:
     def samples(self, chain: int, start: int = 0) -> list[tuple[int, Outcome]]: ...
     def now(self) -> list[Outcome]: ...
     def thin(self) -> list[int]: ...
+    def exchanges(self) -> list[tuple[int, int]]: ...
     def sites(self) -> list[tuple[str, str, int, int, int, int]]: ...
     def counters(self) -> dict[str, int]: ...
 

@@ -11,10 +11,10 @@ import warnings
 from typing import Any, NoReturn
 
 from niwaki.errors import NiwakiError
-from niwaki.shell import check, grow, models, replay  # each puts its command on the application
+from niwaki.shell import check, explain, grow, models, replay, sample  # each puts its command on the application
 from niwaki.shell.app import app
 
-__all__ = ["app", "check", "grow", "main", "models", "replay"]
+__all__ = ["app", "check", "explain", "grow", "main", "models", "replay", "sample"]
 
 
 def main() -> NoReturn:

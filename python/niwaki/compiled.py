@@ -68,6 +68,11 @@ def task(
         raise _bad_argument(model, program, given, error) from error
 
 
+def proposal(model: Model[..., Any]) -> _engine.Task:
+    """A function that makes a distribution of a choice's value, for the engine to ask."""
+    return _engine.Task(model.program())
+
+
 def _bad_argument(
     model: Model[..., Any], program: _engine.Program, given: list[Any], error: Exception
 ) -> InputError:
@@ -123,6 +128,9 @@ def _error(fault: Any, name: str, replay: str, choices: Mapping[str, Any]) -> Ex
         return error
     if fault.kind == "compile":
         return InputError("machine-limit", found=fault.message)
+    if fault.code == "no-address":
+        pattern = fault.message.partition("`")[2].partition("`")[0]
+        return InputError("no-address", pattern=pattern, name=name, nearest=fault.help or "none")
     if fault.kind == "no-start":
         causes = ", ".join(f"{cause} ({count})" for cause, count in fault.causes)
         return InputError("no-start", name=name, tries=fault.barrier, constraint=causes)

@@ -98,7 +98,7 @@ def run(
         Decides every random choice; fresh when left out.
     choices
         Values of choices by address, for one run with those: others are drawn from `seed` where it is given, and
-        missing ones are an error where it is not.
+        missing ones are an error where it is not. With `mh`, the chains start from them.
     max_steps
         Most calls and loop steps of one run.
     max_memory
@@ -121,10 +121,15 @@ def run(
     score = _asked(score)
     given_seed = check_seed(seed)
     made = task(model, args, kwargs, score.specs, max_steps, max_memory)
-    if choices is not None:
+    if choices is not None and not isinstance(method, Mh):
         with translated(model.name, choices=choices):
             trace = made.replay(dict(choices), given_seed if seed is not None else None)
         return Result(model, [Sample.of_trace(trace, made, score)], given_seed, "choices", score)
+    if choices is not None and isinstance(method, Mh):
+        with translated(model.name, choices=choices):
+            first = made.replay(dict(choices), given_seed)
+        known = {choice[1]: choice[3] for choice in first.choices}
+        return _chains(model, made, method, score, given_seed, check_threads(threads), _told(progress, 0, 1), known)
     return _search(
         model, made, method or Forward(), score, given_seed, check_threads(threads), progress, 0, 1
     )
@@ -282,6 +287,41 @@ def default_temper(weights: str) -> float:
     return 16.0 if weights == "ratio" else 1.0
 
 
+def explain(
+    model: Model[..., Any] | Callable[..., Any],
+    choice: str,
+    *args: Any,
+    seed: int = 0,
+    max_steps: int = 20_000_000,
+    **kwargs: Any,
+) -> dict[str, Any]:
+    """What each strategy does for one proposal from the prior, in the first state of a seed.
+
+    Parameters
+    ----------
+    model
+        A model.
+    choice
+        The address of the choice that is changed, or a pattern: the first that matches.
+    args, kwargs
+        The model's arguments.
+    seed, max_steps
+        As for `run`.
+
+    Returns
+    -------
+    dict
+        `activations`: the calls and loop iterations, each before those it makes, as (label, function, depth, number of
+        the caller); `home`: which of them holds the choice; `path`, `old` and `new`; `runs`: by strategy what happened
+        ("invoked", "unwound", "skipped", "made" or "removed", and the number of the activation), and whether the run
+        came to its end. `niwaki.draw.reuse.draw` draws it.
+    """
+    model = as_model(model)
+    made = task(model, args, kwargs, (), max_steps)
+    with translated(model.name, f"seed={seed}"):
+        return _engine.explain(made, check_seed(seed), choice)
+
+
 def check_seed(seed: int | None) -> int:
     """The seed, or a fresh one."""
     if seed is None:
@@ -338,10 +378,7 @@ def _search(
 ) -> Result:
     """One search with one seed, timed."""
 
-    def watch(done: int, ended: int, best: float) -> None:
-        if progress is not None:
-            progress(Progress(number, runs, done, ended, best))
-
+    watch = _told(progress, number, runs)
     if isinstance(method, Mh):
         return _chains(model, made, method, score, seed, threads, watch)
     facts: dict[str, Any] = {}
@@ -423,6 +460,16 @@ def _search(
     return result
 
 
+def _told(progress: Watch | None, number: int, runs: int) -> Callable[[int, int, float], None]:
+    """What the engine tells, as a `Progress`."""
+
+    def watch(done: int, ended: int, best: float) -> None:
+        if progress is not None:
+            progress(Progress(number, runs, done, ended, best))
+
+    return watch
+
+
 def _chains(
     model: Model[..., Any],
     made: _engine.Task,
@@ -431,19 +478,27 @@ def _chains(
     seed: int,
     threads: int | None,
     watch: Callable[[int, int, float], None],
+    known: Mapping[int, Any] | None = None,
 ) -> Result:
     """Chains in their first states, and their first proposals."""
     from niwaki.mh_result import ChainResult
 
+    kernel, temperatures, every = method.kernel, None, 1
+    if kernel is not None and kernel.name == "temper":
+        (temperatures, every), (kernel,) = kernel.settings, kernel.parts
     with translated(model.name, f"seed={seed}"):
         chains = _engine.Chains(
             made,
             seed,
+            kernel=None if kernel is None else kernel.form(),
+            temperatures=temperatures,
+            every=every,
             chains=method.chains,
             strategy=method.strategy,
             warmup=method.warmup,
             thin=method.spacing,
             tries=method.tries,
+            known=known,
             threads=threads,
         )
     return ChainResult(model, made, chains, seed, method, score, watch, threads).more(method.steps)

@@ -59,6 +59,8 @@ class ChainResult(Result):
         Thinned states after the warm-up, those of the first chain first. All weigh the same.
     draws : list of list of Sample
         The same, by chain.
+    visits : list of list of int
+        The numbers of proposals before them.
     counters : dict of str to int
         Proposals, activations entered, calls skipped, instructions, choices and bytes of the present states.
     """
@@ -77,6 +79,7 @@ class ChainResult(Result):
         super().__init__(model, [], seed, method, score)
         self._made, self._chains, self._watch, self._threads = made, chains, watch, threads
         self.draws: list[list[Sample]] = []
+        self.visits: list[list[int]] = []
 
     def more(self, steps: int) -> ChainResult:
         """Go on for `steps` proposals in each chain, from where they are; the result itself, with more in it."""
@@ -92,10 +95,9 @@ class ChainResult(Result):
         return self
 
     def _gather(self) -> None:
-        self.draws = [
-            [self._sample(outcome) for _, outcome in self._chains.samples(chain)]
-            for chain in range(self.method.chains)
-        ]
+        kept = [self._chains.samples(chain) for chain in range(self.method.chains)]
+        self.visits = [[visit for visit, _ in rows] for rows in kept]
+        self.draws = [[self._sample(outcome) for _, outcome in rows] for rows in kept]
         self.samples = [sample for draws in self.draws for sample in draws]
 
     def _sample(self, outcome: _engine.Outcome) -> Sample:

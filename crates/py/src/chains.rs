@@ -1,11 +1,16 @@
 //! Markov chains behind the door: they stay alive between two calls, so that a search goes on where it stopped.
 
+use crate::kernels;
 use crate::outcome::PyOutcome;
 use crate::search::{PyTask, detached};
 use crate::settings::unknown;
-use niwaki_infer::chain::Settings;
+use niwaki_infer::chain::agreement::compare;
 use niwaki_infer::chain::counts::{Count, Counts};
+use niwaki_infer::chain::explain::What;
+use niwaki_infer::chain::kernel::Kernel;
+use niwaki_infer::chain::ladder::Ladder;
 use niwaki_infer::chain::many::Chains;
+use niwaki_infer::chain::{Chain, Settings};
 use niwaki_vm::machine::kept::Strategy;
 use niwaki_vm::value::Value;
 use pyo3::prelude::*;
@@ -36,10 +41,10 @@ fn strategy(py: Python<'_>, task: &PyTask, name: &str) -> PyResult<Strategy> {
 #[pymethods]
 impl PyChains {
     /// Chains in their first states; ``known`` are first values by hash of the address. ``room`` is the most choices
-    /// that the samples of one chain hold together.
+    /// that the samples of one chain hold together. ``kernel`` is a form of `niwaki.kernels`.
     #[new]
     #[pyo3(signature = (task, seed, *, chains=1, strategy="c3", warmup=0, thin=1, room=1 << 22, tries=1000,
-                        known=None, threads=None))]
+                        known=None, kernel=None, temperatures=None, every=100, threads=None))]
     #[expect(clippy::too_many_arguments, reason = "the settings of the method")]
     fn new(
         py: Python<'_>,
@@ -52,11 +57,23 @@ impl PyChains {
         room: usize,
         tries: u64,
         known: Option<HashMap<u128, Bound<'_, PyAny>>>,
+        kernel: Option<Bound<'_, PyAny>>,
+        temperatures: Option<Vec<f64>>,
+        every: u64,
         threads: Option<usize>,
     ) -> PyResult<PyChains> {
         let own = task.get();
-        let settings =
-            Settings { seed, strategy: self::strategy(py, own, strategy)?, warmup, thin, room, tries };
+        let settings = Settings {
+            seed,
+            kernel: form(own, kernel.as_ref())?,
+            strategy: self::strategy(py, own, strategy)?,
+            warmup,
+            thin,
+            room,
+            tries,
+            temperatures: temperatures.unwrap_or_else(|| vec![1.0]),
+            every,
+        };
         let known = match known {
             None => None,
             Some(given) => {
@@ -92,34 +109,50 @@ impl PyChains {
     /// The best state of each chain.
     fn best(&self) -> Vec<PyOutcome> {
         let (program, chains) = (&self.task.get().task.program, self.lock());
-        let best = chains.chains.iter().map(|chain| chain.harvest.best(&chain.state, program));
-        best.map(|snapshot| self.outcome(&snapshot)).collect()
+        let best = chains.chains.iter().filter_map(Ladder::best);
+        best.map(|rung| self.outcome(&rung.best.get(&rung.state, program))).collect()
     }
 
     /// The samples of a chain from the ``start``-th on: (number of proposals before it, outcome).
     #[pyo3(signature = (chain, start=0))]
     fn samples(&self, chain: usize, start: usize) -> Vec<(u64, PyOutcome)> {
         let chains = self.lock();
-        let Some(chain) = chains.chains.get(chain) else { return vec![] };
-        chain.harvest.samples.iter().skip(start).map(|s| (s.facts.visit, self.outcome(s))).collect()
+        let Some(rung) = chains.chains.get(chain).and_then(|ladder| ladder.rungs.first()) else {
+            return vec![];
+        };
+        rung.samples.all.iter().skip(start).map(|s| (s.facts.visit, self.outcome(s))).collect()
     }
 
     /// The present state of each chain.
     fn now(&self) -> Vec<PyOutcome> {
         let (program, chains) = (&self.task.get().task.program, self.lock());
-        chains.chains.iter().map(|chain| self.outcome(&chain.now(program))).collect()
+        let first = chains.chains.iter().filter_map(|ladder| ladder.rungs.first());
+        first.map(|rung| self.outcome(&rung.now(program))).collect()
     }
 
     /// Proposals between two samples, of each chain.
     fn thin(&self) -> Vec<u64> {
-        self.lock().chains.iter().map(|chain| chain.harvest.thin).collect()
+        let chains = self.lock();
+        chains.chains.iter().filter_map(|ladder| Some(ladder.rungs.first()?.samples.thin)).collect()
+    }
+
+    /// Exchanges between neighbouring temperatures, all chains together: (tried, made).
+    fn exchanges(&self) -> Vec<(u64, u64)> {
+        let chains = self.lock();
+        let mut all = vec![(0, 0); chains.chains.first().map_or(0, |ladder| ladder.exchanges.len())];
+        for ladder in &chains.chains {
+            for (sum, one) in all.iter_mut().zip(&ladder.exchanges) {
+                *sum = (sum.0 + one.0, sum.1 + one.1);
+            }
+        }
+        all
     }
 
     /// Proposals by site: (function, readable component, line, proposed, accepted, outside the support).
     fn sites(&self) -> Vec<(String, String, u32, u64, u64, u64)> {
         let (program, chains) = (&self.task.get().task.program, self.lock());
         let mut all = Counts::new(program);
-        for chain in &chains.chains {
+        for chain in chains.chains.iter().flat_map(|ladder| &ladder.rungs) {
             for (sum, count) in all.sites.iter_mut().zip(&chain.counts.sites) {
                 *sum += *count;
             }
@@ -129,11 +162,13 @@ impl PyChains {
         all.named(program).into_iter().map(row).collect()
     }
 
-    /// Sums over the chains: proposals, activations entered, calls skipped, instructions, and bytes that they hold.
+    /// Sums over the chains: proposals, activations entered, calls skipped, instructions, choices and bytes held.
     fn counters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let chains = self.lock();
         let facts = PyDict::new(py);
-        let sum = |of: fn(&niwaki_infer::chain::Chain) -> u64| chains.chains.iter().map(of).sum::<u64>();
+        let sum = |of: fn(&Chain) -> u64| {
+            chains.chains.iter().flat_map(|ladder| &ladder.rungs).map(of).sum::<u64>()
+        };
         facts.set_item("proposals", sum(|c| c.visit()))?;
         facts.set_item("entered", sum(|c| c.state.trace.counters().entered))?;
         facts.set_item("skipped", sum(|c| c.state.trace.counters().skipped))?;
@@ -146,17 +181,95 @@ impl PyChains {
     }
 }
 
+/// The kernel of a form; from the prior where there is none.
+fn form(task: &PyTask, given: Option<&Bound<'_, PyAny>>) -> PyResult<Kernel> {
+    given.map_or(Ok(Kernel::Prior), |form| kernels::kernel(task, form))
+}
+
+/// Runs ``steps`` proposals under each of the four strategies and compares everything to the bit: what the first
+/// disagreement is (None: there is none), the proposals of each, those kept, and those that met a fault.
+#[pyfunction]
+#[pyo3(signature = (task, seed, steps, every=20, kernel=None, warmup=0))]
+fn agreement(
+    py: Python<'_>,
+    task: &Bound<'_, PyTask>,
+    seed: u64,
+    steps: u64,
+    every: u64,
+    kernel: Option<Bound<'_, PyAny>>,
+    warmup: u64,
+) -> PyResult<(Option<String>, u64, u64, u64)> {
+    let own = task.get();
+    let settings =
+        Settings { seed, kernel: form(own, kernel.as_ref())?, warmup, thin: 0, ..Settings::default() };
+    let ((found, seen), _) =
+        detached(py, &own.task.program, None, None, |_| compare(&own.task, &settings, steps, every.max(1)))?;
+    Ok((found, seen.proposals, seen.accepted, seen.faults))
+}
+
+/// One proposal to the choice at ``address``, under each strategy: a dict with ``activations`` (label, function, depth,
+/// number of the one it was called from), ``home``, ``path``, ``old``, ``new``, and ``runs`` by strategy: (what
+/// happened, number of the activation), in order, and whether the run came to its end.
+#[pyfunction]
+#[pyo3(signature = (task, seed, address, tries=1000))]
+fn explain<'py>(
+    py: Python<'py>,
+    task: &Bound<'py, PyTask>,
+    seed: u64,
+    address: &str,
+    tries: u64,
+) -> PyResult<Bound<'py, PyDict>> {
+    let own = task.get();
+    let (found, _) = detached(py, &own.task.program, None, None, |_| {
+        niwaki_infer::chain::explain::explain(&own.task, seed, tries, address)
+    })?;
+    let number: HashMap<u128, usize> =
+        found.activations.iter().enumerate().map(|(i, a)| (a.key, i)).collect();
+    let facts = PyDict::new(py);
+    let rows = found
+        .activations
+        .iter()
+        .map(|a| (a.label.clone(), a.function.clone(), a.depth, number.get(&a.parent).copied()));
+    facts.set_item("activations", rows.collect::<Vec<_>>())?;
+    facts.set_item("home", found.home)?;
+    facts.set_item("path", &found.path)?;
+    facts.set_item("old", own.model.get().classes.object(py, &found.old)?)?;
+    facts.set_item("new", own.model.get().classes.object(py, &found.new)?)?;
+    let runs = PyDict::new(py);
+    for run in found.runs {
+        let name = match run.strategy {
+            Strategy::Rerun => "rerun",
+            Strategy::Resume => "resume",
+            Strategy::Cache => "cache",
+            Strategy::C3 => "c3",
+        };
+        let what = |what: What| match what {
+            What::Made => "made",
+            What::Invoked => "invoked",
+            What::Unwound => "unwound",
+            What::Skipped => "skipped",
+            What::Removed => "removed",
+        };
+        let steps: Vec<(&str, usize)> = run.steps.iter().map(|(w, at)| (what(*w), *at)).collect();
+        runs.set_item(name, (steps, run.is_complete))?;
+    }
+    facts.set_item("runs", runs)?;
+    Ok(facts)
+}
+
 impl PyChains {
     fn lock(&self) -> std::sync::MutexGuard<'_, Chains> {
         self.chains.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn outcome(&self, snapshot: &niwaki_infer::chain::harvest::Snapshot) -> PyOutcome {
+    fn outcome(&self, snapshot: &niwaki_infer::chain::snapshot::Snapshot) -> PyOutcome {
         PyOutcome::of_snapshot(snapshot, self.task.get().model.get().classes.clone())
     }
 }
 
 /// Puts this room into the module.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add_class::<PyChains>()
+    module.add_class::<PyChains>()?;
+    module.add_function(wrap_pyfunction!(agreement, module)?)?;
+    module.add_function(wrap_pyfunction!(explain, module)?)
 }

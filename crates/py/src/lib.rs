@@ -3,14 +3,15 @@
 //! One file for each room behind the door; this one only registers them.
 //!
 //! * `values`: Python's objects to the machine's values, and back; `faults`: faults as data;
-//! * `model`: compiled models; `search`: algorithms; `settings`: theirs; `chains`: Markov chains; `outcome`: what they
-//!   find;
+//! * `model`: compiled models; `search`: algorithms; `settings`: theirs; `chains`, `kernels`: Markov chains; `outcome`:
+//!   what they find;
 //! * `distributions`, `geometry`, `views`, `pictures`: the rooms below, by themselves.
 
 mod chains;
 mod distributions;
 mod faults;
 mod geometry;
+mod kernels;
 mod model;
 mod outcome;
 mod pictures;

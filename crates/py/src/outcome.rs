@@ -2,7 +2,7 @@
 
 use crate::geometry::PyShape;
 use crate::values::{Classes, Opaque};
-use niwaki_infer::chain::harvest::Snapshot;
+use niwaki_infer::chain::snapshot::Snapshot;
 use niwaki_infer::log::{Entry, Log};
 use niwaki_infer::particles::distinct::Choices;
 use niwaki_infer::record::Record;

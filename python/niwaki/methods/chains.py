@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from niwaki.errors import InputError
-from niwaki.methods.checks import at_least_one, is_whole, one_of
+from niwaki.kernels import Kernel
+from niwaki.methods.checks import at_least_one, bad, is_whole, one_of
 
 STRATEGIES = ("c3", "rerun", "resume", "cache")
 
@@ -16,6 +17,7 @@ class Mh:
 
     steps: int = 10_000
     strategy: str = "c3"
+    kernel: Kernel | None = None
     chains: int = 1
     thin: int | None = None
     keep: int = 1000
@@ -34,6 +36,7 @@ class Mh:
 def mh(
     steps: int = 10_000,
     strategy: str = "c3",
+    kernel: Kernel | None = None,
     chains: int = 1,
     thin: int | None = None,
     keep: int = 1000,
@@ -51,6 +54,8 @@ def mh(
         How much of the model is run again for a proposal: "c3" (from the changed choice on, skipping calls whose inputs
         are unchanged), "resume" (from the choice on), "cache" (from the start, skipping), "rerun" (all of it). The
         states are the same to the bit; only the time differs.
+    kernel
+        How it proposes, a value of `niwaki.kernels`; `kernels.mh()` when left out.
     chains
         How many, side by side on the machine's threads.
     thin
@@ -87,4 +92,6 @@ def mh(
             suggestion=repr(steps // 5),
         )
     one_of("strategy", strategy, STRATEGIES)
-    return Mh(steps, strategy, chains, thin, keep, warmup, seed, tries)
+    if kernel is not None and not isinstance(kernel, Kernel):
+        raise bad("kernel", kernel, "a kernel", "one of `niwaki.kernels`, such as `kernels.drift()`")
+    return Mh(steps, strategy, kernel, chains, thin, keep, warmup, seed, tries)

@@ -6,6 +6,8 @@ searching.py how to search, as flags
 writing.py   which files a result becomes
 grow.py      `niwaki grow`: a search, written to a folder
 replay.py    `niwaki replay`: a result once more, in any format
+sample.py    `niwaki sample`: Markov chains, written to a folder
+explain.py   `niwaki explain`: what each strategy does for one proposal, as a picture
 models.py    `niwaki models`: the gallery
 check.py     `niwaki check`: what a model is made of, with advice
 """

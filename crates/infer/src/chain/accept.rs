@@ -40,6 +40,9 @@ pub trait Rules: Send {
         (t.prior + t.score) + (t.stale - t.fresh) + (t.backward - t.forward) + t.odds
     }
 
+    /// Told of a chain's trace before its first proposal.
+    fn begin(_trace: &mut Trace) {}
+
     /// Undoes a proposal.
     #[inline(always)]
     fn undo(trace: &mut Trace, program: &Program) {

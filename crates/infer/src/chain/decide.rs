@@ -8,8 +8,10 @@ use niwaki_vm::machine::kept::{Change, Trace};
 use niwaki_vm::value::Value;
 
 /// What became of a proposal.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Decision {
+    /// Whether the proposal was the present state.
+    pub same: bool,
     /// Whether it was kept.
     pub accepted: bool,
     /// Log of the acceptance ratio; minus infinity for an impossible proposal.
@@ -34,11 +36,13 @@ impl<R: Rules> Chain<R> {
         match change {
             Change::Same => {
                 self.state.trace.commit(program);
-                return Ok(Decision { accepted: true, log_ratio: 0.0 });
+                self.last = Decision { same: true, accepted: true, log_ratio: 0.0 };
+                return Ok(self.last);
             }
             Change::Impossible => {
                 R::undo(&mut self.state.trace, program);
-                return Ok(Decision { accepted: false, log_ratio: f64::NEG_INFINITY });
+                self.last = Decision { same: false, accepted: false, log_ratio: f64::NEG_INFINITY };
+                return Ok(self.last);
             }
             Change::Done => {}
         }
@@ -63,22 +67,23 @@ impl<R: Rules> Chain<R> {
         };
         let log_ratio = R::log_ratio(&terms);
         let u = open_unit(rng);
-        let accepted = after.impossible == 0 && (log_ratio >= 0.0 || u.ln() < log_ratio);
+        let accepted = after.impossible == 0 && (log_ratio >= 0.0 || u.ln() < log_ratio) && !self.undoing;
         if accepted {
-            if self.harvest.is_noting() {
+            if self.best.is_noting() {
                 let moved = moved(&self.state.trace);
-                self.harvest.note(&self.state, program, moved);
+                self.best.note(&self.state, program, moved);
             }
             for table in &mut self.tables {
                 table.follow(&self.state.trace, program);
             }
             self.state.trace.commit(program);
-            self.harvest.compare(&self.state, program, self.visit);
+            self.best.compare(&self.state, program, self.visit);
         } else {
             self.state.look_back();
             R::undo(&mut self.state.trace, program);
         }
-        Ok(Decision { accepted, log_ratio })
+        self.last = Decision { same: false, accepted, log_ratio };
+        Ok(self.last)
     }
 
     /// A run met a fault: the chain goes back to its last state.

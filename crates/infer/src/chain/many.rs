@@ -1,7 +1,9 @@
 //! Several chains of one seed, side by side on as many threads as there are; each is the same on any number of them.
 
+use super::Settings;
 use super::accept::{MetropolisHastings, Rules};
-use super::{Chain, Settings};
+use super::ladder::Ladder;
+
 use crate::{Failure, Task};
 use niwaki_vm::value::Value;
 use rayon::prelude::*;
@@ -12,14 +14,14 @@ use std::sync::PoisonError;
 /// Several chains.
 pub struct Chains<R: Rules = MetropolisHastings> {
     /// The chains.
-    pub chains: Vec<Chain<R>>,
+    pub chains: Vec<Ladder<R>>,
 }
 
 impl<R: Rules> Chains<R> {
     /// `count` chains in their first states.
     ///
     /// # Errors
-    /// As for [`Chain::start`].
+    /// As for [`Ladder::start`].
     pub fn start(
         task: &Task,
         settings: &Settings,
@@ -27,7 +29,7 @@ impl<R: Rules> Chains<R> {
         known: Option<&HashMap<u128, Value>>,
     ) -> Result<Chains<R>, Failure> {
         let chains =
-            (0..count as u64).into_par_iter().map(|number| Chain::start(task, settings, number, known));
+            (0..count as u64).into_par_iter().map(|number| Ladder::start(task, settings, number, known));
         Ok(Chains { chains: chains.collect::<Result<Vec<_>, _>>()? })
     }
 
@@ -35,14 +37,14 @@ impl<R: Rules> Chains<R> {
     /// answers false, they stop. Answers whether they were stopped.
     ///
     /// # Errors
-    /// As for [`Chain::advance`]: the failure of the first chain that failed.
+    /// As for [`Ladder::advance`]: the failure of the first chain that failed.
     pub fn advance(
         &mut self,
         task: &Task,
         steps: u64,
         watch: &(dyn Fn(u64, f64) -> bool + Sync),
     ) -> Result<bool, Failure> {
-        let each: Vec<(u64, f64)> = self.chains.iter().map(|c| (c.visit(), c.harvest.best_score())).collect();
+        let each: Vec<(u64, f64)> = self.chains.iter().map(|c| (c.visit(), c.best_score())).collect();
         let told = Mutex::new((each, false));
         self.chains
             .par_iter_mut()

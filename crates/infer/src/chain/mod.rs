@@ -1,32 +1,55 @@
 //! Markov chains over kept runs: Metropolis-Hastings with kernels as values (dissertation chapter 3).
 //!
 //! * [`state`]: where a chain is; [`streams`]: its random numbers;
-//! * [`accept`]: the acceptance ratio, in plain letters; [`decide`](Chain): a proposal is kept or undone;
-//! * [`odds`]: which choice is changed;
-//! * `single`: proposals that change one choice;
-//! * [`counts`], [`harvest`]: what is told afterwards;
-//! * [`many`]: several chains side by side.
+//! * [`kernel`]: kernels as values; `plan`: which leaf is next; `select`, [`glob`], [`odds`]: which choice it changes;
+//! * `single`: proposals that change one choice: from the prior, [`drift`], [`neighbour`], by the [`user`]'s function;
+//!   [`block`], `regenerate`: proposals that change many;
+//! * [`accept`]: the acceptance ratio, in plain letters; `decide`: a proposal is kept or undone;
+//! * [`counts`], [`best`], [`samples`], [`snapshot`]: what is told afterwards;
+//! * [`ladder`]: parallel tempering; [`many`]: several searches side by side;
+//! * [`agreement`]: four strategies in step, compared to the bit; [`explain`]: what each of them does for one proposal.
 //!
 //! A chain's states depend on its seed and number only: not on the strategy, not on the number of threads.
 
 pub mod accept;
+pub mod agreement;
+pub mod best;
+pub mod block;
 pub mod counts;
 mod decide;
-pub mod harvest;
+pub mod drift;
+pub mod explain;
+pub mod glob;
+pub mod kernel;
+pub mod ladder;
 pub mod many;
+pub mod neighbour;
 pub mod odds;
+mod plan;
+mod regenerate;
+pub mod samples;
+mod select;
 mod single;
+pub mod snapshot;
 pub mod state;
 pub mod streams;
+pub mod user;
 
 use crate::{Failure, Task};
 use accept::{MetropolisHastings, Rules};
+use best::Best;
 use counts::Counts;
-use harvest::Harvest;
+use decide::Decision;
+use kernel::Kernel;
+use niwaki_vm::code::Program;
 use niwaki_vm::machine::Machine;
 use niwaki_vm::machine::kept::Strategy;
 use niwaki_vm::value::Value;
 use odds::Table;
+use plan::{Plan, Way};
+use samples::Samples;
+use single::FromPrior;
+use snapshot::Snapshot;
 use state::State;
 use std::collections::HashMap;
 use std::marker::PhantomData;
@@ -37,6 +60,8 @@ use streams::Streams;
 pub struct Settings {
     /// Decides every random number.
     pub seed: u64,
+    /// How it proposes.
+    pub kernel: Kernel,
     /// How much of a run is done again.
     pub strategy: Strategy,
     /// Proposals before the first sample, in which step sizes are adapted.
@@ -47,11 +72,25 @@ pub struct Settings {
     pub room: usize,
     /// Most forward runs for a first state.
     pub tries: u64,
+    /// Temperatures of the score, rising from 1: more than one is parallel tempering.
+    pub temperatures: Vec<f64>,
+    /// Proposals between two exchanges of states.
+    pub every: u64,
 }
 
 impl Default for Settings {
     fn default() -> Settings {
-        Settings { seed: 0, strategy: Strategy::C3, warmup: 0, thin: 1, room: 1 << 22, tries: 1000 }
+        Settings {
+            seed: 0,
+            kernel: Kernel::Prior,
+            strategy: Strategy::C3,
+            warmup: 0,
+            thin: 1,
+            room: 1 << 22,
+            tries: 1000,
+            temperatures: vec![1.0],
+            every: 100,
+        }
     }
 }
 
@@ -61,13 +100,25 @@ pub struct Chain<R: Rules = MetropolisHastings> {
     pub state: State,
     /// Proposals by site.
     pub counts: Counts,
-    /// What it keeps.
-    pub harvest: Harvest,
+    /// The best state so far.
+    pub best: Best,
+    /// Thinned states.
+    pub samples: Samples,
+    /// The power of the score that it follows.
+    beta: f64,
     settings: Settings,
     streams: Streams,
+    plan: Plan,
+    /// Weights of the choices, for the leaves that do not take all alike.
     tables: Vec<Table>,
+    /// Spreads of the sites' distributions in the first state.
+    spreads: Vec<f64>,
     /// The number of proposals so far.
     visit: u64,
+    /// What became of the last proposal.
+    last: Decision,
+    /// Whether every proposal is undone, to see that nothing is left.
+    undoing: bool,
     rules: PhantomData<R>,
 }
 
@@ -78,23 +129,41 @@ impl<R: Rules> Chain<R> {
     /// The `number`-th chain of a seed, in its first state. With `known`, choices start with those values.
     ///
     /// # Errors
-    /// No possible first state, or a fault of the program.
+    /// No possible first state, a kernel that makes no sense for the program, or a fault of the program.
     pub fn start(
         task: &Task,
         settings: &Settings,
         number: u64,
         known: Option<&HashMap<u128, Value>>,
     ) -> Result<Chain<R>, Failure> {
-        let streams = Streams::new(settings.seed, number);
-        let state = State::start(task, streams, settings.tries, known)?;
+        let (program, streams) = (&*task.program, Streams::new(settings.seed, number));
+        let counts = Counts::new(program);
+        let mut plan = Plan::new(&settings.kernel, counts.sites.len())?;
+        let (mut state, spreads) = State::start(task, streams, settings.tries, known)?;
+        R::begin(&mut state.trace);
+        let mut tables = Vec::new();
+        for leaf in &mut plan.leaves {
+            if !leaf.selection.is_all() {
+                leaf.selection.check(&state.trace, program)?;
+                leaf.table = Some(tables.len());
+                tables.push(Table::new(Box::new(leaf.selection.clone()), &state.trace, program));
+            }
+        }
+        let sites = program.functions.iter().flat_map(|f| &f.sites);
         Ok(Chain {
-            counts: Counts::new(&task.program),
-            harvest: Harvest::new(&state, settings.thin, settings.room),
+            spreads: sites.map(|site| spreads.get(&site.key).copied().unwrap_or(1.0)).collect(),
+            counts,
+            best: Best::new(&state),
+            samples: Samples::new(settings.thin, settings.room),
             state,
+            beta: 1.0,
             settings: settings.clone(),
             streams,
-            tables: vec![],
+            plan,
+            tables,
             visit: 0,
+            last: Decision::default(),
+            undoing: false,
             rules: PhantomData,
         })
     }
@@ -105,8 +174,8 @@ impl<R: Rules> Chain<R> {
     }
 
     /// The present state.
-    pub fn now(&self, program: &niwaki_vm::code::Program) -> harvest::Snapshot {
-        harvest::Snapshot::of(&self.state, program, self.visit)
+    pub fn now(&self, program: &Program) -> Snapshot {
+        Snapshot::of(&self.state, program, self.visit)
     }
 
     /// Makes `steps` proposals. `watch` is told their number and the best score now and then; when it answers false,
@@ -123,12 +192,13 @@ impl<R: Rules> Chain<R> {
         let mut machine = task.machine();
         let end = self.visit + steps;
         while self.visit < end {
-            let until = end.min(self.visit + BLOCK).min(self.next_sample());
+            let due = self.next_sample();
+            let until = due.min(end).min(self.visit + BLOCK);
             self.propose(task, &mut machine, until)?;
-            if self.visit == self.next_sample_or_now() {
-                self.harvest.sample(&self.state, &task.program, self.visit);
+            if self.visit == due {
+                self.samples.keep(&self.state, &task.program, self.visit, self.settings.warmup);
             }
-            if !watch(self.visit, self.harvest.best_score()) {
+            if !watch(self.visit, self.best.score()) {
                 break;
             }
         }
@@ -137,26 +207,50 @@ impl<R: Rules> Chain<R> {
 
     /// Proposals up to the `until`-th.
     fn propose(&mut self, task: &Task, machine: &mut Machine<'_>, until: u64) -> Result<(), Failure> {
+        if self.plan.is_plain() {
+            while self.visit < until {
+                self.single(task, machine, &mut FromPrior, None, self.beta)?;
+            }
+            return Ok(());
+        }
         while self.visit < until {
-            self.single(task, machine, &mut single::FromPrior, None, 1.0)?;
+            let (leaf, power) = self.plan.next(&mut self.streams.schedule(self.visit));
+            let (table, beta) = (self.plan.leaves[leaf].table, self.beta * power);
+            let adapting = self.visit < self.settings.warmup;
+            let mut way = std::mem::replace(&mut self.plan.leaves[leaf].way, Way::Prior);
+            let done = match &mut way {
+                Way::Prior => self.single(task, machine, &mut FromPrior, table, beta),
+                Way::Drift(drift) => {
+                    drift.adapting = adapting;
+                    self.single(task, machine, &mut **drift, table, beta)
+                }
+                Way::Neighbour(neighbour) => self.single(task, machine, neighbour, table, beta),
+                Way::Block(block) => {
+                    block.adapting = adapting;
+                    self.block(task, machine, block, table, beta)
+                }
+                Way::Regenerate(levels) => self.regenerate(task, machine, *levels, table, beta),
+                Way::User(user) => self.single(task, machine, &mut user::Asking(user), table, beta),
+            };
+            self.plan.leaves[leaf].way = way;
+            done?;
         }
         Ok(())
     }
 
-    /// The visit after which the next sample is due.
+    /// The visit at which the next sample is due.
     fn next_sample(&self) -> u64 {
-        let thin = self.harvest.thin;
+        let (thin, warmup) = (self.samples.thin, self.settings.warmup);
         if thin == 0 {
             return u64::MAX;
         }
-        let done = self.visit.saturating_sub(self.settings.warmup);
-        self.settings.warmup + (done / thin + 1) * thin
+        warmup + (self.visit.saturating_sub(warmup) / thin + 1) * thin
     }
 
-    /// This visit, if a sample is due.
-    fn next_sample_or_now(&self) -> u64 {
-        let (thin, warmup) = (self.harvest.thin, self.settings.warmup);
-        let due = thin > 0 && self.visit > warmup && (self.visit - warmup).is_multiple_of(thin);
-        if due { self.visit } else { u64::MAX }
+    /// Exchanges states with another chain of the same program and kernel.
+    fn exchange_with(&mut self, other: &mut Self) {
+        std::mem::swap(&mut self.state, &mut other.state);
+        std::mem::swap(&mut self.tables, &mut other.tables);
+        std::mem::swap(&mut self.best, &mut other.best);
     }
 }

@@ -1,5 +1,6 @@
 //! Where a chain is: a kept run and the sketches of its scene. A proposal opens a transaction on both.
 
+use super::drift::plain_spread;
 use super::streams::Streams;
 use crate::task::{Hosts, Task};
 use crate::{Failure, forward};
@@ -23,12 +24,17 @@ pub struct Fresh<'a> {
     pub known: Option<&'a HashMap<u128, Value>>,
     /// Host functions.
     pub hosts: &'a dyn Hosts,
+    /// Where to note the spread of each site's distribution, by the site's key.
+    pub spreads: Option<&'a mut HashMap<u128, f64>>,
 }
 
 impl Answers<f64> for Fresh<'_> {
     #[inline]
     fn choice(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Answer<Value>, Fault> {
         let address = at.address();
+        if let Some(spreads) = &mut self.spreads {
+            spreads.entry(at.site.key).or_insert_with(|| plain_spread(dist));
+        }
         if let Some(value) = self.known.and_then(|known| known.get(&address)) {
             return Ok(Answer::Go(value.clone()));
         }
@@ -67,7 +73,8 @@ pub struct State {
 }
 
 impl State {
-    /// A first state: forward runs until one is possible, at most `tries`. With `known`, choices have those values.
+    /// A first state, and the spreads of its sites' distributions: forward runs until one is possible, at most `tries`.
+    /// With `known`, choices have those values.
     ///
     /// # Errors
     /// No run was possible ([`Failure::NoStart`]), or a fault of the program.
@@ -76,13 +83,14 @@ impl State {
         streams: Streams,
         tries: u64,
         known: Option<&HashMap<u128, Value>>,
-    ) -> Result<State, Failure> {
+    ) -> Result<(State, HashMap<u128, f64>), Failure> {
         let mut machine = task.machine();
         let mut causes: HashMap<String, usize> = HashMap::new();
         let tries = tries.max(1);
         for attempt in 0..tries {
             // The last visits, so that no proposal has their numbers.
-            let mut answers = Fresh { key: streams.fresh(u64::MAX - attempt), known, hosts: &*task.hosts };
+            let (key, mut spreads) = (streams.fresh(u64::MAX - attempt), HashMap::new());
+            let mut answers = Fresh { key, known, hosts: &*task.hosts, spreads: Some(&mut spreads) };
             let (trace, change) = machine.begin(&task.args, &mut answers)?;
             let mut state = State {
                 trace,
@@ -100,7 +108,7 @@ impl State {
             match cause {
                 None => {
                     state.trace.commit(&task.program);
-                    return Ok(state);
+                    return Ok((state, spreads));
                 }
                 Some(cause) => *causes.entry(cause).or_default() += 1,
             }

@@ -52,7 +52,71 @@ impl<S: Scalar> Place<'_, S> {
     }
 }
 
+/// An activation of a trace, named.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Activation {
+    /// The hash of its path: the same in whatever run it is made.
+    pub key: u128,
+    /// That of the activation it was called from; a loop's iterations are called from what holds the loop.
+    pub parent: u128,
+    /// What it is called: the component of an address, or the function's name for the root.
+    pub label: String,
+    /// The function.
+    pub function: String,
+    /// How many calls and iterations stand above it.
+    pub depth: usize,
+}
+
 impl<S: Scalar> Trace<S> {
+    /// The activations in program order, those before what they call. Loops themselves are none, their iterations are.
+    pub fn outline(&self, program: &Program<S>) -> Vec<Activation> {
+        let mut found = Vec::new();
+        let mut work = vec![(NodeId(0), 0, 0usize)];
+        while let Some((node, parent, depth)) = work.pop() {
+            let n = &self.state.nodes[node.0 as usize];
+            let f = program.function(n.function);
+            if f.mode == Mode::Loop {
+                let children = &self.kept.loops[n.slots as usize];
+                work.extend(children.iter().rev().map(|child| (*child, parent, depth)));
+                continue;
+            }
+            let path = self.state.path(program, node);
+            let label =
+                if depth == 0 { f.name.to_string() } else { path.rsplit('/').next().unwrap_or("").into() };
+            found.push(Activation { key: n.path, parent, label, function: f.name.to_string(), depth });
+            for (i, site) in f.sites.iter().enumerate().rev() {
+                let slot = self.kept.slots[n.slots as usize + i];
+                let calls = matches!(
+                    site.kind,
+                    SiteKind::Call { .. }
+                        | SiteKind::Apply
+                        | SiteKind::Future { .. }
+                        | SiteKind::FutureApply { .. }
+                        | SiteKind::Loop(_)
+                );
+                if calls && slot.is_filled() {
+                    work.push((NodeId(slot.held), n.path, depth + 1));
+                }
+            }
+        }
+        found
+    }
+
+    /// Whether one activation was called, by whatever way, from another.
+    pub fn stands_below(&self, node: NodeId, above: NodeId) -> bool {
+        let mut at = node;
+        while at != NodeId::NONE && at != above {
+            at = self.state.nodes[at.0 as usize].parent;
+        }
+        at == above && node != above
+    }
+
+    /// The hash of an activation's path; `None` for a loop's own node.
+    pub fn key_of(&self, program: &Program<S>, node: NodeId) -> Option<u128> {
+        let n = &self.state.nodes[node.0 as usize];
+        (program.function(n.function).mode != Mode::Loop).then_some(n.path)
+    }
+
     /// Visits everything that the trace holds, in program order.
     pub fn visit(&self, program: &Program<S>, mut each: impl FnMut(Place<'_, S>, Item<'_, S>)) {
         // What is still to be visited, the next last: a node from one of its sites on, or a whole activation.

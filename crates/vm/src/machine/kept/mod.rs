@@ -125,6 +125,8 @@ pub struct Totals {
     pub impossible: u32,
     /// How many choices there are.
     pub choices: usize,
+    /// How many factors and observations there are.
+    pub factors: usize,
 }
 
 /// The kept part of a trace.
@@ -170,6 +172,8 @@ pub(crate) struct Kept<S: Scalar> {
     /// The run must not leave the activation in hand; and whether it did.
     confined: bool,
     tangled: bool,
+    /// A mutant: values that fall outside their new support are drawn anew.
+    pub redraws_outside: bool,
 }
 
 /// A run whose activations are kept.
@@ -208,6 +212,7 @@ impl<S: Scalar> Kept<S> {
             active: vec![],
             marks: vec![],
             marking: false,
+            redraws_outside: false,
             woken: vec![],
             taken: 0,
             confined: false,

@@ -1,0 +1,170 @@
+//! Four strategies in step: the same proposals, decisions, scores and scenes to the bit, rollbacks that leave nothing,
+//! and sums that are those of a run from the start.
+
+use super::accept::{MetropolisHastings, Rules};
+use super::snapshot::present;
+use super::state::State;
+use super::{Chain, Settings};
+use crate::replay::{Missing, Source, replay};
+use crate::{Failure, Task};
+use niwaki_vm::code::Program;
+use niwaki_vm::machine::kept::Strategy;
+use niwaki_vm::machine::kept::inspect::Item;
+use std::collections::HashMap;
+use std::fmt::Write;
+
+const STRATEGIES: [Strategy; 4] = [Strategy::Rerun, Strategy::Resume, Strategy::Cache, Strategy::C3];
+
+/// What was looked at.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Seen {
+    /// Proposals, of each strategy.
+    pub proposals: u64,
+    /// Those that were kept.
+    pub accepted: u64,
+    /// Those at which every strategy met the same fault.
+    pub faults: u64,
+}
+
+/// Everything that a state holds, as text.
+pub fn dump(state: &State, program: &Program) -> String {
+    let trace = &state.trace;
+    let mut text = format!("{:?} {:?} {:?}\n", trace.result(), trace.totals(), state.log_sketches);
+    trace.visit(program, |place, item| {
+        let what = match item {
+            Item::Choice(value, log) => format!("{value:?} {log:?}"),
+            Item::Factor(log) => format!("{log:?}"),
+            Item::Emit(primitive) => format!("{:?}", primitive.shapes()),
+            Item::Query(key, value) => format!("{key:?} = {value:?}"),
+        };
+        let _ = writeln!(text, "{} {what}", place.path());
+    });
+    for choice in trace.numbers() {
+        let _ = write!(text, "{:x} ", trace.address(program, choice));
+    }
+    text
+}
+
+/// Runs `steps` proposals under each strategy and compares them; every `every` proposals also everything that the states
+/// hold, a proposal that is undone, and a run from the start. The first disagreement, if any.
+///
+/// # Errors
+/// No possible first state, or a kernel that makes no sense for the program.
+pub fn disagreement<R: Rules>(
+    task: &Task,
+    settings: &Settings,
+    steps: u64,
+    every: u64,
+    seen: &mut Seen,
+) -> Result<Option<String>, Failure> {
+    let program = &*task.program;
+    let mut chains = Vec::new();
+    for strategy in STRATEGIES {
+        chains.push(Chain::<R>::start(task, &Settings { strategy, ..settings.clone() }, 0, None)?);
+    }
+    let mut machine = task.machine();
+    for step in 0..steps {
+        let mut outcomes = Vec::new();
+        for chain in &mut chains {
+            let told = match chain.propose(task, &mut machine, step + 1) {
+                Ok(()) => format!("{:?} {:?}", chain.last, chain.state.trace.totals()),
+                Err(Failure::Run(run)) => format!("fault {} {}", run.fault.code, run.fault.message),
+                Err(other) => format!("fault {other}"),
+            };
+            outcomes.push(told);
+        }
+        for (strategy, outcome) in STRATEGIES.iter().zip(&outcomes) {
+            if *outcome != outcomes[0] {
+                let first = &outcomes[0];
+                return Ok(Some(format!("proposal {step}, {strategy:?}: {outcome}\n  but a rerun: {first}")));
+            }
+        }
+        seen.proposals += 1;
+        seen.accepted += u64::from(chains[0].last.accepted);
+        seen.faults += u64::from(outcomes[0].starts_with("fault"));
+        if (step + 1) % every == 0
+            && let Some(found) = look_closer(task, program, &mut machine, &mut chains, step)
+        {
+            return Ok(Some(found));
+        }
+    }
+    Ok(None)
+}
+
+fn look_closer<R: Rules>(
+    task: &Task,
+    program: &Program,
+    machine: &mut niwaki_vm::machine::Machine<'_>,
+    chains: &mut [Chain<R>],
+    step: u64,
+) -> Option<String> {
+    let dumps: Vec<String> = chains.iter().map(|chain| dump(&chain.state, program)).collect();
+    for (strategy, dump) in STRATEGIES.iter().zip(&dumps) {
+        if *dump != dumps[0] {
+            return Some(format!(
+                "after proposal {step}, {strategy:?} holds\n{dump}\nbut a rerun\n{}",
+                dumps[0]
+            ));
+        }
+    }
+    for ((strategy, before), chain) in STRATEGIES.iter().zip(&dumps).zip(chains.iter_mut()) {
+        // A proposal that no other has the number of, undone.
+        let visit = chain.visit;
+        chain.visit = visit | 1 << 40;
+        chain.undoing = true;
+        let _ = chain.propose(task, machine, (visit | 1 << 40) + 1);
+        (chain.visit, chain.undoing) = (visit, false);
+        let after = dump(&chain.state, program);
+        if after != *before {
+            return Some(format!(
+                "after proposal {step}, {strategy:?} rolled back to\n{after}\nfrom\n{before}"
+            ));
+        }
+    }
+    // From the start: once keeping the calls, once dropping them.
+    let known: HashMap<_, _> = present(&chains[0].state, program).collect();
+    match State::start(task, super::streams::Streams::new(0, 0), 1, Some(&known)) {
+        Ok((fresh, _)) => {
+            let (fresh, kept) = ((fresh.trace.totals(), fresh.log_score()), &chains[3].state);
+            if fresh != (kept.trace.totals(), kept.log_score()) {
+                return Some(format!(
+                    "after proposal {step} a fresh run has {fresh:?}, the chain {:?}",
+                    kept.trace.totals()
+                ));
+            }
+        }
+        Err(failure) => return Some(format!("after proposal {step} a fresh run fails: {failure}")),
+    }
+    match replay(task, Source::Addresses(known), Missing::Refuse) {
+        Ok(fresh) => {
+            let (record, kept) = (&fresh.record, &chains[3].state);
+            let sums = (kept.trace.totals().log_prior, kept.log_score());
+            if (record.log_prior, record.log_score()) != sums {
+                return Some(format!(
+                    "after proposal {step} a replay has {} and {}, the chain {sums:?}",
+                    record.log_prior,
+                    record.log_score()
+                ));
+            }
+        }
+        // Two writes of one query are a fault of the replay only.
+        Err(Failure::Run(run)) if run.fault.code == "query-twice" => {}
+        Err(failure) => return Some(format!("after proposal {step} a replay fails: {failure}")),
+    }
+    None
+}
+
+/// [`disagreement`] by the rules.
+///
+/// # Errors
+/// As for [`disagreement`].
+pub fn compare(
+    task: &Task,
+    settings: &Settings,
+    steps: u64,
+    every: u64,
+) -> Result<(Option<String>, Seen), Failure> {
+    let mut seen = Seen::default();
+    let found = disagreement::<MetropolisHastings>(task, settings, steps, every, &mut seen)?;
+    Ok((found, seen))
+}

@@ -1,0 +1,100 @@
+//! The best state that a chain came through.
+//!
+//! It is not copied at each record, which would cost the length of the trace at each step uphill: it is the present state
+//! with a list of changes undone. Only when that list has become as long as the trace is a copy made.
+
+use super::snapshot::{Facts, Snapshot, logged, present};
+use super::state::State;
+use crate::log::Log;
+use niwaki_vm::code::Program;
+use niwaki_vm::value::Value;
+use std::collections::HashMap;
+
+/// A change of one choice, undone: its address, and its value before (`None`: there was no such choice).
+type Undo = (u128, Option<Value>);
+
+/// The best state so far.
+pub struct Best {
+    facts: Facts,
+    /// Its choices, where they were copied.
+    copied: Option<Log>,
+    /// What leads from the present state back to it, where they were not.
+    since: Vec<Undo>,
+}
+
+impl Best {
+    /// The first state.
+    pub fn new(state: &State) -> Best {
+        Best { facts: Facts::of(state, 0), copied: None, since: vec![] }
+    }
+
+    /// Whether the way back is being noted.
+    #[inline(always)]
+    pub fn is_noting(&self) -> bool {
+        self.copied.is_none()
+    }
+
+    /// Its log score, nats.
+    #[inline(always)]
+    pub fn score(&self) -> f64 {
+        self.facts.log_score
+    }
+    /// Notes the way back, just before an open transaction is kept; `moved` are the choices that the proposal itself
+    /// changed, with their values before.
+    pub fn note(&mut self, state: &State, program: &Program, moved: impl IntoIterator<Item = (u128, Value)>) {
+        let trace = &state.trace;
+        let old = |(address, value): &(u128, Value)| (*address, Some(value.clone()));
+        self.since.extend(moved.into_iter().map(|(address, value)| (address, Some(value))));
+        self.since.extend(trace.drawn_anew().iter().map(old));
+        self.since.extend(trace.deaths().iter().map(|dead| {
+            let choice = *dead as usize;
+            (trace.address(program, choice), Some(trace.choice(program, choice).0.clone()))
+        }));
+        self.since.extend(trace.births(program).map(|place| (place.address(), None)));
+    }
+
+    /// Compares the present state, just after it was reached, with the best.
+    #[inline(always)]
+    pub fn compare(&mut self, state: &State, program: &Program, visit: u64) {
+        if state.log_score() > self.facts.log_score {
+            self.record(state, visit);
+        } else if self.copied.is_none() && self.since.len() > state.trace.len().max(64) {
+            self.copy(state, program);
+        }
+    }
+
+    #[inline(never)]
+    fn record(&mut self, state: &State, visit: u64) {
+        self.facts = Facts::of(state, visit);
+        self.copied = None;
+        self.since.clear();
+    }
+
+    #[inline(never)]
+    fn copy(&mut self, state: &State, program: &Program) {
+        self.copied = Some(self.way_back(state, program));
+        self.since = vec![];
+    }
+
+    fn way_back(&self, state: &State, program: &Program) -> Log {
+        let mut choices: HashMap<u128, Value> = present(state, program).collect();
+        for (address, value) in self.since.iter().rev() {
+            match value {
+                Some(value) => choices.insert(*address, value.clone()),
+                None => choices.remove(address),
+            };
+        }
+        let mut choices: Vec<_> = choices.into_iter().collect();
+        choices.sort_unstable_by_key(|choice| choice.0);
+        logged(choices)
+    }
+
+    /// A copy of it.
+    pub fn get(&self, state: &State, program: &Program) -> Snapshot {
+        let log = match &self.copied {
+            Some(log) => logged(log.entries().into_iter().map(|e| (e.address(), e.value))),
+            None => self.way_back(state, program),
+        };
+        Snapshot { log, facts: self.facts.clone() }
+    }
+}

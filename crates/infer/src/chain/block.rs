@@ -1,0 +1,119 @@
+//! Blocks: many choices move a little at once, each with a probability of taking part.
+//!
+//! What a choice may be can depend on another of the block, so the steps must not depend on parameters: a choice moves
+//! in the coordinates of its *family* (positive ones by a factor, those with bounds of their own in plain steps, which
+//! are rejected outside), by its spread in the chain's first state. A choice that the run meets no more, or with another
+//! family, has its step forgotten, there and back.
+
+use super::Chain;
+use super::accept::Rules;
+use super::decide::Decision;
+use super::drift::{adapt, around, normal, on_simplex, within};
+use super::neighbour::near;
+use super::state::Fresh;
+use crate::{Failure, Task};
+use niwaki_math::{Draw, Family, Stream};
+use niwaki_vm::builtins::{draw_to_value, value_to_draw};
+use niwaki_vm::machine::Machine;
+use niwaki_vm::machine::kept::{Changed, Proposed};
+use niwaki_vm::value::Value;
+
+/// A block.
+#[derive(Clone, Debug)]
+pub struct Block {
+    /// Log of the step, in spreads.
+    pub log_step: f64,
+    /// How often it was adapted.
+    pub adapted: u32,
+    /// Probability with which each choice takes part.
+    pub share: f64,
+    /// Acceptance aimed at.
+    pub target: f64,
+    /// Whether the step is adapted now.
+    pub adapting: bool,
+}
+
+/// A step of one choice; `None` where it has none.
+fn step(family: Family, old: &Value, size: f64, rng: &mut Stream) -> Option<Proposed<f64>> {
+    let plain = |value| Some(Proposed { value, forward: 0.0, backward: 0.0 });
+    let inf = f64::INFINITY;
+    match (family, old) {
+        (Family::Delta, _) => None,
+        (_, Value::Bool(b)) => plain(Value::Bool(!b)),
+        (_, Value::Int(k)) => plain(Value::Int(near(*k, 1, rng))),
+        (Family::VonMises, Value::Real(x)) => plain(Value::Real(around(x + size * normal(rng)))),
+        (Family::LogNormal | Family::Gamma | Family::InverseGamma | Family::Exponential, Value::Real(x)) => {
+            let (new, forward, backward) = within(*x, 0.0, inf, size, rng);
+            Some(Proposed { value: Value::Real(new), forward, backward })
+        }
+        (Family::Beta, Value::Real(x)) => {
+            let (new, forward, backward) = within(*x, 0.0, 1.0, size, rng);
+            Some(Proposed { value: Value::Real(new), forward, backward })
+        }
+        (_, Value::Real(x)) => plain(Value::Real(x + size * normal(rng))),
+        (Family::Dirichlet, _) => {
+            let Some(Draw::Vector(x)) = value_to_draw(old) else { return None };
+            let (draw, forward, backward) = on_simplex(&x, size, rng);
+            Some(Proposed { value: draw_to_value(draw), forward, backward })
+        }
+        (Family::MultivariateGaussian, _) => {
+            let Some(Draw::Vector(x)) = value_to_draw(old) else { return None };
+            plain(draw_to_value(Draw::Vector(x.iter().map(|x| x + size * normal(rng)).collect())))
+        }
+        _ => None,
+    }
+}
+
+impl<R: Rules> Chain<R> {
+    /// One proposal for a whole block.
+    pub(super) fn block(
+        &mut self,
+        task: &Task,
+        machine: &mut Machine<'_>,
+        block: &mut Block,
+        table: Option<usize>,
+        beta: f64,
+    ) -> Result<(), Failure> {
+        let (visit, program) = (self.visit, &*task.program);
+        self.visit += 1;
+        let (mut rng, key, size) =
+            (self.streams.decisions(visit), self.streams.moves(visit), block.log_step.exp());
+        let (mut changes, mut moved) = (Vec::new(), Vec::new());
+        let trace = &self.state.trace;
+        for choice in trace.numbers() {
+            if table.is_some_and(|t| self.tables[t].weight(choice) == 0) {
+                continue;
+            }
+            let address = trace.address(program, choice);
+            let mut own = key.at(address);
+            if own.uniform() >= block.share {
+                continue;
+            }
+            let Some(family) = trace.family(choice) else { continue };
+            let spread = self.spreads[self.counts.number(trace.site_of(choice))];
+            let old = trace.choice(program, choice).0;
+            if let Some(proposed) = step(family, old, size * spread, &mut own) {
+                moved.push((address, old.clone()));
+                changes.push(Changed { choice, proposed });
+            }
+        }
+        let mut answers =
+            Fresh { key: self.streams.fresh(visit), known: None, hosts: &*task.hosts, spreads: None };
+        let change =
+            match machine.change(&mut self.state.trace, changes, self.settings.strategy, &mut answers) {
+                Ok(change) => change,
+                Err(fault) => return Err(self.give_up(task, fault.into())),
+            };
+        let decision = self.decide(task, change, beta, &mut rng, |_, _| 0.0, |_| moved)?;
+        self.count_many(decision);
+        if block.adapting && !decision.same {
+            adapt(&mut block.log_step, &mut block.adapted, decision, block.target);
+        }
+        Ok(())
+    }
+
+    pub(super) fn count_many(&mut self, decision: Decision) {
+        self.counts.many.proposed += 1;
+        self.counts.many.accepted += u64::from(decision.accepted);
+    }
+}

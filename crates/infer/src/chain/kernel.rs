@@ -1,0 +1,72 @@
+//! Kernels as values: a tree whose leaves propose and whose branches say which leaf is next.
+//!
+//! One *application* of `cycle(a, b)` is one of `a` and then one of `b`; a chain applies its kernel again and again, and
+//! counts proposals, so it may stop in the middle of a cycle and go on there.
+
+use super::user::User;
+use std::sync::Arc;
+
+/// Which choices a kernel may change, and with what odds.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Selection {
+    /// Patterns over readable addresses: of each list, one must match.
+    pub sites: Vec<Vec<String>>,
+    /// Odds by number of calls above the choice; the last holds for all beyond.
+    pub depth: Vec<f64>,
+    /// Odds by pattern over readable addresses; the first that matches holds, and 1 where none does.
+    pub odds: Vec<(String, f64)>,
+}
+
+/// A Markov kernel.
+#[derive(Clone, Debug)]
+pub enum Kernel {
+    /// One choice, from its own distribution.
+    Prior,
+    /// One continuous choice moves a little; others are drawn from their own distribution.
+    Drift {
+        /// First step, in spreads of the choice's distribution.
+        step: f64,
+        /// Acceptance that the steps are adapted to while the chain warms up.
+        target: f64,
+    },
+    /// One discrete choice moves to a value near by; others are drawn from their own distribution.
+    Neighbour {
+        /// How far at most.
+        reach: u64,
+    },
+    /// Many choices move a little at once.
+    Block {
+        /// First step, in spreads of each choice's first distribution.
+        step: f64,
+        /// Probability with which each choice takes part.
+        share: f64,
+        /// Acceptance that the step is adapted to while the chain warms up.
+        target: f64,
+    },
+    /// A call and all below it are drawn anew.
+    Regenerate {
+        /// How many levels above the picked choice the call stands.
+        levels: usize,
+    },
+    /// One choice, from a distribution that a model function makes of its value.
+    User(Arc<User>),
+    /// One after the other.
+    Cycle(Vec<Kernel>),
+    /// One of several, by weight.
+    Mixture(Vec<(f64, Kernel)>),
+    /// One, so many times.
+    Repeat(u64, Box<Kernel>),
+    /// Restricted to some choices, or with other odds.
+    On(Selection, Box<Kernel>),
+    /// The score's power rises from one over `hot` to one over `cold`, geometrically, in so many proposals.
+    Anneal {
+        /// First temperature.
+        hot: f64,
+        /// Last temperature.
+        cold: f64,
+        /// Proposals from the first to the last.
+        steps: u64,
+        /// What is annealed.
+        kernel: Box<Kernel>,
+    },
+}

@@ -1,0 +1,52 @@
+//! Neighbour moves: a truth value turns, a whole number goes a few up or down, a category becomes another.
+//!
+//! Each is as likely back as there, so nothing enters the acceptance ratio; numbers that leave the support are rejected.
+
+use super::single::{FromPrior, Move};
+use niwaki_math::{Dist, Stream};
+use niwaki_vm::fault::Fault;
+use niwaki_vm::machine::kept::Proposed;
+use niwaki_vm::value::Value;
+
+/// A move to a value near by.
+#[derive(Clone, Copy, Debug)]
+pub struct Neighbour {
+    /// How far at most.
+    pub reach: u64,
+}
+
+impl Move for Neighbour {
+    const MAY_LEAVE: bool = true;
+
+    fn propose(
+        &mut self,
+        site: usize,
+        dist: &Dist,
+        old: &Value,
+        log_density: f64,
+        rng: &mut Stream,
+    ) -> Result<Proposed<f64>, Fault> {
+        let value = match (dist, old) {
+            (Dist::Delta(_), _) => None,
+            (_, Value::Bool(b)) => Some(Value::Bool(!b)),
+            (Dist::Categorical(weights), Value::Int(k)) if weights.len() > 1 => {
+                // One of the others: those from the old one on stand one further.
+                let other = super::decide::below(rng, weights.len() as u64 - 1) as i64;
+                Some(Value::Int(other + i64::from(other >= *k)))
+            }
+            (_, Value::Int(k)) => Some(Value::Int(near(*k, self.reach, rng))),
+            _ => None,
+        };
+        match value {
+            Some(value) => Ok(Proposed { value, forward: 0.0, backward: 0.0 }),
+            None => FromPrior.propose(site, dist, old, log_density, rng),
+        }
+    }
+}
+
+/// A whole number at most `reach` from another, and not the same.
+pub(super) fn near(k: i64, reach: u64, rng: &mut Stream) -> i64 {
+    let at = super::decide::below(rng, 2 * reach);
+    let by = (at / 2 + 1) as i64;
+    k.saturating_add(if at.is_multiple_of(2) { by } else { -by })
+}

@@ -1,0 +1,36 @@
+//! Samples of a chain, thinned, in bounded room.
+
+use super::snapshot::Snapshot;
+use super::state::State;
+use niwaki_vm::code::Program;
+
+/// Samples, oldest first.
+pub struct Samples {
+    /// The samples.
+    pub all: Vec<Snapshot>,
+    /// Proposals between two samples; doubled when they take too much room. Zero: no samples.
+    pub thin: u64,
+    /// Most choices that all samples together may hold.
+    room: usize,
+    held: usize,
+}
+
+impl Samples {
+    /// None yet; one is due every `thin` proposals.
+    pub fn new(thin: u64, room: usize) -> Samples {
+        Samples { all: vec![], thin, room: room.max(1), held: 0 }
+    }
+
+    /// Keeps the present state. When room runs out every other sample goes, and those left are the ones that twice the
+    /// thinning would have kept; `warmup` is where the first interval began.
+    pub fn keep(&mut self, state: &State, program: &Program, visit: u64, warmup: u64) {
+        self.held += state.trace.len() + 1;
+        self.all.push(Snapshot::of(state, program, visit));
+        while self.held > self.room && self.all.len() > 1 {
+            self.thin *= 2;
+            let thin = self.thin;
+            self.all.retain(|sample| (sample.facts.visit - warmup).is_multiple_of(thin));
+            self.held = self.all.iter().map(|sample| sample.log.len() + 1).sum();
+        }
+    }
+}

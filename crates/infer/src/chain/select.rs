@@ -1,0 +1,100 @@
+//! Selections as weights: patterns over addresses and odds by depth, asked once for each choice that is born.
+
+use super::glob::{last, matches, nearest};
+use super::kernel::Selection;
+use super::odds::{UNIT, Weigh};
+use crate::Failure;
+use niwaki_vm::code::{Program, SiteKind};
+use niwaki_vm::fault::Fault;
+use niwaki_vm::machine::kept::Trace;
+use niwaki_vm::machine::kept::inspect::Place;
+
+impl Selection {
+    /// Both selections at once.
+    pub(super) fn and(&self, other: &Selection) -> Selection {
+        let mut both = self.clone();
+        both.sites.extend(other.sites.iter().cloned());
+        if !other.depth.is_empty() {
+            both.depth.clone_from(&other.depth);
+        }
+        both.odds.splice(0..0, other.odds.iter().cloned());
+        both
+    }
+
+    /// Whether every choice is chosen with the same odds.
+    pub(super) fn is_all(&self) -> bool {
+        *self == Selection::default()
+    }
+
+    fn takes(&self, path: &str) -> bool {
+        self.sites.iter().all(|patterns| patterns.iter().any(|pattern| matches(pattern, path)))
+    }
+
+    /// A selection that no address of the trace matches is an error, unless it names a site that the program has
+    /// and this run did not come to.
+    pub(super) fn check(&self, trace: &Trace, program: &Program) -> Result<(), Failure> {
+        for patterns in self
+            .sites
+            .iter()
+            .chain(std::iter::once(&self.odds.iter().map(|(pattern, _)| pattern.clone()).collect::<Vec<_>>()))
+        {
+            for pattern in patterns {
+                let mut known: Vec<String> = trace.numbers().map(|n| trace.path(program, n)).collect();
+                if known.iter().any(|path| matches(pattern, path)) {
+                    continue;
+                }
+                let labels = labels(program);
+                if labels.iter().any(|label| matches(last(pattern), label)) && !trace_has(&known, pattern) {
+                    continue;
+                }
+                let elsewhere: Vec<String> =
+                    labels.into_iter().filter(|label| !trace_has(&known, label)).collect();
+                known.extend(elsewhere);
+                let near: Vec<String> = nearest(pattern, &known).iter().map(|p| format!("`{p}`")).collect();
+                let near = if near.is_empty() { "the model has no choice".into() } else { near.join(", ") };
+                return Err(Fault::new("no-address", format!("`{pattern}` matches no choice"))
+                    .with_help(near)
+                    .into());
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Whether an address of the trace ends in the last component of the pattern.
+fn trace_has(known: &[String], pattern: &str) -> bool {
+    known.iter().any(|path| matches(last(pattern), last(path)))
+}
+
+/// The readable components of the program's choices.
+fn labels(program: &Program) -> Vec<String> {
+    let mut found: Vec<String> = Vec::new();
+    for site in program.functions.iter().flat_map(|f| &f.sites) {
+        use SiteKind::{Sample, SampleDist, SampleIndexed};
+        if matches!(site.kind, Sample { .. } | SampleDist | SampleIndexed)
+            && !found.iter().any(|l| **l == *site.label)
+        {
+            found.push(site.label.to_string());
+        }
+    }
+    found
+}
+
+impl Weigh for Selection {
+    fn weight(&self, place: &Place<'_, f64>) -> u64 {
+        let mut odds = 1.0;
+        if !self.sites.is_empty() || !self.odds.is_empty() {
+            let path = place.path();
+            if !self.takes(&path) {
+                return 0;
+            }
+            odds *=
+                self.odds.iter().find(|(pattern, _)| matches(pattern, &path)).map_or(1.0, |found| found.1);
+        }
+        if let Some(deepest) = self.depth.last() {
+            odds *= self.depth.get(place.depth()).unwrap_or(deepest);
+        }
+        // What is to be chosen at all keeps a chance.
+        if odds > 0.0 { ((odds * UNIT).round() as u64).max(1) } else { 0 }
+    }
+}

@@ -1,0 +1,300 @@
+"""Markov kernels as values, for `niwaki.mh(kernel=...)`.
+
+Leaves propose: `mh`, `drift`, `neighbour`, `proposal` change one choice, `block` and `regenerate` many. Branches say
+which leaf is next: `cycle`, `mixture`, `repeat`; `on` restricts a kernel to some choices, `odds` weighs them, `anneal`
+and `temper` change the power of the score. One application of `cycle(a, b)` is one of `a` and then one of `b`.
+
+>>> from niwaki import kernels
+>>> kernel = kernels.cycle(kernels.on("z", kernels.mh()), kernels.repeat(3, kernels.on("mean*", kernels.drift())))
+
+Patterns are compared with readable addresses: `*` and `?` stand for text within one component, `**` for any text; a
+pattern without `/` is compared with the last component.
+"""
+
+from __future__ import annotations
+
+import ast
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from difflib import get_close_matches
+from typing import Any
+
+from niwaki.errors import InputError
+
+__all__ = [
+    "Kernel",
+    "anneal",
+    "block",
+    "cycle",
+    "drift",
+    "mh",
+    "mixture",
+    "neighbour",
+    "odds",
+    "on",
+    "parse",
+    "proposal",
+    "regenerate",
+    "repeat",
+    "temper",
+]
+
+#: Depths for which a function of the depth is asked; the last holds for all beyond.
+_DEEPEST = 256
+
+
+@dataclass(frozen=True)
+class Kernel:
+    """A Markov kernel: a name, its settings, and the kernels in it."""
+
+    name: str
+    settings: tuple[Any, ...] = ()
+    parts: tuple[Kernel, ...] = ()
+    function: Any = field(default=None, compare=False)
+
+    def form(self) -> tuple[Any, ...]:
+        """What the engine takes."""
+        inner = [part.form() for part in self.parts]
+        match self.name:
+            case "proposal":
+                from niwaki.compiled import as_model
+                from niwaki.compiled import proposal as made
+
+                return ("proposal", made(as_model(self.function)))
+            case "cycle":
+                return ("cycle", inner)
+            case "mixture":
+                return ("mixture", list(zip(self.settings, inner, strict=True)))
+            case _:
+                return (self.name, *self.settings, *inner)
+
+    def __repr__(self) -> str:
+        if self.name == "on":
+            (sites, depth, by_site), (inner,) = self.settings, self.parts
+            if sites:
+                return f"on({sites[0]!r}, {inner!r})"
+            return f"odds({inner!r}{', depth=...' if depth else ''}{f', sites={dict(by_site)!r}' if by_site else ''})"
+        parts = [repr(one) for one in (*self.settings, *self.parts)]
+        if self.function is not None:
+            parts.append(getattr(self.function, "name", getattr(self.function, "__name__", "function")))
+        return f"{self.name}({', '.join(parts)})"
+
+
+def mh() -> Kernel:
+    """One choice, drawn from its own distribution (dissertation 3.2)."""
+    return Kernel("prior")
+
+
+def drift(step: float = 0.5, target: float = 0.44) -> Kernel:
+    """One continuous choice moves a little; discrete ones are drawn from their own distribution.
+
+    Positive numbers move by a factor, those of an interval by a factor of their odds, entries of a simplex by factors;
+    angles go around.
+
+    Parameters
+    ----------
+    step
+        First step, in standard deviations of the choice's distribution (where it is bell-shaped) or as the logarithm
+        of the factor.
+    target
+        The acceptance to which the step of each site is adapted during the warm-up; it is frozen afterwards.
+    """
+    return Kernel("drift", (_positive("step", step), _share("target", target)))
+
+
+def neighbour(reach: int = 1) -> Kernel:
+    """One discrete choice moves to a value near by; continuous ones are drawn from their own distribution.
+
+    A truth value turns, a whole number goes up or down by at most `reach`, a category becomes another.
+    """
+    return Kernel("neighbour", (_whole("reach", reach, 1),))
+
+
+def block(step: float = 0.2, share: float = 1.0, target: float = 0.234) -> Kernel:
+    """Many choices move a little at once.
+
+    Parameters
+    ----------
+    step
+        First step, in spreads of each site's distribution in the first state.
+    share
+        Probability with which each choice takes part.
+    target
+        The acceptance to which the step is adapted during the warm-up.
+    """
+    if not _number(share) or not 0 < share <= 1:
+        raise _wrong("share", share, "a number above 0 and up to 1", "0.5")
+    return Kernel("block", (_positive("step", step), float(share), _share("target", target)))
+
+
+def regenerate(levels: int = 0) -> Kernel:
+    """A call and all that it makes are drawn anew: the one that stands `levels` calls or loop iterations above a choice."""
+    return Kernel("regenerate", (_whole("levels", levels, 0),))
+
+
+def proposal(function: Callable[[Any], Any]) -> Kernel:
+    """One choice, from a distribution of your own.
+
+    Parameters
+    ----------
+    function
+        A function of the modelling language that takes the old value and gives a distribution over new ones, such as
+        `lambda old: Gaussian(old, 0.1)`. It makes no choice itself. Use it under `on`, for sites whose values it takes.
+    """
+    return Kernel("proposal", function=function)
+
+
+def cycle(*kernels: Kernel) -> Kernel:
+    """One application of each, in order."""
+    return Kernel("cycle", (), _parts("cycle", kernels))
+
+
+def mixture(*kernels: Kernel, weights: Sequence[float] | None = None) -> Kernel:
+    """One application of one of them, drawn by weight; evenly when no weights are given."""
+    parts = _parts("mixture", kernels)
+    given = [1.0] * len(parts) if weights is None else [_positive("weights", one) for one in weights]
+    if len(given) != len(parts):
+        raise _wrong("weights", weights, "one weight for each kernel", "such a list")
+    return Kernel("mixture", tuple(given), parts)
+
+
+def repeat(times: int, kernel: Kernel) -> Kernel:
+    """So many applications of a kernel."""
+    return Kernel("repeat", (_whole("times", times, 1),), _parts("repeat", (kernel,)))
+
+
+def on(sites: str | Sequence[str], kernel: Kernel) -> Kernel:
+    """A kernel restricted to the choices whose address matches a pattern, or one of several."""
+    patterns = [sites] if isinstance(sites, str) else list(sites)
+    if not patterns or not all(isinstance(one, str) and one for one in patterns):
+        raise _wrong("sites", sites, "a pattern over addresses, or several", '"tree/width"')
+    return Kernel("on", ([patterns], [], []), _parts("on", (kernel,)))
+
+
+def odds(
+    kernel: Kernel,
+    *,
+    depth: Callable[[int], float] | None = None,
+    sites: Mapping[str, float] | None = None,
+) -> Kernel:
+    """A kernel that picks choices by weight instead of evenly; the acceptance takes that into account.
+
+    Parameters
+    ----------
+    depth
+        The odds of a choice with so many calls above it.
+    sites
+        Odds by pattern over addresses; the first that matches holds, and 1 where none does. Zero leaves a choice out.
+    """
+    by_depth = [] if depth is None else [_weight("depth", depth(n)) for n in range(_DEEPEST)]
+    by_site = [(pattern, _weight("sites", one)) for pattern, one in (sites or {}).items()]
+    return Kernel("on", ([], by_depth, by_site), _parts("odds", (kernel,)))
+
+
+def anneal(kernel: Kernel, steps: int, start: float = 10.0, end: float = 0.1) -> Kernel:
+    """A kernel under which the score counts more and more: its log is divided by a temperature.
+
+    The temperature goes from `start` to `end` in so many proposals, geometrically, and stays there. The prior is never
+    tempered. The samples are not those of the posterior; take the best.
+    """
+    settings = (_positive("start", start), _positive("end", end), _whole("steps", steps, 1))
+    return Kernel("anneal", settings, _parts("anneal", (kernel,)))
+
+
+def temper(kernel: Kernel, temperatures: Sequence[float] = (1.0, 2.0, 4.0, 8.0), every: int = 100) -> Kernel:
+    """Parallel tempering: a chain at each temperature of the score; neighbours exchange states now and then.
+
+    It can only be outermost. The first temperature must be 1: its chain gives the samples.
+
+    Parameters
+    ----------
+    temperatures
+        Rising from 1.
+    every
+        Proposals between two exchanges.
+    """
+    rising = [_positive("temperatures", one) for one in temperatures]
+    if not rising or rising[0] != 1.0 or rising != sorted(rising):
+        raise _wrong("temperatures", temperatures, "temperatures that rise from 1", "(1, 2, 4, 8)")
+    return Kernel("temper", (tuple(rising), _whole("every", every, 1)), _parts("temper", (kernel,)))
+
+
+def parse(text: str) -> Kernel:
+    """A kernel as it is written: `cycle(on("z", mh()), repeat(3, drift(0.2)))`.
+
+    Calls of the functions of this module with numbers, texts, lists and kernels; nothing else is carried out.
+    """
+    try:
+        made = _made(ast.parse(text.strip(), mode="eval").body)
+    except (SyntaxError, ValueError, TypeError) as error:
+        raise InputError("unreadable-kernel", found=text, reason=str(error).split(" (<")[0]) from None
+    if not isinstance(made, Kernel):
+        raise InputError("unreadable-kernel", found=text, reason="it is not a call of a kernel, such as `mh()`")
+    return made
+
+
+def _made(part: ast.expr) -> Any:
+    if isinstance(part, ast.Name) and part.id in _WRITTEN:
+        return _WRITTEN[part.id]()
+    if isinstance(part, ast.Call) and isinstance(part.func, ast.Name) and part.func.id in _WRITTEN:
+        given = {word.arg: _made(word.value) for word in part.keywords if word.arg is not None}
+        return _WRITTEN[part.func.id](*(_made(one) for one in part.args), **given)
+    if isinstance(part, (ast.List, ast.Tuple)):
+        return [_made(one) for one in part.elts]
+    if isinstance(part, (ast.Name, ast.Call)):
+        name = ast.unparse(part.func if isinstance(part, ast.Call) else part)
+        near = get_close_matches(name, _WRITTEN, n=1)
+        hint = f"; did you mean `{near[0]}`?" if near else f"; there are {', '.join(_WRITTEN)}"
+        raise ValueError(f"there is no kernel `{name}`{hint}")
+    return ast.literal_eval(part)
+
+
+#: What can be written as text.
+_WRITTEN: dict[str, Callable[..., Kernel]] = {
+    made.__name__: made
+    for made in (mh, drift, neighbour, block, regenerate, cycle, mixture, repeat, on, odds, anneal, temper)
+}
+
+
+def _parts(name: str, kernels: Sequence[Any]) -> tuple[Kernel, ...]:
+    if not kernels:
+        raise _wrong(name, "nothing", "at least one kernel", "`kernels.mh()`")
+    for one in kernels:
+        if not isinstance(one, Kernel):
+            raise _wrong(name, one, "kernels", "one of `niwaki.kernels`, such as `kernels.mh()`")
+        if one.name == "temper":
+            raise _wrong(name, one, "kernels other than `temper`, which can only be outermost", "`temper` around it")
+    return tuple(kernels)
+
+
+def _wrong(name: str, found: Any, expected: str, suggestion: str) -> InputError:
+    return InputError("bad-setting", name=name, found=repr(found), expected=expected, suggestion=suggestion)
+
+
+def _number(value: Any) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def _positive(name: str, value: Any) -> float:
+    if not _number(value) or value <= 0:
+        raise _wrong(name, value, "a number above 0", "0.5")
+    return float(value)
+
+
+def _weight(name: str, value: Any) -> float:
+    if not _number(value) or value < 0:
+        raise _wrong(name, value, "odds, which are numbers of 0 or more", "1.0")
+    return float(value)
+
+
+def _share(name: str, value: Any) -> float:
+    if not _number(value) or not 0 < value < 1:
+        raise _wrong(name, value, "a number between 0 and 1", "0.44")
+    return float(value)
+
+
+def _whole(name: str, value: Any, least: int) -> int:
+    if not isinstance(value, int) or isinstance(value, bool) or value < least:
+        raise _wrong(name, value, f"a whole number, at least {least}", str(least))
+    return value

@@ -1,0 +1,38 @@
+"""`niwaki explain`: what each strategy does for one proposal, as a picture."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from niwaki.shell.app import ModelName, app, made_folder
+
+
+@app.command()
+def explain(
+    model: ModelName,
+    choice: Annotated[
+        str, typer.Option("--choice", metavar="ADDRESS", help="The choice that is changed; patterns may be used.")
+    ],
+    seed: Annotated[int, typer.Option(help="Of the first state and the proposal.")] = 0,
+    output: Annotated[
+        Path, typer.Option("-o", "--output", metavar="FILE", help="A .svg or .png file.")
+    ] = Path("explain.svg"),
+) -> None:
+    """Draw which calls of MODEL a proposal makes each strategy run, go on with, skip, make and take away."""
+    from niwaki.draw.reuse import WORDS, counts, draw
+    from niwaki.finding import find
+    from niwaki.infer import explain as explained
+
+    found = find(model)
+    told = explained(found.model, choice, seed=seed)
+    made_folder(output.parent)
+    draw(told, output)
+    total = len(told["activations"])
+    print(f"{told['path']}: {told['old']!r} becomes {told['new']!r}; {total} calls")
+    print(f"{'':<8}" + "".join(f"{said:>20}" for said in WORDS.values()))
+    for name, (steps, _) in told["runs"].items():
+        print(f"{name:<8}" + "".join(f"{n:>20}" for n in counts(steps, total).values()))
+    print(output)

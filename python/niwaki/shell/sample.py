@@ -1,0 +1,152 @@
+"""`niwaki sample`: Markov chains, written to a folder."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from niwaki.shell.app import Folder, ModelName, app, made_folder
+
+if TYPE_CHECKING:
+    from niwaki.finding import Found
+    from niwaki.infer import Progress
+    from niwaki.mh_result import ChainResult
+
+
+@app.command()
+def sample(
+    model: ModelName,
+    kernel: Annotated[
+        str, typer.Option(help='How it proposes, e.g. "cycle(on(\'z\', mh()), drift())".')
+    ] = "mh()",
+    steps: Annotated[int, typer.Option(help="Proposals of each chain.")] = 10_000,
+    chains: Annotated[int, typer.Option(help="How many chains, side by side.")] = 4,
+    warmup: Annotated[
+        int | None, typer.Option(help="Proposals before the first sample; default: a fifth of all.")
+    ] = None,
+    keep: Annotated[int, typer.Option(help="About how many samples of each chain are written.")] = 100,
+    strategy: Annotated[str, typer.Option(help="c3, resume, cache or rerun.")] = "c3",
+    target: Annotated[
+        str | None, typer.Option("--target", metavar="FILE", help="A mesh to fill, without self-intersection.")
+    ] = None,
+    voxel: Annotated[float | None, typer.Option(metavar="SIZE", help="Cell size for the target.")] = None,
+    sigma: Annotated[float, typer.Option(help="Strictness of the match.")] = 0.02,
+    seed: Annotated[int | None, typer.Option(help="Default: a fresh one, which is written down.")] = None,
+    threads: Annotated[int | None, typer.Option(help="Default: all cores.")] = None,
+    output: Folder = None,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print the numbers as JSON; files are written only with -o.")
+    ] = False,
+    picture: Annotated[
+        bool, typer.Option("--picture/--no-picture", help="Draw best.png and sheet.png.")
+    ] = True,
+) -> None:
+    """Sample MODEL by Markov chains; writes samples.csv and run.json, and best.glb, best.png, sheet.png of scenes."""
+    from niwaki import infer, kernels, methods
+    from niwaki.finding import find
+    from niwaki.sketches import Score, no_self_intersection, volume_match
+
+    found = find(model)
+    score, reference = Score(), ""
+    if target is not None:
+        from niwaki.target import Target
+
+        score = no_self_intersection() * volume_match(Target.load(target), voxel, sigma)
+        reference = str(Path(target).resolve())
+    settings: dict[str, Any] = {
+        "steps": steps,
+        "chains": chains,
+        "warmup": steps // 5 if warmup is None else warmup,
+        "keep": keep,
+        "strategy": strategy,
+    }
+    method = methods.mh(kernel=kernels.parse(kernel), **settings)
+    with _shown(found.reference, steps * chains) as progress:
+        result = infer.run(found.model, method=method, score=score, seed=seed, threads=threads, progress=progress)
+    if output is not None or not as_json:
+        _write(output or Path("out"), result, found, {"kernel": kernel, **settings}, reference, picture)
+    if as_json:
+        from niwaki.run_files import numbers
+
+        print(json.dumps({"runs": [numbers(one) for one in result.bests]}))
+    else:
+        _summary(result, output or Path("out"))
+    if result.interrupted:
+        raise typer.Exit(130)
+
+
+def _write(
+    output: Path, result: ChainResult, found: Found, settings: dict[str, Any], target: str, picture: bool
+) -> None:
+    from niwaki import run_files
+    from niwaki.draw.picture import save_image, write_whole
+    from niwaki.result import Result
+
+    folder = made_folder(output)
+    # The best of each chain is what can be replayed.
+    bests = Result(result.model, result.bests, result.seed, result.method, result.score)
+    bests.interrupted = result.interrupted
+    run_files.save(folder / "run.json", run_files.written(bests, found, settings, target))
+    write_whole(folder / "samples.csv", _table(result).encode())
+    best = bests.best
+    if best.primitives == 0:
+        return
+    best.export(folder / "best.glb")
+    if picture:
+        best.save(folder / "best.png")
+        save_image(lambda: bests.sheet(), folder / "sheet.png")
+
+
+def _table(result: ChainResult) -> str:
+    """The samples, one a line."""
+    text = io.StringIO()
+    rows = csv.writer(text, lineterminator="\n")
+    rows.writerow(["chain", "proposal", "log_score", "log_prior", "value"])
+    for number, draws in enumerate(result.draws):
+        for visit, one in zip(result.visits[number], draws, strict=True):
+            rows.writerow([number, visit, one.log_score, one.log_prior, repr(one.value)])
+    return text.getvalue()
+
+
+def _summary(result: ChainResult, folder: Path) -> None:
+    print(f"{'site':<40}{'proposals':>12}{'accepted':>10}")
+    for name, row in list(result.acceptance.items())[:12]:
+        print(f"{name:<40}{row.proposed:>12}{row.rate:>10.2f}")
+        if row.proposed >= 100 and row.outside == row.proposed:
+            print(f"warning: every proposal for `{name}` lay outside its support", file=sys.stderr)
+    counters = result.counters
+    if counters["many_proposed"]:
+        share = counters["many_accepted"] / counters["many_proposed"]
+        print(f"{'blocks and regenerated calls':<40}{counters['many_proposed']:>12}{share:>10.2f}")
+    rate = counters["proposals"] / max(result.cpu_seconds, 1e-9)
+    print(f"{counters['proposals']} proposals, {rate:,.0f} a second of processor time; seed {result.seed}")
+    print(f"best: log score {result.best.log_score:.2f}; {len(result)} samples; files in {folder}")
+
+
+@contextmanager
+def _shown(name: str, proposals: int) -> Iterator[Callable[[Progress], None]]:
+    """A line on stderr that tells how far the chains are; nothing where stderr is not a terminal."""
+    from rich.console import Console
+
+    console = Console(stderr=True)
+    if not console.is_terminal:
+        yield lambda _: None
+        return
+    with console.status(f"sampling {name}") as status:
+
+        def show(now: Progress) -> None:
+            best = f"{now.best:.2f}" if math.isfinite(now.best) else "-"
+            status.update(
+                f"sampling {name}: {now.done} of {proposals} proposals, best {best}   (Ctrl-C keeps what there is)"
+            )
+
+        yield show

@@ -1,0 +1,117 @@
+"""Random model programs for chains: what `programs` makes, and what makes re-running hard.
+
+Lists of choices whose elements are read by indices that change later, captures that are read in loops, lists that only
+grow, in recursions by one and by halves and in loops; counts, branches and closures that hang on choices; primitives
+that come and go; soft factors over all of it. Every program ends.
+"""
+
+from __future__ import annotations
+
+from programs import Maker, Program
+
+
+class ChainMaker(Maker):
+    """Makes fragments that hang on each other by way of choices."""
+
+    def sampled(self) -> str:
+        """A random choice of a real number, its parameters perhaps choices too."""
+        return self.pick(
+            f"gaussian({self.real(1)}, 1)",
+            f"uniform(0, 1 + abs({self.real(0)}))",
+            "gamma(2, 1)",
+            "beta(2, 3)",
+            f"gaussian(clip({self.real(1)}, -5, 5), 0.1 + uniform(0, 1))",
+        )
+
+    def statement(self, depth: int, loop: bool = False) -> list[str]:
+        """One of the fragments here, or one of those that every program may have."""
+        if self.random.random() < 0.5:
+            return super().statement(depth, loop)
+        v, w, i = self.fresh("v"), self.fresh("w"), self.fresh("i")
+        kinds = [
+            # A list of choices, and readers that switch between its elements.
+            lambda: [
+                f"{v} = [{self.sampled()} for _ in range({self.random.randint(2, 4)})]",
+                f"for {i} in range({self.random.randint(1, 4)}):",
+                f"    {w} = discrete_uniform(0, len({v}) - 1)",
+                f"    observe(Gaussian({v}[{w}], 1), {i} * 0.5)",
+                f"    f = f + {v}[{w}]" if self.random.random() < 0.5 else f"    f = f + {w}",
+            ],
+            # A list that only grows, read by the last element or as a whole.
+            lambda: [
+                f"{v} = []",
+                f"for {i} in range({self.random.choice(['3', 'poisson(2)', 'n % 4'])}):",
+                f"    {v} = {v} + [{self.sampled()}]",
+                f"    if {self.boolean(1)}:",
+                f"        {v} = {v} + [{v}[-1] + gaussian(0, 1)]",
+                f"f = f + sum({v}) + len({v})",
+                *([f"xs = ({v} + [1.0])[:5]"] if self.random.random() < 0.5 else []),
+            ],
+            # A count of activations that is a choice.
+            lambda: [
+                f"for {i} in range({self.random.choice(['poisson(2)', 'geometric(0.5) % 5', 'discrete_uniform(0, 3)'])}):",
+                f"    {w} = {self.sampled()}",
+                f"    factor(-0.3 * abs({w} - x))",
+                f"    emit(box(({i}, {w}, 0), (1, 1, {self.random.choice(['1', w + ' * ' + w + ' + 1'])})))",
+                *([f"    if {w} > 0.5:", "        break"] if self.random.random() < 0.5 else []),
+            ],
+            # Which function runs is a choice; what it captures is one too.
+            lambda: [
+                f"{v} = {self.sampled()}",
+                f"def {w}(u):",
+                f"    return u + gaussian({v}, 1)",
+                f"def {i}(u, k=2):",
+                f"    return u - uniform(0, 1) if k == 0 else {i}({w}(u), k - 1)",
+                f"f = f + (({w} if flip(0.5) else {i})(x) if {self.boolean(1)} else {v})",
+            ]
+            if not loop
+            else [f"f = f + {self.sampled()}"],
+            # Branches that hold different choices at the same places.
+            lambda: [
+                f"if flip({self.random.choice(['0.3', '0.5', 'clip(abs(x) / 4, 0.1, 0.9)'])}):",
+                f"    {v} = {self.sampled()}",
+                f"    x = x * 0.5 + {v}",
+                "else:",
+                f"    {v} = {self.pick('categorical(WEIGHTS) * 1.0', self.sampled())}",
+                f"    {w} = {self.sampled()}",
+                f"    f = f - {v} + {w}",
+                f"observe(Gaussian(clip(x, -20, 20), 1 + abs({v}) % 3), 0.5)",
+            ],
+            # One family with another dimension, and vectors.
+            lambda: [
+                f"{v} = sample(Dirichlet([1.0] * (2 + n % 2)))",
+                f"{w} = categorical({v})",
+                f"x = clip(x, -9, 9) + {v}[{w}] + gaussian({w}, 1)",
+            ],
+            lambda: [f"factor(-abs(clip(f, -50, 50)) * 0.1 + {self.random.choice(['0.0', '0.2 * n'])})"],
+            lambda: [f"f = f + tree({self.random.randint(1, 4)}, clip(x, -3, 3))"],
+            lambda: [f"xs = grown({self.random.randint(1, 4)}, [1.0])", "f = f + xs[0] + xs[-1]"],
+        ]
+        return self.random.choice(kinds)()  # type: ignore[no-any-return]
+
+
+#: Recursions by halves and one by one, that every program may call.
+_RECURSIONS = (
+    "def tree(n, x):\n"
+    "    y = gaussian(x, 1)\n"
+    "    if n <= 1:\n"
+    "        observe(Gaussian(y, 1), 0.5)\n"
+    "        return y\n"
+    "    left = tree(n // 2, y)\n"
+    "    return left * 0.5 + (tree(n - n // 2, y) if flip(0.7) else 0.0)",
+    "def grown(n, xs):\n"
+    "    if n == 0:\n"
+    "        return xs\n"
+    "    y = gaussian(xs[-1], 1)\n"
+    "    emit(box((n, y, 0), (1, 1, 1)))\n"
+    "    return grown(n - 1, xs + [y])",
+)
+
+
+def program(seed: int, size: int = 6) -> Program:
+    """A random program of `size` statements."""
+    maker = ChainMaker(seed)
+    for _ in range(maker.random.randint(0, 2)):
+        maker.helpers.append(maker.helper())
+    helpers = (*maker.helpers, *_RECURSIONS)
+    return Program(helpers, tuple(tuple(maker.statement(2)) for _ in range(size)))

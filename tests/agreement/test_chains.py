@@ -1,0 +1,117 @@
+"""The four strategies from one seed make the same chain to the bit, on random programs and with every kind of kernel.
+
+The engine runs them in step: after each proposal decisions and sums are compared, now and then also the values, scenes
+and queries of the states, a proposal that is undone, and a run from the start, once keeping calls and once without. A
+failure prints the smallest program that still fails. Nothing here is statistical.
+"""
+
+from __future__ import annotations
+
+import os
+import secrets
+from collections.abc import Iterator
+from typing import Any
+
+import niwaki as nw
+import pytest
+from chain_programs import program
+from niwaki import _engine, kernels
+from niwaki.compiled import task
+from niwaki.errors import ModelError, NiwakiError
+from niwaki.sketches import no_self_intersection
+from programs import shrink
+from test_engine import NOT_A_PROGRAM, load
+
+QUICK = (120, 120)
+LONG = (1200, 1000)
+
+KERNELS = (
+    kernels.mh(),
+    kernels.cycle(kernels.drift(), kernels.neighbour(), kernels.mh()),
+    kernels.mixture(kernels.regenerate(), kernels.regenerate(1), kernels.mh(), kernels.drift()),
+    kernels.cycle(kernels.block(share=0.5), kernels.mh(), kernels.odds(kernels.mh(), depth=lambda d: 1 / (1 + d))),
+)
+
+
+class Tally:
+    """What was looked at."""
+
+    def __init__(self) -> None:
+        self.programs = self.proposals = self.accepted = self.faults = 0
+
+
+def disagreement(text: str, seed: int, steps: int, tally: Tally | None = None) -> str:
+    """What a program's strategies do not agree on, or nothing."""
+    try:
+        model = load(text)
+        model.core()
+    except SyntaxError:
+        return ""
+    except ModelError as error:
+        return "" if error.code in NOT_A_PROGRAM else str(error)
+    kernel = KERNELS[seed % len(KERNELS)]
+    try:
+        made = task(model, (), {}, no_self_intersection().specs if seed % 3 == 0 else (), max_steps=100_000)
+        found, proposals, accepted, faults = _engine.agreement(made, seed, steps, 20, kernel.form(), steps // 2)
+    except (_engine.EngineFault, NiwakiError):
+        # No possible first state, or a fault at once.
+        return ""
+    if tally is not None:
+        tally.programs += 1
+        tally.proposals += 4 * proposals
+        tally.accepted += accepted
+        tally.faults += faults
+    return found or ""
+
+
+def look(seeds: Iterator[int], steps: int) -> Tally:
+    tally = Tally()
+    for seed in seeds:
+        whole = program(seed)
+        if disagreement(whole.text, seed, steps, tally):
+            small = shrink(whole, lambda text: bool(disagreement(text, seed, steps)))  # noqa: B023
+            pytest.fail(f"seed {seed}\n{small.text}\n{disagreement(small.text, seed, steps)}")
+    print(
+        f"{tally.programs} programs, {tally.proposals} proposals, {tally.accepted} kept, {tally.faults} met a fault"
+    )
+    return tally
+
+
+def test_strategies_agree_on_random_programs() -> None:
+    count, steps = QUICK
+    tally = look(iter(range(count)), steps)
+    assert tally.programs > 0.5 * count
+    assert tally.accepted > 0.1 * tally.proposals / 4
+
+
+@pytest.mark.soak
+def test_strategies_agree_on_many_random_programs() -> None:
+    """At least a thousand programs and a million proposals, from a fresh seed that is printed."""
+    first = int(os.environ.get("NIWAKI_SEED", secrets.randbelow(2**31)))
+    print(f"NIWAKI_SEED={first}")
+    count, steps = LONG
+    tally, programs, proposals = Tally(), 0, 0
+    while programs < 1000 or proposals < 1_000_000:
+        tally = look(iter(range(first, first + count)), steps)
+        programs, proposals, first = programs + tally.programs, proposals + tally.proposals, first + count
+
+
+def test_a_state_is_the_same_when_it_is_run_again() -> None:
+    """Each sample's scores are those of a run with its choices, to the bit, and its scene has as many primitives."""
+    looked = 0
+    for seed in range(40):
+        try:
+            model = load(program(seed).text)
+            result = nw.run(model, nw.mh(steps=300, thin=60, seed=seed, kernel=KERNELS[seed % 4]))
+        except NiwakiError:
+            continue
+        for sample in [*result, result.best]:
+            try:
+                again: Any = sample._trace
+            except NiwakiError as error:
+                assert error.code == "query-twice", error  # type: ignore[attr-defined]
+                continue
+            assert (again.log_prior, again.log_score) == (sample.log_prior, sample.log_score)
+            assert again.primitives == sample.primitives
+            looked += 1
+    assert looked > 100
