@@ -25,12 +25,15 @@
 
 mod advance;
 mod copies;
+mod course;
 pub mod distinct;
 mod gibbs;
 mod many;
+mod moves;
 mod path;
 mod pimh;
 mod population;
+pub mod rejuvenation;
 pub mod resampling;
 mod settings;
 mod smc;
@@ -42,6 +45,7 @@ mod tests;
 pub use gibbs::{Ancestors, Chain, particle_gibbs};
 pub use many::{Watch, populations, within};
 pub use pimh::pimh;
+pub use rejuvenation::{Moment, Moved, Rejuvenation};
 pub use resampling::Resampling;
 pub use settings::{Anneal, Order, Settings, Weights, When};
 pub use smc::{Outcome, Progress, Result, smc};

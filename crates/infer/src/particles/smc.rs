@@ -2,6 +2,7 @@
 
 use super::advance::Particle;
 use super::population::Population;
+use super::rejuvenation::Moved;
 use super::settings::{Anneal, Settings, Weights};
 use crate::record::Record;
 use crate::{Failure, Task};
@@ -61,6 +62,8 @@ pub struct Result {
     /// The temperature at each barrier where it is not constant; of several populations, those of the first that
     /// lived.
     pub temperatures: Vec<f64>,
+    /// Moves of rejuvenation.
+    pub moved: Moved,
 }
 
 /// How far a run is, for whoever watches it.
@@ -109,11 +112,14 @@ pub(super) fn run(
             interrupted = true;
             break;
         }
-        if population.is_low() {
+        let resampled = population.is_low();
+        if resampled {
             population.resample();
         }
+        population.rejuvenate(Some(resampled))?;
     }
     population.finish();
+    population.rejuvenate(None)?;
     let log_normaliser =
         (settings.weights == Weights::Ratio && !interrupted).then_some(population.log_normaliser);
     Ok(Result {
@@ -126,6 +132,7 @@ pub(super) fn run(
         interrupted,
         plan: vec![settings.particles],
         died: 0,
+        moved: population.moved,
         temperatures: match settings.anneal {
             Anneal::Constant => Vec::new(),
             Anneal::Schedule(_) | Anneal::Adaptive(_) => population.temperatures,

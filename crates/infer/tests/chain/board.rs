@@ -110,28 +110,44 @@ fn rows() -> Vec<Row> {
     vec![
         row("prior", prior()),
         row("neighbour", Kernel::Neighbour { reach: 2 }),
+        row("by family", Kernel::ByFamily),
         row("drift", Kernel::Drift { step: 0.5, target: 0.44 }),
         row("regenerate 0", Kernel::Regenerate { levels: 0 }),
         row("regenerate 1", Kernel::Regenerate { levels: 1 }),
         row("cycle", Kernel::Cycle(vec![prior(), block()])),
-        row("mixture", Kernel::Mixture(vec![(1.0, block()), (2.0, prior()), (1.0, Kernel::Regenerate { levels: 0 })])),
-        row("repeat", Kernel::Repeat(3, Box::new(Kernel::Cycle(vec![prior(), Kernel::Neighbour { reach: 1 }])))),
+        row(
+            "mixture",
+            Kernel::Mixture(vec![(1.0, block()), (2.0, prior()), (1.0, Kernel::Regenerate { levels: 0 })]),
+        ),
+        row(
+            "repeat",
+            Kernel::Repeat(3, Box::new(Kernel::Cycle(vec![prior(), Kernel::Neighbour { reach: 1 }]))),
+        ),
         row("odds by depth", Kernel::On(deep, Box::new(prior()))),
         row("odds by site", Kernel::On(sites, Box::new(prior()))),
         row("on", Kernel::Cycle(vec![on("**", prior()), on("**", Kernel::Regenerate { levels: 0 })])),
         Row {
             power: "0.5",
-            ..row("anneal, held at 2", Kernel::Anneal { hot: 2.0, cold: 2.0, steps: 9, kernel: Box::new(prior()) })
+            ..row(
+                "anneal, held at 2",
+                Kernel::Anneal { hot: 2.0, cold: 2.0, steps: 9, kernel: Box::new(prior()) },
+            )
         },
         Row { temperatures: vec![1.0, 2.0, 5.0], ..row("temper", prior()) },
-        Row { only: "a bound that is a choice", ..row("own proposal", Kernel::Cycle(vec![prior(), on("k", skewed())])) },
+        Row {
+            only: "a bound that is a choice",
+            ..row("own proposal", Kernel::Cycle(vec![prior(), on("k", skewed())]))
+        },
     ]
 }
 
 /// The largest |z| over the values of a program.
 fn worst<R: Rules>(text: &str, row: &Row, seed: u64) -> f64 {
     const STRETCHES: usize = 60;
-    let (task, exact) = (program(text, "1.0"), enumerate(&program(text, row.power), 100_000, &mut |_| true).expect("few runs"));
+    let (task, exact) = (
+        program(text, "1.0"),
+        enumerate(&program(text, row.power), 100_000, &mut |_| true).expect("few runs"),
+    );
     let settings = Settings {
         seed,
         kernel: row.kernel.clone(),

@@ -112,9 +112,10 @@ fn distance<R: Rules>(text: &str, kernel: &Kernel) -> f64 {
         let (choices, values) = (first.record.log.entries(), numbers(&first.value));
         let y = choices.last().expect("data").value.clone();
         let given = Task { args: vec![y], ..observing.clone() };
-        let settings = Settings { seed: 3 + replicate, kernel: kernel.clone(), thin: 0, ..Settings::default() };
-        let mut chain =
-            Chain::<R>::start(&given, &settings, 0, Some(&by_address(&choices))).expect("the state that was drawn");
+        let settings =
+            Settings { seed: 3 + replicate, kernel: kernel.clone(), thin: 0, ..Settings::default() };
+        let mut chain = Chain::<R>::start(&given, &settings, 0, Some(&by_address(&choices)))
+            .expect("the state that was drawn");
         let started = numbers(chain.state.trace.result());
         assert_eq!(started[..started.len().min(2)], values[..started.len().min(2)], "the chain starts there");
         chain.advance(&given, PROPOSALS, &mut |_, _| true).expect("proposals");
@@ -156,7 +157,10 @@ fn kernels() -> Vec<(&'static str, Kernel)> {
         ("block", Kernel::Block { step: 0.5, share: 0.7, target: 0.23 }),
         ("regenerate", Kernel::Regenerate { levels: 0 }),
         ("cycle", all()),
-        ("mixture by weight", Kernel::On(odds, Box::new(Kernel::Mixture(vec![(1.0, Kernel::Prior), (2.0, drift(0.5))])))),
+        (
+            "mixture by weight",
+            Kernel::On(odds, Box::new(Kernel::Mixture(vec![(1.0, Kernel::Prior), (2.0, drift(0.5))]))),
+        ),
     ]
 }
 

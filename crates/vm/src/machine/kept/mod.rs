@@ -26,6 +26,7 @@ mod questions;
 mod slot;
 mod transaction;
 
+pub use questions::fits;
 pub use transaction::{Change, Changed, Propose, Proposed};
 
 use super::Machine;
