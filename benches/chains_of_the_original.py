@@ -2,8 +2,8 @@
 
     .venv/bin/python benches/chains_of_the_original.py [RUNS] [EXPERIMENT ...]
 
-Experiments of `niwaki.gallery.experiments` that fill a volume. SOSMC takes 300 particles, temper 16; each chain gets the
-mean CPU time that it took, its first state not counted, and is stopped by looking at the clock every 500 proposals. Best log
+Experiments of `niwaki.gallery.experiments` that fill a volume. SOSMC takes 300 particles, temper 16; each chain gets
+the mean CPU time that it took, its first state not counted, and looks at the clock every 500 proposals. Best log
 scores are reported at the experiment's own sigma.
 """
 
@@ -53,7 +53,9 @@ def main(runs: int = 10, *names: str) -> int:
         found: dict[str, list[float]] = {}
         budget = []
         for seed in range(1, runs + 1):
-            one = niwaki.run(model.model, method=niwaki.smc(300, temper=16.0), score=score, seed=seed, threads=1)
+            one = niwaki.run(
+                model.model, method=niwaki.smc(300, temper=16.0), score=score, seed=seed, threads=1
+            )
             found.setdefault("SOSMC, 300", []).append(one.best.log_score)
             budget.append(one.cpu_seconds)
         seconds = statistics.fmean(budget)
@@ -64,7 +66,10 @@ def main(runs: int = 10, *names: str) -> int:
         for kind, scores in found.items():
             error = statistics.stdev(scores) / math.sqrt(runs) if runs > 1 else math.nan
             row = {"experiment": name, "method": kind, "runs": runs, "cpu": round(seconds, 3)}
-            print(json.dumps(row | {"mean": round(statistics.fmean(scores), 2), "error": round(error, 2)}), flush=True)
+            print(
+                json.dumps(row | {"mean": round(statistics.fmean(scores), 2), "error": round(error, 2)}),
+                flush=True,
+            )
     return 0
 
 

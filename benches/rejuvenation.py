@@ -73,9 +73,7 @@ def shared(runs: list[dict[str, Any]], close: dict[str, float]) -> int:
         common = sum(address in b and same(address, value, b[address]) for address, value in a.items())
         return 2 * common > len(a)
 
-    return sum(
-        not any(other is not run and has_most(other, run) for other in runs) for run in runs
-    )
+    return sum(not any(other is not run and has_most(other, run) for other in runs) for run in runs)
 
 
 def apart(result: Any) -> int:
@@ -87,13 +85,17 @@ def apart(result: Any) -> int:
             if isinstance(value, float):
                 found.setdefault(address.rsplit("/", 1)[-1], []).append(value)
     spread = {name: 0.1 * statistics.pstdev(values) for name, values in found.items()}
-    return shared(runs, {address: spread.get(address.rsplit("/", 1)[-1], 0.0) for run in runs for address in run})
+    return shared(
+        runs, {address: spread.get(address.rsplit("/", 1)[-1], 0.0) for run in runs for address in run}
+    )
 
 
 def main(seeds: int = 20, *names: str) -> int:
     """Measure and print one line for each way."""
     warnings.simplefilter("ignore", SearchWarning)
-    score = niwaki.no_self_intersection() * niwaki.volume_match(named_target("bent_tube"), voxel=0.4, sigma=0.02)
+    score = niwaki.no_self_intersection() * niwaki.volume_match(
+        named_target("bent_tube"), voxel=0.4, sigma=0.02
+    )
     first: list[float] = []
     for name in names or WAYS:
         rows: dict[str, list[float]] = {"distinct": [], "apart": [], "best": [], "similarity": [], "cpu": []}

@@ -130,7 +130,7 @@ def block(step: float = 0.2, share: float = 1.0, target: float = 0.234) -> Kerne
 
 
 def regenerate(levels: int = 0) -> Kernel:
-    """A call and all that it makes are drawn anew: the one that stands `levels` calls or loop iterations above a choice."""
+    """Draw a call and all that it makes anew: the one `levels` calls or loop iterations above a choice."""
     return Kernel("regenerate", (_whole("levels", levels, 0),))
 
 
@@ -257,7 +257,9 @@ def parse(text: str) -> Kernel:
     except (SyntaxError, ValueError, TypeError) as error:
         raise InputError("unreadable-kernel", found=text, reason=str(error).split(" (<")[0]) from None
     if not isinstance(made, Kernel):
-        raise InputError("unreadable-kernel", found=text, reason="it is not a call of a kernel, such as `mh()`")
+        raise InputError(
+            "unreadable-kernel", found=text, reason="it is not a call of a kernel, such as `mh()`"
+        )
     return made
 
 
@@ -305,7 +307,9 @@ def _parts(name: str, kernels: Sequence[Any]) -> tuple[Kernel, ...]:
         if not isinstance(one, Kernel):
             raise _wrong(name, one, "kernels", "one of `niwaki.kernels`, such as `kernels.mh()`")
         if one.name == "temper":
-            raise _wrong(name, one, "kernels other than `temper`, which can only be outermost", "`temper` around it")
+            raise _wrong(
+                name, one, "kernels other than `temper`, which can only be outermost", "`temper` around it"
+            )
     return tuple(kernels)
 
 

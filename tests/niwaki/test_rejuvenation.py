@@ -1,8 +1,7 @@
 """`smc(rejuvenate=...)` from Python: what is told, what is refused, and scenes that stay what their choices say."""
 
-import pytest
-
 import niwaki
+import pytest
 from niwaki import kernels
 from niwaki.errors import InputError
 from niwaki.gallery import named_target
@@ -16,7 +15,9 @@ KERNEL = kernels.mixture(
 
 @pytest.fixture(scope="module")
 def score():
-    return niwaki.no_self_intersection() * niwaki.volume_match(named_target("bent_tube"), voxel=0.6, sigma=0.05)
+    return niwaki.no_self_intersection() * niwaki.volume_match(
+        named_target("bent_tube"), voxel=0.6, sigma=0.05
+    )
 
 
 @pytest.mark.parametrize("at", [7, "resampled", "end"])

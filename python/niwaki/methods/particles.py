@@ -121,13 +121,14 @@ def smc(
         from measured costs and told by `Result.plan`.
     rejuvenate
         A kernel of `niwaki.kernels` that moves each particle without changing the law that all follow, so that copies
-        become different again (Gilks & Berzuini 2001). A particle that still runs keeps what it has built in kind: which
-        parts, which futures, where each call waits; one that has ended may change its structure. Not with absolute
-        weights, and no kernel that anneals or tempers.
+        become different again (Gilks & Berzuini 2001). A particle that still runs keeps its skeleton: which parts,
+        which futures, where each call waits; one that has ended may change its structure. Not with absolute weights,
+        and no kernel that anneals or tempers.
     moves
         Proposals for each particle, each time; `Result.moved` says how many were made and kept.
     at
-        When: at every so-many-th barrier, after each resampling ("resampled"), or once all have ended ("end").
+        When: once all have ended ("end"); and before that at every so-many-th barrier, or after each resampling
+        ("resampled").
     """
     if seconds is not None:
         if not is_number(seconds) or not 0 < seconds < float("inf"):
@@ -252,7 +253,9 @@ def _check_moves(rejuvenate: Any, moves: int, at: Any, weights: str) -> None:
     if not isinstance(rejuvenate, Kernel):
         raise bad("rejuvenate", rejuvenate, "a kernel", "one of `niwaki.kernels`, such as `kernels.mh()`")
     if weights == "absolute":
-        raise bad("rejuvenate", rejuvenate, "nothing beside absolute weights, which have no law to keep", '"ratio"')
+        raise bad(
+            "rejuvenate", rejuvenate, "nothing beside absolute weights, which have no law to keep", '"ratio"'
+        )
     changing = _first(rejuvenate, ("anneal", "temper"))
     if changing is not None:
         expected = "a kernel that keeps the particles' law, which annealing and tempering do not"

@@ -8,6 +8,8 @@
 //! 2. *Weigh* (`weights`): `w *= (s(r_n) / s(r_{n-1}))^T`. One that has ended carries its last score.
 //! 3. *Resample* ([`resampling`]): at every barrier, or when the effective sample size is low; weights are reset. Copies
 //!    are made side by side (`copies`).
+//! 4. *Rejuvenate*, where asked for ([`rejuvenation`]): each particle is moved by a Markov kernel that keeps `F_n`; of one
+//!    that still runs the way is done again with other values (`course`, `moves`).
 //!
 //! The temperature may differ from barrier to barrier ([`Anneal`]): weights then count `s(r_n)^(T_n) / s(r_{n-1})^(T_{n-1})`, and
 //! the final set is weighed by the declared `T`, so that the way there changes neither law nor constant.

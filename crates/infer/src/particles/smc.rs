@@ -43,7 +43,8 @@ pub struct Result {
     /// nats. `None` for absolute weights, which have none, and where the search was stopped.
     pub log_normaliser: Option<f64>,
     /// The same where it is the model's evidence: at temperature 1. Unbiased (as a number, not its log), unless the
-    /// way of the temperature was adapted: then consistent.
+    /// way of the temperature was adapted, or particles moved after resamplings that the weights decided: then
+    /// consistent.
     pub log_evidence: Option<f64>,
     /// How many barriers there were; of several populations, most.
     pub barriers: usize,

@@ -192,39 +192,43 @@ fn mutants_of_moves_do_not() {
 fn evidence_and_posterior_stay_right() {
     for (name, text) in programs() {
         let task = task(text);
-        for order in [Order::DepthFirst, Order::Stochastic] {
-            for at in [Moment::Every(1), Moment::End] {
-                let settings = Settings {
-                    rejuvenate: rejuvenation(every_kind(), 2, at),
-                    ..settings(order, Resampling::Systematic)
-                };
-                let scores = z_scores(&task, &settings, 0..3000);
-                assert!(worst(&scores) < LIMIT, "{name}, {order:?}, {at:?}: {scores:?}");
-            }
+        for (order, at) in [
+            (Order::DepthFirst, Moment::Every(1)),
+            (Order::Stochastic, Moment::Every(1)),
+            (Order::Stochastic, Moment::End),
+        ] {
+            let settings = Settings {
+                rejuvenate: rejuvenation(every_kind(), 2, at),
+                ..settings(order, Resampling::Systematic)
+            };
+            let scores = z_scores(&task, &settings, 0..2000);
+            assert!(worst(&scores) < LIMIT, "{name}, {order:?}, {at:?}: {scores:?}");
         }
         let settings = Settings {
             when: When::EffectiveBelow(0.5),
             rejuvenate: rejuvenation(Kernel::Prior, 2, Moment::Every(2)),
             ..settings(Order::Stochastic, Resampling::Systematic)
         };
-        let scores = z_scores(&task, &settings, 0..3000);
+        let scores = z_scores(&task, &settings, 0..2000);
         assert!(worst(&scores) < LIMIT, "{name}, adaptive resampling: {scores:?}");
     }
 }
 
 #[test]
 fn mutants_are_seen_in_the_final_set() {
-    for mutant in [Mutant::WholeScore, Mutant::EndsLate, Mutant::StateStays] {
-        let caught = programs().any(|(_, text)| {
-            let settings = Settings {
-                rejuvenate: rejuvenation(Kernel::Prior, 3, Moment::Every(2)),
-                mutant: Some(mutant),
-                ..settings(Order::Stochastic, Resampling::Systematic)
-            };
-            worst(&z_scores(&task(text), &settings, 0..4000)) > LIMIT
-        });
-        assert!(caught, "{mutant:?} passes");
+    let scores = |text, mutant, every| {
+        let settings = Settings {
+            rejuvenate: rejuvenation(Kernel::Prior, 3, Moment::Every(every)),
+            mutant: Some(mutant),
+            ..settings(Order::Stochastic, Resampling::Systematic)
+        };
+        worst(&z_scores(&task(text), &settings, 0..4000))
+    };
+    for mutant in [Mutant::WholeScore, Mutant::EndsLate] {
+        assert!(programs().any(|(_, text)| scores(text, mutant, 1) > LIMIT), "{mutant:?} passes");
     }
+    // Once only, as its log no longer leads to where it is.
+    assert!(scores(MORE[2].1, Mutant::StateStays, 2) > LIMIT, "StateStays passes");
 }
 
 #[test]
