@@ -102,7 +102,10 @@ impl Selection {
                 self.odds.iter().find(|(pattern, _)| matches(pattern, &path)).map_or(1.0, |found| found.1);
         }
         if let Some(deepest) = self.depth.last() {
-            odds *= self.depth.get(nested.filter(|_| !self.calls.is_empty()).unwrap_or_else(depth)).unwrap_or(deepest);
+            odds *= self
+                .depth
+                .get(nested.filter(|_| !self.calls.is_empty()).unwrap_or_else(depth))
+                .unwrap_or(deepest);
         }
         // What is to be chosen at all keeps a chance.
         if odds > 0.0 { ((odds * UNIT).round() as u64).max(1) } else { 0 }
