@@ -93,6 +93,9 @@ fn careless(_: &Round<'_>) -> bool {
     false
 }
 
+/// A way to move one choice, under its distribution now.
+type Single<'a> = dyn FnMut(&Choice, &Dist, &mut Stream) -> Result<Proposed<f64>, Fault> + 'a;
+
 /// A proposal; nothing was found where it leads to another skeleton or is impossible.
 struct Proposal {
     found: Option<(Course, Densities, f64)>,
@@ -121,9 +124,7 @@ fn propose(
     if total == 0 {
         return Ok(None);
     }
-    let single = |way: &mut dyn FnMut(&Choice, &Dist, &mut Stream) -> Result<Proposed<f64>, Fault>,
-                  machine: &mut Machine<'_>,
-                  rng: &mut Stream| {
+    let single = |way: &mut Single<'_>, machine: &mut Machine<'_>, rng: &mut Stream| {
         let mut left = below(rng, total);
         let picked = now.choices().position(|choice| {
             let (own, here) = (weight(choice), left);
@@ -139,9 +140,7 @@ fn propose(
         now.again(with, machine, &mut ask, fresh)
     };
     let number = |choice: &Choice| mover.numbers.get(&choice.site).copied().unwrap_or(0);
-    let mut moved = |way: &mut dyn FnMut(&Choice, &Dist, &mut Stream) -> Result<Proposed<f64>, Fault>| {
-        single(way, machine, rng)
-    };
+    let mut moved = |way: &mut Single<'_>| single(way, machine, rng);
     let found = match &own.way {
         Way::Prior => moved(&mut |c, dist, rng| FromPrior.propose(0, dist, &c.value, c.log, rng))?,
         Way::Drift(drift) => {
