@@ -5,6 +5,7 @@
 #   make test     the engine's tests, then the package's
 #   make lint     formatting, clippy, ruff, mypy and the door's stub, warnings as errors
 #   make bench    rates beside WebPPL and a hand-written limit, on one thread (needs node and npm)
+#   make bench-c3 proposals of Markov chains beside WebPPL and the limit, with figures (25 minutes; QUICK=1: two)
 #   make soak     the long tests, with fresh printed seeds
 #   make docs     the manual, into docs/_build/html, and the engine's pages, into target/doc
 #   make format   rewrite the sources in the house's style
@@ -32,7 +33,7 @@ LIMIT := --manifest-path benches/limit/Cargo.toml --target-dir benches/.cache/li
 RUST := $(shell find crates -name '*.rs' -o -name Cargo.toml) Cargo.toml Cargo.lock
 PYTHON_SOURCES := python tests benches docs/conf.py
 
-.PHONY: all demo test lint bench soak docs format locks clean
+.PHONY: all demo test lint bench bench-c3 soak docs format locks clean
 all: $(STAMPS)/engine
 
 # ---- set-up: one stamp for each thing that is made, older than what depends on it
@@ -75,6 +76,9 @@ bench: $(STAMPS)/engine $(STAMPS)/bench
 	$(PY) benches/startup.py
 	$(PY) benches/reference.py
 	$(PY) benches/machine.py
+
+bench-c3: $(STAMPS)/engine $(STAMPS)/bench
+	$(PY) benches/c3.py
 
 soak: $(STAMPS)/engine $(STAMPS)/test
 	cargo test $(CARGO_FLAGS) --workspace -- --ignored

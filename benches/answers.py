@@ -1,4 +1,7 @@
-"""The evidence of both bench programs, worked out without sampling: each timed run is checked against it."""
+"""Answers worked out without sampling, which each timed run is checked against.
+
+The evidence of the particle programs, and the marginals of the hidden Markov chain.
+"""
 
 import math
 
@@ -18,6 +21,21 @@ def hmm(chain: dict[str, list]) -> float:
         log_evidence += math.log(forward.sum())
         forward = forward / forward.sum()
     return log_evidence
+
+
+def hmm_marginals(chain: dict[str, list]) -> np.ndarray:
+    """Probabilities of the states given all observations, (N, S): forward-backward, exact."""
+    transition, emission = np.array(chain["transition"]), np.array(chain["emission"])
+    seen = chain["observations"]
+    forward = [np.array(chain["initial"]) * emission[:, seen[0]]]
+    for symbol in seen[1:]:
+        forward.append((forward[-1] / forward[-1].sum()) @ transition * emission[:, symbol])
+    backward = [np.ones(len(transition))]
+    for symbol in reversed(seen[1:]):
+        later = transition @ (emission[:, symbol] * backward[-1])
+        backward.append(later / later.sum())
+    both = np.array(forward) * np.array(backward[::-1])
+    return both / both.sum(axis=1, keepdims=True)
 
 
 def branching() -> float:

@@ -1,64 +1,59 @@
-"""The data of the bench programs: made here once, read by all three systems.
+"""The data of the bench programs: made by the gallery's code, read by all systems.
 
-A hidden Markov chain of 10 states, 10 symbols and 100 steps, drawn from flat Dirichlet rows with a small
-generator of 32 bits (mulberry32), so that the numbers do not depend on any library's version.
+A size of 1 is 100 observations, of 10 a thousand. A hidden Markov chain of 10 states and 10 symbols; documents of 20
+words out of 100, about 10 topics; points of 4 clusters; sequences of 5 measurements (dissertation, appendix A).
 """
 
 import json
-import math
-from collections.abc import Callable
 from pathlib import Path
 
-MASK = 0xFFFFFFFF
-
-
-def generator(seed: int) -> Callable[[], float]:
-    """Uniform numbers in [0, 1), the same on every machine."""
-    state = seed
-
-    def uniform() -> float:
-        nonlocal state
-        state = (state + 0x6D2B79F5) & MASK
-        mixed = (state ^ (state >> 15)) * (state | 1) & MASK
-        mixed ^= (mixed + ((mixed ^ (mixed >> 7)) * (mixed | 61) & MASK)) & MASK
-        return (mixed ^ (mixed >> 14)) / 2**32
-
-    return uniform
-
-
-def flat_dirichlet(uniform: Callable[[], float], size: int) -> list[float]:
-    """Probabilities drawn uniformly from the simplex."""
-    draws = [-math.log(1 - uniform()) for _ in range(size)]
-    return [draw / sum(draws) for draw in draws]
-
-
-def pick(uniform: Callable[[], float], probabilities: list[float]) -> int:
-    """An index drawn from its probabilities."""
-    point, total = uniform(), 0.0
-    for index, probability in enumerate(probabilities):
-        total += probability
-        if point < total:
-            return index
-    return len(probabilities) - 1
+from niwaki.gallery.data import clusters, documents, growth, hidden_chain
 
 
 def hmm(steps: int = 100, states: int = 10, symbols: int = 10, seed: int = 11) -> dict[str, list]:
     """Tables and what was seen: initial (S,), transition (S, S), emission (S, O), observations (N,)."""
-    uniform = generator(seed)
-    initial = flat_dirichlet(uniform, states)
-    transition = [flat_dirichlet(uniform, states) for _ in range(states)]
-    emission = [flat_dirichlet(uniform, symbols) for _ in range(states)]
-    state, observations = pick(uniform, initial), []
-    for n in range(steps):
-        if n > 0:
-            state = pick(uniform, transition[state])
-        observations.append(pick(uniform, emission[state]))
-    return {"initial": initial, "transition": transition, "emission": emission, "observations": observations}
+    chain = hidden_chain(steps, states, symbols, seed)
+    return {
+        "initial": list(chain.initial),
+        "transition": [list(row) for row in chain.transition],
+        "emission": [list(row) for row in chain.emission],
+        "observations": list(chain.observations),
+    }
+
+
+def lda(count: int = 5) -> dict[str, object]:
+    """Words of documents (D, 20), below `vocabulary`; how many topics there are."""
+    return {"topics": 10, "vocabulary": 100, "documents": [list(one) for one in documents(count)]}
+
+
+def gmm(points: int = 100) -> dict[str, object]:
+    """Points (N,); how many components there are."""
+    return {"components": 4, "points": list(clusters(points))}
+
+
+def hlr(sequences: int = 20) -> dict[str, object]:
+    """Times (5,) and what was measured at them (N, 5)."""
+    times = [-2.0, -1.0, 0.0, 1.0, 2.0]
+    return {"times": times, "measured": [list(one) for one in growth(sequences)]}
+
+
+#: What one size more adds, and who makes it.
+UNITS = {"hmm": (hmm, 100), "lda": (lda, 5), "gmm": (gmm, 100), "hlr": (hlr, 20)}
 
 
 def write(folder: Path) -> Path:
     """Write the chain as JSON into `folder` and return its path."""
-    folder.mkdir(parents=True, exist_ok=True)
-    path = folder / "hmm.json"
-    path.write_text(json.dumps(hmm()))
+    return write_sized(folder, "hmm", 1)
+
+
+def write_sized(folder: Path, program: str, size: int) -> Path:
+    """Write a program's data of a size as JSON into `folder` and return its path."""
+    make, unit = UNITS[program]
+    return save(folder / f"{program}-{size}.json", make(unit * size))
+
+
+def save(path: Path, found: dict) -> Path:
+    """Write JSON, making its folder."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(json.dumps(found))
     return path

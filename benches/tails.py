@@ -18,7 +18,7 @@ from pathlib import Path
 
 import niwaki
 from niwaki.gallery.spaceship import spaceship
-from niwaki.infer import SearchWarning
+from niwaki.search import SearchWarning
 
 TEN = 10
 STEPS = range(1, 200)

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from niwaki.camera import Camera
     from niwaki.constraints import Residuals, residuals
     from niwaki.errors import InputError, ModelError, ModelFault, NiwakiError
-    from niwaki.infer import Progress, grow, run
+    from niwaki.gradient import LogDensity, log_density
     from niwaki.lang.plain import run_python
     from niwaki.methods import (
         enumerate_all,
@@ -31,8 +31,10 @@ if TYPE_CHECKING:
         smc,
     )
     from niwaki.mh_result import ChainResult
+    from niwaki.outline import load_polygon
     from niwaki.result import Result, Sample
     from niwaki.scene import Scene
+    from niwaki.search import Progress, grow, run
     from niwaki.sketches import (
         Score,
         avoid,
@@ -49,7 +51,8 @@ if TYPE_CHECKING:
 _HOMES = {
     "niwaki.camera": ("Camera",),
     "niwaki.errors": ("InputError", "ModelError", "ModelFault", "NiwakiError"),
-    "niwaki.infer": ("Progress", "grow", "run"),
+    "niwaki.gradient": ("LogDensity", "log_density"),
+    "niwaki.search": ("Progress", "grow", "run"),
     "niwaki.lang.plain": ("run_python",),
     "niwaki.methods": (
         "enumerate_all",
@@ -63,6 +66,7 @@ _HOMES = {
     ),
     "niwaki.mh_result": ("ChainResult",),
     "niwaki.constraints": ("Residuals", "residuals"),
+    "niwaki.outline": ("load_polygon",),
     "niwaki.result": ("Result", "Sample"),
     "niwaki.scene": ("Scene",),
     "niwaki.sketches": (
@@ -87,6 +91,7 @@ __all__ = [  # noqa: PLE0604
     "ChainResult",
     "Camera",
     "InputError",
+    "LogDensity",
     "ModelError",
     "ModelFault",
     "NiwakiError",
@@ -105,9 +110,11 @@ __all__ = [  # noqa: PLE0604
     "grow",
     "importance",
     "kernels",
+    "load_polygon",
     "mh",
     "match_image",
     "match_shadow",
+    "log_density",
     "no_self_intersection",
     "overshoot",
     "particle_gibbs",

@@ -11,10 +11,18 @@ import warnings
 from typing import Any, NoReturn
 
 from niwaki.errors import NiwakiError
-from niwaki.shell import check, explain, grow, models, replay, sample  # each puts its command on the application
+from niwaki.shell import (
+    check,
+    color,
+    explain,
+    grow,
+    models,
+    replay,
+    sample,
+)  # each puts its command on the application
 from niwaki.shell.app import app
 
-__all__ = ["app", "check", "explain", "grow", "main", "models", "replay", "sample"]
+__all__ = ["app", "check", "color", "explain", "grow", "main", "models", "replay", "sample"]
 
 
 def main() -> NoReturn:

@@ -130,7 +130,7 @@ def block(step: float = 0.2, share: float = 1.0, target: float = 0.234) -> Kerne
 
 
 def regenerate(levels: int = 0) -> Kernel:
-    """Draw a call and all that it makes anew: the one `levels` calls or loop iterations above a choice."""
+    """A call and all that it makes are drawn anew: the one that stands `levels` calls or iterations above a choice."""
     return Kernel("regenerate", (_whole("levels", levels, 0),))
 
 
@@ -276,7 +276,10 @@ def _made(part: ast.expr) -> Any:
         near = get_close_matches(name, _WRITTEN, n=1)
         hint = f"; did you mean `{near[0]}`?" if near else f"; there are {', '.join(_WRITTEN)}"
         raise ValueError(f"there is no kernel `{name}`{hint}")
-    return ast.literal_eval(part)
+    try:
+        return ast.literal_eval(part)
+    except ValueError:
+        raise ValueError(f"`{ast.unparse(part)}` is no call, number, text or list") from None
 
 
 #: What can be written as text.

@@ -62,7 +62,8 @@ class ChainResult(Result):
     visits : list of list of int
         The numbers of proposals before them.
     counters : dict of str to int
-        Proposals, activations entered, calls skipped, instructions, choices and bytes of the present states.
+        Proposals, activations entered, calls skipped, instructions, primitives taken out of the scene or put into it
+        (`moved`); primitives, choices and bytes of the present states.
     """
 
     def __init__(

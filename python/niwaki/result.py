@@ -17,6 +17,7 @@ from niwaki.errors import InputError
 
 if TYPE_CHECKING:
     from niwaki import _engine
+    from niwaki.gradient import LogDensity
     from niwaki.scene import Scene
     from niwaki.sketches import Score
     from niwaki.target import Target
@@ -83,6 +84,14 @@ class Sample:
         """The run once more, with names."""
         with translated("model"):
             return self._task.trace(self._outcome)  # type: ignore[arg-type]
+
+    def log_density(self) -> LogDensity:
+        """The log density around this run over its continuous choices: see `niwaki.log_density`."""
+        from niwaki.gradient import LogDensity
+
+        choices = [(address, value) for _, address, _, value, _ in self._trace.choices]
+        with translated("model"):
+            return LogDensity(self._task.density(choices))
 
     @property
     def log_joint(self) -> float:

@@ -49,23 +49,25 @@ class ChainMaker(Maker):
             ],
             # A count of activations that is a choice.
             lambda: [
-                f"for {i} in range({self.random.choice(['poisson(2)', 'geometric(0.5) % 5', 'discrete_uniform(0, 3)'])}):",
+                f"for {i} in range({self.pick('poisson(2)', 'geometric(0.5) % 5', 'discrete_uniform(0, 3)')}):",
                 f"    {w} = {self.sampled()}",
                 f"    factor(-0.3 * abs({w} - x))",
                 f"    emit(box(({i}, {w}, 0), (1, 1, {self.random.choice(['1', w + ' * ' + w + ' + 1'])})))",
                 *([f"    if {w} > 0.5:", "        break"] if self.random.random() < 0.5 else []),
             ],
             # Which function runs is a choice; what it captures is one too.
-            lambda: [
-                f"{v} = {self.sampled()}",
-                f"def {w}(u):",
-                f"    return u + gaussian({v}, 1)",
-                f"def {i}(u, k=2):",
-                f"    return u - uniform(0, 1) if k == 0 else {i}({w}(u), k - 1)",
-                f"f = f + (({w} if flip(0.5) else {i})(x) if {self.boolean(1)} else {v})",
-            ]
-            if not loop
-            else [f"f = f + {self.sampled()}"],
+            lambda: (
+                [
+                    f"{v} = {self.sampled()}",
+                    f"def {w}(u):",
+                    f"    return u + gaussian({v}, 1)",
+                    f"def {i}(u, k=2):",
+                    f"    return u - uniform(0, 1) if k == 0 else {i}({w}(u), k - 1)",
+                    f"f = f + (({w} if flip(0.5) else {i})(x) if {self.boolean(1)} else {v})",
+                ]
+                if not loop
+                else [f"f = f + {self.sampled()}"]
+            ),
             # Branches that hold different choices at the same places.
             lambda: [
                 f"if flip({self.random.choice(['0.3', '0.5', 'clip(abs(x) / 4, 0.1, 0.9)'])}):",

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 import numpy as np
 from niwaki.words import *
+from niwaki import enumerate_all, forward, importance, rejection, smc
 @dataclass(frozen=True)
 class Leaf:
     size: float
@@ -20,6 +21,7 @@ ARR = np.array([[1.0, 2.0], [3.0, 4.5]])
 INTS = np.arange(5)
 V = np.array([[0.,0,0],[1,0,0],[0,1,0],[0,0,1]])
 F = np.array([[0,2,1],[0,1,3],[1,2,3],[0,3,2]])
+RUNS = 10
 D = {'a': 1, 2: 'b', 'c': [1, 2]}
 NEST = [1, (2, 'x'), {'k': 3.5}]
 G = Gaussian(1.0, 2.0)
@@ -62,6 +64,16 @@ def m():
     c = cross(a, b) * 2 + a / 3 - b
     emit(box(a, (1, 1, 1), rotation=r), cylinder(b, 0.5, 2, axis="x"), [limb((0,0,0),(0,1,0),0.2,0.1)])
     return a, b, c.x, dot(a, b), norm(c), normalize(c), distance(a, b), a == vec(1, 2, a.z), a.y, str(vec(1, 2)), r
+""",
+    "segment": """
+def m():
+    up, back = vec(0, 1, 0), vec(0, 0, -1)
+    frames = [(vec(0, y, 0), up, back, r + 0.1 * uniform(0, 1)) for y, r in ((0, 1.0), (0.2, 0.9), (4, 0.7))]
+    emit(segment(frames[0], frames[1], frames[2]))
+    x = vec(1, 0, 0)
+    side = [Frame(vec(at, 2, 0), x, up, r) for at, r in ((1.1, 0.4), (1.3, 0.4), (3, 0.3))]
+    emit(segment(side[0], side[1], side[2], Bark(vec(0, 1.6, 0), 0.95, (0, 2.4, 0), 0.85), color=(0.4, 0.3, 0.2)))
+    return side[0].radius, frames[0][3]
 """,
     "mesh": """
 def m():
@@ -171,6 +183,48 @@ def m():
     z: float = x
     pass
     return z if x > 0 else None
+""",
+    "colours": """
+def m():
+    c = hsv(uniform(-1, 2), uniform(0, 1), uniform(0, 1))
+    d = vec(uniform(0, 1), uniform(0, 1), uniform(0, 1))
+    e = lab(uniform(0, 100), uniform(-60, 60), uniform(-60, 60))
+    return c, to_hsv(c), to_lab(c), lab(to_lab(d).x, to_lab(d).y, to_lab(d).z), e, to_lab(e), color_difference(c, d), color_difference(d, (0.5, 0.5, 0.5)), color_difference((0, 0, 0), c), lerp(c, d, 0.5), to_hsv([0.2, 0.2, 0.2])
+""",
+    "polygons": """
+def m():
+    room = [(0, 0), (4, 0), (4, 2), vec(2, 2), [2, 4], (0, 4)]
+    p = vec(uniform(-1, 5), uniform(-1, 5))
+    r = uniform(0.1, 3)
+    return polygon_area(room), polygon_contains(room, p), polygon_distance(room, p), polygon_disc_area(room, p, r), polygon_disc_area(room[::-1], p, r), polygon_inset(room, 0.3), polygon_inset(room[::-1], -r), polygon_distance(room, (2, 2)), polygon_disc_area(room, p, 0)
+""",
+    "rotations": """
+def m():
+    r = rotation((1, 2, 3), uniform(-3, 3))
+    s = rotation((0, 1, 0), gaussian())
+    v = vec(gaussian(), gaussian(), gaussian())
+    return r * v, r * s, r * s * v, r[0], len(r), list(r)[2], r == r, [row for row in s][1]
+""",
+    "inference": """
+def inner(p, k=1):
+    a, b = flip(p), flip(0.5)
+    condition(a or b)
+    return a + b + k
+def search(p):
+    return infer(inner, importance(20), p, 0)
+def m():
+    p = uniform(0, 1)
+    def near(n):
+        x = gaussian(0, 1)
+        factor(-abs(x - p) * n)
+        emit(box((x, 0, 0), (1, 1, 1)))
+        query("inner", x)
+        return x
+    one = infer(inner, rejection(3), p)
+    best = infer(near, smc(particles=30, ess=0.5), 3.0, keep="best")
+    deep = infer(search, forward(), p)
+    xs = [infer(lambda: gaussian(p, 1.0), importance(RUNS)) for i in range(3)]
+    return one, best, deep, xs, infer(inner, enumerate_all(), 0.25)
 """,
 }
 

@@ -29,7 +29,9 @@ KERNELS = (
     kernels.mh(),
     kernels.cycle(kernels.drift(), kernels.neighbour(), kernels.mh()),
     kernels.mixture(kernels.regenerate(), kernels.regenerate(1), kernels.mh(), kernels.drift()),
-    kernels.cycle(kernels.block(share=0.5), kernels.mh(), kernels.odds(kernels.mh(), depth=lambda d: 1 / (1 + d))),
+    kernels.cycle(
+        kernels.block(share=0.5), kernels.mh(), kernels.odds(kernels.mh(), depth=lambda d: 1 / (1 + d))
+    ),
 )
 
 
@@ -52,7 +54,9 @@ def disagreement(text: str, seed: int, steps: int, tally: Tally | None = None) -
     kernel = KERNELS[seed % len(KERNELS)]
     try:
         made = task(model, (), {}, no_self_intersection().specs if seed % 3 == 0 else (), max_steps=100_000)
-        found, proposals, accepted, faults = _engine.agreement(made, seed, steps, 20, kernel.form(), steps // 2)
+        found, proposals, accepted, faults = _engine.agreement(
+            made, seed, steps, 20, kernel.form(), steps // 2
+        )
     except (_engine.EngineFault, NiwakiError):
         # No possible first state, or a fault at once.
         return ""

@@ -30,6 +30,21 @@ def test_forward_pass_is_the_sum_over_all_paths():
     assert math.isclose(answers.hmm(chain), math.log(total), abs_tol=1e-12)
 
 
+def test_marginals_are_shares_of_all_paths():
+    chain = data.hmm(steps=4, states=3, symbols=3, seed=15)
+    sums, total = np.zeros((4, 3)), 0.0
+    for path in itertools.product(range(3), repeat=4):
+        weight = chain["initial"][path[0]]
+        for before, after in itertools.pairwise(path):
+            weight *= chain["transition"][before][after]
+        for state, seen in zip(path, chain["observations"], strict=True):
+            weight *= chain["emission"][state][seen]
+        total += weight
+        for step, state in enumerate(path):
+            sums[step, state] += weight
+    assert np.allclose(answers.hmm_marginals(chain), sums / total, atol=1e-14)
+
+
 def test_quadrature_meets_simulated_trees():
     # Trees of at most two segments in a row: the mean weight of 400,000, within 4.4 standard errors (false
     # alarm 1e-5) and the table's own error, which size 121 keeps below 1e-3 at this depth.

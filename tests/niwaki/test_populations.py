@@ -11,9 +11,8 @@ from typing import Any
 import niwaki as nw
 import pytest
 from niwaki.gallery import entry
-from niwaki.infer import SearchWarning
-
-from tests.niwaki.test_infer import COINS, exact, load, refused
+from niwaki.search import SearchWarning
+from tests.niwaki.test_search import COINS, exact, load, refused
 
 GOLDEN = Path(__file__).parents[1] / "golden"
 

@@ -1,13 +1,17 @@
-//! Particle filters written by hand for two programs: the rate that a general system is measured against.
+//! Particle filters and Markov chains written by hand: the rates that a general system is measured against.
 //!
-//! No traces, no addresses, no generality: each filter knows its model. They draw the same choices in the
-//! same order as `../models/*.py` and `../webppl/*.wppl`, and resample at every factor, as those do.
+//! No traces, no addresses, no generality: each filter, each chain knows its model. The filters draw the same choices in
+//! the same order as `../models/*.py` and `../webppl/*.wppl`, and resample at every factor, as those do; the chains make
+//! the same proposals.
 //!
 //!     limit hmm DATA.json PARTICLES SECONDS SEED
 //!     limit branching - PARTICLES SECONDS SEED
+//!     limit rate|globals|check hmm|lda|gmm|hlr DATA.json SECONDS SEED
 //!
-//! Prints one JSON line: particle-steps, the CPU seconds they took, and the log evidence of every run.
+//! Prints one JSON line. Filters: particle-steps, the CPU seconds they took, and the log evidence of every run. Chains:
+//! proposals and CPU seconds, of any choice or of global ones; or the worst error of a local log ratio.
 mod branching;
+mod chains;
 mod hmm;
 mod population;
 
@@ -54,7 +58,15 @@ fn measure(
 
 fn main() {
     let args: Vec<String> = std::env::args().skip(1).collect();
-    let usage = "usage: limit hmm|branching DATA.json|- PARTICLES SECONDS SEED";
+    let usage = "usage: limit hmm|branching DATA.json|- PARTICLES SECONDS SEED, or \
+                 limit rate|globals|check hmm|lda|gmm|hlr DATA.json SECONDS SEED";
+    if let [what @ ("rate" | "globals" | "check"), program, data, seconds, seed] =
+        &args.iter().map(String::as_str).collect::<Vec<_>>()[..]
+    {
+        let (seconds, seed) = (seconds.parse().expect(usage), seed.parse().expect(usage));
+        println!("{}", chains::run(what, program, data, seconds, seed));
+        return;
+    }
     let [program, data, particles, seconds, seed] = &args[..] else { panic!("{usage}") };
     let particles: usize = particles.parse().expect(usage);
     let seconds: f64 = seconds.parse().expect(usage);

@@ -107,6 +107,8 @@ pub(crate) fn tube() -> Arc<Topology> {
         let caps = [(0..n).rev().collect(), (2 * n..3 * n).collect()];
         let faces: Vec<Vec<u32>> = band(0).chain(band(n)).chain(caps).collect();
         let mut tube = Topology::from_faces(3 * SEGMENT_SIDES, faces);
+        // The wedge's quadrangles are twisted: their diagonals may stand out.
+        tube.edges.extend((0..n).map(|k| [k, n + next(k)]));
         // Caps are cut along strips that run like the mark: on a welded base they lie along the parent.
         tube.triangles.truncate(4 * SEGMENT_SIDES);
         for [a, b, c, d] in strips() {
@@ -196,6 +198,39 @@ mod tests {
             for rule in [Rule::Solid, Rule::Surface] {
                 assert!(intersects(&trunk, &lower, rule), "{share} {rule:?}");
             }
+        }
+    }
+
+    /// A segment whose start is turned by `bend` against its end, split as the tree of chapter 5 splits it.
+    fn bent(bend: f64) -> Shape {
+        let (back, inward, (s, c)) = (vec3(0.0, 0.0, -1.0), vec3(1.0, 0.0, 0.0), bend.sin_cos());
+        let ahead = vec3(s, c, 0.0);
+        let tip = ahead * 4.0 - vec3(c, -s, 0.0) * 0.8;
+        let along = tip + inward;
+        let level = along * ((inward * 2.0).dot(ahead) / along.dot(ahead)) - inward;
+        let radius = 0.5 * (level - inward).norm();
+        let split = (inward + ahead * (0.1 * radius) + level) * 0.5;
+        let frames = [
+            frame(Vec3::ZERO, UP, back, 1.0),
+            frame(split, ahead, back, radius),
+            frame(ahead * 4.0, ahead, back, 0.8),
+        ];
+        Shape::segment(frames, None, &Look::default()).unwrap()
+    }
+
+    #[test]
+    fn voxels_are_those_of_the_mesh_and_few_more() {
+        // A bend of 0.26 is one standard deviation of the tree's. Measured at 0.5: 0.031.
+        for (bend, most) in [(0.0, 0.02), (0.1, 0.02), (0.25, 0.02), (0.5, 0.04)] {
+            let shape = bent(bend);
+            let grid = crate::Grid::around(shape.aabb(), 0.1).unwrap();
+            let ours = crate::Voxels::of(&shape, &grid).unwrap();
+            let mesh = crate::Voxels::of_mesh(shape.world_mesh(), &grid).unwrap();
+            let [nx, ny, nz] = grid.dims();
+            let cells = || (0..nx * ny * nz).map(|i| [i % nx, i / nx % ny, i / nx / ny]);
+            assert!(cells().filter(|cell| mesh.contains(*cell)).all(|cell| ours.contains(cell)), "{bend}");
+            let more = ours.count() as f64 / mesh.count() as f64 - 1.0;
+            assert!(more < most, "{bend}: {more}");
         }
     }
 

@@ -5,6 +5,7 @@
 //! * [`record`]: choices and score of one run, the same for every algorithm;
 //! * [`forward`]: draw every choice from its prior; [`replay`]: take every choice from a log, and name it;
 //! * [`enumeration`], [`rejection`], [`importance`]: exact and direct answers, the oracles for the rest;
+//! * [`nested`]: inference inside a model;
 //! * [`particles`]: sequential Monte Carlo, in program order and in stochastic order;
 //! * [`chain`]: Metropolis-Hastings over kept runs, kernels as values.
 //! * [`hamiltonian`]: chains that follow the gradient of a log density over real coordinates.
@@ -15,9 +16,11 @@ pub mod chain;
 pub mod enumeration;
 pub mod failure;
 pub mod forward;
+pub mod gradient;
 pub mod hamiltonian;
 pub mod importance;
 pub mod log;
+pub mod nested;
 pub mod particles;
 pub mod record;
 pub mod rejection;

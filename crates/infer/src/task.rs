@@ -3,9 +3,12 @@
 use niwaki_geom::sketch::SketchSpec;
 use niwaki_vm::code::Program;
 use niwaki_vm::fault::Fault;
+use niwaki_vm::machine::answers::Answers;
+use niwaki_vm::machine::kept::{Change, Trace};
+use niwaki_vm::machine::stack::RunFault;
 use niwaki_vm::machine::state::State;
 use niwaki_vm::machine::{Limits, Machine};
-use niwaki_vm::value::Value;
+use niwaki_vm::value::{Closure, Value};
 use std::sync::Arc;
 
 /// Pure functions of the host, by the number of the constant that names them.
@@ -31,7 +34,9 @@ impl Hosts for NoHosts {
 pub struct Task {
     /// The compiled model.
     pub program: Arc<Program>,
-    /// The arguments of its entry function.
+    /// The function to run, where it is not the program's entry: the model of an `infer`.
+    pub model: Option<Arc<Closure>>,
+    /// The arguments of that function.
     pub args: Vec<Value>,
     /// What its scene should be like; log scores add.
     pub sketches: Vec<Arc<dyn SketchSpec>>,
@@ -44,7 +49,14 @@ pub struct Task {
 impl Task {
     /// A task without arguments, sketches and host functions.
     pub fn new(program: Arc<Program>) -> Self {
-        Task { program, args: vec![], sketches: vec![], hosts: Arc::new(NoHosts), limits: Limits::default() }
+        Task {
+            program,
+            model: None,
+            args: vec![],
+            sketches: vec![],
+            hosts: Arc::new(NoHosts),
+            limits: Limits::default(),
+        }
     }
 
     /// A machine for its program.
@@ -57,6 +69,24 @@ impl Task {
     /// # Errors
     /// The wrong number of arguments.
     pub fn start(&self, machine: &Machine<'_>, depth_first: bool) -> Result<State, Fault> {
-        machine.start(&self.args, depth_first)
+        match &self.model {
+            None => machine.start(&self.args, depth_first),
+            Some(model) => machine.start_closure(model, &self.args, depth_first),
+        }
+    }
+
+    /// A run from the start that keeps its activations.
+    ///
+    /// # Errors
+    /// The wrong number of arguments, or a fault of the program.
+    pub fn begin<A: Answers<f64>>(
+        &self,
+        machine: &mut Machine<'_>,
+        answers: &mut A,
+    ) -> Result<(Trace, Change), Box<RunFault>> {
+        match &self.model {
+            None => machine.begin(&self.args, answers),
+            Some(model) => machine.begin_closure(model, &self.args, answers),
+        }
     }
 }

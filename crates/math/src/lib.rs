@@ -4,6 +4,8 @@
 //! | --- | --- |
 //! | [`scalar`] | what a number must be able to do, so that a run can compute with something richer than `f64` |
 //! | [`vector`] | points, directions and rotations of three dimensions |
+//! | [`color`] | sRGB, HSV and CIELAB, and how different two colours look |
+//! | [`polygon`] | simple polygons of the plane |
 //! | [`streams`] | random bits as a function of seed, stream, address and visit |
 //! | [`rounding`] | the grid on which log scores are added and taken away exactly |
 //! | [`special`] | the few special functions that the kept crates lack |
@@ -11,7 +13,9 @@
 //!
 //! Nothing here knows shapes, programs, searches or Python.
 
+pub mod color;
 pub mod distributions;
+pub mod polygon;
 pub mod rounding;
 pub mod scalar;
 pub mod special;

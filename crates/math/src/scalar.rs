@@ -2,7 +2,8 @@
 //!
 //! Plain runs use `f64`. A scalar that records what happens to it implements the same trait, and the
 //! densities, which are generic, then describe themselves. Decisions (inside the support or not, which
-//! series to use) look at [`Scalar::value`] and are not recorded.
+//! series to use) compare scalars with `<` and `==`, which a recording scalar notes; [`Scalar::value`] is for
+//! decisions that end in a fault, which need no note.
 
 use crate::special;
 use std::fmt::Debug;
@@ -77,6 +78,11 @@ pub trait Scalar:
     fn max(self, other: Self) -> Self;
     /// True when neither infinite nor NaN.
     fn is_finite(self) -> bool;
+    /// Whether the number varies with what a run is recorded over. Plain numbers never do.
+    #[inline(always)]
+    fn varies(self) -> bool {
+        false
+    }
 }
 
 /// The standard library's functions of one argument, under the same names.

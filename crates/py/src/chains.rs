@@ -107,10 +107,14 @@ impl PyChains {
     }
 
     /// The best state of each chain.
-    fn best(&self) -> Vec<PyOutcome> {
-        let (program, chains) = (&self.task.get().task.program, self.lock());
-        let best = chains.chains.iter().filter_map(Ladder::best);
-        best.map(|rung| self.outcome(&rung.best.get(&rung.state, program))).collect()
+    fn best(&self, py: Python<'_>) -> PyResult<Vec<PyOutcome>> {
+        let task = &self.task.get().task;
+        let (best, _) = detached(py, &task.program, None, None, |_| {
+            let chains = self.lock();
+            let rungs = chains.chains.iter().filter_map(Ladder::best);
+            rungs.map(|rung| rung.best.get(&rung.state, task)).collect::<Result<Vec<_>, _>>()
+        })?;
+        Ok(best.iter().map(|snapshot| self.outcome(snapshot)).collect())
     }
 
     /// The samples of a chain from the ``start``-th on: (number of proposals before it, outcome).
@@ -162,7 +166,8 @@ impl PyChains {
         all.named(program).into_iter().map(row).collect()
     }
 
-    /// Sums over the chains: proposals, activations entered, calls skipped, instructions, choices and bytes held.
+    /// Sums over the chains: proposals, activations entered, calls skipped, instructions, primitives that were taken out
+    /// of the scene or put into it (`moved`); primitives, choices and bytes held.
     fn counters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let chains = self.lock();
         let facts = PyDict::new(py);
@@ -173,6 +178,8 @@ impl PyChains {
         facts.set_item("entered", sum(|c| c.state.trace.counters().entered))?;
         facts.set_item("skipped", sum(|c| c.state.trace.counters().skipped))?;
         facts.set_item("instructions", sum(|c| c.state.trace.counters().instructions))?;
+        facts.set_item("moved", sum(|c| c.state.moved))?;
+        facts.set_item("primitives", sum(|c| c.state.primitives as u64))?;
         facts.set_item("choices", sum(|c| c.state.trace.len() as u64))?;
         facts.set_item("bytes", sum(|c| c.state.trace.bytes() as u64))?;
         facts.set_item("many_proposed", sum(|c| c.counts.many.proposed))?;

@@ -3,14 +3,15 @@
 //! One file for each room behind the door; this one only registers them.
 //!
 //! * `values`: Python's objects to the machine's values, and back; `faults`: faults as data;
-//! * `model`: compiled models; `search`: algorithms; `settings`: theirs; `chains`, `kernels`: Markov chains; `outcome`:
-//!   what they find;
+//! * `model`: compiled models; `search`: algorithms; `settings`: theirs; `chains`, `kernels`: Markov chains;
+//!   `outcome`: what they find; `gradients`: log densities with their gradients;
 //! * `distributions`, `geometry`, `views`, `pictures`: the rooms below, by themselves.
 
 mod chains;
 mod distributions;
 mod faults;
 mod geometry;
+mod gradients;
 mod kernels;
 mod model;
 mod outcome;
@@ -32,6 +33,7 @@ fn _engine(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     distributions::register(module)?;
     geometry::register(module)?;
+    gradients::register(module)?;
     pictures::register(module)?;
     views::register(module)?;
     values::register(module)?;

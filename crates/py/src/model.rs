@@ -2,14 +2,17 @@
 
 use crate::faults;
 use crate::values::Classes;
+use niwaki_infer::nested::{Inferences, Method};
 use niwaki_infer::task::Hosts;
 use niwaki_vm::code::{Mode, SiteKind, disassemble};
 use niwaki_vm::core::parse::parse;
 use niwaki_vm::fault::Fault;
+use niwaki_vm::machine::Limits;
 use niwaki_vm::passes::compile;
 use niwaki_vm::value::Value;
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
+use std::collections::HashMap;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -44,8 +47,28 @@ fn failed(py: Python<'_>, callable: &Py<PyAny>, error: &PyErr) -> Fault {
 pub struct PyProgram {
     pub program: Arc<niwaki_vm::code::Program>,
     pub classes: Arc<Classes>,
-    pub hosts: Arc<dyn Hosts>,
+    hosts: Arc<dyn Hosts>,
+    methods: Arc<HashMap<u16, Method>>,
     seconds: f64,
+}
+
+impl PyProgram {
+    /// Its host functions; inner runs are limited as the outer ones.
+    pub fn hosts(&self, limits: Limits) -> Arc<dyn Hosts> {
+        if self.methods.is_empty() { self.hosts.clone() } else { Arc::new(self.inferences(limits)) }
+    }
+
+    /// What carries out every `infer` of the program.
+    pub fn inferences(&self, limits: Limits) -> Inferences {
+        Inferences {
+            program: self.program.clone(),
+            methods: self.methods.clone(),
+            hosts: self.hosts.clone(),
+            limits,
+            depth: 0,
+            known: Arc::default(),
+        }
+    }
 }
 
 #[pymethods]
@@ -63,16 +86,21 @@ impl PyProgram {
         let module = parse(text).map_err(|e| faults::uncompiled(py, e.to_string()))?;
         let table: Vec<Arc<_>> = module.classes.iter().cloned().map(Arc::new).collect();
         let classes = Arc::new(Classes::new(classes, &table));
-        let (mut data, mut callables) = (Vec::new(), Vec::new());
-        for constant in constants {
+        let (mut data, mut callables, mut methods) = (Vec::new(), Vec::new(), HashMap::new());
+        for (number, constant) in constants.into_iter().enumerate() {
             let is_host = constant.is_callable();
-            data.push(if is_host { Value::None } else { classes.value(&constant)? });
+            let value = if is_host { Value::None } else { classes.value(&constant)? };
+            if let (Some(method), Ok(number)) = (Method::read(&value), u16::try_from(number)) {
+                methods.insert(number, method);
+            }
+            data.push(value);
             callables.push(is_host.then(|| constant.unbind()));
         }
         let program = compile(&module, data).map_err(|e| faults::uncompiled(py, e.to_string()))?;
         Ok(PyProgram {
             program: Arc::new(program),
             hosts: Arc::new(PyHosts { callables, classes: classes.clone() }),
+            methods: Arc::new(methods),
             classes,
             seconds: start.elapsed().as_secs_f64(),
         })

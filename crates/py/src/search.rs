@@ -5,14 +5,17 @@
 
 use crate::faults;
 use crate::geometry::PySketchSpec;
+use crate::gradients::PyDensity;
 use crate::kernels::kernel;
 use crate::model::PyProgram;
 use crate::outcome::{PyOutcome, PyTrace};
-use crate::settings::{At, Way, Words, settings};
+use crate::settings::{At, Way, Words, settings, unknown};
 use niwaki_infer::chain::counts::Count;
 use niwaki_infer::enumeration::enumerate;
 use niwaki_infer::forward::{Sample, forward};
+use niwaki_infer::gradient::live;
 use niwaki_infer::importance::importance;
+use niwaki_infer::nested::Method;
 use niwaki_infer::particles::{
     self, Ancestors, Chain, Progress, Rejuvenation, particle_gibbs, pimh, populations, within,
 };
@@ -21,7 +24,7 @@ use niwaki_infer::replay::{Missing, Source, replay};
 use niwaki_infer::{Failure, Task};
 use niwaki_vm::code::Program;
 use niwaki_vm::machine::Limits;
-use niwaki_vm::value::Value;
+use niwaki_vm::value::{Closure, Value};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
@@ -132,12 +135,14 @@ impl PyTask {
     ) -> PyResult<PyTask> {
         let own = program.get();
         let values: Vec<Value> = args.iter().map(|a| own.classes.value(a)).collect::<PyResult<_>>()?;
+        let limits = Limits { steps: max_steps, bytes: max_memory };
         let task = Task {
             program: own.program.clone(),
+            model: None,
             args: values,
             sketches: sketches.into_iter().map(|s| s.0).collect(),
-            hosts: own.hosts.clone(),
-            limits: Limits { steps: max_steps, bytes: max_memory },
+            hosts: own.hosts(limits),
+            limits,
         };
         Ok(PyTask { task, model: program.clone_ref(py) })
     }
@@ -278,6 +283,30 @@ impl PyTask {
         Ok(facts)
     }
 
+    /// The value that an ``infer`` of this task gives to the model around it: ``method`` as the front end writes it.
+    fn infer<'py>(
+        &self,
+        py: Python<'py>,
+        method: &Bound<'py, PyAny>,
+        seed: u64,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let read = self.model.get().classes.value(method)?;
+        let program = &self.task.program;
+        let Some(method) = Method::read(&read) else {
+            return Err(unknown(
+                py,
+                program,
+                "method",
+                &method.repr()?.to_string(),
+                "what the front end writes",
+            ));
+        };
+        let inner = self.model.get().inferences(self.task.limits);
+        let entry = Arc::new(Closure { function: program.entry.0, captures: vec![] });
+        let value = self.at_once(py, || Ok(inner.infer(&method, &entry, &self.task.args, seed)?))?;
+        self.object(py, &value)
+    }
+
     /// Particle Gibbs: a dict with ``particles`` (an outcome for each sweep), ``tries``, ``moves``, ``renewed``,
     /// ``interrupted``. It starts from ``start``, or from a run that SMC finds.
     #[pyo3(signature = (particles, sweeps, seed, *, order="stochastic", temper=1.0, anneal=None, ess=None,
@@ -329,6 +358,17 @@ impl PyTask {
         let words = Words { particles, seed, order, weights: "ratio", temper, anneal, resampling, ess };
         let settings = settings(py, &self.task.program, words)?;
         self.chain(py, threads, watch.as_ref(), |look| pimh(&self.task, &settings, sweeps, look))
+    }
+
+    /// The log density around the run with these choices, each an address with a value.
+    fn density(&self, py: Python<'_>, choices: Vec<(u128, Bound<'_, PyAny>)>) -> PyResult<PyDensity> {
+        let own = self.model.get();
+        let values = choices
+            .into_iter()
+            .map(|(address, value)| Ok((address, own.classes.value(&value)?)))
+            .collect::<PyResult<HashMap<u128, Value>>>()?;
+        let live = self.at_once(py, || live(&self.task, &values))?;
+        Ok(PyDensity::new(live, self.task.program.clone(), own.classes.clone()))
     }
 
     /// Runs once more with the choices of an outcome; one that had not ended as far as its choices go.

@@ -6,7 +6,7 @@
 //! | `tuple list dict range` | the same; the keys of a dictionary are constants |
 //! | a NumPy array, a NumPy scalar | nested tuples, a number: data to index |
 //! | a frozen dataclass, a `NamedTuple` | a record of a class of the table |
-//! | `niwaki.words`: `vec`, distributions | vectors, distributions |
+//! | `niwaki.words`: `vec`, rotations, distributions | vectors, rotations, distributions |
 //! | `Shape` | shapes |
 //!
 //! Both directions are guarded against nesting deeper than [`DEPTH`].
@@ -166,7 +166,7 @@ impl Classes {
             }
             Value::Rotation(r) => {
                 let rows = ((r[0], r[1], r[2]), (r[3], r[4], r[5]), (r[6], r[7], r[8]));
-                rows.into_pyobject(py)?.into_any()
+                py.import("niwaki.words.vectors")?.getattr("Rotation")?.call1((rows,))?
             }
             Value::Shape(shape) => Bound::new(py, PyShape(shape.clone()))?.into_any(),
             Value::Dist(dist) => distribution(py, dist)?,
@@ -193,6 +193,10 @@ fn word(object: &Bound<'_, PyAny>, each: &Each<'_>) -> PyResult<Option<Value>> {
     let module = object.get_type().getattr("__module__")?;
     let module = module.extract::<String>().unwrap_or_default();
     if module == "niwaki.words.vectors" {
+        if object.is_instance_of::<PyTuple>() {
+            let rows: [[f64; 3]; 3] = object.extract()?;
+            return Ok(Some(Value::Rotation(Arc::new(std::array::from_fn(|at| rows[at / 3][at % 3])))));
+        }
         return Ok(Some(Value::vector(&object.getattr("parts")?.extract::<Vec<f64>>()?)));
     }
     if module == "niwaki.words.distributions" {

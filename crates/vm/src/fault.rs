@@ -109,6 +109,18 @@ impl Fault {
         Fault(Box::new(Details { code, message: message.into(), help: None }))
     }
 
+    /// An operation without a derivative met a number that varies with the continuous choices.
+    #[cold]
+    pub fn no_derivative(what: &str) -> Fault {
+        Fault::new(
+            "no-derivative",
+            format!("{what} has no derivative, and the number depends on the continuous choices"),
+        )
+        .with_help(
+            "keep it out of what the score depends on, or use `mh()` or particles, which need no derivative",
+        )
+    }
+
     /// The same fault with a cure.
     #[cold]
     pub fn with_help(mut self, help: impl Into<String>) -> Fault {

@@ -2,6 +2,8 @@
 
 picture.py  a scene, and its target as a ghost, as one picture
 sheet.py    several pictures on one page, with captions
+plan.py     a scene from above, as SVG or pixels
+swatches.py palettes of colours in rows
 palette.py  colours for parts that have none of their own
 
 files.py        a scene as a file; the end of its name says which

@@ -61,6 +61,13 @@ class _Mark:
     size: int = 11
 
 
+def said(value: Any) -> str:
+    """A value in few characters."""
+    if isinstance(value, tuple):
+        return f"({', '.join(said(part) for part in value)})"
+    return f"{value:.4g}" if isinstance(value, float) else repr(value)
+
+
 def outcome(steps: Sequence[tuple[str, int]], count: int) -> list[str]:
     """What happened to each activation: the strongest of what the steps say."""
     rank = {word: place for place, word in enumerate(COLORS)}
@@ -95,7 +102,13 @@ def _marks(explained: dict[str, Any]) -> tuple[list[_Mark], int]:
     spans = _spans(rows)
     marks = [
         _Mark("text", MARGIN, 18, text=f"a proposal to {explained['path']}", size=15),
-        _Mark("text", MARGIN, 38, text=f"{explained['old']!r} becomes {explained['new']!r}", fill="#777777"),
+        _Mark(
+            "text",
+            MARGIN,
+            38,
+            text=f"{said(explained['old'])} becomes {said(explained['new'])}",
+            fill="#777777",
+        ),
     ]
     if top > 0 or bottom < deepest:
         shown = f"levels {top} to {bottom} of 0 to {deepest}"
@@ -108,14 +121,14 @@ def _marks(explained: dict[str, Any]) -> tuple[list[_Mark], int]:
         marks += _panel(rows, spans, outcome(steps, len(rows)), explained["home"], y, top, bottom)
         told = ", ".join(f"{n} {WORDS[word]}" for word, n in counts(steps, len(rows)).items() if n)
         ended = "" if complete else "; stopped: the score became minus infinity"
-        marks.append(_Mark("text", MARGIN, y + 10, text=title, size=13))
+        marks.append(_Mark("text", MARGIN, y, text=title, size=13))
         marks.append(_Mark("text", MARGIN, y + 24 + PANEL, text=told + ended, fill="#777777"))
         y += PANEL + HEAD + 26
     x = float(MARGIN)
-    for word, said in WORDS.items():
+    for word, meaning in WORDS.items():
         marks.append(_Mark("box", x, y, 11, 11, COLORS[word], "#888888"))
-        marks.append(_Mark("text", x + 16, y + 1, text=said))
-        x += 34 + 6.6 * len(said)
+        marks.append(_Mark("text", x + 16, y - 1, text=meaning))
+        x += 34 + 6.0 * len(meaning)
     return marks, round(y + 28)
 
 
@@ -165,7 +178,14 @@ def _panel(
             text = row[0] if len(row[0]) <= most else row[0][: max(most - 2, 1)] + ".."
             dark = what in ("untouched", "skipped", "invoked")
             boxes.append(
-                _Mark("text", x + 4, place + down / 2 - 6, text=text, fill="#333333" if dark else "#ffffff", size=10)
+                _Mark(
+                    "text",
+                    x + 4,
+                    place + down / 2 - 6,
+                    text=text,
+                    fill="#333333" if dark else "#ffffff",
+                    size=10,
+                )
             )
         if number == home:
             rings.append(_Mark("ring", x - 1, place - 1, max(wide, 3) + 2, max(down, 3) + 2, line="#111111"))
@@ -186,7 +206,9 @@ def _svg(marks: Sequence[_Mark], height: int) -> str:
             )
             continue
         fill = "none" if mark.kind == "ring" else mark.fill
-        stroke = f' stroke="{mark.line}" stroke-width="{2 if mark.kind == "ring" else 0.5}"' if mark.line else ""
+        stroke = (
+            f' stroke="{mark.line}" stroke-width="{2 if mark.kind == "ring" else 0.5}"' if mark.line else ""
+        )
         lines.append(
             f'<rect x="{mark.x:.2f}" y="{mark.y:.2f}" width="{mark.width:.2f}" height="{mark.height:.2f}" '
             f'fill="{fill}"{stroke}/>'

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from niwaki.words.models import Model
 
 #: Modules of this folder that hold no model; they are not imported to find that out.
-NOT_MODELS = ("demo", "experiments", "pictures", "targets")
+NOT_MODELS = ("data", "demo", "experiments", "figures", "furnishings", "pictures", "plates", "targets")
 
 #: Size of a population where nothing else is said.
 PARTICLES = 300

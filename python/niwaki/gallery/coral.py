@@ -33,7 +33,7 @@ UP = vec(0.0, 1.0, 0.0)
 FOOT = (0.56, 0.30, 0.30)
 DEEP, TIP = vec(0.78, 0.38, 0.31), vec(0.98, 0.88, 0.76)
 #: An arm no thicker than this ends.
-THINNEST = 0.18
+THINNEST = 0.2
 #: How far from the middle of the foot its arms stand.
 RIM = 0.85
 
@@ -64,7 +64,7 @@ def first_arm(azimuth):
 @model
 def arm(tip, ahead, thick):
     """Perhaps a stretch further from `tip`: one arm, or a fork of two."""
-    if thick > THINNEST and flip(0.9):
+    if thick > THINNEST and flip(0.82):
         if flip(0.6):
             across = rotate(side(ahead), ahead, uniform(0.0, 2.0 * pi))
             opening = uniform(0.9, 1.3)

@@ -22,10 +22,10 @@ from niwaki.gallery.niwaki_tree import VOXEL as TREE_VOXEL
 from niwaki.gallery.niwaki_tree import niwaki_tree
 from niwaki.gallery.spaceship import VOXEL as SHIP_VOXEL
 from niwaki.gallery.spaceship import spaceship
-from niwaki.infer import grow, run
 from niwaki.methods import forward
 from niwaki.result import Result
 from niwaki.scene import Scene
+from niwaki.search import grow, run
 
 LARGEST = 300_000
 

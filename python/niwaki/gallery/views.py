@@ -14,8 +14,8 @@ from niwaki.camera import Camera
 from niwaki.draw.views import view_sheet
 from niwaki.gallery.pictures import written
 from niwaki.gallery.spaceship import spaceship
-from niwaki.infer import run
 from niwaki.methods import smc
+from niwaki.search import run
 from niwaki.sketches import Score, match_image, match_shadow, no_self_intersection
 from niwaki.target import Receiver
 

@@ -19,6 +19,7 @@ from niwaki.lang.arguments import bind, no_keywords, no_stars
 from niwaki.lang.body import Body
 from niwaki.lang.core import Expr, Form, literal
 from niwaki.lang.expressions import closure, expression, expressions, forbidden, keep_defaults, lowers, static
+from niwaki.lang.inference import infer
 from niwaki.lang.names import MISSING, is_library, is_random, is_record_class, nearest
 from niwaki.lang.program import Program, Unit
 from niwaki.lang.scope import Scope, Variable, default_expressions
@@ -96,6 +97,8 @@ def known(body: Body, node: ast.Call, value: Any) -> Expr:
         return operate(body, node, operation)
     if isinstance(value, Host):
         return host(body, node, value)
+    if value is words.infer:
+        return infer(body, node)
     if isinstance(value, type) and issubclass(value, words.Distribution):
         return distribution(body, node, value)
     if is_record_class(value):

@@ -1,7 +1,8 @@
 """A model function that tells where it is: the user's own code, compiled from their file with each site named.
 
-`f(x)` becomes `__nw__.call("f", f, x)`, `for i in xs` becomes `for i in __nw__.loop("i[]", xs)`; nothing else changes,
-and every node keeps its line and columns, so that a debugger and a traceback show the file that the user wrote.
+`f(x)` becomes `__nw__.call("f", f, x)`, `for i in xs` becomes `for i in __nw__.loop("i[]", xs)`; nested functions
+bear their names of the core form; nothing else changes, and every node keeps its line and columns, so that a debugger
+and a traceback show the file that the user wrote.
 `__nw__` is a cell of the function's closure: the user's module is not touched.
 """
 
@@ -44,7 +45,8 @@ def _compile(function: FunctionType) -> CodeType:
             pair[0 if key[1] == "loop" else 1] = label
         else:
             labels[memo[id(key)]] = label
-    node = _Namer(labels, clone).visit(clone)
+    shown = {memo[id(scope.node)]: name for scope, name in unit.names.items()}
+    node = _Namer(labels, shown, clone).visit(clone)
     node.args.defaults = [ast.copy_location(ast.Constant(None), default) for default in node.args.defaults]
     node.args.kw_defaults = [d and ast.copy_location(ast.Constant(None), d) for d in node.args.kw_defaults]
     if isinstance(node, ast.FunctionDef):
@@ -86,8 +88,9 @@ def _inner(code: CodeType, name: str) -> CodeType:
 class _Namer(ast.NodeTransformer):
     """Rewrites calls, loops and `break`."""
 
-    def __init__(self, labels: dict[Any, Any], root: ast.AST) -> None:
+    def __init__(self, labels: dict[Any, Any], names: dict[Any, str], root: ast.AST) -> None:
         self.labels = labels
+        self.names = names
         self.root = root
 
     def _hook(self, name: str, args: list[ast.expr], keywords: list[ast.keyword], at: ast.AST) -> ast.Call:
@@ -136,7 +139,16 @@ class _Namer(ast.NodeTransformer):
 
     def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:
         node.returns = None
-        if node is self.root:
-            node.decorator_list = []
         self.generic_visit(node)
+        node.decorator_list = [] if node is self.root else [self._hook("named", [self._name(node)], [], node)]
         return node
+
+    def visit_Lambda(self, node: ast.Lambda) -> ast.AST:
+        self.generic_visit(node)
+        if node is self.root:
+            return node
+        named = self._hook("named", [self._name(node)], [], node)
+        return ast.fix_missing_locations(ast.copy_location(ast.Call(named, [node], []), node))
+
+    def _name(self, node: ast.AST) -> ast.expr:
+        return ast.Constant(self.names[node])

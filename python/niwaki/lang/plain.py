@@ -20,6 +20,7 @@ from niwaki.errors import Call, InputError, ModelFault, NiwakiError, place
 from niwaki.lang import densities, vocabulary
 from niwaki.lang.instrument import instrumented
 from niwaki.lang.names import is_library
+from niwaki.methods import EnumerateAll
 from niwaki.words.distributions import Distribution
 from niwaki.words.effects import flatten
 from niwaki.words.models import Model, underlying
@@ -226,6 +227,15 @@ class PlainRun:
 
         return self.loop(label, count())
 
+    def named(self, name: str) -> Callable[[FunctionType], FunctionType]:
+        """Give a nested function its name of the core form, by which an `infer` of it is compiled."""
+
+        def name_it(function: FunctionType) -> FunctionType:
+            function.__qualname__ = name
+            return function
+
+        return name_it
+
     def leave(self) -> None:
         """A `break`."""
         del self.path[self.loops.pop() :]
@@ -328,6 +338,18 @@ class PlainRun:
     def force(self, value: Any) -> Any:
         """A future is its value already."""
         return value
+
+    def infer(self, model: Callable[..., Any], method: Any, args: Sequence[Any], keep: str) -> Any:
+        """Search another model, on the engine: only it has the methods."""
+        from niwaki.lang import inference
+
+        inference.check(method, keep)
+        function = underlying(model)
+        if not isinstance(function, FunctionType):
+            raise ModelFault("not-callable", f"`infer` runs a model, found {model!r}", stack=self.stack())
+        seed = 0 if isinstance(method, EnumerateAll) else self.sample(inference.SEEDS)
+        self.pending = ""
+        return inference.search(function, method, keep, args, seed, self.stack)
 
     def constraint(self, kind: str, a: float, b: float, width: float) -> None:
         """Keep what a soft constraint compares."""

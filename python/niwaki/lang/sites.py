@@ -5,6 +5,7 @@
     i[3]/      an iteration of `for i in ...` (of the first name of a pattern), also in a comprehension;
                `while[3]`; `map[3]`, `filter[3]`, `sorted[3]`, `min[3]`, `max[3]` where those call a function
     zc         a choice: the name that the enclosing assignment gives first, else the distribution's family
+    layout     the seed of an `infer`: likewise the name that is assigned to, else `infer`
     observe    and likewise `factor`, `condition`, `query`, `emit`
 
 The model that is run adds nothing: the address of its own choice `zc` is "zc".
@@ -129,6 +130,8 @@ class _Namer:
             self.label(node, "end", self.target or ("categorical" if weighted else "discrete_uniform"))
         elif value in vocabulary.EFFECTS:
             self.label(node, "end", vocabulary.EFFECTS[value])
+        elif value is words.infer:
+            self.label(node, "end", self.target or "infer")
         elif value is words.future:
             self.label(node, "call", self.callee(node.args[0]) if node.args else "apply")
         elif value in CALLS_A_FUNCTION:

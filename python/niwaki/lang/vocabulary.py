@@ -95,6 +95,14 @@ _VECTORS = (
     words.rotate,
     words.rotation,
 )
+_COLORS = (words.hsv, words.lab, words.to_hsv, words.to_lab, words.color_difference)
+_POLYGONS = (
+    words.polygon_area,
+    words.polygon_contains,
+    words.polygon_distance,
+    words.polygon_disc_area,
+    words.polygon_inset,
+)
 _NUMBERS = (words.clip, words.lerp, words.sign)
 _SOFT = (
     words.softeq,
@@ -115,7 +123,7 @@ def _word(function: Any, omit: bool) -> Op:
 
 
 WORDS: dict[Any, Op] = {
-    **{function: _word(function, True) for function in (*_VECTORS, *_NUMBERS, *_SOFT)},
+    **{function: _word(function, True) for function in (*_VECTORS, *_COLORS, *_POLYGONS, *_NUMBERS, *_SOFT)},
     **{function: _word(function, False) for function in _SHAPES},
 }
 
@@ -138,7 +146,9 @@ DRAWS: dict[Any, type[Distribution]] = {
     if hasattr(words, _NAMES.get(family.family, family.family))
 }
 
-ALL_WORDS: frozenset[Any] = frozenset({*WORDS, *EFFECTS, *DRAWS, *FAMILIES, words.choose, words.future})
+ALL_WORDS: frozenset[Any] = frozenset(
+    {*WORDS, *EFFECTS, *DRAWS, *FAMILIES, words.choose, words.future, words.infer}
+)
 
 METHODS: dict[str, tuple[int, int]] = {
     "index": (1, 1),

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from niwaki.errors import InputError
 from niwaki.kernels import Kernel
-from niwaki.methods.checks import at_least_one, bad, is_whole, one_of
+from niwaki.methods.checks import at_least_one, is_whole, one_of
 
 STRATEGIES = ("c3", "rerun", "resume", "cache")
 
@@ -93,5 +93,11 @@ def mh(
         )
     one_of("strategy", strategy, STRATEGIES)
     if kernel is not None and not isinstance(kernel, Kernel):
-        raise bad("kernel", kernel, "a kernel", "one of `niwaki.kernels`, such as `kernels.drift()`")
+        raise InputError(
+            "bad-setting",
+            name="kernel",
+            found=repr(kernel),
+            expected="a kernel",
+            suggestion="one of `niwaki.kernels`, such as `kernels.drift()`",
+        )
     return Mh(steps, strategy, kernel, chains, thin, keep, warmup, seed, tries)

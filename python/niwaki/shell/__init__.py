@@ -9,5 +9,6 @@ replay.py    `niwaki replay`: a result once more, in any format
 sample.py    `niwaki sample`: Markov chains, written to a folder
 explain.py   `niwaki explain`: what each strategy does for one proposal, as a picture
 models.py    `niwaki models`: the gallery
+color.py     `niwaki color`: a drawing in colours that differ
 check.py     `niwaki check`: what a model is made of, with advice
 """

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
-    from niwaki.infer import Progress
+    from niwaki.search import Progress
 
 app = typer.Typer(
     name="niwaki",

@@ -14,7 +14,8 @@ from niwaki.shell.app import ModelName, app, made_folder
 def explain(
     model: ModelName,
     choice: Annotated[
-        str, typer.Option("--choice", metavar="ADDRESS", help="The choice that is changed; patterns may be used.")
+        str,
+        typer.Option("--choice", metavar="ADDRESS", help="The choice that is changed; patterns may be used."),
     ],
     seed: Annotated[int, typer.Option(help="Of the first state and the proposal.")] = 0,
     output: Annotated[
@@ -22,17 +23,17 @@ def explain(
     ] = Path("explain.svg"),
 ) -> None:
     """Draw which calls of MODEL a proposal makes each strategy run, go on with, skip, make and take away."""
-    from niwaki.draw.reuse import WORDS, counts, draw
+    from niwaki.draw.reuse import WORDS, counts, draw, said
     from niwaki.finding import find
-    from niwaki.infer import explain as explained
+    from niwaki.search import explain as explained
 
     found = find(model)
     told = explained(found.model, choice, seed=seed)
     made_folder(output.parent)
     draw(told, output)
     total = len(told["activations"])
-    print(f"{told['path']}: {told['old']!r} becomes {told['new']!r}; {total} calls")
-    print(f"{'':<8}" + "".join(f"{said:>20}" for said in WORDS.values()))
+    print(f"{told['path']}: {said(told['old'])} becomes {said(told['new'])}; {total} calls")
+    print(f"{'':<8}" + "".join(f"{word:>20}" for word in WORDS.values()))
     for name, (steps, _) in told["runs"].items():
         print(f"{name:<8}" + "".join(f"{n:>20}" for n in counts(steps, total).values()))
     print(output)

@@ -66,7 +66,7 @@ def grow(
     ] = True,
 ) -> None:
     """Grow MODEL into what is asked for; writes best.glb, best.png, sheet.png and run.json."""
-    from niwaki import infer
+    from niwaki import search as searches
     from niwaki.finding import find
     from niwaki.gallery import PARTICLES
 
@@ -113,7 +113,7 @@ def grow(
         "max_steps": max_steps,
     }
     with progress_line(found.reference, settings["particles"]) as progress:
-        result = infer.grow(
+        result = searches.grow(
             found.model,
             aim,
             score=controls,

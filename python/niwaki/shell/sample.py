@@ -18,15 +18,15 @@ from niwaki.shell.app import Folder, ModelName, app, made_folder
 
 if TYPE_CHECKING:
     from niwaki.finding import Found
-    from niwaki.infer import Progress
     from niwaki.mh_result import ChainResult
+    from niwaki.search import Progress
 
 
 @app.command()
 def sample(
     model: ModelName,
     kernel: Annotated[
-        str, typer.Option(help='How it proposes, e.g. "cycle(on(\'z\', mh()), drift())".')
+        str, typer.Option(help="How it proposes, e.g. \"cycle(on('z', mh()), drift())\".")
     ] = "mh()",
     steps: Annotated[int, typer.Option(help="Proposals of each chain.")] = 10_000,
     chains: Annotated[int, typer.Option(help="How many chains, side by side.")] = 4,
@@ -36,7 +36,8 @@ def sample(
     keep: Annotated[int, typer.Option(help="About how many samples of each chain are written.")] = 100,
     strategy: Annotated[str, typer.Option(help="c3, resume, cache or rerun.")] = "c3",
     target: Annotated[
-        str | None, typer.Option("--target", metavar="FILE", help="A mesh to fill, without self-intersection.")
+        str | None,
+        typer.Option("--target", metavar="FILE", help="A mesh to fill, without self-intersection."),
     ] = None,
     voxel: Annotated[float | None, typer.Option(metavar="SIZE", help="Cell size for the target.")] = None,
     sigma: Annotated[float, typer.Option(help="Strictness of the match.")] = 0.02,
@@ -51,8 +52,9 @@ def sample(
     ] = True,
 ) -> None:
     """Sample MODEL by Markov chains; writes samples.csv and run.json, and best.glb, best.png, sheet.png of scenes."""
-    from niwaki import infer, kernels, methods
+    from niwaki import kernels, methods, search
     from niwaki.finding import find
+    from niwaki.mh_result import ChainResult
     from niwaki.sketches import Score, no_self_intersection, volume_match
 
     found = find(model)
@@ -71,7 +73,10 @@ def sample(
     }
     method = methods.mh(kernel=kernels.parse(kernel), **settings)
     with _shown(found.reference, steps * chains) as progress:
-        result = infer.run(found.model, method=method, score=score, seed=seed, threads=threads, progress=progress)
+        result = search.run(
+            found.model, method=method, score=score, seed=seed, threads=threads, progress=progress
+        )
+    assert isinstance(result, ChainResult)
     if output is not None or not as_json:
         _write(output or Path("out"), result, found, {"kernel": kernel, **settings}, reference, picture)
     if as_json:

@@ -116,7 +116,7 @@ class Search:
 
     def settings(self, usual: int) -> dict[str, Any]:
         """The search as plain data, every default filled in; `usual` is the number of particles that suits."""
-        from niwaki.infer import default_temper
+        from niwaki.search import default_temper
 
         weights = self.weights or "ratio"
         found: dict[str, Any] = {

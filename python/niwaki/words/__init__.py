@@ -3,8 +3,10 @@
 models          `@model`, `@host`
 choices         `sample`, `flip`, `gaussian`, ...: draws
 distributions   `Gaussian`, `Uniform`, ...: distributions as values
-effects         `factor`, `condition`, `observe`, `query`, `emit`, `future`, `force`
+effects         `factor`, `condition`, `observe`, `query`, `emit`, `future`, `force`, `infer`
 shapes          `box`, `cylinder`, `limb`, `segment`, `mesh`
+colors          `hsv`, `lab`, `to_hsv`, `to_lab`, `color_difference`
+polygons        `polygon_area`, `polygon_contains`, `polygon_distance`, `polygon_disc_area`, `polygon_inset`
 vectors         `vec`, `dot`, `cross`, `norm`, `normalize`, `distance`, `rotate`, `rotation`
 numbers         `clip`, `lerp`, `sign`
 soft            `softeq`, `soft_at_least`, `soft_at_most`, `smooth_max`, `smooth_min`, `smooth_abs`
@@ -36,6 +38,7 @@ from niwaki.words.choices import (
     uniform,
     von_mises,
 )
+from niwaki.words.colors import color_difference, hsv, lab, to_hsv, to_lab
 from niwaki.words.distributions import (
     Bernoulli,
     Beta,
@@ -61,12 +64,19 @@ from niwaki.words.distributions import (
     Uniform,
     VonMises,
 )
-from niwaki.words.effects import condition, emit, factor, force, future, observe, query
+from niwaki.words.effects import condition, emit, factor, force, future, infer, observe, query
 from niwaki.words.models import Host, Model, host, model
 from niwaki.words.numbers import clip, lerp, sign
+from niwaki.words.polygons import (
+    polygon_area,
+    polygon_contains,
+    polygon_disc_area,
+    polygon_distance,
+    polygon_inset,
+)
 from niwaki.words.shapes import Bark, Frame, box, cylinder, limb, mesh, segment
 from niwaki.words.soft import smooth_abs, smooth_max, smooth_min, soft_at_least, soft_at_most, softeq
-from niwaki.words.vectors import Vec, cross, distance, dot, norm, normalize, rotate, rotation, vec
+from niwaki.words.vectors import Rotation, Vec, cross, distance, dot, norm, normalize, rotate, rotation, vec
 
 __all__ = [
     "Bark",
@@ -92,6 +102,7 @@ __all__ = [
     "Model",
     "MultivariateGaussian",
     "Poisson",
+    "Rotation",
     "StudentT",
     "TruncatedGaussian",
     "Uniform",
@@ -104,6 +115,7 @@ __all__ = [
     "cauchy",
     "choose",
     "clip",
+    "color_difference",
     "condition",
     "cross",
     "cylinder",
@@ -121,7 +133,10 @@ __all__ = [
     "gaussian",
     "geometric",
     "host",
+    "hsv",
+    "infer",
     "inverse_gamma",
+    "lab",
     "laplace",
     "lerp",
     "limb",
@@ -134,6 +149,11 @@ __all__ = [
     "normalize",
     "observe",
     "poisson",
+    "polygon_area",
+    "polygon_contains",
+    "polygon_disc_area",
+    "polygon_distance",
+    "polygon_inset",
     "query",
     "rotate",
     "rotation",
@@ -147,6 +167,8 @@ __all__ = [
     "soft_at_most",
     "softeq",
     "student_t",
+    "to_hsv",
+    "to_lab",
     "truncated_gaussian",
     "uniform",
     "vec",

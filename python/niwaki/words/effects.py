@@ -105,6 +105,31 @@ def force(promise: T) -> T:
     return value
 
 
+def infer(model: Callable[..., Any], method: Any, *args: Any, keep: str = "sample") -> Any:
+    """What a search of another model gives: inference as a part of the language (dissertation 2.3.1).
+
+    The choices, factors and shapes of the inner model are its own; the run around it sees only the value. That depends
+    on the model, its arguments and a seed, which is a choice of the run around it, named like any other choice.
+
+    Parameters
+    ----------
+    model
+        A model, a function, a lambda.
+    method
+        `smc(...)`, `mh(...)`, `importance(...)`, `rejection(...)`, `forward(...)` or `enumerate_all(...)`, with
+        constant settings or as a constant of the module.
+    args
+        The inner model's arguments, by position.
+    keep
+        "sample": the value of one sample, drawn by weight; "best": that of the sample with the best log score.
+
+    Returns
+    -------
+    The inner model's value; with `enumerate_all` the list of its values with their probabilities, most probable first.
+    """
+    return runner("infer").infer(model, method, args, keep)
+
+
 def flatten(shapes: Sequence[Any]) -> list[Any]:
     """The shapes of one `emit` in order, with lists and tuples opened."""
     flat: list[Any] = []

@@ -45,6 +45,10 @@ class Runner(Protocol):
         """Wait for a future."""
         ...
 
+    def infer(self, model: Callable[..., Any], method: Any, args: Sequence[Any], keep: str) -> Any:
+        """Search another model."""
+        ...
+
     def constraint(self, kind: str, a: float, b: float, width: float) -> None:
         """Keep what a soft constraint compares."""
         ...

@@ -6,8 +6,9 @@ Right-handed, y up; angles in radians.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 
 @dataclass(frozen=True)
@@ -77,6 +78,45 @@ class Vec:
 VecLike = Vec | Sequence[float]
 
 
+class Rotation(tuple[tuple[float, ...], ...]):
+    """A rotation of space, as three rows of three; `rotation * vector` turns, `rotation * rotation` composes.
+
+    Made by `rotation(axis, angle)`. In a product the right-hand one turns first.
+    """
+
+    __slots__ = ()
+
+    def __mul__(self, other: Any) -> Any:
+        if isinstance(other, Vec):
+            return Vec(tuple(_sum(a * b for a, b in zip(row, _three(other), strict=True)) for row in self))
+        if isinstance(other, Rotation):
+            columns = list(zip(*other, strict=True))
+            return Rotation(
+                tuple(_sum(a * b for a, b in zip(row, column, strict=True)) for column in columns)
+                for row in self
+            )
+        raise TypeError(f"a rotation turns a vector or another rotation, not {other!r}")
+
+    __rmul__ = __add__ = __radd__ = None  # type: ignore[assignment]
+
+    def __repr__(self) -> str:
+        return f"rotation{[list(row) for row in self]!r}"
+
+
+def _three(v: Vec) -> tuple[float, ...]:
+    if len(v) != 3:
+        raise TypeError(f"a rotation turns vectors of 3 numbers, found {len(v)}")
+    return v.parts
+
+
+def _sum(terms: Iterable[float]) -> float:
+    """From left to right from 0, as the engine adds; `sum` compensates for rounding from Python 3.12 on."""
+    total = 0.0
+    for term in terms:
+        total = total + term
+    return total
+
+
 def _number(value: object) -> float:
     if not isinstance(value, (int, float)):
         raise TypeError(f"a vector is scaled by a number, not by {value!r}")
@@ -135,15 +175,17 @@ def distance(a: VecLike, b: VecLike) -> float:
     return norm(_vec(a) - _vec(b))
 
 
-def rotation(axis: VecLike, angle: float) -> tuple[tuple[float, ...], ...]:
-    """The matrix that turns by `angle` radians about `axis`, right-handed; three rows of three."""
+def rotation(axis: VecLike, angle: float) -> Rotation:
+    """The rotation by `angle` radians about `axis`, right-handed; `rotation * vector` turns a vector."""
     x, y, z = normalize(axis).parts
     c, s = math.cos(angle), math.sin(angle)
     t = 1.0 - c
-    return (
-        (t * x * x + c, t * x * y - s * z, t * x * z + s * y),
-        (t * x * y + s * z, t * y * y + c, t * y * z - s * x),
-        (t * x * z - s * y, t * y * z + s * x, t * z * z + c),
+    return Rotation(
+        (
+            (t * x * x + c, t * x * y - s * z, t * x * z + s * y),
+            (t * x * y + s * z, t * y * y + c, t * y * z - s * x),
+            (t * x * z - s * y, t * y * z + s * x, t * z * z + c),
+        )
     )
 
 

@@ -35,7 +35,8 @@ def test_each_example_gets_its_advice_and_its_cure_none(message: Message) -> Non
 
 
 def test_the_gallery_needs_none() -> None:
-    assert [(entry.name, str(one)) for entry in entries() for one in advise(entry.model.function)] == []
+    grown = [entry for entry in entries() if entry.target_name is not None]
+    assert [(entry.name, str(one)) for entry in grown for one in advise(entry.model.function)] == []
 
 
 def test_a_ship_without_futures_is_told_of_each() -> None:
@@ -132,6 +133,6 @@ def leaf(n):
 def test_messages_of_advice(golden: Any) -> None:
     found = []
     for title, body in POINTED_AT.items():
-        advice = advise(load(f"@model\ndef m():{body}", "garden.py").function)
+        advice = advise(load(f"@model\ndef m():{body}", "hedge.py").function)
         found.append(f"## {title}\n\n" + "\n\n".join(map(str, advice)) + "\n")
     golden(GOLDEN / "advice.txt", "\n".join(found))

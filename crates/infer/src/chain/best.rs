@@ -1,11 +1,14 @@
 //! The best state that a chain came through.
 //!
 //! It is not copied at each record, which would cost the length of the trace at each step uphill: it is the present state
-//! with a list of changes undone. Only when that list has become as long as the trace is a copy made.
+//! with a list of changes undone. Only when that list has become as long as the trace is a copy made. For the same reason
+//! what the program returned there is not kept: a run with its choices tells.
 
 use super::snapshot::{Facts, Snapshot, logged, present};
-use super::state::State;
+use super::state::{Fresh, State};
 use crate::log::Log;
+use crate::{Failure, Task};
+use niwaki_math::StreamKey;
 use niwaki_vm::code::Program;
 use niwaki_vm::value::Value;
 use std::collections::HashMap;
@@ -25,7 +28,7 @@ pub struct Best {
 impl Best {
     /// The first state.
     pub fn new(state: &State) -> Best {
-        Best { facts: Facts::of(state, 0), copied: None, since: vec![] }
+        Best { facts: Facts::of_scores(state, 0), copied: None, since: vec![] }
     }
 
     /// Whether the way back is being noted.
@@ -65,7 +68,7 @@ impl Best {
 
     #[inline(never)]
     fn record(&mut self, state: &State, visit: u64) {
-        self.facts = Facts::of(state, visit);
+        self.facts = Facts::of_scores(state, visit);
         self.copied = None;
         self.since.clear();
     }
@@ -90,11 +93,25 @@ impl Best {
     }
 
     /// A copy of it.
-    pub fn get(&self, state: &State, program: &Program) -> Snapshot {
+    ///
+    /// # Errors
+    /// A fault of the program in the run that tells its value: a host function that does not answer as before.
+    pub fn get(&self, state: &State, task: &Task) -> Result<Snapshot, Failure> {
         let log = match &self.copied {
             Some(log) => logged(log.entries().into_iter().map(|e| (e.address(), e.value))),
-            None => self.way_back(state, program),
+            None => self.way_back(state, &task.program),
         };
-        Snapshot { log, facts: self.facts.clone() }
+        let is_present = self.copied.is_none() && self.since.is_empty();
+        let value = if is_present { state.trace.result() } else { told(&log, task)? };
+        Ok(Snapshot { log, facts: Facts { value, ..self.facts.clone() } })
     }
+}
+
+/// What the program returns with those choices.
+fn told(log: &Log, task: &Task) -> Result<Value, Failure> {
+    let known: HashMap<u128, Value> = log.entries().into_iter().map(|e| (e.address(), e.value)).collect();
+    let key = StreamKey::new(0, 0, 0);
+    let mut answers = Fresh { key, known: Some(&known), hosts: &*task.hosts, spreads: None };
+    let (trace, _) = task.begin(&mut task.machine(), &mut answers)?;
+    Ok(trace.result())
 }

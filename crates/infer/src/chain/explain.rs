@@ -57,6 +57,9 @@ pub struct Explained {
     pub runs: Vec<Run>,
 }
 
+/// What happened, in order, by key of the activation.
+type Keyed = Vec<(What, u128)>;
+
 struct Draws {
     key: StreamKey,
     drawn: Option<Value>,
@@ -102,7 +105,7 @@ pub fn explain(task: &Task, seed: u64, tries: u64, address: &str) -> Result<Expl
     let old = state.trace.choice(program, choice).0.clone();
     let before = state.trace.outline(program);
     let mut machine = task.machine();
-    let mut runs: Vec<(Strategy, Vec<(What, u128)>, bool)> = Vec::new();
+    let mut runs: Vec<(Strategy, Keyed, bool)> = Vec::new();
     let (mut after, mut new) = (Vec::new(), None);
     for strategy in [Strategy::Rerun, Strategy::Resume, Strategy::Cache, Strategy::C3] {
         for visit in 0..DRAWS {
@@ -160,9 +163,9 @@ pub fn explain(task: &Task, seed: u64, tries: u64, address: &str) -> Result<Expl
 
 /// The machine's notes by key. An activation is unwound into where one that it called has just returned, or where the
 /// run began inside it.
-fn named(state: &State, task: &Task, noted: &[Step]) -> Vec<(What, u128)> {
+fn named(state: &State, task: &Task, noted: &[Step]) -> Keyed {
     let (trace, program) = (&state.trace, &*task.program);
-    let mut steps: Vec<(What, u128)> = Vec::new();
+    let mut steps: Keyed = Vec::new();
     let mut returned = None;
     for (i, step) in noted.iter().enumerate() {
         let (what, node) = match step {

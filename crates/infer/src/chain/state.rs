@@ -69,6 +69,8 @@ pub struct State {
     pub log_sketches: f64,
     /// How many primitives the scene has.
     pub primitives: usize,
+    /// How many shapes proposals have taken out of the scene or put into it.
+    pub moved: u64,
     before: (f64, usize),
 }
 
@@ -91,12 +93,13 @@ impl State {
             // The last visits, so that no proposal has their numbers.
             let (key, mut spreads) = (streams.fresh(u64::MAX - attempt), HashMap::new());
             let mut answers = Fresh { key, known, hosts: &*task.hosts, spreads: Some(&mut spreads) };
-            let (trace, change) = machine.begin(&task.args, &mut answers)?;
+            let (trace, change) = task.begin(&mut machine, &mut answers)?;
             let mut state = State {
                 trace,
                 sketches: Sketches::start(&task.sketches),
                 log_sketches: 0.0,
                 primitives: 0,
+                moved: 0,
                 before: (0.0, 0),
             };
             let cause = if change == Change::Impossible {
@@ -130,14 +133,14 @@ impl State {
     ) -> Result<State, Failure> {
         let key = StreamKey::new(0, 0, 0);
         let mut answers = Fresh { key, known: Some(known), hosts: &*task.hosts, spreads: None };
-        let (mut trace, change) = task.machine().begin(&task.args, &mut answers)?;
+        let (mut trace, change) = task.begin(&mut task.machine(), &mut answers)?;
         if change == Change::Impossible {
             let cause = impossible(&trace, &task.program);
             return Err(Failure::NoStart { tries: 1, causes: vec![(cause, 1)] });
         }
         trace.commit(&task.program);
         let log_sketches = sketches.log_score();
-        Ok(State { trace, sketches, log_sketches, primitives, before: (log_sketches, primitives) })
+        Ok(State { trace, sketches, log_sketches, primitives, before: (log_sketches, primitives), moved: 0 })
     }
 
     /// Factors, observations and sketches, nats.
@@ -158,6 +161,7 @@ impl State {
             return Ok(());
         }
         self.primitives = self.primitives + come - gone;
+        self.moved += (gone + come) as u64;
         if self.sketches.is_empty() {
             return Ok(());
         }

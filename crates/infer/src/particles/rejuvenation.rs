@@ -143,7 +143,7 @@ impl Mover {
             let key = StreamKey::new(settings.seed, SPREADS, run);
             let mut answers = Fresh { key, known: None, hosts: &*task.hosts, spreads: Some(&mut spreads) };
             let mut machine = task.machine();
-            machine.begin(&task.args, &mut answers)?;
+            task.begin(&mut machine, &mut answers)?;
         }
         Ok(Some(Mover { plan, spreads, numbers, choosy, rounds: 0 }))
     }

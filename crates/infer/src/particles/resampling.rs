@@ -22,6 +22,17 @@ impl Resampling {
     pub const ALL: [Resampling; 4] =
         [Resampling::Systematic, Resampling::Residual, Resampling::Stratified, Resampling::Multinomial];
 
+    /// The method of a name: `systematic`, `residual`, `stratified`, `multinomial`.
+    pub fn from_name(name: &str) -> Option<Resampling> {
+        match name {
+            "systematic" => Some(Resampling::Systematic),
+            "residual" => Some(Resampling::Residual),
+            "stratified" => Some(Resampling::Stratified),
+            "multinomial" => Some(Resampling::Multinomial),
+            _ => None,
+        }
+    }
+
     /// How many copies each particle gets; they add up to the number of particles. `weights` are not negative
     /// and not all zero.
     pub fn copies(self, weights: &[f64], random: &mut Stream) -> Vec<usize> {

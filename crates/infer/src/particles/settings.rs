@@ -14,6 +14,17 @@ pub enum Order {
     Stochastic,
 }
 
+impl Order {
+    /// The policy of a name: `depth-first`, `stochastic`.
+    pub fn from_name(name: &str) -> Option<Order> {
+        match name {
+            "depth-first" => Some(Order::DepthFirst),
+            "stochastic" => Some(Order::Stochastic),
+            _ => None,
+        }
+    }
+}
+
 /// How scores become weights.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Weights {
@@ -21,6 +32,17 @@ pub enum Weights {
     Ratio,
     /// The whole score at every step, resampled at every step: what the original did. No evidence.
     Absolute,
+}
+
+impl Weights {
+    /// The weighting of a name: `ratio`, `absolute`.
+    pub fn from_name(name: &str) -> Option<Weights> {
+        match name {
+            "ratio" => Some(Weights::Ratio),
+            "absolute" => Some(Weights::Absolute),
+            _ => None,
+        }
+    }
 }
 
 /// When to resample.

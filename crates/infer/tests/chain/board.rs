@@ -105,8 +105,8 @@ fn rows() -> Vec<Row> {
     let prior = || Kernel::Prior;
     let row = |name, kernel| Row { name, kernel, temperatures: vec![1.0], power: "1.0", only: "" };
     let block = || Kernel::Block { step: 0.3, share: 0.5, target: 0.23 };
-    let deep = Selection { depth: vec![1.0, 4.0, 0.3], ..Selection::default() };
-    let sites = Selection { odds: vec![("*b*".into(), 3.0), ("**".into(), 0.5)], ..Selection::default() };
+    let deep = Selection { depth: vec![1.0, 1.0, 3.0, 9.0, 27.0], ..Selection::default() };
+    let sites = Selection { odds: vec![("b".into(), 3.0), ("a".into(), 0.5)], ..Selection::default() };
     vec![
         row("prior", prior()),
         row("neighbour", Kernel::Neighbour { reach: 2 }),
@@ -124,7 +124,10 @@ fn rows() -> Vec<Row> {
             Kernel::Repeat(3, Box::new(Kernel::Cycle(vec![prior(), Kernel::Neighbour { reach: 1 }]))),
         ),
         row("odds by depth", Kernel::On(deep, Box::new(prior()))),
-        row("odds by site", Kernel::On(sites, Box::new(prior()))),
+        Row {
+            only: "a coin that decides how many more",
+            ..row("odds by site", Kernel::On(sites, Box::new(prior())))
+        },
         row("on", Kernel::Cycle(vec![on("**", prior()), on("**", Kernel::Regenerate { levels: 0 })])),
         Row {
             power: "0.5",
@@ -162,7 +165,7 @@ fn worst<R: Rules>(text: &str, row: &Row, seed: u64) -> f64 {
     for share in &mut shares {
         for _ in 0..1000 {
             chain.advance(&task, 1, &mut |_, _| true).expect("a run");
-            let value = repr(chain.rungs[0].state.trace.result()).expect("a value");
+            let value = repr(&chain.rungs[0].state.trace.result()).expect("a value");
             *share.entry(value).or_default() += 0.001;
         }
     }

@@ -116,10 +116,10 @@ fn distance<R: Rules>(text: &str, kernel: &Kernel) -> f64 {
             Settings { seed: 3 + replicate, kernel: kernel.clone(), thin: 0, ..Settings::default() };
         let mut chain = Chain::<R>::start(&given, &settings, 0, Some(&by_address(&choices)))
             .expect("the state that was drawn");
-        let started = numbers(chain.state.trace.result());
+        let started = numbers(&chain.state.trace.result());
         assert_eq!(started[..started.len().min(2)], values[..started.len().min(2)], "the chain starts there");
         chain.advance(&given, PROPOSALS, &mut |_, _| true).expect("proposals");
-        kept.push(numbers(chain.state.trace.result()));
+        kept.push(numbers(&chain.state.trace.result()));
     }
     let scale = (REPLICATES as f64 / 2.0).sqrt();
     (0..fresh[0].len())

@@ -24,7 +24,7 @@ pub(super) fn gaussian_sample(mean: f64, sd: f64, rng: &mut (impl RngCore + ?Siz
 /// The Gaussian density of `ln x`, times the Jacobian `1 / x`.
 #[inline]
 pub(super) fn log_normal_log_density<S: Scalar>(mean: S, sd: S, x: S) -> S {
-    if x.value() <= 0.0 {
+    if x <= S::from_f64(0.0) {
         return S::from_f64(f64::NEG_INFINITY);
     }
     let log = x.ln();

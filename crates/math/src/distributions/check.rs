@@ -73,9 +73,9 @@ impl<'a, S: Scalar> Reader<'a, S> {
 
     /// A number for which `accept` holds; `accept` must refuse NaN.
     #[inline]
-    pub fn real_where(&self, k: usize, expected: &'static str, accept: impl Fn(f64) -> bool) -> Checked<S> {
+    pub fn real_where(&self, k: usize, expected: &'static str, accept: impl Fn(S) -> bool) -> Checked<S> {
         match self.number(k) {
-            Some(x) if accept(x.value()) => Ok(x),
+            Some(x) if accept(x) => Ok(x),
             _ => self.refuse(k, expected),
         }
     }
@@ -83,19 +83,19 @@ impl<'a, S: Scalar> Reader<'a, S> {
     /// A finite number.
     #[inline]
     pub fn finite(&self, k: usize) -> Checked<S> {
-        self.real_where(k, "a finite number", f64::is_finite)
+        self.real_where(k, "a finite number", S::is_finite)
     }
 
     /// A finite number above zero.
     #[inline]
     pub fn positive(&self, k: usize) -> Checked<S> {
-        self.real_where(k, "a finite number above zero", |x| x > 0.0 && x.is_finite())
+        self.real_where(k, "a finite number above zero", |x| x > S::from_f64(0.0) && x.is_finite())
     }
 
     /// A number from zero to one.
     #[inline]
     pub fn probability(&self, k: usize) -> Checked<S> {
-        self.real_where(k, "a number from 0 to 1", |x| (0.0..=1.0).contains(&x))
+        self.real_where(k, "a number from 0 to 1", |x| x >= S::from_f64(0.0) && x <= S::from_f64(1.0))
     }
 
     /// A whole number.
@@ -114,14 +114,14 @@ impl<'a, S: Scalar> Reader<'a, S> {
         &self,
         k: usize,
         expected: &'static str,
-        accept: impl Fn(f64) -> bool,
+        accept: impl Fn(S) -> bool,
     ) -> Checked<&'a [S]> {
         let numbers: &[S] = match &self.params[k] {
             Param::Vector(v) => v,
             Param::Draw(Draw::Vector(v)) => v,
             _ => return self.refuse(k, expected),
         };
-        let fine = !numbers.is_empty() && numbers.iter().all(|x| x.is_finite() && accept(x.value()));
+        let fine = !numbers.is_empty() && numbers.iter().all(|x| x.is_finite() && accept(*x));
         if fine { Ok(numbers) } else { self.refuse(k, expected) }
     }
 

@@ -10,7 +10,7 @@ use std::f64::consts::{PI, TAU};
 /// loses no digits.
 #[inline(never)]
 pub(super) fn log_density<S: Scalar>(mean: S, concentration: S, x: S) -> S {
-    if x.value().abs() > PI || x.value().is_nan() {
+    if x.abs() > S::from_f64(PI) || x.value().is_nan() {
         return S::from_f64(f64::NEG_INFINITY);
     }
     let sin = ((x - mean) * S::from_f64(0.5)).sin();

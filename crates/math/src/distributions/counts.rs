@@ -33,7 +33,7 @@ fn stirling_error(k: f64) -> f64 {
 fn deviance<S: Scalar>(x: f64, m: S) -> S {
     let c = S::from_f64;
     let v = (c(x) - m) / (c(x) + m);
-    if v.value().abs() >= 0.1 {
+    if v.abs() >= c(0.1) {
         return c(x) * (c(x) / m).ln() + m - c(x);
     }
     // Near m the three terms cancel: ln(x / m) = 2 artanh(v), as a series in v.

@@ -82,16 +82,15 @@ impl<S: Scalar> Dist<S> {
     /// where [`Dist::new`] would refuse them, and for any other family.
     #[inline]
     pub fn of_reals(family: Family, a: S, b: S) -> Option<Dist<S>> {
-        let (x, y) = (a.value(), b.value());
-        let positive = |x: f64| x > 0.0 && x < f64::INFINITY;
+        let positive = |x: S| x > S::from_f64(0.0) && x.is_finite();
         let dist = match family {
-            Family::Gaussian if x.is_finite() && positive(y) => Dist::Gaussian { mean: a, sd: b },
-            Family::LogNormal if x.is_finite() && positive(y) => Dist::LogNormal { mean: a, sd: b },
-            Family::Uniform if x.is_finite() && y.is_finite() && x < y && (b - a).is_finite() => {
+            Family::Gaussian if a.is_finite() && positive(b) => Dist::Gaussian { mean: a, sd: b },
+            Family::LogNormal if a.is_finite() && positive(b) => Dist::LogNormal { mean: a, sd: b },
+            Family::Uniform if a.is_finite() && b.is_finite() && a < b && (b - a).is_finite() => {
                 Dist::Uniform { lo: a, hi: b }
             }
-            Family::Gamma if positive(x) && positive(y) => Dist::Gamma { shape: a, scale: b },
-            Family::Beta if positive(x) && positive(y) => Dist::Beta { a, b },
+            Family::Gamma if positive(a) && positive(b) => Dist::Gamma { shape: a, scale: b },
+            Family::Beta if positive(a) && positive(b) => Dist::Beta { a, b },
             _ => return None,
         };
         Some(dist)
@@ -113,7 +112,9 @@ impl<S: Scalar> Dist<S> {
             Family::Poisson => {
                 const EXPECTED: &str = "a number from 0 to 1e15";
                 Dist::Poisson {
-                    rate: r.real_where(0, EXPECTED, |x| (0.0..=counts::LARGEST_RATE).contains(&x))?,
+                    rate: r.real_where(0, EXPECTED, |x| {
+                        x >= S::from_f64(0.0) && x <= S::from_f64(counts::LARGEST_RATE)
+                    })?,
                 }
             }
             Family::Binomial => {
@@ -124,7 +125,9 @@ impl<S: Scalar> Dist<S> {
                 Dist::Binomial { n, p: r.probability(1)? }
             }
             Family::Geometric => {
-                let p = r.real_where(0, "a number above 0 and up to 1", |x| x > 0.0 && x <= 1.0)?;
+                let p = r.real_where(0, "a number above 0 and up to 1", |x| {
+                    x > S::from_f64(0.0) && x <= S::from_f64(1.0)
+                })?;
                 Dist::Geometric { p }
             }
             Family::Uniform => {
@@ -144,7 +147,7 @@ impl<S: Scalar> Dist<S> {
             }
             Family::VonMises => {
                 const EXPECTED: &str = "a finite number, not negative";
-                let concentration = r.real_where(1, EXPECTED, |x| x >= 0.0 && x.is_finite())?;
+                let concentration = r.real_where(1, EXPECTED, |x| x >= S::from_f64(0.0) && x.is_finite())?;
                 Dist::VonMises { mean: r.finite(0)?, concentration }
             }
             Family::TruncatedGaussian => {
@@ -154,7 +157,7 @@ impl<S: Scalar> Dist<S> {
             }
             Family::Dirichlet => {
                 const EXPECTED: &str = "finite numbers above zero, at least one";
-                Dist::Dirichlet(r.vector_where(0, EXPECTED, |x| x > 0.0)?.into())
+                Dist::Dirichlet(r.vector_where(0, EXPECTED, |x| x > S::from_f64(0.0))?.into())
             }
             Family::MultivariateGaussian => {
                 Dist::MultivariateGaussian(Arc::new(MultivariateGaussian::read(&r)?))
@@ -369,7 +372,7 @@ impl<S: Scalar> Dist<S> {
 /// Parameters `k` and `k + 1` as the ends of an interval of finite length.
 fn interval<S: Scalar>(r: &Reader<'_, S>, k: usize) -> Result<(S, S), BadParameter> {
     let (lo, hi) = (r.finite(k)?, r.finite(k + 1)?);
-    if !(lo.value() < hi.value() && (hi - lo).is_finite()) {
+    if !(lo < hi && (hi - lo).is_finite()) {
         return r.refuse(k + 1, "a number above `lo`, at a finite distance");
     }
     Ok((lo, hi))

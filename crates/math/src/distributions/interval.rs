@@ -7,11 +7,7 @@ use crate::streams::{RngCore, open_unit};
 /// `-ln(hi - lo)`; both ends belong to the support, since rounding can reach them.
 #[inline]
 pub(super) fn uniform_log_density<S: Scalar>(lo: S, hi: S, x: S) -> S {
-    if x.value() >= lo.value() && x.value() <= hi.value() {
-        -(hi - lo).ln()
-    } else {
-        S::from_f64(f64::NEG_INFINITY)
-    }
+    if x >= lo && x <= hi { -(hi - lo).ln() } else { S::from_f64(f64::NEG_INFINITY) }
 }
 
 /// `lo + (hi - lo) u`.
@@ -23,10 +19,10 @@ pub(super) fn uniform_sample(lo: f64, hi: f64, rng: &mut (impl RngCore + ?Sized)
 /// `(a - 1) ln x + (b - 1) ln(1 - x) - ln B(a, b)`, inside the open interval.
 #[inline(never)]
 pub(super) fn beta_log_density<S: Scalar>(a: S, b: S, x: S) -> S {
-    if !(x.value() > 0.0 && x.value() < 1.0) {
+    let one = S::from_f64(1.0);
+    if !(x > S::from_f64(0.0) && x < one) {
         return S::from_f64(f64::NEG_INFINITY);
     }
-    let one = S::from_f64(1.0);
     let log_norm = a.ln_gamma() + b.ln_gamma() - (a + b).ln_gamma();
     (a - one) * x.ln() + (b - one) * (-x).ln_1p() - log_norm
 }

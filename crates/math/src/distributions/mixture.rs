@@ -44,11 +44,10 @@ impl<S: Scalar> Mixture<S> {
     pub fn log_density(&self, x: &Draw<S>) -> S {
         let term = |(k, c): (usize, &Dist<S>)| self.weights.log_probability(k as i64) + c.log_density(x);
         let terms = || self.components.iter().enumerate().map(term);
-        let largest = terms().fold(f64::NEG_INFINITY, |m, t| m.max(t.value()));
-        if largest == f64::NEG_INFINITY {
-            return S::from_f64(largest);
+        let shift = terms().fold(S::from_f64(f64::NEG_INFINITY), S::max);
+        if shift.value() == f64::NEG_INFINITY {
+            return shift;
         }
-        let shift = S::from_f64(largest);
         let sum = terms().filter(|t| t.value() > f64::NEG_INFINITY);
         shift + sum.fold(S::from_f64(0.0), |sum, t| sum + (t - shift).exp()).ln()
     }

@@ -5,6 +5,7 @@
 //! | `family` | the families' names and those of their parameters |
 //! | `draw` | what goes in and comes out: [`Param`], [`Draw`] |
 //! | `check` | reading parameters; the one way to say that one is wrong: [`BadParameter`] |
+//! | `convert` | the same distribution over another kind of number |
 //! | `dist` | [`Dist`]: one value for all families; building, scoring, drawing |
 //! | `support` | [`Support`], and listing the values of the finite discrete families |
 //! | `whole` | bernoulli, discrete_uniform, geometric |
@@ -29,6 +30,7 @@
 mod bell;
 mod check;
 mod circle;
+mod convert;
 mod counts;
 mod dist;
 mod draw;

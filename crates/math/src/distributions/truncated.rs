@@ -21,13 +21,13 @@ use std::f64::consts::FRAC_1_SQRT_2;
 /// Log density at `x`; the parameters are finite, `sd > 0`, `lo < hi`.
 #[inline(never)]
 pub(super) fn log_density<S: Scalar>(mean: S, sd: S, lo: S, hi: S, x: S) -> S {
-    if !(x.value() >= lo.value() && x.value() <= hi.value()) {
+    if !(x >= lo && x <= hi) {
         return S::from_f64(f64::NEG_INFINITY);
     }
-    if hi.value() <= mean.value() {
+    if hi <= mean {
         return one_side(-mean, sd, -hi, -lo, -x);
     }
-    if lo.value() >= mean.value() {
+    if lo >= mean {
         return one_side(mean, sd, lo, hi, x);
     }
     let c = S::from_f64;
@@ -45,7 +45,7 @@ fn one_side<S: Scalar>(mean: S, sd: S, lo: S, hi: S, x: S) -> S {
     let (a, b, width) = ((lo - mean) / sd, (hi - mean) / sd, (hi - lo) / sd);
     let fall = |t: S| c(-0.5) * t * (a + a + t);
     // ln(sqrt(2 pi) M): the integral of exp(fall) over the width.
-    let log_area = if width.value() * (1.0 + a.value()) < 1.0 {
+    let log_area = if width * (c(1.0) + a) < c(1.0) {
         integrate(width, |t| fall(t).exp()).ln()
     } else {
         let near = (a * c(FRAC_1_SQRT_2)).erfcx();

@@ -15,7 +15,7 @@ const SUM_TOLERANCE: f64 = 1e-9;
 pub(super) fn dirichlet_log_density<S: Scalar>(concentrations: &[S], x: &[S]) -> S {
     let never = S::from_f64(f64::NEG_INFINITY);
     let sum: f64 = x.iter().map(|x| x.value()).sum();
-    let inside = x.len() == concentrations.len() && x.iter().all(|x| x.value() > 0.0);
+    let inside = x.len() == concentrations.len() && x.iter().all(|x| *x > S::from_f64(0.0));
     // Written so that a NaN is outside.
     if !(inside && (sum - 1.0).abs() <= SUM_TOLERANCE) {
         return never;
@@ -76,6 +76,17 @@ impl<S: Scalar> MultivariateGaussian<S> {
                 Ok(MultivariateGaussian { mean, covariance: covariance.to_vec(), factor, log_peak })
             }
             None => reader.refuse(1, "a positive definite matrix"),
+        }
+    }
+
+    /// The same Gaussian over another kind of number.
+    pub(super) fn convert<T: Scalar>(&self, number: &impl Fn(S) -> T) -> MultivariateGaussian<T> {
+        let all = |xs: &Vec<S>| xs.iter().map(|x| number(*x)).collect::<Vec<_>>();
+        MultivariateGaussian {
+            mean: all(&self.mean),
+            covariance: self.covariance.iter().map(all).collect(),
+            factor: self.factor.iter().map(all).collect(),
+            log_peak: number(self.log_peak),
         }
     }
 

@@ -7,7 +7,7 @@ use rand_distr::{Distribution, Exp1};
 /// `ln rate - rate x`.
 #[inline]
 pub(super) fn exponential_log_density<S: Scalar>(rate: S, x: S) -> S {
-    if x.value() < 0.0 { S::from_f64(f64::NEG_INFINITY) } else { rate.ln() - rate * x }
+    if x < S::from_f64(0.0) { S::from_f64(f64::NEG_INFINITY) } else { rate.ln() - rate * x }
 }
 
 /// The kept ziggurat's draw, scaled.
@@ -20,7 +20,7 @@ pub(super) fn exponential_sample(rate: f64, rng: &mut (impl RngCore + ?Sized)) -
 /// `(shape - 1) ln x - x / scale - shape ln scale - ln gamma(shape)`.
 #[inline]
 pub(super) fn gamma_log_density<S: Scalar>(shape: S, scale: S, x: S) -> S {
-    if x.value() <= 0.0 {
+    if x <= S::from_f64(0.0) {
         return S::from_f64(f64::NEG_INFINITY);
     }
     // Two logarithms: the quotient may underflow.
@@ -54,7 +54,7 @@ pub(super) fn gamma_sample(shape: f64, scale: f64, rng: &mut (impl RngCore + ?Si
 /// `shape ln scale - (shape + 1) ln x - scale / x - ln gamma(shape)`.
 #[inline]
 pub(super) fn inverse_gamma_log_density<S: Scalar>(shape: S, scale: S, x: S) -> S {
-    if x.value() <= 0.0 {
+    if x <= S::from_f64(0.0) {
         return S::from_f64(f64::NEG_INFINITY);
     }
     let log = scale.ln() - x.ln();

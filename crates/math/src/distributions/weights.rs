@@ -22,7 +22,7 @@ impl<S: Scalar> Weights<S> {
     /// Parameter `k` of the reader as weights.
     pub(super) fn read(reader: &Reader<'_, S>, k: usize) -> Result<Self, BadParameter> {
         const EXPECTED: &str = "finite weights, none negative, with a positive finite sum";
-        let given = reader.vector_where(k, EXPECTED, |w| w >= 0.0)?;
+        let given = reader.vector_where(k, EXPECTED, |w| w >= S::from_f64(0.0))?;
         let total = given.iter().fold(S::from_f64(0.0), |sum, w| sum + *w);
         if !(total.value() > 0.0 && total.is_finite()) {
             return reader.refuse(k, EXPECTED);
@@ -41,6 +41,15 @@ impl<S: Scalar> Weights<S> {
         let last = given.iter().rposition(|w| w.value() > 0.0).unwrap_or(0);
         cumulative[last..].fill(1.0);
         Ok(Weights { given: given.into(), log, cumulative })
+    }
+
+    /// The same table over another kind of number.
+    pub(super) fn convert<T: Scalar>(&self, number: &impl Fn(S) -> T) -> Weights<T> {
+        Weights {
+            given: self.given.iter().map(|w| number(*w)).collect(),
+            log: self.log.iter().map(|w| number(*w)).collect(),
+            cumulative: self.cumulative.clone(),
+        }
     }
 
     /// How many choices there are.

@@ -45,7 +45,7 @@ pub fn int<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
         }
         Some(value) => match Number::of(value) {
             Some(Number::Int(n)) => Ok(Value::Int(n)),
-            Some(Number::Real(x)) => numbers::to_int(x.value().trunc()).map(Value::Int),
+            Some(Number::Real(x)) => super::mathematics::truncated(x).map(Value::Int),
             None => Err(unfit("int", "a number or text", value)),
         },
     }
@@ -85,8 +85,13 @@ pub fn round<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     match (Number::of(&args[0]), digits) {
         (Some(Number::Int(n)), None) => Ok(Value::Int(n)),
         (Some(Number::Int(n)), Some(digits)) => numbers::round_int(n, digits).map(Value::Int),
-        (Some(Number::Real(x)), None) => numbers::to_int(x.value().round_ties_even()).map(Value::Int),
+        (Some(Number::Real(x)), None) => {
+            super::mathematics::stepped(x, f64::round_ties_even, -0.5, 0.5).map(Value::Int)
+        }
         (Some(Number::Real(x)), Some(digits)) => {
+            if x.varies() {
+                return Err(Fault::no_derivative("`round` to decimals"));
+            }
             let rounded = numbers::round_real(x.value(), digits);
             if rounded.is_infinite() && x.value().is_finite() {
                 return Err(Fault::float_overflow("the rounded number is too large for a float"));
@@ -100,6 +105,12 @@ pub fn round<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
 /// `clip(x, lo, hi)`: `x`, or the bound that it is beyond.
 pub fn clip<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let [x, lo, hi] = args else { return Err(Fault::argument_count("`clip` takes 3 arguments")) };
+    if let (Some(a), Some(b), Some(c)) = (Number::of(x), Number::of(lo), Number::of(hi)) {
+        let (a, b, c) = (a.real(), b.real(), c.real());
+        if (a.varies() || b.varies() || c.varies()) && b.value() <= c.value() {
+            return Ok(Value::Real(a.max(b).min(c)));
+        }
+    }
     Ok(if less(x, lo)? {
         lo.clone()
     } else if less(hi, x)? {
@@ -111,19 +122,17 @@ pub fn clip<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
 
 /// `sign(x)`: 1, 0 or -1 (0 for a NaN).
 pub fn sign<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
-    let x = real("sign", &args[0])?.value();
-    Ok(Value::Int(i64::from(x > 0.0) - i64::from(x < 0.0)))
+    let (x, zero) = (real("sign", &args[0])?, S::from_f64(0.0));
+    Ok(Value::Int(i64::from(x > zero) - i64::from(x < zero)))
 }
 
 /// A real number with the sign of another.
 pub(super) fn with_sign<S: Scalar>(x: S, sign: S) -> S {
     let (value, other) = (x.value(), sign.value());
-    exact_or(
-        value.copysign(other),
-        || {
-            if value.is_sign_negative() == other.is_sign_negative() { x } else { -x }
-        },
-    )
+    exact_or(value.copysign(other), || {
+        let _ = (x < S::from_f64(0.0), sign < S::from_f64(0.0));
+        if value.is_sign_negative() == other.is_sign_negative() { x } else { -x }
+    })
 }
 
 #[cfg(test)]

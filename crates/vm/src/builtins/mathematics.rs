@@ -7,7 +7,7 @@
 use super::arithmetic::{real, whole, with_sign};
 use super::{Answer, unfit};
 use crate::fault::Fault;
-use crate::value::numbers::{self, Number, exact_or};
+use crate::value::numbers::{self, Number, exact_or, pin};
 use crate::value::{Scalar, Value, print};
 
 /// Applies Python's rule to a result.
@@ -115,27 +115,41 @@ pub fn hypot<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     })))
 }
 
-fn to_whole<S: Scalar>(name: &str, value: &Value<S>, round: fn(f64) -> f64) -> Answer<S> {
+/// A number rounded to a whole one by a way that changes `lo` below and `hi` above the result.
+pub(super) fn stepped<S: Scalar>(x: S, round: fn(f64) -> f64, lo: f64, hi: f64) -> Result<i64, Fault> {
+    let whole = round(x.value());
+    pin(x, whole + lo, whole + hi);
+    numbers::to_int(whole)
+}
+
+/// A number without its decimals.
+pub(super) fn truncated<S: Scalar>(x: S) -> Result<i64, Fault> {
+    let whole = x.value().trunc();
+    let reaches = |side: bool| f64::from(u8::from(side));
+    stepped(x, f64::trunc, -reaches(whole <= 0.0), reaches(whole >= 0.0))
+}
+
+fn to_whole<S: Scalar>(name: &str, value: &Value<S>, round: fn(S) -> Result<i64, Fault>) -> Answer<S> {
     match Number::of(value) {
         Some(Number::Int(n)) => Ok(Value::Int(n)),
-        Some(Number::Real(x)) => numbers::to_int(round(x.value())).map(Value::Int),
+        Some(Number::Real(x)) => round(x).map(Value::Int),
         None => Err(unfit(name, "a number", value)),
     }
 }
 
 /// The largest int not above x.
 pub fn floor<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
-    to_whole("floor", &args[0], f64::floor)
+    to_whole("floor", &args[0], |x| stepped(x, f64::floor, 0.0, 1.0))
 }
 
 /// The smallest int not below x.
 pub fn ceil<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
-    to_whole("ceil", &args[0], f64::ceil)
+    to_whole("ceil", &args[0], |x| stepped(x, f64::ceil, -1.0, 0.0))
 }
 
 /// The int part of x.
 pub fn trunc<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
-    to_whole("trunc", &args[0], f64::trunc)
+    to_whole("trunc", &args[0], truncated)
 }
 
 /// Radians to degrees.
@@ -164,6 +178,11 @@ pub fn fmod<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
             print::float(b)
         )));
     }
+    pin(
+        x / y,
+        (a / b).trunc() - f64::from(u8::from(a / b < 0.0)),
+        (a / b).trunc() + f64::from(u8::from(a / b >= 0.0)),
+    );
     Ok(Value::Real(exact_or(
         a % b,
         || if b.is_infinite() { x } else { x - y * S::from_f64((a / b).trunc()) },

@@ -6,14 +6,17 @@
 //! - [`sequences`]: making, ordering and folding sequences
 //! - [`strings`]: text, formatting and methods of built-in values
 //! - [`vectors`], [`shapes`]: points, directions, rotations, solids
+//! - [`colors`], [`polygons`]: what a picture and a plan are made of
 //! - [`dist`]: distributions from values
 //!
 //! The operators (`add`, `lt`, `index`, ...) are in the table as well, so that a function value can be made of any of them.
 //! Mathematics goes through [`Scalar`], so a recording scalar sees it.
 
 pub mod arithmetic;
+pub mod colors;
 pub mod dist;
 pub mod mathematics;
+pub mod polygons;
 pub mod sequences;
 pub mod shapes;
 pub mod soft;
@@ -217,6 +220,18 @@ table! {
     "distance" 2 2 vectors::distance;
     "rotation" 2 2 vectors::rotation;
     "rotate" 3 3 vectors::rotate;
+
+    "hsv" 3 3 colors::hsv;
+    "lab" 3 3 colors::lab;
+    "to_hsv" 1 1 colors::to_hsv;
+    "to_lab" 1 1 colors::to_lab;
+    "color_difference" 2 2 colors::difference;
+
+    "polygon_area" 1 1 polygons::area;
+    "polygon_contains" 2 2 polygons::contains;
+    "polygon_distance" 2 2 polygons::distance;
+    "polygon_disc_area" 3 3 polygons::disc_area;
+    "polygon_inset" 2 2 polygons::inset;
 
     "box" 2 7 shapes::cuboid;
     "cylinder" 3 8 shapes::cylinder;

@@ -251,6 +251,21 @@ mod tests {
     }
 
     #[test]
+    fn a_segment_takes_frames_and_bark() {
+        let frame = |y: f64, r: f64| {
+            V::tuple(vec![at(0.0, y, 0.0), at(0.0, 1.0, 0.0), at(0.0, 0.0, 1.0), V::real(r)])
+        };
+        let [start, split, end] = [frame(0.0, 1.0), frame(0.3, 0.9), frame(4.0, 0.7)];
+        let trunk = made("segment", &[start.clone(), split.clone(), end.clone()]);
+        assert_eq!((trunk.kind(), trunk.aabb().extent().y), ("segment", 4.0));
+        let short = V::tuple(vec![at(0.0, 1.0, 0.0), V::real(0.2)]);
+        assert_eq!(code("segment", &[start.clone(), split.clone(), short.clone()]), "type-mismatch");
+        assert_eq!(code("segment", &[start.clone(), split, end, short]), "type-mismatch");
+        let skew = V::tuple(vec![at(0.0, 1.0, 0.0), at(0.0, 1.0, 0.0), at(0.0, 1.0, 0.0), V::real(0.5)]);
+        assert_eq!(code("segment", &[start.clone(), start, skew]), "bad-shape");
+    }
+
+    #[test]
     fn a_mesh_is_read_once() {
         let vertices =
             V::list(vec![at(0.0, 0.0, 0.0), at(1.0, 0.0, 0.0), at(0.0, 1.0, 0.0), at(0.0, 0.0, 1.0)]);

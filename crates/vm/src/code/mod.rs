@@ -9,6 +9,7 @@
 //! | scratch | a register of the machine, gone at the next suspension | everything else; all of a pure function |
 //! | constant | the function's constant table | literals and data |
 
+mod convert;
 mod disassemble;
 mod verify;
 

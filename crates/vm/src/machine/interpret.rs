@@ -37,8 +37,8 @@ impl<S: Scalar> Machine<'_, S> {
         let (mut own, mut outer) = self.bases(state, f, node);
         self.room(scratch + f.scratch_registers as usize);
         if f.mode == Mode::Pure {
-            // A pure entry function: its arguments wait in the state.
-            let args = f.params as usize;
+            // A pure function to begin with: its arguments and captures wait in the state.
+            let args = usize::from(f.params) + usize::from(f.captures);
             for i in 0..args {
                 self.scratch[i] = state.registers[i].clone();
             }

@@ -5,7 +5,7 @@
 //!
 //! * [`address`]: paths of sites as 128-bit hashes;
 //! * [`answers`]: what is asked, and the trait of those who answer;
-//! * [`state`]: nodes, registers, futures;
+//! * [`state`]: nodes, registers, futures; `begin`: those of a run that has not begun;
 //! * [`kept`]: traces: kept activations, and re-running what changed;
 //! * `interpret`: the loop over instructions; `registers`: from operands to values;
 //! * `known`: distributions of weights that were made before;
@@ -15,6 +15,7 @@
 
 pub mod address;
 pub mod answers;
+mod begin;
 mod construct;
 mod interpret;
 mod keep;
@@ -123,37 +124,7 @@ impl<'p, S: Scalar> Machine<'p, S> {
     /// # Errors
     /// The wrong number of arguments.
     pub fn start(&self, args: &[Value<S>], depth_first: bool) -> Result<State<S>, Fault> {
-        let f = self.program.function(self.program.entry);
-        let needed = f.params as usize;
-        let optional = f.defaults.len();
-        if args.len() > needed || args.len() + optional < needed {
-            return Err(Fault::new(
-                "wrong-arity",
-                format!("`{}` takes {needed} arguments, {} given", f.name, args.len()),
-            ));
-        }
-        let mut state = State { depth_first, ..State::empty() };
-        let root = state.new_node(self.program, self.program.entry, NodeId::NONE, 0, address::ROOT);
-        let at = state.nodes[root.0 as usize].registers as usize;
-        // A pure entry function has its inputs in scratch: it is given them when it runs.
-        if f.mode == crate::code::Mode::Pure {
-            state.registers.extend(args.iter().cloned());
-        } else {
-            for (i, value) in args.iter().enumerate() {
-                state.registers[at + i] = value.clone();
-            }
-        }
-        for i in args.len()..needed {
-            let default = f.constants[f.defaults[i + optional - needed].index()].clone();
-            if f.mode == crate::code::Mode::Pure {
-                state.registers.push(default);
-            } else {
-                state.registers[at + i] = default;
-            }
-        }
-        let id = state.new_future(Status::Runnable(root), false);
-        state.runnable.push(id);
-        Ok(state)
+        self.start_call(self.program.entry, &[], args, depth_first)
     }
 
     /// Runs a runnable future until an answer pauses it, it returns, or it must wait.

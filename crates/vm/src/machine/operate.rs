@@ -55,7 +55,7 @@ pub(super) fn values<S: Scalar>(op: Binary, a: &Value<S>, b: &Value<S>) -> Resul
 pub(super) fn holds<S: Scalar>(op: Binary, a: &Value<S>, b: &Value<S>) -> Result<bool, Fault> {
     match (a, b) {
         (Value::Int(a), Value::Int(b)) => Ok(ordered(op, a, b)),
-        (Value::Real(a), Value::Real(b)) => Ok(ordered(op, &a.value(), &b.value())),
+        (Value::Real(a), Value::Real(b)) => Ok(ordered(op, a, b)),
         _ => holds_of_others(op, a, b),
     }
 }

@@ -152,6 +152,9 @@ impl<S: Scalar> Builder<'_, '_, S> {
 
     fn operation(&mut self, name: &Name, items: &[Expr]) -> Result<Operand> {
         let operands = self.exprs(items)?;
+        if let Some(value) = self.computed(name, &operands) {
+            return Ok(self.constant(value));
+        }
         let to = self.register()?;
         let op = match (&**name, operands.as_slice()) {
             ("add", &[a, b]) => Op::Add { to, a, b },
@@ -172,6 +175,15 @@ impl<S: Scalar> Builder<'_, '_, S> {
         };
         self.op(op);
         Ok(to)
+    }
+
+    /// The value of a built-in function of constants; one that fails is left for the run, which knows how it got there.
+    fn computed(&self, name: &str, operands: &[Operand]) -> Option<Value<S>> {
+        if binary(name).is_some() || operands.iter().any(|o| o.place() != Place::Constant) {
+            return None;
+        }
+        let values: Vec<Value<S>> = operands.iter().map(|o| self.constants[o.index()].clone()).collect();
+        crate::builtins::builtin::<S>(builtin_id(name)?).call(&values).ok()
     }
 
     fn pure_call(&mut self, name: &Name, items: &[Expr]) -> Result<Operand> {

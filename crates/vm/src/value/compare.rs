@@ -67,9 +67,11 @@ pub fn int_to_real(a: i64, b: f64) -> Option<Ordering> {
 #[inline]
 fn leaves_ordered<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Option<Option<Ordering>> {
     Some(match (a, b) {
-        (Value::Real(a), Value::Real(b)) => a.value().partial_cmp(&b.value()),
+        (Value::Real(a), Value::Real(b)) => a.partial_cmp(b),
         (Value::Int(a), Value::Int(b)) => Some(a.cmp(b)),
+        (Value::Int(a), Value::Real(b)) if b.varies() => S::from_f64(*a as f64).partial_cmp(b),
         (Value::Int(a), Value::Real(b)) => int_to_real(*a, b.value()),
+        (Value::Real(a), Value::Int(b)) if a.varies() => a.partial_cmp(&S::from_f64(*b as f64)),
         (Value::Real(a), Value::Int(b)) => int_to_real(*b, a.value()).map(Ordering::reverse),
         (Value::Bool(a), b) => return leaves_ordered(&Value::Int(i64::from(*a)), b),
         (a, Value::Bool(b)) => return leaves_ordered(a, &Value::Int(i64::from(*b))),
@@ -81,8 +83,7 @@ fn leaves_ordered<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Option<Option<Orderi
 /// Equality of two values when no look inside is needed.
 #[inline]
 fn leaves_equal<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Option<bool> {
-    let scalars_equal =
-        |a: &[S], b: &[S]| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.value() == b.value());
+    let scalars_equal = |a: &[S], b: &[S]| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a == b);
     if let Some(order) = leaves_ordered(a, b) {
         return Some(order == Some(Ordering::Equal));
     }

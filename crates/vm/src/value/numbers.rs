@@ -123,12 +123,23 @@ fn floor_parts(a: f64, b: f64) -> (f64, f64) {
     (if quotient - floor > 0.5 { floor + 1.0 } else { floor }, rest)
 }
 
+/// Says that the run goes on with something that holds only while `lo <= x < hi`, such as a whole part. A recording
+/// scalar notes it; a plain number has nothing to note.
+#[inline(always)]
+pub fn pin<S: Scalar>(x: S, lo: f64, hi: f64) {
+    if x.varies() {
+        let _ = x >= S::from_f64(lo) && x < S::from_f64(hi);
+    }
+}
+
 /// `a // b` of reals.
 pub fn floor_divide_reals<S: Scalar>(a: S, b: S) -> Result<S, Fault> {
     if b.value() == 0.0 {
         return Err(by_zero("floor division"));
     }
-    Ok(S::from_f64(floor_parts(a.value(), b.value()).0))
+    let quotient = floor_parts(a.value(), b.value()).0;
+    pin(a / b, quotient, quotient + 1.0);
+    Ok(S::from_f64(quotient))
 }
 
 /// `a % b` of reals: has the sign of `b`.
@@ -137,6 +148,7 @@ pub fn mod_reals<S: Scalar>(a: S, b: S) -> Result<S, Fault> {
         return Err(by_zero("remainder of a division"));
     }
     let (quotient, rest) = floor_parts(a.value(), b.value());
+    pin(a / b, quotient, quotient + 1.0);
     Ok(exact_or(rest, || a - b * S::from_f64(quotient)))
 }
 

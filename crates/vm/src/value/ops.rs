@@ -130,7 +130,7 @@ pub fn truth<S: Scalar>(a: &Value<S>) -> bool {
     match a {
         Value::Bool(b) => *b,
         Value::Int(n) => *n != 0,
-        Value::Real(x) => x.value() != 0.0,
+        Value::Real(x) => *x != S::from_f64(0.0),
         Value::None => false,
         Value::Str(text) => !text.is_empty(),
         Value::Tuple(tuple) => !tuple.items().is_empty(),
@@ -153,7 +153,7 @@ macro_rules! comparisons {
         #[inline]
         pub fn $name<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
             Ok(Value::Bool(match (a, b) {
-                (Value::Real(a), Value::Real(b)) => a.value() $sign b.value(),
+                (Value::Real(a), Value::Real(b)) => a $sign b,
                 (Value::Int(a), Value::Int(b)) => a $sign b,
                 _ => matches!(compare::order(a, b, stringify!($sign))?, Some($pattern)),
             }))

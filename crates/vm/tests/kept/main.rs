@@ -69,6 +69,25 @@ fn a_rollback_restores_everything() {
 }
 
 #[test]
+fn call_sites_that_never_pay_are_switched_off_and_nothing_else_changes() {
+    // The inner call gets a number that changes with every proposal of the first choice.
+    let program = compiled(
+        r#"(module (fn "leaf" (params $x) (do (observe (dist gaussian $x 1.0) 0.5)) (return $x))
+          (fn "m" (params) (set $x (sample (dist gaussian 0.0 1.0))) (set $y (call "leaf" $x)) (return $y)) (entry "m"))"#,
+    );
+    let mut on = Chain::start(&program, Strategy::C3, 5);
+    on.trace.adapt(&program, None);
+    let mut adapted = Chain::start(&program, Strategy::C3, 5);
+    assert_eq!(adapted.trace.cached_calls(&program), (1, 1));
+    for step in 0..300 {
+        assert_eq!(on.step(step), adapted.step(step));
+    }
+    assert_eq!(on.trace.cached_calls(&program), (1, 1));
+    assert_eq!(adapted.trace.cached_calls(&program), (1, 0));
+    assert_eq!(on.dump(), adapted.dump());
+}
+
+#[test]
 fn nothing_is_left_behind() {
     // Programs that make and take away activations hold no more after a long run than after a short one, up to
     // the largest that they were.

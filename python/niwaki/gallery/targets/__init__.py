@@ -24,6 +24,26 @@ from niwaki.target import Target
 if TYPE_CHECKING:
     from PIL.Image import Image
 
+__all__ = [
+    "IMAGES",
+    "TARGETS",
+    "bent_tube",
+    "crescent",
+    "dart",
+    "downtown",
+    "emblem",
+    "fan",
+    "forked_tree",
+    "funnel",
+    "gem",
+    "image",
+    "ledges",
+    "niwaki",
+    "ship",
+    "umbrella",
+    "write_all",
+]
+
 SOLIDS = (
     bent_tube,
     crescent,

@@ -70,8 +70,8 @@ def umbrella() -> Target:
 
 
 def fan() -> Target:
-    """Make an upright fan 12 wide, 11 high and 2.4 deep."""
+    """Make an upright fan 12 wide, 11 high and 4.4 deep."""
     turn = np.linspace(np.pi, 0.0, 25)
     rim = np.stack([6.0 * np.cos(turn), 5.0 + 6.0 * np.sin(turn)], axis=1)
     outline = np.concatenate([[(-1.2, 0.0)], rim, [(1.2, 0.0)]])
-    return solid("fan", [loft([[(x, y, z) for x, y in outline] for z in (-1.2, 1.2)])])
+    return solid("fan", [loft([[(x, y, z) for x, y in outline] for z in (-2.2, 2.2)])])

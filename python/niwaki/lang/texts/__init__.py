@@ -6,6 +6,7 @@ faults     the engine and the plain run: a model failed while it ran
 inputs     settings and arguments
 views      images to match, cameras, lights, receivers and obstacles; part of inputs
 files      files, and the settings of targets and pictures
+drawings   drawings to color, and rules about their regions; part of files
 doors      settings, models and run files at Python's and the shell's door
 advice     `niwaki check`: a model is right and could be better
 """

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from niwaki.lang.texts.drawings import DRAWINGS
 from niwaki.lang.texts.message import Message
 
 FILES = (
+    *DRAWINGS,
     Message(
         "file-missing",
         "there is no file at this path",
@@ -76,6 +78,14 @@ FILES = (
         help="check that the folder exists, that you may write there and that the disk has room",
         example="a folder that is not there",
         cure="a folder that is there",
+    ),
+    Message(
+        "polygon",
+        "this file holds no polygon that can be used",
+        why="{reason}",
+        help="give one closed outline of straight lines with at least three corners that does not cross itself",
+        example='load_polygon("two-rooms.svg")',
+        cure='load_polygon("room.svg")',
     ),
     Message(
         "not-a-solid",

@@ -123,6 +123,22 @@ INPUTS = (
         cure="run(model, method=importance(1000))",
     ),
     Message(
+        "sketch-without-slope",
+        "the score of the scene has no gradient",
+        why="{detail}",
+        help="use particles for it, or say with `factor` in the model what the shapes should be like",
+        example="log_density(grow(ship, target).best)",
+        cure="log_density(run(ship).best)",
+    ),
+    Message(
+        "no-continuous-choices",
+        "this run makes no continuous choices",
+        why="a gradient moves real numbers, and every choice of this run is discrete",
+        help="use a method for discrete choices, such as `enumerate_all` or particles",
+        example="log_density of a model of flips",
+        cure="log_density of a model with a gaussian",
+    ),
+    Message(
         "out-of-time",
         "the search found no result in its time",
         why="after {spent} it had {found}",

@@ -438,4 +438,22 @@ LANGUAGE = (
         example="@model\ndef m(a, b):\n    return a @ b\n",
         cure="@model\ndef m(a, b):\n    return dot(a, b)\n",
     ),
+    Message(
+        "infer-method",
+        "a method of `infer` must be known when the model is compiled",
+        "found `{found}`",
+        why="how an inner model is searched is a part of the program, as its functions are",
+        help="write the method here with constant settings, such as `smc(particles=100)`, or make it a constant of the module",
+        example="from niwaki import importance\n\n@model\ndef inner():\n    return flip(0.5)\n\n@model\ndef m(n):\n    return infer(inner, importance(n))\n",
+        cure="from niwaki import importance\n\n@model\ndef inner():\n    return flip(0.5)\n\n@model\ndef m():\n    return infer(inner, importance(100))\n",
+    ),
+    Message(
+        "infer-keep",
+        "`infer` keeps one sample or the best one",
+        "found `{found}`",
+        why="the inner model's arguments are given by position; the only keyword is `keep`",
+        help='write `keep="sample"` or `keep="best"`',
+        example="from niwaki import importance\n\n@model\ndef inner():\n    return flip(0.5)\n\n@model\ndef m():\n    return infer(inner, importance(100), keep=3)\n",
+        cure='from niwaki import importance\n\n@model\ndef inner():\n    return flip(0.5)\n\n@model\ndef m():\n    return infer(inner, importance(100), keep="best")\n',
+    ),
 )

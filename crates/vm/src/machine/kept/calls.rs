@@ -45,6 +45,14 @@ impl<S: Scalar> Kept<S> {
         let child = NodeId(held);
         let to = state.nodes[held as usize].registers as usize;
         let mut changed = false;
+        if !self.sites.is_on(state.nodes[node.0 as usize].function, u32::from(number.0)) {
+            for (i, o) in operands.iter().enumerate() {
+                let value = r.get(state, &machine.scratch, *o).clone();
+                let old = std::mem::replace(&mut state.registers[to + i], value);
+                self.journal.registers.push(((to + i) as u32, old));
+            }
+            return Ok(self.enter_call(child));
+        }
         for (i, o) in operands.iter().enumerate() {
             let value = r.get(state, &machine.scratch, *o);
             if !same(value, &state.registers[to + i]) {
@@ -54,7 +62,7 @@ impl<S: Scalar> Kept<S> {
                 changed = true;
             }
         }
-        Ok(self.call_again(child, changed))
+        Ok(self.call_again(state, child, changed))
     }
 
     /// A call of a function value. Another function than before is another activation.
@@ -81,7 +89,7 @@ impl<S: Scalar> Kept<S> {
             for (i, value) in machine.buffer.drain(..).enumerate() {
                 changed |= self.write_to(state, false, to + i, value);
             }
-            return Ok(self.call_again(NodeId(held), changed));
+            return Ok(self.call_again(state, NodeId(held), changed));
         }
         self.vacate(machine.program, state, node, number.0);
         let made = self.make(machine, state, node, number, site, function, at)?;
@@ -114,11 +122,16 @@ impl<S: Scalar> Kept<S> {
 
     /// A call that was made before: entered, unless it can be skipped. Its result is in the caller's register.
     #[inline]
-    fn call_again(&mut self, child: NodeId, changed: bool) -> After {
+    fn call_again(&mut self, state: &State<S>, child: NodeId, changed: bool) -> After {
+        let (function, site) = Kept::caller(state, child);
         if !changed && self.reuse && !self.is_marked(child) {
+            self.sites.paid(function, site);
             self.counters.skipped += 1;
             self.note(Step::Skipped(child));
             return After::Next;
+        }
+        if self.reuse {
+            self.sites.missed(function, site, self.now);
         }
         self.enter_call(child)
     }
@@ -156,6 +169,10 @@ impl<S: Scalar> Kept<S> {
         let (own, is_new) = (above.registers as usize, above.made == self.now);
         let site = &program.function(above.function).sites[number];
         let changed = self.write_to(state, is_new, own + site.to.index(), value);
+        if !changed {
+            let (function, site) = Kept::caller(state, node);
+            self.sites.paid(function, site);
+        }
         if self.depth > 0 {
             self.depth -= 1;
         } else if self.early && !changed {

@@ -7,7 +7,7 @@
 //!
 //! * `slot`, `journal`: what is remembered, and what can be undone;
 //! * `questions`: choices, factors, emits and queries that are reached again;
-//! * `calls`, `loops`: activations that are entered, skipped, made and taken away;
+//! * `calls`, `loops`: activations that are entered, skipped, made and taken away; `adapt`: calls that never pay;
 //! * `cells`: elements of collections, and those who read them;
 //! * `transaction`: changing choices, keeping or undoing it; `changes`: what that did to the choices;
 //! * [`inspect`]: what a trace holds, in program order.
@@ -16,6 +16,7 @@
 //!
 //! Source: C3, dissertation chapter 3: its cache is the slots, its continuations are (node, program counter).
 
+mod adapt;
 mod calls;
 mod cells;
 mod changes;
@@ -26,6 +27,7 @@ mod questions;
 mod slot;
 mod transaction;
 
+pub use adapt::Adaptation;
 pub use questions::fits;
 pub use transaction::{Change, Changed, Propose, Proposed};
 
@@ -37,9 +39,10 @@ use super::question::Halt;
 use super::registers::Registers;
 use super::state::{NodeId, State};
 use super::suspend::After;
-use crate::code::{Args, Mode, Program, SiteId};
+use crate::code::{Args, FunctionId, Mode, Program, SiteId};
 use crate::fault::Fault;
-use crate::value::{Value, same};
+use crate::value::{Closure, Value, same};
+use adapt::Sites;
 use cells::{Reader, Readers};
 use journal::Journal;
 use niwaki_geom::Primitive;
@@ -142,6 +145,7 @@ pub(crate) struct Kept<S: Scalar> {
     /// Those who read each cell.
     pub readers: Vec<Readers>,
     pub free_readers: Vec<u32>,
+    pub sites: Sites,
     pub result: Value<S>,
     pub totals: Totals,
     pub counters: Counters,
@@ -185,7 +189,7 @@ pub struct Trace<S: Scalar = f64> {
 }
 
 impl<S: Scalar> Kept<S> {
-    fn new() -> Self {
+    fn new(program: &Program<S>) -> Self {
         Kept {
             slots: vec![],
             loops: vec![],
@@ -194,6 +198,7 @@ impl<S: Scalar> Kept<S> {
             free_emits: vec![],
             readers: vec![],
             free_readers: vec![],
+            sites: Sites::new(program, Some(Adaptation::default())),
             result: Value::None,
             totals: Totals::default(),
             counters: Counters::default(),
@@ -445,21 +450,44 @@ impl<'p, S: Scalar> Machine<'p, S> {
         args: &[Value<S>],
         answers: &mut A,
     ) -> Result<(Trace<S>, Change), Box<super::stack::RunFault>> {
+        self.begin_call(self.program.entry, &[], args, answers)
+    }
+
+    /// As [`Machine::begin`], of a closure of the program.
+    ///
+    /// # Errors
+    /// As for [`Machine::begin`].
+    pub fn begin_closure<A: Answers<S>>(
+        &mut self,
+        closure: &Closure<S>,
+        args: &[Value<S>],
+        answers: &mut A,
+    ) -> Result<(Trace<S>, Change), Box<super::stack::RunFault>> {
+        self.begin_call(FunctionId(closure.function), &closure.captures, args, answers)
+    }
+
+    fn begin_call<A: Answers<S>>(
+        &mut self,
+        entry: FunctionId,
+        captures: &[Value<S>],
+        args: &[Value<S>],
+        answers: &mut A,
+    ) -> Result<(Trace<S>, Change), Box<super::stack::RunFault>> {
         let bare = |fault| {
             Box::new(super::stack::RunFault { fault, stack: vec![], omitted: 0, path: String::new() })
         };
-        let template = self.start(args, true).map_err(bare)?;
-        let mut trace = Trace { state: State::empty(), kept: Kept::new() };
+        let template = self.start_call(entry, captures, args, true).map_err(bare)?;
+        let mut trace = Trace { state: State::empty(), kept: Kept::new(self.program) };
         let (state, kept) = (&mut trace.state, &mut trace.kept);
         state.depth_first = true;
         kept.open();
-        let entry = self.program.entry;
         let root = kept.new_node(self.program, state, entry, NodeId::NONE, 0, address::ROOT);
         if self.program.function(entry).mode == Mode::Pure {
             // A pure entry function reads its arguments at the start of the register file.
             state.registers.extend(template.registers.iter().cloned());
         } else {
-            let count = self.program.function(entry).params as usize;
+            let f = self.program.function(entry);
+            let count = usize::from(f.params) + usize::from(f.captures);
             for (i, value) in template.registers.iter().take(count).enumerate() {
                 state.registers[i] = value.clone();
             }

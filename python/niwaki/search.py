@@ -129,7 +129,9 @@ def run(
         with translated(model.name, choices=choices):
             first = made.replay(dict(choices), given_seed)
         known = {choice[1]: choice[3] for choice in first.choices}
-        return _chains(model, made, method, score, given_seed, check_threads(threads), _told(progress, 0, 1), known)
+        return _chains(
+            model, made, method, score, given_seed, check_threads(threads), _told(progress, 0, 1), known
+        )
     return _search(
         model, made, method or Forward(), score, given_seed, check_threads(threads), progress, 0, 1
     )
@@ -377,7 +379,6 @@ def _search(
     runs: int,
 ) -> Result:
     """One search with one seed, timed."""
-
     watch = _told(progress, number, runs)
     if isinstance(method, Mh):
         return _chains(model, made, method, score, seed, threads, watch)

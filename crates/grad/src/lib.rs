@@ -1,0 +1,32 @@
+//! A run as a graph.
+//!
+//! * [`operation`]: what a node computes; [`graph`]: nodes, each kept once, simplified as they are added;
+//! * [`reverse`]: the gradient, as more nodes; [`density`]: a value with its gradient and guards, and its interpreter;
+//! * [`tape`]: a density over lanes, one for each chain, without compilation; [`kernels`]: functions over many numbers;
+//! * [`native`]: machine code by Cranelift;
+//! * [`scalar`]: the number that records what happens to it; [`mod@record`]: a run of a program, recorded;
+//! * [`compiled`]: the tape first, machine code when it is ready; [`live`]: recorded again where a guard fails;
+//! * [`jax`]: the same density as Python text.
+
+pub mod compiled;
+pub mod density;
+pub mod graph;
+pub mod jax;
+pub mod kernels;
+pub mod live;
+pub mod native;
+pub mod operation;
+pub mod record;
+pub mod reverse;
+pub mod scalar;
+pub mod tape;
+
+pub use compiled::Compiled;
+pub use density::{Comparison, Density, Guard};
+pub use graph::{Graph, Id};
+pub use live::{Live, Model, Refused};
+pub use native::Native;
+pub use operation::Op;
+pub use record::{Recorded, Run, Transform, record};
+pub use scalar::Var;
+pub use tape::{Lanes, Tape};

@@ -1,0 +1,153 @@
+//! A density that follows its program: outside the guards of one path the run is recorded again.
+//!
+//! A path is what one recording saw. As long as the choices are the same ones (their addresses, supports and fixed
+//! values), another path is the same density elsewhere, and paths are kept. Where the choices change, the point is
+//! refused: what moves there is not a gradient.
+
+use crate::compiled::Compiled;
+use crate::record::{HostCall, Recorded, Run, record};
+use crate::scalar::Var;
+use niwaki_vm::code::Program;
+use niwaki_vm::fault::Fault;
+use niwaki_vm::machine::Limits;
+use niwaki_vm::machine::stack::RunFault;
+use niwaki_vm::value::Value;
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// Pure functions of the host.
+pub type Host = Arc<HostCall<'static>>;
+
+/// What is recorded again and again: a program with its arguments.
+#[derive(Clone)]
+pub struct Model {
+    /// The program, over recording numbers.
+    pub program: Arc<Program<Var>>,
+    /// The arguments of its entry function.
+    pub args: Vec<Value<Var>>,
+    /// How much a run may use.
+    pub limits: Limits,
+    /// Its host functions.
+    pub host: Host,
+}
+
+impl Model {
+    /// Records the run with these choices.
+    ///
+    /// # Errors
+    /// As [`record`].
+    pub fn record(&self, choices: &HashMap<u128, Value>) -> Result<Recorded, Box<RunFault>> {
+        let run = Run { program: &self.program, args: &self.args, limits: self.limits, host: &*self.host };
+        record(&run, choices)
+    }
+}
+
+/// Why a point is refused.
+#[derive(Debug)]
+pub enum Refused {
+    /// The run makes other choices there.
+    Structure,
+    /// The run fails there, or is impossible.
+    Fault(Box<RunFault>),
+    /// A comparison holds in the run and not in its recording, by rounding.
+    Rounding,
+}
+
+/// Paths kept at most; the first to come goes first.
+const PATHS: usize = 64;
+
+struct Path {
+    recorded: Arc<Recorded>,
+    compiled: Compiled,
+}
+
+/// A density that follows its program.
+pub struct Live {
+    model: Model,
+    paths: Vec<Path>,
+    now: usize,
+    recordings: usize,
+}
+
+impl Live {
+    /// The density around a recorded run.
+    pub fn new(model: Model, recorded: Recorded) -> Live {
+        let mut live = Live { model, paths: vec![], now: 0, recordings: 1 };
+        live.push(recorded);
+        live
+    }
+
+    fn push(&mut self, recorded: Recorded) {
+        if self.paths.len() == PATHS {
+            self.paths.remove(0);
+        }
+        let compiled = Compiled::new(recorded.density.clone());
+        self.paths.push(Path { recorded: Arc::new(recorded), compiled });
+        self.now = self.paths.len() - 1;
+    }
+
+    /// How many coordinates there are.
+    pub fn dim(&self) -> usize {
+        self.recorded().dim()
+    }
+
+    /// The path that the last point was on.
+    pub fn recorded(&self) -> &Arc<Recorded> {
+        &self.paths[self.now].recorded
+    }
+
+    /// How often the program was recorded.
+    pub fn recordings(&self) -> usize {
+        self.recordings
+    }
+
+    /// The path's evaluator.
+    pub fn compiled(&mut self) -> &mut Compiled {
+        &mut self.paths[self.now].compiled
+    }
+
+    /// The log density at `x`, with its gradient in `g`.
+    ///
+    /// # Errors
+    /// A point at which the run makes other choices, fails or is impossible; `g` is then of no use.
+    ///
+    /// # Panics
+    /// When `x` or `g` has not one number for each coordinate.
+    #[inline]
+    pub fn value_and_gradient(&mut self, x: &[f64], g: &mut [f64]) -> Result<f64, Refused> {
+        match self.paths[self.now].compiled.inside(x, g) {
+            Some(value) => Ok(value),
+            None => self.elsewhere(x, g),
+        }
+    }
+
+    #[cold]
+    fn elsewhere(&mut self, x: &[f64], g: &mut [f64]) -> Result<f64, Refused> {
+        for at in 0..self.paths.len() {
+            if at != self.now
+                && let Some(value) = self.paths[at].compiled.inside(x, g)
+            {
+                self.now = at;
+                return Ok(value);
+            }
+        }
+        if let Some(bad) = x.iter().position(|x| !x.is_finite()) {
+            let fault = Fault::new("non-finite-score", format!("coordinate {bad} is {}", x[bad]));
+            let bare = RunFault { fault, stack: vec![], omitted: 0, path: String::new() };
+            return Err(Refused::Fault(Box::new(bare)));
+        }
+        let choices = self.recorded().values(x);
+        self.recordings += 1;
+        let recorded = match self.model.record(&choices) {
+            Ok(recorded) => recorded,
+            Err(fault) if fault.fault.code == "missing-choice" => return Err(Refused::Structure),
+            Err(fault) => return Err(Refused::Fault(fault)),
+        };
+        if recorded.structure != self.recorded().structure {
+            return Err(Refused::Structure);
+        }
+        self.push(recorded);
+        let compiled = &mut self.paths[self.now].compiled;
+        compiled.inside(x, g).ok_or(Refused::Rounding)
+    }
+}

@@ -1,0 +1,268 @@
+//! The number that records what happens to it.
+//!
+//! A [`Var`] is its value at the recorded point and the node that computes it; a number that does not vary has no
+//! node. Operations go to the sheet of the thread that records ([`with_sheet`]); comparisons become guards. A machine
+//! or a density over `Var` instead of `f64` so writes itself down: the non-standard interpretation of dissertation
+//! 7.2.1.
+
+use crate::density::{Comparison, Guard};
+use crate::graph::{Graph, Id, Mix};
+use crate::operation::Op;
+use niwaki_math::Scalar;
+use std::cell::RefCell;
+use std::cmp::Ordering;
+use std::collections::HashSet;
+use std::hash::BuildHasherDefault;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// What is written while a run is recorded.
+#[derive(Default)]
+pub struct Sheet {
+    /// The operations.
+    pub graph: Graph,
+    /// The comparisons that steered the run, each once, in order.
+    pub guards: Vec<Guard>,
+    seen: HashSet<Guard, BuildHasherDefault<Mix>>,
+}
+
+thread_local! {
+    static SHEET: RefCell<Option<Sheet>> = const { RefCell::new(None) };
+}
+
+/// Records what `f` computes. A recording inside a recording has a sheet of its own.
+pub fn with_sheet<R>(f: impl FnOnce() -> R) -> (R, Sheet) {
+    /// Puts the outer sheet back, also when `f` panics.
+    struct Outer(Option<Sheet>);
+    impl Drop for Outer {
+        fn drop(&mut self) {
+            let outer = self.0.take();
+            SHEET.with_borrow_mut(|sheet| *sheet = outer);
+        }
+    }
+    let outer = Outer(SHEET.replace(Some(Sheet::default())));
+    let result = f();
+    let sheet = SHEET.take().unwrap_or_default();
+    drop(outer);
+    (result, sheet)
+}
+
+const FIXED: u32 = u32::MAX;
+
+/// A real number that may vary with the coordinates of a recording.
+#[derive(Clone, Copy, Debug)]
+pub struct Var {
+    value: f64,
+    node: u32,
+}
+
+impl Var {
+    /// The next coordinate, at that value. Outside a recording, the number.
+    pub fn input(value: f64) -> Var {
+        Var::written(value, |sheet| sheet.graph.input())
+    }
+
+    /// The node that computes it; a constant is given one.
+    pub fn id(self, graph: &mut Graph) -> Id {
+        if self.node == FIXED { graph.constant(self.value) } else { Id(self.node) }
+    }
+
+    /// The same number where it is known to lie between two others, which guards then need not ask.
+    #[must_use]
+    pub fn within(self, lo: f64, hi: f64) -> Var {
+        if self.node != FIXED {
+            SHEET.with_borrow_mut(|sheet| {
+                if let Some(sheet) = sheet {
+                    sheet.graph.narrow(Id(self.node), lo, hi);
+                }
+            });
+        }
+        self
+    }
+
+    /// The same number, its value at the recorded point being this one up to rounding.
+    #[must_use]
+    pub fn at(self, value: f64) -> Var {
+        Var { value, ..self }
+    }
+
+    /// The nearest whole number, with the slope zero.
+    #[must_use]
+    pub fn round(self) -> Var {
+        self.unary(Op::Round, self.value.round_ties_even())
+    }
+
+    /// `yes` where the number is below the bound or at it, else `no`: one operation, and no guard.
+    #[must_use]
+    pub fn below_or(self, bound: f64, yes: Var, no: Var) -> Var {
+        let taken = if self.value <= bound { yes } else { no };
+        if self.node == FIXED {
+            return taken;
+        }
+        Var::written(taken.value, |sheet| {
+            let g = &mut sheet.graph;
+            let (bound, yes, no) = (g.constant(bound), yes.id(g), no.id(g));
+            let above = g.binary(Op::Less, bound, Id(self.node));
+            g.select(above, no, yes)
+        })
+    }
+
+    fn written(value: f64, write: impl FnOnce(&mut Sheet) -> Id) -> Var {
+        SHEET.with_borrow_mut(|sheet| match sheet {
+            Some(sheet) => {
+                let id = write(sheet);
+                let node = if sheet.graph.constant_of(id).is_some() { FIXED } else { id.0 };
+                // An operation may turn out constant (`x - x`); its value is then the graph's.
+                let value = sheet.graph.constant_of(id).unwrap_or(value);
+                Var { value, node }
+            }
+            None => Var { value, node: FIXED },
+        })
+    }
+
+    #[inline]
+    fn unary(self, op: Op, value: f64) -> Var {
+        if self.node == FIXED {
+            return Var { value, node: FIXED };
+        }
+        Var::written(value, |sheet| sheet.graph.unary(op, Id(self.node)))
+    }
+
+    #[inline]
+    fn binary(self, op: Op, other: Var, value: f64) -> Var {
+        if self.node == FIXED && other.node == FIXED {
+            return Var { value, node: FIXED };
+        }
+        Var::written(value, |sheet| {
+            let (a, b) = (self.id(&mut sheet.graph), other.id(&mut sheet.graph));
+            sheet.graph.binary(op, a, b)
+        })
+    }
+
+    /// Notes that a comparison held.
+    fn guard(comparison: Comparison, a: Var, b: Var) {
+        if a.node == FIXED && b.node == FIXED || a.value.is_nan() || b.value.is_nan() {
+            return;
+        }
+        SHEET.with_borrow_mut(|sheet| {
+            if let Some(sheet) = sheet {
+                let (a, b) = (a.id(&mut sheet.graph), b.id(&mut sheet.graph));
+                let guard = Guard { comparison, a, b };
+                if sheet.seen.insert(guard) {
+                    sheet.guards.push(guard);
+                }
+            }
+        });
+    }
+}
+
+impl PartialEq for Var {
+    fn eq(&self, other: &Var) -> bool {
+        let equal = self.value == other.value;
+        Var::guard(if equal { Comparison::Equal } else { Comparison::NotEqual }, *self, *other);
+        equal
+    }
+}
+
+impl PartialOrd for Var {
+    fn partial_cmp(&self, other: &Var) -> Option<Ordering> {
+        let order = self.value.partial_cmp(&other.value)?;
+        match order {
+            Ordering::Less => Var::guard(Comparison::Less, *self, *other),
+            Ordering::Equal => Var::guard(Comparison::Equal, *self, *other),
+            Ordering::Greater => Var::guard(Comparison::Less, *other, *self),
+        }
+        Some(order)
+    }
+    fn lt(&self, other: &Var) -> bool {
+        let holds = self.value < other.value;
+        if holds {
+            Var::guard(Comparison::Less, *self, *other);
+        } else {
+            Var::guard(Comparison::LessOrEqual, *other, *self);
+        }
+        holds
+    }
+    fn le(&self, other: &Var) -> bool {
+        let holds = self.value <= other.value;
+        if holds {
+            Var::guard(Comparison::LessOrEqual, *self, *other);
+        } else {
+            Var::guard(Comparison::Less, *other, *self);
+        }
+        holds
+    }
+    fn gt(&self, other: &Var) -> bool {
+        other.lt(self)
+    }
+    fn ge(&self, other: &Var) -> bool {
+        other.le(self)
+    }
+}
+
+impl Add for Var {
+    type Output = Var;
+    fn add(self, other: Var) -> Var {
+        self.binary(Op::Add, other, self.value + other.value)
+    }
+}
+impl Sub for Var {
+    type Output = Var;
+    fn sub(self, other: Var) -> Var {
+        self.binary(Op::Sub, other, self.value - other.value)
+    }
+}
+impl Mul for Var {
+    type Output = Var;
+    fn mul(self, other: Var) -> Var {
+        self.binary(Op::Mul, other, self.value * other.value)
+    }
+}
+impl Div for Var {
+    type Output = Var;
+    fn div(self, other: Var) -> Var {
+        self.binary(Op::Div, other, self.value / other.value)
+    }
+}
+impl Neg for Var {
+    type Output = Var;
+    fn neg(self) -> Var {
+        self.unary(Op::Neg, -self.value)
+    }
+}
+
+macro_rules! unary {
+    ($($name:ident $op:ident)*) => { $( fn $name(self) -> Var { self.unary(Op::$op, Scalar::$name(self.value)) } )* };
+}
+macro_rules! binary {
+    ($($name:ident $op:ident)*) => { $(
+        fn $name(self, other: Var) -> Var { self.binary(Op::$op, other, Scalar::$name(self.value, other.value)) }
+    )* };
+}
+
+impl Scalar for Var {
+    #[inline]
+    fn from_f64(x: f64) -> Var {
+        Var { value: x, node: FIXED }
+    }
+    #[inline]
+    fn value(self) -> f64 {
+        self.value
+    }
+    unary! {
+        sqrt Sqrt exp Exp ln Log ln_1p Log1p exp_m1 Expm1 sin Sin cos Cos tan Tan asin Asin acos Acos atan Atan
+        sinh Sinh cosh Cosh tanh Tanh abs Abs ln_gamma LnGamma erf Erf erfcx Erfcx ln_bessel_i0e LnBesselI0e
+    }
+    binary! { atan2 Atan2 powf Pow min Min max Max }
+    fn powi(self, n: i32) -> Var {
+        if self.node == FIXED {
+            return Var::from_f64(self.value.powi(n));
+        }
+        Var::written(self.value.powi(n), |sheet| sheet.graph.powi(Id(self.node), n))
+    }
+    fn is_finite(self) -> bool {
+        self.value.is_finite()
+    }
+    fn varies(self) -> bool {
+        self.node != FIXED
+    }
+}

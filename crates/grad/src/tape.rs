@@ -1,0 +1,236 @@
+//! The tape: a density as a list of instructions over lanes, one lane for each chain.
+//!
+//! Each instruction is a loop over the lanes, which the compiler turns into vector code, so what an instruction costs
+//! to find is shared by 16 or 64 chains. It needs no compilation. Values whose last reader has run give their place to
+//! others, which keeps the lanes of a large graph in the cache.
+
+#![allow(unsafe_code)] // Slices of one memory, disjoint by construction; the call of code for AVX2.
+
+use crate::density::{Comparison, Density, Guard};
+use crate::graph::{Graph, Id};
+use crate::kernels;
+use crate::operation::Op;
+
+#[derive(Clone, Copy, Debug)]
+enum Step {
+    Compute { op: Op, to: u32, a: u32, b: u32, c: u32 },
+    Guard { comparison: Comparison, a: u32, b: u32 },
+}
+
+/// Instructions for some nodes of a graph; for a density, its value with its gradient.
+#[derive(Clone, Debug)]
+pub struct Tape {
+    steps: Vec<Step>,
+    /// Slots with numbers in them from the start.
+    constants: Vec<(u32, f64)>,
+    slots: usize,
+    inputs: usize,
+    /// Of a density, the derivatives and then the value.
+    outputs: Vec<u32>,
+}
+
+impl Tape {
+    /// The tape of a density.
+    pub fn new(density: &Density) -> Tape {
+        let outputs: Vec<Id> = density.gradient().iter().chain([&density.value()]).copied().collect();
+        Tape::of(density.graph(), &outputs, density.guards())
+    }
+
+    /// The tape of some nodes, within guards.
+    pub fn of(graph: &Graph, outputs: &[Id], guards: &[Guard]) -> Tape {
+        const NONE: u32 = u32::MAX;
+        let roots = guards.iter().flat_map(|g| [g.a, g.b]).chain(outputs.iter().copied());
+        let needed = graph.needed(roots);
+        let mut last = vec![0_u32; graph.len()];
+        for &id in &needed {
+            for arg in graph.node(id).args() {
+                last[arg.index()] = id.0;
+            }
+        }
+        // Guards run right after the later of their two numbers.
+        let mut guards: Vec<_> = guards.iter().map(|g| (g.a.max(g.b), *g)).collect();
+        guards.sort_by_key(|(at, _)| *at);
+        for (at, guard) in &guards {
+            for id in [guard.a, guard.b] {
+                last[id.index()] = last[id.index()].max(at.0);
+            }
+        }
+        for id in outputs {
+            last[id.index()] = NONE;
+        }
+        let inputs = graph.inputs();
+        let mut tape = Tape { steps: vec![], constants: vec![], slots: inputs, inputs, outputs: vec![] };
+        let mut slot = vec![NONE; graph.len()];
+        let mut free: Vec<u32> = Vec::new();
+        let mut guards = guards.into_iter().peekable();
+        for &id in &needed {
+            let node = graph.node(id);
+            let permanent = node.op.arity() == 0;
+            let reused = if permanent { node.input().map(|k| k as u32) } else { free.pop() };
+            slot[id.index()] = reused.unwrap_or_else(|| {
+                tape.slots += 1;
+                tape.slots as u32 - 1
+            });
+            let to = slot[id.index()];
+            if let Some(x) = node.constant() {
+                tape.constants.push((to, x));
+            } else if !permanent {
+                let at = |k: usize| if k < node.op.arity() { slot[node.arg(k).index()] } else { 0 };
+                tape.steps.push(Step::Compute { op: node.op, to, a: at(0), b: at(1), c: at(2) });
+            }
+            let mut done: Vec<Id> = node.args().collect();
+            while let Some((_, guard)) = guards.next_if(|(at, _)| *at == id) {
+                let (a, b) = (slot[guard.a.index()], slot[guard.b.index()]);
+                tape.steps.push(Step::Guard { comparison: guard.comparison, a, b });
+                done.extend([guard.a, guard.b]);
+            }
+            done.sort_unstable();
+            done.dedup();
+            // Freed only now: what is written never lies where its arguments are.
+            free.extend(
+                done.iter()
+                    .filter(|arg| last[arg.index()] == id.0 && graph.node(**arg).op.arity() > 0)
+                    .map(|arg| slot[arg.index()]),
+            );
+        }
+        tape.outputs = outputs.iter().map(|id| slot[id.index()]).collect();
+        tape
+    }
+
+    /// How many coordinates there are.
+    pub fn dim(&self) -> usize {
+        self.inputs
+    }
+
+    /// How many numbers a lane keeps.
+    pub fn slots(&self) -> usize {
+        self.slots
+    }
+
+    /// Memory for that many lanes.
+    pub fn lanes<const L: usize>(&self) -> Lanes<L> {
+        let mut memory = vec![[0.0; L]; self.slots];
+        for &(slot, x) in &self.constants {
+            memory[slot as usize] = [x; L];
+        }
+        Lanes { memory }
+    }
+
+    #[inline(always)]
+    fn run<const L: usize>(&self, memory: &mut [[f64; L]], inside: &mut [bool; L]) {
+        let base = memory.as_mut_ptr();
+        let slots = memory.len();
+        for step in &self.steps {
+            match *step {
+                Step::Compute { op, to, a, b, c } => {
+                    debug_assert!([to, a, b, c].iter().all(|&slot| (slot as usize) < slots));
+                    // SAFETY: `Tape::new` hands out slots below `slots`, and none that an argument has to what is
+                    // written; unused arguments are slot 0, which is read by no arm that does not take them, and
+                    // `to` may be slot 0 only for a tape of no inputs, whose memory is still valid to read.
+                    let (a, b, c, to) = unsafe {
+                        (
+                            &*base.add(a as usize),
+                            &*base.add(b as usize),
+                            &*base.add(c as usize),
+                            base.add(to as usize),
+                        )
+                    };
+                    let mut out = [0.0; L];
+                    kernels::any(op, a, b, c, &mut out);
+                    // SAFETY: as above; nothing else is borrowed any more.
+                    unsafe { *to = out };
+                }
+                Step::Guard { comparison, a, b } => {
+                    let (a, b) = (&memory[a as usize], &memory[b as usize]);
+                    for (inside, (a, b)) in inside.iter_mut().zip(a.iter().zip(b)) {
+                        *inside &= comparison.holds(*a, *b);
+                    }
+                }
+            }
+        }
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2")]
+    fn run_avx2<const L: usize>(&self, memory: &mut [[f64; L]], inside: &mut [bool; L]) {
+        self.run(memory, inside);
+    }
+}
+
+/// What the lanes of a [`Tape`] compute in.
+#[derive(Clone, Debug)]
+pub struct Lanes<const L: usize> {
+    memory: Vec<[f64; L]>,
+}
+
+impl<const L: usize> Lanes<L> {
+    /// The log densities of `L` points, with their gradients in `g`.
+    ///
+    /// Coordinate `k` of chain `l` is `x[k][l]`: shape (dim, L), as for `g`. A chain outside the guards gets NaN.
+    ///
+    /// # Panics
+    /// When `x` or `g` has not one row for each coordinate, or the memory is another tape's.
+    pub fn value_and_gradient(&mut self, tape: &Tape, x: &[[f64; L]], g: &mut [[f64; L]]) -> [f64; L] {
+        assert!(g.len() == x.len() && tape.outputs.len() == x.len() + 1);
+        let inside = self.run(tape, x);
+        for (g, slot) in g.iter_mut().zip(&tape.outputs) {
+            *g = self.memory[*slot as usize];
+        }
+        let mut value = self.memory[tape.outputs[x.len()] as usize];
+        for (lane, inside) in inside.iter().enumerate() {
+            if !inside {
+                value[lane] = f64::NAN;
+                g.iter_mut().for_each(|g| g[lane] = f64::NAN);
+            }
+        }
+        value
+    }
+
+    /// Computes all, and says which lanes are inside the guards.
+    fn run(&mut self, tape: &Tape, x: &[[f64; L]]) -> [bool; L] {
+        assert!(x.len() == tape.dim() && self.memory.len() == tape.slots);
+        self.memory[..x.len()].copy_from_slice(x);
+        let mut inside = [true; L];
+        #[cfg(target_arch = "x86_64")]
+        if std::arch::is_x86_feature_detected!("avx2") {
+            // SAFETY: the processor has AVX2.
+            unsafe { tape.run_avx2(&mut self.memory, &mut inside) };
+            return inside;
+        }
+        tape.run(&mut self.memory, &mut inside);
+        inside
+    }
+}
+
+impl Lanes<1> {
+    /// The same; `None` outside the guards.
+    ///
+    /// # Panics
+    /// As for [`Lanes::value_and_gradient`].
+    pub fn inside(&mut self, tape: &Tape, x: &[f64], g: &mut [f64]) -> Option<f64> {
+        assert!(g.len() == x.len() && tape.outputs.len() == x.len() + 1);
+        let [inside] = self.run(tape, x.as_chunks().0);
+        if !inside {
+            g.fill(f64::NAN);
+            return None;
+        }
+        for (g, slot) in g.iter_mut().zip(&tape.outputs) {
+            *g = self.memory[*slot as usize][0];
+        }
+        Some(self.memory[tape.outputs[x.len()] as usize][0])
+    }
+
+    /// The outputs at one point.
+    pub(crate) fn outputs(&mut self, tape: &Tape, x: &[f64]) -> Vec<f64> {
+        self.run(tape, x.as_chunks().0);
+        tape.outputs.iter().map(|slot| self.memory[*slot as usize][0]).collect()
+    }
+
+    /// The log density of one point, with its gradient in `g`.
+    ///
+    /// # Panics
+    /// As for [`Lanes::value_and_gradient`].
+    pub fn one(&mut self, tape: &Tape, x: &[f64], g: &mut [f64]) -> f64 {
+        self.inside(tape, x, g).unwrap_or(f64::NAN)
+    }
+}

@@ -1,0 +1,55 @@
+//! Gradients of a task: its log density over the continuous choices of one run.
+
+use crate::Failure;
+use crate::task::Task;
+use niwaki_grad::{Live, Model, Recorded, Var};
+use niwaki_math::Scalar;
+use niwaki_vm::fault::Fault;
+use niwaki_vm::value::Value;
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// A task as something to record. Make it once for each task: it copies the program.
+///
+/// # Errors
+/// A scene that sketches score: they count cells and pixels, which have no slope.
+pub fn model(task: &Task) -> Result<Model, Failure> {
+    if let Some(sketch) = task.sketches.first() {
+        let name = sketch.name();
+        return Err(Failure::Setting(
+            Fault::new("sketch-without-slope", format!("the sketch `{name}` scores the scene by counting, which has no gradient"))
+                .with_help("use `mh()` or particles for it, or say in the model with `factor` what the shapes should be like"),
+        ));
+    }
+    let hosts = task.hosts.clone();
+    Ok(Model {
+        program: Arc::new(task.program.over()),
+        args: task.args.iter().map(|arg| arg.convert(&Var::from_f64)).collect(),
+        limits: task.limits,
+        host: Arc::new(move |constant, args: &[Value]| hosts.call(constant, args)),
+    })
+}
+
+/// The log density of a task around the run with these choices.
+///
+/// # Errors
+/// A missing choice, an impossible run, an operation without a derivative on the way to the score, sketches.
+pub fn record(task: &Task, choices: &HashMap<u128, Value>) -> Result<Recorded, Failure> {
+    Ok(model(task)?.record(choices)?)
+}
+
+/// The same, recorded again wherever a trajectory leaves the path.
+///
+/// # Errors
+/// As [`record`]; also a run without continuous choices.
+pub fn live(task: &Task, choices: &HashMap<u128, Value>) -> Result<Live, Failure> {
+    let model = model(task)?;
+    let recorded = model.record(choices)?;
+    if recorded.dim() == 0 {
+        return Err(Failure::Setting(
+            Fault::new("no-continuous-choices", "this run makes no continuous choices")
+                .with_help("use `mh()`, which moves discrete choices"),
+        ));
+    }
+    Ok(Live::new(model, recorded))
+}

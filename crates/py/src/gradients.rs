@@ -1,0 +1,138 @@
+//! Log densities with their gradients behind the door.
+
+use crate::faults;
+use crate::values::Classes;
+use niwaki_grad::{Live, Refused, jax};
+use niwaki_infer::Failure;
+use niwaki_vm::code::Program;
+use niwaki_vm::fault::Fault;
+use numpy::{PyArray1, PyReadonlyArray1};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// The log density of a model around one run, over unconstrained coordinates.
+#[pyclass(frozen, name = "Density", module = "niwaki._engine")]
+pub struct PyDensity {
+    live: Mutex<Live>,
+    program: Arc<Program>,
+    classes: Arc<Classes>,
+}
+
+impl PyDensity {
+    pub fn new(live: Live, program: Arc<Program>, classes: Arc<Classes>) -> PyDensity {
+        PyDensity { live: Mutex::new(live), program, classes }
+    }
+
+    fn with<T>(&self, f: impl FnOnce(&mut Live) -> T) -> T {
+        f(&mut self.live.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    fn point<'a>(&self, py: Python<'_>, x: &'a PyReadonlyArray1<'_, f64>) -> PyResult<&'a [f64]> {
+        let dim = self.dim();
+        let wrong = |found: &str| {
+            let fault =
+                Fault::new("bad-setting", format!("`x` has {found}, but there are {dim} coordinates"))
+                    .with_help(format!("give an array of shape ({dim},)"));
+            faults::raise(py, &fault.into(), &self.program)
+        };
+        let point = x.as_slice().map_err(|_| wrong("gaps in memory"))?;
+        if point.len() == dim { Ok(point) } else { Err(wrong(&format!("{} elements", point.len()))) }
+    }
+}
+
+#[pymethods]
+impl PyDensity {
+    /// Number of coordinates.
+    #[getter]
+    fn dim(&self) -> usize {
+        self.with(|live| live.dim())
+    }
+
+    /// Coordinates of the recorded run, shape (dim,).
+    #[getter]
+    fn start<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_slice(py, &self.with(|live| live.recorded().start.clone()))
+    }
+
+    /// Continuous choices: (path, family, transform, first coordinate, coordinates).
+    #[getter]
+    fn choices(&self) -> Vec<(String, &'static str, &'static str, usize, usize)> {
+        self.with(|live| {
+            let all = live.recorded().choices.iter();
+            all.map(|c| (c.path.clone(), c.family.name(), c.transform.name(), c.first, c.coordinates))
+                .collect()
+        })
+    }
+
+    /// Operations of (a value with its gradient, a gradient alone), and guards, of the path last used.
+    #[getter]
+    fn operations(&self) -> (usize, usize, usize) {
+        self.with(|live| {
+            let density = &live.recorded().density;
+            let (both, slope) = density.operations();
+            (both, slope, density.guards().len())
+        })
+    }
+
+    /// How often the program was recorded.
+    #[getter]
+    fn recordings(&self) -> usize {
+        self.with(|live| live.recordings())
+    }
+
+    /// Primitives that the run emits; their scores are no part of the density.
+    #[getter]
+    fn emitted(&self) -> usize {
+        self.with(|live| live.recorded().emitted)
+    }
+
+    /// ``(log density, gradient)`` at ``x``; ``None`` where the run makes other choices.
+    fn value_and_gradient<'py>(
+        &self,
+        py: Python<'py>,
+        x: PyReadonlyArray1<'py, f64>,
+    ) -> PyResult<Option<(f64, Bound<'py, PyArray1<f64>>)>> {
+        let point = self.point(py, &x)?;
+        let mut g = vec![0.0; point.len()];
+        match self.with(|live| live.value_and_gradient(point, &mut g)) {
+            Ok(value) => Ok(Some((value, PyArray1::from_vec(py, g)))),
+            Err(Refused::Structure | Refused::Rounding) => Ok(None),
+            Err(Refused::Fault(fault)) => Err(faults::raise(py, &Failure::Run(fault), &self.program)),
+        }
+    }
+
+    /// Values of the choices at ``x``, by path.
+    fn values<'py>(&self, py: Python<'py>, x: PyReadonlyArray1<'py, f64>) -> PyResult<Bound<'py, PyDict>> {
+        let point = self.point(py, &x)?;
+        let recorded = self.with(|live| live.recorded().clone());
+        let values = recorded.values(point);
+        let found = PyDict::new(py);
+        for choice in &recorded.choices {
+            if let Some(value) = values.get(&choice.address) {
+                found.set_item(&choice.path, self.classes.object(py, value)?)?;
+            }
+        }
+        Ok(found)
+    }
+
+    /// Machine code now, instead of after a while; whether this machine has any.
+    fn compile(&self, py: Python<'_>) -> bool {
+        py.detach(|| {
+            self.with(|live| {
+                live.compiled().finish();
+                live.compiled().is_native()
+            })
+        })
+    }
+
+    /// The text of a JAX function ``log_density(x)``; NaN off the recorded path.
+    fn jax(&self) -> String {
+        self.with(|live| jax::source(&live.recorded().density))
+    }
+}
+
+/// Puts this room into the module.
+pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_class::<PyDensity>()
+}

@@ -1,0 +1,78 @@
+//! A program for another scalar: the same instructions, its constants as constants of that scalar.
+
+use super::{Function, Program};
+use crate::value::{Closure, Dict, Record, Value, Vector};
+use niwaki_math::Scalar;
+use std::sync::Arc;
+
+impl Program<f64> {
+    /// The program for numbers of another kind, such as those that record what happens to them.
+    pub fn over<S: Scalar>(&self) -> Program<S> {
+        let function = |f: &Function<f64>| Function {
+            name: f.name.clone(),
+            file: f.file,
+            span: f.span,
+            mode: f.mode,
+            params: f.params,
+            defaults: f.defaults.clone(),
+            captures: f.captures,
+            node_registers: f.node_registers,
+            scratch_registers: f.scratch_registers,
+            code: f.code.clone(),
+            spans: f.spans.clone(),
+            operands: f.operands.clone(),
+            constants: f.constants.iter().map(|value| value.convert(&S::from_f64)).collect(),
+            names: f.names.clone(),
+            sites: f.sites.clone(),
+        };
+        Program {
+            files: self.files.clone(),
+            classes: self.classes.clone(),
+            functions: self.functions.iter().map(function).collect(),
+            entry: self.entry,
+        }
+    }
+}
+
+impl<S: Scalar> Value<S> {
+    /// The same value over another kind of number. For constants and arguments: it recurses as deep as they nest.
+    pub fn convert<T: Scalar>(&self, number: &impl Fn(S) -> T) -> Value<T> {
+        let all = |items: &mut dyn Iterator<Item = &Value<S>>| {
+            items.map(|item| item.convert(number)).collect::<Vec<_>>()
+        };
+        match self {
+            Value::None => Value::None,
+            Value::Bool(b) => Value::Bool(*b),
+            Value::Int(n) => Value::Int(*n),
+            Value::Real(x) => Value::Real(number(*x)),
+            Value::Future(id) => Value::Future(*id),
+            Value::Unset => Value::Unset,
+            Value::Cell(cell) => Value::Cell(*cell),
+            Value::Str(text) => Value::Str(text.clone()),
+            Value::Tuple(tuple) => Value::tuple(all(&mut tuple.items().iter())),
+            Value::List(list) => Value::list(all(&mut list.iter())),
+            Value::Dict(dict) => {
+                let keys = all(&mut dict.keys().iter());
+                Value::Dict(Arc::new(Dict::new(
+                    keys.into_iter().zip(all(&mut dict.values().iter())).collect(),
+                )))
+            }
+            Value::Record(record) => Value::Record(Arc::new(Record {
+                class: record.class.clone(),
+                fields: all(&mut record.fields.iter()),
+            })),
+            Value::Range(range) => Value::Range(range.clone()),
+            Value::Vector(v) => {
+                let parts: Vec<T> = v.components().iter().map(|x| number(*x)).collect();
+                Value::Vector(Arc::new(Vector::new(&parts)))
+            }
+            Value::Rotation(r) => Value::Rotation(Arc::new(r.map(number))),
+            Value::Shape(shape) => Value::Shape(shape.clone()),
+            Value::Dist(dist) => Value::Dist(Arc::new(dist.convert(number))),
+            Value::Function(f) => Value::Function(Arc::new(Closure {
+                function: f.function,
+                captures: all(&mut f.captures.iter()),
+            })),
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! Call sites that never pay: where a call was reached again and again and never skipped, its arguments are no longer
+//! compared.
+//!
+//! Source: dissertation 3.3.4. A site is switched off when, after some proposals, it has been reached so many times in
+//! a row without one call being skipped on entry or found unchanged on return. Nothing depends on it but time.
+
+use super::super::state::{NodeId, State};
+use super::{Kept, Slot, Trace};
+use crate::code::{FunctionId, Mode, Program, SiteKind};
+use niwaki_math::Scalar;
+
+/// When a call site is switched off.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Adaptation {
+    /// Proposals before any site is.
+    pub proposals: u32,
+    /// Times in a row that it was reached for nothing.
+    pub reached: u32,
+}
+
+impl Default for Adaptation {
+    /// The dissertation's setting.
+    fn default() -> Self {
+        Adaptation { proposals: 10, reached: 50 }
+    }
+}
+
+/// How call sites have paid.
+#[derive(Debug)]
+pub(crate) struct Sites {
+    /// `None`: all sites stay on.
+    adaptation: Option<Adaptation>,
+    /// Number of each function's first site.
+    first: Vec<u32>,
+    /// Times in a row that a site was reached for nothing; `OFF` for one that is switched off.
+    reached: Vec<u32>,
+}
+
+const OFF: u32 = u32::MAX;
+
+impl Sites {
+    pub fn new<S: Scalar>(program: &Program<S>, adaptation: Option<Adaptation>) -> Self {
+        let mut count = 0;
+        let first = program.functions.iter().map(|f| {
+            count += f.sites.len() as u32;
+            count - f.sites.len() as u32
+        });
+        let first = first.collect();
+        Sites { adaptation, first, reached: vec![0; count as usize] }
+    }
+
+    #[inline]
+    fn at(&self, function: FunctionId, site: u32) -> usize {
+        self.first[function.0 as usize] as usize + site as usize
+    }
+
+    /// Whether the arguments of calls at that site are compared.
+    #[inline]
+    pub fn is_on(&self, function: FunctionId, site: u32) -> bool {
+        self.reached[self.at(function, site)] != OFF
+    }
+
+    /// A call at that site was skipped, or left nothing changed.
+    #[inline]
+    pub fn paid(&mut self, function: FunctionId, site: u32) {
+        let at = self.at(function, site);
+        if self.reached[at] != OFF {
+            self.reached[at] = 0;
+        }
+    }
+
+    /// A call at that site had to be entered, in that proposal.
+    #[inline]
+    pub fn missed(&mut self, function: FunctionId, site: u32, proposal: u32) {
+        let Some(adaptation) = self.adaptation else { return };
+        let at = self.at(function, site);
+        if self.reached[at] < adaptation.reached {
+            self.reached[at] += 1;
+        } else if proposal > adaptation.proposals {
+            self.reached[at] = OFF;
+        }
+    }
+}
+
+impl<S: Scalar> Trace<S> {
+    /// From now on call sites that do not pay are switched off, or (`None`) all are on.
+    pub fn adapt(&mut self, program: &Program<S>, adaptation: Option<Adaptation>) {
+        self.kept.sites = Sites::new(program, adaptation);
+    }
+
+    /// How many calls are kept, and how many of them stand at sites whose arguments are compared.
+    pub fn cached_calls(&self, program: &Program<S>) -> (usize, usize) {
+        let (mut calls, mut cached) = (0, 0);
+        let mut work = vec![NodeId(0)];
+        while let Some(id) = work.pop() {
+            let n = &self.state.nodes[id.0 as usize];
+            let f = program.function(n.function);
+            if f.mode == Mode::Loop {
+                work.extend(&self.kept.loops[n.slots as usize]);
+                continue;
+            }
+            for (i, site) in f.sites.iter().enumerate() {
+                let held = self.kept.slots[n.slots as usize + i].held;
+                if held == Slot::NOTHING {
+                    continue;
+                }
+                match site.kind {
+                    SiteKind::Call { .. }
+                    | SiteKind::Apply
+                    | SiteKind::Future { .. }
+                    | SiteKind::FutureApply { .. } => {
+                        calls += 1;
+                        cached += usize::from(self.kept.sites.is_on(n.function, i as u32));
+                        work.push(NodeId(held));
+                    }
+                    SiteKind::Loop(_) => work.push(NodeId(held)),
+                    _ => {}
+                }
+            }
+        }
+        (calls, cached)
+    }
+}
+
+impl<S: Scalar> Kept<S> {
+    /// The call site of an activation: of which function, and its number.
+    #[inline]
+    pub(super) fn caller(state: &State<S>, node: NodeId) -> (FunctionId, u32) {
+        let n = &state.nodes[node.0 as usize];
+        (state.nodes[n.parent.0 as usize].function, n.site)
+    }
+}

@@ -1,0 +1,21 @@
+"""Coloring art: a drawing, rules about its regions, and colours that keep them (dissertation 4.5, appendix B.1).
+
+drawing    what is coloured: regions, their areas, which lie next to which
+svg        the regions of an SVG file, and the file painted
+styles     which paint reaches a shape of an SVG
+rules      what is asked of the regions; a small TOML file
+agree      whether rules can hold together, and which ones cannot
+model      the compatibility model
+search     colourings that differ
+settle     a colouring moved uphill until its rules are kept
+lab        CIELAB as the model sees it
+files      SVG, PNG, a sheet, the residuals
+drawings/  four drawings of our own, with rules
+"""
+
+from niwaki.color.drawing import Drawing
+from niwaki.color.model import coloring
+from niwaki.color.rules import Rules
+from niwaki.color.search import Coloring, color
+
+__all__ = ["Coloring", "Drawing", "Rules", "color", "coloring"]

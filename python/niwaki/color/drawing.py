@@ -1,0 +1,160 @@
+"""What is coloured: regions with names, the share of the picture that each takes, and which lie next to which.
+
+Regions come from an SVG file (`niwaki.color.svg`) or from an image whose colours are the regions. Two regions are
+neighbours when a pixel of one lies within two pixels, across or diagonally, of a pixel of the other: thin lines between
+areas do not part them. An area is the region's share of all pixels, those of no region counted too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from PIL import Image, UnidentifiedImageError
+
+from niwaki.color.svg import Artwork
+from niwaki.file_errors import FileError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+NEAR = 2  # pixels
+MOST_REGIONS = 256
+OWN = Path(__file__).with_name("drawings")
+
+
+class Drawing:
+    """Regions of a picture.
+
+    Parameters
+    ----------
+    names
+        One for each region.
+    labels
+        The region of each pixel, (height, width) int; -1 for none.
+    artwork
+        The SVG that it came from, if any.
+    place
+        The file that it came from, for messages.
+
+    Attributes
+    ----------
+    areas : (regions,) float64
+        Shares of the picture.
+    pairs : list of (int, int)
+        Neighbours, each once, the lower first.
+    hidden : tuple of str
+        Regions of which no pixel is seen.
+    """
+
+    def __init__(
+        self,
+        names: tuple[str, ...],
+        labels: NDArray[np.int64],
+        artwork: Artwork | None = None,
+        place: str | Path | None = None,
+    ) -> None:
+        self.names, self.labels, self.artwork, self.place = names, labels, artwork, place
+        count = np.bincount(labels[labels >= 0], minlength=len(names))
+        self.areas: NDArray[np.float64] = count / labels.size
+        self.pairs = neighbours(labels, len(names))
+        self.hidden = tuple(name for name, pixels in zip(names, count, strict=True) if pixels == 0)
+
+    @classmethod
+    def load(cls, place: str | PathLike[str], size: int = 512) -> Drawing:
+        """A drawing from a file, or one of our own by name: robot, house, bug, rocket.
+
+        Parameters
+        ----------
+        place
+            An SVG file with a class or an id for each region, or an image whose colours are the regions.
+        size
+            Pixels of the longer side at which an SVG is measured.
+
+        Raises
+        ------
+        FileError
+            There is no such file, it cannot be read, or it has fewer than two regions.
+        """
+        path = Path(place)
+        if not path.exists() and (OWN / f"{place}.svg").is_file():
+            path = OWN / f"{place}.svg"
+        if not path.is_file():
+            raise FileError("file-missing", place, absolute=path.absolute(), folder=Path.cwd())
+        if path.suffix.lower() == ".svg":
+            artwork = Artwork(path.read_bytes(), path)
+            if len(artwork.names) < 2:
+                raise FileError("drawing-no-regions", path, found=_found(artwork.names))
+            if len(artwork.names) > MOST_REGIONS:
+                raise FileError("drawing-too-many", path, count=len(artwork.names), most=MOST_REGIONS)
+            return cls(artwork.names, artwork.labels(size), artwork, path)
+        return cls(*_of_image(path), None, path)
+
+    @property
+    def background(self) -> int | None:
+        """The region that holds most of the picture's edge; None where most of the edge has no region."""
+        edge = np.concatenate([self.labels[0], self.labels[-1], self.labels[:, 0], self.labels[:, -1]])
+        count = np.bincount(edge + 1, minlength=len(self.names) + 1)
+        most = int(count.argmax())
+        return most - 1 if most > 0 else None
+
+    def picture(self, colors: Mapping[str, str], size: int = 512) -> Image.Image:
+        """The drawing in these colours, `#rrggbb` by region; the longer side of an SVG has `size` pixels."""
+        if self.artwork is not None:
+            from niwaki.color.svg import raster
+
+            return raster(self.artwork.painted(colors), size, self.place)
+        table = np.zeros((len(self.names) + 1, 4), dtype=np.uint8)
+        for k, name in enumerate(self.names):
+            code = int(colors.get(name, name).removeprefix("#"), 16)
+            table[k] = (code >> 16, code >> 8 & 255, code & 255, 255)
+        return Image.fromarray(table[self.labels], "RGBA")
+
+    def __repr__(self) -> str:
+        height, width = self.labels.shape
+        return (
+            f"<Drawing: {len(self.names)} regions, {len(self.pairs)} pairs of neighbours, {width} x {height}>"
+        )
+
+
+def neighbours(labels: NDArray[np.int64], count: int, near: int = NEAR) -> list[tuple[int, int]]:
+    """Pairs of regions with pixels at most `near` rows and columns apart, the lower first, in order."""
+    height, width = labels.shape
+    codes: set[int] = set()
+    for dy in range(min(near + 1, height)):
+        for dx in range(-near, near + 1):
+            if (dy == 0 and dx <= 0) or abs(dx) >= width:
+                continue
+            here = labels[: height - dy, max(0, -dx) : width - max(0, dx)]
+            there = labels[dy:, max(0, dx) : width - max(0, -dx)]
+            met = (here != there) & (here >= 0) & (there >= 0)
+            low, high = np.minimum(here[met], there[met]), np.maximum(here[met], there[met])
+            codes.update(np.unique(low * count + high).tolist())
+    return [divmod(code, count) for code in sorted(codes)]
+
+
+def _of_image(path: Path) -> tuple[tuple[str, ...], NDArray[np.int64]]:
+    try:
+        with Image.open(path) as image:
+            pixels = np.asarray(image.convert("RGBA"), dtype=np.int64)
+    except (UnidentifiedImageError, OSError, ValueError, Image.DecompressionBombError) as error:
+        raise FileError(
+            "file-unreadable", path, suffix=path.suffix or "an image", reason=str(error)
+        ) from error
+    code = (pixels[..., 0] << 16) | (pixels[..., 1] << 8) | pixels[..., 2]
+    seen = pixels[..., 3] >= 128
+    values, inverse = np.unique(code[seen], return_inverse=True)
+    if len(values) < 2:
+        raise FileError("drawing-no-regions", path, found=f"{len(values)} opaque colour")
+    if len(values) > MOST_REGIONS:
+        raise FileError("drawing-too-many", path, count=len(values), most=MOST_REGIONS)
+    labels = np.full(code.shape, -1, dtype=np.int64)
+    labels[seen] = inverse.reshape(-1)
+    return tuple(f"#{value:06x}" for value in values.tolist()), labels
+
+
+def _found(names: tuple[str, ...]) -> str:
+    return f"one region, `{names[0]}`" if names else "no painted shape with a class or an id"

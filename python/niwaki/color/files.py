@@ -1,0 +1,95 @@
+"""Colourings as files: SVG and PNG, one sheet of all, their colours, and how well they keep the rules."""
+
+from __future__ import annotations
+
+import csv
+import json
+from collections.abc import Sequence
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from PIL import Image, ImageDraw, ImageFont
+
+from niwaki.file_errors import FileError
+
+if TYPE_CHECKING:
+    from niwaki.color.search import Coloring
+
+PAPER, INK = (250, 249, 246), (84, 82, 78)
+
+
+def sheet(colorings: Sequence[Coloring], columns: int = 4, size: int = 320) -> Image.Image:
+    """All colourings on one page, numbered.
+
+    Parameters
+    ----------
+    columns
+        Pictures in a row.
+    size
+        Pixels of the longer side of each.
+    """
+    images = [one.image(2 * size).convert("RGBA") for one in colorings]
+    if any(max(image.size) > size for image in images):
+        images = [_shrunk(image, size) for image in images]
+    width, height = images[0].size
+    gap, strip = max(4, size // 20), max(14, size // 13)
+    across = min(columns, len(images))
+    down = -(-len(images) // across)
+    page = Image.new("RGB", (across * (width + gap) + gap, down * (height + strip + gap) + gap), PAPER)
+    pen, font = ImageDraw.Draw(page), ImageFont.load_default(round(0.6 * strip))
+    for k, image in enumerate(images):
+        x, y = gap + k % across * (width + gap), gap + k // across * (height + strip + gap)
+        page.paste(image, (x, y), image)
+        pen.text((x + width / 2, y + height + 0.55 * strip), f"{k + 1}", INK, font, anchor="mm")
+    return page
+
+
+def table(colorings: Sequence[Coloring]) -> list[list[str]]:
+    """A row for each rule: its kind, its regions, what it wants, and each colouring's residual, CIELAB units."""
+    rows = [["rule", "first", "second", "wanted", *(f"{k + 1:02}" for k in range(len(colorings)))]]
+    kept = [one.kept for one in colorings]
+    for k, first in enumerate(kept[0]):
+        misses = [f"{one[k].residual:.2f}" for one in kept]
+        rows.append([first.rule.kind, first.rule.first, first.rule.second, f"{first.wanted:g}", *misses])
+    return rows
+
+
+def write(colorings: Sequence[Coloring], folder: str | PathLike[str], size: int = 1024) -> list[Path]:
+    """Write colourings to a folder that is there.
+
+    `01.png` and, for a drawing that is an SVG, `01.svg`, and so on; `sheet.png`; `colors.json`, the colours by file and
+    region; `residuals.csv`, a row for each rule.
+
+    Returns
+    -------
+    list of Path
+        What was written.
+    """
+    folder, written = Path(folder), []
+    try:
+        for k, one in enumerate(colorings):
+            written.append(folder / f"{k + 1:02}.png")
+            one.image(size).save(written[-1])
+            if one.drawing.artwork is not None:
+                written.append(folder / f"{k + 1:02}.svg")
+                written[-1].write_text(one.drawing.artwork.painted(one.colors), encoding="utf-8")
+        written.append(folder / "sheet.png")
+        sheet(colorings).save(written[-1], optimize=True)
+        written.append(folder / "colors.json")
+        colors = {f"{k + 1:02}": one.colors for k, one in enumerate(colorings)}
+        written[-1].write_text(json.dumps(colors, indent=1), encoding="utf-8")
+        written.append(folder / "residuals.csv")
+        with written[-1].open("w", newline="", encoding="utf-8") as file:
+            csv.writer(file).writerows(table(colorings))
+    except OSError as error:
+        place = written[-1] if written else folder
+        raise FileError("file-unwritable", place, reason=error.strerror or str(error)) from error
+    return written
+
+
+def _shrunk(image: Image.Image, size: int) -> Image.Image:
+    scale = size / max(image.size)
+    return image.resize(
+        (max(1, round(scale * image.width)), max(1, round(scale * image.height))), Image.Resampling.LANCZOS
+    )

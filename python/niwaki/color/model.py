@@ -1,0 +1,147 @@
+"""Which colours go together on a drawing (dissertation 4.5 and appendix B.1): the compatibility model.
+
+Each region that is not pinned draws red, green and blue, uniform on [0, 1]. The log score is `weight` times a sum:
+
+    saturation          area-weighted sum over regions: near 0.3 on the background, 0.7 elsewhere
+    perceptual          mean over neighbours: CIELAB distance near 0.3 of the largest
+    lightness           mean over neighbours: near 0.3 apart where one is the background, 0.2 elsewhere
+    lightness relation  sum over rules: 15 units apart, within 5
+    same chroma         sum over rules: equal a and b, within 5
+
+and three of ours, which a designer asks for and the dissertation's rules cannot say:
+
+    lighter             sum over rules: at least 12 units apart, within 5: an order that asks for no more
+    same hue            sum over rules: equal hue, strong or pale
+    muted               sum over rules: no farther from grey than so many units, within 5
+
+Each of the first five is the log of a normal density. The means and sums are of different sizes on purpose: rules must
+hold, the other terms decide among all that keeps them. `weight` is 100 as in the dissertation's own runs (its text
+leaves it out), which makes a rule's width of 5 act like 0.5.
+"""
+
+import math
+from typing import NamedTuple
+
+from niwaki import factor, model, soft_at_least, soft_at_most, softeq, uniform
+
+# Below any difference that counts: keeps the slope of a square root finite where two colours are equal.
+TINY = 1e-24
+FARTHEST = 300.0  # CIELAB: the root of 100^2 + 200^2 + 200^2
+WIDEST = 282.9  # CIELAB: the same without lightness
+
+
+class Lab(NamedTuple):
+    """A colour's lightness, green to red, blue to yellow."""
+
+    l: float  # noqa: E741 (its name everywhere)
+    a: float
+    b: float
+
+
+@model
+def coloring(
+    areas, pairs, lightness, lighter, same_chroma, same_hue, muted, background, pinned, weight=100.0
+):
+    """Color the regions of a drawing.
+
+    Parameters
+    ----------
+    areas
+        The share of the picture of each region.
+    pairs
+        Neighbours, as pairs of region numbers.
+    lightness, lighter, same_chroma, same_hue
+        Rules, as pairs of region numbers, the lighter one first.
+    muted
+        Rules, as pairs of a region number and the farthest from grey, CIELAB units.
+    background
+        The number of the background's region; -1 for none.
+    pinned
+        For each region its colour, or None.
+    weight
+        What the whole log score is multiplied with.
+    """
+    colors = [paint(fixed) for fixed in pinned]
+    labs = [to_lab(c[0], c[1], c[2]) for c in colors]
+    for i in range(len(areas)):
+        factor(weight * areas[i] * softeq(saturation(labs[i]), 0.3 if i == background else 0.7, 1.0))
+    share = weight / max(len(pairs), 1)
+    for i, j in pairs:
+        factor(share * apart(labs[i], labs[j], i == background or j == background))
+    for i, j in lightness:
+        factor(weight * lightness_relation(labs[i], labs[j]))
+    for i, j in same_chroma:
+        factor(weight * one_chroma(labs[i], labs[j]))
+    for i, j in lighter:
+        factor(weight * at_least_lighter(labs[i], labs[j]))
+    for i, j in same_hue:
+        factor(weight * one_hue(labs[i], labs[j]))
+    for i, most in muted:
+        factor(weight * near_grey(labs[i], most))
+    return colors
+
+
+def paint(fixed):
+    """A region's color: the one it is pinned to, or a choice."""
+    if fixed is not None:
+        return fixed
+    r = uniform(0.0, 1.0)
+    g = uniform(0.0, 1.0)
+    b = uniform(0.0, 1.0)
+    return (r, g, b)
+
+
+def apart(one, two, on_background):
+    """How well two neighbours can be told apart."""
+    dl, da, db = one.l - two.l, one.a - two.a, one.b - two.b
+    distance = math.sqrt(dl * dl + da * da + db * db + TINY)
+    return softeq(distance / FARTHEST, 0.3, 0.2) + softeq(abs(dl) / 100.0, 0.3 if on_background else 0.2, 0.4)
+
+
+def lightness_relation(light, dark):
+    """One is 15 units lighter than the other."""
+    return softeq((light.l - dark.l) / 100.0, 0.15, 5.0 / 100.0)
+
+
+def at_least_lighter(light, dark):
+    """One is 12 units lighter than the other, or more."""
+    return soft_at_least((light.l - dark.l) / 100.0, 0.12, 5.0 / 100.0)
+
+
+def one_chroma(one, two):
+    """Two colors are shades of one."""
+    da, db = one.a - two.a, one.b - two.b
+    return softeq(math.sqrt(da * da + db * db + TINY) / WIDEST, 0.0, 5.0 / WIDEST)
+
+
+def one_hue(one, two):
+    """Two colors have one hue: their directions from grey are the same; within 1 unit of grey that is loose."""
+    u = 1.0 / math.sqrt(one.a * one.a + one.b * one.b + 1.0)
+    v = 1.0 / math.sqrt(two.a * two.a + two.b * two.b + 1.0)
+    da, db = u * one.a - v * two.a, u * one.b - v * two.b
+    return softeq(math.sqrt(da * da + db * db + TINY), 0.0, 0.5)
+
+
+def near_grey(c, most):
+    """A color is no farther from grey than so many units."""
+    return soft_at_most(math.sqrt(c.a * c.a + c.b * c.b + TINY) / 100.0, most / 100.0, 5.0 / 100.0)
+
+
+def saturation(c):
+    """How far a color is from grey, [0, 1]; 0 for black."""
+    chroma = c.a * c.a + c.b * c.b
+    return math.sqrt(chroma / (chroma + c.l * c.l + TINY) + TINY)
+
+
+def to_lab(r, g, b):
+    """CIELAB of red, green and blue in [0, 1]: a gamma of 2.2, white D65."""
+    r, g, b = r**2.2, g**2.2, b**2.2
+    x = root((0.4124564 * r + 0.3575761 * g + 0.1804375 * b) / 0.95047)
+    y = root(0.2126729 * r + 0.7151522 * g + 0.0721750 * b)
+    z = root((0.0193339 * r + 0.1191920 * g + 0.9503041 * b) / 1.08883)
+    return Lab(116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z))
+
+
+def root(t):
+    """The cube root, with a straight foot below 216/24389."""
+    return t ** (1.0 / 3.0) if t > 216.0 / 24389.0 else (24389.0 / 27.0 * t + 16.0) / 116.0

@@ -1,0 +1,54 @@
+"""A colouring moved uphill: from where a sampler left it to where its rules are kept as well as they can be nearby.
+
+A chain that has not met all rules yet, or that trembles around them, is followed along the slope of the model's log
+density (steps after Kingma & Ba 2015, algorithm 1, each coordinate by the size of its own slopes), in the unconstrained
+coordinates of `niwaki.log_density`.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from niwaki.result import Sample
+
+#: Length of a step in logits, at first and at last; colours are on a logistic scale.
+FIRST, LAST = 0.1, 0.003
+SLOPE_MEMORY, SIZE_MEMORY = 0.9, 0.99
+#: Colours of this many digits; none is at the ends, where a logit has no end.
+DIGITS, GRAIN = 6, 1e-6
+
+
+def settled(sample: Sample, steps: int) -> dict[str, Any]:
+    """The choices of the best point on the way uphill from a sample.
+
+    Parameters
+    ----------
+    sample
+        A run whose choices are uniform on [0, 1].
+    steps
+        How many; 0 keeps the sample's own choices.
+    """
+    if steps == 0 or not sample.choices:
+        return dict(sample.choices)
+    density = sample.log_density()
+    x = density.start.copy()
+    best, kept = -np.inf, x
+    slope, size = np.zeros_like(x), np.zeros_like(x)
+    for k in range(steps):
+        value, gradient = density.value_and_gradient(x)
+        if not np.isfinite(value):
+            break
+        if value > best:
+            best, kept = value, x.copy()
+        slope = SLOPE_MEMORY * slope + (1.0 - SLOPE_MEMORY) * gradient
+        size = SIZE_MEMORY * size + (1.0 - SIZE_MEMORY) * gradient * gradient
+        even = slope / (1.0 - SLOPE_MEMORY ** (k + 1))
+        scale = np.sqrt(size / (1.0 - SIZE_MEMORY ** (k + 1))) + 1e-9
+        x = x + FIRST * (LAST / FIRST) ** (k / steps) * even / scale
+    # Rounded far below what is seen: the engine's tape and its machine code, which takes over when it is ready, agree
+    # to rounding only, and a seed is to give the same colours.
+    values = np.round(np.clip(1.0 / (1.0 + np.exp(-kept)), GRAIN, 1.0 - GRAIN), DIGITS)
+    return {choice.name: float(values[choice.first]) for choice in density.choices}

@@ -1,0 +1,276 @@
+"""The regions of an SVG file, and the file with each region painted.
+
+A shape belongs to the region that its own class names, or that of the nearest group around it; where no class does, the
+nearest id. `data-stroke` names another region for the shape's stroke. Shapes without any name keep their colours and
+belong to no region. Each `use` is replaced by what it uses, so that two uses of one shape can have two colours.
+"""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Mapping
+from copy import deepcopy
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+from xml.etree import ElementTree
+from xml.etree.ElementTree import Element
+
+import numpy as np
+from PIL import Image
+
+from niwaki.color.styles import INITIAL, SelectorError, Styles, declarations, tag_of
+from niwaki.file_errors import FileError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+SVG = "http://www.w3.org/2000/svg"
+XLINK = "http://www.w3.org/1999/xlink"
+SHAPES = {"path", "rect", "circle", "ellipse", "line", "polyline", "polygon", "text"}
+NO_PAINT = ("none", "transparent")
+GROUPS = {"svg", "g", "a", "switch"}
+# A file whose `use`s copy more than this is hostile, or made by a machine for machines.
+MOST_SHAPES = 20_000
+DEEPEST = 200
+
+# For counting pixels: each shape is whole, opaque and in its own flat colour.
+PLAIN = {
+    "opacity": "1",
+    "fill-opacity": "1",
+    "stroke-opacity": "1",
+    "filter": "none",
+    "mix-blend-mode": "normal",
+    "shape-rendering": "crispEdges",
+}
+
+
+@dataclass(frozen=True)
+class Shape:
+    """One painted shape: the regions of its fill and its stroke; None without that paint, empty without a name."""
+
+    element: Element
+    fill: str | None
+    stroke: str | None
+
+
+class Artwork:
+    """An SVG file taken apart.
+
+    Attributes
+    ----------
+    names : tuple of str
+        Its regions, in the order in which they are drawn first.
+    """
+
+    def __init__(self, text: bytes, place: str | Path | None = None) -> None:
+        self.place = place
+        self._tree = _parsed(text, place)
+        self._shapes: list[Shape] = []
+        sheets = ["".join(one.itertext()) for one in self._tree.iter() if tag_of(one) == "style"]
+        try:
+            self._styles = Styles.of(sheets)
+        except SelectorError as error:
+            raise FileError(
+                "drawing-unclear",
+                place,
+                reason=f"the style sheet's selector `{error}` is more than a tag, classes and ids",
+            ) from error
+        self._by_id = {one.get("id"): one for one in self._tree.iter() if one.get("id")}
+        self._copies = 0
+        self._expand(self._tree, (), 0)
+        self._walk(self._tree, dict(INITIAL), "", "")
+        named = [name for shape in self._shapes for name in (shape.fill, shape.stroke) if name]
+        self.names = tuple(dict.fromkeys(named))
+
+    def painted(self, colors: Mapping[str, str], plain: bool = False) -> str:
+        """The file with its regions in these colours.
+
+        Parameters
+        ----------
+        colors
+            By region, as CSS writes them: `#a04020`. Regions that are left out keep their own.
+        plain
+            Without transparency, filters and soft edges; what has no region is black.
+        """
+        root = deepcopy(self._tree)
+        copies = {id(old): new for old, new in zip(self._tree.iter(), root.iter(), strict=True)}
+        if plain:
+            for new in copies.values():
+                _flatten(new)
+        for shape in self._shapes:
+            element = copies[id(shape.element)]
+            style = declarations(element.get("style", ""))
+            for key, region in (("fill", shape.fill), ("stroke", shape.stroke)):
+                if region is not None and region in colors:
+                    style[key] = colors[region]
+                elif plain and region == "":
+                    style[key] = "#000000"
+            element.set("style", _written(style))
+        for one in root.iter():
+            # A sheet's `!important` would win over what was just painted.
+            if tag_of(one) == "style" and one.text:
+                one.text = one.text.replace("!important", "")
+        return ElementTree.tostring(root, encoding="unicode")
+
+    def labels(self, size: int) -> NDArray[np.int64]:
+        """The region of each pixel, (height, width); -1 for none. The longer side has `size` pixels."""
+        codes = [(k + 1) * 2654435761 % (1 << 24) for k in range(len(self.names))]
+        text = self.painted(
+            {name: f"#{code:06x}" for name, code in zip(self.names, codes, strict=True)}, plain=True
+        )
+        pixels = np.asarray(raster(text, size, self.place).convert("RGBA"), dtype=np.int64)
+        code = (pixels[..., 0] << 16) | (pixels[..., 1] << 8) | pixels[..., 2]
+        found = np.full(code.shape, -1, dtype=np.int64)
+        for k, one in enumerate(codes):
+            found[(code == one) & (pixels[..., 3] >= 128)] = k
+        # Soft edges of clips and masks mix two codes: such a pixel goes to a neighbour's region.
+        mixed = (found < 0) & (pixels[..., 3] >= 128) & (code != 0)
+        return _settled(found, mixed)
+
+    def _expand(self, element: Element, within: tuple[str, ...], depth: int) -> None:
+        """Replace each `use` below by a group with a copy of what it uses."""
+        if depth > DEEPEST:
+            raise FileError("drawing-unclear", self.place, reason=f"its groups are nested {depth} deep")
+        for place, child in enumerate(list(element)):
+            tag = tag_of(child)
+            if tag == "use":
+                name = (child.get("href") or child.get(f"{{{XLINK}}}href") or "").removeprefix("#")
+                if name in within:
+                    raise FileError("drawing-unclear", self.place, reason=f"`#{name}` uses itself")
+                group = self._used(child, name)
+                element[place] = group
+                self._expand(group, (*within, name), depth + 1)
+            elif tag in GROUPS:
+                self._expand(child, within, depth + 1)
+
+    def _used(self, use: Element, name: str) -> Element:
+        keep = {k: v for k, v in use.attrib.items() if k.rpartition("}")[2] not in _USE_ONLY}
+        shift = f"translate({use.get('x', '0')} {use.get('y', '0')})"
+        if shift != "translate(0 0)":
+            keep["transform"] = f"{keep.get('transform', '')} {shift}".strip()
+        group = Element(f"{{{SVG}}}g", keep)
+        group.tail = use.tail
+        source = self._by_id.get(name)
+        if source is None:
+            return group
+        self._copies += sum(1 for _ in source.iter())
+        if self._copies > MOST_SHAPES:
+            raise FileError(
+                "drawing-unclear", self.place, reason=f"its `use`s make more than {MOST_SHAPES} shapes"
+            )
+        copy = deepcopy(source)
+        # The definition's id is its handle; the region is named by who uses it, or by a class.
+        for one in copy.iter():
+            if one is copy or tag_of(one) not in SHAPES | GROUPS | {"use"}:
+                one.attrib.pop("id", None)
+        if tag_of(copy) == "symbol":
+            copy.tag = f"{{{SVG}}}svg"
+            for key in ("width", "height"):
+                copy.set(key, use.get(key, "100%"))
+        group.append(copy)
+        return group
+
+    def _walk(self, element: Element, above: dict[str, str], by_class: str, by_id: str) -> None:
+        tag = tag_of(element)
+        if tag not in SHAPES | GROUPS:
+            return
+        style = self._styles.resolve(element, above)
+        if style["display"] == "none":
+            return
+        classes = element.get("class", "").split()
+        by_class = classes[0] if classes else by_class
+        by_id = element.get("id", by_id)
+        if tag in GROUPS:
+            for child in element:
+                self._walk(child, style, by_class, by_id)
+            return
+        name = by_class or by_id
+        if style["visibility"] != "visible":
+            return
+        fill = name if style["fill"] not in NO_PAINT and tag != "line" else None
+        stroke = element.get("data-stroke", name) if style["stroke"] not in NO_PAINT else None
+        if fill is not None or stroke is not None:
+            self._shapes.append(Shape(element, fill, stroke))
+
+
+_USE_ONLY = {"href", "x", "y", "width", "height"}
+
+
+def raster(text: str, size: int, place: str | Path | None = None) -> Image.Image:
+    """An SVG drawn by resvg; its longer side has `size` pixels.
+
+    Raises
+    ------
+    FileError
+        resvg is not installed, or cannot read it.
+    """
+    try:
+        import resvg_py
+    except ImportError:
+        raise FileError("missing-extra", task="drawing SVG files", extra="color") from None
+    try:
+        # Reading the system's fonts takes longer than the rest.
+        plain = "<text" not in text
+        first = _open(resvg_py.svg_to_bytes(svg_string=text, width=size, skip_system_fonts=plain))
+        if first.height <= size:
+            return first
+        return _open(resvg_py.svg_to_bytes(svg_string=text, height=size, skip_system_fonts=plain))
+    except (ValueError, RuntimeError) as error:
+        raise FileError("file-unreadable", place, suffix=".svg", reason=str(error)) from error
+
+
+def _open(data: bytes) -> Image.Image:
+    return Image.open(io.BytesIO(bytes(data))).convert("RGBA")
+
+
+def _parsed(text: bytes, place: str | Path | None) -> Element:
+    try:
+        # Names of other programs' attributes stay as they were written.
+        for _, (prefix, space) in ElementTree.iterparse(io.BytesIO(text), events=["start-ns"]):
+            if prefix and not prefix.startswith("ns"):
+                ElementTree.register_namespace(prefix, space)
+        ElementTree.register_namespace("", SVG)
+        root = ElementTree.fromstring(text)
+    except ElementTree.ParseError as error:
+        raise FileError("file-unreadable", place, suffix=".svg", reason=f"it is not XML: {error}") from error
+    if tag_of(root) != "svg":
+        raise FileError(
+            "file-unreadable",
+            place,
+            suffix=".svg",
+            reason=f"its outermost element is `{tag_of(root)}`, not `svg`",
+        )
+    return root
+
+
+def _flatten(element: Element) -> None:
+    tag = tag_of(element)
+    if tag not in SHAPES | GROUPS | {"tspan", "image"}:
+        return
+    style = declarations(element.get("style", ""))
+    style.update(PLAIN)
+    if tag == "image":
+        style["display"] = "none"
+    if tag == "tspan":
+        style.pop("fill", None)
+        element.attrib.pop("fill", None)
+    element.set("style", _written(style))
+
+
+def _written(style: Mapping[str, str]) -> str:
+    return ";".join(f"{key}:{value}" for key, value in style.items())
+
+
+def _settled(labels: NDArray[np.int64], open_: NDArray[np.bool_]) -> NDArray[np.int64]:
+    """Give each open pixel the label of a neighbour, ring by ring; at most 4 rings."""
+    labels = labels.copy()
+    for _ in range(4):
+        if not open_.any():
+            break
+        for dy, dx in ((0, 1), (1, 0), (0, -1), (-1, 0)):
+            beside = np.roll(labels, (dy, dx), (0, 1))
+            take = open_ & (labels < 0) & (beside >= 0)
+            labels[take] = beside[take]
+        open_ = open_ & (labels < 0)
+    return labels

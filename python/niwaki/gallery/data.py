@@ -1,0 +1,113 @@
+"""The synthetic data of the statistical programs (dissertation, appendix A), made by code with fixed seeds.
+
+A size of 1 is 100 observations, of 10 a thousand; the data of a smaller size are the first part of those of a larger.
+The generator is small and written out (mulberry32, 32 bits), so that the numbers are those of every other program that
+has it, whatever library it uses.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import NamedTuple
+
+MASK = 0xFFFFFFFF
+
+Row = tuple[float, ...]
+
+
+class Chain(NamedTuple):
+    """A hidden Markov chain: probabilities (S,), (S, S), (S, O), the states that made the observations, and those."""
+
+    initial: Row
+    transition: tuple[Row, ...]
+    emission: tuple[Row, ...]
+    states: tuple[int, ...]
+    observations: tuple[int, ...]
+
+
+def generator(seed: int) -> Callable[[], float]:
+    """Uniform numbers in [0, 1), the same on every machine."""
+    state = seed
+
+    def uniform() -> float:
+        nonlocal state
+        state = (state + 0x6D2B79F5) & MASK
+        mixed = (state ^ (state >> 15)) * (state | 1) & MASK
+        mixed ^= (mixed + ((mixed ^ (mixed >> 7)) * (mixed | 61) & MASK)) & MASK
+        return (mixed ^ (mixed >> 14)) / 2**32
+
+    return uniform
+
+
+def hidden_chain(steps: int = 100, states: int = 10, symbols: int = 10, seed: int = 11) -> Chain:
+    """A chain whose tables are drawn uniformly, and what it shows in `steps` steps."""
+    uniform = generator(seed)
+    initial = _simplex(uniform, states)
+    transition = tuple(_simplex(uniform, states) for _ in range(states))
+    emission = tuple(_simplex(uniform, symbols) for _ in range(states))
+    hidden: list[int] = []
+    seen: list[int] = []
+    for _ in range(steps):
+        hidden.append(_pick(uniform, transition[hidden[-1]] if hidden else initial))
+        seen.append(_pick(uniform, emission[hidden[-1]]))
+    return Chain(initial, transition, emission, tuple(hidden), tuple(seen))
+
+
+def documents(
+    count: int = 5, topics: int = 10, vocabulary: int = 100, words: int = 20, seed: int = 12
+) -> tuple[tuple[int, ...], ...]:
+    """Documents of words, each word from one of its document's topics: (count, words) of whole numbers."""
+    uniform = generator(seed)
+    spoken = [_simplex(uniform, vocabulary) for _ in range(topics)]
+    made: list[tuple[int, ...]] = []
+    for _ in range(count):
+        share = _simplex(uniform, topics)
+        made.append(tuple(_pick(uniform, spoken[_pick(uniform, share)]) for _ in range(words)))
+    return tuple(made)
+
+
+def clusters(points: int = 100, seed: int = 13) -> Row:
+    """Numbers from a mixture of four Gaussians."""
+    uniform = generator(seed)
+    means, deviations, weights = (-6.0, -1.0, 2.0, 7.0), (1.0, 0.6, 0.8, 1.2), (0.2, 0.3, 0.3, 0.2)
+    made: list[float] = []
+    for _ in range(points):
+        which = _pick(uniform, weights)
+        made.append(means[which] + deviations[which] * _normal(uniform))
+    return tuple(made)
+
+
+def growth(sequences: int = 20, seed: int = 14) -> tuple[Row, ...]:
+    """Sequences measured at -2, -1, 0, 1, 2, each along a line of its own: (sequences, 5)."""
+    uniform = generator(seed)
+    made: list[Row] = []
+    for _ in range(sequences):
+        start, slope = 1.0 + 0.8 * _normal(uniform), 0.5 + 0.4 * _normal(uniform)
+        made.append(tuple(start + slope * x + 0.5 * _normal(uniform) for x in (-2.0, -1.0, 0.0, 1.0, 2.0)))
+    return tuple(made)
+
+
+def _simplex(uniform: Callable[[], float], size: int) -> Row:
+    """Probabilities drawn uniformly."""
+    draws = [-math.log(1.0 - uniform()) for _ in range(size)]
+    total = 0.0
+    for draw in draws:
+        total += draw
+    return tuple(draw / total for draw in draws)
+
+
+def _pick(uniform: Callable[[], float], probabilities: Row) -> int:
+    """An index drawn from its probabilities."""
+    point, total = uniform(), 0.0
+    for index, probability in enumerate(probabilities):
+        total += probability
+        if point < total:
+            return index
+    return len(probabilities) - 1
+
+
+def _normal(uniform: Callable[[], float]) -> float:
+    """A standard normal draw (Box & Muller)."""
+    radius = math.sqrt(-2.0 * math.log(1.0 - uniform()))
+    return radius * math.cos(2.0 * math.pi * uniform())

@@ -1,0 +1,34 @@
+"""A mixture of four Gaussians: where are the clusters of a hundred numbers? Appendix A of the dissertation.
+
+Every latent variable is a choice: weights, means and deviations of the components, and the component of each point.
+"""
+
+from niwaki.gallery import data
+from niwaki.methods import mh
+from niwaki.words import Gaussian, categorical, dirichlet, gaussian, model, observe, uniform
+
+TITLE = "four clusters of a hundred numbers"
+METHOD = mh(steps=400_000, warmup=100_000)
+
+POINTS = data.clusters(1000)
+COMPONENTS = 4
+
+
+@model
+def gmm(points=100):
+    """Weights, means and deviations of the components."""
+    weights = dirichlet([1.0] * COMPONENTS)
+    means = [gaussian(0.0, 10.0) for _ in range(COMPONENTS)]
+    deviations = [uniform(0.1, 4.0) for _ in range(COMPONENTS)]
+    for n in range(points):
+        point(POINTS[n], weights, means, deviations)
+    return weights, means, deviations
+
+
+def point(x, weights, means, deviations):
+    """One point: its component, and where it was seen."""
+    k = categorical(weights)
+    observe(Gaussian(means[k], deviations[k]), x)
+
+
+MODEL = gmm

@@ -1,0 +1,38 @@
+"""Topics of documents: latent Dirichlet allocation, which finds the words that go together.
+
+Appendix A of the dissertation: ten topics over a hundred words, twenty words to a document. Every latent variable is a
+choice: the topics' words, the documents' topics, the topic of each word.
+"""
+
+from niwaki.gallery import data
+from niwaki.methods import mh
+from niwaki.words import Categorical, Dirichlet, categorical, model, observe, sample
+
+TITLE = "ten topics of a few documents"
+METHOD = mh(steps=400_000, warmup=100_000)
+
+DOCUMENTS = data.documents(50)
+TOPICS = 10
+VOCABULARY = 100
+FLAT_WORDS = Dirichlet([1.0] * VOCABULARY)
+FLAT_TOPICS = Dirichlet([1.0] * TOPICS)
+
+
+@model
+def lda(documents=5):
+    """The topics, as probabilities of words, and the share of each topic in each document."""
+    topics = [sample(FLAT_WORDS) for _ in range(TOPICS)]
+    shares = [document(DOCUMENTS[d], topics) for d in range(documents)]
+    return topics, shares
+
+
+def document(words, topics):
+    """The share of each topic in a document of these words."""
+    share = sample(FLAT_TOPICS)
+    for word in words:
+        topic = categorical(share)
+        observe(Categorical(topics[topic]), word)
+    return share
+
+
+MODEL = lda

@@ -1,0 +1,87 @@
+"""`niwaki color`: a drawing in colours that keep its rules and differ from one another, written to a folder."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from niwaki.shell.app import Folder, app, made_folder
+
+if TYPE_CHECKING:
+    from niwaki.color import Coloring, Drawing, Rules
+
+
+@app.command()
+def color(
+    drawing: Annotated[
+        str,
+        typer.Argument(
+            metavar="DRAWING",
+            help="An SVG with a class or id for each region, an image whose colours are the regions, "
+            "or one of ours: robot, house, bug, rocket.",
+        ),
+    ],
+    rules: Annotated[
+        str | None, typer.Option("--rules", metavar="FILE", help="What is asked of the regions, as TOML.")
+    ] = None,
+    count: Annotated[int, typer.Option("-n", "--count", help="How many colourings.")] = 12,
+    output: Folder = None,
+    size: Annotated[int, typer.Option("--size", help="Pixels of the longer side of each PNG.")] = 1024,
+    measure: Annotated[
+        int, typer.Option("--measure", help="Pixels of the longer side at which an SVG is measured.")
+    ] = 512,
+    weight: Annotated[float, typer.Option("--weight", help="Strictness; larger is stricter.")] = 100.0,
+    seed: Annotated[int | None, typer.Option(help="Default: a fresh one, which is printed.")] = None,
+    threads: Annotated[
+        int | None, typer.Option(help="Default: all cores. Results do not depend on it.")
+    ] = None,
+) -> None:
+    """Color DRAWING in ways that differ; writes 01.svg, 01.png, ..., sheet.png, colors.json and residuals.csv."""
+    from niwaki.color import Drawing, Rules
+    from niwaki.color import color as colorings_of
+    from niwaki.color.files import write
+    from niwaki.color.search import rules_of
+    from niwaki.methods import at_least_one
+    from niwaki.search import check_seed
+
+    for flag, value in (("--count", count), ("--size", size), ("--measure", measure)):
+        at_least_one(flag, value)
+    seed = check_seed(seed)
+    read = Drawing.load(drawing, measure)
+    asked = Rules.load(rules) if rules is not None else rules_of(drawing)
+    _before(read, asked)
+    start = time.perf_counter()
+    found = colorings_of(read, asked, count, weight=weight, seed=seed, threads=threads)
+    seconds = time.perf_counter() - start
+    folder = made_folder(output or Path("out"))
+    written = write(found, folder, size)
+    _summary(found, seconds, seed)
+    print(f"{len(written)} files in {folder}, sheet.png first of all")
+
+
+def _before(drawing: Drawing, rules: Rules) -> None:
+    """What is known before the search: regions, and how near the rules can come to holding."""
+    from niwaki.color.agree import least_slack
+
+    rules.check(drawing.names)
+    print(f"{len(drawing.names)} regions, {len(drawing.pairs)} pairs of neighbours, {len(list(rules))} rules")
+    if drawing.hidden:
+        print(f"warning: no pixel shows {', '.join(drawing.hidden)}")
+    slack, forced = least_slack(rules)
+    if slack > 0.5:
+        print(f"warning: not all rules can hold; some will be {slack:.1f} units off:")
+        print("\n".join(f"  {one}" for one in forced))
+
+
+def _summary(found: list[Coloring], seconds: float, seed: int) -> None:
+    """A line for each colouring: its score and the rule that it keeps worst."""
+    print(f"{len(found)} colourings in {seconds:.1f} s, seed {seed}")
+    for k, one in enumerate(found):
+        line = f"  {k + 1:02}  log score {one.log_score:9.2f}"
+        if one.kept:
+            worst = max(one.kept, key=lambda kept: abs(kept.residual))
+            line += f"  {abs(worst.residual):5.1f} off: {worst.rule}"
+        print(line)

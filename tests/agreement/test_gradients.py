@@ -1,0 +1,81 @@
+"""Gradients of a thousand random programs are those of central differences, to 1e-6 of the largest component.
+
+The differences are taken of the density itself where its value is also checked against the engine's own log joint:
+after a recording the density at the run's coordinates is log prior + log score + the Jacobians, which are checked one
+family at a time in the engine's tests. Seeds are fixed; nothing here is statistical.
+"""
+
+from __future__ import annotations
+
+import niwaki as nw
+import numpy as np
+import pytest
+from niwaki.errors import NiwakiError
+from programs import program
+from test_engine import load
+
+PROGRAMS = 1000
+#: Why a random program may have no density.
+WITHOUT = {"no-continuous-choices", "no-derivative", "impossible-trace"}
+
+
+def slope(f: nw.LogDensity, x: np.ndarray, k: int) -> tuple[float, float]:
+    """Central differences of two widths, and their extrapolation with its own error estimate."""
+    step = np.zeros_like(x)
+    found = []
+    for h in (4e-4, 2e-4, 1e-4):
+        step[k] = h
+        found.append((f(x + step) - f(x - step)) / (2 * h))
+    first, second = (4 * found[1] - found[0]) / 3, (4 * found[2] - found[1]) / 3
+    return (16 * second - first) / 15, abs(second - first)
+
+
+def checked(seed: int) -> str:
+    """What came of one program: "checked", "corner" (no difference is smooth there), or why it has no density."""
+    try:
+        sample = nw.run(load(program(seed, 6).text), seed=seed).best
+        density = nw.log_density(sample)
+    except NiwakiError as error:
+        return str(error.code)
+    if not np.isfinite(sample.log_joint):
+        return "impossible-trace"
+    value, gradient = density.value_and_gradient(density.start)
+    assert np.isfinite(value), seed
+    lines = sum(c.transform == "line" for c in density.choices)
+    if lines == len(density.choices):
+        # No Jacobians; terms are rounded to 2^-32 in the one and not in the other.
+        assert abs(value - sample.log_joint) < 1e-7 * max(1.0, abs(value)), seed
+    size = max(1e-2, float(np.abs(gradient).max()))
+    smooth = True
+    for k in range(density.dim):
+        found, error = slope(density, density.start, k)
+        if not np.isfinite(found) or error > 1e-6 * size:
+            smooth = False
+        else:
+            assert abs(found - gradient[k]) < 1e-6 * size, (seed, k, found, gradient[k])
+    return "checked" if smooth else "corner"
+
+
+def test_a_thousand_random_programs() -> None:
+    outcomes: dict[str, int] = {}
+    seed = 0
+    while outcomes.get("checked", 0) < PROGRAMS and seed < 12 * PROGRAMS:
+        outcome = checked(seed)
+        outcomes[outcome] = outcomes.get(outcome, 0) + 1
+        seed += 1
+    assert outcomes["checked"] == PROGRAMS, outcomes
+    assert outcomes.get("corner", 0) < 0.2 * PROGRAMS, outcomes
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_machine_code_gives_what_the_tape_gives(seed: int) -> None:
+    try:
+        density = nw.log_density(nw.run(load(program(seed, 6).text), seed=seed).best)
+    except NiwakiError as error:
+        assert error.code
+        return
+    value, gradient = density.value_and_gradient(density.start)
+    density.compile()
+    again, by_code = density.value_and_gradient(density.start)
+    assert np.isclose(value, again, rtol=1e-11, atol=1e-11)
+    assert np.allclose(gradient, by_code, rtol=1e-10, atol=1e-10)

@@ -1,0 +1,128 @@
+"""Rules are read as written, refused by name where they are wrong, and shown where they contradict one another."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from niwaki.color import Rules, lab
+from niwaki.color.agree import contradiction, least_slack
+from niwaki.color.drawing import OWN
+from niwaki.file_errors import FileError
+
+
+def refused(place, text: str) -> FileError:
+    path = place / "rules.toml"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(FileError) as found:
+        Rules.load(path).check(["wall", "roof", "ink", "sky"])
+    return found.value
+
+
+def test_a_chain_is_a_rule_for_each_neighbouring_pair() -> None:
+    rules = Rules.of({"lightness": [["a", "b", "c"]], "same-hue": [["a", "c"]], "muted": {"all": 50, "b": 9}})
+    assert [(one.kind, one.first, one.second) for one in rules] == [
+        ("lightness", "a", "b"),
+        ("lightness", "b", "c"),
+        ("same-hue", "a", "c"),
+        ("muted", "b", ""),
+    ]
+    assert [(one.first, one.most) for one in rules.on("abc") if one.kind == "muted"] == [
+        ("b", 9),
+        ("a", 50),
+        ("c", 50),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("text", "code", "said"),
+    [
+        ('lightness = [["wall", "rof"]]', "rules-no-region", "did you mean `roof`"),
+        ("[pinned]\nmoon = '#ffffff'", "rules-no-region", "it has wall, roof, ink, sky"),
+        ('background = "see"', "rules-no-region", "`see`"),
+        ('lightnes = [["wall", "roof"]]', "rules-unclear", "did you mean `lightness`"),
+        ('lightness = ["wall", "roof"]', "rules-unclear", "chains"),
+        ('lightness = [["wall"]]', "rules-unclear", "chains"),
+        ("[pinned]\nwall = 'red'", "rules-unclear", "not to a `#rrggbb`"),
+        ("[muted]\nwall = true", "rules-unclear", "from 0 to 200"),
+        ("muted = 3", "rules-unclear", "table"),
+        ("background = 3", "rules-unclear", "one region"),
+        ("lightness = [", "file-unreadable", "toml"),
+    ],
+)
+def test_rules_that_cannot_be_used_say_why(tmp_path, text: str, code: str, said: str) -> None:
+    error = refused(tmp_path, text)
+    assert error.code == code and said in str(error)
+
+
+@pytest.mark.parametrize(
+    ("text", "shown", "spared"),
+    [
+        # a circle of three, and a rule that has nothing to do with it
+        (
+            'lightness = [["wall", "roof", "ink", "wall"], ["sky", "roof"]]',
+            ["`wall` is 15", "`roof` is 15", "`ink` is 15"],
+            ["`sky`"],
+        ),
+        ('lighter = [["wall", "roof"], ["roof", "wall"]]', ["`wall` is at least", "`roof` is at least"], []),
+        ('lightness = [["wall", "wall"]]', ["`wall` is 15 units lighter than `wall`"], []),
+        # a pinned black region that is to be lighter than another
+        (
+            'lightness = [["ink", "wall"]]\n[pinned]\nink = "#000000"',
+            ["`ink` is 15", "`ink` is pinned to #000000", "`wall` is no darker than black"],
+            [],
+        ),
+        # two pinned colours in the wrong order, through a third region
+        (
+            'lightness = [["wall", "roof", "ink"]]\n[pinned]\nwall = "#303030"\nink = "#f0f0f0"',
+            ["`wall` is pinned", "`ink` is pinned", "`roof` is 15"],
+            [],
+        ),
+        (
+            'same-chroma = [["wall", "roof"], ["ink", "roof"]]\n[pinned]\nwall = "#ff0000"\nink = "#00ff00"',
+            ["`wall` and `roof` are shades", "`ink` and `roof` are shades", "pinned to #00ff00"],
+            [],
+        ),
+        (
+            'same-chroma = [["wall", "roof"]]\n[muted]\nroof = 10\n[pinned]\nwall = "#ff0000"',
+            ["`roof` is at most 10", "pinned to #ff0000"],
+            [],
+        ),
+    ],
+)
+def test_a_contradiction_shows_its_rules_and_no_others(tmp_path, text, shown, spared) -> None:
+    error = refused(tmp_path, text)
+    assert error.code == "rules-contradict"
+    assert all(one in str(error) for one in shown) and not any(one in str(error) for one in spared)
+
+
+def test_the_least_slack_of_two_ways_of_unequal_length() -> None:
+    """From sky to line in three steps and in four: 3 (15 + s) = 4 (15 - s), so s = 15 / 7."""
+    rules = Rules(lightness=[["sky", "a", "b", "line"], ["sky", "c", "d", "e", "line"]])
+    slack, forced = least_slack(rules)
+    assert slack == pytest.approx(15 / 7, abs=1e-6)
+    assert len(forced) == 7 and contradiction(rules) == []
+
+
+def test_the_least_slack_agrees_with_a_linear_program() -> None:
+    linprog = pytest.importorskip("scipy.optimize").linprog
+    for seed in range(20):
+        random = np.random.default_rng(seed)
+        names = [f"r{k}" for k in range(6)]
+        pairs = [tuple(random.choice(6, 2, replace=False)) for _ in range(9)]
+        rules = Rules(lightness=[[names[a], names[b]] for a, b in pairs], pinned={"r0": "#808080"})
+        rows, most = [], []
+        for a, b in pairs:
+            for sign in (1.0, -1.0):
+                row = np.zeros(7)
+                row[a], row[b], row[6] = sign, -sign, -1.0
+                rows.append(row)
+                most.append(15.0 * sign)
+        grey = lab.of_hex("#808080")[0]
+        bounds = [(grey, grey)] + [(0, 100)] * 5 + [(0, None)]
+        best = linprog([0] * 6 + [1], rows, most, bounds=bounds)
+        assert least_slack(rules)[0] == pytest.approx(best.fun, abs=1e-6)
+
+
+def test_our_own_rules_can_all_hold() -> None:
+    for place in OWN.glob("*.toml"):
+        assert least_slack(Rules.load(place)) == (0.0, [])

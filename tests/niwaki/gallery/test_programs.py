@@ -1,0 +1,160 @@
+"""Claim: the programs of chapter 2 and appendix A run alike in both worlds, and their results are what they promise.
+
+The coin's answer is exact, and that of the hidden Markov model is held against the forward-backward recursion. That a
+layout stands free and palettes are harmonious are a designer's bars for fixed seeds, not theorems.
+"""
+
+from __future__ import annotations
+
+import math
+from itertools import combinations
+from typing import Any
+
+import niwaki as nw
+import numpy as np
+import pytest
+from niwaki.gallery import coin, data, furnishings, furniture, gmm, hlr, hmm, lda, palettes
+
+PROGRAMS = {
+    "coin": (coin.coin, ()),
+    "hmm": (hmm.hmm, (30,)),
+    "lda": (lda.lda, (2,)),
+    "gmm": (gmm.gmm, (20,)),
+    "hlr": (hlr.hlr, (5,)),
+    "wild": (palettes.wild, ()),
+    "pastel": (palettes.pastel, ()),
+    "harmonious": (palettes.harmonious, ()),
+    "layout": (furniture.layout, ()),
+}
+
+
+def same(a: Any, b: Any) -> bool:
+    """Equal structure; reals to 1e-12."""
+    if isinstance(a, (list, tuple)):
+        return type(a) is type(b) and len(a) == len(b) and all(map(same, a, b))
+    if isinstance(a, nw.Vec):
+        return isinstance(b, nw.Vec) and same(a.parts, b.parts)
+    return math.isclose(a, b, rel_tol=1e-12, abs_tol=1e-12)
+
+
+@pytest.mark.parametrize("name", PROGRAMS)
+def test_plain_python_agrees(name: str) -> None:
+    model, args = PROGRAMS[name]
+    for seed in range(3):
+        there = nw.run(model, *args, seed=seed).best
+        here = nw.run_python(model, *args, choices=there.choices)
+        assert same(here.value, there.value)
+        assert here.log_prior == pytest.approx(there.log_prior, rel=1e-12)
+        assert here.log_score == pytest.approx(there.log_score, rel=1e-12)
+
+
+def test_coin() -> None:
+    found = nw.run(coin.coin, method=coin.METHOD).distribution()
+    assert found == pytest.approx({1: 1 / 3, 2: 1 / 2, 3: 1 / 6})
+
+
+def test_the_data_grow_from_the_front() -> None:
+    assert data.hidden_chain(1000).observations[:100] == data.hidden_chain(100).observations
+    assert data.documents(50)[:5] == data.documents(5)
+    assert data.clusters(1000)[:100] == data.clusters(100)
+    assert data.growth(200)[:20] == data.growth(20)
+
+
+def test_hidden_states_are_those_of_forward_backward() -> None:
+    """20,000 runs, weighted, of a chain of 3 steps; 30 marginals, each within 4.9 standard errors (1e-6 each)."""
+    steps, chain = 3, hmm.CHAIN
+    initial, transition = np.array(chain.initial), np.array(chain.transition)
+    seen = np.array(chain.emission)[:, list(chain.observations[:steps])].T
+    forwards, backwards = [initial * seen[0]], [np.ones(10)]
+    for n in range(1, steps):
+        forwards.append(forwards[-1] @ transition * seen[n])
+    for n in range(steps - 1, 0, -1):
+        backwards.insert(0, transition @ (seen[n] * backwards[0]))
+    exact = np.array([f * b for f, b in zip(forwards, backwards, strict=True)])
+    exact /= exact.sum(axis=1, keepdims=True)
+    result = nw.run(hmm.hmm, steps, method=nw.importance(20_000), seed=1)
+    states = np.array([sample.value for sample in result])
+    weights = np.array(result.weights)
+    for n in range(steps):
+        for state in range(10):
+            is_it = states[:, n] == state
+            share = weights[is_it].sum()
+            error = math.sqrt((weights**2 * (is_it - share) ** 2).sum())
+            assert abs(share - exact[n, state]) < 4.9 * error + 1e-9
+    # A mutant: the marginals without the last observation are told apart.
+    blind = forwards[1] / forwards[1].sum()
+    is_it = states[:, 1] == int(np.argmax(np.abs(blind - exact[1])))
+    share = weights[is_it].sum()
+    error = math.sqrt((weights**2 * (is_it - share) ** 2).sum())
+    assert abs(share - blind[int(np.argmax(np.abs(blind - exact[1])))]) > 4.9 * error
+
+
+def test_things_are_closed_and_measured() -> None:
+    from niwaki import Target
+
+    for parts in (furniture.TABLE, furniture.CHAIR, furniture.PLATE, furniture.CUP, furniture.WALLS):
+        for vertices, faces in parts:
+            part = Target(vertices, faces)
+            assert part.open_edges == 0
+            assert part.volume > 0.0
+    assert furnishings.up_radius([(((3.0, 9.0, 4.0), (0.0, 0.0, 0.0)), ())]) == 5.0
+    assert 0.35 < furniture.TABLE_RADIUS < 0.45 and 0.2 < furniture.CHAIR_RADIUS < 0.3
+
+
+@pytest.fixture(scope="module")
+def cafe() -> nw.Sample:
+    return nw.run(furniture.coffee_shop, seed=2).best
+
+
+def test_furniture_stands_free_and_in_the_room(cafe: nw.Sample) -> None:
+    discs = [(place, furniture.TABLE_RADIUS) for place, _, _ in cafe.value]
+    discs += [(seat, furniture.CHAIR_RADIUS) for _, _, chairs in cafe.value for seat, _ in chairs]
+    assert len(cafe.value) >= 5
+    for place, radius in discs:
+        assert nw.polygon_contains(furniture.ROOM, place)
+        assert nw.polygon_distance(furniture.ROOM, place) > radius
+    for (a, r), (b, s) in combinations(discs, 2):
+        assert nw.distance(a, b) > r + s
+
+
+def test_dishes_lie_on_their_tables(cafe: nw.Sample) -> None:
+    tables = [place for place, _, _ in cafe.value]
+    dishes = []
+    for part in cafe.scene:
+        low, high = part.shapes[0].aabb()
+        if "dishes" in part.address:
+            dishes.append(((low[0] + high[0]) / 2, -(low[2] + high[2]) / 2, (high[0] - low[0]) / 2))
+            assert low[1] == pytest.approx(furniture.TABLE_TOP)
+    assert len(dishes) > 10
+    for x, y, radius in dishes:
+        assert min(nw.distance((x, y), place) for place in tables) < furniture.TABLE_RADIUS - radius
+    for (x, y, r), (u, v, s) in combinations(dishes, 2):
+        assert math.hypot(x - u, y - v) > r + s
+
+
+def test_the_shop_is_the_same_in_plain_python(cafe: nw.Sample) -> None:
+    here = nw.run_python(furniture.coffee_shop, choices=cafe.choices)
+    assert same(here.value, cafe.value)
+    assert sorted(address for address, _ in here.scene) == sorted(part.address for part in cafe.scene)
+
+
+def hues(colors: list[nw.Vec]) -> list[float]:
+    return [nw.to_hsv(color).x for color in colors]
+
+
+def apart(a: float, b: float) -> float:
+    """The angle between two hues, degrees."""
+    return 360.0 * abs((a - b + 0.5) % 1.0 - 0.5)
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_palettes_are_harmonious(seed: int) -> None:
+    colors = nw.run(palettes.harmonious, method=palettes.METHOD, seed=seed).value
+    main, accent, shade, other, other_shade = hues(colors)
+    assert abs(apart(main, accent) - 150.0) < 6.0 and abs(apart(main, other) - 150.0) < 6.0
+    assert abs(apart(accent, other) - 60.0) < 6.0
+    assert apart(accent, shade) < 15.0 and apart(other, other_shade) < 15.0
+    assert all(nw.color_difference(a, b) > 8.0 for a, b in zip(colors, colors[1:], strict=False))
+    # A palette of any colours is not.
+    wild = hues(nw.run(palettes.wild, seed=seed).value)
+    assert abs(apart(wild[0], wild[1]) - 150.0) + abs(apart(wild[1], wild[3]) - 60.0) > 12.0
