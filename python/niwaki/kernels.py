@@ -33,6 +33,7 @@ __all__ = [
     "neighbour",
     "odds",
     "on",
+    "original",
     "parse",
     "proposal",
     "regenerate",
@@ -71,7 +72,7 @@ class Kernel:
 
     def __repr__(self) -> str:
         if self.name == "on":
-            (sites, depth, by_site), (inner,) = self.settings, self.parts
+            (sites, depth, by_site, _), (inner,) = self.settings, self.parts
             if sites:
                 return f"on({sites[0]!r}, {inner!r})"
             return f"odds({inner!r}{', depth=...' if depth else ''}{f', sites={dict(by_site)!r}' if by_site else ''})"
@@ -169,7 +170,7 @@ def on(sites: str | Sequence[str], kernel: Kernel) -> Kernel:
     patterns = [sites] if isinstance(sites, str) else list(sites)
     if not patterns or not all(isinstance(one, str) and one for one in patterns):
         raise _wrong("sites", sites, "a pattern over addresses, or several", '"tree/width"')
-    return Kernel("on", ([patterns], [], []), _parts("on", (kernel,)))
+    return Kernel("on", ([patterns], [], [], ""), _parts("on", (kernel,)))
 
 
 def odds(
@@ -177,6 +178,7 @@ def odds(
     *,
     depth: Callable[[int], float] | None = None,
     sites: Mapping[str, float] | None = None,
+    calls: str = "",
 ) -> Kernel:
     """A kernel that picks choices by weight instead of evenly; the acceptance takes that into account.
 
@@ -186,10 +188,12 @@ def odds(
         The odds of a choice with so many calls above it.
     sites
         Odds by pattern over addresses; the first that matches holds, and 1 where none does. Zero leaves a choice out.
+    calls
+        The name, in addresses, of the calls that count as depth; all calls when left out.
     """
     by_depth = [] if depth is None else [_weight("depth", depth(n)) for n in range(_DEEPEST)]
     by_site = [(pattern, _weight("sites", one)) for pattern, one in (sites or {}).items()]
-    return Kernel("on", ([], by_depth, by_site), _parts("odds", (kernel,)))
+    return Kernel("on", ([], by_depth, by_site, calls), _parts("odds", (kernel,)))
 
 
 def anneal(kernel: Kernel, steps: int, start: float = 10.0, end: float = 0.1) -> Kernel:
@@ -218,6 +222,29 @@ def temper(kernel: Kernel, temperatures: Sequence[float] = (1.0, 2.0, 4.0, 8.0),
     if not rising or rising[0] != 1.0 or rising != sorted(rising):
         raise _wrong("temperatures", temperatures, "temperatures that rise from 1", "(1, 2, 4, 8)")
     return Kernel("temper", (tuple(rising), _whole("every", every, 1)), _parts("temper", (kernel,)))
+
+
+def original(sharpen: float = 16.0, nesting: str | None = None) -> Kernel:
+    """The original's Metropolis-Hastings, with its settings (the baseline of dissertation 5.6).
+
+    One choice by its family: a coin is always turned, a Gaussian number drifts by its own standard deviation, anything
+    else is drawn from its distribution. It is run on the same models as everything else; a number whose interval
+    moves away from under it is rejected here, where the original kept its place in the interval.
+
+    Parameters
+    ----------
+    sharpen
+        The power of the score: 16 makes a sigma of 0.02 one of 0.005, as the original did. Reported scores are never
+        sharpened.
+    nesting
+        The name of a function: choices within so many nested calls of it get odds exp(-n), as on the original's tree,
+        where n counts branches and not segments (for our gnarly tree `"side_branch"`). All alike when left out.
+    """
+    kernel = Kernel("by_family")
+    if nesting is not None:
+        kernel = odds(kernel, depth=lambda n: math.exp(-n), calls=nesting)
+    power = 1.0 / _positive("sharpen", sharpen)
+    return kernel if power == 1.0 else anneal(kernel, 1, power, power)
 
 
 def parse(text: str) -> Kernel:
@@ -258,7 +285,21 @@ def _made(part: ast.expr) -> Any:
 #: What can be written as text.
 _WRITTEN: dict[str, Callable[..., Kernel]] = {
     made.__name__: made
-    for made in (mh, drift, neighbour, block, regenerate, cycle, mixture, repeat, on, odds, anneal, temper)
+    for made in (
+        mh,
+        drift,
+        neighbour,
+        block,
+        regenerate,
+        cycle,
+        mixture,
+        repeat,
+        on,
+        odds,
+        anneal,
+        temper,
+        original,
+    )
 }
 
 

@@ -216,6 +216,9 @@ class Result(Sequence[Sample]):
         The power at each barrier where it is not constant, of the first population.
     moves : int or None
         How often a chain took its chance to move.
+    moved : tuple of two pairs, or None
+        Proposals of rejuvenation and how many of them were kept: of particles that still ran, and of those that had
+        ended.
     renewed : tuple of float
         The share of choices that each sweep of a chain made new.
     """
@@ -239,6 +242,7 @@ class Result(Sequence[Sample]):
         died: int = 0,
         temperatures: Sequence[float] = (),
         moves: int | None = None,
+        moved: tuple[tuple[int, int], tuple[int, int]] | None = None,
         renewed: Sequence[float] = (),
         table: list[tuple[Any, float]] | None = None,
     ) -> None:
@@ -247,7 +251,7 @@ class Result(Sequence[Sample]):
         self.barriers, self.steps = barriers, steps
         self.resampled, self.ancestors, self.tries = resampled, ancestors, tries
         self.plan, self.died, self.temperatures = tuple(plan), died, tuple(temperatures)
-        self.moves, self.renewed = moves, tuple(renewed)
+        self.moves, self.moved, self.renewed = moves, moved, tuple(renewed)
         self._table = table
         self.seconds = sum(sample.seconds for sample in samples)
         self.cpu_seconds = sum(sample.cpu_seconds for sample in samples)

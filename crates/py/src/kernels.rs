@@ -18,6 +18,7 @@ pub fn kernel(task: &PyTask, form: &Bound<'_, PyAny>) -> PyResult<Kernel> {
     Ok(match name.as_str() {
         "prior" => Kernel::Prior,
         "drift" => Kernel::Drift { step: form.get_item(1)?.extract()?, target: form.get_item(2)?.extract()? },
+        "by_family" => Kernel::ByFamily,
         "neighbour" => Kernel::Neighbour { reach: form.get_item(1)?.extract()? },
         "block" => Kernel::Block {
             step: form.get_item(1)?.extract()?,
@@ -47,8 +48,9 @@ pub fn kernel(task: &PyTask, form: &Bound<'_, PyAny>) -> PyResult<Kernel> {
                 sites: form.get_item(1)?.extract()?,
                 depth: form.get_item(2)?.extract()?,
                 odds: form.get_item(3)?.extract()?,
+                calls: form.get_item(4)?.extract()?,
             };
-            Kernel::On(selection, Box::new(inner(4)?))
+            Kernel::On(selection, Box::new(inner(5)?))
         }
         "anneal" => Kernel::Anneal {
             hot: form.get_item(1)?.extract()?,

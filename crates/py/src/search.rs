@@ -6,15 +6,19 @@
 use crate::faults;
 use crate::geometry::PySketchSpec;
 use crate::gradients::PyDensity;
+use crate::kernels::kernel;
 use crate::model::PyProgram;
 use crate::outcome::{PyOutcome, PyTrace};
-use crate::settings::{Way, Words, settings, unknown};
+use crate::settings::{At, Way, Words, settings, unknown};
+use niwaki_infer::chain::counts::Count;
 use niwaki_infer::enumeration::enumerate;
 use niwaki_infer::forward::{Sample, forward};
 use niwaki_infer::gradient::live;
 use niwaki_infer::importance::importance;
 use niwaki_infer::nested::Method;
-use niwaki_infer::particles::{self, Ancestors, Chain, Progress, particle_gibbs, pimh, populations, within};
+use niwaki_infer::particles::{
+    self, Ancestors, Chain, Progress, Rejuvenation, particle_gibbs, pimh, populations, within,
+};
 use niwaki_infer::rejection::rejection;
 use niwaki_infer::replay::{Missing, Source, replay};
 use niwaki_infer::{Failure, Task};
@@ -224,9 +228,12 @@ impl PyTask {
 
     /// Sequential Monte Carlo: a dict with ``particles`` (outcomes), ``log_evidence`` (None where there is none),
     /// ``barriers``, ``steps``, ``resampled``, ``ancestors``, ``plan``, ``died``, ``temperatures``, ``interrupted``.
-    /// ``plan`` holds the sizes of the populations; with ``seconds`` the measured costs decide them.
+    /// ``plan`` holds the sizes of the populations; with ``seconds`` the measured costs decide them. ``rejuvenate`` is the
+    /// form of a kernel, ``moves`` how many proposals each time, and ``at`` when: a number of barriers, ``"resampled"`` or
+    /// ``"end"``; proposals and those kept are told as ``moved``, of particles that ran and of those that had ended.
     #[pyo3(signature = (plan, seed, *, order="stochastic", weights="ratio", temper=1.0, anneal=None,
-                        resampling="systematic", ess=None, seconds=None, threads=None, watch=None))]
+                        resampling="systematic", ess=None, rejuvenate=None, moves=1, at=At::Barriers(1), seconds=None,
+                        threads=None, watch=None))]
     #[expect(clippy::too_many_arguments, reason = "the settings of the method")]
     fn smc<'py>(
         &self,
@@ -239,6 +246,9 @@ impl PyTask {
         anneal: Option<Way>,
         resampling: &str,
         ess: Option<f64>,
+        rejuvenate: Option<Bound<'py, PyAny>>,
+        moves: u64,
+        at: At,
         seconds: Option<f64>,
         threads: Option<usize>,
         watch: Option<Py<PyAny>>,
@@ -246,7 +256,11 @@ impl PyTask {
         let program = &*self.task.program;
         let particles = plan.first().copied().unwrap_or(1);
         let words = Words { particles, seed, order, weights, temper, anneal, resampling, ess };
-        let settings = settings(py, program, words)?;
+        let mut settings = settings(py, program, words)?;
+        if let Some(form) = rejuvenate {
+            let kernel = kernel(self, &form)?;
+            settings.rejuvenate = Some(Rejuvenation { kernel, moves, at: at.moment(py, program)? });
+        }
         let (found, pressed) = detached(py, program, threads, watch.as_ref(), |watch| {
             let mut look = |p: Progress| watch.look(p.barriers as u64, p.ended, p.best);
             match seconds {
@@ -266,6 +280,8 @@ impl PyTask {
         facts.set_item("plan", PyTuple::new(py, found.plan)?)?;
         facts.set_item("died", found.died)?;
         facts.set_item("temperatures", PyTuple::new(py, found.temperatures)?)?;
+        let pair = |count: Count| (count.proposed, count.accepted);
+        facts.set_item("moved", (pair(found.moved.running), pair(found.moved.ended)))?;
         facts.set_item("interrupted", found.interrupted || pressed)?;
         facts.set_item("particles", self.of_particles(found.particles))?;
         Ok(facts)

@@ -1,7 +1,7 @@
 //! Settings of a population, from Python's words for them.
 
 use crate::faults;
-use niwaki_infer::particles::{Anneal, Order, Resampling, Settings, Weights, When};
+use niwaki_infer::particles::{Anneal, Moment, Order, Resampling, Settings, Weights, When};
 use niwaki_vm::code::Program;
 use niwaki_vm::fault::Fault;
 use pyo3::prelude::*;
@@ -11,6 +11,29 @@ use pyo3::prelude::*;
 pub enum Way {
     Share(f64),
     Path(Vec<f64>),
+}
+
+/// When particles are moved: at every so-many-th barrier, or at a moment that has a name.
+#[derive(FromPyObject)]
+pub enum At {
+    Barriers(usize),
+    Named(String),
+}
+
+impl At {
+    /// The moment, or an error that says which names are known.
+    pub fn moment(self, py: Python<'_>, program: &Program) -> PyResult<Moment> {
+        match self {
+            At::Barriers(n) => Ok(Moment::Every(n)),
+            At::Named(name) => match name.as_str() {
+                "resampled" => Ok(Moment::Resampled),
+                "end" => Ok(Moment::End),
+                other => {
+                    Err(unknown(py, program, "at", other, "a number of barriers, \"resampled\" or \"end\""))
+                }
+            },
+        }
+    }
 }
 
 /// What is asked for in words.
@@ -64,6 +87,7 @@ pub fn settings(py: Python<'_>, program: &Program, words: Words<'_>) -> PyResult
                 return Err(unknown("resampling", other, known));
             }
         },
+        rejuvenate: None,
         when: words.ess.map_or(When::Always, When::EffectiveBelow),
     })
 }

@@ -7,10 +7,12 @@ from dataclasses import dataclass
 from typing import Any
 
 from niwaki.errors import InputError
+from niwaki.kernels import Kernel
 from niwaki.methods.checks import at_least_one, bad, is_number, is_whole, one_of
 
 ORDERS = ("stochastic", "depth-first")
 WEIGHTS = ("ratio", "absolute")
+MOMENTS = ("resampled", "end")
 RESAMPLING = ("systematic", "residual", "stratified", "multinomial")
 
 
@@ -28,6 +30,9 @@ class Smc:
     populations: int = 1
     diverse: int | None = None
     seconds: float | None = None
+    rejuvenate: Kernel | None = None
+    moves: int = 1
+    at: int | str = 1
 
     @property
     def plan(self) -> tuple[int, ...]:
@@ -76,6 +81,9 @@ def smc(
     populations: int | None = None,
     diverse: int | None = None,
     seconds: float | None = None,
+    rejuvenate: Kernel | None = None,
+    moves: int = 1,
+    at: int | str = 1,
 ) -> Smc:
     """Particles that are scored and resampled while they grow.
 
@@ -111,6 +119,16 @@ def smc(
     seconds
         Instead of a number of particles: populations one after the other until this time is spent, their sizes planned
         from measured costs and told by `Result.plan`.
+    rejuvenate
+        A kernel of `niwaki.kernels` that moves each particle without changing the law that all follow, so that copies
+        become different again (Gilks & Berzuini 2001). A particle that still runs keeps its skeleton: which parts,
+        which futures, where each call waits; one that has ended may change its structure. Not with absolute weights,
+        and no kernel that anneals or tempers.
+    moves
+        Proposals for each particle, each time; `Result.moved` says how many were made and kept.
+    at
+        When: once all have ended ("end"); and before that at every so-many-th barrier, or after each resampling
+        ("resampled").
     """
     if seconds is not None:
         if not is_number(seconds) or not 0 < seconds < float("inf"):
@@ -133,6 +151,7 @@ def smc(
         at_least_one("populations", populations)
         if not isinstance(sizes, int):
             raise bad("populations", populations, "nothing beside a list of sizes", "None")
+    _check_moves(rejuvenate, moves, at, weights)
     return Smc(
         sizes,
         order,
@@ -144,6 +163,9 @@ def smc(
         populations or diverse or 1,
         diverse,
         None if seconds is None else float(seconds),
+        rejuvenate,
+        moves,
+        at,
     )
 
 
@@ -220,6 +242,30 @@ def pimh(
     _check_temper(temper)
     _check_ess(ess)
     return Pimh(particles, sweeps, order, float(temper), resampling, ess, _fixed(anneal))
+
+
+def _check_moves(rejuvenate: Any, moves: int, at: Any, weights: str) -> None:
+    at_least_one("moves", moves)
+    if at not in MOMENTS and (not is_whole(at) or at < 1):
+        raise bad("at", at, 'a number of barriers, "resampled" or "end"', "1")
+    if rejuvenate is None:
+        return
+    if not isinstance(rejuvenate, Kernel):
+        raise bad("rejuvenate", rejuvenate, "a kernel", "one of `niwaki.kernels`, such as `kernels.mh()`")
+    if weights == "absolute":
+        raise bad(
+            "rejuvenate", rejuvenate, "nothing beside absolute weights, which have no law to keep", '"ratio"'
+        )
+    changing = _first(rejuvenate, ("anneal", "temper"))
+    if changing is not None:
+        expected = "a kernel that keeps the particles' law, which annealing and tempering do not"
+        raise bad("rejuvenate", rejuvenate, expected, f"{changing.parts[0]!r}, and `anneal=` of `smc`")
+
+
+def _first(kernel: Kernel, names: tuple[str, ...]) -> Kernel | None:
+    if kernel.name in names:
+        return kernel
+    return next((found for part in kernel.parts if (found := _first(part, names)) is not None), None)
 
 
 def _check_temper(temper: float) -> None:

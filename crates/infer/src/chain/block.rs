@@ -34,7 +34,7 @@ pub struct Block {
 }
 
 /// A step of one choice; `None` where it has none.
-fn step(family: Family, old: &Value, size: f64, rng: &mut Stream) -> Option<Proposed<f64>> {
+pub(crate) fn step(family: Family, old: &Value, size: f64, rng: &mut Stream) -> Option<Proposed<f64>> {
     let plain = |value| Some(Proposed { value, forward: 0.0, backward: 0.0 });
     let inf = f64::INFINITY;
     match (family, old) {

@@ -67,7 +67,9 @@ impl<R: Rules> Chain<R> {
         };
         let log_ratio = R::log_ratio(&terms);
         let u = open_unit(rng);
-        let accepted = after.impossible == 0 && (log_ratio >= 0.0 || u.ln() < log_ratio) && !self.undoing;
+        let fits = self.barriers.is_none_or(|n| self.state.primitives + after.factors == n);
+        let accepted =
+            fits && after.impossible == 0 && (log_ratio >= 0.0 || u.ln() < log_ratio) && !self.undoing;
         if accepted {
             if self.best.is_noting() {
                 let moved = moved(&self.state.trace);
@@ -96,6 +98,6 @@ impl<R: Rules> Chain<R> {
 
 /// A number below `n`, evenly (up to `n / 2^64`).
 #[inline(always)]
-pub(super) fn below(rng: &mut Stream, n: u64) -> u64 {
+pub(crate) fn below(rng: &mut Stream, n: u64) -> u64 {
     ((u128::from(rng.next_u64()) * u128::from(n)) >> 64) as u64
 }

@@ -168,7 +168,7 @@ pub(super) fn spread(dist: &Dist) -> f64 {
 }
 
 /// The same in the choice's own coordinate, for steps that may leave the support.
-pub(super) fn plain_spread(dist: &Dist) -> f64 {
+pub(crate) fn plain_spread(dist: &Dist) -> f64 {
     match dist {
         Dist::Uniform { lo, hi } | Dist::TruncatedGaussian { lo, hi, .. } => (hi - lo) * 0.3,
         _ => spread(dist),

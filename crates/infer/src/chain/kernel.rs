@@ -13,6 +13,8 @@ pub struct Selection {
     pub sites: Vec<Vec<String>>,
     /// Odds by number of calls above the choice; the last holds for all beyond.
     pub depth: Vec<f64>,
+    /// What the calls that count as depth are called in addresses; all of them, where it is empty.
+    pub calls: String,
     /// Odds by pattern over readable addresses; the first that matches holds, and 1 where none does.
     pub odds: Vec<(String, f64)>,
 }
@@ -34,6 +36,8 @@ pub enum Kernel {
         /// How far at most.
         reach: u64,
     },
+    /// One choice, in the way that the original's baseline moved its family.
+    ByFamily,
     /// Many choices move a little at once.
     Block {
         /// First step, in spreads of each choice's first distribution.

@@ -2,7 +2,7 @@
 //!
 //! * [`state`]: where a chain is; [`streams`]: its random numbers;
 //! * [`kernel`]: kernels as values; `plan`: which leaf is next; `select`, [`glob`], [`odds`]: which choice it changes;
-//! * `single`: proposals that change one choice: from the prior, [`drift`], [`neighbour`], by the [`user`]'s function;
+//! * `single`: proposals that change one choice: from the prior, [`drift`], [`neighbour`], `by_family`, by the [`user`]'s function;
 //!   [`block`], `regenerate`: proposals that change many;
 //! * [`accept`]: the acceptance ratio, in plain letters; `decide`: a proposal is kept or undone;
 //! * [`counts`], [`best`], [`samples`], [`snapshot`]: what is told afterwards;
@@ -15,8 +15,9 @@ pub mod accept;
 pub mod agreement;
 pub mod best;
 pub mod block;
+pub(crate) mod by_family;
 pub mod counts;
-mod decide;
+pub(crate) mod decide;
 pub mod drift;
 pub mod explain;
 pub mod glob;
@@ -25,11 +26,11 @@ pub mod ladder;
 pub mod many;
 pub mod neighbour;
 pub mod odds;
-mod plan;
+pub(crate) mod plan;
 mod regenerate;
 pub mod samples;
 mod select;
-mod single;
+pub(crate) mod single;
 pub mod snapshot;
 pub mod state;
 pub mod streams;
@@ -38,6 +39,7 @@ pub mod user;
 use crate::{Failure, Task};
 use accept::{MetropolisHastings, Rules};
 use best::Best;
+use by_family::ByFamily;
 use counts::Counts;
 use decide::Decision;
 use kernel::Kernel;
@@ -119,6 +121,8 @@ pub struct Chain<R: Rules = MetropolisHastings> {
     last: Decision,
     /// Whether every proposal is undone, to see that nothing is left.
     undoing: bool,
+    /// How many primitives, factors and observations together a state must have, where that is fixed.
+    barriers: Option<usize>,
     rules: PhantomData<R>,
 }
 
@@ -136,15 +140,33 @@ impl<R: Rules> Chain<R> {
         number: u64,
         known: Option<&HashMap<u128, Value>>,
     ) -> Result<Chain<R>, Failure> {
+        let sites = task.program.functions.iter().map(|f| f.sites.len()).sum();
+        let (plan, streams) = (Plan::new(&settings.kernel, sites)?, Streams::new(settings.seed, number));
+        let (state, spreads) = State::start(task, streams, settings.tries, known)?;
+        for leaf in plan.leaves.iter().filter(|leaf| !leaf.selection.is_all()) {
+            leaf.selection.check(&state.trace, &task.program)?;
+        }
+        Chain::at(task, settings, number, plan, state, &spreads)
+    }
+
+    /// The `number`-th chain of a seed, in a state that is given, at its next place of a plan.
+    ///
+    /// # Errors
+    /// A kernel that makes no sense for the program.
+    pub(crate) fn at(
+        task: &Task,
+        settings: &Settings,
+        number: u64,
+        mut plan: Plan,
+        mut state: State,
+        spreads: &HashMap<u128, f64>,
+    ) -> Result<Chain<R>, Failure> {
         let (program, streams) = (&*task.program, Streams::new(settings.seed, number));
         let counts = Counts::new(program);
-        let mut plan = Plan::new(&settings.kernel, counts.sites.len())?;
-        let (mut state, spreads) = State::start(task, streams, settings.tries, known)?;
         R::begin(&mut state.trace);
         let mut tables = Vec::new();
         for leaf in &mut plan.leaves {
             if !leaf.selection.is_all() {
-                leaf.selection.check(&state.trace, program)?;
                 leaf.table = Some(tables.len());
                 tables.push(Table::new(Box::new(leaf.selection.clone()), &state.trace, program));
             }
@@ -164,8 +186,15 @@ impl<R: Rules> Chain<R> {
             visit: 0,
             last: Decision::default(),
             undoing: false,
+            barriers: None,
             rules: PhantomData,
         })
+    }
+
+    /// From now on it follows this power of the score, over states with so many barriers where that is fixed:
+    /// primitives, factors and observations together.
+    pub(crate) fn restrict(&mut self, beta: f64, barriers: Option<usize>) {
+        (self.beta, self.barriers) = (beta, barriers);
     }
 
     /// How many proposals it has made.
@@ -224,6 +253,7 @@ impl<R: Rules> Chain<R> {
                     drift.adapting = adapting;
                     self.single(task, machine, &mut **drift, table, beta)
                 }
+                Way::ByFamily => self.single(task, machine, &mut ByFamily, table, beta),
                 Way::Neighbour(neighbour) => self.single(task, machine, neighbour, table, beta),
                 Way::Block(block) => {
                     block.adapting = adapting;

@@ -13,26 +13,27 @@ use niwaki_vm::fault::Fault;
 use std::sync::Arc;
 
 /// How a leaf proposes.
-#[derive(Debug)]
-pub(super) enum Way {
+#[derive(Clone, Debug)]
+pub(crate) enum Way {
     Prior,
     Drift(Box<Drift>),
     Neighbour(Neighbour),
+    ByFamily,
     Block(Box<Block>),
     Regenerate(usize),
     User(Arc<User>),
 }
 
 /// A leaf: how it proposes, and for which choices.
-#[derive(Debug)]
-pub(super) struct Leaf {
+#[derive(Clone, Debug)]
+pub(crate) struct Leaf {
     pub way: Way,
     pub selection: Selection,
     /// The table with its weights; none where all choices weigh the same.
     pub table: Option<usize>,
 }
 
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 enum Branch {
     Leaf(usize),
     Cycle(Vec<usize>),
@@ -49,8 +50,8 @@ enum Branch {
 }
 
 /// A kernel ready to run.
-#[derive(Debug)]
-pub(super) struct Plan {
+#[derive(Clone, Debug)]
+pub(crate) struct Plan {
     pub leaves: Vec<Leaf>,
     branches: Vec<Branch>,
     root: usize,
@@ -84,6 +85,7 @@ impl Plan {
                 adapting: false,
             }))),
             Kernel::Regenerate { levels } => leaf(Way::Regenerate(*levels)),
+            Kernel::ByFamily => leaf(Way::ByFamily),
             Kernel::User(user) => leaf(Way::User(user.clone())),
             Kernel::On(inner, kernel) => return self.add(kernel, &selection.and(inner), sites),
             Kernel::Cycle(kernels) => {

@@ -16,13 +16,14 @@ impl Selection {
         both.sites.extend(other.sites.iter().cloned());
         if !other.depth.is_empty() {
             both.depth.clone_from(&other.depth);
+            both.calls.clone_from(&other.calls);
         }
         both.odds.splice(0..0, other.odds.iter().cloned());
         both
     }
 
     /// Whether every choice is chosen with the same odds.
-    pub(super) fn is_all(&self) -> bool {
+    pub(crate) fn is_all(&self) -> bool {
         *self == Selection::default()
     }
 
@@ -82,9 +83,18 @@ fn labels(program: &Program) -> Vec<String> {
 
 impl Weigh for Selection {
     fn weight(&self, place: &Place<'_, f64>) -> u64 {
+        self.weigh(|| place.path(), || place.depth())
+    }
+}
+
+impl Selection {
+    /// The weight of a choice with that readable address and so many calls above it.
+    pub(crate) fn weigh(&self, path: impl FnOnce() -> String, depth: impl FnOnce() -> usize) -> u64 {
         let mut odds = 1.0;
-        if !self.sites.is_empty() || !self.odds.is_empty() {
-            let path = place.path();
+        let mut nested = None;
+        if !self.sites.is_empty() || !self.odds.is_empty() || !self.calls.is_empty() {
+            let path = path();
+            nested = Some(path.split('/').filter(|part| *part == self.calls).count());
             if !self.takes(&path) {
                 return 0;
             }
@@ -92,7 +102,10 @@ impl Weigh for Selection {
                 self.odds.iter().find(|(pattern, _)| matches(pattern, &path)).map_or(1.0, |found| found.1);
         }
         if let Some(deepest) = self.depth.last() {
-            odds *= self.depth.get(place.depth()).unwrap_or(deepest);
+            odds *= self
+                .depth
+                .get(nested.filter(|_| !self.calls.is_empty()).unwrap_or_else(depth))
+                .unwrap_or(deepest);
         }
         // What is to be chosen at all keeps a chance.
         if odds > 0.0 { ((odds * UNIT).round() as u64).max(1) } else { 0 }

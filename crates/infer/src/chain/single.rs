@@ -15,7 +15,7 @@ use niwaki_vm::machine::kept::{Propose, Proposed};
 use niwaki_vm::value::Value;
 
 /// A way to move one choice.
-pub(super) trait Move {
+pub(crate) trait Move {
     /// Whether it may propose what is outside the support.
     const MAY_LEAVE: bool = false;
 
@@ -35,7 +35,7 @@ pub(super) trait Move {
 }
 
 /// From the choice's own distribution, whatever its value was.
-pub(super) struct FromPrior;
+pub(crate) struct FromPrior;
 
 impl Move for FromPrior {
     #[inline(always)]

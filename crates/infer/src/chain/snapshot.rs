@@ -63,7 +63,7 @@ impl Facts {
 }
 
 /// The choices of the present state.
-pub(super) fn present<'a>(
+pub(crate) fn present<'a>(
     state: &'a State,
     program: &'a Program,
 ) -> impl Iterator<Item = (u128, Value)> + 'a {
@@ -72,7 +72,7 @@ pub(super) fn present<'a>(
 }
 
 /// Choices as a log.
-pub(super) fn logged(choices: impl IntoIterator<Item = (u128, Value)>) -> Log {
+pub(crate) fn logged(choices: impl IntoIterator<Item = (u128, Value)>) -> Log {
     let mut log = Log::default();
     for (address, value) in choices {
         log.push(address, value);

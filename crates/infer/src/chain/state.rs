@@ -121,6 +121,28 @@ impl State {
         Err(Failure::NoStart { tries, causes })
     }
 
+    /// The state of a run with these values whose scene the sketches show already.
+    ///
+    /// # Errors
+    /// A fault of the program; values with which it is impossible.
+    pub(crate) fn of_run(
+        task: &Task,
+        known: &HashMap<u128, Value>,
+        sketches: Sketches,
+        primitives: usize,
+    ) -> Result<State, Failure> {
+        let key = StreamKey::new(0, 0, 0);
+        let mut answers = Fresh { key, known: Some(known), hosts: &*task.hosts, spreads: None };
+        let (mut trace, change) = task.begin(&mut task.machine(), &mut answers)?;
+        if change == Change::Impossible {
+            let cause = impossible(&trace, &task.program);
+            return Err(Failure::NoStart { tries: 1, causes: vec![(cause, 1)] });
+        }
+        trace.commit(&task.program);
+        let log_sketches = sketches.log_score();
+        Ok(State { trace, sketches, log_sketches, primitives, before: (log_sketches, primitives), moved: 0 })
+    }
+
     /// Factors, observations and sketches, nats.
     #[inline]
     pub fn log_score(&self) -> f64 {

@@ -65,7 +65,7 @@ impl User {
 }
 
 /// The move that asks it.
-pub(super) struct Asking<'a>(pub &'a User);
+pub(crate) struct Asking<'a>(pub &'a User);
 
 impl Move for Asking<'_> {
     const MAY_LEAVE: bool = true;

@@ -22,6 +22,8 @@ pub(super) struct Particle {
     pub stream: StreamKey,
     /// How many order choices it has made.
     pub picks: u64,
+    /// Whether it had ended before the last barrier.
+    pub was_ended: bool,
     /// The score that its weight already counts.
     pub weighed: f64,
     /// Log weight since the last resampling.
@@ -41,6 +43,7 @@ impl Particle {
         task: &Task,
         settings: &Settings,
     ) -> Result<(), Failure> {
+        self.was_ended = self.state.has_ended();
         while self.is_running() {
             let runnable = self.state.runnable();
             let future = match runnable.len() {
@@ -87,6 +90,7 @@ impl Particle {
             lineage: self.lineage,
             stream: self.stream,
             picks: self.picks,
+            was_ended: self.was_ended,
             weighed: self.weighed,
             log_weight: self.log_weight,
         }
@@ -99,6 +103,7 @@ impl Particle {
         self.lineage = lineage;
         self.stream = StreamKey::new(seed, lineage, 0);
         self.picks = parent.picks;
+        self.was_ended = parent.was_ended;
         self.weighed = parent.weighed;
     }
 }

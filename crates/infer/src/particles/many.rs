@@ -9,6 +9,7 @@
 //! The sizes are the plan: with the seed it gives the same result again, however many threads there are and however
 //! long it takes. Where a time was given, measured costs decide the sizes; scores have no say in them.
 
+use super::rejuvenation::Moved;
 use super::settings::Settings;
 use super::smc::{Outcome, Progress, Result, run};
 use crate::{Failure, Task};
@@ -166,6 +167,7 @@ fn combine(
         interrupted,
         plan: plan.to_vec(),
         died: deaths,
+        moved: Moved::default(),
         temperatures: std::mem::take(&mut lived[0].1.temperatures),
     };
     for (n, mut one) in lived {
@@ -179,6 +181,7 @@ fn combine(
         whole.steps += one.steps;
         whole.resampled += one.resampled;
         whole.ancestors += one.ancestors;
+        whole.moved += one.moved;
     }
     Ok(whole)
 }

@@ -8,6 +8,8 @@
 //! 2. *Weigh* (`weights`): `w *= (s(r_n) / s(r_{n-1}))^T`. One that has ended carries its last score.
 //! 3. *Resample* ([`resampling`]): at every barrier, or when the effective sample size is low; weights are reset. Copies
 //!    are made side by side (`copies`).
+//! 4. *Rejuvenate*, where asked for ([`rejuvenation`]): each particle is moved by a Markov kernel that keeps `F_n`; of one
+//!    that still runs the way is done again with other values (`course`, `moves`).
 //!
 //! The temperature may differ from barrier to barrier ([`Anneal`]): weights then count `s(r_n)^(T_n) / s(r_{n-1})^(T_{n-1})`, and
 //! the final set is weighed by the declared `T`, so that the way there changes neither law nor constant.
@@ -25,12 +27,15 @@
 
 mod advance;
 mod copies;
+mod course;
 pub mod distinct;
 mod gibbs;
 mod many;
+mod moves;
 mod path;
 mod pimh;
 mod population;
+pub mod rejuvenation;
 pub mod resampling;
 mod settings;
 mod smc;
@@ -42,6 +47,7 @@ mod tests;
 pub use gibbs::{Ancestors, Chain, particle_gibbs};
 pub use many::{Watch, populations, within};
 pub use pimh::pimh;
+pub use rejuvenation::{Moment, Moved, Rejuvenation};
 pub use resampling::Resampling;
 pub use settings::{Anneal, Order, Settings, Weights, When};
 pub use smc::{Outcome, Progress, Result, smc};

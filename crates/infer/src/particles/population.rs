@@ -3,6 +3,7 @@
 
 use super::advance::Particle;
 use super::copies::copy;
+use super::rejuvenation::{Moved, Mover};
 use super::settings::{Anneal, Order, Settings, Weights, When};
 use super::weights::{Normalised, conditional_share};
 use crate::record::Record;
@@ -17,7 +18,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 pub(super) const RESAMPLING: u64 = u64::MAX;
 
 /// Particles that one task of the thread pool advances.
-const BATCH: usize = 16;
+pub(super) const BATCH: usize = 16;
 
 /// Halvings in the search for a temperature.
 const HALVINGS: u32 = 20;
@@ -41,6 +42,10 @@ pub(super) struct Population<'a> {
     pub temperatures: Vec<f64>,
     /// The weights since the last resampling.
     pub weights: Normalised,
+    /// How it is rejuvenated.
+    pub mover: Option<Mover>,
+    /// Moves so far.
+    pub moved: Moved,
     /// Whether its parts run on several threads.
     pub parallel: bool,
     // Kept from barrier to barrier, so that none allocates.
@@ -71,6 +76,7 @@ impl<'a> Population<'a> {
                 lineage,
                 stream: StreamKey::new(settings.seed, lineage, 0),
                 picks: 0,
+                was_ended: false,
                 weighed: empty_score,
                 log_weight: 0.0,
             })
@@ -91,6 +97,8 @@ impl<'a> Population<'a> {
             temper,
             temperatures: Vec::new(),
             weights: Normalised::default(),
+            mover: Mover::of(&task, settings)?,
+            moved: Moved::default(),
             parallel: !serial && n > BATCH && rayon::current_num_threads() > 1,
             scores: Vec::with_capacity(n),
             logs: Vec::with_capacity(n),

@@ -1,6 +1,7 @@
 //! What can be set.
 
 use super::Resampling;
+use super::rejuvenation::Rejuvenation;
 use niwaki_vm::fault::Fault;
 use std::sync::Arc;
 
@@ -83,6 +84,8 @@ pub struct Settings {
     pub resampling: Resampling,
     /// When to resample.
     pub when: When,
+    /// How particles are moved within the law that they follow.
+    pub rejuvenate: Option<Rejuvenation>,
     /// Seed.
     pub seed: u64,
     /// Deliberate errors that the statistical tests must reject.
@@ -100,6 +103,7 @@ impl Default for Settings {
             anneal: Anneal::Constant,
             resampling: Resampling::Systematic,
             when: When::Always,
+            rejuvenate: None,
             seed: 0,
             #[cfg(test)]
             mutant: None,
@@ -128,6 +132,9 @@ impl Settings {
         {
             return Err(Fault::new("bad-threshold", format!("the resampling threshold is {share}"))
                 .with_help("use a share of the particles between 0 and 1"));
+        }
+        if let Some(rejuvenation) = &self.rejuvenate {
+            rejuvenation.check(self.weights)?;
         }
         let fits = match &self.anneal {
             Anneal::Constant => return Ok(()),

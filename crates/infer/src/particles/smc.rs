@@ -2,6 +2,7 @@
 
 use super::advance::Particle;
 use super::population::Population;
+use super::rejuvenation::Moved;
 use super::settings::{Anneal, Settings, Weights};
 use crate::record::Record;
 use crate::{Failure, Task};
@@ -42,7 +43,8 @@ pub struct Result {
     /// nats. `None` for absolute weights, which have none, and where the search was stopped.
     pub log_normaliser: Option<f64>,
     /// The same where it is the model's evidence: at temperature 1. Unbiased (as a number, not its log), unless the
-    /// way of the temperature was adapted: then consistent.
+    /// way of the temperature was adapted, or particles moved after resamplings that the weights decided: then
+    /// consistent.
     pub log_evidence: Option<f64>,
     /// How many barriers there were; of several populations, most.
     pub barriers: usize,
@@ -61,6 +63,8 @@ pub struct Result {
     /// The temperature at each barrier where it is not constant; of several populations, those of the first that
     /// lived.
     pub temperatures: Vec<f64>,
+    /// Moves of rejuvenation.
+    pub moved: Moved,
 }
 
 /// How far a run is, for whoever watches it.
@@ -109,11 +113,14 @@ pub(super) fn run(
             interrupted = true;
             break;
         }
-        if population.is_low() {
+        let resampled = population.is_low();
+        if resampled {
             population.resample();
         }
+        population.rejuvenate(Some(resampled))?;
     }
     population.finish();
+    population.rejuvenate(None)?;
     let log_normaliser =
         (settings.weights == Weights::Ratio && !interrupted).then_some(population.log_normaliser);
     Ok(Result {
@@ -126,6 +133,7 @@ pub(super) fn run(
         interrupted,
         plan: vec![settings.particles],
         died: 0,
+        moved: population.moved,
         temperatures: match settings.anneal {
             Anneal::Constant => Vec::new(),
             Anneal::Schedule(_) | Anneal::Adaptive(_) => population.temperatures,

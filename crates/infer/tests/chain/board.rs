@@ -110,6 +110,7 @@ fn rows() -> Vec<Row> {
     vec![
         row("prior", prior()),
         row("neighbour", Kernel::Neighbour { reach: 2 }),
+        row("by family", Kernel::ByFamily),
         row("drift", Kernel::Drift { step: 0.5, target: 0.44 }),
         row("regenerate 0", Kernel::Regenerate { levels: 0 }),
         row("regenerate 1", Kernel::Regenerate { levels: 1 }),

@@ -182,6 +182,29 @@ impl<S: Scalar> State<S> {
         if self.futures.len() > 1 { value.replace_futures(&known) } else { value.clone() }
     }
 
+    /// The state of a run that has ended with this value.
+    pub fn of_result(value: Value<S>) -> Self {
+        let root = Future { status: Status::Returned(value), has_waiters: false, detached: false };
+        State { futures: vec![root], ..State::empty() }
+    }
+
+    /// Where every future stands: which activation is suspended where, and which waits for which. Two runs of one
+    /// program that stand alike go on alike but for the values that their activations hold.
+    pub fn stands(&self) -> u128 {
+        let word = |a: u32, b: u32| u128::from(a) << 32 | u128::from(b);
+        self.futures.iter().fold(self.futures.len() as u128, |hash, future| {
+            let (kind, node, on) = match future.status {
+                Status::Runnable(node) => (1, Some(node), 0),
+                Status::Waiting(node, on) => (2, Some(node), on.0),
+                Status::Returned(_) => (3, None, 0),
+                Status::Free => (4, None, 0),
+            };
+            let at = node.map(|node| &self.nodes[node.0 as usize]);
+            let hash = address::join(hash, at.map_or(0, |at| at.path));
+            address::join(hash, word(kind, at.map_or(0, |at| at.pc)) << 64 | u128::from(on))
+        })
+    }
+
     /// Steps taken so far: calls, iterations and backward jumps.
     pub fn steps(&self) -> u64 {
         self.steps

@@ -18,7 +18,10 @@ use std::sync::Arc;
 
 mod annealed;
 mod chains;
+mod rejuvenated;
 mod several;
+
+pub(super) use rejuvenated::complete_score;
 
 /// Deliberate errors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,6 +44,16 @@ pub enum Mutant {
     OrderFreeAncestors,
     /// A chain accepts every proposal.
     AcceptsAll,
+    /// A move may change the skeleton, with the order choices that there were.
+    AnySkeleton,
+    /// Choices that come or go with a move do not count.
+    StaleFree,
+    /// A move looks at the score of the whole program, and not at the score so far.
+    WholeScore,
+    /// A run that has ended may become one that would not have ended yet.
+    EndsLate,
+    /// Changed values do not reach the suspended activations.
+    StateStays,
 }
 
 /// What a mutant does to a particle after resampling.

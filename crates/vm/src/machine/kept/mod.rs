@@ -28,6 +28,7 @@ mod slot;
 mod transaction;
 
 pub use adapt::Adaptation;
+pub use questions::fits;
 pub use transaction::{Change, Changed, Propose, Proposed};
 
 use super::Machine;
@@ -128,6 +129,8 @@ pub struct Totals {
     pub impossible: u32,
     /// How many choices there are.
     pub choices: usize,
+    /// How many factors and observations there are.
+    pub factors: usize,
 }
 
 /// The kept part of a trace.

@@ -20,7 +20,7 @@ pub(super) use super::super::question::log_density;
 /// Whether a kept value can be a value of that distribution at all: vectors have the right number of components,
 /// and the one value of a delta is drawn anew.
 #[inline]
-fn fits<S: Scalar>(dist: &Dist<S>, value: &Value<S>) -> bool {
+pub fn fits<S: Scalar>(dist: &Dist<S>, value: &Value<S>) -> bool {
     match value {
         Value::Real(_) | Value::Int(_) | Value::Bool(_) => !matches!(dist, Dist::Delta(_)),
         other => dist.dimension().is_none_or(|n| crate::value::iter_len(other).is_ok_and(|len| len == n)),
@@ -219,6 +219,7 @@ impl<S: Scalar> Kept<S> {
         let at = Kept::slot_at(state, node, number.0 as usize);
         let slot = self.slots[at];
         if !slot.is_filled() {
+            self.totals.factors += 1;
             self.add(false, log);
             self.write_slot(self.quiet, at, Slot { held: 0, mark: 0, log });
         } else if log.to_bits() != slot.log.to_bits() {
@@ -283,7 +284,10 @@ impl<S: Scalar> Kept<S> {
             | SiteKind::ObserveDist
             | SiteKind::ObserveIndexed
             | SiteKind::Factor
-            | SiteKind::Condition => self.add(false, -slot.log),
+            | SiteKind::Condition => {
+                self.totals.factors -= 1;
+                self.add(false, -slot.log);
+            }
             SiteKind::Emit => self.journal.retracted.push(slot.held),
             SiteKind::Cell { .. } | SiteKind::Append { .. } => self.journal.dead_cells.push(slot.held),
             SiteKind::Read => {

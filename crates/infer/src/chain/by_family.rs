@@ -1,0 +1,33 @@
+//! The original's single-site proposals (Ritchie's prototype, the Metropolis-Hastings baseline of dissertation 5.6), by
+//! the family of the choice: a coin is always turned, a Gaussian number drifts by its own distribution's standard
+//! deviation, anything else is drawn from its distribution. Turns and drifts are as likely back as there.
+
+use super::drift::normal;
+use super::single::{FromPrior, Move};
+use niwaki_math::{Dist, Stream};
+use niwaki_vm::fault::Fault;
+use niwaki_vm::machine::kept::Proposed;
+use niwaki_vm::value::Value;
+
+/// The move.
+pub(crate) struct ByFamily;
+
+impl Move for ByFamily {
+    const MAY_LEAVE: bool = true;
+
+    fn propose(
+        &mut self,
+        site: usize,
+        dist: &Dist,
+        old: &Value,
+        log_density: f64,
+        rng: &mut Stream,
+    ) -> Result<Proposed<f64>, Fault> {
+        let value = match (dist, old) {
+            (Dist::Bernoulli { .. }, Value::Bool(b)) => Value::Bool(!b),
+            (Dist::Gaussian { sd, .. }, Value::Real(x)) => Value::Real(x + sd * normal(rng)),
+            _ => return FromPrior.propose(site, dist, old, log_density, rng),
+        };
+        Ok(Proposed { value, forward: 0.0, backward: 0.0 })
+    }
+}

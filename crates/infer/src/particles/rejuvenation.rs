@@ -1,0 +1,210 @@
+//! Rejuvenation: Markov moves that leave the particles' law at this barrier as it is, so that copies become different
+//! again (Gilks & Berzuini 2001).
+//!
+//! The law at barrier n is `F_n(x, order) = p_n(x) q(order | x) s(x)^T`, over runs that are paused at their n-th
+//! barrier and runs that ended before it. A particle that still runs keeps its skeleton (`course`); what a changed value
+//! reaches is done again up to where each activation is suspended, and stops there. One that has ended may change its
+//! structure, but not become longer: a longer run is, at this barrier, a run that is paused, and has its weight there. Moves see the score so far and no later one.
+//!
+//! The moves that a particle makes must not depend on what became of the others: a kernel that is the same whatever the
+//! population looks like leaves each expectation as it is, one that is left out because all others have ended does not.
+//! So a particle that has ended is moved at the barrier at which that is seen, among runs with as many barriers as it
+//! has, and not again until the end, when all are moved once without bound. For the same reason the evidence is unbiased
+//! for moves at fixed barriers, and consistent for moves after a resampling that is itself decided by the weights.
+
+use super::moves::{move_ended, move_running};
+use super::population::{BATCH, Population};
+use super::settings::{Settings, Weights};
+use crate::chain::counts::Count;
+use crate::chain::kernel::Kernel;
+use crate::chain::plan::Plan;
+use crate::chain::state::Fresh;
+use crate::{Failure, Task};
+use niwaki_math::{Stream, StreamKey};
+use niwaki_vm::fault::Fault;
+use rayon::prelude::*;
+use std::collections::HashMap;
+
+/// Streams of the draws between moves, and of the first runs that spreads are read from: no lineage has these numbers.
+const SCHEDULE: u64 = u64::MAX - 6;
+const SPREADS: u64 = u64::MAX - 7;
+
+/// Forward runs from which the spreads of the sites' distributions are read.
+const FIRST_RUNS: u64 = 4;
+
+/// When to move.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Moment {
+    /// At every so-many-th barrier, and once when all have ended.
+    Every(usize),
+    /// After each resampling, and once when all have ended.
+    Resampled,
+    /// Once, when all have ended.
+    End,
+}
+
+/// How particles are moved.
+#[derive(Clone, Debug)]
+pub struct Rejuvenation {
+    /// How to propose.
+    pub kernel: Kernel,
+    /// Proposals for each particle, each time.
+    pub moves: u64,
+    /// When.
+    pub at: Moment,
+}
+
+impl Rejuvenation {
+    /// Refuses what makes no sense.
+    pub(super) fn check(&self, weights: Weights) -> Result<(), Fault> {
+        if weights == Weights::Absolute {
+            return Err(Fault::new("bad-setting", "absolute weights have no law that a move could keep")
+                .with_help("use ratio weights"));
+        }
+        if self.moves == 0 || self.at == Moment::Every(0) {
+            return Err(Fault::new("bad-setting", "no move was asked for").with_help("ask for at least one"));
+        }
+        if anneals(&self.kernel) {
+            let what = "an annealing kernel does not keep the particles' law";
+            return Err(
+                Fault::new("bad-kernel", what).with_help("anneal the particles, and move them plainly")
+            );
+        }
+        Ok(())
+    }
+}
+
+fn anneals(kernel: &Kernel) -> bool {
+    match kernel {
+        Kernel::Anneal { .. } => true,
+        Kernel::Cycle(inner) => inner.iter().any(anneals),
+        Kernel::Mixture(inner) => inner.iter().any(|(_, kernel)| anneals(kernel)),
+        Kernel::Repeat(_, kernel) | Kernel::On(_, kernel) => anneals(kernel),
+        _ => false,
+    }
+}
+
+/// Moves made: of particles that still ran, and of those that had ended.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Moved {
+    /// Of particles that still ran.
+    pub running: Count,
+    /// Of particles that had ended.
+    pub ended: Count,
+}
+
+impl std::ops::AddAssign for Moved {
+    fn add_assign(&mut self, other: Moved) {
+        self.running += other.running;
+        self.ended += other.ended;
+    }
+}
+
+/// A kernel ready to move particles.
+#[derive(Clone, Debug)]
+pub(super) struct Mover {
+    pub plan: Plan,
+    /// Spread of each site's distribution, by the site's key: it must not depend on where a particle is.
+    pub spreads: HashMap<u128, f64>,
+    /// Numbers of the sites, by key.
+    pub numbers: HashMap<u128, usize>,
+    /// Places in the plan of the leaves that do not take all choices alike.
+    pub choosy: Vec<usize>,
+    /// Rounds made.
+    rounds: u64,
+}
+
+/// One round of moves, for every particle alike.
+pub(super) struct Round<'a> {
+    pub task: &'a Task,
+    pub settings: &'a Settings,
+    pub mover: &'a Mover,
+    /// Which leaf proposes, move by move.
+    pub leaves: Vec<usize>,
+    /// The power of the score in the law that the particles follow.
+    pub temper: f64,
+    /// Barriers so far.
+    pub barriers: usize,
+    /// How many barriers a run has that ended just now; none at the end, where any may.
+    pub ending: Option<usize>,
+    /// No other round has this number.
+    pub number: u64,
+}
+
+impl Mover {
+    pub fn of(task: &Task, settings: &Settings) -> Result<Option<Mover>, Failure> {
+        let Some(rejuvenation) = &settings.rejuvenate else { return Ok(None) };
+        let sites = task.program.functions.iter().flat_map(|f| &f.sites);
+        let numbers: HashMap<u128, usize> = sites.enumerate().map(|(n, site)| (site.key, n)).collect();
+        let plan = Plan::new(&rejuvenation.kernel, numbers.len())?;
+        let choosy = (0..plan.leaves.len()).filter(|n| !plan.leaves[*n].selection.is_all()).collect();
+        let mut spreads = HashMap::new();
+        for run in 0..FIRST_RUNS {
+            let key = StreamKey::new(settings.seed, SPREADS, run);
+            let mut answers = Fresh { key, known: None, hosts: &*task.hosts, spreads: Some(&mut spreads) };
+            let mut machine = task.machine();
+            task.begin(&mut machine, &mut answers)?;
+        }
+        Ok(Some(Mover { plan, spreads, numbers, choosy, rounds: 0 }))
+    }
+
+    /// The spread at a site.
+    pub fn spread(&self, site: u128) -> f64 {
+        self.spreads.get(&site).copied().unwrap_or(1.0)
+    }
+}
+
+impl Population<'_> {
+    /// Moves the particles where it is time to. `resampled` says whether they were just resampled; `None` that all is
+    /// done, and weighed by the declared temperature.
+    pub fn rejuvenate(&mut self, resampled: Option<bool>) -> Result<(), Failure> {
+        let Some(rejuvenation) = &self.settings.rejuvenate else { return Ok(()) };
+        let due = match (rejuvenation.at, resampled) {
+            (_, None) => true,
+            (Moment::Every(n), Some(_)) => self.barriers.is_multiple_of(n),
+            (Moment::Resampled, Some(resampled)) => resampled,
+            _ => false,
+        };
+        let Some(mover) = self.mover.as_mut().filter(|_| due) else { return Ok(()) };
+        let before = mover.clone();
+        let number = mover.rounds;
+        mover.rounds += 1;
+        let mut rng = Stream::new(self.settings.seed, SCHEDULE, u128::from(number), 0);
+        let leaves = (0..rejuvenation.moves).map(|_| mover.plan.next(&mut rng).0).collect();
+        let ending = resampled.map(|_| self.barriers - 1);
+        let last = ending.is_none();
+        #[cfg(test)]
+        let ending = ending.filter(|_| !self.settings.is(super::tests::Mutant::EndsLate));
+        let round = Round {
+            task: &self.task,
+            settings: self.settings,
+            mover: &before,
+            leaves,
+            temper: self.temper,
+            barriers: self.barriers,
+            ending,
+            number,
+        };
+        let batch = |particles: &mut [super::advance::Particle]| {
+            let (mut machine, mut moved) = (round.task.machine(), Moved::default());
+            for p in particles.iter_mut().filter(|p| p.weighed > f64::NEG_INFINITY && (last || !p.was_ended))
+            {
+                if p.state.has_ended() {
+                    moved.ended += move_ended(p, &round)?;
+                } else {
+                    moved.running += move_running(p, &mut machine, &round)?;
+                }
+            }
+            Ok(moved)
+        };
+        let all: Vec<Result<Moved, Failure>> = if self.parallel {
+            self.particles.par_chunks_mut(BATCH).map(batch).collect()
+        } else {
+            vec![batch(&mut self.particles)]
+        };
+        for moved in all {
+            self.moved += moved?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,77 @@
+"""`smc(rejuvenate=...)` from Python: what is told, what is refused, and scenes that stay what their choices say."""
+
+import niwaki
+import pytest
+from niwaki import kernels
+from niwaki.errors import InputError
+from niwaki.gallery import named_target
+from niwaki.gallery.gnarly_tree import gnarly_tree
+
+SHAPE = ["yaw", "pitch", "length", "end", "angle", "thick"]
+KERNEL = kernels.mixture(
+    kernels.on(SHAPE, kernels.block(0.003)), kernels.drift(0.3), kernels.mh(), kernels.regenerate(1)
+)
+
+
+@pytest.fixture(scope="module")
+def score():
+    return niwaki.no_self_intersection() * niwaki.volume_match(
+        named_target("bent_tube"), voxel=0.6, sigma=0.05
+    )
+
+
+@pytest.mark.parametrize("at", [7, "resampled", "end"])
+def test_moved_particles_are_what_their_choices_say(score, at):
+    method = niwaki.smc(12, rejuvenate=KERNEL, moves=3, at=at)
+    result = niwaki.run(gnarly_tree, method=method, score=score, seed=3, threads=1)
+    (running, running_kept), (ended, ended_kept) = result.moved
+    assert 0 < ended_kept <= ended
+    assert (0 < running_kept <= running) == (at != "end")
+    for sample in result:
+        again = niwaki.run(gnarly_tree, choices=sample.choices, score=score)[0]
+        assert again.log_score == sample.log_score
+        assert again.log_prior == sample.log_prior
+        assert again.primitives == sample.primitives
+
+
+def test_the_same_seed_gives_the_same_result_on_any_number_of_threads(score):
+    method = niwaki.smc(40, rejuvenate=KERNEL, moves=2, at=5)
+    one, two = (
+        niwaki.run(gnarly_tree, method=method, score=score, seed=5, threads=threads) for threads in (1, 2)
+    )
+    assert [s.log_score for s in one] == [s.log_score for s in two]
+    assert one.moved == two.moved
+
+
+def test_moves_make_copies_different(score):
+    def unique(**settings):
+        method = niwaki.smc(20, temper=4.0, **settings)
+        return niwaki.run(gnarly_tree, method=method, score=score, seed=2).unique_models
+
+    assert unique() < 5
+    assert unique(rejuvenate=kernels.on(SHAPE, kernels.block(0.002)), moves=8, at="end") > 10
+
+
+@pytest.mark.parametrize(
+    ("settings", "name"),
+    [
+        ({"rejuvenate": "drift"}, "rejuvenate"),
+        ({"rejuvenate": kernels.mh(), "moves": 0}, "moves"),
+        ({"rejuvenate": kernels.mh(), "at": 0}, "at"),
+        ({"rejuvenate": kernels.mh(), "at": "later"}, "at"),
+        ({"rejuvenate": kernels.mh(), "weights": "absolute"}, "rejuvenate"),
+        ({"rejuvenate": kernels.repeat(2, kernels.anneal(kernels.mh(), 5))}, "rejuvenate"),
+        ({"rejuvenate": kernels.temper(kernels.mh())}, "rejuvenate"),
+    ],
+)
+def test_what_makes_no_sense_is_refused(settings, name):
+    with pytest.raises(InputError, match=f"`{name}`"):
+        niwaki.smc(10, **settings)
+
+
+def test_the_originals_chain_runs_on_the_same_model(score):
+    kernel = kernels.original(nesting="side_branch")
+    result = niwaki.run(gnarly_tree, method=niwaki.mh(3000, kernel=kernel), score=score, seed=1)
+    start = niwaki.run(gnarly_tree, method=niwaki.mh(1, kernel=kernel), score=score, seed=1)
+    assert result.best.log_score > start.best.log_score
+    assert kernels.parse("original(sharpen=4)") == kernels.original(4.0)
