@@ -137,7 +137,9 @@ def pages() -> list[Path]:
 def test_the_pages_name_only_commands_that_exist():
     targets = set(re.findall(r"^([a-z0-9-]+):", (ROOT / "Makefile").read_text(), re.M))
     named = {
-        word for page in pages() for word in re.findall(r"(?:^    |`)make ([a-z0-9-]+)", page.read_text(), re.M)
+        word
+        for page in pages()
+        for word in re.findall(r"(?:^    |`)make ([a-z0-9-]+)", page.read_text(), re.M)
     }
     assert {"demo", "test"} <= named <= targets
 

@@ -67,7 +67,9 @@ impl Classes {
             match (self.parts[a].clone(), self.parts[b].take()) {
                 (None, parts) => self.parts[a] = parts,
                 (Some(_), None) => {}
-                (Some(p), Some(q)) if p.len() == q.len() => p.iter().zip(q).for_each(|(p, q)| self.join(*p, q)),
+                (Some(p), Some(q)) if p.len() == q.len() => {
+                    p.iter().zip(q).for_each(|(p, q)| self.join(*p, q))
+                }
                 // Tuples of two lengths: nothing is known of either.
                 (Some(p), Some(q)) => {
                     self.plain[a] = true;
