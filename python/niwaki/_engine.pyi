@@ -269,7 +269,7 @@ class Task:
         ess: float | None = None,
         rejuvenate: tuple[Any, ...] | None = None,
         moves: int = 1,
-        at: int | str = 1,
+        at: int | str = ...,
         seconds: float | None = None,
         threads: int | None = None,
         watch: _Watch | None = None,
