@@ -19,7 +19,7 @@ use crate::topology::Topology;
 use crate::vector::Vec3;
 use std::sync::{Arc, OnceLock};
 
-/// Sides of a segment's rings (dissertation chapter 5's light geometry). Four into it leaves two: see [`strips`].
+/// Sides of a segment's rings (dissertation chapter 5's light geometry). Four into it leaves two: see `strips`.
 pub const SEGMENT_SIDES: usize = 10;
 
 /// A ring with a mark: a place, a direction, and where the first vertex lies.
