@@ -68,6 +68,29 @@ fn turned_about<S: Scalar>(x: &[S]) -> Vec<Value<S>> {
     vec![Value::vector(&x[..3]), Value::vector(&x[3..6]), Value::Real(x[6])]
 }
 
+/// A polygon of four corners, and what follows them.
+fn cornered<S: Scalar>(x: &[S]) -> Vec<Value<S>> {
+    vec![Value::list(x[..8].chunks(2).map(Value::vector).collect())]
+}
+
+fn around<S: Scalar>(x: &[S]) -> Vec<Value<S>> {
+    let mut args = cornered(x);
+    args.push(Value::vector(&x[8..10]));
+    args
+}
+
+fn overlapping<S: Scalar>(x: &[S]) -> Vec<Value<S>> {
+    let mut args = around(x);
+    args.push(Value::Real(x[10]));
+    args
+}
+
+fn shrunk<S: Scalar>(x: &[S]) -> Vec<Value<S>> {
+    let mut args = cornered(x);
+    args.push(Value::Real(x[8]));
+    args
+}
+
 /// Functions of real numbers, with points at which they have a slope.
 macro_rules! cases {
     ($($name:literal $build:ident [$($x:expr),*];)*) => {
@@ -104,6 +127,16 @@ const CASES: &[Case] = cases! {
     "normalize" vectors [0.3, 0.9, -2.0]; "distance" vectors [0.3, 0.9, -2.0, 1.0, 0.2, 0.4];
     "add" vectors [0.3, 0.9, -2.0, 1.0, 0.2, 0.4]; "rotation" turned [0.3, 0.9, -2.0, 0.8];
     "rotate" turned_about [0.3, 0.9, -2.0, 1.0, 0.2, 0.4, 0.8];
+    "softeq" reals [0.3, 0.5, 0.4]; "soft_at_least" reals [0.3, 0.5, 0.4]; "soft_at_least" reals [0.9, 0.5, 0.4];
+    "soft_at_most" reals [0.3, 0.5, 0.4]; "soft_at_most" reals [0.9, 0.5, 0.4];
+    "smooth_max" reals [0.3, 0.5, 0.4]; "smooth_min" reals [0.3, 0.5, 0.4]; "smooth_abs" reals [-0.3, 0.2];
+    "hsv" reals [0.3, 0.5, 0.7]; "lab" reals [55.0, 12.0, -20.0]; "to_hsv" vectors [0.3, 0.5, 0.7];
+    "to_lab" vectors [0.3, 0.5, 0.7]; "color_difference" vectors [0.3, 0.5, 0.7, 0.6, 0.4, 0.2];
+    "polygon_area" cornered [0.0, 0.1, 2.0, 0.0, 2.3, 1.9, -0.2, 1.7];
+    "polygon_contains" around [0.0, 0.1, 2.0, 0.0, 2.3, 1.9, -0.2, 1.7, 0.8, 0.4];
+    "polygon_distance" around [0.0, 0.1, 2.0, 0.0, 2.3, 1.9, -0.2, 1.7, 0.8, 0.4];
+    "polygon_disc_area" overlapping [0.0, 0.1, 2.0, 0.0, 2.3, 1.9, -0.2, 1.7, 0.8, 0.4, 0.7];
+    "polygon_inset" shrunk [0.0, 0.1, 2.0, 0.0, 2.3, 1.9, -0.2, 1.7, 0.2];
 };
 
 /// Functions without a real number in them, of text, of positions, or that make what is not scored.
@@ -137,6 +170,7 @@ const WITHOUT: &[&str] = &[
     "box",
     "cylinder",
     "limb",
+    "segment",
     "mesh",
 ];
 
