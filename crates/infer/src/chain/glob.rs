@@ -99,6 +99,6 @@ mod tests {
     fn the_nearest_are_told() {
         let known: Vec<String> =
             ["tree/width", "tree/height", "tree/depth", "colour"].map(String::from).into();
-        assert_eq!(nearest("heigt", &known), ["tree/height", "tree/width", "colour"]);
+        assert_eq!(nearest("heigt", &known), ["tree/height", "tree/depth", "tree/width"]);
     }
 }
