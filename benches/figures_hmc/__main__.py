@@ -4,8 +4,9 @@
     QUICK=1 make figures-hmc                      # a smoke run: few draws
     make figures-hmc PARTS="structures"           # some of the parts
 
-Parts, in order: `structures` (figures 4.8, 4.9, 4.11 to 4.13 and the table of 4.10). Each leaves pictures and one line
-of JSON for each measurement in FOLDER, out/figures-hmc unless named.
+Parts, in order: `point` (figures 4.2 and 4.3); `colors` (figures 4.4, 4.5 and the table of 4.6); `exploration` (our
+default sampler beside the original's settings); `structures` (figures 4.8, 4.9, 4.11 to 4.13 and the table of 4.10).
+Each leaves pictures and one line of JSON for each measurement in FOLDER, out/figures-hmc unless named.
 """
 
 import json
@@ -14,9 +15,17 @@ import sys
 import time
 from pathlib import Path
 
+import colors
+import exploration
+import point
 import structures
 
-PARTS = {"structures": structures.draw}
+PARTS = {
+    "point": point.draw,
+    "colors": colors.draw,
+    "exploration": exploration.draw,
+    "structures": structures.draw,
+}
 
 
 def main(folder: Path, parts: list[str]) -> None:

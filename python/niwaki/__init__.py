@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from niwaki.lang.plain import run_python
     from niwaki.methods import (
         enumerate_all,
+        explore,
         forward,
         hmc,
         importance,
@@ -59,6 +60,7 @@ _HOMES = {
     "niwaki.lang.plain": ("run_python",),
     "niwaki.methods": (
         "enumerate_all",
+        "explore",
         "forward",
         "hmc",
         "importance",
@@ -112,6 +114,7 @@ __all__ = [  # noqa: PLE0604
     "Target",
     "avoid",
     "enumerate_all",
+    "explore",
     "forward",
     "floor",
     "grow",

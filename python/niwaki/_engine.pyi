@@ -361,6 +361,7 @@ class Trajectories:
         metric: str,
         step_size: float | None = None,
         steps: int = 1,
+        climb: int = 0,
         jitter: float = 0.0,
         max_depth: int | None = None,
         tries: int = 1000,

@@ -542,6 +542,7 @@ def _trajectories(
             target_accept=method.target_accept,
             metric=method.metric,
             step_size=method.step_size,
+            climb=method.climb,
             tries=method.tries,
             known=known,
             threads=threads,

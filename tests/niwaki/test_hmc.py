@@ -206,3 +206,15 @@ def test_errors_are_as_reviewed(golden) -> None:
         text = found.value.render() if hasattr(found.value, "render") else str(found.value)
         lines.append(f"# {what}\n{text}")
     golden(GOLDEN / "gradients.txt", "\n\n".join(lines) + "\n")
+
+
+def test_chains_that_climb_start_higher_and_count_the_gradients_of_the_way() -> None:
+    asked = {"draws": 1, "steps": 1, "step_size": 1e-9, "chains": 8, "warmup": 0, "metric": "unit"}
+    flat, climbed, again = (
+        nw.run(point, 0.001, method=nw.hmc(**asked, climb=climb), seed=3) for climb in (0, 100, 100)
+    )
+    # From thousands of nats below to within a few of the top, which is at the density of x and y and of the factor.
+    assert flat.log_density.max() < -100.0 and climbed.log_density.min() > -20.0
+    assert climbed.gradients == flat.gradients + 8 * 100
+    assert np.array_equal(climbed.log_density, again.log_density)
+    assert len({round(float(x), 3) for x in climbed.draws[next(iter(climbed.draws))][:, 0]}) > 4

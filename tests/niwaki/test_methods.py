@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import niwaki as nw
 import pytest
-from niwaki.methods import Hmc, Nuts, hmc, nuts
+from niwaki.methods import Hmc, Nuts, explore, hmc, nuts
 
 BAD: dict[str, list[Any]] = {
     "draws": [0, -1, 1.5, True, "9"],
@@ -34,6 +35,9 @@ def test_settings_are_checked(method: Any, name: str, value: Any) -> None:
         (lambda: hmc(steps=0), "steps"),
         (lambda: hmc(jitter=1.5), "jitter"),
         (lambda: hmc(jitter=math.nan), "jitter"),
+        (lambda: hmc(climb=-1), "climb"),
+        (lambda: explore(climb=1.5), "climb"),
+        (lambda: explore(chains=0), "chains"),
         (lambda: nuts(max_depth=0), "max_depth"),
         (lambda: nuts(max_depth=21), "max_depth"),
     ],
@@ -46,3 +50,5 @@ def test_settings_of_one_method_are_checked(make: Any, name: str) -> None:
 def test_defaults_are_what_the_functions_say() -> None:
     assert hmc() == Hmc() and nuts() == Nuts()
     assert hmc(500, steps=1000, metric="unit") == Hmc(draws=500, steps=1000, metric="unit")
+    short = Hmc(10, 16, 0.5, chains=32, warmup=30, target_accept=0.8, metric="unit", climb=100)
+    assert explore() == short and explore(3, 5) == replace(short, draws=3, chains=5)

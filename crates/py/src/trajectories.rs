@@ -27,11 +27,12 @@ pub struct PyTrajectories {
 
 #[pymethods]
 impl PyTrajectories {
-    /// Runs the chains. With ``max_depth`` they are NUTS, else HMC of ``steps`` and ``jitter``. ``known`` are first values
+    /// Runs the chains. With ``max_depth`` they are NUTS, else HMC of ``steps`` and ``jitter``. Before, they
+    /// take ``climb`` steps uphill. ``known`` are first values
     /// by hash of the address.
     #[new]
     #[pyo3(signature = (task, seed, *, chains, draws, warmup, thin, target_accept, metric, step_size=None, steps=1,
-                        jitter=0.0, max_depth=None, tries=1000, known=None, threads=None, watch=None))]
+                        climb=0, jitter=0.0, max_depth=None, tries=1000, known=None, threads=None, watch=None))]
     #[expect(clippy::too_many_arguments, reason = "the settings of the method")]
     fn new(
         py: Python<'_>,
@@ -45,6 +46,7 @@ impl PyTrajectories {
         metric: &str,
         step_size: Option<f64>,
         steps: u32,
+        climb: u32,
         jitter: f64,
         max_depth: Option<u32>,
         tries: u64,
@@ -67,8 +69,17 @@ impl PyTrajectories {
             Some(max_depth) => Length::NoUTurn { max_depth },
             None => Length::Fixed { steps, jitter },
         };
-        let settings =
-            Settings { length, warmup, draws, thin, target_accept, shape, step_size, ..Settings::nuts() };
+        let settings = Settings {
+            length,
+            climb,
+            warmup,
+            draws,
+            thin,
+            target_accept,
+            shape,
+            step_size,
+            ..Settings::nuts()
+        };
         let known = match known {
             None => None,
             Some(given) => {

@@ -1,8 +1,8 @@
 """Colourings of a drawing that keep its rules and differ from one another.
 
-The compatibility model is sampled by Markov chains, each from a start of its own; what they find is moved uphill until
-rules are kept; of the better half of that the colourings are chosen one by one, each as far as can be in CIELAB from
-those already chosen (farthest-point choice, Gonzalez 1985).
+The compatibility model is sampled by many short chains that follow its gradient, each from a run of its own; what
+they find is moved uphill until rules are kept; of the better half of that the colourings are chosen one by one, each
+as far as can be in CIELAB from those already chosen (farthest-point choice, Gonzalez 1985).
 """
 
 from __future__ import annotations
@@ -22,7 +22,9 @@ from niwaki.color.model import coloring
 from niwaki.color.rules import Rule, Rules
 from niwaki.color.settle import settled
 from niwaki.errors import InputError
-from niwaki.methods import Method, Mh, at_least_one
+from niwaki.file_errors import FileError
+from niwaki.methods import Method, at_least_one, explore
+from niwaki.methods.checks import bad, is_number
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -153,7 +155,7 @@ def arguments(drawing: Drawing, rules: Rules, weight: float = 100.0) -> tuple[An
 
 def default_method(count: int) -> Method:
     """How colourings are searched for where nobody said."""
-    return Mh(steps=400, chains=3 * count, warmup=200, keep=1)
+    return explore(draws=1, chains=3 * count)
 
 
 def color(
@@ -179,7 +181,7 @@ def color(
     count
         How many colourings.
     method
-        A sampler; it gives the colourings to choose among. Markov chains by default.
+        A sampler; it gives the colourings to choose among. By default `explore`, three chains for each colouring.
     settle
         Steps uphill from each of them, until the rules are kept as well as they can be nearby (`niwaki.color.settle`);
         0 for none, where the sampler's own draws are wanted.
@@ -209,6 +211,10 @@ def color(
         drawing = Drawing.load(drawing)
     if not isinstance(rules, Rules):
         rules = Rules.load(rules)
+    if not is_number(weight) or not 0 < weight < float("inf"):
+        raise bad("weight", weight, "a number above 0", "100")
+    if all(name in rules.pinned for name in drawing.names):
+        raise FileError("rules-pin-all", rules.place, count=len(drawing.names))
     given = arguments(drawing, rules, weight)
     result = run(
         coloring,

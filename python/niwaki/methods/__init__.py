@@ -19,7 +19,7 @@ from niwaki.methods.direct import (
     importance,
     rejection,
 )
-from niwaki.methods.gradients import METRICS, Hmc, Nuts, hmc, nuts
+from niwaki.methods.gradients import METRICS, Hmc, Nuts, explore, hmc, nuts
 from niwaki.methods.particles import (
     ORDERS,
     RESAMPLING,
@@ -53,6 +53,7 @@ __all__ = [
     "Smc",
     "at_least_one",
     "enumerate_all",
+    "explore",
     "forward",
     "hmc",
     "importance",

@@ -26,6 +26,7 @@ class Hmc:
     target_accept: float = 0.65
     metric: str = "diagonal"
     step_size: float | None = None
+    climb: int = 0
     tries: int = 1000
 
 
@@ -41,6 +42,7 @@ class Nuts:
     target_accept: float = 0.8
     metric: str = "diagonal"
     step_size: float | None = None
+    climb: int = 0
     tries: int = 1000
 
 
@@ -54,6 +56,7 @@ def hmc(
     target_accept: float = 0.65,
     metric: str = "diagonal",
     step_size: float | None = None,
+    climb: int = 0,
     tries: int = 1000,
 ) -> Hmc:
     """Chains that follow the gradient for a fixed number of steps (dissertation 4.3).
@@ -79,10 +82,13 @@ def hmc(
         "dense", the whole covariance, which suits what is nearly normal; "unit", nothing (the dissertation's setting).
     step_size
         A step to keep instead of an adapted one.
+    climb
+        Steps uphill from each chain's first run, before the warm-up: where tight constraints leave almost every run of
+        the prior far from all that is likely. 0, the default, for none; `explore` takes 100.
     tries
         Most forward runs for the start of each chain.
     """
-    common = _chain_settings(draws, chains, warmup, thin, target_accept, metric, step_size, tries)
+    common = _chain_settings(draws, chains, warmup, thin, target_accept, metric, step_size, climb, tries)
     if not is_number(jitter) or not 0 <= jitter <= 1:
         raise InputError(
             "bad-setting", name="jitter", found=repr(jitter), expected="a share in [0, 1]", suggestion="0.5"
@@ -99,6 +105,7 @@ def nuts(
     target_accept: float = 0.8,
     metric: str = "diagonal",
     step_size: float | None = None,
+    climb: int = 0,
     tries: int = 1000,
 ) -> Nuts:
     """Chains that follow the gradient until they turn back (Hoffman & Gelman 2014; Betancourt 2017).
@@ -107,10 +114,10 @@ def nuts(
     ----------
     max_depth
         Most doublings of a trajectory: 2^max_depth - 1 steps; up to 20.
-    draws, chains, warmup, thin, target_accept, metric, step_size, tries
+    draws, chains, warmup, thin, target_accept, metric, step_size, climb, tries
         As for `hmc`.
     """
-    common = _chain_settings(draws, chains, warmup, thin, target_accept, metric, step_size, tries)
+    common = _chain_settings(draws, chains, warmup, thin, target_accept, metric, step_size, climb, tries)
     if not is_whole(max_depth) or not 1 <= max_depth <= 20:
         raise InputError(
             "bad-setting",
@@ -122,6 +129,31 @@ def nuts(
     return Nuts(max_depth=max_depth, **common)
 
 
+def explore(draws: int = 10, chains: int = 32, warmup: int = 30, steps: int = 16, climb: int = 100) -> Hmc:
+    """Many short chains, for designs rather than for figures: each climbs from a run of its own and looks around.
+
+    Tight constraints leave narrow ground in separate places, which one chain crosses slowly or never leaves. Chains
+    from many places see more of it with as many gradients. How much each place weighs is then left to where they come
+    from: take `nuts` with a long warm-up, and look at `rhat`, where that matters.
+
+    Parameters
+    ----------
+    draws, chains, warmup, steps, climb
+        As for `hmc`, which this is, with lengths that vary by half, an acceptance of 0.8 and no metric: few draws teach
+        none.
+    """
+    return hmc(
+        draws,
+        steps,
+        jitter=0.5,
+        chains=chains,
+        warmup=warmup,
+        target_accept=0.8,
+        metric="unit",
+        climb=climb,
+    )
+
+
 def _chain_settings(
     draws: int,
     chains: int,
@@ -130,17 +162,19 @@ def _chain_settings(
     target_accept: float,
     metric: str,
     step_size: float | None,
+    climb: int,
     tries: int,
 ) -> dict[str, Any]:
     """Check what all chains have in common."""
-    if not is_whole(warmup) or not 0 <= warmup <= MOST:
-        raise InputError(
-            "bad-setting",
-            name="warmup",
-            found=repr(warmup),
-            expected=f"a whole number from 0 to {MOST}",
-            suggestion="1000",
-        )
+    for name, value, usual in (("warmup", warmup, "1000"), ("climb", climb, "100")):
+        if not is_whole(value) or not 0 <= value <= MOST:
+            raise InputError(
+                "bad-setting",
+                name=name,
+                found=repr(value),
+                expected=f"a whole number from 0 to {MOST}",
+                suggestion=usual,
+            )
     if not is_number(target_accept) or not 0 < target_accept < 1:
         raise InputError(
             "bad-setting",
@@ -166,6 +200,7 @@ def _chain_settings(
         "target_accept": float(target_accept),
         "metric": metric,
         "step_size": None if step_size is None else float(step_size),
+        "climb": climb,
         "tries": at_least_one("tries", tries),
     }
 

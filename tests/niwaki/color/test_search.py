@@ -7,10 +7,10 @@ import json
 
 import numpy as np
 import pytest
-from niwaki import mh
+from niwaki import explore, mh
 from niwaki.cli import app
 from niwaki.color import Drawing, Rules, color, lab
-from niwaki.color.search import farthest
+from niwaki.color.search import default_method, farthest
 from niwaki.errors import InputError
 from PIL import Image
 from typer.testing import CliRunner
@@ -79,6 +79,16 @@ def test_the_farthest_of_the_better_half() -> None:
 def test_more_colourings_than_the_sampler_gives(small) -> None:
     with pytest.raises(InputError, match="count"):
         color(small, count=500, method=QUICK, seed=1)
+
+
+@pytest.mark.parametrize("weight", [0, -1.0, float("nan"), float("inf"), True])
+def test_a_weight_is_a_number_above_zero(small, weight: float) -> None:
+    with pytest.raises(InputError, match="weight"):
+        color(small, weight=weight, count=1, seed=1)
+
+
+def test_the_default_is_many_short_chains_that_follow_the_gradient() -> None:
+    assert default_method(12) == explore(draws=1, chains=36)
 
 
 def test_the_command_writes_what_it_says(small, tmp_path) -> None:

@@ -3,6 +3,7 @@
 //! Random streams are keyed by (seed, chain, what for, step), so a chain's draws do not depend on the number of
 //! threads, nor on the other chains.
 
+use super::climb::climb;
 use super::hmc::Hmc;
 use super::leapfrog::Phase;
 use super::metric::{Metric, Shape};
@@ -36,6 +37,8 @@ pub enum Length {
 pub struct Settings {
     /// How long trajectories are.
     pub length: Length,
+    /// Steps uphill from the start, before the warm-up.
+    pub climb: u32,
     /// Transitions during which step size and metric are adapted; their draws are not given out.
     pub warmup: u32,
     /// Draws afterwards.
@@ -57,6 +60,7 @@ impl Settings {
     pub fn nuts() -> Settings {
         Settings {
             length: Length::NoUTurn { max_depth: 10 },
+            climb: 0,
             warmup: 1000,
             draws: 1000,
             thin: 1,
@@ -117,10 +121,12 @@ pub struct Chain<P> {
     pub rung: u32,
     /// Transitions made.
     pub visit: u64,
+    /// Gradients taken on the way uphill.
+    pub climbed: u32,
 }
 
 impl<P: Potential> Chain<P> {
-    /// A chain at `start` with the identity as its metric.
+    /// A chain at `start`, or uphill from it, with the identity as its metric.
     ///
     /// # Errors
     /// The target's refusal of `start`.
@@ -131,10 +137,12 @@ impl<P: Potential> Chain<P> {
         seed: u64,
         number: u64,
     ) -> Result<Self, Stop> {
-        let phase = Phase::at(&mut target, start)?;
+        let mut start = start.to_vec();
+        let climbed = climb(&mut target, &mut start, settings.climb);
+        let phase = Phase::at(&mut target, &start)?;
         let metric = Metric::unit(start.len());
         let (kernel, step_size) = (settings.kernel(), settings.step_size.unwrap_or(1.0));
-        Ok(Chain { target, phase, metric, step_size, kernel, seed, number, rung: 0, visit: 0 })
+        Ok(Chain { target, phase, metric, step_size, kernel, seed, number, rung: 0, visit: 0, climbed })
     }
 
     /// The random bits of this visit, for one purpose.
@@ -184,7 +192,7 @@ pub struct Draws {
     pub warmup_divergences: u64,
     /// Gradients taken after warm-up.
     pub gradients: u64,
-    /// Gradients taken in warm-up, without those of first guesses.
+    /// Gradients taken in warm-up and on the way to it, without those of first guesses.
     pub warmup_gradients: u64,
     /// The frozen step size.
     pub step_size: f64,
@@ -280,6 +288,7 @@ pub fn sample<P: Potential>(
 /// Warms a chain up, then draws.
 pub fn run<P: Potential>(mut chain: Chain<P>, settings: &Settings, watch: &dyn Fn(u32) -> bool) -> Draws {
     let mut draws = Draws { dim: chain.phase.x.len(), ..Draws::default() };
+    draws.warmup_gradients = u64::from(chain.climbed);
     let mut adaptation = Adaptation::new(&mut chain, settings);
     let goes_on = |visit: u64| !visit.is_multiple_of(GLANCE) || watch(visit as u32);
     for _ in 0..settings.warmup {

@@ -8,6 +8,7 @@
 //! * [`leapfrog`]: the integrator;
 //! * [`hmc`], [`nuts`]: one transition, with a fixed length and with one that it finds itself;
 //! * [`transition`]: what both report, and the choice between them;
+//! * [`mod@climb`]: the way uphill from a start that is unlikely;
 //! * [`step_size`], [`estimate`], [`warmup`]: what is adapted in warm-up and frozen afterwards;
 //! * [`chains`]: whole chains, side by side;
 //! * [`tempering`]: a path of targets from loose to tight, walked down once or by all rungs at a time.
@@ -15,6 +16,7 @@
 //! Not here: programs, how a gradient is made, diagnostics of the draws (they are the package's).
 
 pub mod chains;
+pub mod climb;
 pub mod estimate;
 pub mod hmc;
 pub mod leapfrog;

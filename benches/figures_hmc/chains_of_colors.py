@@ -1,0 +1,121 @@
+"""Chains that color our four drawings: the original's two samplers with its settings, and ours.
+
+The original's: 2000 proposals of single-site MH from a run of the prior, then 1000 draws of HMC with 100 steps, or of
+MH 200 proposals apart. Ours: `niwaki.explore()` as it stands.
+"""
+
+import time
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+import niwaki as nw
+import numpy as np
+import original
+from niwaki import diagnostics
+from niwaki.color import Drawing, coloring
+from niwaki.color.search import arguments, rules_of
+from niwaki.hmc_result import HmcResult
+
+DRAWINGS = ("robot", "house", "bug", "rocket")
+DRAWS, STEPS, BURN_IN = 1000, 100, 2000
+UNIT = (0.0, 1.0)
+
+
+@dataclass(frozen=True)
+class Chains:
+    """Draws of one sampler on one drawing.
+
+    Attributes
+    ----------
+    colors
+        (chains, draws, regions, 3) in [0, 1].
+    gradients
+        Gradients, or evaluations for MH, burn-in and warm-up included.
+    cpu
+        Seconds, the first run of the model and machine code included.
+    accepted
+        The share of proposals.
+    """
+
+    colors: Any
+    gradients: int
+    cpu: float
+    accepted: float
+
+    @property
+    def effective(self) -> float:
+        """Effective draws by the vector autocorrelation."""
+        return diagnostics.ess_vector(self._flat())
+
+    @property
+    def least(self) -> float:
+        """The smallest bulk effective size of a coordinate.
+
+        Of several chains no more than their means are worth, as so many independent numbers: halves of a short chain
+        that hardly moved would count as two.
+        """
+        flat = self._flat()
+        sizes = [diagnostics.ess_bulk(flat[:, :, k]) for k in range(flat.shape[2])]
+        if len(flat) > 1:
+            worth = len(flat) * flat.var(axis=(0, 1), ddof=1) / flat.mean(axis=1).var(axis=0, ddof=1)
+            sizes = np.minimum(sizes, worth).tolist()
+        return float(min(sizes))
+
+    @property
+    def all_draws(self) -> Any:
+        """(draws of all chains, regions, 3)."""
+        return self.colors.reshape(-1, *self.colors.shape[2:])
+
+    def _flat(self) -> Any:
+        return self.colors.reshape(*self.colors.shape[:2], -1)
+
+
+@cache
+def task(name: str) -> tuple[Drawing, tuple[Any, ...]]:
+    """A drawing of ours, and what the model takes for it."""
+    drawing = Drawing.load(name)
+    return drawing, arguments(drawing, rules_of(name))
+
+
+@cache
+def originals(name: str, seed: int, draws: int = DRAWS) -> dict[str, Chains]:
+    """Both samplers of the original, from one burn-in."""
+    drawing, given = task(name)
+    density = nw.log_density(nw.run(coloring, *given, seed=seed).best)
+    density.compile()
+    ask, found = density.value_and_gradient, {}
+    burnt, _ = original.mh(ask, density.start, BURN_IN, seed, UNIT)
+    proposals = 2 * STEPS * draws
+    ways = {
+        "HMC": (STEPS * draws, lambda: original.hmc(ask, burnt[-1], draws, STEPS, seed)),
+        "MH": (proposals, lambda: original.mh(ask, burnt[-1], proposals, seed, UNIT, thin=2 * STEPS)),
+    }
+    for way, (evaluations, make) in ways.items():
+        start = time.process_time()
+        coordinates, accepted = make()
+        spent = time.process_time() - start
+        colors = 1.0 / (1.0 + np.exp(-coordinates.reshape(1, draws, len(drawing.names), 3)))
+        found[way] = Chains(colors, evaluations, spent, accepted)
+    return found
+
+
+@cache
+def ours(name: str, seed: int, chains: int | None = None) -> Chains:
+    """Our default sampler on one thread; as many chains as it takes by default."""
+    method = nw.explore() if chains is None else nw.explore(chains=chains)
+    return timed(name, method, seed)
+
+
+@cache
+def timed(name: str, method: Any, seed: int) -> Chains:
+    """A gradient sampler of the engine on one thread."""
+    drawing, given = task(name)
+    start = time.process_time()
+    found = nw.run(coloring, *given, method=method, seed=seed, threads=1)
+    spent = time.process_time() - start
+    assert isinstance(found, HmcResult)
+    colors = np.stack(list(found.draws.values()), axis=-1)
+    shape = (*colors.shape[:2], len(drawing.names), 3)
+    accepted = float(found.stats["acceptance_rate"].mean())
+    return Chains(colors.reshape(shape), found.gradients, spent, accepted)
