@@ -58,12 +58,6 @@ impl Brick {
         self.0.is_empty()
     }
 
-    /// True when there is no count.
-    #[inline]
-    pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
-    }
-
     /// Cells of a word that have a count.
     pub fn any(&self, word: usize) -> u64 {
         self.0.iter().fold(0, |all, plane| all | plane[word])

@@ -1,11 +1,10 @@
 //! How many shapes fill each cell of a grid, in bricks that copies share.
 //!
-//! A brick is 64 by 8 by 8 cells: 64 words, one bit for each cell. A brick without counts is not stored, so that
-//! equal counts are equal data.
+//! A brick is 64 by 8 by 8 cells: 64 words, one bit for each cell.
 
-use super::brick::{Brick, Plane};
+use super::brick::Plane;
+use super::pages::Pages;
 use crate::voxel::{CellBox, Voxels};
-use std::sync::Arc;
 
 /// Cells along x, y and z in one brick; row (y, z) of it is word `8 * z + y`.
 pub const BRICK: [usize; 3] = [64, 8, 8];
@@ -27,7 +26,7 @@ pub struct Change {
 /// A count for every cell of a grid. Cloning shares all bricks.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Counters {
-    bricks: Arc<Vec<Option<Arc<Brick>>>>,
+    bricks: Pages,
     across: [usize; 3],
 }
 
@@ -35,44 +34,35 @@ impl Counters {
     /// All zero.
     pub fn new(dims: [usize; 3]) -> Counters {
         let across = bricks_of(dims);
-        Counters { bricks: Arc::new(vec![None; across.iter().product()]), across }
+        Counters { bricks: Pages::new(across.iter().product()), across }
     }
 
     /// Adds one to every cell of `voxels`; `target` tells which filled cells are wanted.
     pub fn add(&mut self, voxels: &Voxels, target: &[Plane]) -> Change {
-        let bricks = Arc::make_mut(&mut self.bricks);
         let mut change = Change::default();
         visit(&voxels.cells, self.across, |index, column, words| {
-            let brick = Arc::make_mut(bricks[index].get_or_insert_with(Arc::default));
-            for (word, y, z) in words {
-                let cells = voxels.word(column, y, z);
-                let new = brick.raise(word, cells);
-                change.filled += i64::from(new.count_ones());
-                change.inside += i64::from((new & target[index][word]).count_ones());
-            }
-            if brick.is_empty() {
-                bricks[index] = None;
-            }
+            self.bricks.change(index, |brick| {
+                for (word, y, z) in words {
+                    let new = brick.raise(word, voxels.word(column, y, z));
+                    change.filled += i64::from(new.count_ones());
+                    change.inside += i64::from((new & target[index][word]).count_ones());
+                }
+            });
         });
         change
     }
 
     /// Takes one from every cell of `voxels`, all of which must have one.
     pub fn remove(&mut self, voxels: &Voxels, target: &[Plane]) -> Change {
-        let bricks = Arc::make_mut(&mut self.bricks);
         let mut change = Change::default();
         visit(&voxels.cells, self.across, |index, column, words| {
-            let Some(brick) = &mut bricks[index] else { return };
-            let brick = Arc::make_mut(brick);
-            for (word, y, z) in words {
-                let cells = voxels.word(column, y, z);
-                let gone = brick.lower(word, cells);
-                change.filled -= i64::from(gone.count_ones());
-                change.inside -= i64::from((gone & target[index][word]).count_ones());
-            }
-            if brick.trim() {
-                bricks[index] = None;
-            }
+            self.bricks.change(index, |brick| {
+                for (word, y, z) in words {
+                    let gone = brick.lower(word, voxels.word(column, y, z));
+                    change.filled -= i64::from(gone.count_ones());
+                    change.inside -= i64::from((gone & target[index][word]).count_ones());
+                }
+            });
         });
         change
     }
@@ -81,13 +71,12 @@ impl Counters {
     pub fn get(&self, cell: [usize; 3]) -> u32 {
         let [x, y, z] = cell;
         let index = ((z / 8) * self.across[1] + y / 8) * self.across[0] + x / 64;
-        self.bricks[index].as_ref().map_or(0, |brick| brick.get(z % 8 * 8 + y % 8, x % 64))
+        self.bricks.get(index).map_or(0, |brick| brick.get(z % 8 * 8 + y % 8, x % 64))
     }
 
     /// Bricks that this and `other` share in memory.
     pub fn shared_with(&self, other: &Counters) -> usize {
-        let pairs = self.bricks.iter().zip(other.bricks.iter());
-        pairs.filter(|(a, b)| matches!((a, b), (Some(a), Some(b)) if Arc::ptr_eq(a, b))).count()
+        self.bricks.shared_with(&other.bricks)
     }
 }
 

@@ -58,7 +58,7 @@ impl NoSelfIntersection {
 
 impl PartialEq for NoSelfIntersection {
     fn eq(&self, other: &NoSelfIntersection) -> bool {
-        (self.rule, self.pairs) == (other.rule, other.pairs) && same_bag(&self.boxes, &other.boxes)
+        (self.rule, self.pairs) == (other.rule, other.pairs) && same_bag(&self.boxes, &other.boxes, |p| p)
     }
 }
 

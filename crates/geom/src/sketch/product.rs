@@ -97,6 +97,11 @@ impl Sketches {
         true
     }
 
+    /// From now on primitives also go: what taking them out needs is kept, so that copies share it.
+    pub fn expect_removals(&mut self) {
+        self.members.iter_mut().for_each(|member| member.sketch.expect_removals());
+    }
+
     /// Name of the first sketch that forbids the scene.
     pub fn forbidden_by(&self) -> Option<&'static str> {
         self.iter().find(|s| s.log_score() == f64::NEG_INFINITY).map(|s| s.name())

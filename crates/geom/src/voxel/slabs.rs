@@ -29,7 +29,13 @@ pub fn rows(convex: &Convex, grid: &Grid, cells: &CellBox) -> Vec<(u32, u32)> {
     let place = |o: usize, i: usize| if upright { i * ny + o } else { o * ny + i };
 
     let mut rows = vec![NOTHING; ny * count(2)];
-    let mut slice: Vec<[f64; 2]> = Vec::with_capacity(2 * convex.topology().edges.len());
+    let edges: Vec<Edge> = convex
+        .topology()
+        .edges
+        .iter()
+        .map(|[a, b]| Edge::new(corners[*a as usize], corners[*b as usize], (outer, inner)))
+        .collect();
+    let mut slice: Vec<[f64; 2]> = Vec::with_capacity(2 * edges.len());
     let mut before: Vec<[f64; 2]> = Vec::with_capacity(slice.capacity());
     let mut polygon = Polygon::default();
     let ends = straight_between(&corners, convex, (outer, inner));
@@ -44,7 +50,7 @@ pub fn rows(convex: &Convex, grid: &Grid, cells: &CellBox) -> Vec<(u32, u32)> {
             }
             continue;
         }
-        slice_of(&corners, convex, (outer, inner), (low, low + 1.0 + 2.0 * TOUCH), &mut slice);
+        slice_of(&corners, &edges, (outer, inner), (low, low + 1.0 + 2.0 * TOUCH), &mut slice);
         if o > 0 && slice == before {
             for i in 0..count(inner) {
                 rows[place(o, i)] = rows[place(o - 1, i)];
@@ -53,17 +59,33 @@ pub fn rows(convex: &Convex, grid: &Grid, cells: &CellBox) -> Vec<(u32, u32)> {
         }
         before.clone_from(&slice);
         polygon.enclose(&mut slice);
-        for i in 0..count(inner) {
-            let low = (cells.low[inner] + i) as f64 - TOUCH;
-            if let Some((left, right)) = polygon.extent(low, low + 1.0 + 2.0 * TOUCH) {
-                let (first, last) = ((left - TOUCH).floor(), (right + TOUCH).floor());
-                if last >= 0.0 && first < limit as f64 {
-                    rows[place(o, i)] = (first.max(0.0) as u32, (last as u32).min(limit as u32 - 1));
-                }
+        let bands = (0..count(inner)).map(|i| (cells.low[inner] + i) as f64 - TOUCH);
+        polygon.extents(bands.map(|low| (low, low + 1.0 + 2.0 * TOUCH)), |i, left, right| {
+            let (first, last) = ((left - TOUCH).floor(), (right + TOUCH).floor());
+            if last >= 0.0 && first < limit as f64 {
+                rows[place(o, i)] = (first.max(0.0) as u32, (last as u32).min(limit as u32 - 1));
             }
-        }
+        });
     }
     rows
+}
+
+/// An edge, as the slabs see it.
+struct Edge {
+    /// The ends of its extent along `outer`.
+    low: f64,
+    high: f64,
+    /// One end and the way to the other: along `outer`, along `inner`, along x.
+    start: [f64; 3],
+    way: [f64; 3],
+}
+
+impl Edge {
+    fn new(a: Vec3, b: Vec3, (outer, inner): (usize, usize)) -> Edge {
+        let start = [a[outer], a[inner], a.x];
+        let way = [b[outer] - a[outer], b[inner] - a[inner], b.x - a.x];
+        Edge { low: a[outer].min(b[outer]), high: a[outer].max(b[outer]), start, way }
+    }
 }
 
 /// Where a prism along `outer` begins and ends; between them all its slices are one. `None` for other solids.
@@ -82,20 +104,18 @@ fn straight_between(corners: &[Vec3], convex: &Convex, (outer, inner): (usize, u
 /// Points `[inner, x]` whose hull is the solid between the two planes across `outer`, seen along it.
 fn slice_of(
     corners: &[Vec3],
-    convex: &Convex,
+    edges: &[Edge],
     (outer, inner): (usize, usize),
     (low, high): (f64, f64),
     slice: &mut Vec<[f64; 2]>,
 ) {
     slice.clear();
     slice.extend(corners.iter().filter(|p| low <= p[outer] && p[outer] <= high).map(|p| [p[inner], p.x]));
-    for [a, b] in &convex.topology().edges {
-        let (a, b) = (corners[*a as usize], corners[*b as usize]);
-        let rise = b[outer] - a[outer];
+    for edge in edges {
         for plane in [low, high] {
-            if (a[outer] < plane) != (b[outer] < plane) {
-                let t = (plane - a[outer]) / rise;
-                slice.push([a[inner] + t * (b[inner] - a[inner]), a.x + t * (b.x - a.x)]);
+            if edge.low < plane && plane <= edge.high {
+                let t = (plane - edge.start[0]) / edge.way[0];
+                slice.push([edge.start[1] + t * edge.way[1], edge.start[2] + t * edge.way[2]]);
             }
         }
     }
@@ -127,30 +147,41 @@ impl Polygon {
         }
     }
 
-    /// Smallest and largest x where v is in `[low, high]`.
-    fn extent(&self, low: f64, high: f64) -> Option<(f64, f64)> {
-        let (first, last) = (self.left.first()?[0], self.left.last()?[0]);
-        let (low, high) = (low.max(first), high.min(last));
-        if low > high {
-            return None;
+    /// Tells the smallest and largest x in each band `[low, high]` of v that the polygon meets, with the band's number.
+    /// Bands come from low to high.
+    fn extents(&self, bands: impl Iterator<Item = (f64, f64)>, mut each: impl FnMut(usize, f64, f64)) {
+        let (Some(first), Some(last)) = (self.left.first(), self.left.last()) else { return };
+        let (mut left, mut right) = (0, 0);
+        for (i, (low, high)) in bands.enumerate() {
+            let (low, high) = (low.max(first[0]), high.min(last[0]));
+            if low <= high {
+                let smallest = -extreme(&self.left, -1.0, low, high, &mut left);
+                each(i, smallest, extreme(&self.right, 1.0, low, high, &mut right));
+            }
         }
-        Some((-extreme(&self.left, -1.0, low, high), extreme(&self.right, 1.0, low, high)))
     }
 }
 
-/// Largest `sign * x` of a side over `[low, high]`.
-fn extreme(side: &[[f64; 2]], sign: f64, low: f64, high: f64) -> f64 {
-    let mut best = (sign * at(side, low)).max(sign * at(side, high));
-    for p in side {
-        if low <= p[0] && p[0] <= high {
-            best = best.max(sign * p[1]);
-        }
+/// Largest `sign * x` of a side over `[low, high]`. No point before the `begin`-th lies at `low` or above; afterwards
+/// `begin` is the first that does.
+#[inline]
+fn extreme(side: &[[f64; 2]], sign: f64, low: f64, high: f64, begin: &mut usize) -> f64 {
+    while *begin < side.len() && side[*begin][0] < low {
+        *begin += 1;
     }
-    best
+    let (mut end, mut best) = (*begin, sign * at(side, low, *begin));
+    while end < side.len() && side[end][0] < high {
+        best = best.max(sign * side[end][1]);
+        end += 1;
+    }
+    best = best.max(sign * at(side, high, end));
+    side[end..].iter().take_while(|p| p[0] <= high).fold(best, |best, p| best.max(sign * p[1]))
 }
 
-fn at(side: &[[f64; 2]], v: f64) -> f64 {
-    let next = side.partition_point(|p| p[0] < v).min(side.len() - 1);
+/// x of a side at `v`, where `next` is the first point that does not lie below.
+#[inline]
+fn at(side: &[[f64; 2]], v: f64, next: usize) -> f64 {
+    let next = next.min(side.len() - 1);
     let (a, b) = (side[next.max(1) - 1], side[next]);
     if b[0] == a[0] {
         return b[1];

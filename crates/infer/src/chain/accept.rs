@@ -40,6 +40,13 @@ pub trait Rules: Send {
         (t.prior + t.score) + (t.stale - t.fresh) + (t.backward - t.forward) + t.odds
     }
 
+    /// Log of the probability with which chains that follow these powers of the score exchange their states, which have
+    /// these log scores, nats: the colder one's first.
+    #[inline]
+    fn log_exchange(powers: (f64, f64), scores: (f64, f64)) -> f64 {
+        (powers.0 - powers.1) * (scores.1 - scores.0)
+    }
+
     /// Told of a chain's trace before its first proposal.
     fn begin(_trace: &mut Trace) {}
 

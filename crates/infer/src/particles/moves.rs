@@ -191,8 +191,10 @@ fn decide(
     let record = &mut p.record;
     let before = record.log_sketches;
     let (gone, come) = next.exchanged(now);
-    let looks = !record.sketches.is_empty() && gone.len() + come.len() > 0;
-    if looks {
+    let mut undone = None;
+    if !record.sketches.is_empty() && gone.len() + come.len() > 0 {
+        record.sketches.expect_removals();
+        undone = Some(record.sketches.fork());
         let kept = record.sketches.exchange(gone.iter().copied(), come.iter().copied());
         debug_assert!(kept, "the sketches and the way hold the same scene");
         record.log_sketches = record.sketches.log_score();
@@ -219,8 +221,8 @@ fn decide(
     let log_ratio = MetropolisHastings::log_ratio(&terms);
     let accepted = possible && (log_ratio >= 0.0 || u.ln() < log_ratio);
     if !accepted {
-        if looks {
-            record.sketches.exchange(come.iter().copied(), gone.iter().copied());
+        if let Some(sketches) = undone {
+            record.sketches = sketches;
         }
         record.log_sketches = before;
     }
