@@ -9,7 +9,7 @@
 use super::same_bag;
 use crate::bounds::Aabb;
 use crate::primitive::Primitive;
-use crate::tree::BoxTree;
+use crate::tree::{BoxTree, Boxed};
 use std::sync::{Arc, OnceLock};
 
 /// A bag of primitives with marks, and the box around all of them.
@@ -30,6 +30,13 @@ enum Held<M> {
 struct Marked<M> {
     primitive: Primitive,
     mark: Arc<OnceLock<M>>,
+}
+
+impl<M> Boxed for Marked<M> {
+    #[inline]
+    fn aabb(&self) -> &Aabb {
+        self.primitive.aabb()
+    }
 }
 
 #[derive(Debug)]
@@ -69,8 +76,8 @@ impl<M: Clone> Bag<M> {
                 *newest = Some(Arc::new(Entry { primitive: primitive.clone(), older }));
             }
             Held::Tree(tree) => {
-                let item = Marked { primitive: primitive.clone(), mark: Arc::new(OnceLock::from(mark)) };
-                tree.insert(*primitive.aabb(), item);
+                let mark = Arc::new(OnceLock::from(mark));
+                tree.insert(Marked { primitive: primitive.clone(), mark });
             }
         }
     }
@@ -97,8 +104,7 @@ impl<M: Clone> Bag<M> {
                 let mut tree = BoxTree::default();
                 let mut next = newest.as_ref();
                 while let Some(entry) = next {
-                    let item = Marked { primitive: entry.primitive.clone(), mark: Arc::default() };
-                    tree.insert(*entry.primitive.aabb(), item);
+                    tree.insert(Marked { primitive: entry.primitive.clone(), mark: Arc::default() });
                     next = entry.older.as_ref();
                 }
                 tree

@@ -27,7 +27,7 @@ pub mod volume;
 
 use crate::error::GeomError;
 use crate::primitive::Primitive;
-use crate::tree::BoxTree;
+use crate::tree::{BoxTree, Boxed};
 
 /// A running score of a bag of primitives.
 pub trait Sketch: Send + Sync {
@@ -56,10 +56,14 @@ pub trait SketchSpec: Send + Sync {
 }
 
 /// Equality of bags: every primitive of one is in the other as often.
-pub(crate) fn same_bag<T: Clone>(a: &BoxTree<T>, b: &BoxTree<T>, of: impl Fn(&T) -> &Primitive) -> bool {
+pub(crate) fn same_bag<T: Clone + Boxed>(
+    a: &BoxTree<T>,
+    b: &BoxTree<T>,
+    of: impl Fn(&T) -> &Primitive,
+) -> bool {
     let mut rest = a.clone();
     let mut same = a.len() == b.len();
-    b.each(|aabb, item| same = same && rest.remove(aabb, |p| of(p) == of(item)).is_some());
+    b.each(|item| same = same && rest.remove(item.aabb(), |p| of(p) == of(item)).is_some());
     same
 }
 
