@@ -253,7 +253,6 @@ impl PictureMatch {
         }
         mask
     }
-
 }
 
 /// The rays that meet each shape.

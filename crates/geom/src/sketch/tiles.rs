@@ -34,7 +34,9 @@ impl Tiles {
     fn visit(&mut self, cover: &Cover, mut each: impl FnMut(&mut Brick, usize, u64)) {
         for words in cover.words().chunk_by(|a, b| a.0 as usize / TILE == b.0 as usize / TILE) {
             let tile = words[0].0 as usize / TILE;
-            self.0.change(tile, |brick| words.iter().for_each(|(word, rays)| each(brick, *word as usize, *rays)));
+            self.0.change(tile, |brick| {
+                words.iter().for_each(|(word, rays)| each(brick, *word as usize, *rays))
+            });
         }
     }
 

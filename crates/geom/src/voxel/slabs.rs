@@ -58,7 +58,7 @@ pub fn rows(convex: &Convex<'_>, grid: &Grid, cells: &CellBox) -> Vec<(u32, u32)
             continue;
         }
         before.clone_from(&slice);
-        polygon.enclose(&mut slice);
+        polygon.enclose(&slice);
         let bands = (0..count(inner)).map(|i| (cells.low[inner] + i) as f64 - TOUCH);
         polygon.extents(bands.map(|low| (low, low + 1.0 + 2.0 * TOUCH)), |i, left, right| {
             let (first, last) = ((left - TOUCH).floor(), (right + TOUCH).floor());
@@ -89,7 +89,11 @@ impl Edge {
 }
 
 /// Where a prism along `outer` begins and ends; between them all its slices are one. `None` for other solids.
-fn straight_between(corners: &[Vec3], convex: &Convex<'_>, (outer, inner): (usize, usize)) -> Option<(f64, f64)> {
+fn straight_between(
+    corners: &[Vec3],
+    convex: &Convex<'_>,
+    (outer, inner): (usize, usize),
+) -> Option<(f64, f64)> {
     let heights = || corners.iter().map(|p| p[outer]);
     let (first, last) =
         (heights().fold(f64::INFINITY, f64::min), heights().fold(f64::NEG_INFINITY, f64::max));
@@ -111,7 +115,7 @@ fn slice_of(
 ) {
     slice.clear();
     slice.extend(corners.iter().filter(|p| low <= p[outer] && p[outer] <= high).map(|p| [p[inner], p.x]));
-    for edge in edges {
+    for edge in edges.iter().filter(|edge| edge.low < high && low <= edge.high) {
         for plane in [low, high] {
             if edge.low < plane && plane <= edge.high {
                 let t = (plane - edge.start[0]) / edge.way[0];
@@ -119,6 +123,12 @@ fn slice_of(
             }
         }
     }
+}
+
+/// Above zero where the way from `a` by `b` to `p` turns towards higher x, below where it turns away.
+#[inline]
+fn turn(a: [f64; 2], b: [f64; 2], p: [f64; 2]) -> f64 {
+    (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
 }
 
 /// Both sides of a convex polygon, x as a function of v.
@@ -129,21 +139,37 @@ struct Polygon {
 }
 
 impl Polygon {
-    /// Becomes the hull of `points` (monotone chain, Andrew 1979). Sorts them.
-    fn enclose(&mut self, points: &mut [[f64; 2]]) {
-        points.sort_unstable_by(|p, q| p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1])));
-        for (side, sign) in [(&mut self.left, 1.0), (&mut self.right, -1.0)] {
-            side.clear();
-            for p in points.iter() {
-                while let [.., a, b] = side[..] {
-                    let turn = (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
-                    if turn * sign > 0.0 {
-                        break;
-                    }
-                    side.pop();
-                }
-                side.push(*p);
+    /// Becomes the hull of `points`: those on either side of the line from the lowest to the highest, each side by the
+    /// monotone chain (Andrew 1979).
+    fn enclose(&mut self, points: &[[f64; 2]]) {
+        let order = |p: &[f64; 2], q: &[f64; 2]| p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1]));
+        let ends = points.iter().min_by(|p, q| order(p, q)).zip(points.iter().max_by(|p, q| order(p, q)));
+        self.left.clear();
+        self.right.clear();
+        let Some((first, last)) = ends else { return };
+        self.left.push(*first);
+        self.right.push(*first);
+        for p in points {
+            let side = turn(*first, *last, *p);
+            if side < 0.0 {
+                self.left.push(*p);
+            } else if side > 0.0 {
+                self.right.push(*p);
             }
+        }
+        for (side, sign) in [(&mut self.left, 1.0), (&mut self.right, -1.0)] {
+            side[1..].sort_unstable_by(order);
+            side.push(*last);
+            let mut kept = 1;
+            for at in 1..side.len() {
+                let p = side[at];
+                while kept > 1 && turn(side[kept - 2], side[kept - 1], p) * sign <= 0.0 {
+                    kept -= 1;
+                }
+                side[kept] = p;
+                kept += 1;
+            }
+            side.truncate(kept);
         }
     }
 

@@ -137,7 +137,8 @@ fn tempered(drawing: &Task, given: &Task, deviation: f64, power: f64, replicate:
         if power == 0.0 {
             return known;
         }
-        let (state, _) = State::start(given, Streams::new(4, replicate), 1, Some(&known)).expect("that state");
+        let (state, _) =
+            State::start(given, Streams::new(4, replicate), 1, Some(&known)).expect("that state");
         let u = StreamKey::new(seed, replicate, 1).at(0).uniform();
         if u.ln() < power * (state.log_score() - log_largest) {
             return known;
@@ -261,14 +262,14 @@ fn a_proposal_of_ones_own_leaves_the_posterior_as_it_is() {
 
 #[test]
 fn a_kernel_at_one_temperature_leaves_its_posterior_as_it_is() {
-    let kernel = Kernel::Anneal { hot: 2.0, cold: 2.0, steps: 9, kernel: Box::new(mixture()) };
+    let held = |hot| Kernel::Anneal { hot, cold: hot, steps: 9, kernel: Box::new(mixture()) };
     for (name, text) in &PROGRAMS[1..] {
-        let d = distance_at::<MetropolisHastings>(text, &kernel, 2.0, &[1.0]);
+        let d = distance_at::<MetropolisHastings>(text, &held(2.0), 2.0, &[1.0]);
         assert!(d < LIMIT, "{name}: {d}");
     }
-    // The same kernel, given data as if the temperature were 1.
-    let d = distance::<MetropolisHastings>(PROGRAMS[3].1, &kernel);
-    assert!(d > 1.5 * LIMIT, "another temperature: {d} only");
+    // A hot kernel, given data as if the temperature were 1.
+    let d = furthest::<MetropolisHastings>(&[1, 3, 5], &held(50.0));
+    assert!(d > 1.1 * LIMIT, "another temperature: {d} only");
 }
 
 #[test]
@@ -287,15 +288,23 @@ fn tempering_leaves_the_posterior_as_it_is() {
 #[test]
 fn regeneration_and_mixtures_that_forget_a_term_are_found_out() {
     let regenerate = Kernel::Regenerate { levels: 0 };
-    let count = PROGRAMS[3].1;
+    let mut missed = String::new();
     for (name, d) in [
-        ("what went, regenerated", distance::<StaleForgotten>(count, &regenerate)),
-        ("what went, mixed", distance::<StaleForgotten>(count, &mixture())),
-        ("the ratio of numbers, mixed", distance::<NoCountRatio>(count, &mixture())),
-        ("the reverse density, mixed", distance::<NoReverse>(PROGRAMS[0].1, &mixture())),
+        ("what went, regenerated", furthest::<StaleForgotten>(&[3, 5], &regenerate)),
+        ("what went, mixed", furthest::<StaleForgotten>(&[3, 5], &mixture())),
+        ("the ratio of numbers, mixed", furthest::<NoCountRatio>(&[3, 5], &mixture())),
+        ("the reverse density, mixed", furthest::<NoReverse>(&[0, 2, 4], &mixture())),
     ] {
-        assert!(d > 1.5 * LIMIT, "{name}: {d} only");
+        if d < 1.1 * LIMIT {
+            missed += &format!("{name}: {d} only\n");
+        }
     }
+    assert!(missed.is_empty(), "\n{missed}");
+}
+
+/// The largest distance over some of the programs.
+fn furthest<R: Rules>(programs: &[usize], kernel: &Kernel) -> f64 {
+    programs.iter().map(|at| distance::<R>(PROGRAMS[*at].1, kernel)).fold(0.0, f64::max)
 }
 
 #[test]

@@ -72,8 +72,11 @@ fn own_proposals(task: &Task) -> Kernel {
             _ => {}
         }
     }
-    let dists =
-        ["gaussian (mul 0.5 $x) 0.8", "poisson (add 0.5 (mul 0.5 (mul $x $x)))", "bernoulli (cond $x 0.3 0.8)"];
+    let dists = [
+        "gaussian (mul 0.5 $x) 0.8",
+        "poisson (add 0.5 (mul 0.5 (mul $x $x)))",
+        "bernoulli (cond $x 0.3 0.8)",
+    ];
     let own = sites.into_iter().zip(dists).filter(|(sites, _)| !sites.is_empty()).map(|(sites, dist)| {
         let text = format!(r#"(module (fn "near" (params $x) (return (dist {dist}))) (entry "near"))"#);
         let user = Kernel::User(Arc::new(User::new(programs::task(&text)).expect("a proposal")));
@@ -137,8 +140,7 @@ fn a_rollback_that_leaves_one_register_is_found_out() {
                 "own proposals" => Settings { kernel: own_proposals(&task), ..settings() },
                 _ => Settings { temperatures: vec![1.0, 3.0], every: 4, ..settings() },
             };
-            let found =
-                disagreement::<LeavesOneRegister>(&task, &settings, 300, 30, &mut Seen::default());
+            let found = disagreement::<LeavesOneRegister>(&task, &settings, 300, 30, &mut Seen::default());
             found_out += usize::from(!matches!(found, Ok(None)));
         }
         // Where hardly anything is rejected, or the register is written again before it is read, nothing is to be seen.
