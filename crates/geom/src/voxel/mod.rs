@@ -48,17 +48,14 @@ enum Kind {
 impl Voxels {
     /// Cells of `grid` that `shape` fills; `None` when it fills none.
     pub fn of(shape: &Shape, grid: &Grid) -> Option<Voxels> {
-        match shape.convex() {
-            Some(convex) if convex.is_aligned_box() => {
-                let cells = grid.cells_of(shape.aabb())?;
-                Some(Voxels { cells, kind: Kind::Block })
-            }
-            Some(convex) => {
-                let cells = grid.cells_of(shape.aabb())?;
-                Some(Voxels { cells, kind: Kind::Rows(slabs::rows(convex, grid, &cells)) })
-            }
-            None => Voxels::of_mesh(shape.world_mesh(), grid),
-        }
+        let Some(convex) = shape.convex() else { return Voxels::of_mesh(shape.world_mesh(), grid) };
+        let cells = grid.cells_of(shape.aabb())?;
+        let kind = if shape.is_aligned_box() {
+            Kind::Block
+        } else {
+            Kind::Rows(slabs::rows(&convex, grid, &cells))
+        };
+        Some(Voxels { cells, kind })
     }
 
     /// Cells that a closed mesh fills, the plain way.

@@ -16,7 +16,7 @@ use crate::vector::Vec3;
 const NOTHING: (u32, u32) = (1, 0);
 
 /// First and last x for each (y, z) of `cells`, y fastest. `cells` must be the cells of the solid's box.
-pub fn rows(convex: &Convex, grid: &Grid, cells: &CellBox) -> Vec<(u32, u32)> {
+pub fn rows(convex: &Convex<'_>, grid: &Grid, cells: &CellBox) -> Vec<(u32, u32)> {
     let corners: Vec<Vec3> = convex.corners().iter().map(|p| grid.to_grid(*p)).collect();
     let upright = {
         let first = corners[0].y;
@@ -67,7 +67,7 @@ pub fn rows(convex: &Convex, grid: &Grid, cells: &CellBox) -> Vec<(u32, u32)> {
 }
 
 /// Where a prism along `outer` begins and ends; between them all its slices are one. `None` for other solids.
-fn straight_between(corners: &[Vec3], convex: &Convex, (outer, inner): (usize, usize)) -> Option<(f64, f64)> {
+fn straight_between(corners: &[Vec3], convex: &Convex<'_>, (outer, inner): (usize, usize)) -> Option<(f64, f64)> {
     let heights = || corners.iter().map(|p| p[outer]);
     let (first, last) =
         (heights().fold(f64::INFINITY, f64::min), heights().fold(f64::NEG_INFINITY, f64::max));
@@ -82,7 +82,7 @@ fn straight_between(corners: &[Vec3], convex: &Convex, (outer, inner): (usize, u
 /// Points `[inner, x]` whose hull is the solid between the two planes across `outer`, seen along it.
 fn slice_of(
     corners: &[Vec3],
-    convex: &Convex,
+    convex: &Convex<'_>,
     (outer, inner): (usize, usize),
     (low, high): (f64, f64),
     slice: &mut Vec<[f64; 2]>,

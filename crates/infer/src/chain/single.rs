@@ -4,7 +4,6 @@ use super::Chain;
 use super::accept::Rules;
 use super::decide::{Decision, below};
 use super::state::Fresh;
-use crate::record::log_density as log_density_of;
 use crate::{Failure, Task};
 use niwaki_math::{Dist, Stream, StreamKey, grid};
 use niwaki_vm::builtins::draw_to_value;
@@ -16,9 +15,6 @@ use niwaki_vm::value::Value;
 
 /// A way to move one choice.
 pub(crate) trait Move {
-    /// Whether it may propose what is outside the support.
-    const MAY_LEAVE: bool = false;
-
     /// A new value for a choice at the site of that number, its random bits from `rng`.
     fn propose(
         &mut self,
@@ -60,7 +56,6 @@ struct Asked<'a, M> {
     /// Whether the value before is wanted afterwards.
     noting: bool,
     old: Option<(u128, Value)>,
-    outside: bool,
 }
 
 impl<M: Move> Propose<f64> for Asked<'_, M> {
@@ -76,11 +71,7 @@ impl<M: Move> Propose<f64> for Asked<'_, M> {
         if self.noting {
             self.old = Some((address, old.clone()));
         }
-        let proposed = self.way.propose(self.site, dist, old, log_density, &mut self.key.at(address))?;
-        if M::MAY_LEAVE {
-            self.outside = log_density_of(dist, &proposed.value)? == f64::NEG_INFINITY;
-        }
-        Ok(proposed)
+        self.way.propose(self.site, dist, old, log_density, &mut self.key.at(address))
     }
 }
 
@@ -106,8 +97,7 @@ impl<R: Rules> Chain<R> {
         let choice = table.map_or(at as usize, |t| self.tables[t].find(at));
         let site = self.counts.number(self.state.trace.site_of(choice));
         let noting = self.best.is_noting();
-        let mut asked =
-            Asked { way, site, key: self.streams.moves(visit), noting, old: None, outside: false };
+        let mut asked = Asked { way, site, key: self.streams.moves(visit), noting, old: None };
         let mut answers =
             Fresh { key: self.streams.fresh(visit), known: None, hosts: &*task.hosts, spreads: None };
         let trace = &mut self.state.trace;
@@ -115,7 +105,7 @@ impl<R: Rules> Chain<R> {
             Ok(change) => change,
             Err(fault) => return Err(self.give_up(task, fault.into())),
         };
-        let (old, outside) = (asked.old.take(), asked.outside);
+        let (old, outside) = (asked.old.take(), trace.left_support());
         let decision = self.decide(
             task,
             change,

@@ -92,9 +92,9 @@ fn text(p: &Particle) -> String {
     let one = |e: &crate::log::Entry| format!("{:x}={}", e.address(), repr(&e.value).unwrap());
     let entries = p.record.log.entries();
     if !p.state.has_ended() {
-        return entries.iter().map(|e| if e.is_order { format!("!{}", one(e)) } else { one(e) }).collect();
+        return entries.iter().map(|e| if e.is_order() { format!("!{}", one(e)) } else { one(e) }).collect();
     }
-    let mut own: Vec<String> = entries.iter().filter(|e| !e.is_order).map(one).collect();
+    let mut own: Vec<String> = entries.iter().filter(|e| !e.is_order()).map(one).collect();
     own.sort();
     format!("ended {}", own.concat())
 }

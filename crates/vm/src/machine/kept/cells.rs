@@ -251,7 +251,7 @@ impl<S: Scalar> Machine<'_, S> {
             let value = state.registers[register as usize].clone();
             kept.write_to(state, false, own + site.to.index(), value);
             let alone = kept.woken.len() == 1;
-            let next = site.next as usize;
+            let next = site.again as usize;
             let change = self.run_kept(trace, node, next, answers);
             if trace.kept.tangled {
                 return Ok(None);

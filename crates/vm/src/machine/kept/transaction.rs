@@ -66,6 +66,7 @@ impl<S: Scalar> Kept<S> {
         self.now = self.now.wrapping_add(1);
         self.before = self.totals;
         (self.fresh, self.stale) = (0.0, 0.0);
+        self.outside = false;
     }
 
     /// Sets the switches of a run.
@@ -73,6 +74,7 @@ impl<S: Scalar> Kept<S> {
         self.early = strategy == Strategy::C3;
         self.reuse = strategy.reuses();
         self.depth = 0;
+        self.returns.clear();
         self.active.clear();
         self.marking = false;
         self.woken.clear();
@@ -111,6 +113,11 @@ impl<S: Scalar> Trace<S> {
     /// Log densities of proposing what the open transaction changed, there and back, nats.
     pub fn forward_and_backward(&self) -> (f64, f64) {
         self.kept.proposal()
+    }
+
+    /// Whether the value last proposed for a single choice lay outside the support of its distribution.
+    pub fn left_support(&self) -> bool {
+        self.kept.outside
     }
 
     /// Primitives that the open transaction put into the scene.
@@ -250,12 +257,13 @@ impl<S: Scalar> Machine<'_, S> {
         kept.slots[at].mark |= Slot::CHANGED;
         let value = proposed.value;
         kept.write_to(state, false, place, value.clone());
-        if log == f64::NEG_INFINITY {
+        kept.outside = log == f64::NEG_INFINITY;
+        if kept.outside {
             return Ok(Change::Impossible);
         }
         if strategy.starts_at_choice() {
             kept.set_log(false, at, log, true);
-            let next = site.next as usize;
+            let next = if strategy == Strategy::C3 { site.again } else { site.next } as usize;
             let change = self.run_kept(trace, node, next, answers);
             if trace.kept.woken.is_empty() {
                 return change;
