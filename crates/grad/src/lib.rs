@@ -24,12 +24,12 @@ pub mod scalar;
 pub mod tape;
 
 pub use compiled::Compiled;
+pub use coordinates::{Continuous, Transform};
 pub use density::{Comparison, Density, Guard};
 pub use graph::{Graph, Id};
 pub use live::{Live, Model, Refused};
 pub use native::Native;
 pub use operation::Op;
-pub use coordinates::{Continuous, Transform};
 pub use record::{Recorded, Run, Scope, record};
 pub use scalar::Var;
 pub use tape::{Lanes, Tape};

@@ -49,7 +49,13 @@ impl Model {
     }
 
     fn run(&self) -> Run<'_> {
-        Run { program: &self.program, args: &self.args, limits: self.limits, host: &*self.host, scope: &self.scope }
+        Run {
+            program: &self.program,
+            args: &self.args,
+            limits: self.limits,
+            host: &*self.host,
+            scope: &self.scope,
+        }
     }
 }
 

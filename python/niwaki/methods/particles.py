@@ -123,7 +123,7 @@ def smc(
         A kernel of `niwaki.kernels` that moves each particle without changing the law that all follow, so that copies
         become different again (Gilks & Berzuini 2001). A particle that still runs keeps its skeleton: which parts,
         which futures, where each call waits; one that has ended may change its structure. Not with absolute weights,
-        and no kernel that anneals or tempers.
+        no kernel that anneals or tempers, and `hmc` and `nuts` only at the end.
     moves
         Proposals for each particle, each time; `Result.moved` says how many were made and kept.
     at

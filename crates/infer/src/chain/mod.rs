@@ -150,7 +150,9 @@ impl<R: Rules> Chain<R> {
             if !leaf.selection.is_all() {
                 leaf.selection.check(&state.trace, &task.program)?;
             }
-            if matches!(leaf.way, Way::Trajectory(_)) && !leaf.selection.may_be_continuous(&task.program) {
+            if matches!(leaf.way, Way::Trajectory(_))
+                && !leaf.selection.may_be_continuous(&state.trace, &task.program)
+            {
                 return Err(gradient::nothing_continuous().into());
             }
         }

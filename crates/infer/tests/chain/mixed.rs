@@ -174,13 +174,16 @@ fn mutants_of_mixed_chains_are_found_out() {
 
 fn module(text: &str) -> niwaki_infer::Task {
     let mut body = text.to_string();
-    for data in ["gaussian 0.3 1.0", "gaussian -0.5 0.5", "gaussian 1.0 2.0"] {
-        let Some(from) = body.find("DATA(") else { break };
+    while let Some(from) = body.find("DATA(") {
         let end = from + body[from..].find('\n').expect("a line");
-        body.replace_range(from..end, "(do (factor -0.1))");
-        let _ = data;
+        let dist = body[from + 5..end].trim_end().trim_end_matches(')').to_string();
+        // The brackets of the distribution's own parameters.
+        let open = dist.matches('(').count() - dist.matches(')').count();
+        body.replace_range(from..end, &format!("(do (observe (dist {dist}{}) 0.4))", ")".repeat(open)));
     }
-    task(&format!(r#"(module (fn "m" (params) (set $y 0.4) (set $y2 1.0) (set $y3 -0.2) {body}) (entry "m"))"#))
+    task(&format!(
+        r#"(module (fn "m" (params) (set $y 0.4) (set $y2 1.0) (set $y3 -0.2) {body}) (entry "m"))"#
+    ))
 }
 
 #[test]
