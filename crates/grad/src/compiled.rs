@@ -10,7 +10,7 @@ use std::sync::Arc;
 use std::thread::JoinHandle;
 
 /// Gradients by tape before machine code is asked for: it must be worth its compilation.
-const WARM: u32 = 200;
+pub(crate) const WARM: u32 = 200;
 
 /// Gradients by tape while the machine code is made: about what it costs. Then it is waited for.
 const MEANWHILE: u32 = 2000;
@@ -31,14 +31,21 @@ pub struct Compiled {
     tape: Arc<Tape>,
     lanes: Lanes<1>,
     code: Code,
+    /// Gradients by tape before machine code is asked for.
+    warm: u32,
 }
 
 impl Compiled {
     /// Ready to evaluate by tape; machine code follows when it has been used for a while.
     pub fn new(density: Arc<Density>) -> Compiled {
+        Compiled::after(density, WARM)
+    }
+
+    /// The same, asking for machine code after so many gradients by tape.
+    pub fn after(density: Arc<Density>, warm: u32) -> Compiled {
         let tape = Arc::new(Tape::new(&density));
         let lanes = tape.lanes();
-        Compiled { density, tape, lanes, code: Code::Tape(0) }
+        Compiled { density, tape, lanes, code: Code::Tape(0), warm }
     }
 
     /// Compiles now, and waits for it.
@@ -80,7 +87,7 @@ impl Compiled {
 
     fn advance(&mut self) {
         match &mut self.code {
-            Code::Tape(n) if *n < WARM => *n += 1,
+            Code::Tape(n) if *n < self.warm => *n += 1,
             Code::Tape(_) => {
                 let density = self.density.clone();
                 // Where nobody waits any more, what it makes is dropped with its handle.

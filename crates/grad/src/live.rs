@@ -4,7 +4,7 @@
 //! values), another path is the same density elsewhere, and paths are kept. Where the choices change, the point is
 //! refused: what moves there is not a gradient.
 
-use crate::compiled::Compiled;
+use crate::compiled::{Compiled, WARM};
 use crate::record::{HostCall, Recorded, Run, Scope, blame, record};
 use crate::scalar::Var;
 use niwaki_vm::code::Program;
@@ -82,8 +82,8 @@ struct Path {
 }
 
 impl Path {
-    fn of(recorded: Recorded) -> Path {
-        Path { compiled: Compiled::new(recorded.density.clone()), recorded: Arc::new(recorded) }
+    fn of(recorded: Recorded, warm: u32) -> Path {
+        Path { compiled: Compiled::after(recorded.density.clone(), warm), recorded: Arc::new(recorded) }
     }
 }
 
@@ -93,13 +93,20 @@ pub struct Live {
     paths: Vec<Path>,
     now: usize,
     recordings: usize,
+    /// Gradients of a path before machine code is asked for.
+    warm: u32,
 }
 
 impl Live {
     /// The density around a recorded run.
     pub fn new(model: Model, recorded: Recorded) -> Live {
-        let mut live = Live { model, paths: vec![], now: 0, recordings: 1 };
-        live.keep(Path::of(recorded));
+        Live::after(model, recorded, WARM)
+    }
+
+    /// The same, asking for machine code of a path after so many gradients: where many are left soon.
+    pub fn after(model: Model, recorded: Recorded, warm: u32) -> Live {
+        let mut live = Live { model, paths: vec![], now: 0, recordings: 1, warm };
+        live.keep(Path::of(recorded, warm));
         live
     }
 
@@ -184,7 +191,7 @@ impl Live {
             if recorded.structure != at.structure {
                 return Err(Refused::Structure);
             }
-            let mut path = Path::of(recorded);
+            let mut path = Path::of(recorded, self.warm);
             if let Some(value) = path.compiled.inside(x, g) {
                 self.keep(path);
                 return Ok(value);
@@ -217,7 +224,7 @@ impl Live {
             return None;
         }
         let x = coordinates(&recorded)?;
-        self.keep(Path::of(recorded));
+        self.keep(Path::of(recorded, self.warm));
         Some(x)
     }
 

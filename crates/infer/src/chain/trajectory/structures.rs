@@ -22,6 +22,10 @@ use std::sync::Arc;
 /// Operations that the graphs of one leaf hold together at most: some 100 MB with their tapes.
 const MOST_OPERATIONS: usize = 1 << 20;
 
+/// Gradients of a graph before machine code is asked for. Making it costs about what so many gradients by tape do, and a
+/// chain that changes its structure leaves most of its graphs sooner.
+const WARM: u32 = 10_000;
+
 /// Graphs by structure.
 #[derive(Default)]
 pub(crate) struct Structures {
@@ -185,7 +189,7 @@ impl Structure {
             moving: recorded.moving.clone(),
             full: recorded.start.clone(),
             slopes: vec![0.0; dim],
-            live: Live::new(model, recorded),
+            live: Live::after(model, recorded, WARM),
         };
         Ok(Structure { target, labels, numbers, known, last: 0 })
     }
