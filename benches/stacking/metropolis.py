@@ -94,7 +94,10 @@ def walk(
     see: Callable[[int, Any], None],
     frozen: Any = None,
 ) -> tuple[Any, Any, float]:
-    """Make `count` proposals; return where they end, the steps, and the acceptance. Without units steps are in coordinates."""
+    """Make `count` proposals; return where they end, the steps, and the acceptance.
+
+    Without units steps are in coordinates.
+    """
     random = np.random.default_rng(seed)
     x = x.copy()
     steps = np.full(density.dim, 0.002 if units else 0.1) if frozen is None else frozen

@@ -14,7 +14,8 @@ from stacking.kinds import KINDS, Kind
 from stacking.worth import effective
 
 HEAD = (
-    "| model | sampler | width | draws | effective | balance | stand | polished | margin | litres | CPU s | gradients |",
+    "| model | sampler | width | draws | effective | balance | stand | polished | margin | litres | CPU s "
+    "| gradients |",
     "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |",
 )
 

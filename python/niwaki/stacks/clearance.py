@@ -34,12 +34,12 @@ def clear(blocks, contacts, ground):
 
 
 def thick(block):
-    """Ask the corners opposite to each face to lie behind it; return normals and how far the block reaches along them."""
+    """Ask the corners opposite to each face to lie behind it; return the faces' normals and reaches."""
     return [behind(block, k) for k in range(6)]
 
 
 def behind(block, k):
-    """Ask the corners opposite to face `k` to lie behind it; return its normal and how far the block reaches along it."""
+    """Ask the corners opposite to face `k` to lie behind it; return its normal and the block's reach along it."""
     normal = outward(block, FACES[k])
     heights = [dot(normal, p) for p in block]
     a, b, c, d = FACES[k]
@@ -61,7 +61,7 @@ def neighbours(contacts):
     sides = [(touch.first, touch.second) for touch in contacts] + [
         (touch.second, touch.first) for touch in contacts
     ]
-    found = []
+    found = sides[:0]
     for one, third in sides:
         for other, shared in sides:
             if shared == third and one > other and not met(sides, one, other) and not met(found, one, other):

@@ -1,4 +1,4 @@
-"""Claim: blocks that are thick and stand apart are not felt; a gap or a thickness that is lacking is, by the known amount.
+"""Claim: a gap or a thickness that is lacking is felt by the known amount; blocks that lack neither are hardly felt.
 
 Distances to check against are those of boxes, by hand.
 """
