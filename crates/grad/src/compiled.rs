@@ -7,7 +7,7 @@ use crate::density::Density;
 use crate::native::Native;
 use crate::tape::{Lanes, Tape};
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, channel};
+use std::thread::JoinHandle;
 
 /// Gradients by tape before machine code is asked for: it must be worth its compilation.
 const WARM: u32 = 200;
@@ -19,7 +19,7 @@ enum Code {
     /// Not asked for yet: gradients so far.
     Tape(u32),
     /// Being made; gradients so far.
-    Waiting(Receiver<Result<Native, String>>, u32),
+    Waiting(JoinHandle<Result<Native, String>>, u32),
     Ready(Box<Native>),
     /// This machine has none.
     Refused,
@@ -45,7 +45,7 @@ impl Compiled {
     pub fn finish(&mut self) {
         self.code = match std::mem::replace(&mut self.code, Code::Refused) {
             Code::Ready(native) => Code::Ready(native),
-            Code::Waiting(receiver, _) => ready(receiver.recv().unwrap_or_else(|e| Err(e.to_string()))),
+            Code::Waiting(made, _) => waited(made),
             Code::Tape(_) => ready(Native::compile(&self.density)),
             Code::Refused => Code::Refused,
         };
@@ -82,20 +82,15 @@ impl Compiled {
         match &mut self.code {
             Code::Tape(n) if *n < WARM => *n += 1,
             Code::Tape(_) => {
-                let (give, take) = channel();
                 let density = self.density.clone();
-                let made = std::thread::Builder::new().name("machine code".into()).spawn(move || {
-                    // No one waits any more: nothing to do about it.
-                    let _ = give.send(Native::compile(&density));
-                });
-                self.code = if made.is_ok() { Code::Waiting(take, 0) } else { Code::Refused };
+                // Where nobody waits any more, what it makes is dropped with its handle.
+                let made = std::thread::Builder::new()
+                    .name("machine code".into())
+                    .spawn(move || Native::compile(&density));
+                self.code = made.map_or(Code::Refused, |made| Code::Waiting(made, 0));
             }
-            Code::Waiting(receiver, n) => {
-                *n += 1;
-                if *n == MEANWHILE {
-                    self.code = ready(receiver.recv().unwrap_or_else(|e| Err(e.to_string())));
-                }
-            }
+            Code::Waiting(_, n) if *n < MEANWHILE => *n += 1,
+            Code::Waiting(..) => self.finish(),
             Code::Ready(_) | Code::Refused => {}
         }
     }
@@ -132,6 +127,10 @@ impl Compiled {
             None => self.lanes.inside(&self.tape, x, g).is_some(),
         }
     }
+}
+
+fn waited(made: JoinHandle<Result<Native, String>>) -> Code {
+    ready(made.join().unwrap_or_else(|_| Err("the compilation came to no end".into())))
 }
 
 fn ready(made: Result<Native, String>) -> Code {

@@ -5,10 +5,12 @@
 //! * [`tape`]: a density over lanes, one for each chain, without compilation; [`kernels`]: functions over many numbers;
 //! * [`native`]: machine code by Cranelift;
 //! * [`scalar`]: the number that records what happens to it; [`mod@record`]: a run of a program, recorded;
+//! * [`coordinates`]: from bounded values to coordinates without bounds and back;
 //! * [`compiled`]: the tape first, machine code when it is ready; [`live`]: recorded again where a guard fails;
 //! * [`jax`]: the same density as Python text.
 
 pub mod compiled;
+pub mod coordinates;
 pub mod density;
 pub mod graph;
 pub mod jax;
@@ -27,6 +29,7 @@ pub use graph::{Graph, Id};
 pub use live::{Live, Model, Refused};
 pub use native::Native;
 pub use operation::Op;
-pub use record::{Continuous, Recorded, Run, Transform, record};
+pub use coordinates::{Continuous, Transform};
+pub use record::{Recorded, Run, Scope, record};
 pub use scalar::Var;
 pub use tape::{Lanes, Tape};

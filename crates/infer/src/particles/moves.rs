@@ -164,8 +164,8 @@ fn propose(
             };
             now.again(with, machine, &mut ask, fresh)?
         }
-        // It is made to change what there is, and here that must stay.
-        Way::Regenerate(_) => return Ok(None),
+        // One is made to change what there is, and here that must stay; the other moves particles at the end only.
+        Way::Regenerate(_) | Way::Trajectory(_) => return Ok(None),
     };
     let blocks = matches!(own.way, Way::Block(_));
     let found = found.map(|(next, densities)| {
