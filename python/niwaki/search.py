@@ -36,6 +36,7 @@ from niwaki.sketches import Score, no_self_intersection, volume_match
 from niwaki.words.models import Model
 
 if TYPE_CHECKING:
+    from niwaki.kernels import Kernel
     from niwaki.target import Target
 
 
@@ -157,6 +158,11 @@ def grow(
     populations: int | None = None,
     diverse: int | None = None,
     seconds: float | None = None,
+    rejuvenate: Kernel | None = None,
+    moves: int = 1,
+    at: int | str = 1,
+    draws: int | None = None,
+    chains: int = 1,
     rule: str = "solid",
     runs: int = 1,
     seed: int | None = None,
@@ -181,7 +187,7 @@ def grow(
         `no_self_intersection(rule)` and, where there is a target, `volume_match(target, voxel, sigma)`.
     method
         Another search than `smc` with the settings below, which are then left out.
-    particles, order, weights, resampling, ess, anneal, populations, seconds
+    particles, order, weights, resampling, ess, anneal, populations, seconds, rejuvenate, moves, at, draws, chains
         As for `smc`.
     diverse
         As for `smc`: so many results that differ, for each run.
@@ -216,6 +222,11 @@ def grow(
         populations=populations,
         diverse=diverse,
         seconds=seconds,
+        rejuvenate=rejuvenate,
+        moves=moves,
+        at=at,
+        draws=draws,
+        chains=chains,
     )
     if not isinstance(runs, int) or runs < 1:
         raise InputError(
@@ -403,6 +414,7 @@ def _search(
                     rejuvenate=None if method.rejuvenate is None else method.rejuvenate.form(),
                     moves=method.moves,
                     at=method.at,
+                    walks=None if method.draws is None else (method.chains, method.draws),
                     seconds=method.seconds,
                     threads=threads,
                     watch=watch,
