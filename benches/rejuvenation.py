@@ -1,8 +1,8 @@
-"""Distinct results on the gnarly tree: what moves, walks, particle Gibbs and separate rows do to a population of copies.
+"""Distinct results on the gnarly tree: what moves, walks, particle Gibbs and separate rows do to copies.
 
     .venv/bin/python benches/rejuvenation.py [SEEDS FIRST [WAY ...]]
 
-The tree in the bent tube, voxel 0.4, sigma 0.02, one thread. Of every way 100 results are looked at. For each: the mean of
+The tree in the bent tube, voxel 0.4, sigma 0.02, one thread. Of every way 100 results are looked at. The means of
 
 - `distinct`: results of which no other shares more than half of its (address, value) pairs, which is what
   `Result.unique_models` counts,
@@ -117,7 +117,7 @@ def searched(name: str, score: Any, seed: int, looks_apart: bool) -> dict[str, A
 
 
 def paired(ours: list[dict[str, Any] | None], plain: list[dict[str, Any] | None]) -> dict[str, Any]:
-    """Differences of best scores of the same seeds: mean with a 95 % interval (Student's t), median, how often above."""
+    """Differences of best scores, seed by seed: mean with a 95 % interval (Student's t), median, how often above."""
     both = [(a, b) for a, b in zip(ours, plain, strict=True) if a is not None and b is not None]
     steps = [a["best"] - b["best"] for a, b in both]
     mean, median = statistics.fmean(steps), statistics.median(steps)
@@ -161,7 +161,9 @@ def main(seeds: int = 20, first: int = 1, *names: str) -> int:
     for name in ways:
         for other in ways:
             if other.startswith("plain") and not name.startswith("plain"):
-                print(json.dumps({"way": name, "less": other} | paired(found[name], found[other])), flush=True)
+                print(
+                    json.dumps({"way": name, "less": other} | paired(found[name], found[other])), flush=True
+                )
     return 0
 
 

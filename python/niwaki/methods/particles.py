@@ -135,8 +135,8 @@ def smc(
         ("resampled").
     draws, chains
         Once all have ended, follow `chains` of them, drawn by weight, instead of moving each: `draws` states of each
-        chain, `moves` proposals apart, are the final set. Much cheaper than as many moves of every particle, as a run is
-        built once for a chain, and they go further.
+        chain, `moves` proposals apart, are the final set. Much cheaper than as many moves of every particle, as a run
+        is built once for a chain, and they go further.
     """
     if seconds is not None:
         if not is_number(seconds) or not 0 < seconds < float("inf"):

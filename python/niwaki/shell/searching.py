@@ -64,7 +64,7 @@ Rejuvenate = Annotated[
     typer.Option(
         "--rejuvenate",
         metavar="KERNEL",
-        help="smc: how particles are moved, as in Python: \"mh()\", \"cycle(mh(), drift(0.1))\".",
+        help='smc: how particles are moved, as in Python: "mh()", "cycle(mh(), drift(0.1))".',
     ),
 ]
 Moves = Annotated[
@@ -80,7 +80,9 @@ At = Annotated[
 ]
 Draws = Annotated[
     int | None,
-    typer.Option("--draws", help="With --rejuvenate: so many states of a chain from the final set, instead of it."),
+    typer.Option(
+        "--draws", help="With --rejuvenate: so many states of a chain from the final set, instead of it."
+    ),
 ]
 Chains = Annotated[
     int | None, typer.Option("--chains", help="With --draws: from so many of the final set; default: 1.")

@@ -258,7 +258,7 @@ fn who_is_moved_must_not_depend_on_the_others() {
             mutant,
             ..settings(Order::Stochastic, Resampling::Systematic)
         };
-        z_scores(&task(SOON), &settings, 0..40_000)
+        z_scores(&task(SOON), &settings, 0..100_000)
     };
     let right = scores(None);
     assert!(worst(&right) < LIMIT, "{right:?}");
