@@ -270,6 +270,7 @@ class Task:
         rejuvenate: tuple[Any, ...] | None = None,
         moves: int = 1,
         at: int | str = ...,
+        walks: tuple[int, int] | None = None,
         seconds: float | None = None,
         threads: int | None = None,
         watch: _Watch | None = None,
