@@ -174,7 +174,12 @@ impl Recorder<'_> {
     }
 
     /// A continuous choice with its value; `None` where it has no coordinates of this kind.
-    pub(crate) fn place(&mut self, dist: &Dist<Var>, draw: &Draw, held: bool) -> Result<Option<Placed>, Fault> {
+    pub(crate) fn place(
+        &mut self,
+        dist: &Dist<Var>,
+        draw: &Draw,
+        held: bool,
+    ) -> Result<Option<Placed>, Fault> {
         Ok(Some(match (dist, draw) {
             (Dist::Dirichlet(a), Draw::Vector(x)) if a.len() == x.len() && !held => self.simplex(a, x),
             (Dist::Dirichlet(_) | Dist::MultivariateGaussian(_), Draw::Vector(x)) => {
@@ -186,7 +191,11 @@ impl Recorder<'_> {
                 let Some(x) = draw.as_real() else { return Ok(None) };
                 if held {
                     let value = self.coordinate(x);
-                    return Ok(Some(Placed::plain(Transform::Line, vec![value], dist.log_density_of_real(value))));
+                    return Ok(Some(Placed::plain(
+                        Transform::Line,
+                        vec![value],
+                        dist.log_density_of_real(value),
+                    )));
                 }
                 self.real(dist, x)?
             }
@@ -304,7 +313,10 @@ impl Recorded {
     /// The coordinates of other values of the same choices: [`Recorded::numbers`] backwards. `value` tells the value of
     /// each choice, in their order; the coordinates that are none of a choice are those of the recorded run. `None` where
     /// a value is of another kind, or outside its bounds.
-    pub fn coordinates<'a>(&self, mut value: impl FnMut(&Continuous) -> Option<&'a Value>) -> Option<Vec<f64>> {
+    pub fn coordinates<'a>(
+        &self,
+        mut value: impl FnMut(&Continuous) -> Option<&'a Value>,
+    ) -> Option<Vec<f64>> {
         let mut x = self.start.clone();
         let mut nodes: Vec<f64> = Vec::new();
         for choice in &self.choices {

@@ -49,7 +49,13 @@ impl Model {
     }
 
     fn run(&self) -> Run<'_> {
-        Run { program: &self.program, args: &self.args, limits: self.limits, host: &*self.host, scope: &self.scope }
+        Run {
+            program: &self.program,
+            args: &self.args,
+            limits: self.limits,
+            host: &*self.host,
+            scope: &self.scope,
+        }
     }
 }
 
@@ -148,6 +154,18 @@ impl Live {
             Some(value) => Ok(value),
             None => self.elsewhere(x, g),
         }
+    }
+
+    /// The gradient at `x`, to the bit that of [`Live::value_and_gradient`].
+    ///
+    /// # Errors
+    /// As for [`Live::value_and_gradient`].
+    ///
+    /// # Panics
+    /// As for [`Live::value_and_gradient`].
+    #[inline]
+    pub fn gradient(&mut self, x: &[f64], g: &mut [f64]) -> Result<(), Refused> {
+        if self.paths[self.now].compiled.gradient(x, g) { Ok(()) } else { self.elsewhere(x, g).map(|_| ()) }
     }
 
     #[cold]

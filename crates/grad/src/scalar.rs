@@ -286,7 +286,11 @@ impl Scalar for Var {
         Var::written(self.value.powi(n), |sheet| sheet.graph.powi(Id(self.node), n))
     }
     fn floor(self) -> Var {
-        if self.node == FIXED { Var::from_f64(self.value.floor()) } else { (self - Var::from_f64(0.5)).round() }
+        if self.node == FIXED {
+            Var::from_f64(self.value.floor())
+        } else {
+            (self - Var::from_f64(0.5)).round()
+        }
     }
     fn above(self, bound: f64, over: impl FnOnce() -> Var, under: impl FnOnce() -> Var) -> Var {
         if self.node == FIXED {

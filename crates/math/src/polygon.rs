@@ -140,8 +140,7 @@ pub fn inset<S: Scalar>(corners: &[Point<S>], by: S) -> Option<Vec<Point<S>>> {
         }
         made.push([(p * k[1] - q * m[1]) / sine, (q * m[0] - p * k[0]) / sine]);
     }
-    let kept =
-        edges(corners).zip(edges(&made)).all(|((a, b), (c, d))| dot(minus(b, a), minus(d, c)) > zero);
+    let kept = edges(corners).zip(edges(&made)).all(|((a, b), (c, d))| dot(minus(b, a), minus(d, c)) > zero);
     kept.then_some(made)
 }
 

@@ -29,7 +29,10 @@ pub fn kernel(task: &PyTask, form: &Bound<'_, PyAny>) -> PyResult<Kernel> {
         "regenerate" => Kernel::Regenerate { levels: form.get_item(1)?.extract()? },
         "hmc" => Kernel::Trajectory {
             step: form.get_item(1)?.extract()?,
-            length: Length::Fixed { steps: form.get_item(2)?.extract()?, jitter: form.get_item(3)?.extract()? },
+            length: Length::Fixed {
+                steps: form.get_item(2)?.extract()?,
+                jitter: form.get_item(3)?.extract()?,
+            },
             target: form.get_item(4)?.extract()?,
         },
         "nuts" => Kernel::Trajectory {

@@ -180,7 +180,9 @@ fn module(text: &str) -> niwaki_infer::Task {
         body.replace_range(from..end, "(do (factor -0.1))");
         let _ = data;
     }
-    task(&format!(r#"(module (fn "m" (params) (set $y 0.4) (set $y2 1.0) (set $y3 -0.2) {body}) (entry "m"))"#))
+    task(&format!(
+        r#"(module (fn "m" (params) (set $y 0.4) (set $y2 1.0) (set $y3 -0.2) {body}) (entry "m"))"#
+    ))
 }
 
 #[test]

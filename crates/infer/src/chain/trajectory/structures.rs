@@ -171,8 +171,11 @@ impl Structure {
         let recorded = model.record(&choices(trace, program))?;
         let known = recorded.choices.iter().map(|choice| choice.address);
         let known = known.chain(recorded.fixed.iter().map(|(address, _)| *address)).collect();
-        let numbers: Vec<usize> =
-            recorded.choices.iter().map(|choice| numbers.get(&choice.address).copied().unwrap_or(0)).collect();
+        let numbers: Vec<usize> = recorded
+            .choices
+            .iter()
+            .map(|choice| numbers.get(&choice.address).copied().unwrap_or(0))
+            .collect();
         let mut labels = Vec::with_capacity(recorded.dim());
         for (choice, number) in recorded.choices.iter().zip(&numbers).filter(|(choice, _)| !choice.is_held) {
             labels.extend((0..choice.coordinates).map(|k| label(*number, choice.transform, k)));
