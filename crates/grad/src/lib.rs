@@ -3,6 +3,7 @@
 //! * [`operation`]: what a node computes; [`graph`]: nodes, each kept once, simplified as they are added;
 //! * [`reverse`]: the gradient, as more nodes; [`density`]: a value with its gradient and guards, and its interpreter;
 //! * [`tape`]: a density over lanes, one for each chain, without compilation; [`kernels`]: functions over many numbers;
+//! * [`wide`]: the tapes of a density with their memory;
 //! * [`native`]: machine code by Cranelift;
 //! * [`scalar`]: the number that records what happens to it; [`mod@record`]: a run of a program, recorded;
 //! * [`coordinates`]: from bounded values to coordinates without bounds and back;
@@ -22,6 +23,7 @@ pub mod record;
 pub mod reverse;
 pub mod scalar;
 pub mod tape;
+pub mod wide;
 
 pub use compiled::Compiled;
 pub use coordinates::{Continuous, Transform};
@@ -33,3 +35,4 @@ pub use operation::Op;
 pub use record::{Recorded, Run, Scope, record};
 pub use scalar::Var;
 pub use tape::{Lanes, Tape};
+pub use wide::Wide;

@@ -163,6 +163,18 @@ impl Live {
         }
     }
 
+    /// The gradient at `x`, to the bit that of [`Live::value_and_gradient`].
+    ///
+    /// # Errors
+    /// As for [`Live::value_and_gradient`].
+    ///
+    /// # Panics
+    /// As for [`Live::value_and_gradient`].
+    #[inline]
+    pub fn gradient(&mut self, x: &[f64], g: &mut [f64]) -> Result<(), Refused> {
+        if self.paths[self.now].compiled.gradient(x, g) { Ok(()) } else { self.elsewhere(x, g).map(|_| ()) }
+    }
+
     #[cold]
     fn elsewhere(&mut self, x: &[f64], g: &mut [f64]) -> Result<f64, Refused> {
         for at in 0..self.paths.len() {

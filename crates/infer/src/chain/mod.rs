@@ -52,7 +52,7 @@ use niwaki_vm::value::Value;
 use odds::Table;
 use plan::{Plan, Way};
 use samples::Samples;
-use single::FromPrior;
+use single::{Ahead, FromPrior};
 use snapshot::Snapshot;
 use state::State;
 use std::collections::HashMap;
@@ -120,6 +120,8 @@ pub struct Chain<R: Rules = MetropolisHastings> {
     spreads: Vec<f64>,
     /// The number of proposals so far.
     visit: u64,
+    /// The decisions of the next proposal.
+    ahead: Ahead,
     /// What became of the last proposal.
     last: Decision,
     /// Whether every proposal is undone, to see that nothing is left.
@@ -196,6 +198,7 @@ impl<R: Rules> Chain<R> {
             streams,
             plan,
             tables,
+            ahead: Ahead::of(&streams, 0),
             visit: 0,
             last: Decision::default(),
             undoing: false,

@@ -15,6 +15,7 @@
 use super::moves::{move_ended, move_running};
 use super::population::{BATCH, Population};
 use super::settings::{Settings, Weights};
+use super::walks::Walks;
 use crate::chain::accept::MetropolisHastings;
 use crate::chain::counts::Count;
 use crate::chain::kernel::Kernel;
@@ -53,6 +54,8 @@ pub struct Rejuvenation {
     pub moves: u64,
     /// When.
     pub at: Moment,
+    /// What becomes of the final set; every particle is moved where there is none.
+    pub walks: Option<Walks>,
 }
 
 impl Rejuvenation {
@@ -62,7 +65,8 @@ impl Rejuvenation {
             return Err(Fault::new("bad-setting", "absolute weights have no law that a move could keep")
                 .with_help("use ratio weights"));
         }
-        if self.moves == 0 || self.at == Moment::Every(0) {
+        let stand = self.walks.is_some_and(|walks| walks.chains == 0 || walks.draws == 0);
+        if self.moves == 0 || self.at == Moment::Every(0) || stand {
             return Err(Fault::new("bad-setting", "no move was asked for").with_help("ask for at least one"));
         }
         if anneals(&self.kernel) {
@@ -195,6 +199,8 @@ impl Population<'_> {
         let leaves = (0..rejuvenation.moves).map(|_| mover.plan.next(&mut rng).0).collect();
         let ending = resampled.map(|_| self.barriers - 1);
         let last = ending.is_none();
+        #[cfg(test)]
+        let last = last || self.settings.is(super::tests::Mutant::MovesOn);
         #[cfg(test)]
         let ending = ending.filter(|_| !self.settings.is(super::tests::Mutant::EndsLate));
         let round = Round {

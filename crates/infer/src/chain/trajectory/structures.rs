@@ -3,8 +3,7 @@
 //! A structure's key is a sum over its choices, so it does not depend on their order in the trace's table. What it leaves
 //! open are the values of continuous choices: along them one structure may have several paths, each with its guards, and
 //! [`Live`] keeps those. Graphs are dropped when they together hold too many operations, the longest unused first. Machine
-//! code takes over from a structure's tape after a fixed number of gradients, never by the clock, so that nothing depends
-//! on when it is ready.
+//! code gives the same bits as a structure's tape, so that nothing depends on when it is ready.
 
 use super::scales::LabelId;
 use crate::Failure;
@@ -303,5 +302,15 @@ impl Potential for Target {
         let value = Potential::value_and_gradient(&mut self.live, &self.full, &mut self.slopes)?;
         gradient.iter_mut().zip(&self.moving).for_each(|(slope, k)| *slope = self.slopes[*k]);
         Ok(value)
+    }
+
+    fn gradient(&mut self, x: &[f64], gradient: &mut [f64]) -> Result<(), Stop> {
+        if self.moving.len() == self.full.len() {
+            return Potential::gradient(&mut self.live, x, gradient);
+        }
+        self.moving.iter().zip(x).for_each(|(k, x)| self.full[*k] = *x);
+        Potential::gradient(&mut self.live, &self.full, &mut self.slopes)?;
+        gradient.iter_mut().zip(&self.moving).for_each(|(slope, k)| *slope = self.slopes[*k]);
+        Ok(())
     }
 }

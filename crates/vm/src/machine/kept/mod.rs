@@ -11,6 +11,7 @@
 //! * `part`: activations that are entered for one change only, and run no more than what depends on it;
 //! * `cells`: elements of collections, and those who read them;
 //! * `transaction`: changing choices, keeping or undoing it; `changes`: what that did to the choices;
+//! * `ahead`: memory that the next proposal will need;
 //! * [`inspect`]: what a trace holds, in program order.
 //!
 //! Futures run where they are made, so a future's handle is its value.
@@ -18,6 +19,7 @@
 //! Source: C3, dissertation chapter 3: its cache is the slots, its continuations are (node, program counter).
 
 mod adapt;
+mod ahead;
 mod calls;
 mod cells;
 mod changes;

@@ -102,6 +102,20 @@ impl<S: Scalar> Kept<S> {
             Some(active) if active.header == header => *active,
             _ => Active { header, captures: Entry::Unchanged, over: false },
         };
+        if !active.over {
+            // There are as many iterations as before; what they all capture is all that can have changed for the next.
+            let list = state.nodes[header.0 as usize].slots as usize;
+            let next = self.loops[list].get(n.iteration as usize + 1).copied();
+            return Ok(match next.filter(|_| active.captures != Entry::Unchanged) {
+                Some(next) => {
+                    self.leaves_its_activation();
+                    self.counters.entered += 1;
+                    self.note(Step::Entered(next));
+                    Some((next, self.entry(active.captures)))
+                }
+                None => self.go_on(machine, state, header, false, false),
+            });
+        }
         Ok(match self.iterate(machine, state, active, n.iteration as usize + 1, Handed::Unchanged)? {
             Next::Enter(child, at) => Some((child, at)),
             Next::Ended { changed } => self.go_on(machine, state, header, false, changed),

@@ -134,6 +134,7 @@ impl<S: Scalar> Trace<S> {
     /// order of their addresses, so that it does not depend on the strategy.
     pub fn commit(&mut self, program: &Program<S>) {
         let (state, kept) = (&mut self.state, &mut self.kept);
+        kept.move_readers();
         kept.journal.deaths.sort_unstable();
         while let Some(dead) = kept.journal.deaths.pop() {
             kept.choices.swap_remove(dead as usize);
@@ -172,6 +173,10 @@ impl<S: Scalar> Trace<S> {
     /// Undoes what was done, and leaves the transaction open.
     fn undo(&mut self, program: &Program<S>) {
         let (state, kept) = (&mut self.state, &mut self.kept);
+        while let Some((reader, held)) = kept.journal.moves.pop() {
+            let slot = &mut kept.slots[reader.slot as usize];
+            (slot.held, slot.mark) = (held, slot.mark & !Slot::MOVING);
+        }
         while let Some((reader, held)) = kept.journal.reads.pop() {
             kept.subscribe(reader, held);
         }
