@@ -16,6 +16,9 @@ use niwaki_vm::value::Value;
 
 /// A way to move one choice.
 pub(crate) trait Move {
+    /// Whether it draws from the choice's own distribution, and gives the log density of what it drew.
+    const FROM_PRIOR: bool = false;
+
     /// A new value for a choice at the site of that number, its random bits from `rng`.
     fn propose(
         &mut self,
@@ -35,6 +38,8 @@ pub(crate) trait Move {
 pub(crate) struct FromPrior;
 
 impl Move for FromPrior {
+    const FROM_PRIOR: bool = true;
+
     #[inline(always)]
     fn propose(
         &mut self,
@@ -60,6 +65,8 @@ struct Asked<'a, M> {
 }
 
 impl<M: Move> Propose<f64> for Asked<'_, M> {
+    const FROM_PRIOR: bool = M::FROM_PRIOR;
+
     #[inline]
     fn propose(
         &mut self,

@@ -70,9 +70,17 @@ impl<S: Scalar> Machine<'_, S> {
                 {
                     // Read where it lies: none of its elements comes to lie there.
                     for (k, o) in names.iter().enumerate() {
-                        if let Value::Tuple(tuple) = r.get(state, &self.scratch, from) {
-                            let item = tuple.items()[k].clone();
-                            put(keep, state, &mut self.scratch, r, *o, item);
+                        let Value::Tuple(tuple) = r.get(state, &self.scratch, from) else { continue };
+                        match &tuple.items()[k] {
+                            // Most are numbers, and go over as one word.
+                            Value::Real(x) if !(K::KEEPS && o.is_node()) => {
+                                let x = *x;
+                                r.slot(state, &mut self.scratch, *o).store_real(x);
+                            }
+                            item => {
+                                let item = item.clone();
+                                put(keep, state, &mut self.scratch, r, *o, item);
+                            }
                         }
                     }
                     return Ok(());

@@ -274,3 +274,58 @@ impl Slice {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    //! What a slice holds, as a person would write it down.
+    use super::*;
+    use crate::code::disassemble;
+    use crate::core::parse::parse;
+    use crate::passes::compile;
+
+    /// The instructions from `start` on to the end of a slice.
+    fn slice_from(f: &Function, listing: &[String], start: u32) -> Vec<String> {
+        let mut ops = Vec::new();
+        for (op, line) in f.code.iter().zip(listing).skip(start as usize) {
+            ops.push(line.clone());
+            if matches!(op, Op::Done | Op::Jump { .. } | Op::Return { .. } | Op::ReturnIteration { .. }) {
+                break;
+            }
+        }
+        ops
+    }
+
+    #[test]
+    fn a_slice_holds_what_depends_and_no_more() {
+        let text = r#"(module
+          (fn "f" (params $n $m)
+            (set $k (sample (dist poisson 2.0)))
+            (do (query (str $n) $k))
+            (set $x (sample (dist gaussian $m 1.0)))
+            (set $t (mul $n 2.0))
+            (do (observe (dist gaussian (add $x $k) 1.0) $t))
+            (return $n))
+          (fn "m" (params) (return (call "f" 1.0 2.0))) (entry "m"))"#;
+        let program = compile::<f64>(&parse(text).unwrap(), vec![]).unwrap();
+        let f = &program.functions[0];
+        let text = disassemble(&program);
+        let listing: Vec<String> = text
+            .lines()
+            .skip_while(|line| !line.starts_with("f0 "))
+            .skip(1)
+            .take_while(|line| !line.starts_with("f1 "))
+            .filter(|line| !line.starts_with("     "))
+            .map(|line| line.trim().split_once("  ").unwrap_or(("", line)).1.to_string())
+            .collect();
+        assert_eq!(listing.len(), f.code.len());
+        let has = |start: u32| {
+            let slice = slice_from(f, &listing, start);
+            let part = |word: &str| slice.iter().any(|line| line.contains(word));
+            (part("str"), part("Gaussian") && part("\"x\""), part("Mul"), part("Observe"), part("done"))
+        };
+        // The count: neither the key's text nor the other choice, but the observation with what it reads.
+        assert_eq!(has(f.sites[0].again), (false, false, true, true, true));
+        // The mean of the other choice: that choice, and nothing else unless it changes.
+        assert_eq!(has(f.inputs[1]), (false, true, false, false, true));
+    }
+}

@@ -4,6 +4,7 @@
 //! that a slice leaves out.
 
 use super::super::Machine;
+use super::super::keep::Onward;
 use super::super::registers::Registers;
 use super::super::state::{NodeId, State};
 use super::super::suspend::After;
@@ -80,17 +81,17 @@ impl<S: Scalar> Kept<S> {
         machine: &mut Machine<'_, S>,
         state: &mut State<S>,
         node: NodeId,
-    ) -> Result<Option<(NodeId, u32)>, Fault> {
+    ) -> Result<Onward, Fault> {
         self.note(Step::Unwound(node));
         if self.depth == 0 {
-            return Ok(None);
+            return Ok(Onward::END);
         }
         let n = state.nodes[node.0 as usize];
         if machine.program.function(n.function).mode == Mode::Node {
             let (function, site) = Kept::caller(state, node);
             self.sites.paid(function, site);
             self.depth -= 1;
-            return Ok(self.returns.pop().map(|next| (n.parent, next)));
+            return Ok(self.returns.pop().map_or(Onward::END, |next| Onward::at(n.parent, next)));
         }
         let header = n.parent;
         if i64::from(n.pc) != exit::NEXT {
@@ -111,13 +112,13 @@ impl<S: Scalar> Kept<S> {
                     self.leaves_its_activation();
                     self.counters.entered += 1;
                     self.note(Step::Entered(next));
-                    Some((next, self.entry(active.captures)))
+                    Onward::at(next, self.entry(active.captures))
                 }
                 None => self.go_on(machine, state, header, false, false),
             });
         }
         Ok(match self.iterate(machine, state, active, n.iteration as usize + 1, Handed::Unchanged)? {
-            Next::Enter(child, at) => Some((child, at)),
+            Next::Enter(child, at) => Onward::at(child, at),
             Next::Ended { changed } => self.go_on(machine, state, header, false, changed),
         })
     }

@@ -36,6 +36,9 @@ pub struct Proposed<S: Scalar> {
 
 /// Whoever proposes a new value for one choice.
 pub trait Propose<S: Scalar> {
+    /// Whether it draws from the choice's own distribution: what it proposes forward with is the value's log density.
+    const FROM_PRIOR: bool = false;
+
     /// A new value for the choice, given its distribution, its value and that value's log density.
     ///
     /// # Errors
@@ -240,7 +243,11 @@ impl<S: Scalar> Machine<'_, S> {
         let proposal = self.dist(state, r, site, site.args, &mut made).and_then(|dist| {
             let (question, old) = (At { site, function: f, node, state, program }, &state.registers[place]);
             let proposed = proposer.propose(&question, dist, old, kept.slots[at].log)?;
-            let log = grid(log_density(dist, &proposed.value)?.value());
+            let log = if P::FROM_PRIOR {
+                proposed.forward
+            } else {
+                grid(log_density(dist, &proposed.value)?.value())
+            };
             Ok((proposed, log))
         });
         let (proposed, log) = match proposal {
