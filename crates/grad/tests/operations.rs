@@ -246,11 +246,18 @@ fn every_way(density: &Density, x: &[f64]) {
     let found = tape.lanes::<16>().value_and_gradient(&tape, &rows, &mut many);
     let last: Vec<f64> = many.iter().map(|row| row[15]).collect();
     same("lanes", found[15], &last);
+    let bits =
+        |value: f64, g: &[f64]| -> Vec<u64> { g.iter().chain([&value]).map(|x| x.to_bits()).collect() };
+    let by_tape = bits(found[15], &last);
     let mut native = Native::compile(density).expect("machine code for this processor");
     let found = native.value_and_gradient(x, &mut g);
     same("machine code", found, &g);
+    let sound = |g: &[f64]| g.iter().chain([&found]).all(|x| !x.is_nan());
+    // To the bit, so that a chain need not know which of them it has.
+    assert!(!sound(&g) || bits(found, &g) == by_tape, "machine code and tape differ: {g:?} {last:?}");
     if native.gradient(x, &mut g) {
         same("machine code without the value", value, &g);
+        assert!(!sound(&g) || bits(found, &g) == by_tape, "without the value: {g:?} {last:?}");
     }
 }
 

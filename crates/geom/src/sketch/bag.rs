@@ -59,7 +59,7 @@ impl Bag {
                 let older = newest.take();
                 *newest = Some(Arc::new(Entry { primitive: primitive.clone(), older }));
             }
-            Held::Tree(tree) => tree.insert(*primitive.aabb(), primitive.clone()),
+            Held::Tree(tree) => tree.insert(primitive.clone()),
         }
     }
 
@@ -79,7 +79,7 @@ impl Bag {
                 let mut tree = BoxTree::default();
                 let mut next = newest.as_ref();
                 while let Some(entry) = next {
-                    tree.insert(*entry.primitive.aabb(), entry.primitive.clone());
+                    tree.insert(entry.primitive.clone());
                     next = entry.older.as_ref();
                 }
                 tree

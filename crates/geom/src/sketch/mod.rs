@@ -55,7 +55,7 @@ pub trait SketchSpec: Send + Sync {
 pub(crate) fn same_bag(a: &BoxTree<Primitive>, b: &BoxTree<Primitive>) -> bool {
     let mut rest = a.clone();
     let mut same = a.len() == b.len();
-    b.each(|aabb, primitive| same = same && rest.remove(aabb, |p| p == primitive).is_some());
+    b.each(|primitive| same = same && rest.remove(primitive.aabb(), |p| p == primitive).is_some());
     same
 }
 

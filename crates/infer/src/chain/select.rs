@@ -4,6 +4,7 @@ use super::glob::{last, matches, nearest};
 use super::kernel::Selection;
 use super::odds::{UNIT, Weigh};
 use crate::Failure;
+use niwaki_math::Family;
 use niwaki_vm::code::{Program, SiteKind};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::kept::Trace;
@@ -25,6 +26,24 @@ impl Selection {
     /// Whether every choice is chosen with the same odds.
     pub(crate) fn is_all(&self) -> bool {
         *self == Selection::default()
+    }
+
+    /// Whether one of the program's sites that it may take may draw real numbers.
+    pub(super) fn may_be_continuous(&self, program: &Program) -> bool {
+        use Family::{Bernoulli, Binomial, Categorical, Delta, DiscreteUniform, Geometric, Poisson};
+        let mut sites = program.functions.iter().flat_map(|f| &f.sites);
+        sites.any(|site| {
+            let may = match site.kind {
+                SiteKind::Sample { family } => !matches!(
+                    family,
+                    Bernoulli | Binomial | Categorical | Delta | DiscreteUniform | Geometric | Poisson
+                ),
+                SiteKind::SampleDist | SiteKind::SampleIndexed => true,
+                _ => false,
+            };
+            let takes = |patterns: &Vec<String>| patterns.iter().any(|p| matches(last(p), &site.label));
+            may && self.sites.iter().all(takes)
+        })
     }
 
     fn takes(&self, path: &str) -> bool {

@@ -63,6 +63,20 @@ impl<S: Scalar> Machine<'_, S> {
                 (to, Value::Dist(Arc::new(builtins::make_dist(family, &self.buffer)?)))
             }
             Op::Unpack { from, to } => {
+                let names = &f.operands[to.range()];
+                if let Value::Tuple(tuple) = r.get(state, &self.scratch, from)
+                    && tuple.items().len() == names.len()
+                    && !names.contains(&from)
+                {
+                    // Read where it lies: none of its elements comes to lie there.
+                    for (k, o) in names.iter().enumerate() {
+                        if let Value::Tuple(tuple) = r.get(state, &self.scratch, from) {
+                            let item = tuple.items()[k].clone();
+                            put(keep, state, &mut self.scratch, r, *o, item);
+                        }
+                    }
+                    return Ok(());
+                }
                 let value = r.get(state, &self.scratch, from).clone();
                 let n = iter_len(&value)?;
                 if n != to.len as usize {

@@ -25,6 +25,9 @@ pub(super) trait Keep<S: Scalar>: Sized {
     /// Writes a register of the activation in hand.
     fn write(&mut self, state: &mut State<S>, place: usize, value: Value<S>);
 
+    /// The instruction in hand.
+    fn at(&mut self, pc: usize);
+
     /// Carries out a site.
     #[allow(clippy::too_many_arguments)] // the registers of the loop in `interpret`, by value
     fn site<A: Answers<S>>(
@@ -60,6 +63,25 @@ pub(super) trait Keep<S: Scalar>: Sized {
         carried: Args,
     ) -> Result<Option<(NodeId, u32)>, Fault>;
 
+    /// A call that was made before, of whose arguments only that one may have changed.
+    fn pass(
+        &mut self,
+        machine: &Machine<'_, S>,
+        state: &mut State<S>,
+        r: Registers<'_, S>,
+        node: NodeId,
+        number: SiteId,
+        arg: u16,
+    ) -> After;
+
+    /// An activation leaves what it left before: where to go on, unless the run is over.
+    fn done(
+        &mut self,
+        machine: &mut Machine<'_, S>,
+        state: &mut State<S>,
+        node: NodeId,
+    ) -> Result<Option<(NodeId, u32)>, Fault>;
+
     /// So many instructions were carried out.
     fn count(&mut self, instructions: u64);
 }
@@ -90,6 +112,8 @@ impl<S: Scalar> Keep<S> for Dropped {
     fn enter(&mut self, _: &State<S>, _: NodeId) {}
 
     fn write(&mut self, _: &mut State<S>, _: usize, _: Value<S>) {}
+
+    fn at(&mut self, _: usize) {}
 
     fn site<A: Answers<S>>(
         &mut self,
@@ -123,6 +147,27 @@ impl<S: Scalar> Keep<S> for Dropped {
         _: NodeId,
         _: i64,
         _: Args,
+    ) -> Result<Option<(NodeId, u32)>, Fault> {
+        Ok(None)
+    }
+
+    fn pass(
+        &mut self,
+        _: &Machine<'_, S>,
+        _: &mut State<S>,
+        _: Registers<'_, S>,
+        _: NodeId,
+        _: SiteId,
+        _: u16,
+    ) -> After {
+        After::Next
+    }
+
+    fn done(
+        &mut self,
+        _: &mut Machine<'_, S>,
+        _: &mut State<S>,
+        _: NodeId,
     ) -> Result<Option<(NodeId, u32)>, Fault> {
         Ok(None)
     }

@@ -258,17 +258,23 @@ pub fn contains<S: Scalar>(value: &Value<S>, item: &Value<S>) -> Result<bool, Fa
 
 /// `value.name`: a record's field or a vector's component.
 pub fn field<S: Scalar>(value: &Value<S>, name: &str) -> Result<Value<S>, Fault> {
-    let (found, has) = match value {
-        Value::Record(record) => (record.field(name).cloned(), record.class.fields.join(", ")),
-        Value::Vector(v) => {
-            (v.field(name).map(Value::Real), ["x", "y", "z", "w"][..v.components().len()].join(", "))
-        }
-        _ => (None, String::new()),
+    let found = match value {
+        Value::Record(record) => record.field(name).cloned(),
+        Value::Vector(v) => v.field(name).map(Value::Real),
+        _ => None,
     };
-    found.ok_or_else(|| {
-        let fault = Fault::missing_field(format!("{} has no field `{name}`", value.described()));
-        if has.is_empty() { fault } else { fault.with_help(format!("it has {has}")) }
-    })
+    found.ok_or_else(|| no_field(value, name))
+}
+
+#[cold]
+fn no_field<S: Scalar>(value: &Value<S>, name: &str) -> Fault {
+    let fault = Fault::missing_field(format!("{} has no field `{name}`", value.described()));
+    let has = match value {
+        Value::Record(record) => record.class.fields.join(", "),
+        Value::Vector(v) => ["x", "y", "z", "w"][..v.components().len()].join(", "),
+        _ => String::new(),
+    };
+    if has.is_empty() { fault } else { fault.with_help(format!("it has {has}")) }
 }
 
 #[cold]

@@ -9,6 +9,7 @@ use super::super::registers::Registers;
 use super::super::state::{NodeId, State};
 use super::super::suspend::After;
 use super::journal::Cut;
+use super::part::Entry;
 use super::{Active, Kept, Slot, Step};
 use crate::code::{Args, Loop, Operand, Site, SiteId, SiteKind, exit};
 use crate::fault::Fault;
@@ -17,7 +18,7 @@ use niwaki_math::Scalar;
 
 /// What an iteration is handed by the one before.
 #[derive(Clone, Copy, PartialEq)]
-enum Handed {
+pub(super) enum Handed {
     /// What it was handed the last time.
     Unchanged,
     /// What is in the machine's buffer.
@@ -25,9 +26,9 @@ enum Handed {
 }
 
 /// Where a loop goes on.
-enum Next {
-    /// In this iteration.
-    Enter(NodeId),
+pub(super) enum Next {
+    /// In this iteration, at that instruction.
+    Enter(NodeId, u32),
     /// It has ended, and left what it left before or something else.
     Ended { changed: bool },
 }
@@ -52,12 +53,12 @@ impl<S: Scalar> Kept<S> {
         {
             self.vacate(machine.program, state, node, number.0);
             r.gather(state, &machine.scratch, l.carried, &mut machine.buffer);
-            self.leave(machine, state, node, number, exit::NEXT);
-            return Ok(After::Next);
+            let changed = self.leave(machine, state, node, number, exit::NEXT);
+            return Ok(self.after(r.f, site, changed));
         }
         let over = over.unwrap_or_default();
         let held = self.slots[at].held;
-        let mut active = Active { header: NodeId(held), captures: false, over: false };
+        let mut active = Active { header: NodeId(held), captures: Entry::Unchanged, over: false };
         let captures = &r.f.operands[l.captures.range()];
         if held == Slot::NOTHING {
             let path = join(state.nodes[node.0 as usize].path, site.key);
@@ -72,27 +73,31 @@ impl<S: Scalar> Kept<S> {
             active.header = header;
         } else {
             let to = state.nodes[held as usize].registers as usize;
+            let outers = &machine.program.function(l.body).outers;
             active.over = self.write_to(state, false, to, over);
             for (i, o) in captures.iter().enumerate() {
                 let value = r.get(state, &machine.scratch, *o).clone();
-                active.captures |= self.write_to(state, false, to + 1 + i, value);
+                if self.write_to(state, false, to + 1 + i, value) {
+                    active.captures.add(outers.get(1 + i).copied().unwrap_or(0));
+                }
             }
         }
         r.gather(state, &machine.scratch, l.carried, &mut machine.buffer);
         self.counters.entered += 1;
         self.note(Step::Entered(active.header));
         match self.iterate(machine, state, active, 0, Handed::Buffer)? {
-            Next::Enter(child) => {
+            Next::Enter(child, at) => {
                 self.active.push(active);
                 self.depth += 1;
-                Ok(After::Enter(child))
+                self.returns.push(self.pc + 1);
+                Ok(After::Enter(child, at))
             }
-            Next::Ended { .. } => Ok(After::Next),
+            Next::Ended { changed } => Ok(self.after(r.f, site, changed)),
         }
     }
 
     /// Goes on with iteration `i` of a loop: to the first that must be entered, or to its end.
-    fn iterate(
+    pub(super) fn iterate(
         &mut self,
         machine: &mut Machine<'_, S>,
         state: &mut State<S>,
@@ -141,23 +146,28 @@ impl<S: Scalar> Kept<S> {
                     return Err(machine.out_of_memory());
                 }
                 self.counters.entered += 1;
-                return Ok(Next::Enter(made));
+                return Ok(Next::Enter(made, 0));
             };
             let to = state.nodes[child.0 as usize].registers as usize;
             let mut changed = active.captures;
-            if let Some(element) = element {
-                changed |= self.write_to(state, false, to, element);
+            let inputs = &machine.program.function(state.nodes[child.0 as usize].function).inputs;
+            if let Some(element) = element
+                && self.write_to(state, false, to, element)
+            {
+                changed.add(inputs[0]);
             }
             if handed == Handed::Buffer {
                 for (k, value) in machine.buffer.drain(..).enumerate() {
-                    changed |= self.write_to(state, false, to + first + k, value);
+                    if self.write_to(state, false, to + first + k, value) {
+                        changed.add(inputs[first + k]);
+                    }
                 }
             }
-            if changed || !self.reuse || self.is_marked(child) {
+            if changed != Entry::Unchanged || !self.reuse || self.is_marked(child) {
                 self.leaves_its_activation();
                 self.counters.entered += 1;
                 self.note(Step::Entered(child));
-                return Ok(Next::Enter(child));
+                return Ok(Next::Enter(child, self.entry(changed)));
             }
             self.counters.skipped += 1;
             self.note(Step::Skipped(child));
@@ -190,7 +200,7 @@ impl<S: Scalar> Kept<S> {
         let is_base = self.depth == 0;
         let active = match self.active.last() {
             Some(active) if active.header == header && !is_base => *active,
-            _ => Active { header, captures: false, over: false },
+            _ => Active { header, captures: Entry::Unchanged, over: false },
         };
         if let Some(next) = next
             && self.reuse
@@ -200,7 +210,7 @@ impl<S: Scalar> Kept<S> {
             && i64::from(n.pc) == kind
         {
             // The frequent case: nothing but what is handed on, or what all iterations capture, can have changed.
-            let mut changed = false;
+            let mut changed = active.captures;
             if !operands.is_empty() {
                 let first = usize::from(!matches!(state.registers[above.registers as usize], Value::None));
                 let to = state.nodes[next.0 as usize].registers as usize + first;
@@ -210,15 +220,15 @@ impl<S: Scalar> Kept<S> {
                         let value = value.clone();
                         let old = std::mem::replace(&mut state.registers[to + k], value);
                         self.journal.registers.push(((to + k) as u32, old));
-                        changed = true;
+                        changed.add(r.f.inputs[first + k]);
                     }
                 }
             }
-            if changed || active.captures || self.is_marked(next) {
+            if changed != Entry::Unchanged || self.is_marked(next) {
                 self.leaves_its_activation();
                 self.counters.entered += 1;
                 self.note(Step::Entered(next));
-                return Ok(Some((next, 0)));
+                return Ok(Some((next, self.entry(changed))));
             }
             if is_base {
                 return Ok(None);
@@ -252,7 +262,7 @@ impl<S: Scalar> Kept<S> {
             if is_base && self.early {
                 return Ok(None);
             }
-            if !is_base && !active.captures && !active.over && !self.is_marked(header) {
+            if !is_base && active.captures == Entry::Unchanged && !active.over && !self.is_marked(header) {
                 return Ok(self.go_on(machine, state, header, is_base, false));
             }
         }
@@ -263,13 +273,13 @@ impl<S: Scalar> Kept<S> {
             self.end(machine, state, header, i + 1, kind, Handed::Buffer)
         };
         Ok(match next {
-            Next::Enter(child) => Some((child, 0)),
+            Next::Enter(child, at) => Some((child, at)),
             Next::Ended { changed } => self.go_on(machine, state, header, is_base, changed),
         })
     }
 
     /// The loop has ended: its owner goes on, unless nothing is changed for it.
-    fn go_on(
+    pub(super) fn go_on(
         &mut self,
         machine: &Machine<'_, S>,
         state: &State<S>,
@@ -277,22 +287,22 @@ impl<S: Scalar> Kept<S> {
         is_base: bool,
         changed: bool,
     ) -> Option<(NodeId, u32)> {
-        if is_base {
-            if self.early && !changed {
-                return None;
-            }
-        } else {
-            self.depth -= 1;
-            self.active.pop();
-        }
         let n = &state.nodes[header.0 as usize];
         let owner = &state.nodes[n.parent.0 as usize];
-        if is_base {
-            self.leaves_its_activation();
-            self.counters.entered += 1;
-            self.note(Step::Entered(n.parent));
+        let site = &machine.program.function(owner.function).sites[n.site as usize];
+        if !is_base {
+            self.depth -= 1;
+            self.active.pop();
+            let next = self.returns.pop().unwrap_or(site.next);
+            return Some((n.parent, if changed { site.next } else { next }));
         }
-        Some((n.parent, machine.program.function(owner.function).sites[n.site as usize].next))
+        if self.early && !changed {
+            return None;
+        }
+        self.leaves_its_activation();
+        self.counters.entered += 1;
+        self.note(Step::Entered(n.parent));
+        Some((n.parent, if self.early { site.again } else { site.next }))
     }
 
     fn is_for(&self, state: &State<S>, header: NodeId) -> bool {

@@ -8,8 +8,10 @@
 //! * `slot`, `journal`: what is remembered, and what can be undone;
 //! * `questions`: choices, factors, emits and queries that are reached again;
 //! * `calls`, `loops`: activations that are entered, skipped, made and taken away; `adapt`: calls that never pay;
+//! * `part`: activations that are entered for one change only, and run no more than what depends on it;
 //! * `cells`: elements of collections, and those who read them;
 //! * `transaction`: changing choices, keeping or undoing it; `changes`: what that did to the choices;
+//! * `ahead`: memory that the next proposal will need;
 //! * [`inspect`]: what a trace holds, in program order.
 //!
 //! Futures run where they are made, so a future's handle is its value.
@@ -17,12 +19,14 @@
 //! Source: C3, dissertation chapter 3: its cache is the slots, its continuations are (node, program counter).
 
 mod adapt;
+mod ahead;
 mod calls;
 mod cells;
 mod changes;
 pub mod inspect;
 mod journal;
 mod loops;
+mod part;
 mod questions;
 mod slot;
 mod transaction;
@@ -47,6 +51,7 @@ use cells::{Reader, Readers};
 use journal::Journal;
 use niwaki_geom::Primitive;
 use niwaki_math::Scalar;
+use part::Entry;
 use slot::Slot;
 
 /// How much of a run is done again when a choice changes.
@@ -113,7 +118,7 @@ pub(crate) struct ChoiceAt {
 struct Active {
     header: NodeId,
     /// What its iterations capture has changed.
-    captures: bool,
+    captures: Entry,
     /// What it runs over has changed.
     over: bool,
 }
@@ -158,11 +163,16 @@ pub(crate) struct Kept<S: Scalar> {
     /// Log densities of choices that were drawn, and of those that went.
     pub fresh: f64,
     pub stale: f64,
+    /// The changed choice was to have a value that it cannot have.
+    pub outside: bool,
     /// The changed choices: slot, and the log densities of changing it there and back.
     pub changed: Vec<(u32, f64, f64)>,
     pub now: u32,
     // The run in progress.
     depth: u32,
+    /// The instruction in hand, and where each activation entered from above goes on when it is left.
+    pc: u32,
+    returns: Vec<u32>,
     /// The activation in hand was made in this transaction: nothing of it needs to be journaled.
     quiet: bool,
     early: bool,
@@ -209,9 +219,12 @@ impl<S: Scalar> Kept<S> {
             result_before: None,
             fresh: 0.0,
             stale: 0.0,
+            outside: false,
             changed: vec![],
             now: 0,
             depth: 0,
+            pc: 0,
+            returns: vec![],
             quiet: false,
             early: false,
             reuse: false,
@@ -328,6 +341,11 @@ impl<S: Scalar> Keep<S> for Kept<S> {
     }
 
     #[inline(always)]
+    fn at(&mut self, pc: usize) {
+        self.pc = pc as u32;
+    }
+
+    #[inline(always)]
     fn write(&mut self, state: &mut State<S>, place: usize, value: Value<S>) {
         let register = &mut state.registers[place];
         if self.quiet {
@@ -386,6 +404,29 @@ impl<S: Scalar> Keep<S> for Kept<S> {
         carried: Args,
     ) -> Result<Option<(NodeId, u32)>, Fault> {
         let next = self.end_of_iteration(machine, state, r, node, exit, carried)?;
+        Ok(next.filter(|_| !self.tangled))
+    }
+
+    #[inline]
+    fn pass(
+        &mut self,
+        machine: &Machine<'_, S>,
+        state: &mut State<S>,
+        r: Registers<'_, S>,
+        node: NodeId,
+        number: SiteId,
+        arg: u16,
+    ) -> After {
+        self.pass_one(machine, state, r, node, number, arg)
+    }
+
+    fn done(
+        &mut self,
+        machine: &mut Machine<'_, S>,
+        state: &mut State<S>,
+        node: NodeId,
+    ) -> Result<Option<(NodeId, u32)>, Fault> {
+        let next = self.leave_unchanged(machine, state, node)?;
         Ok(next.filter(|_| !self.tangled))
     }
 
