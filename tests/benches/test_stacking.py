@@ -59,23 +59,26 @@ def bounded() -> float:
 def drawn_by(original: bool) -> np.ndarray:
     density = nw.log_density(nw.run(bounded, seed=1).best)
     units = Units(density, density.start) if original else None
-    x, steps, _ = walk(density, density.start, units, 10_000, 1, lambda *_: None)
+    steps = np.ones(3)
+    if not original:
+        _, steps, _ = walk(density, density.start, units, 3000, 1, lambda *_: None)
     kept: list[np.ndarray] = []
-    walk(density, x, units, 40_000, 2, keeper(kept, 20), None if original else steps)
+    walk(density, density.start, units, 30_000, 2, keeper(kept, 15), steps)
     return np.array([list(density.values(x).values()) for x in kept])
 
 
 def test_the_chain_that_is_put_right_draws_from_the_model():
     found = drawn_by(original=False)
     assert effective(found[None, :, :]) > 300
-    assert found.mean(axis=0) == pytest.approx([3.5, 0.5, 0.0], abs=0.2)
-    assert found.std(axis=0) == pytest.approx([3.0 / 12**0.5, 0.5, 1.0], rel=0.15)
+    assert found.mean(axis=0) == pytest.approx([3.5, 0.5, 0.0], abs=0.25)
+    assert found.std(axis=0) == pytest.approx([3.0 / 12**0.5, 0.5, 1.0], rel=0.2)
 
 
 def test_the_original_chain_draws_from_another():
     # The Jacobian of y in (a, b), (y - a)(b - y), and that of y above 0, y, are in its density.
     found = drawn_by(original=True)
-    assert found.mean(axis=0) == pytest.approx([3.5, 1.0, 0.0], abs=0.2)
+    assert effective(found[None, :, :]) > 300
+    assert found.mean(axis=0) == pytest.approx([3.5, 1.0, 0.0], abs=0.25)
     assert found.std(axis=0) == pytest.approx([3.0 / 20**0.5, 0.5**0.5, 1.0], rel=0.15)
 
 
