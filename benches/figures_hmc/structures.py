@@ -10,10 +10,10 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
-import towers_and_arches as pages
-
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
+import towers_and_arches as pages
+from failures import failures
 from stacking.kinds import KINDS
 from stacking.table import HEAD, line, summary
 from stacks import FOLLOWING, measure
@@ -35,12 +35,12 @@ FOLLOWED = (*COMPARED, "symmetric_arch", "symmetric_tri_arch", "tilt_stack", "ev
 def draw(folder: Path, tell: Callable[[dict], None], quick: bool) -> None:
     """Draw and judge what is missing, then the pages and the table."""
     chains = Path(os.environ.get("STACKS") or folder / "stacks")
-    draws, names = (2, 1) if quick else (50, None)
+    draws, count, names = (3, 2, 1) if quick else (50, 4, None)
     for name in FOLLOWED[:names]:
-        measure(name, FOLLOWING, chains, draws, range(4), 50 if quick else None)
+        measure(name, FOLLOWING, chains, draws, range(count), 30 if quick else None)
     for way in ("mh-original", "mh-adaptive"):
         for name in COMPARED[:names]:
-            measure(name, way, chains, 4 * draws, range(1), 2000 if quick else None)
+            measure(name, way, chains, count * draws, range(1), 200 if quick else None)
     print("\n".join(HEAD), flush=True)
     for way in (FOLLOWING, "mh-original", "mh-adaptive"):
         for name in FOLLOWED:
@@ -54,6 +54,7 @@ def draw(folder: Path, tell: Callable[[dict], None], quick: bool) -> None:
     pages.gallery(folder / "figure-4-11.png", chains, ("symmetric_arch", "symmetric_tri_arch"), azimuth=0.0)
     pages.tilted(folder / "figure-4-12.png", chains)
     pages.gallery(folder / "figure-4-13.png", chains, ("every_step",))
+    failures(folder / "failures.png", chains)
 
 
 def seconds(folder: Path, chains: Path) -> None:

@@ -43,7 +43,8 @@ def scene_of(kind: Kind, found: list[Drawn], place: tuple[int, int]) -> Scene:
 
 def far_apart(kind: Kind, folder: Path, found: list[Drawn], count: int) -> list[tuple[int, int]]:
     """Draws that pass, each as far as can be from those before it; the first is nearest to the mean."""
-    good = [(row["chain"], row["draw"]) for row in Verdicts(folder, kind.name, "nuts") if passes(row)]
+    rows = list(Verdicts(folder, kind.name, "nuts"))
+    good = [(row["chain"], row["draw"]) for row in [row for row in rows if passes(row)] or rows]
     at = corners(kind, found)
     flat = np.array([at[place] for place in good if place[1] < at.shape[1]])
     taken = [int(np.argmin(((flat - flat.mean(axis=0)) ** 2).sum(axis=1)))]

@@ -17,7 +17,7 @@ from stacking.kinds import Kind
 
 WARMUP = 300
 #: Transitions for each draw; up to 1023 leapfrog steps each.
-THIN = 2
+THIN = 5
 
 
 def draw(kind: Kind, chain: int, draws: int, warmup: int = WARMUP, thin: int = THIN) -> Drawn:

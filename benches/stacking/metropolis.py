@@ -2,9 +2,10 @@
 
 `original` is the dissertation's, as its program has it: a step in the choice's own units, scored by the density of the
 unbounded coordinates, Jacobian and all (which is the density of another model); bounds by clamping; a bandwidth for
-each choice that starts at 0.002 and grows or shrinks by 1 % at every proposal, for ever; latent forces start at
-nothing. `adaptive` is put right: steps in the coordinates that the density is over, bandwidths adapted towards an
-acceptance of 0.234 in the warm-up and frozen after it, and the same start as the chains that follow the gradient.
+each choice that starts at 0.002 and grows or shrinks by 1 % at every proposal, for ever, as the share accepted so far
+is above 0.234 or below, which overshoots; latent forces start at nothing. `adaptive` is put right: steps in the
+coordinates that the density is over, each bandwidth led to an acceptance of 0.44 (the best for one coordinate) by gains
+that fall, in the warm-up only, and the same start as the chains that follow the gradient.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ from stacking.kinds import Kind
 
 #: Evaluations before the first draw, and for each draw: what 100 and one trajectory of 1000 steps were counted as.
 BURN_IN, THIN = 200_000, 2000
-TARGET = 0.234
+TARGET, BEST = 0.234, 0.44
 #: The logarithm of 1e-15, where the original's pushes start.
 NOTHING = np.log(1e-15)
 
@@ -109,16 +110,16 @@ def walk(
         x[i] = units.coordinate(i, units.value(i, before) + by) if units else before + by
         found = density(x)
         tried[i] += 1
-        if np.log(random.uniform()) < found - score:
+        accepted = np.log(random.uniform()) < found - score
+        if accepted:
             score = found
             taken[i] += 1
         else:
             x[i] = before
-        if frozen is None:
-            good = taken[i] / tried[i] > TARGET
-            # The original's factor; ours shrinks with time, so that there is something to freeze.
-            rate = 1.01 if units else 1.0 + 1.0 / np.sqrt(10.0 + tried[i])
-            steps[i] = steps[i] * rate if good else steps[i] / rate
+        if frozen is None and units:
+            steps[i] *= 1.01 if taken[i] / tried[i] > TARGET else 1.0 / 1.01
+        elif frozen is None:
+            steps[i] *= np.exp((accepted - BEST) * tried[i] ** -0.6)
         see(number, x)
     return x, steps, float(taken.sum() / max(tried.sum(), 1))
 
