@@ -265,7 +265,10 @@ def _check_moves(rejuvenate: Any, moves: int, at: Any, weights: str) -> None:
         raise bad("rejuvenate", rejuvenate, "a kernel", "one of `niwaki.kernels`, such as `kernels.mh()`")
     if weights == "absolute":
         raise bad(
-            "rejuvenate", rejuvenate, "nothing beside absolute weights, which have no law to keep", '"ratio"'
+            "rejuvenate",
+            rejuvenate,
+            "nothing beside absolute weights, which have no law to keep",
+            'None, or `weights` to "ratio"',
         )
     changing = _first(rejuvenate, ("anneal", "temper"))
     if changing is not None:
