@@ -41,6 +41,17 @@ impl Hull {
         Hull::over(vertices, topology, true)
     }
 
+    /// A prism over a regular polygon, whose opposite sides are parallel when there is an even number of them.
+    pub(crate) fn prism(vertices: Vec<Vec3>, sides: usize) -> Option<Hull> {
+        let topology = Topology::prism(sides);
+        if sides % 2 == 1 {
+            return Hull::new(vertices, topology);
+        }
+        let faces = topology.faces[..sides / 2].iter().chain([&topology.faces[sides]]);
+        let normals = faces.map(|face| face_normal(face, &vertices)).collect::<Option<Vec<Vec3>>>()?;
+        Hull::made(vertices, normals, topology)
+    }
+
     fn over(vertices: Vec<Vec3>, topology: Arc<Topology>, flat_faces: bool) -> Option<Hull> {
         let mut normals = Vec::with_capacity(topology.faces.len());
         for face in &topology.faces {
@@ -50,6 +61,10 @@ impl Hull {
                 None => return None,
             }
         }
+        Hull::made(vertices, normals, topology)
+    }
+
+    fn made(vertices: Vec<Vec3>, normals: Vec<Vec3>, topology: Arc<Topology>) -> Option<Hull> {
         let width = narrowest(&vertices[..topology.corners], &normals);
         let points = [&vertices[..], &normals].concat().into();
         let edges = OnceLock::new();
@@ -161,13 +176,20 @@ pub(crate) fn cuboid(size: Vec3, taper: f64, placement: &Placement) -> [Vec3; 8]
 /// Extent of `points` along `axis`.
 #[inline]
 pub(crate) fn span(points: &[Vec3], axis: Vec3) -> (f64, f64) {
-    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    for p in points {
+    // Two at a time, so that one need not wait for the other.
+    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    let mut look = |k: usize, p: &Vec3| {
         let along = p.dot(axis);
-        low = if along < low { along } else { low };
-        high = if along > high { along } else { high };
+        low[k] = if along < low[k] { along } else { low[k] };
+        high[k] = if along > high[k] { along } else { high[k] };
+    };
+    let (pairs, rest) = points.as_chunks::<2>();
+    for [p, q] in pairs {
+        look(0, p);
+        look(1, q);
     }
-    (low, high)
+    rest.iter().for_each(|p| look(0, p));
+    (low[0].min(low[1]), high[0].max(high[1]))
 }
 
 /// Newell's normal: exact for planar faces, the mean one otherwise.

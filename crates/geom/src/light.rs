@@ -51,7 +51,7 @@ fn prism(bottom: f64, top: f64, length: f64, sides: usize, placement: &Placement
     }
     vertices.extend(ring(sides).map(|(sin, cos)| placement.apply(vec3(sin * top, half, cos * top))));
     vertices.extend([-half, half].map(|y| placement.apply(vec3(0.0, y, 0.0))));
-    Hull::new(vertices, Topology::prism(sides))
+    if top == bottom { Hull::prism(vertices, sides) } else { Hull::new(vertices, Topology::prism(sides)) }
 }
 
 /// Sine and cosine of `2 pi k / sides`. Exact on the axes, where flush attachment needs it.

@@ -17,7 +17,8 @@ pub fn boxes_apart(a: &Aabb, b: &Aabb, tolerance: f64) -> bool {
 
 /// True when a face normal of either has the solids overlap by no more than `tolerance`.
 pub fn faces_apart(a: &Convex<'_>, b: &Convex<'_>, tolerance: f64) -> bool {
-    a.normals().iter().chain(b.normals()).any(|n| apart(a, b, *n, tolerance))
+    // Ends come last among the faces, and what is built flush touches with its ends.
+    a.normals().iter().rev().chain(b.normals().iter().rev()).any(|n| apart(a, b, *n, tolerance))
 }
 
 /// True when the solids overlap by more than `tolerance`, scene units, in every direction.

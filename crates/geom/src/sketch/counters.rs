@@ -1,10 +1,11 @@
 //! How many shapes fill each cell of a grid, in bricks that copies share.
 //!
-//! A brick is 64 by 8 by 8 cells: 64 words, one bit for each cell.
+//! A brick is 64 by 8 by 8 cells: 64 words, one bit for each cell. A brick without counts is not stored, so that
+//! equal counts are equal data.
 
-use super::brick::Plane;
-use super::pages::Pages;
+use super::brick::{Brick, Plane};
 use crate::voxel::{CellBox, Voxels};
+use std::sync::Arc;
 
 /// Cells along x, y and z in one brick; row (y, z) of it is word `8 * z + y`.
 pub const BRICK: [usize; 3] = [64, 8, 8];
@@ -23,10 +24,13 @@ pub struct Change {
     pub inside: i64,
 }
 
+/// Bricks of one layer of z. Copies share layers too, so that a change copies references to few bricks.
+type Layer = Arc<Vec<Option<Arc<Brick>>>>;
+
 /// A count for every cell of a grid. Cloning shares all bricks.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Counters {
-    bricks: Pages,
+    layers: Arc<Vec<Layer>>,
     across: [usize; 3],
 }
 
@@ -34,49 +38,67 @@ impl Counters {
     /// All zero.
     pub fn new(dims: [usize; 3]) -> Counters {
         let across = bricks_of(dims);
-        Counters { bricks: Pages::new(across.iter().product()), across }
+        let layer: Layer = Arc::new(vec![None; across[0] * across[1]]);
+        Counters { layers: Arc::new(vec![layer; across[2]]), across }
     }
 
     /// Adds one to every cell of `voxels`; `target` tells which filled cells are wanted.
     pub fn add(&mut self, voxels: &Voxels, target: &[Plane]) -> Change {
+        let (layers, size) = (Arc::make_mut(&mut self.layers), self.across[0] * self.across[1]);
         let mut change = Change::default();
         visit(&voxels.cells, self.across, |index, column, words| {
-            self.bricks.change(index, |brick| {
-                for (word, y, z) in words {
-                    let new = brick.raise(word, voxels.word(column, y, z));
-                    change.filled += i64::from(new.count_ones());
-                    change.inside += i64::from((new & target[index][word]).count_ones());
-                }
-            });
+            let place = &mut Arc::make_mut(&mut layers[index / size])[index % size];
+            let is_new = place.is_none();
+            let brick = Arc::make_mut(place.get_or_insert_with(Arc::default));
+            for (word, y, z) in words {
+                let cells = voxels.word(column, y, z);
+                let new = brick.raise(word, cells);
+                change.filled += i64::from(new.count_ones());
+                change.inside += i64::from((new & target[index][word]).count_ones());
+            }
+            if is_new && brick.is_empty() {
+                *place = None;
+            }
         });
         change
     }
 
     /// Takes one from every cell of `voxels`, all of which must have one.
     pub fn remove(&mut self, voxels: &Voxels, target: &[Plane]) -> Change {
+        let (layers, size) = (Arc::make_mut(&mut self.layers), self.across[0] * self.across[1]);
         let mut change = Change::default();
         visit(&voxels.cells, self.across, |index, column, words| {
-            self.bricks.change(index, |brick| {
-                for (word, y, z) in words {
-                    let gone = brick.lower(word, voxels.word(column, y, z));
-                    change.filled -= i64::from(gone.count_ones());
-                    change.inside -= i64::from((gone & target[index][word]).count_ones());
-                }
-            });
+            let place = &mut Arc::make_mut(&mut layers[index / size])[index % size];
+            let Some(brick) = place else { return };
+            let brick = Arc::make_mut(brick);
+            for (word, y, z) in words {
+                let cells = voxels.word(column, y, z);
+                let gone = brick.lower(word, cells);
+                change.filled -= i64::from(gone.count_ones());
+                change.inside -= i64::from((gone & target[index][word]).count_ones());
+            }
+            if brick.trim() {
+                *place = None;
+            }
         });
         change
+    }
+
+    fn bricks(&self) -> impl Iterator<Item = &Option<Arc<Brick>>> {
+        self.layers.iter().flat_map(|layer| layer.iter())
     }
 
     /// Count of one cell.
     pub fn get(&self, cell: [usize; 3]) -> u32 {
         let [x, y, z] = cell;
-        let index = ((z / 8) * self.across[1] + y / 8) * self.across[0] + x / 64;
-        self.bricks.get(index).map_or(0, |brick| brick.get(z % 8 * 8 + y % 8, x % 64))
+        let brick = &self.layers[z / 8][y / 8 * self.across[0] + x / 64];
+        brick.as_ref().map_or(0, |brick| brick.get(z % 8 * 8 + y % 8, x % 64))
     }
 
     /// Bricks that this and `other` share in memory.
     pub fn shared_with(&self, other: &Counters) -> usize {
-        self.bricks.shared_with(&other.bricks)
+        let pairs = self.bricks().zip(other.bricks());
+        pairs.filter(|(a, b)| matches!((a, b), (Some(a), Some(b)) if Arc::ptr_eq(a, b))).count()
     }
 }
 

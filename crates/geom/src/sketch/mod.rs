@@ -5,7 +5,6 @@
 //!
 //! - [`volume`], over [`counters`]: fill a target's volume
 //! - [`picture`], over [`tiles`]: look like a picture, or cast a shadow like one
-//! - [`pages`] of [`brick`]s: what both count in
 //! - [`intersection`]: parts must not run into each other
 //! - [`avoid`], [`floor`]: keep out of an obstacle, stay above a floor
 //! - [`overshoot`]: stay inside of a box
@@ -19,7 +18,6 @@ pub mod counters;
 pub mod floor;
 pub mod intersection;
 pub mod overshoot;
-pub mod pages;
 pub mod picture;
 pub mod product;
 pub mod tiles;

@@ -1,23 +1,23 @@
 //! How many shapes each ray of a picture meets, in tiles that copies share.
 //!
 //! A tile is 64 bundles of 64 rays that are near each other. Changing one copies that tile only, and only when
-//! somebody else holds it.
+//! somebody else holds it; a tile without counts is not stored.
 
 use super::brick::Brick;
-use super::pages::Pages;
 use crate::view::Cover;
+use std::sync::Arc;
 
 /// Words of one tile.
 const TILE: usize = 64;
 
 /// A count for every ray. Cloning shares all tiles.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Tiles(Pages);
+pub struct Tiles(Arc<Vec<Option<Arc<Brick>>>>);
 
 impl Tiles {
     /// All zero, for as many words of rays.
     pub fn new(words: usize) -> Tiles {
-        Tiles(Pages::new(words.div_ceil(TILE)))
+        Tiles(Arc::new(vec![None; words.div_ceil(TILE)]))
     }
 
     /// Adds one to every ray of `cover`; `each` is told the rays of each word that met nothing before.
@@ -29,29 +29,40 @@ impl Tiles {
     /// meet nothing now.
     pub fn remove(&mut self, cover: &Cover, mut each: impl FnMut(usize, u64)) {
         self.visit(cover, |brick, word, rays| each(word, brick.lower(word % TILE, rays)));
+        let tiles = Arc::make_mut(&mut self.0);
+        for words in cover.words().chunk_by(|a, b| a.0 as usize / TILE == b.0 as usize / TILE) {
+            let tile = &mut tiles[words[0].0 as usize / TILE];
+            if tile.as_mut().is_some_and(|brick| Arc::make_mut(brick).trim()) {
+                *tile = None;
+            }
+        }
     }
 
     fn visit(&mut self, cover: &Cover, mut each: impl FnMut(&mut Brick, usize, u64)) {
+        if cover.words().is_empty() {
+            return;
+        }
+        let tiles = Arc::make_mut(&mut self.0);
         for words in cover.words().chunk_by(|a, b| a.0 as usize / TILE == b.0 as usize / TILE) {
-            let tile = words[0].0 as usize / TILE;
-            self.0.change(tile, |brick| {
-                words.iter().for_each(|(word, rays)| each(brick, *word as usize, *rays))
-            });
+            let tile = tiles[words[0].0 as usize / TILE].get_or_insert_with(Arc::default);
+            let brick = Arc::make_mut(tile);
+            words.iter().for_each(|(word, rays)| each(brick, *word as usize, *rays));
         }
     }
 
     /// Rays of a word that meet a shape.
     pub fn any(&self, word: usize) -> u64 {
-        self.0.get(word / TILE).map_or(0, |brick| brick.any(word % TILE))
+        self.0[word / TILE].as_ref().map_or(0, |brick| brick.any(word % TILE))
     }
 
     /// How many shapes a ray meets.
     pub fn get(&self, ray: usize) -> u32 {
-        self.0.get(ray / 64 / TILE).map_or(0, |brick| brick.get(ray / 64 % TILE, ray % 64))
+        self.0[ray / 64 / TILE].as_ref().map_or(0, |brick| brick.get(ray / 64 % TILE, ray % 64))
     }
 
     /// Tiles that this and `other` share in memory.
     pub fn shared_with(&self, other: &Tiles) -> usize {
-        self.0.shared_with(&other.0)
+        let pairs = self.0.iter().zip(other.0.iter());
+        pairs.filter(|(a, b)| matches!((a, b), (Some(a), Some(b)) if Arc::ptr_eq(a, b))).count()
     }
 }

@@ -39,8 +39,8 @@ pub struct Voxels {
 enum Kind {
     /// Every cell of the box.
     Block,
-    /// For each (y, z) of the box, y fastest, the first and last x; nothing when first is above last.
-    Rows(Vec<(u32, u32)>),
+    /// One run of x for each row.
+    Rows(slabs::Rows),
     /// Any set.
     Bits(Bits),
 }
@@ -69,7 +69,7 @@ impl Voxels {
             Kind::Block => (self.cells.low[0], self.cells.high[0]),
             Kind::Rows(rows) => {
                 let [_, y0, z0] = self.cells.low;
-                let (first, last) = rows[(z - z0) * (self.cells.high[1] - y0 + 1) + (y - y0)];
+                let (first, last) = rows.get(y - y0, z - z0);
                 (first as usize, last as usize)
             }
             Kind::Bits(bits) => {

@@ -6,6 +6,7 @@ use super::block::Block;
 use super::drift::Drift;
 use super::kernel::{Kernel, Selection};
 use super::neighbour::Neighbour;
+use super::trajectory::Trajectory;
 use super::user::User;
 use crate::Failure;
 use niwaki_math::Stream;
@@ -21,6 +22,7 @@ pub(crate) enum Way {
     ByFamily,
     Block(Box<Block>),
     Regenerate(usize),
+    Trajectory(Box<Trajectory>),
     User(Arc<User>),
 }
 
@@ -101,6 +103,9 @@ impl Plan {
                 adapting: false,
             }))),
             Kernel::Regenerate { levels } => leaf(Way::Regenerate(*levels)),
+            Kernel::Trajectory { length, step, target } => {
+                leaf(Way::Trajectory(Box::new(Trajectory::new(*length, *step, *target))))
+            }
             Kernel::ByFamily => leaf(Way::ByFamily),
             Kernel::User(user) => leaf(Way::User(user.clone())),
             Kernel::On(inner, kernel) => return self.add(kernel, &selection.and(inner), sites),
@@ -147,6 +152,14 @@ impl Plan {
         };
         self.branches.push(branch);
         Ok(self.branches.len() - 1)
+    }
+
+    /// The leaves that follow the gradient.
+    pub fn trajectories(&self) -> impl Iterator<Item = &Trajectory> {
+        self.leaves.iter().filter_map(|leaf| match &leaf.way {
+            Way::Trajectory(own) => Some(&**own),
+            _ => None,
+        })
     }
 
     /// Whether it is one leaf that draws from the prior, all choices alike.

@@ -31,13 +31,13 @@ use std::sync::Arc;
 
 const REPLICATES: u64 = 4000;
 const PROPOSALS: u64 = 12;
-const LIMIT: f64 = 2.86;
+pub const LIMIT: f64 = 2.86;
 
 /// Values of choices by address.
 type Known = HashMap<u128, Value>;
 
 /// Each twice: drawing its data (`DATA` is a choice) and observing what it is given.
-const PROGRAMS: [(&str, &str); 6] = [
+pub const PROGRAMS: [(&str, &str); 6] = [
     (
         "location and scale",
         r#"(set $x (sample (dist gaussian 0.0 1.0))) (set $s (sample (dist gamma 2.0 1.0)))
@@ -82,30 +82,38 @@ const PROGRAMS: [(&str, &str); 6] = [
     ),
 ];
 
-/// The program that draws its data, with so many times the deviation, and the one that observes them.
-fn both(text: &str, widened: f64) -> (Task, Task) {
-    let filled = |head: &str, data: &dyn Fn(&str) -> String| {
-        let from = text.find("DATA(").expect("data");
-        let rest = &text[from + 5..];
+/// The program that draws its data, with so many times the deviation, the one that observes them (`$y`, `$y2`, ...), and how many there are.
+fn both(text: &str, widened: f64) -> (Task, Task, usize) {
+    let wide = |dist: &str| match dist.rsplit_once(' ') {
+        Some((head, deviation)) if widened != 1.0 => format!("{head} (mul {widened} {deviation})"),
+        _ => dist.to_string(),
+    };
+    let (mut drawing, mut observing, mut names) = (String::new(), String::new(), Vec::new());
+    let mut rest = text;
+    while let Some(from) = rest.find("DATA(") {
+        let behind = &rest[from + 5..];
         let (mut open, mut end) = (1, 0);
-        for (i, c) in rest.char_indices() {
+        for (i, c) in behind.char_indices() {
             open += i32::from(c == '(') - i32::from(c == ')');
             if open == 0 {
                 end = i;
                 break;
             }
         }
-        let body = format!("{}{}{}", &text[..from], data(&rest[..end]), &rest[end + 1..]);
-        task(&format!(r#"(module (fn "m" (params {head}) {body}) (entry "m"))"#))
+        let number = names.len() + 1;
+        let name = if number == 1 { "$y".to_string() } else { format!("$y{number}") };
+        for body in [&mut drawing, &mut observing] {
+            body.push_str(&rest[..from]);
+        }
+        drawing += &format!("(set {name} (sample (dist {})))", wide(&behind[..end]));
+        observing += &format!("(do (observe (dist {}) {name}))", &behind[..end]);
+        names.push(name);
+        rest = &behind[end + 1..];
+    }
+    let filled = |head: &str, body: &str| {
+        task(&format!(r#"(module (fn "m" (params {head}) {body}{rest}) (entry "m"))"#))
     };
-    let wide = |dist: &str| match dist.rsplit_once(' ') {
-        Some((head, deviation)) if widened != 1.0 => format!("{head} (mul {widened} {deviation})"),
-        _ => dist.to_string(),
-    };
-    (
-        filled("", &|dist| format!("(set $y (sample (dist {})))", wide(dist))),
-        filled("$y", &|dist| format!("(do (observe (dist {dist}) $y))")),
-    )
+    (filled("", &drawing), filled(&names.join(" "), &observing), names.len())
 }
 
 /// The deviation of the data, where it is constant.
@@ -148,20 +156,31 @@ fn tempered(drawing: &Task, given: &Task, deviation: f64, power: f64, replicate:
 }
 
 /// The largest of the coordinates' Kolmogorov distances, in units of sqrt(2 / n).
-fn distance<R: Rules>(text: &str, kernel: &Kernel) -> f64 {
-    distance_at::<R>(text, kernel, 1.0, &[1.0])
+pub fn distance<R: Rules>(text: &str, kernel: &Kernel) -> f64 {
+    distance_of::<R>(text, kernel, REPLICATES)
 }
 
-/// As [`distance`], of a kernel that holds the score at one temperature, or of chains at several.
-fn distance_at<R: Rules>(text: &str, kernel: &Kernel, held: f64, temperatures: &[f64]) -> f64 {
-    let (drawing, observing) = both(text, held.sqrt());
+/// The same, of so many replicates.
+pub fn distance_of<R: Rules>(text: &str, kernel: &Kernel, replicates: u64) -> f64 {
+    distance_at::<R>(text, kernel, replicates, 1.0, &[1.0])
+}
+
+/// The same, of a kernel that holds the score at one temperature, or of chains at several.
+fn distance_at<R: Rules>(
+    text: &str,
+    kernel: &Kernel,
+    replicates: u64,
+    held: f64,
+    temperatures: &[f64],
+) -> f64 {
+    let (drawing, observing, data) = both(text, held.sqrt());
     let (mut fresh, mut kept): (Vec<Vec<f64>>, Vec<Vec<f64>>) = (vec![], vec![]);
-    for replicate in 0..REPLICATES {
+    for replicate in 0..replicates {
         fresh.push(numbers(&forward(&drawing, 1, replicate, true).expect("a run").value));
         let first = forward(&drawing, 2, replicate, true).expect("a run");
         let (choices, values) = (first.record.log.entries(), numbers(&first.value));
-        let y = choices.last().expect("data").value.clone();
-        let given = Task { args: vec![y], ..observing.clone() };
+        let args = choices[choices.len() - data..].iter().map(|choice| choice.value.clone()).collect();
+        let given = Task { args, ..observing.clone() };
         let settings = Settings {
             seed: 3 + replicate,
             kernel: kernel.clone(),
@@ -181,7 +200,7 @@ fn distance_at<R: Rules>(text: &str, kernel: &Kernel, held: f64, temperatures: &
         ladder.advance(&given, PROPOSALS, &mut |_, _| true).expect("proposals");
         kept.push(numbers(&ladder.rungs[0].state.trace.result()));
     }
-    let scale = (REPLICATES as f64 / 2.0).sqrt();
+    let scale = (replicates as f64 / 2.0).sqrt();
     (0..fresh[0].len())
         .map(|i| {
             let sorted = |rows: &[Vec<f64>]| {
@@ -264,7 +283,7 @@ fn a_proposal_of_ones_own_leaves_the_posterior_as_it_is() {
 fn a_kernel_at_one_temperature_leaves_its_posterior_as_it_is() {
     let held = |hot| Kernel::Anneal { hot, cold: hot, steps: 9, kernel: Box::new(mixture()) };
     for (name, text) in &PROGRAMS[1..] {
-        let d = distance_at::<MetropolisHastings>(text, &held(2.0), 2.0, &[1.0]);
+        let d = distance_at::<MetropolisHastings>(text, &held(2.0), REPLICATES, 2.0, &[1.0]);
         assert!(d < LIMIT, "{name}: {d}");
     }
     // A hot kernel, given data as if the temperature were 1.
@@ -276,11 +295,11 @@ fn a_kernel_at_one_temperature_leaves_its_posterior_as_it_is() {
 fn tempering_leaves_the_posterior_as_it_is() {
     let temperatures = [1.0, 2.0, f64::INFINITY];
     for (name, text) in &PROGRAMS[1..] {
-        let d = distance_at::<MetropolisHastings>(text, &mixture(), 1.0, &temperatures);
+        let d = distance_at::<MetropolisHastings>(text, &mixture(), REPLICATES, 1.0, &temperatures);
         assert!(d < LIMIT, "{name}: {d}");
     }
     for at in [3, 5] {
-        let d = distance_at::<ExchangesAnyway>(PROGRAMS[at].1, &mixture(), 1.0, &temperatures);
+        let d = distance_at::<ExchangesAnyway>(PROGRAMS[at].1, &mixture(), REPLICATES, 1.0, &temperatures);
         assert!(d > 1.5 * LIMIT, "{}: exchanged anyway: {d} only", PROGRAMS[at].0);
     }
 }

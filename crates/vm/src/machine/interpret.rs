@@ -357,7 +357,7 @@ impl<S: Scalar> Machine<'_, S> {
                         continue;
                     }
                     let next = if K::KEEPS {
-                        keep.give_back(self, state, node, value)
+                        keep.give_back(self, state, node, value).place()
                     } else {
                         self.give_back(state, future, node, value)
                     };
@@ -374,7 +374,7 @@ impl<S: Scalar> Machine<'_, S> {
                 Op::ReturnIteration { exit: kind, args } => {
                     let kind = i64::from(kind);
                     if K::KEEPS {
-                        match check!(keep.end_iteration(self, state, r!(), node, kind, args)) {
+                        match check!(keep.end_iteration(self, state, r!(), node, kind, args)).place() {
                             Some((next, at)) => {
                                 step!();
                                 enter!(next, at);
@@ -405,7 +405,7 @@ impl<S: Scalar> Machine<'_, S> {
                 }
                 Op::Done => {
                     if K::KEEPS {
-                        if let Some((next, at)) = check!(keep.done(self, state, node)) {
+                        if let Some((next, at)) = check!(keep.done(self, state, node)).place() {
                             enter!(next, at);
                         }
                         keep.count(executed);

@@ -14,6 +14,27 @@ use crate::fault::Fault;
 use crate::value::Value;
 use niwaki_math::Scalar;
 
+/// Where a run goes on: at an instruction of an activation, or nowhere. One word, so that it is returned in a register.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Onward(u64);
+
+impl Onward {
+    /// The run is over.
+    pub const END: Onward = Onward(u64::MAX);
+
+    /// At that instruction.
+    #[inline(always)]
+    pub fn at(node: NodeId, pc: u32) -> Onward {
+        Onward(u64::from(node.0) << 32 | u64::from(pc))
+    }
+
+    /// Where, unless the run is over.
+    #[inline(always)]
+    pub fn place(self) -> Option<(NodeId, u32)> {
+        (self != Onward::END).then_some((NodeId((self.0 >> 32) as u32), self.0 as u32))
+    }
+}
+
 /// How activations live. Nothing but `KEEPS` is asked where they are dropped.
 pub(super) trait Keep<S: Scalar>: Sized {
     /// Whether they are kept.
@@ -50,7 +71,7 @@ pub(super) trait Keep<S: Scalar>: Sized {
         state: &mut State<S>,
         node: NodeId,
         value: Value<S>,
-    ) -> Option<(NodeId, u32)>;
+    ) -> Onward;
 
     /// An iteration ends: where to go on, unless the run is over.
     fn end_iteration(
@@ -61,7 +82,7 @@ pub(super) trait Keep<S: Scalar>: Sized {
         node: NodeId,
         exit: i64,
         carried: Args,
-    ) -> Result<Option<(NodeId, u32)>, Fault>;
+    ) -> Result<Onward, Fault>;
 
     /// A call that was made before, of whose arguments only that one may have changed.
     fn pass(
@@ -80,7 +101,7 @@ pub(super) trait Keep<S: Scalar>: Sized {
         machine: &mut Machine<'_, S>,
         state: &mut State<S>,
         node: NodeId,
-    ) -> Result<Option<(NodeId, u32)>, Fault>;
+    ) -> Result<Onward, Fault>;
 
     /// So many instructions were carried out.
     fn count(&mut self, instructions: u64);
@@ -129,14 +150,8 @@ impl<S: Scalar> Keep<S> for Dropped {
 
     fn clear(&mut self, _: &Machine<'_, S>, _: &mut State<S>, _: NodeId, _: u16, _: u16) {}
 
-    fn give_back(
-        &mut self,
-        _: &Machine<'_, S>,
-        _: &mut State<S>,
-        _: NodeId,
-        _: Value<S>,
-    ) -> Option<(NodeId, u32)> {
-        None
+    fn give_back(&mut self, _: &Machine<'_, S>, _: &mut State<S>, _: NodeId, _: Value<S>) -> Onward {
+        Onward::END
     }
 
     fn end_iteration(
@@ -147,8 +162,8 @@ impl<S: Scalar> Keep<S> for Dropped {
         _: NodeId,
         _: i64,
         _: Args,
-    ) -> Result<Option<(NodeId, u32)>, Fault> {
-        Ok(None)
+    ) -> Result<Onward, Fault> {
+        Ok(Onward::END)
     }
 
     fn pass(
@@ -163,13 +178,8 @@ impl<S: Scalar> Keep<S> for Dropped {
         After::Next
     }
 
-    fn done(
-        &mut self,
-        _: &mut Machine<'_, S>,
-        _: &mut State<S>,
-        _: NodeId,
-    ) -> Result<Option<(NodeId, u32)>, Fault> {
-        Ok(None)
+    fn done(&mut self, _: &mut Machine<'_, S>, _: &mut State<S>, _: NodeId) -> Result<Onward, Fault> {
+        Ok(Onward::END)
     }
 
     fn count(&mut self, _: u64) {}

@@ -20,6 +20,9 @@ use std::collections::HashSet;
 /// All slices of a function together are at most this many times as long as its code.
 const MOST: usize = 8;
 
+/// At so many branches in a row a slice goes both ways; at those after them the other way is the whole code.
+const DEEPEST: usize = 3;
+
 /// Appends the slices of a function to its code.
 pub(crate) fn slice<S: Scalar>(f: &mut Function<S>) {
     f.body = f.code.len() as u32;
@@ -60,62 +63,56 @@ pub(crate) fn slice<S: Scalar>(f: &mut Function<S>) {
 }
 
 /// Appends the slice from `start` on of what depends on those registers; where it begins. That is `start` itself when
-/// the slice would be no shorter.
+/// the slice would leave nothing out, or would be too long.
 fn append<S: Scalar>(f: &mut Function<S>, start: u32, changed: &[Operand]) -> u32 {
-    let Some(slice) = Slice::of(f, start as usize, changed) else { return start };
-    if f.code.len() + slice.len() > f.body as usize * (1 + MOST) {
-        return start;
+    let base = f.code.len();
+    for deepest in [DEEPEST, 0] {
+        let mut slice = Slice::forward(f, start as usize, changed.iter().copied().collect(), deepest);
+        slice.backward(f);
+        if !slice.leaves_out(f) {
+            return start;
+        }
+        let mut ops = Vec::new();
+        slice.write(f, base, &mut ops);
+        if base + ops.len() <= f.body as usize * (1 + MOST) {
+            for (op, from) in ops {
+                f.code.push(op);
+                f.spans.push(f.spans[from]);
+            }
+            return base as u32;
+        }
     }
-    let at = f.code.len() as u32;
-    for (op, from) in slice {
-        f.code.push(op);
-        f.spans.push(f.spans[from]);
-    }
-    at
+    start
 }
 
+/// A slice: one way to the end, and those that branch off it.
 struct Slice {
-    /// The instructions on the way to the end.
+    /// Registers that may have changed.
+    tainted: HashSet<Operand>,
+    /// The instructions on the way.
     path: Vec<usize>,
     /// Which of them are in the slice.
     taken: Vec<bool>,
-    /// Places in `path` before which all scratch values of the whole code must be there.
-    joins: Vec<usize>,
+    /// At a place in `path`, a branch: the slice of its other way, or nothing where that is the whole code.
+    others: Vec<(usize, Option<Slice>)>,
     /// Where the slice goes over into the whole code.
     rest: Option<usize>,
 }
 
 impl Slice {
-    /// The slice's instructions, and where each comes from.
-    fn of<S: Scalar>(f: &Function<S>, start: usize, changed: &[Operand]) -> Option<Vec<(Op, usize)>> {
-        let mut slice = Slice { path: vec![], taken: vec![], joins: vec![], rest: None };
-        let tainted = slice.forward(f, start, changed);
-        slice.backward(f, &tainted);
-        let last = *slice.path.last()?;
-        let mut ops: Vec<(Op, usize)> = slice
-            .path
-            .iter()
-            .zip(&slice.taken)
-            .filter(|(_, taken)| **taken)
-            .map(|(at, _)| (passed(f, &f.code[*at], &tainted).unwrap_or(f.code[*at]), *at))
-            .collect();
-        let whole = slice.path.len() + usize::from(slice.rest.is_some());
-        match slice.rest {
-            Some(rest) => ops.push((Op::Jump { target: rest as u32 }, rest)),
-            None if !slice.taken.last().copied().unwrap_or(false) => ops.push((Op::Done, last)),
-            None => {}
-        }
-        (ops.len() < whole).then_some(ops)
-    }
-
-    /// Walks to the end and takes what depends on the changed registers; all registers that may have changed.
-    fn forward<S: Scalar>(&mut self, f: &Function<S>, start: usize, changed: &[Operand]) -> HashSet<Operand> {
-        let mut tainted: HashSet<Operand> = changed.iter().copied().collect();
-        let mut at = start;
+    /// Walks to the end and takes what depends on the changed registers; both ways at so many branches.
+    fn forward<S: Scalar>(
+        f: &Function<S>,
+        mut at: usize,
+        tainted: HashSet<Operand>,
+        deepest: usize,
+    ) -> Slice {
+        let mut slice = Slice { tainted, path: vec![], taken: vec![], others: vec![], rest: None };
+        let mut left = deepest;
         loop {
             let op = f.code[at];
             let (reads, writes) = reads_and_writes(f, &op);
-            let hit = reads.iter().any(|o| tainted.contains(o));
+            let hit = reads.iter().any(|o| slice.tainted.contains(o));
             match op {
                 Op::Jump { target } if target as usize > at => {
                     at = target as usize;
@@ -130,29 +127,29 @@ impl Slice {
                 | Op::JumpUnlessCompare { target, .. }
                     if !hit && target as usize > at =>
                 {
-                    self.joins.push(self.path.len());
-                    self.path.push(at);
-                    self.taken.push(true);
+                    let other = (left > 0).then(|| {
+                        left -= 1;
+                        Slice::forward(f, target as usize, slice.tainted.clone(), left)
+                    });
+                    slice.others.push((slice.path.len(), other));
+                    slice.take(at, true);
                 }
                 Op::Jump { .. }
                 | Op::JumpIf { .. }
                 | Op::JumpUnless { .. }
                 | Op::JumpUnlessCompare { .. }
                 | Op::Next { .. } => {
-                    self.joins.push(self.path.len());
-                    self.rest = Some(at);
-                    return tainted;
+                    slice.rest = Some(at);
+                    return slice;
                 }
                 Op::Return { .. } | Op::ReturnIteration { .. } => {
-                    self.path.push(at);
-                    self.taken.push(hit);
-                    return tainted;
+                    slice.take(at, hit);
+                    return slice;
                 }
                 Op::Site { site } => {
                     let site = &f.sites[site.0 as usize];
-                    self.path.push(at);
                     // What a query tells lies in registers.
-                    self.taken.push(hit && !matches!(site.kind, SiteKind::Query));
+                    slice.take(at, hit && !matches!(site.kind, SiteKind::Query));
                     let is_changed = match site.kind {
                         // Whether they leave something else is known when they have run.
                         SiteKind::Sample { .. }
@@ -162,18 +159,19 @@ impl Slice {
                         | SiteKind::Loop(_)
                         | SiteKind::Query
                         | SiteKind::Cell { .. } => false,
-                        SiteKind::Append { .. } => tainted.contains(&f.operands[site.args.start as usize]),
+                        SiteKind::Append { .. } => {
+                            slice.tainted.contains(&f.operands[site.args.start as usize])
+                        }
                         _ => hit,
                     };
                     if is_changed {
-                        tainted.insert(site.to);
+                        slice.tainted.insert(site.to);
                     }
                 }
                 _ => {
-                    self.path.push(at);
-                    self.taken.push(hit);
+                    slice.take(at, hit);
                     if hit {
-                        tainted.extend(writes);
+                        slice.tainted.extend(writes);
                     }
                 }
             }
@@ -181,10 +179,16 @@ impl Slice {
         }
     }
 
-    /// Takes what makes the scratch values that are read. They live no longer than to the next site.
-    fn backward<S: Scalar>(&mut self, f: &Function<S>, tainted: &HashSet<Operand>) {
+    fn take(&mut self, at: usize, taken: bool) {
+        self.path.push(at);
+        self.taken.push(taken);
+    }
+
+    /// Takes what makes the scratch values that are read, which live no longer than to the next site. The answer: the
+    /// scratch values that must be there where the slice begins, and whether all must be that the whole code has there.
+    fn backward<S: Scalar>(&mut self, f: &Function<S>) -> (HashSet<Operand>, bool) {
         let mut needed: HashSet<Operand> = HashSet::new();
-        let mut all = self.joins.last() == Some(&self.path.len());
+        let mut all = self.rest.is_some();
         for i in (0..self.path.len()).rev() {
             let op = &f.code[self.path[i]];
             if let Op::Site { .. } = op {
@@ -192,9 +196,17 @@ impl Slice {
             }
             let (mut reads, writes) = reads_and_writes(f, op);
             self.taken[i] |= all || writes.iter().any(|o| needed.contains(o));
-            all |= self.joins.contains(&i);
+            match self.others.iter_mut().find(|(place, _)| *place == i) {
+                Some((_, Some(other))) => {
+                    let theirs = other.backward(f);
+                    needed.extend(theirs.0);
+                    all |= theirs.1;
+                }
+                Some((_, None)) => all = true,
+                None => {}
+            }
             if self.taken[i] {
-                if let Some(Op::Pass { site, arg }) = passed(f, op, tainted) {
+                if let Some(Op::Pass { site, arg }) = self.passed(f, op) {
                     let args = f.sites[site.0 as usize].args;
                     reads = vec![f.operands[args.start as usize + arg as usize]];
                 }
@@ -204,19 +216,116 @@ impl Slice {
                 needed.extend(reads.into_iter().filter(|o| o.place() == Place::Scratch));
             }
         }
+        (needed, all)
+    }
+
+    /// Whether it does less than the whole code.
+    fn leaves_out<S: Scalar>(&self, f: &Function<S>) -> bool {
+        let passes = |(at, taken): (&usize, &bool)| {
+            *taken
+                && matches!(self.passed(f, &f.code[*at]), Some(Op::Pass { site, .. })
+                    if f.sites[site.0 as usize].args.len > 1)
+        };
+        self.taken.contains(&false)
+            || self.path.iter().zip(&self.taken).any(passes)
+            || self.others.iter().any(|(_, other)| other.as_ref().is_some_and(|other| other.leaves_out(f)))
+    }
+
+    /// Writes its instructions, each with where it comes from, as they stand from `base` on.
+    fn write<S: Scalar>(&self, f: &Function<S>, base: usize, ops: &mut Vec<(Op, usize)>) {
+        let mut branches = Vec::new();
+        for (i, at) in self.path.iter().enumerate().filter(|(i, _)| self.taken[*i]) {
+            if let Some((_, Some(other))) = self.others.iter().find(|(place, _)| *place == i) {
+                branches.push((ops.len(), other));
+            }
+            ops.push((self.passed(f, &f.code[*at]).unwrap_or(f.code[*at]), *at));
+        }
+        match (self.rest, self.path.last()) {
+            (Some(rest), _) => ops.push((Op::Jump { target: rest as u32 }, rest)),
+            (None, Some(last)) if !self.taken.last().copied().unwrap_or(false) => {
+                ops.push((Op::Done, *last));
+            }
+            _ => {}
+        }
+        for (at, other) in branches {
+            let here = (base + ops.len()) as u32;
+            if let Op::JumpIf { target, .. }
+            | Op::JumpUnless { target, .. }
+            | Op::JumpUnlessCompare { target, .. } = &mut ops[at].0
+            {
+                *target = here;
+            }
+            other.write(f, base, ops);
+        }
+    }
+
+    /// A call of which one argument may have changed.
+    fn passed<S: Scalar>(&self, f: &Function<S>, op: &Op) -> Option<Op> {
+        let Op::Site { site: SiteId(number) } = *op else { return None };
+        let site = &f.sites[number as usize];
+        if !matches!(site.kind, SiteKind::Call { .. }) {
+            return None;
+        }
+        let operands = &f.operands[site.args.range()];
+        let mut changed = (0..).zip(operands).filter(|(_, o)| self.tainted.contains(o));
+        match (changed.next(), changed.next()) {
+            (Some((arg, _)), None) => Some(Op::Pass { site: SiteId(number), arg }),
+            _ => None,
+        }
     }
 }
 
-/// A call of which one argument may have changed.
-fn passed<S: Scalar>(f: &Function<S>, op: &Op, tainted: &HashSet<Operand>) -> Option<Op> {
-    let Op::Site { site: SiteId(number) } = *op else { return None };
-    let site = &f.sites[number as usize];
-    if !matches!(site.kind, SiteKind::Call { .. }) {
-        return None;
+#[cfg(test)]
+mod tests {
+    //! What a slice holds, as a person would write it down.
+    use super::*;
+    use crate::code::disassemble;
+    use crate::core::parse::parse;
+    use crate::passes::compile;
+
+    /// The instructions from `start` on to the end of a slice.
+    fn slice_from(f: &Function, listing: &[String], start: u32) -> Vec<String> {
+        let mut ops = Vec::new();
+        for (op, line) in f.code.iter().zip(listing).skip(start as usize) {
+            ops.push(line.clone());
+            if matches!(op, Op::Done | Op::Jump { .. } | Op::Return { .. } | Op::ReturnIteration { .. }) {
+                break;
+            }
+        }
+        ops
     }
-    let mut changed = (0..).zip(&f.operands[site.args.range()]).filter(|(_, o)| tainted.contains(o));
-    match (changed.next(), changed.next()) {
-        (Some((arg, _)), None) => Some(Op::Pass { site: SiteId(number), arg }),
-        _ => None,
+
+    #[test]
+    fn a_slice_holds_what_depends_and_no_more() {
+        let text = r#"(module
+          (fn "f" (params $n $m)
+            (set $k (sample (dist poisson 2.0)))
+            (do (query (str $n) $k))
+            (set $x (sample (dist gaussian $m 1.0)))
+            (set $t (mul $n 2.0))
+            (do (observe (dist gaussian (add $x $k) 1.0) $t))
+            (return $n))
+          (fn "m" (params) (return (call "f" 1.0 2.0))) (entry "m"))"#;
+        let program = compile::<f64>(&parse(text).unwrap(), vec![]).unwrap();
+        let f = &program.functions[0];
+        let text = disassemble(&program);
+        let listing: Vec<String> = text
+            .lines()
+            .skip_while(|line| !line.starts_with("f0 "))
+            .skip(1)
+            .take_while(|line| !line.starts_with("f1 "))
+            .filter(|line| !line.starts_with("     "))
+            .map(|line| line.trim().split_once("  ").unwrap_or(("", line)).1.to_string())
+            .collect();
+        assert_eq!(listing.len(), f.code.len());
+        let has = |start: u32| {
+            let slice = slice_from(f, &listing, start);
+            let part = |word: &str| slice.iter().any(|line| line.contains(word));
+            (part("str"), part("Gaussian") && part("\"x\""), part("Mul"), part("Observe"), part("done"))
+        };
+        // The count: neither the key's text nor the other choice, but the observation with what it reads.
+        assert_eq!(has(f.sites[0].again), (false, false, true, true, true));
+        // The mean of the other choice: that choice, and nothing else unless it changes.
+        assert_eq!(has(f.inputs[1]), (false, true, false, false, true));
     }
 }

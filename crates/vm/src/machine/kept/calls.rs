@@ -2,6 +2,7 @@
 
 use super::super::Machine;
 use super::super::address::join;
+use super::super::keep::Onward;
 use super::super::question::Halt;
 use super::super::registers::Registers;
 use super::super::state::{NodeId, State};
@@ -158,7 +159,7 @@ impl<S: Scalar> Kept<S> {
         state: &mut State<S>,
         node: NodeId,
         value: Value<S>,
-    ) -> Option<(NodeId, u32)> {
+    ) -> Onward {
         self.note(Step::Unwound(node));
         let (parent, number) = {
             let n = &state.nodes[node.0 as usize];
@@ -169,7 +170,7 @@ impl<S: Scalar> Kept<S> {
                 let old = std::mem::replace(&mut self.result, value);
                 self.result_before.get_or_insert(old);
             }
-            return None;
+            return Onward::END;
         }
         let above = &state.nodes[parent.0 as usize];
         let (own, is_new) = (above.registers as usize, above.made == self.now);
@@ -182,15 +183,15 @@ impl<S: Scalar> Kept<S> {
         if self.depth > 0 {
             self.depth -= 1;
             let next = self.returns.pop().unwrap_or(site.next);
-            return Some((parent, if changed { site.next } else { next }));
+            return Onward::at(parent, if changed { site.next } else { next });
         }
         if self.early && !changed {
-            return None;
+            return Onward::END;
         }
         self.leaves_its_activation();
         self.counters.entered += 1;
         self.note(Step::Entered(parent));
-        Some((parent, if self.early { site.again } else { site.next }))
+        Onward::at(parent, if self.early { site.again } else { site.next })
     }
 
     /// The site is not on the path taken: what its slot holds goes.

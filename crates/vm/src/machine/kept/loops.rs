@@ -5,6 +5,7 @@
 
 use super::super::Machine;
 use super::super::address::{iteration_key, join};
+use super::super::keep::Onward;
 use super::super::registers::Registers;
 use super::super::state::{NodeId, State};
 use super::super::suspend::After;
@@ -47,8 +48,12 @@ impl<S: Scalar> Kept<S> {
         l: &Loop,
     ) -> Result<After, Fault> {
         let at = Kept::slot_at(state, node, number.0 as usize);
-        let over = l.over.map(|o| r.get(state, &machine.scratch, o).clone());
-        if let Some(over) = &over
+        macro_rules! over {
+            () => {
+                l.over.map(|o| r.get(state, &machine.scratch, o))
+            };
+        }
+        if let Some(over) = over!()
             && iter_len(over)? == 0
         {
             self.vacate(machine.program, state, node, number.0);
@@ -56,7 +61,6 @@ impl<S: Scalar> Kept<S> {
             let changed = self.leave(machine, state, node, number, exit::NEXT);
             return Ok(self.after(r.f, site, changed));
         }
-        let over = over.unwrap_or_default();
         let held = self.slots[at].held;
         let mut active = Active { header: NodeId(held), captures: Entry::Unchanged, over: false };
         let captures = &r.f.operands[l.captures.range()];
@@ -65,6 +69,7 @@ impl<S: Scalar> Kept<S> {
             let header = self.new_node(machine.program, state, l.header, node, u32::from(number.0), path);
             self.write_slot(self.quiet, at, Slot { held: header.0, mark: 0, log: 0.0 });
             let to = state.nodes[header.0 as usize].registers as usize;
+            let over = over!().cloned().unwrap_or_default();
             state.registers[to].store(over);
             for (i, o) in captures.iter().enumerate() {
                 let value = r.get(state, &machine.scratch, *o).clone();
@@ -74,10 +79,17 @@ impl<S: Scalar> Kept<S> {
         } else {
             let to = state.nodes[held as usize].registers as usize;
             let outers = &machine.program.function(l.body).outers;
-            active.over = self.write_to(state, false, to, over);
+            if let Some(over) = over!()
+                && !same(over, &state.registers[to])
+            {
+                let over = over.clone();
+                active.over = self.write_to(state, false, to, over);
+            }
             for (i, o) in captures.iter().enumerate() {
-                let value = r.get(state, &machine.scratch, *o).clone();
-                if self.write_to(state, false, to + 1 + i, value) {
+                let value = r.get(state, &machine.scratch, *o);
+                if !same(value, &state.registers[to + 1 + i]) {
+                    let value = value.clone();
+                    self.write_to(state, false, to + 1 + i, value);
                     active.captures.add(outers.get(1 + i).copied().unwrap_or(0));
                 }
             }
@@ -110,15 +122,16 @@ impl<S: Scalar> Kept<S> {
             let n = &state.nodes[header.0 as usize];
             (n.path, n.registers as usize, n.slots as usize)
         };
-        let over = state.registers[at].clone();
-        let count = if matches!(over, Value::None) { usize::MAX } else { iter_len(&over)? };
+        let over = &state.registers[at];
+        let count = if matches!(over, Value::None) { usize::MAX } else { iter_len(over)? };
         let first = usize::from(count != usize::MAX);
         loop {
             if i >= count {
                 return Ok(self.end(machine, state, header, i, exit::NEXT, handed));
             }
-            let element = (count != usize::MAX).then(|| iter_get(&over, i));
+            let element = |state: &State<S>| (first == 1).then(|| iter_get(&state.registers[at], i));
             let Some(child) = self.loops[list].get(i).copied() else {
+                let element = element(state);
                 self.leaves_its_activation();
                 if handed == Handed::Unchanged {
                     // The loop has grown: what its last iteration left is what it left the owner.
@@ -151,7 +164,8 @@ impl<S: Scalar> Kept<S> {
             let to = state.nodes[child.0 as usize].registers as usize;
             let mut changed = active.captures;
             let inputs = &machine.program.function(state.nodes[child.0 as usize].function).inputs;
-            if let Some(element) = element
+            if active.over
+                && let Some(element) = element(state)
                 && self.write_to(state, false, to, element)
             {
                 changed.add(inputs[0]);
@@ -189,7 +203,7 @@ impl<S: Scalar> Kept<S> {
         node: NodeId,
         kind: i64,
         carried: Args,
-    ) -> Result<Option<(NodeId, u32)>, Fault> {
+    ) -> Result<Onward, Fault> {
         self.note(Step::Unwound(node));
         let n = state.nodes[node.0 as usize];
         let (header, i) = (n.parent, n.iteration as usize);
@@ -228,10 +242,10 @@ impl<S: Scalar> Kept<S> {
                 self.leaves_its_activation();
                 self.counters.entered += 1;
                 self.note(Step::Entered(next));
-                return Ok(Some((next, self.entry(changed))));
+                return Ok(Onward::at(next, self.entry(changed)));
             }
             if is_base {
-                return Ok(None);
+                return Ok(Onward::END);
             }
             if !self.is_marked(header) {
                 return Ok(self.go_on(machine, state, header, false, false));
@@ -260,7 +274,7 @@ impl<S: Scalar> Kept<S> {
         }
         if unchanged && self.reuse {
             if is_base && self.early {
-                return Ok(None);
+                return Ok(Onward::END);
             }
             if !is_base && active.captures == Entry::Unchanged && !active.over && !self.is_marked(header) {
                 return Ok(self.go_on(machine, state, header, is_base, false));
@@ -273,7 +287,7 @@ impl<S: Scalar> Kept<S> {
             self.end(machine, state, header, i + 1, kind, Handed::Buffer)
         };
         Ok(match next {
-            Next::Enter(child, at) => Some((child, at)),
+            Next::Enter(child, at) => Onward::at(child, at),
             Next::Ended { changed } => self.go_on(machine, state, header, is_base, changed),
         })
     }
@@ -286,7 +300,7 @@ impl<S: Scalar> Kept<S> {
         header: NodeId,
         is_base: bool,
         changed: bool,
-    ) -> Option<(NodeId, u32)> {
+    ) -> Onward {
         let n = &state.nodes[header.0 as usize];
         let owner = &state.nodes[n.parent.0 as usize];
         let site = &machine.program.function(owner.function).sites[n.site as usize];
@@ -294,15 +308,15 @@ impl<S: Scalar> Kept<S> {
             self.depth -= 1;
             self.active.pop();
             let next = self.returns.pop().unwrap_or(site.next);
-            return Some((n.parent, if changed { site.next } else { next }));
+            return Onward::at(n.parent, if changed { site.next } else { next });
         }
         if self.early && !changed {
-            return None;
+            return Onward::END;
         }
         self.leaves_its_activation();
         self.counters.entered += 1;
         self.note(Step::Entered(n.parent));
-        Some((n.parent, if self.early { site.again } else { site.next }))
+        Onward::at(n.parent, if self.early { site.again } else { site.next })
     }
 
     fn is_for(&self, state: &State<S>, header: NodeId) -> bool {

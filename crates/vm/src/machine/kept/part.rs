@@ -4,6 +4,7 @@
 //! that a slice leaves out.
 
 use super::super::Machine;
+use super::super::keep::Onward;
 use super::super::registers::Registers;
 use super::super::state::{NodeId, State};
 use super::super::suspend::After;
@@ -80,17 +81,17 @@ impl<S: Scalar> Kept<S> {
         machine: &mut Machine<'_, S>,
         state: &mut State<S>,
         node: NodeId,
-    ) -> Result<Option<(NodeId, u32)>, Fault> {
+    ) -> Result<Onward, Fault> {
         self.note(Step::Unwound(node));
         if self.depth == 0 {
-            return Ok(None);
+            return Ok(Onward::END);
         }
         let n = state.nodes[node.0 as usize];
         if machine.program.function(n.function).mode == Mode::Node {
             let (function, site) = Kept::caller(state, node);
             self.sites.paid(function, site);
             self.depth -= 1;
-            return Ok(self.returns.pop().map(|next| (n.parent, next)));
+            return Ok(self.returns.pop().map_or(Onward::END, |next| Onward::at(n.parent, next)));
         }
         let header = n.parent;
         if i64::from(n.pc) != exit::NEXT {
@@ -102,8 +103,22 @@ impl<S: Scalar> Kept<S> {
             Some(active) if active.header == header => *active,
             _ => Active { header, captures: Entry::Unchanged, over: false },
         };
+        if !active.over {
+            // There are as many iterations as before; what they all capture is all that can have changed for the next.
+            let list = state.nodes[header.0 as usize].slots as usize;
+            let next = self.loops[list].get(n.iteration as usize + 1).copied();
+            return Ok(match next.filter(|_| active.captures != Entry::Unchanged) {
+                Some(next) => {
+                    self.leaves_its_activation();
+                    self.counters.entered += 1;
+                    self.note(Step::Entered(next));
+                    Onward::at(next, self.entry(active.captures))
+                }
+                None => self.go_on(machine, state, header, false, false),
+            });
+        }
         Ok(match self.iterate(machine, state, active, n.iteration as usize + 1, Handed::Unchanged)? {
-            Next::Enter(child, at) => Some((child, at)),
+            Next::Enter(child, at) => Onward::at(child, at),
             Next::Ended { changed } => self.go_on(machine, state, header, false, changed),
         })
     }

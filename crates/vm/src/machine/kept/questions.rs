@@ -292,6 +292,7 @@ impl<S: Scalar> Kept<S> {
             SiteKind::Emit => self.journal.retracted.push(slot.held),
             SiteKind::Cell { .. } | SiteKind::Append { .. } => self.journal.dead_cells.push(slot.held),
             SiteKind::Read => {
+                self.move_readers();
                 let reader = Reader { node, site, slot: at as u32 };
                 self.journal.reads.push((reader, slot.held));
                 self.subscribe(reader, Slot::NOTHING);

@@ -36,6 +36,9 @@ pub struct Proposed<S: Scalar> {
 
 /// Whoever proposes a new value for one choice.
 pub trait Propose<S: Scalar> {
+    /// Whether it draws from the choice's own distribution: what it proposes forward with is the value's log density.
+    const FROM_PRIOR: bool = false;
+
     /// A new value for the choice, given its distribution, its value and that value's log density.
     ///
     /// # Errors
@@ -134,6 +137,7 @@ impl<S: Scalar> Trace<S> {
     /// order of their addresses, so that it does not depend on the strategy.
     pub fn commit(&mut self, program: &Program<S>) {
         let (state, kept) = (&mut self.state, &mut self.kept);
+        kept.move_readers();
         kept.journal.deaths.sort_unstable();
         while let Some(dead) = kept.journal.deaths.pop() {
             kept.choices.swap_remove(dead as usize);
@@ -172,6 +176,10 @@ impl<S: Scalar> Trace<S> {
     /// Undoes what was done, and leaves the transaction open.
     fn undo(&mut self, program: &Program<S>) {
         let (state, kept) = (&mut self.state, &mut self.kept);
+        while let Some((reader, held)) = kept.journal.moves.pop() {
+            let slot = &mut kept.slots[reader.slot as usize];
+            (slot.held, slot.mark) = (held, slot.mark & !Slot::MOVING);
+        }
         while let Some((reader, held)) = kept.journal.reads.pop() {
             kept.subscribe(reader, held);
         }
@@ -235,7 +243,11 @@ impl<S: Scalar> Machine<'_, S> {
         let proposal = self.dist(state, r, site, site.args, &mut made).and_then(|dist| {
             let (question, old) = (At { site, function: f, node, state, program }, &state.registers[place]);
             let proposed = proposer.propose(&question, dist, old, kept.slots[at].log)?;
-            let log = grid(log_density(dist, &proposed.value)?.value());
+            let log = if P::FROM_PRIOR {
+                proposed.forward
+            } else {
+                grid(log_density(dist, &proposed.value)?.value())
+            };
             Ok((proposed, log))
         });
         let (proposed, log) = match proposal {
