@@ -166,9 +166,9 @@ def ess_vector(draws: ArrayLike) -> float:
     Returns
     -------
     float
-        `n / (1 + 2 sum of AC)` of n draws in all, with Geyer's initial monotone positive sequence. One chain is measured
-        by its own mean and variance; several also by how far their means lie apart, as in Vehtari et al. 2021, eq. 10,
-        with inner products for products: chains that stay each in a place of its own are worth about one draw each.
+        `n / (1 + 2 sum of AC)` of n draws in all, with Geyer's initial monotone positive sequence. One chain is
+        measured by its own mean and variance; several also by how far their means lie apart, as in Vehtari et al. 2021,
+        eq. 10, with inner products for products: chains that stay each in its own place are worth about one draw each.
     """
     x = np.asarray(draws, dtype=np.float64)
     if x.ndim == 3 and len(x) > 1:
