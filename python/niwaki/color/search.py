@@ -213,9 +213,9 @@ def color(
         rules = Rules.load(rules)
     if not is_number(weight) or not 0 < weight < float("inf"):
         raise bad("weight", weight, "a number above 0", "100")
+    given = arguments(drawing, rules, weight)
     if all(name in rules.pinned for name in drawing.names):
         raise FileError("rules-pin-all", rules.place, count=len(drawing.names))
-    given = arguments(drawing, rules, weight)
     result = run(
         coloring,
         method or default_method(count),

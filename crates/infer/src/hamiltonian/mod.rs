@@ -10,7 +10,7 @@
 //! * [`transition`]: what both report, and the choice between them;
 //! * [`mod@climb`]: the way uphill from a start that is unlikely;
 //! * [`step_size`], [`estimate`], [`warmup`]: what is adapted in warm-up and frozen afterwards;
-//! * [`chains`]: whole chains, side by side;
+//! * [`chains`]: whole chains, side by side; [`lanes`]: many of them in the lanes of one vector;
 //! * [`tempering`]: a path of targets from loose to tight, walked down once or by all rungs at a time.
 //!
 //! Not here: programs, how a gradient is made, diagnostics of the draws (they are the package's).
@@ -19,6 +19,7 @@ pub mod chains;
 pub mod climb;
 pub mod estimate;
 pub mod hmc;
+pub mod lanes;
 pub mod leapfrog;
 pub mod metric;
 pub mod nuts;
