@@ -100,7 +100,9 @@ mod tests {
     #[test]
     fn solids_are_closed() {
         let prisms = [Topology::prism(8), Topology::prism(3), Topology::prism(70)];
-        for t in [Topology::shared_cuboid(), Topology::frustum(4), Topology::frustum(20)].into_iter().chain(prisms) {
+        for t in
+            [Topology::shared_cuboid(), Topology::frustum(4), Topology::frustum(20)].into_iter().chain(prisms)
+        {
             assert_eq!(t.corners + t.faces.len(), t.edges.len() + 2);
             let mut sides: Vec<(u32, u32)> =
                 t.triangles.iter().flat_map(|t| [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])]).collect();

@@ -49,9 +49,8 @@ impl NoSelfIntersection {
 
     fn pairs_with(&self, primitive: &Primitive) -> u64 {
         let mut pairs = 0;
-        self.boxes.visit(primitive.aabb(), |p| {
-            pairs += u64::from(primitives_intersect(p, primitive, self.rule))
-        });
+        self.boxes
+            .visit(primitive.aabb(), |p| pairs += u64::from(primitives_intersect(p, primitive, self.rule)));
         pairs
     }
 }
