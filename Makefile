@@ -6,7 +6,9 @@
 #   make lint     formatting, clippy, ruff, mypy and the door's stub, warnings as errors
 #   make bench    rates beside WebPPL and a hand-written limit, on one thread (needs node and npm)
 #   make figures-sosmc  the figures and the table of chapter 5, into out/figures-sosmc (QUICK=1: a smoke run)
+#   make figures-hmc  the figures and the tables of chapter 4, into out/figures-hmc (QUICK=1: a smoke run)
 #   make bench-c3 proposals of Markov chains beside WebPPL and the limit, with figures (25 minutes; QUICK=1: two)
+#   make bench-hmc gradients and effective samples beside JAX, NumPyro, nutpie and the limit (8 minutes; QUICK=1: two)
 #   make soak     the long tests, with fresh printed seeds
 #   make docs     the manual, into docs/_build/html, and the engine's pages, into target/doc
 #   make format   rewrite the sources in the house's style
@@ -36,7 +38,7 @@ PYTHON_SOURCES := python tests benches docs/conf.py
 
 PARTS :=
 
-.PHONY: all demo test lint bench bench-c3 figures-sosmc soak docs format locks clean
+.PHONY: all demo test lint bench bench-c3 bench-hmc figures-sosmc figures-hmc soak docs format locks clean
 all: $(STAMPS)/engine
 
 # ---- set-up: one stamp for each thing that is made, older than what depends on it
@@ -83,8 +85,16 @@ bench: $(STAMPS)/engine $(STAMPS)/bench
 figures-sosmc: $(STAMPS)/engine $(STAMPS)/bench
 	$(PY) benches/figures_sosmc out/figures-sosmc $(PARTS)
 
+figures-hmc: $(STAMPS)/engine $(STAMPS)/bench $(STAMPS)/test
+	$(PY) benches/figures_hmc out/figures-hmc $(PARTS)
+
 bench-c3: $(STAMPS)/engine $(STAMPS)/bench
 	$(PY) benches/c3.py
+
+# Installs half a gigabyte of peers; with them here, the tests that need JAX and ArviZ run.
+bench-hmc: $(STAMPS)/engine $(STAMPS)/bench-hmc $(STAMPS)/test
+	$(PY) -m pytest tests/niwaki/test_with_peers.py
+	$(PY) benches/gradients.py
 
 soak: $(STAMPS)/engine $(STAMPS)/test
 	cargo test $(CARGO_FLAGS) --workspace -- --ignored
@@ -104,7 +114,7 @@ format: $(STAMPS)/lint
 # uv writes locks that hold on Python 3.11 and later, with hashes and without the address of an index.
 locks: $(STAMPS)/venv
 	$(PIP) install uv
-	for extra in core build test lint docs bench; do \
+	for extra in core build test lint docs bench bench-hmc; do \
 	  $(VENV)/bin/uv pip compile pyproject.toml $$([ $$extra = core ] || echo --extra $$extra -c requirements/core.txt) \
 	    --upgrade --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-header --no-annotate \
 	    --quiet -o requirements/$$extra.txt; \

@@ -28,16 +28,16 @@ def short(value: float) -> str:
 class Report:
     """What was found; `wrong` counts answers that are wrong, `missed` targets of speed."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, name: str = "c3") -> None:
         folder.mkdir(parents=True, exist_ok=True)
         self.folder = folder
         self.console = Console(width=170)
-        self.lines = (folder / "c3.jsonl").open("w")
+        self.lines = (folder / f"{name}.jsonl").open("w")
         self.targets: list[tuple[str, str, str, str]] = []
         self.missed = self.wrong = 0
 
     def note(self, **facts: object) -> None:
-        """Write a measurement to `c3.jsonl`."""
+        """Write a measurement to the file of lines."""
         print(json.dumps(facts), file=self.lines, flush=True)
 
     def table(self, title: str, *columns: str) -> Table:

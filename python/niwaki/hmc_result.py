@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from niwaki.compiled import translated
-from niwaki.errors import InputError, ModelFault
+from niwaki.compiled import as_fault, translated
+from niwaki.errors import InputError
 from niwaki.methods import Hmc, Nuts
 from niwaki.result import Result, Sample
 
@@ -100,7 +100,7 @@ class HmcResult(Result):
     log_density : array of shape (chains, draws)
         Over the coordinates in which the chains move, Jacobians included, nats.
     log_prior, log_score : array of shape (chains, draws)
-        Of choices, and of factors and observations, nats, as for any sample.
+        Of choices, and of factors and observations, nats, as for any sample; found when they are asked for.
     stats : dict of str to array
         Of each draw, (chains, draws): `energy` (nats), `acceptance_rate`, `n_steps`, `tree_depth`, `diverging`.
     step_size : array of shape (chains,)
@@ -135,14 +135,11 @@ class HmcResult(Result):
         sizes = [len(row["energy"]) for row in rows]
         self._least = min(sizes)
         self.samples = Drawn(sizes, self._sample)  # type: ignore[assignment]
-        self._log_scores = [row["log_score"] for row in rows]
 
         def together(name: str) -> NDArray[Any]:
             return np.array([row[name][: self._least] for row in rows])
 
         self.log_density: Reals = together("log_density")
-        self.log_prior: Reals = together("log_prior")
-        self.log_score: Reals = together("log_score")
         self.stats: dict[str, NDArray[Any]] = {
             "energy": together("energy"),
             "acceptance_rate": together("accept"),
@@ -162,17 +159,8 @@ class HmcResult(Result):
             {path: value for path, _, value in found.fixed(chain)} for chain in chains
         ]
         faults = (found.fault(chain) for chain in chains)
-        self.fault = self._fault(next((fault for fault in faults if fault is not None), None))
-
-    def _fault(self, found: BaseException | None) -> ModelFault | None:
-        """The engine's fault as ours."""
-        try:
-            with translated(self.model.name, f"seed={self.seed}"):
-                if found is not None:
-                    raise found
-        except ModelFault as fault:
-            return fault
-        return None
+        first = next((fault for fault in faults if fault is not None), None)
+        self.fault = as_fault(first, self.model.name, f"seed={self.seed}")
 
     def _sample(self, chain: int, draw: int) -> Sample:
         with translated(self.model.name, f"seed={self.seed}"):
@@ -199,6 +187,22 @@ class HmcResult(Result):
         return {path: np.array([found[path] for found in by_chain]) for path in common}
 
     @cached_property
+    def _scores(self) -> list[tuple[Reals, Reals]]:
+        """Log prior and log score of each chain's draws: each draw is run for them, when they are first asked for."""
+        with translated(self.model.name, f"seed={self.seed}"):
+            return [self._found.scores(chain) for chain in range(self.method.chains)]
+
+    @property
+    def log_prior(self) -> Reals:
+        """Of the choices of each draw, (chains, draws), nats, as for any sample."""
+        return np.array([prior[: self._least] for prior, _ in self._scores])
+
+    @property
+    def log_score(self) -> Reals:
+        """Of factors and observations of each draw, (chains, draws), nats, as for any sample."""
+        return np.array([score[: self._least] for _, score in self._scores])
+
+    @cached_property
     def positions(self) -> list[Reals]:
         """The coordinates of each chain's draws, (draws, dim); see `niwaki.log_density`."""
         return [self._found.positions(chain) for chain in range(self.method.chains)]
@@ -208,11 +212,12 @@ class HmcResult(Result):
         """The draw of the best log score."""
         if not len(self.samples):
             raise InputError("no-runs", detail=repr(self))
+        scores = [score for _, score in self._scores]
         chain = max(
-            (chain for chain, scores in enumerate(self._log_scores) if len(scores)),
-            key=lambda chain: float(self._log_scores[chain].max()),
+            (chain for chain, score in enumerate(scores) if len(score)),
+            key=lambda chain: float(scores[chain].max()),
         )
-        return self._sample(chain, int(self._log_scores[chain].argmax()))
+        return self._sample(chain, int(scores[chain].argmax()))
 
     def summary(self) -> Summaries:
         """Mean, deviation, standard error, effective sizes and R-hat of every number, and of the log density."""

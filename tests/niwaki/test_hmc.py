@@ -122,6 +122,15 @@ def test_a_seed_decides_every_bit_on_any_number_of_threads() -> None:
     assert not np.array_equal(one.log_density, other.log_density)
 
 
+def test_chains_in_lanes_draw_what_they_draw_alone() -> None:
+    # 24 chains go in lanes on one thread, and each alone, with machine code, on eight.
+    method = nw.hmc(draws=40, steps=30, jitter=0.5, warmup=40, chains=24)
+    lanes, alone = (nw.run(point, method, seed=5, threads=threads) for threads in (1, 8))
+    assert all(np.array_equal(lanes.draws[path], alone.draws[path]) for path in lanes.draws)
+    assert np.array_equal(lanes.stats["energy"], alone.stats["energy"])
+    assert np.array_equal(lanes.log_score, alone.log_score)
+
+
 def test_a_point_stays_near_its_curve() -> None:
     result = nw.run(point, nw.nuts(draws=300, warmup=500, chains=2), 0.02, seed=2)
     x, y = result.draws.values()

@@ -7,11 +7,15 @@
 //!     limit hmm DATA.json PARTICLES SECONDS SEED
 //!     limit branching - PARTICLES SECONDS SEED
 //!     limit rate|globals|check hmm|lda|gmm|hlr DATA.json SECONDS SEED
+//!     limit hmc ring|coloring COLORING.txt POINT STEP LENGTH DRAWS SEED
+//!     limit gradients ring|coloring COLORING.txt REFERENCE.txt
 //!
 //! Prints one JSON line. Filters: particle-steps, the CPU seconds they took, and the log evidence of every run. Chains:
-//! proposals and CPU seconds, of any choice or of global ones; or the worst error of a local log ratio.
+//! proposals and CPU seconds, of any choice or of global ones; or the worst error of a local log ratio. Gradients: how
+//! many, wall and CPU seconds; or the worst errors.
 mod branching;
 mod chains;
+mod gradients;
 mod hmm;
 mod population;
 
@@ -59,7 +63,13 @@ fn measure(
 fn main() {
     let args: Vec<String> = std::env::args().skip(1).collect();
     let usage = "usage: limit hmm|branching DATA.json|- PARTICLES SECONDS SEED, or \
-                 limit rate|globals|check hmm|lda|gmm|hlr DATA.json SECONDS SEED";
+                 limit rate|globals|check hmm|lda|gmm|hlr DATA.json SECONDS SEED, or \
+                 limit hmc ring|coloring COLORING.txt POINT STEP LENGTH DRAWS SEED, or \
+                 limit gradients ring|coloring COLORING.txt REFERENCE.txt";
+    if let Some(line) = gradients::run(&args.iter().map(String::as_str).collect::<Vec<_>>()) {
+        println!("{line}");
+        return;
+    }
     if let [what @ ("rate" | "globals" | "check"), program, data, seconds, seed] =
         &args.iter().map(String::as_str).collect::<Vec<_>>()[..]
     {

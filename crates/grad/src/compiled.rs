@@ -1,28 +1,24 @@
 //! A density, ready at once and fast soon: its tape runs while machine code is made in the background.
 //!
-//! The two agree to rounding, not to the bit, so the change from one to the other comes after a fixed number of
-//! gradients, never when a clock or another thread says so: the same points give the same bits.
+//! The two give the same numbers to the bit, so the one takes over from the other whenever it is there: first the
+//! gradient alone, which is most of what a trajectory asks for, then the value with its gradient.
 
 use crate::density::Density;
-use crate::native::Native;
+use crate::native::Part;
 use crate::tape::{Lanes, Tape};
-use std::sync::Arc;
-use std::sync::mpsc::{Receiver, channel};
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Gradients by tape before machine code is asked for: it must be worth its compilation.
-const WARM: u32 = 200;
+pub(crate) const WARM: u32 = 200;
 
-/// Gradients by tape while the machine code is made: about what it costs. Then it is waited for.
-const MEANWHILE: u32 = 2000;
-
-enum Code {
+enum Progress {
     /// Not asked for yet: gradients so far.
     Tape(u32),
-    /// Being made; gradients so far.
-    Waiting(Receiver<Result<Native, String>>, u32),
-    Ready(Box<Native>),
-    /// This machine has none.
-    Refused,
+    /// Being made: first the gradient alone, then both. The lock is never waited for; with it threads may share this.
+    Waiting(Mutex<Receiver<Part>>),
+    /// There is no more to come. A processor without machine code ends here with none.
+    Done,
 }
 
 /// What evaluates a density at one point after another.
@@ -30,30 +26,49 @@ pub struct Compiled {
     density: Arc<Density>,
     tape: Arc<Tape>,
     lanes: Lanes<1>,
-    code: Code,
+    slope: Option<Part>,
+    both: Option<Part>,
+    progress: Progress,
+    /// Gradients by tape before machine code is asked for.
+    warm: u32,
 }
 
 impl Compiled {
     /// Ready to evaluate by tape; machine code follows when it has been used for a while.
     pub fn new(density: Arc<Density>) -> Compiled {
+        Compiled::after(density, WARM)
+    }
+
+    /// The same, asking for machine code after so many gradients by tape.
+    pub fn after(density: Arc<Density>, warm: u32) -> Compiled {
         let tape = Arc::new(Tape::new(&density));
         let lanes = tape.lanes();
-        Compiled { density, tape, lanes, code: Code::Tape(0) }
+        Compiled { density, tape, lanes, slope: None, both: None, progress: Progress::Tape(0), warm }
     }
 
     /// Compiles now, and waits for it.
     pub fn finish(&mut self) {
-        self.code = match std::mem::replace(&mut self.code, Code::Refused) {
-            Code::Ready(native) => Code::Ready(native),
-            Code::Waiting(receiver, _) => ready(receiver.recv().unwrap_or_else(|e| Err(e.to_string()))),
-            Code::Tape(_) => ready(Native::compile(&self.density)),
-            Code::Refused => Code::Refused,
-        };
+        match std::mem::replace(&mut self.progress, Progress::Done) {
+            Progress::Tape(_) => {
+                self.slope = Part::compile(&self.density, false).ok();
+                self.both = self.slope.is_some().then(|| Part::compile(&self.density, true).ok()).flatten();
+            }
+            Progress::Waiting(parts) => {
+                let parts = parts.into_inner().unwrap_or_else(PoisonError::into_inner);
+                parts.iter().for_each(|part| self.take(part));
+            }
+            Progress::Done => {}
+        }
     }
 
-    /// Whether machine code runs.
+    fn take(&mut self, part: Part) {
+        let place = if self.slope.is_none() { &mut self.slope } else { &mut self.both };
+        *place = Some(part);
+    }
+
+    /// Whether all is machine code.
     pub fn is_native(&self) -> bool {
-        matches!(self.code, Code::Ready(_))
+        self.both.is_some()
     }
 
     /// The density.
@@ -66,37 +81,32 @@ impl Compiled {
         &self.tape
     }
 
-    /// The machine code, where there is some by now. Asks for it after a while.
-    #[inline]
-    fn native(&mut self) -> Option<&mut Native> {
-        if !matches!(self.code, Code::Ready(_)) {
-            self.advance();
-        }
-        match &mut self.code {
-            Code::Ready(native) => Some(native),
-            _ => None,
-        }
-    }
-
+    /// Asks for machine code after a while, and takes what there is of it.
     fn advance(&mut self) {
-        match &mut self.code {
-            Code::Tape(n) if *n < WARM => *n += 1,
-            Code::Tape(_) => {
+        match &mut self.progress {
+            Progress::Tape(n) if *n < self.warm => *n += 1,
+            Progress::Tape(_) => {
                 let (give, take) = channel();
                 let density = self.density.clone();
                 let made = std::thread::Builder::new().name("machine code".into()).spawn(move || {
-                    // No one waits any more: nothing to do about it.
-                    let _ = give.send(Native::compile(&density));
+                    for with_value in [false, true] {
+                        let Ok(part) = Part::compile(&density, with_value) else { return };
+                        if give.send(part).is_err() {
+                            return; // No one waits any more.
+                        }
+                    }
                 });
-                self.code = if made.is_ok() { Code::Waiting(take, 0) } else { Code::Refused };
+                self.progress =
+                    if made.is_ok() { Progress::Waiting(Mutex::new(take)) } else { Progress::Done };
             }
-            Code::Waiting(receiver, n) => {
-                *n += 1;
-                if *n == MEANWHILE {
-                    self.code = ready(receiver.recv().unwrap_or_else(|e| Err(e.to_string())));
+            Progress::Waiting(parts) => {
+                match parts.get_mut().unwrap_or_else(PoisonError::into_inner).try_recv() {
+                    Ok(part) => self.take(part),
+                    Err(TryRecvError::Empty) => {}
+                    Err(TryRecvError::Disconnected) => self.progress = Progress::Done,
                 }
             }
-            Code::Ready(_) | Code::Refused => {}
+            Progress::Done => {}
         }
     }
 
@@ -115,10 +125,11 @@ impl Compiled {
     /// As for [`Compiled::value_and_gradient`].
     #[inline]
     pub fn inside(&mut self, x: &[f64], g: &mut [f64]) -> Option<f64> {
-        match self.native() {
-            Some(native) => native.inside(x, g),
-            None => self.lanes.inside(&self.tape, x, g),
+        if let Some(both) = &mut self.both {
+            return both.inside(x, g);
         }
+        self.advance();
+        self.lanes.inside(&self.tape, x, g)
     }
 
     /// The gradient at `x`; false outside the guards.
@@ -127,13 +138,10 @@ impl Compiled {
     /// As for [`Compiled::value_and_gradient`].
     #[inline]
     pub fn gradient(&mut self, x: &[f64], g: &mut [f64]) -> bool {
-        match self.native() {
-            Some(native) => native.gradient(x, g),
-            None => self.lanes.inside(&self.tape, x, g).is_some(),
+        if let Some(slope) = &mut self.slope {
+            return slope.inside(x, g).is_some();
         }
+        self.advance();
+        self.lanes.inside(&self.tape, x, g).is_some()
     }
-}
-
-fn ready(made: Result<Native, String>) -> Code {
-    made.map_or(Code::Refused, |native| Code::Ready(Box::new(native)))
 }

@@ -1,11 +1,11 @@
 //! Functions over many numbers: `exp`, `log`, `pow`, `sin`, `cos` without branches, so that the compiler makes vector
 //! code of the loops; the others one by one.
 //!
-//! Compiled twice, for AVX2 and for any processor, and chosen when run. Only additions, multiplications and divisions
+//! Compiled for AVX-512, for AVX2 and for any processor, and chosen when run. Only additions, multiplications and divisions
 //! in a fixed order, none fused: the bits are the same on every machine. Errors are below one unit in the last place
 //! for `exp` and `log`; `pow` is `exp(b log a)`, which loses about `|b log a|` units.
 
-#![allow(unsafe_code)] // The call of a function compiled for AVX2, after asking whether there is AVX2.
+#![allow(unsafe_code)] // Calls of functions compiled for AVX2 or AVX-512, after asking whether there is that.
 
 use crate::operation::{Op, apply, max, min};
 
@@ -125,9 +125,22 @@ macro_rules! two {
     };
 }
 
+/// Those beyond, one by one: what one angle is worth never depends on its neighbours.
+#[inline(always)]
+fn large_angles(f: fn(f64) -> f64, a: &[f64], to: &mut [f64]) {
+    let small = a.iter().fold(true, |all, a| all & (a.abs() < LARGEST_ANGLE));
+    if small {
+        return;
+    }
+    for (to, a) in to.iter_mut().zip(a) {
+        if a.is_nan() || a.abs() >= LARGEST_ANGLE {
+            *to = f(*a);
+        }
+    }
+}
+
 #[inline(always)]
 pub(crate) fn any(op: Op, a: &[f64], b: &[f64], c: &[f64], to: &mut [f64]) {
-    let flat = |x: &[f64]| x.iter().all(|x| x.abs() < LARGEST_ANGLE);
     match op {
         Op::Add => two!(|a: f64, b: f64| a + b, a, b, to),
         Op::Sub => two!(|a: f64, b: f64| a - b, a, b, to),
@@ -148,8 +161,14 @@ pub(crate) fn any(op: Op, a: &[f64], b: &[f64], c: &[f64], to: &mut [f64]) {
         Op::Exp => one!(exp, a, to),
         Op::Log => one!(log, a, to),
         Op::Pow => two!(pow, a, b, to),
-        Op::Sin if flat(a) => one!(sin, a, to),
-        Op::Cos if flat(a) => one!(cos, a, to),
+        Op::Sin => {
+            one!(sin, a, to);
+            large_angles(libm::sin, a, to);
+        }
+        Op::Cos => {
+            one!(cos, a, to);
+            large_angles(libm::cos, a, to);
+        }
         op if op.arity() == 2 => two!(|a, b| apply(op, a, b, 0.0), a, b, to),
         op => one!(|a| apply(op, a, 0.0, 0.0), a, to),
     }
@@ -161,18 +180,56 @@ fn any_avx2(op: Op, a: &[f64], b: &[f64], c: &[f64], to: &mut [f64]) {
     any(op, a, b, c, to);
 }
 
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx512bw")]
+fn any_avx512(op: Op, a: &[f64], b: &[f64], c: &[f64], to: &mut [f64]) {
+    any(op, a, b, c, to);
+}
+
+/// The widest vectors that this processor has and code was compiled for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Vectors {
+    /// 512 bits.
+    Avx512,
+    /// 256 bits.
+    Avx2,
+    /// Whatever any processor has.
+    Any,
+}
+
+impl Vectors {
+    /// What there is; asked of the processor once.
+    #[inline]
+    pub fn here() -> Vectors {
+        #[cfg(target_arch = "x86_64")]
+        {
+            use std::arch::is_x86_feature_detected as has;
+            if has!("avx512f") && has!("avx512dq") && has!("avx512vl") && has!("avx512bw") {
+                return Vectors::Avx512;
+            }
+            if has!("avx2") {
+                return Vectors::Avx2;
+            }
+        }
+        Vectors::Any
+    }
+}
+
 /// `to[k] = op(a[k], b[k], c[k])`. Slices of arguments that the operation does not take may be empty.
 ///
 /// # Panics
 /// For a select whose slices are shorter than `to`.
 #[inline]
 pub fn apply_all(op: Op, a: &[f64], b: &[f64], c: &[f64], to: &mut [f64]) {
-    #[cfg(target_arch = "x86_64")]
-    if std::arch::is_x86_feature_detected!("avx2") {
+    match Vectors::here() {
+        // SAFETY: the processor has AVX-512.
+        #[cfg(target_arch = "x86_64")]
+        Vectors::Avx512 => unsafe { any_avx512(op, a, b, c, to) },
         // SAFETY: the processor has AVX2.
-        return unsafe { any_avx2(op, a, b, c, to) };
+        #[cfg(target_arch = "x86_64")]
+        Vectors::Avx2 => unsafe { any_avx2(op, a, b, c, to) },
+        _ => any(op, a, b, c, to),
     }
-    any(op, a, b, c, to);
 }
 
 #[cfg(test)]
@@ -230,16 +287,33 @@ mod tests {
         let mut to = [0.0; 2];
         apply_all(Op::Sin, &[1e9, f64::INFINITY], &[], &[], &mut to);
         assert!(to[0] == libm::sin(1e9) && to[1].is_nan());
+        // A neighbour beyond the reduction changes nothing.
+        let (mut alone, mut beside) = ([0.0; 1], [0.0; 2]);
+        for op in [Op::Sin, Op::Cos] {
+            for k in 0..1000 {
+                let x = f64::from(k) * 1.7;
+                apply_all(op, &[x], &[], &[], &mut alone);
+                apply_all(op, &[x, 1e9], &[], &[], &mut beside);
+                assert_eq!(alone[0].to_bits(), beside[0].to_bits());
+            }
+        }
     }
 
     #[test]
-    fn both_compilations_have_the_same_bits() {
+    fn all_compilations_have_the_same_bits() {
         let a: Vec<f64> = (0..1000).map(|k| f64::from(k) * 0.123).collect();
         for op in [Op::Exp, Op::Log, Op::Sin, Op::Cos, Op::Pow] {
             let (mut one, mut other) = (vec![0.0; 1000], vec![0.0; 1000]);
             apply_all(op, &a, &a, &[], &mut one);
             any(op, &a, &a, &[], &mut other);
-            assert!(one.iter().zip(&other).all(|(x, y)| x.to_bits() == y.to_bits()), "{op:?}");
+            let same = |one: &[f64]| one.iter().zip(&other).all(|(x, y)| x.to_bits() == y.to_bits());
+            assert!(same(&one), "{op:?}");
+            #[cfg(target_arch = "x86_64")]
+            if Vectors::here() != Vectors::Any {
+                // SAFETY: the processor has AVX2, or what holds it.
+                unsafe { any_avx2(op, &a, &a, &[], &mut one) };
+                assert!(same(&one), "{op:?}");
+            }
         }
     }
 }

@@ -3,12 +3,15 @@
 //! * [`operation`]: what a node computes; [`graph`]: nodes, each kept once, simplified as they are added;
 //! * [`reverse`]: the gradient, as more nodes; [`density`]: a value with its gradient and guards, and its interpreter;
 //! * [`tape`]: a density over lanes, one for each chain, without compilation; [`kernels`]: functions over many numbers;
+//! * [`wide`]: the tapes of a density with their memory;
 //! * [`native`]: machine code by Cranelift;
 //! * [`scalar`]: the number that records what happens to it; [`mod@record`]: a run of a program, recorded;
+//! * [`coordinates`]: from bounded values to coordinates without bounds and back;
 //! * [`compiled`]: the tape first, machine code when it is ready; [`live`]: recorded again where a guard fails;
 //! * [`jax`]: the same density as Python text.
 
 pub mod compiled;
+pub mod coordinates;
 pub mod density;
 pub mod graph;
 pub mod jax;
@@ -20,13 +23,16 @@ pub mod record;
 pub mod reverse;
 pub mod scalar;
 pub mod tape;
+pub mod wide;
 
 pub use compiled::Compiled;
+pub use coordinates::{Continuous, Transform};
 pub use density::{Comparison, Density, Guard};
 pub use graph::{Graph, Id};
 pub use live::{Live, Model, Refused};
 pub use native::Native;
 pub use operation::Op;
-pub use record::{Continuous, Recorded, Run, Transform, record};
+pub use record::{Recorded, Run, Scope, record};
 pub use scalar::Var;
 pub use tape::{Lanes, Tape};
+pub use wide::Wide;

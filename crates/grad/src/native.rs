@@ -7,6 +7,8 @@
 //!
 //! Numbers that cross from one function to another go through an array of scratch. There are two programs: a value
 //! with its gradient, for the ends of a trajectory, and a gradient alone for its inside.
+//!
+//! Each operation is that of the tape, none fused and none re-ordered, so the numbers are the tape's to the bit.
 
 #![allow(unsafe_code)] // Calls of the functions that were compiled here.
 
@@ -68,33 +70,21 @@ struct Routine {
     flags: Vec<u32>,
 }
 
-/// A density as machine code.
-pub struct Native {
-    both: Arc<Routine>,
-    slope: Arc<Routine>,
+/// One program as machine code, with the memory that it works in.
+#[derive(Clone)]
+pub struct Part {
+    routine: Arc<Routine>,
+    scratch: Vec<f64>,
     dim: usize,
-    scratch: [Vec<f64>; 2],
     _code: Arc<Memory>,
 }
 
-impl Clone for Native {
-    fn clone(&self) -> Native {
-        Native {
-            both: self.both.clone(),
-            slope: self.slope.clone(),
-            dim: self.dim,
-            scratch: self.scratch.clone(),
-            _code: self._code.clone(),
-        }
-    }
-}
-
-impl Native {
-    /// Compiles a density.
+impl Part {
+    /// Compiles the gradient of a density, with its value or without.
     ///
     /// # Errors
     /// A processor that Cranelift does not know, or memory that may not be executed: the tape serves then.
-    pub fn compile(density: &Density) -> Result<Native, String> {
+    pub fn compile(density: &Density, with_value: bool) -> Result<Part, String> {
         let mut flags = settings::builder();
         for (name, value) in [
             ("opt_level", "none"),
@@ -109,22 +99,49 @@ impl Native {
             .finish(settings::Flags::new(flags))
             .map_err(|e| e.to_string())?;
         let module = JITModule::new(JITBuilder::with_isa(isa, default_libcall_names()));
-        let mut writer = Writer { module, density, functions: 0, context: FunctionBuilderContext::new() };
-        let both = Layout::new(density, true);
-        let both_plan = writer.write(&both).map_err(|e| e.to_string())?;
-        let slope = Layout::new(density, false);
-        let slope_plan = writer.write(&slope).map_err(|e| e.to_string())?;
+        let values = vec![(0, Value::from_u32(0)); density.graph().len()];
+        let context = FunctionBuilderContext::new();
+        let mut writer = Writer { module, density, functions: 0, context, values };
+        let layout = Layout::new(density, with_value);
+        let plan = writer.write(&layout).map_err(|e| e.to_string())?;
         writer.module.finalize_definitions().map_err(|e| e.to_string())?;
-        let both = routine(&writer.module, both, both_plan);
-        let slope = routine(&writer.module, slope, slope_plan);
-        let scratch = [both.scratch.clone(), slope.scratch.clone()];
+        let routine = routine(&writer.module, layout, plan);
         let code = Arc::new(Memory(Some(writer.module)));
-        Ok(Native { both: Arc::new(both), slope: Arc::new(slope), dim: density.dim(), scratch, _code: code })
+        let scratch = routine.scratch.clone();
+        Ok(Part { routine: Arc::new(routine), scratch, dim: density.dim(), _code: code })
+    }
+
+    /// Writes the gradient at `x` to `g`, and gives the value, or 0 for a program without; `None`, and NaN in `g`,
+    /// outside the guards.
+    ///
+    /// # Panics
+    /// When `x` or `g` has not one number for each coordinate.
+    #[inline]
+    pub fn inside(&mut self, x: &[f64], g: &mut [f64]) -> Option<f64> {
+        assert!(x.len() == self.dim && g.len() == self.dim);
+        self.routine.run(x, g, &mut self.scratch)
+    }
+}
+
+/// A density as machine code.
+#[derive(Clone)]
+pub struct Native {
+    both: Part,
+    slope: Part,
+}
+
+impl Native {
+    /// Compiles a density.
+    ///
+    /// # Errors
+    /// As for [`Part::compile`].
+    pub fn compile(density: &Density) -> Result<Native, String> {
+        Ok(Native { slope: Part::compile(density, false)?, both: Part::compile(density, true)? })
     }
 
     /// How many coordinates there are.
     pub fn dim(&self) -> usize {
-        self.dim
+        self.both.dim
     }
 
     /// The log density at `x`, with its gradient in `g`; NaN outside the guards.
@@ -142,8 +159,7 @@ impl Native {
     /// As for [`Native::value_and_gradient`].
     #[inline]
     pub fn inside(&mut self, x: &[f64], g: &mut [f64]) -> Option<f64> {
-        assert!(x.len() == self.dim && g.len() == self.dim);
-        self.both.run(x, g, &mut self.scratch[0])
+        self.both.inside(x, g)
     }
 
     /// The gradient at `x`; false, and NaN, outside the guards.
@@ -152,8 +168,7 @@ impl Native {
     /// As for [`Native::value_and_gradient`].
     #[inline]
     pub fn gradient(&mut self, x: &[f64], g: &mut [f64]) -> bool {
-        assert!(x.len() == self.dim && g.len() == self.dim);
-        self.slope.run(x, g, &mut self.scratch[1]).is_some()
+        self.slope.inside(x, g).is_some()
     }
 }
 
@@ -344,6 +359,8 @@ struct Writer<'a> {
     density: &'a Density,
     functions: u32,
     context: FunctionBuilderContext,
+    /// What each node is in the function, by its number from 1, that computed it last.
+    values: Vec<(u32, Value)>,
 }
 
 type Written<T> = Result<T, Box<dyn std::error::Error>>;
@@ -478,8 +495,8 @@ impl Writer<'_> {
         b.switch_to_block(block);
         b.append_block_params_for_function_params(block);
         let [x, g, scratch] = *b.block_params(block) else { return Err("three parameters".into()) };
-        let mut code =
-            Code { b, density: self.density, x, g, scratch, place, values: std::collections::HashMap::new() };
+        let (values, function) = (&mut self.values, self.functions);
+        let mut code = Code { b, density: self.density, x, g, scratch, place, values, function };
         body(&mut code);
         let Code { mut b, .. } = code;
         b.ins().return_(&[]);
@@ -503,15 +520,18 @@ struct Code<'a, 'b> {
     g: Value,
     scratch: Value,
     place: &'b [u32],
-    /// What this function has computed.
-    values: std::collections::HashMap<Id, Value>,
+    /// See [`Writer`].
+    values: &'b mut [(u32, Value)],
+    function: u32,
 }
 
 impl Code<'_, '_> {
     /// A number, from where it lies. Loads are not kept: loading again costs less than a register.
     fn read(&mut self, id: Id) -> Value {
-        if let Some(value) = self.values.get(&id) {
-            return *value;
+        if let (function, value) = self.values[id.index()]
+            && function == self.function
+        {
+            return value;
         }
         let node = self.density.graph().node(id);
         let flags = MemFlagsData::trusted();
@@ -567,8 +587,14 @@ impl Code<'_, '_> {
                     Op::Sub => self.b.ins().fsub(a, b),
                     Op::Mul => self.b.ins().fmul(a, b),
                     Op::Div => self.b.ins().fdiv(a, b),
-                    Op::Min => self.b.ins().fmin(a, b),
-                    Op::Max => self.b.ins().fmax(a, b),
+                    Op::Min | Op::Max => {
+                        // As `operation::min` and `max`, to the sign of a zero.
+                        let (less, more) = if op == Op::Min { (b, a) } else { (a, b) };
+                        let beyond = self.b.ins().fcmp(FloatCC::LessThan, less, more);
+                        let nan = self.b.ins().fcmp(FloatCC::Unordered, b, b);
+                        let second = self.b.ins().bor(beyond, nan);
+                        self.b.ins().select(second, b, a)
+                    }
                     _ => {
                         let holds = self.b.ins().fcmp(FloatCC::LessThan, a, b);
                         let (one, zero) = (self.b.ins().f64const(1.0), self.b.ins().f64const(0.0));
@@ -577,7 +603,7 @@ impl Code<'_, '_> {
                 }
             }
         };
-        self.values.insert(id, value);
+        self.values[id.index()] = (self.function, value);
         value
     }
 }

@@ -4,11 +4,11 @@
 //! to find is shared by 16 or 64 chains. It needs no compilation. Values whose last reader has run give their place to
 //! others, which keeps the lanes of a large graph in the cache.
 
-#![allow(unsafe_code)] // Slices of one memory, disjoint by construction; the call of code for AVX2.
+#![allow(unsafe_code)] // Slices of one memory, disjoint by construction; calls of code for AVX2 and AVX-512.
 
 use crate::density::{Comparison, Density, Guard};
 use crate::graph::{Graph, Id};
-use crate::kernels;
+use crate::kernels::{self, Vectors};
 use crate::operation::Op;
 
 #[derive(Clone, Copy, Debug)]
@@ -34,6 +34,11 @@ impl Tape {
     pub fn new(density: &Density) -> Tape {
         let outputs: Vec<Id> = density.gradient().iter().chain([&density.value()]).copied().collect();
         Tape::of(density.graph(), &outputs, density.guards())
+    }
+
+    /// The tape of a density's gradient alone.
+    pub fn of_gradient(density: &Density) -> Tape {
+        Tape::of(density.graph(), density.gradient(), density.guards())
     }
 
     /// The tape of some nodes, within guards.
@@ -75,7 +80,8 @@ impl Tape {
             if let Some(x) = node.constant() {
                 tape.constants.push((to, x));
             } else if !permanent {
-                let at = |k: usize| if k < node.op.arity() { slot[node.arg(k).index()] } else { 0 };
+                // An argument that is not taken is the first one again: never the slot that is written.
+                let at = |k: usize| slot[node.arg(if k < node.op.arity() { k } else { 0 }).index()];
                 tape.steps.push(Step::Compute { op: node.op, to, a: at(0), b: at(1), c: at(2) });
             }
             let mut done: Vec<Id> = node.args().collect();
@@ -124,21 +130,17 @@ impl Tape {
             match *step {
                 Step::Compute { op, to, a, b, c } => {
                     debug_assert!([to, a, b, c].iter().all(|&slot| (slot as usize) < slots));
-                    // SAFETY: `Tape::new` hands out slots below `slots`, and none that an argument has to what is
-                    // written; unused arguments are slot 0, which is read by no arm that does not take them, and
-                    // `to` may be slot 0 only for a tape of no inputs, whose memory is still valid to read.
+                    // SAFETY: `Tape::of` hands out slots below `slots`, and to what is written one that none of its
+                    // arguments has.
                     let (a, b, c, to) = unsafe {
                         (
                             &*base.add(a as usize),
                             &*base.add(b as usize),
                             &*base.add(c as usize),
-                            base.add(to as usize),
+                            &mut *base.add(to as usize),
                         )
                     };
-                    let mut out = [0.0; L];
-                    kernels::any(op, a, b, c, &mut out);
-                    // SAFETY: as above; nothing else is borrowed any more.
-                    unsafe { *to = out };
+                    kernels::any(op, a, b, c, to);
                 }
                 Step::Guard { comparison, a, b } => {
                     let (a, b) = (&memory[a as usize], &memory[b as usize]);
@@ -153,6 +155,12 @@ impl Tape {
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2")]
     fn run_avx2<const L: usize>(&self, memory: &mut [[f64; L]], inside: &mut [bool; L]) {
+        self.run(memory, inside);
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx512bw")]
+    fn run_avx512<const L: usize>(&self, memory: &mut [[f64; L]], inside: &mut [bool; L]) {
         self.run(memory, inside);
     }
 }
@@ -171,12 +179,9 @@ impl<const L: usize> Lanes<L> {
     /// # Panics
     /// When `x` or `g` has not one row for each coordinate, or the memory is another tape's.
     pub fn value_and_gradient(&mut self, tape: &Tape, x: &[[f64; L]], g: &mut [[f64; L]]) -> [f64; L] {
-        assert!(g.len() == x.len() && tape.outputs.len() == x.len() + 1);
-        let inside = self.run(tape, x);
-        for (g, slot) in g.iter_mut().zip(&tape.outputs) {
-            *g = self.memory[*slot as usize];
-        }
-        let mut value = self.memory[tape.outputs[x.len()] as usize];
+        assert!(tape.outputs.len() == x.len() + 1);
+        let inside = self.covered(tape, x, g);
+        let mut value = self.value(tape);
         for (lane, inside) in inside.iter().enumerate() {
             if !inside {
                 value[lane] = f64::NAN;
@@ -186,18 +191,39 @@ impl<const L: usize> Lanes<L> {
         value
     }
 
+    /// Writes the first outputs of a tape, one for each coordinate, to `g`, and says which lanes are inside the guards;
+    /// the others' numbers have no meaning.
+    ///
+    /// # Panics
+    /// As for [`Lanes::value_and_gradient`]; for a tape of fewer outputs.
+    pub fn covered(&mut self, tape: &Tape, x: &[[f64; L]], g: &mut [[f64; L]]) -> [bool; L] {
+        assert!(g.len() == x.len() && tape.outputs.len() >= x.len());
+        let inside = self.run(tape, x);
+        for (g, slot) in g.iter_mut().zip(&tape.outputs) {
+            *g = self.memory[*slot as usize];
+        }
+        inside
+    }
+
+    /// The last output of the last evaluation: of a density's tape, its values.
+    pub fn value(&self, tape: &Tape) -> [f64; L] {
+        tape.outputs.last().map_or([f64::NAN; L], |slot| self.memory[*slot as usize])
+    }
+
     /// Computes all, and says which lanes are inside the guards.
     fn run(&mut self, tape: &Tape, x: &[[f64; L]]) -> [bool; L] {
         assert!(x.len() == tape.dim() && self.memory.len() == tape.slots);
         self.memory[..x.len()].copy_from_slice(x);
         let mut inside = [true; L];
-        #[cfg(target_arch = "x86_64")]
-        if std::arch::is_x86_feature_detected!("avx2") {
+        match Vectors::here() {
+            // SAFETY: the processor has AVX-512.
+            #[cfg(target_arch = "x86_64")]
+            Vectors::Avx512 => unsafe { tape.run_avx512(&mut self.memory, &mut inside) },
             // SAFETY: the processor has AVX2.
-            unsafe { tape.run_avx2(&mut self.memory, &mut inside) };
-            return inside;
+            #[cfg(target_arch = "x86_64")]
+            Vectors::Avx2 => unsafe { tape.run_avx2(&mut self.memory, &mut inside) },
+            _ => tape.run(&mut self.memory, &mut inside),
         }
-        tape.run(&mut self.memory, &mut inside);
         inside
     }
 }

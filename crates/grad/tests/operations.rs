@@ -131,7 +131,7 @@ const CASES: &[Case] = cases! {
     "soft_at_most" reals [0.3, 0.5, 0.4]; "soft_at_most" reals [0.9, 0.5, 0.4];
     "smooth_max" reals [0.3, 0.5, 0.4]; "smooth_min" reals [0.3, 0.5, 0.4]; "smooth_abs" reals [-0.3, 0.2];
     "hsv" reals [0.3, 0.5, 0.7]; "lab" reals [55.0, 12.0, -20.0]; "to_hsv" vectors [0.3, 0.5, 0.7];
-    "to_lab" vectors [0.3, 0.5, 0.7]; "color_difference" vectors [0.3, 0.5, 0.7, 0.6, 0.4, 0.2];
+    "to_lab" vectors [0.3, 0.5, 0.7]; "to_lab" vectors [0.02, 0.5, 0.01]; "color_difference" vectors [0.3, 0.5, 0.7, 0.6, 0.4, 0.2];
     "polygon_area" cornered [0.0, 0.1, 2.0, 0.0, 2.3, 1.9, -0.2, 1.7];
     "polygon_contains" around [0.0, 0.1, 2.0, 0.0, 2.3, 1.9, -0.2, 1.7, 0.8, 0.4];
     "polygon_distance" around [0.0, 0.1, 2.0, 0.0, 2.3, 1.9, -0.2, 1.7, 0.8, 0.4];
@@ -213,6 +213,30 @@ fn every_builtin_has_the_slope_of_central_differences_or_none_to_have() {
 }
 
 #[test]
+fn a_recording_holds_wherever_its_guards_do() {
+    // A function that decides by a number without a guard is caught at points where it would decide otherwise.
+    let (mut seed, mut inside) = (5, 0);
+    for (name, plain, noted, x) in CASES {
+        let density =
+            recorded(x, |vars| call(name, &noted(vars)).unwrap_or_else(|fault| panic!("{name}: {fault}")));
+        for _ in 0..300 {
+            let wide = 10f64.powf(-2.0 + 2.5 * unit(&mut seed));
+            let point: Vec<f64> =
+                x.iter().map(|x| x + wide * x.abs().max(0.3) * (2.0 * unit(&mut seed) - 1.0)).collect();
+            let Ok(expected) = call(name, &plain(&point)) else { continue };
+            if density.broken(&point).is_some() {
+                continue;
+            }
+            inside += 1;
+            let value = density.interpret(&point, &mut vec![0.0; x.len()]);
+            let close = (value - expected).abs() <= 1e-9 * expected.abs().max(1.0);
+            assert!(close, "{name} recorded at {x:?}, at {point:?}: {value}, not {expected}");
+        }
+    }
+    assert!(inside > 100 * CASES.len(), "{inside}");
+}
+
+#[test]
 fn what_has_no_derivative_says_so_where_the_number_varies() {
     let (found, _) = with_sheet(|| {
         let x = Var::input(0.5);
@@ -246,11 +270,18 @@ fn every_way(density: &Density, x: &[f64]) {
     let found = tape.lanes::<16>().value_and_gradient(&tape, &rows, &mut many);
     let last: Vec<f64> = many.iter().map(|row| row[15]).collect();
     same("lanes", found[15], &last);
+    let bits =
+        |value: f64, g: &[f64]| -> Vec<u64> { g.iter().chain([&value]).map(|x| x.to_bits()).collect() };
+    let by_tape = bits(found[15], &last);
     let mut native = Native::compile(density).expect("machine code for this processor");
     let found = native.value_and_gradient(x, &mut g);
     same("machine code", found, &g);
+    let sound = |g: &[f64]| g.iter().chain([&found]).all(|x| !x.is_nan());
+    // To the bit, so that a chain need not know which of them it has.
+    assert!(!sound(&g) || bits(found, &g) == by_tape, "machine code and tape differ: {g:?} {last:?}");
     if native.gradient(x, &mut g) {
         same("machine code without the value", value, &g);
+        assert!(!sound(&g) || bits(found, &g) == by_tape, "without the value: {g:?} {last:?}");
     }
 }
 

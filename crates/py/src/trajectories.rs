@@ -15,6 +15,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::collections::HashMap;
 
+type Reals<'py> = Bound<'py, PyArray1<f64>>;
+
 /// What several chains of one seed found.
 #[pyclass(frozen, name = "Trajectories", module = "niwaki._engine")]
 pub struct PyTrajectories {
@@ -123,20 +125,27 @@ impl PyTrajectories {
         PyArray1::from_slice(py, &draws.x).reshape([draws.len(), draws.dim])
     }
 
-    /// Of each draw of a chain: ``log_density`` (over coordinates), ``log_prior``, ``log_score``, ``energy`` (nats),
-    /// ``accept``, ``steps``, ``depth``, ``diverging``.
+    /// Of each draw of a chain: ``log_density`` (over coordinates), ``energy`` (nats), ``accept``, ``steps``, ``depth``,
+    /// ``diverging``.
     fn draws<'py>(&self, py: Python<'py>, chain: usize) -> PyResult<Bound<'py, PyDict>> {
         let (chain, facts) = (self.chain(chain)?, PyDict::new(py));
         let draws = &chain.draws;
         facts.set_item("log_density", PyArray1::from_slice(py, &draws.log_density))?;
-        facts.set_item("log_prior", PyArray1::from_slice(py, &chain.log_prior))?;
-        facts.set_item("log_score", PyArray1::from_slice(py, &chain.log_score))?;
         facts.set_item("energy", PyArray1::from_slice(py, &draws.energy))?;
         facts.set_item("accept", PyArray1::from_slice(py, &draws.accept))?;
         facts.set_item("steps", PyArray1::from_slice(py, &draws.steps))?;
         facts.set_item("depth", PyArray1::from_slice(py, &draws.depth))?;
         facts.set_item("diverging", PyArray1::from_slice(py, &draws.diverging))?;
         Ok(facts)
+    }
+
+    /// Of each draw of a chain, by running it: log densities of the choices, and of factors and observations, nats.
+    fn scores<'py>(&self, py: Python<'py>, chain: usize) -> PyResult<(Reals<'py>, Reals<'py>)> {
+        let (own, found) = (self.task.get(), self.chain(chain)?);
+        let scores = py.detach(|| found.scores(&own.task));
+        let scores = scores.map_err(|failure| faults::raise(py, &failure, &own.task.program))?;
+        let (prior, score): (Vec<f64>, Vec<f64>) = scores.into_iter().unzip();
+        Ok((PyArray1::from_vec(py, prior), PyArray1::from_vec(py, score)))
     }
 
     /// Of a chain: ``step_size``, ``gradients``, ``warmup_gradients``, ``warmup_divergences``, ``recordings``, and by

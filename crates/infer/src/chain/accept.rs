@@ -10,6 +10,8 @@
 //! Each log density is a multiple of 2^-32, so that the first two lines are exact. Dissertation 3.2, with the odds of
 //! a choice in place of the ratio of the numbers of choices.
 
+use crate::hamiltonian::{Kernel, Metric, Phase, Potential, Transition};
+use niwaki_math::Stream;
 use niwaki_vm::code::Program;
 use niwaki_vm::machine::kept::Trace;
 
@@ -38,6 +40,21 @@ pub trait Rules: Send {
     #[inline(always)]
     fn log_ratio(t: &Terms) -> f64 {
         (t.prior + t.score) + (t.stale - t.fresh) + (t.backward - t.forward) + t.odds
+    }
+
+    /// Whether densities over coordinates leave their Jacobians out.
+    const DROPS_JACOBIAN: bool = false;
+
+    /// One transition along the gradient.
+    fn travel<P: Potential>(
+        kernel: &mut Kernel,
+        target: &mut P,
+        metric: &Metric,
+        step: f64,
+        phase: &mut Phase,
+        stream: &mut Stream,
+    ) -> Transition {
+        kernel.step(target, metric, step, phase, stream)
     }
 
     /// Told of a chain's trace before its first proposal.

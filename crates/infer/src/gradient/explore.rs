@@ -9,10 +9,10 @@ use crate::chain::snapshot::Snapshot;
 use crate::chain::state::State;
 use crate::chain::streams::Streams;
 use crate::hamiltonian::chains::{GLANCE, run};
-use crate::hamiltonian::{Cause, Chain, Draws, Settings};
+use crate::hamiltonian::{Cause, Chain, Draws, Settings, lanes};
 use crate::replay::{Choice, Missing, Source, Trace, by_address, replay};
 use crate::{Failure, Task};
-use niwaki_grad::{Continuous, Live, Model, Recorded};
+use niwaki_grad::{Continuous, Live, Model, Recorded, Wide};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::stack::RunFault;
 use niwaki_vm::value::Value;
@@ -31,10 +31,6 @@ pub struct Explored {
     pub fixed: Vec<Choice>,
     /// The values of the continuous choices by rows, `(draws, sum of widths)`.
     pub numbers: Vec<f64>,
-    /// Log densities of the choices of each draw, nats, without Jacobians.
-    pub log_prior: Vec<f64>,
-    /// Factors and observations of each draw, nats.
-    pub log_score: Vec<f64>,
     /// How often the program was recorded.
     pub recordings: usize,
     /// What the first trajectory met, after warm-up, that came to a point without a finite gradient.
@@ -50,6 +46,19 @@ impl Explored {
     /// How many numbers the continuous choices of a draw have.
     pub fn width(&self) -> usize {
         self.choices().iter().map(Continuous::width).sum()
+    }
+
+    /// Of each draw, by running it: the log density of its choices without Jacobians, and its factors and observations,
+    /// nats.
+    ///
+    /// # Errors
+    /// A fault of the program.
+    pub fn scores(&self, task: &Task) -> Result<Vec<(f64, f64)>, Failure> {
+        let score = |draw| {
+            let trace = self.trace(task, draw).unwrap_or_else(|| unreachable!("a draw of this chain"))?;
+            Ok((trace.record.log_prior, trace.record.log_score()))
+        };
+        (0..self.draws.len()).into_par_iter().map(score).collect()
     }
 
     /// The run of a draw; `None` where there is no such draw.
@@ -78,8 +87,17 @@ pub struct Plan<'a> {
     pub known: Option<&'a HashMap<u128, Value>>,
 }
 
+/// Lanes of chains that move together, where each thread has so many of them, and where it has fewer.
+const MANY: usize = 64;
+const FEW: usize = 16;
+/// Fewer chains go alone, each with machine code: empty lanes cost as much as full ones.
+const LEAST: usize = 12;
+
 /// Draws from a task's distribution. `watch` is told the transitions of all chains now and then; when it answers false,
 /// they end with what they have.
+///
+/// Where each thread has a dozen chains or more of one structure, with trajectories of a fixed length and a metric of
+/// scales, they go in [`lanes`]. They draw the same there, to the bit, as alone.
 ///
 /// # Errors
 /// Sketches, a run without continuous choices, no possible start, an operation without a derivative on the way to the
@@ -90,58 +108,110 @@ pub fn explore(
     watch: &(dyn Fn(u64) -> bool + Sync),
 ) -> Result<Vec<Explored>, Failure> {
     let (model, done) = (model(task)?, AtomicU64::new(0));
-    let chains: Vec<Result<Explored, Failure>> = (0..plan.chains as u64)
+    let targets: Vec<Result<Live, Failure>> = (0..plan.chains as u64)
         .into_par_iter()
-        .map(|number| {
-            one(task, model.clone(), plan, number, &|| {
-                watch(done.fetch_add(GLANCE, Ordering::Relaxed) + GLANCE)
-            })
-        })
+        .map(|number| start(task, model.clone(), plan, number))
         .collect();
-    chains.into_iter().collect()
+    let mut targets: Vec<Option<Live>> =
+        targets.into_iter().map(|t| t.map(Some)).collect::<Result<_, _>>()?;
+    let groups: Vec<Vec<(usize, Live)>> = grouped(plan.settings, &targets)
+        .into_iter()
+        .map(|group| group.into_iter().filter_map(|k| Some((k, targets[k].take()?))).collect())
+        .collect();
+    let look = || watch(done.fetch_add(GLANCE, Ordering::Relaxed) + GLANCE);
+    let found: Vec<Result<Vec<(usize, Explored)>, Failure>> =
+        groups.into_par_iter().map(|group| together(task, plan, group, &look)).collect();
+    let mut found: Vec<(usize, Explored)> =
+        found.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect();
+    found.sort_by_key(|(number, _)| *number);
+    Ok(found.into_iter().map(|(_, explored)| explored).collect())
 }
 
-fn one(
-    task: &Task,
-    model: Model,
-    plan: &Plan<'_>,
-    number: u64,
-    watch: &dyn Fn() -> bool,
-) -> Result<Explored, Failure> {
+/// Chains that move together: those of one structure, in lanes; the others each alone.
+fn grouped(settings: &Settings, targets: &[Option<Live>]) -> Vec<Vec<usize>> {
+    let mut alike: Vec<(u128, Vec<usize>)> = Vec::new();
+    for (k, target) in targets.iter().enumerate() {
+        let structure = target.as_ref().map_or(0, |target| target.recorded().structure);
+        match alike.iter_mut().find(|(key, _)| *key == structure) {
+            Some((_, group)) => group.push(k),
+            None => alike.push((structure, vec![k])),
+        }
+    }
+    let mut groups = Vec::new();
+    for (_, chains) in alike {
+        let each = chains.len().div_ceil(rayon::current_num_threads());
+        let lanes = match each {
+            _ if !lanes::suits(settings) => 1,
+            MANY.. => MANY,
+            LEAST.. => FEW,
+            _ => 1,
+        };
+        groups.extend(chains.chunks(lanes).map(<[usize]>::to_vec));
+    }
+    groups
+}
+
+/// The density around a chain's first run.
+fn start(task: &Task, model: Model, plan: &Plan<'_>, number: u64) -> Result<Live, Failure> {
     let (state, _) = State::start(task, Streams::new(plan.seed, number), plan.tries, plan.known)?;
     let choices = by_address(&Snapshot::of(&state, &task.program, 0).log.entries());
     drop(state);
-    let mut target = live_of(model, &choices)?;
-    let recorded = target.recorded().clone();
-    let started = Chain::new(&mut target, &recorded.start, plan.settings, plan.seed, number);
-    let Ok(chain) = started else { return Err(no_slope(&target, &recorded.start)) };
-    let draws = run(chain, plan.settings, &|_| watch());
+    live_of(model, &choices)
+}
+
+/// Runs the chains of a group, by their numbers.
+fn together(
+    task: &Task,
+    plan: &Plan<'_>,
+    mut group: Vec<(usize, Live)>,
+    look: &(dyn Fn() -> bool + Sync),
+) -> Result<Vec<(usize, Explored)>, Failure> {
+    let starts: Vec<Arc<Recorded>> = group.iter().map(|(_, target)| target.recorded().clone()).collect();
+    let mut chains = Vec::with_capacity(group.len());
+    let mut refused = None;
+    for (at, ((number, target), recorded)) in group.iter_mut().zip(&starts).enumerate() {
+        match Chain::new(target, &recorded.start, plan.settings, plan.seed, *number as u64) {
+            Ok(chain) => chains.push(chain),
+            Err(_) => refused = refused.or(Some(at)),
+        }
+    }
+    if let Some(at) = refused {
+        drop(chains);
+        return Err(no_slope(&group[at].1, &starts[at].start));
+    }
+    let draws = if chains.len() < LEAST {
+        chains.into_iter().map(|chain| run(chain, plan.settings, &|_| look())).collect()
+    } else if chains.len() <= FEW {
+        let mut wide = Wide::<FEW>::new(&starts[0].density);
+        lanes::run_in_lanes(chains, &mut wide, plan.settings, &|_, _| look())
+    } else {
+        let mut wide = Wide::<MANY>::new(&starts[0].density);
+        lanes::run_in_lanes(chains, &mut wide, plan.settings, &|_, _| look())
+    };
+    let ends = group.into_iter().zip(starts).zip(draws);
+    ends.map(|(((number, target), recorded), draws)| Ok((number, explored(task, target, recorded, draws)?)))
+        .collect()
+}
+
+/// What a chain found, with values for its coordinates.
+fn explored(
+    task: &Task,
+    mut target: Live,
+    recorded: Arc<Recorded>,
+    draws: Draws,
+) -> Result<Explored, Failure> {
     let stopped = |cause| draws.divergences.iter().find(move |d| d.stop.is_some_and(|s| s.cause == cause));
     let fault = stopped(Cause::NotFinite).and_then(|divergence| reason(&target, &divergence.end));
-    let mut found = Explored {
-        fixed: fixed(task, &recorded)?,
-        numbers: vec![],
-        log_prior: vec![],
-        log_score: vec![],
-        recordings: 0,
-        fault,
-        draws,
-        recorded,
-    };
+    let mut numbers = Vec::new();
     let mut slope = vec![0.0; target.dim()];
-    for (draw, x) in found.draws.rows().enumerate() {
+    for (draw, x) in draws.rows().enumerate() {
         // Values follow from coordinates by the path that the point is on.
-        let on_path = target.value_and_gradient(x, &mut slope).is_ok();
+        let on_path = target.gradient(x, &mut slope).is_ok();
         debug_assert!(on_path, "draw {draw} is a point of the density");
-        let numbers = target.recorded().numbers(x);
-        let source = Source::Addresses(target.recorded().values_of(&numbers));
-        let trace = replay(task, source, Missing::Refuse)?;
-        found.numbers.extend(numbers);
-        found.log_prior.push(trace.record.log_prior);
-        found.log_score.push(trace.record.log_score());
+        numbers.extend(target.recorded().numbers(x));
     }
-    found.recordings = target.recordings();
-    Ok(found)
+    let fixed = fixed(task, &recorded)?;
+    Ok(Explored { fixed, numbers, recordings: target.recordings(), fault, draws, recorded })
 }
 
 /// The fixed choices of a recorded run by name.

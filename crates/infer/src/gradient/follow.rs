@@ -1,7 +1,8 @@
 //! A task's density as a target: what a chain asks, and why a point was refused.
 
+use crate::hamiltonian::lanes;
 use crate::hamiltonian::{Cause, Potential, Stop};
-use niwaki_grad::{Live, Refused};
+use niwaki_grad::{Live, Refused, Wide};
 use niwaki_vm::machine::stack::RunFault;
 
 impl Potential for Live {
@@ -14,6 +15,20 @@ impl Potential for Live {
     fn value_and_gradient(&mut self, x: &[f64], gradient: &mut [f64]) -> Result<f64, Stop> {
         Live::value_and_gradient(self, x, gradient)
             .map_err(|refused| Stop { cause: cause(&refused), place: 0 })
+    }
+
+    #[inline]
+    fn gradient(&mut self, x: &[f64], gradient: &mut [f64]) -> Result<(), Stop> {
+        Live::gradient(self, x, gradient).map_err(|refused| Stop { cause: cause(&refused), place: 0 })
+    }
+}
+
+impl<const L: usize> lanes::Wide<L> for Wide<L> {
+    fn value_and_gradient(&mut self, x: &[[f64; L]], g: &mut [[f64; L]]) -> ([f64; L], [bool; L]) {
+        Wide::value_and_gradient(self, x, g)
+    }
+    fn gradient(&mut self, x: &[[f64; L]], g: &mut [[f64; L]]) -> [bool; L] {
+        Wide::gradient(self, x, g)
     }
 }
 

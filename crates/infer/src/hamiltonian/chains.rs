@@ -278,36 +278,69 @@ pub fn sample<P: Potential>(
 }
 
 /// Warms a chain up, then draws.
-pub fn run<P: Potential>(mut chain: Chain<P>, settings: &Settings, watch: &dyn Fn(u32) -> bool) -> Draws {
-    let mut draws = Draws { dim: chain.phase.x.len(), ..Draws::default() };
-    let mut adaptation = Adaptation::new(&mut chain, settings);
-    let goes_on = |visit: u64| !visit.is_multiple_of(GLANCE) || watch(visit as u32);
-    for _ in 0..settings.warmup {
-        let made = chain.advance();
-        draws.count_warmup(&made);
-        adaptation.learn(&mut chain, &made);
-        if !goes_on(chain.visit) {
-            draws.interrupted = true;
-            break;
+pub fn run<P: Potential>(chain: Chain<P>, settings: &Settings, watch: &dyn Fn(u32) -> bool) -> Draws {
+    let mut course = Course::new(chain, settings);
+    while !course.is_over() {
+        let made = course.chain.advance();
+        course.take(&made);
+        course.look(watch);
+    }
+    course.finish()
+}
+
+/// A chain on its way through warm-up and draws.
+pub(super) struct Course<'a, P> {
+    pub(super) chain: Chain<P>,
+    settings: &'a Settings,
+    adaptation: Adaptation,
+    draws: Draws,
+    warmed: u32,
+    /// Transitions still to make for the next draw.
+    left: u32,
+    /// Whether one of those already made broke off.
+    diverging: bool,
+}
+
+impl<'a, P: Potential> Course<'a, P> {
+    pub(super) fn new(mut chain: Chain<P>, settings: &'a Settings) -> Self {
+        let adaptation = Adaptation::new(&mut chain, settings);
+        let draws = Draws { dim: chain.phase.x.len(), ..Draws::default() };
+        let left = settings.thin.max(1);
+        Course { chain, settings, adaptation, draws, warmed: 0, left, diverging: false }
+    }
+
+    pub(super) fn is_over(&self) -> bool {
+        let drawn = self.draws.len() as u64 >= u64::from(self.settings.draws);
+        self.draws.interrupted || self.warmed == self.settings.warmup && drawn
+    }
+
+    /// Learns from a transition, or keeps what it led to.
+    pub(super) fn take(&mut self, made: &Transition) {
+        if self.warmed < self.settings.warmup {
+            self.warmed += 1;
+            self.draws.count_warmup(made);
+            self.adaptation.learn(&mut self.chain, made);
+            return;
+        }
+        self.diverging |= self.draws.count(made);
+        self.left -= 1;
+        if self.left == 0 {
+            self.draws.push(&self.chain.phase, made, self.diverging);
+            (self.left, self.diverging) = (self.settings.thin.max(1), false);
         }
     }
-    'draws: for _ in 0..if draws.interrupted { 0 } else { settings.draws } {
-        let mut diverging = false;
-        for left in (0..settings.thin.max(1)).rev() {
-            let made = chain.advance();
-            diverging |= draws.count(&made);
-            if left == 0 {
-                draws.push(&chain.phase, &made, diverging);
-            }
-            if !goes_on(chain.visit) {
-                draws.interrupted = true;
-                break 'draws;
-            }
-        }
+
+    /// Tells whoever watches, now and then; ends when they say so.
+    pub(super) fn look(&mut self, watch: &dyn Fn(u32) -> bool) {
+        let visit = self.chain.visit;
+        self.draws.interrupted |= visit.is_multiple_of(GLANCE) && !watch(visit as u32);
     }
-    draws.step_size = chain.step_size;
-    draws.metric = Some(chain.metric);
-    draws
+
+    pub(super) fn finish(mut self) -> Draws {
+        self.draws.step_size = self.chain.step_size;
+        self.draws.metric = Some(self.chain.metric);
+        self.draws
+    }
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@
 
 use super::leapfrog::{Phase, leapfrog};
 use super::metric::Metric;
-use super::potential::Potential;
+use super::potential::{Potential, Stop};
 use super::transition::{Divergence, Transition, acceptance};
 use niwaki_math::Stream;
 
@@ -48,14 +48,30 @@ impl Hmc {
         phase: &mut Phase,
         stream: &mut Stream,
     ) -> Transition {
+        let start = self.begin(metric, phase, stream);
+        let refused = leapfrog(target, metric, phase, step, start.steps).err();
+        self.end(start, refused, phase, stream)
+    }
+
+    /// Draws momentum and length, and keeps where the trajectory starts.
+    pub(super) fn begin(&mut self, metric: &Metric, phase: &mut Phase, stream: &mut Stream) -> Start {
         phase.refresh(metric, stream);
         let steps = self.length(stream);
         let before = self.before.get_or_insert_with(|| phase.clone());
         before.copy_from(phase);
-        let start_energy = before.energy();
+        Start { steps, energy: before.energy() }
+    }
 
-        let refused = leapfrog(target, metric, phase, step, steps).err();
-
+    /// Stays where the trajectory led, or goes back.
+    pub(super) fn end(
+        &mut self,
+        start: Start,
+        refused: Option<Stop>,
+        phase: &mut Phase,
+        stream: &mut Stream,
+    ) -> Transition {
+        let Start { steps, energy: start_energy } = start;
+        let before = self.before.get_or_insert_with(|| phase.clone());
         let energy_error = if refused.is_some() { f64::NAN } else { phase.energy() - start_energy };
         let accept = acceptance(-energy_error);
         let diverged = energy_error.is_nan() || energy_error > self.max_energy_error;
@@ -73,12 +89,21 @@ impl Hmc {
     }
 }
 
+/// How a trajectory starts.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Start {
+    /// Leapfrog steps to make.
+    pub(super) steps: u32,
+    /// The Hamiltonian there, nats.
+    pub(super) energy: f64,
+}
+
 #[cfg(test)]
 mod tests {
     //! A refused trajectory leaves the point where it was and is reported; jitter is uniform.
     use super::*;
+    use crate::hamiltonian::potential::Cause;
     use crate::hamiltonian::potential::tests::{By, normals};
-    use crate::hamiltonian::potential::{Cause, Stop};
 
     #[test]
     fn a_stop_ends_the_trajectory_as_a_rejection() {

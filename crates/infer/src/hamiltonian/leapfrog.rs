@@ -10,7 +10,7 @@
 //! energy error shrinks with the square of the step.
 
 use super::metric::Metric;
-use super::potential::{Potential, Stop, evaluate};
+use super::potential::{Potential, Stop, evaluate, evaluate_gradient};
 use niwaki_math::Stream;
 
 /// A point in phase space, with what is known of the target there.
@@ -53,12 +53,12 @@ impl Phase {
         0.5 * dot(&self.p, &self.v) - self.log_density
     }
 
-    /// Becomes a copy of `other`, in place.
+    /// Becomes a copy of `other`, in place; it may have had another number of coordinates.
     pub fn copy_from(&mut self, other: &Phase) {
-        self.x.copy_from_slice(&other.x);
-        self.p.copy_from_slice(&other.p);
-        self.v.copy_from_slice(&other.v);
-        self.gradient.copy_from_slice(&other.gradient);
+        self.x.clone_from(&other.x);
+        self.p.clone_from(&other.p);
+        self.v.clone_from(&other.v);
+        self.gradient.clone_from(&other.gradient);
         self.log_density = other.log_density;
     }
 }
@@ -77,7 +77,8 @@ pub fn add(y: &mut [f64], a: f64, x: &[f64]) {
     }
 }
 
-/// `steps` leapfrog steps of size `step` (negative: backwards in time). Between two steps the half kicks are one.
+/// `steps` leapfrog steps of size `step` (negative: backwards in time). Between two steps the half kicks are one, and the
+/// gradient is all that the target is asked for.
 ///
 /// # Errors
 /// The target's refusal of a position on the way; the phase then stands there, its gradient unspecified.
@@ -89,11 +90,13 @@ pub fn leapfrog(
     steps: u32,
 ) -> Result<(), Stop> {
     let mut kick = 0.5 * step;
-    for _ in 0..steps {
-        add(&mut phase.p, kick, &phase.gradient);
-        metric.velocity(&phase.p, &mut phase.v);
-        add(&mut phase.x, step, &phase.v);
-        phase.log_density = evaluate(target, &phase.x, &mut phase.gradient)?;
+    for left in (0..steps).rev() {
+        drift(metric, phase, kick, step);
+        if left == 0 {
+            phase.log_density = evaluate(target, &phase.x, &mut phase.gradient)?;
+        } else {
+            evaluate_gradient(target, &phase.x, &mut phase.gradient)?;
+        }
         kick = step;
     }
     if steps > 0 {
@@ -101,6 +104,22 @@ pub fn leapfrog(
         metric.velocity(&phase.p, &mut phase.v);
     }
     Ok(())
+}
+
+/// A kick, and a drift with the velocity that it gives. The velocity of a unit or diagonal metric is not written down.
+#[inline]
+fn drift(metric: &Metric, phase: &mut Phase, kick: f64, step: f64) {
+    let Phase { x, p, v, gradient, .. } = phase;
+    if let Metric::Diagonal { variance, .. } = metric {
+        for (((x, p), s), g) in x.iter_mut().zip(p).zip(variance).zip(gradient) {
+            *p += kick * *g;
+            *x += step * (*p * s);
+        }
+        return;
+    }
+    add(p, kick, gradient);
+    metric.velocity(p, v);
+    add(x, step, v);
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@
 //! * [`hmc`], [`nuts`]: one transition, with a fixed length and with one that it finds itself;
 //! * [`transition`]: what both report, and the choice between them;
 //! * [`step_size`], [`estimate`], [`warmup`]: what is adapted in warm-up and frozen afterwards;
-//! * [`chains`]: whole chains, side by side;
+//! * [`chains`]: whole chains, side by side; [`lanes`]: many of them in the lanes of one vector;
 //! * [`tempering`]: a path of targets from loose to tight, walked down once or by all rungs at a time.
 //!
 //! Not here: programs, how a gradient is made, diagnostics of the draws (they are the package's).
@@ -17,6 +17,7 @@
 pub mod chains;
 pub mod estimate;
 pub mod hmc;
+pub mod lanes;
 pub mod leapfrog;
 pub mod metric;
 pub mod nuts;

@@ -14,6 +14,16 @@ pub trait Potential {
     /// # Errors
     /// A point that the target refuses; `gradient` is then unspecified.
     fn value_and_gradient(&mut self, x: &[f64], gradient: &mut [f64]) -> Result<f64, Stop>;
+
+    /// The gradient alone, to the bit that of [`Potential::value_and_gradient`]: all that the inside of a trajectory
+    /// asks for.
+    ///
+    /// # Errors
+    /// As for [`Potential::value_and_gradient`]; a density of zero may go unseen.
+    #[inline]
+    fn gradient(&mut self, x: &[f64], gradient: &mut [f64]) -> Result<(), Stop> {
+        self.value_and_gradient(x, gradient).map(|_| ())
+    }
 }
 
 impl<P: Potential + ?Sized> Potential for &mut P {
@@ -23,6 +33,9 @@ impl<P: Potential + ?Sized> Potential for &mut P {
     fn value_and_gradient(&mut self, x: &[f64], gradient: &mut [f64]) -> Result<f64, Stop> {
         (**self).value_and_gradient(x, gradient)
     }
+    fn gradient(&mut self, x: &[f64], gradient: &mut [f64]) -> Result<(), Stop> {
+        (**self).gradient(x, gradient)
+    }
 }
 
 impl<P: Potential + ?Sized> Potential for Box<P> {
@@ -31,6 +44,9 @@ impl<P: Potential + ?Sized> Potential for Box<P> {
     }
     fn value_and_gradient(&mut self, x: &[f64], gradient: &mut [f64]) -> Result<f64, Stop> {
         (**self).value_and_gradient(x, gradient)
+    }
+    fn gradient(&mut self, x: &[f64], gradient: &mut [f64]) -> Result<(), Stop> {
+        (**self).gradient(x, gradient)
     }
 }
 
@@ -69,13 +85,41 @@ pub fn evaluate(target: &mut (impl Potential + ?Sized), x: &[f64], g: &mut [f64]
     if value == f64::NEG_INFINITY {
         return Err(Stop { cause: Cause::Impossible, place: 0 });
     }
-    // A sum is finite only where every term is; which one was not is asked afterwards.
-    let sum: f64 = g.iter().map(|slope| slope * 0.0).sum();
-    if value.is_finite() && sum == 0.0 {
-        return Ok(value);
+    if value.is_finite() && all_finite(g) { Ok(value) } else { Err(not_finite(g)) }
+}
+
+/// The gradient at `x`, finite.
+///
+/// # Errors
+/// The target's own refusal, a gradient that is not finite.
+#[inline]
+pub fn evaluate_gradient(
+    target: &mut (impl Potential + ?Sized),
+    x: &[f64],
+    g: &mut [f64],
+) -> Result<(), Stop> {
+    target.gradient(x, g)?;
+    if all_finite(g) { Ok(()) } else { Err(not_finite(g)) }
+}
+
+/// A sum of zeros is a zero only where every term was finite; which one was not is asked afterwards.
+#[inline]
+pub(super) fn all_finite(g: &[f64]) -> bool {
+    let mut sums = [0.0; 8];
+    let (eights, rest) = g.as_chunks::<8>();
+    for eight in eights {
+        for (sum, slope) in sums.iter_mut().zip(eight) {
+            *sum += slope * 0.0;
+        }
     }
+    let sum: f64 = rest.iter().map(|slope| slope * 0.0).sum();
+    sum + sums.iter().sum::<f64>() == 0.0
+}
+
+#[cold]
+pub(super) fn not_finite(g: &[f64]) -> Stop {
     let place = g.iter().position(|slope| !slope.is_finite()).unwrap_or(0);
-    Err(Stop { cause: Cause::NotFinite, place: place as u32 })
+    Stop { cause: Cause::NotFinite, place: place as u32 }
 }
 
 #[cfg(test)]
@@ -126,6 +170,14 @@ pub(crate) mod tests {
         for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             let stop = Stop { cause: Cause::NotFinite, place: 1 };
             assert_eq!(evaluate(&mut slopes, &[1.0, bad, 3.0], &mut g), Err(stop));
+            assert_eq!(evaluate_gradient(&mut slopes, &[1.0, bad, 3.0], &mut g), Err(stop));
+        }
+        let mut many = [1.0; 21];
+        assert!(all_finite(&many));
+        for place in 0..21 {
+            many[place] = f64::INFINITY;
+            assert!(!all_finite(&many) && not_finite(&many).place == place as u32);
+            many[place] = 1.0;
         }
         let mut values = By(1, |x: &[f64], g: &mut [f64]| {
             g[0] = 0.0;

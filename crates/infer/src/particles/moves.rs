@@ -28,7 +28,7 @@ use niwaki_vm::machine::state::State;
 /// Visits of a particle's stream, four for each move: the model's own choices and the order have the first two.
 const VISITS: u64 = 4;
 /// The stream from which seeds of chains come: no lineage has this number.
-const CHAINS: u64 = u64::MAX - 8;
+pub(super) const CHAINS: u64 = u64::MAX - 8;
 
 /// Moves a particle that still runs.
 pub(super) fn move_running(
@@ -164,8 +164,8 @@ fn propose(
             };
             now.again(with, machine, &mut ask, fresh)?
         }
-        // It is made to change what there is, and here that must stay.
-        Way::Regenerate(_) => return Ok(None),
+        // One is made to change what there is, and here that must stay; the other moves particles at the end only.
+        Way::Regenerate(_) | Way::Trajectory(_) => return Ok(None),
     };
     let blocks = matches!(own.way, Way::Block(_));
     let found = found.map(|(next, densities)| {
@@ -262,7 +262,10 @@ pub(super) fn move_ended(p: &mut Particle, round: &Round<'_>) -> Result<Count, F
     let seed = Stream::new(round.settings.seed, CHAINS, u128::from(p.lineage), round.number).next_u64();
     let settings = ChainSettings { seed, thin: 0, ..ChainSettings::default() };
     let mut chain: Chain = Chain::at(task, &settings, 0, mover.plan.clone(), state, &mover.spreads)?;
-    chain.restrict(round.temper, round.ending);
+    let ending = round.ending;
+    #[cfg(test)]
+    let ending = super::tests::own_ending(ending, &chain.state, round);
+    chain.restrict(round.temper, ending);
     chain.advance(task, round.leaves.len() as u64, &mut |_, _| true)?;
     let mut count = chain.counts.many;
     chain.counts.sites.iter().for_each(|site| count += *site);

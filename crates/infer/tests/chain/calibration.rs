@@ -21,10 +21,10 @@ use std::sync::Arc;
 
 const REPLICATES: u64 = 4000;
 const PROPOSALS: u64 = 12;
-const LIMIT: f64 = 2.86;
+pub const LIMIT: f64 = 2.86;
 
 /// Each twice: drawing its data (`DATA` is a choice) and observing what it is given.
-const PROGRAMS: [(&str, &str); 6] = [
+pub const PROGRAMS: [(&str, &str); 6] = [
     (
         "location and scale",
         r#"(set $x (sample (dist gaussian 0.0 1.0))) (set $s (sample (dist gamma 2.0 1.0)))
@@ -69,26 +69,34 @@ const PROGRAMS: [(&str, &str); 6] = [
     ),
 ];
 
-/// The program that draws its data, and the one that observes them.
-fn both(text: &str) -> (Task, Task) {
-    let filled = |head: &str, data: &dyn Fn(&str) -> String| {
-        let from = text.find("DATA(").expect("data");
-        let rest = &text[from + 5..];
+/// The program that draws its data, the one that observes them (`$y`, `$y2`, ...), and how many there are.
+fn both(text: &str) -> (Task, Task, usize) {
+    let (mut drawing, mut observing, mut names) = (String::new(), String::new(), Vec::new());
+    let mut rest = text;
+    while let Some(from) = rest.find("DATA(") {
+        let behind = &rest[from + 5..];
         let (mut open, mut end) = (1, 0);
-        for (i, c) in rest.char_indices() {
+        for (i, c) in behind.char_indices() {
             open += i32::from(c == '(') - i32::from(c == ')');
             if open == 0 {
                 end = i;
                 break;
             }
         }
-        let body = format!("{}{}{}", &text[..from], data(&rest[..end]), &rest[end + 1..]);
-        task(&format!(r#"(module (fn "m" (params {head}) {body}) (entry "m"))"#))
+        let number = names.len() + 1;
+        let name = if number == 1 { "$y".to_string() } else { format!("$y{number}") };
+        for body in [&mut drawing, &mut observing] {
+            body.push_str(&rest[..from]);
+        }
+        drawing += &format!("(set {name} (sample (dist {})))", &behind[..end]);
+        observing += &format!("(do (observe (dist {}) {name}))", &behind[..end]);
+        names.push(name);
+        rest = &behind[end + 1..];
+    }
+    let filled = |head: &str, body: &str| {
+        task(&format!(r#"(module (fn "m" (params {head}) {body}{rest}) (entry "m"))"#))
     };
-    (
-        filled("", &|dist| format!("(set $y (sample (dist {dist})))")),
-        filled("$y", &|dist| format!("(do (observe (dist {dist}) $y))")),
-    )
+    (filled("", &drawing), filled(&names.join(" "), &observing), names.len())
 }
 
 fn numbers(value: &Value) -> Vec<f64> {
@@ -103,15 +111,20 @@ fn numbers(value: &Value) -> Vec<f64> {
 }
 
 /// The largest of the coordinates' Kolmogorov distances, in units of sqrt(2 / n).
-fn distance<R: Rules>(text: &str, kernel: &Kernel) -> f64 {
-    let (drawing, observing) = both(text);
+pub fn distance<R: Rules>(text: &str, kernel: &Kernel) -> f64 {
+    distance_of::<R>(text, kernel, REPLICATES)
+}
+
+/// The same, of so many replicates.
+pub fn distance_of<R: Rules>(text: &str, kernel: &Kernel, replicates: u64) -> f64 {
+    let (drawing, observing, data) = both(text);
     let (mut fresh, mut kept): (Vec<Vec<f64>>, Vec<Vec<f64>>) = (vec![], vec![]);
-    for replicate in 0..REPLICATES {
+    for replicate in 0..replicates {
         fresh.push(numbers(&forward(&drawing, 1, replicate, true).expect("a run").value));
         let first = forward(&drawing, 2, replicate, true).expect("a run");
         let (choices, values) = (first.record.log.entries(), numbers(&first.value));
-        let y = choices.last().expect("data").value.clone();
-        let given = Task { args: vec![y], ..observing.clone() };
+        let args = choices[choices.len() - data..].iter().map(|choice| choice.value.clone()).collect();
+        let given = Task { args, ..observing.clone() };
         let settings =
             Settings { seed: 3 + replicate, kernel: kernel.clone(), thin: 0, ..Settings::default() };
         let mut chain = Chain::<R>::start(&given, &settings, 0, Some(&by_address(&choices)))
@@ -121,7 +134,7 @@ fn distance<R: Rules>(text: &str, kernel: &Kernel) -> f64 {
         chain.advance(&given, PROPOSALS, &mut |_, _| true).expect("proposals");
         kept.push(numbers(&chain.state.trace.result()));
     }
-    let scale = (REPLICATES as f64 / 2.0).sqrt();
+    let scale = (replicates as f64 / 2.0).sqrt();
     (0..fresh[0].len())
         .map(|i| {
             let sorted = |rows: &[Vec<f64>]| {

@@ -3,6 +3,7 @@
 
 mod board;
 mod calibration;
+mod mixed;
 mod programs;
 
 use niwaki_infer::chain::Settings;

@@ -1,0 +1,42 @@
+//! A density at several points at once: its tapes with their memory.
+
+use crate::density::Density;
+use crate::tape::{Lanes, Tape};
+
+/// A density over `L` lanes. Coordinate `k` of lane `l` is `x[k][l]`, shape (dim, L), as for gradients.
+#[derive(Clone, Debug)]
+pub struct Wide<const L: usize> {
+    both: (Tape, Lanes<L>),
+    slope: (Tape, Lanes<L>),
+}
+
+impl<const L: usize> Wide<L> {
+    /// The lanes of a density.
+    pub fn new(density: &Density) -> Wide<L> {
+        let with_memory = |tape: Tape| {
+            let memory = tape.lanes();
+            (tape, memory)
+        };
+        Wide { both: with_memory(Tape::new(density)), slope: with_memory(Tape::of_gradient(density)) }
+    }
+
+    /// The log densities, nats, with the gradients in `g`, and which lanes are inside the guards; the others' numbers have
+    /// no meaning.
+    ///
+    /// # Panics
+    /// When `x` or `g` has not one row for each coordinate.
+    pub fn value_and_gradient(&mut self, x: &[[f64; L]], g: &mut [[f64; L]]) -> ([f64; L], [bool; L]) {
+        let (tape, memory) = &mut self.both;
+        let inside = memory.covered(tape, x, g);
+        (memory.value(tape), inside)
+    }
+
+    /// The gradients alone.
+    ///
+    /// # Panics
+    /// As for [`Wide::value_and_gradient`].
+    pub fn gradient(&mut self, x: &[[f64; L]], g: &mut [[f64; L]]) -> [bool; L] {
+        let (tape, memory) = &mut self.slope;
+        memory.covered(tape, x, g)
+    }
+}

@@ -1,0 +1,206 @@
+//! Chains over three densities, for the bench beside other systems: see `benches/hmc`.
+//!
+//!     trajectories start MODEL                                   what it takes until the first gradient, and machine code
+//!     trajectories check MODEL                                   worst errors against known values and gradients
+//!     trajectories chain MODEL POINT STEP LENGTH DRAWS SEED OUT  one chain; draws go to the file OUT, f64 in native order
+//!     trajectories lanes MODEL POINT STEP LENGTH DRAWS SEED -    64 chains in lanes
+//!     trajectories nuts MODEL POINT WARMUP DRAWS SEED OUT        the no-U-turn sampler, with its own warm-up
+//!
+//! MODEL is ring, coloring, stack, or stackN of N blocks; POINT a file with a number for each coordinate. Prints one
+//! JSON line.
+
+#[path = "../../grad/tests/peers/mod.rs"]
+mod peers;
+
+use niwaki_grad::{Compiled, Density, Native, Tape, Wide};
+use niwaki_infer::hamiltonian::chains::{Length, run};
+use niwaki_infer::hamiltonian::lanes::run_in_lanes;
+use niwaki_infer::hamiltonian::{Cause, Chain, Draws, Potential, Settings, Shape, Stop};
+use std::sync::Arc;
+use std::time::Instant;
+
+/// A recorded density as a target.
+struct Target(Compiled);
+
+const OUTSIDE: Stop = Stop { cause: Cause::Guard, place: 0 };
+
+impl Potential for Target {
+    fn dim(&self) -> usize {
+        self.0.density().dim()
+    }
+    fn value_and_gradient(&mut self, x: &[f64], g: &mut [f64]) -> Result<f64, Stop> {
+        self.0.inside(x, g).ok_or(OUTSIDE)
+    }
+    fn gradient(&mut self, x: &[f64], g: &mut [f64]) -> Result<(), Stop> {
+        if self.0.gradient(x, g) { Ok(()) } else { Err(OUTSIDE) }
+    }
+}
+
+fn blocks(model: &str) -> usize {
+    model.strip_prefix("stack").and_then(|n| n.parse().ok()).unwrap_or(6)
+}
+
+fn first_point(model: &str) -> Vec<f64> {
+    match model {
+        "ring" | "coloring" => peers::known().into_iter().find(|k| k.name == model).expect("a known point").x,
+        _ => peers::stack_start(blocks(model)),
+    }
+}
+
+fn density(model: &str) -> Density {
+    let x = first_point(model);
+    match model {
+        "ring" => peers::recorded(&x, peers::ring),
+        "coloring" => {
+            let drawing = peers::drawing();
+            peers::recorded(&x, |x| peers::coloring(&drawing, x, niwaki_grad::Var::below_or))
+        }
+        _ => peers::recorded(&x, |x| peers::stack(blocks(model), x)),
+    }
+}
+
+fn milliseconds<T>(f: impl FnOnce() -> T) -> (T, f64) {
+    let start = Instant::now();
+    let made = f();
+    (made, start.elapsed().as_secs_f64() * 1e3)
+}
+
+/// Seconds of CPU time of this thread.
+fn cpu() -> f64 {
+    let text = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
+    text.split_whitespace().next().and_then(|w| w.parse::<f64>().ok()).unwrap_or(f64::NAN) * 1e-9
+}
+
+fn startup(model: &str) -> String {
+    let point = first_point(model);
+    let mut g = vec![0.0; point.len()];
+    let (density, recording) = milliseconds(|| Arc::new(density(model)));
+    let (mut compiled, tape) = milliseconds(|| {
+        let mut compiled = Compiled::new(density.clone());
+        compiled.inside(&point, &mut g);
+        compiled
+    });
+    let busy = cpu();
+    let (_, code) = milliseconds(|| Native::compile(&density).is_ok());
+    let code_cpu = (cpu() - busy) * 1e3;
+    let (_, behind) = milliseconds(|| {
+        // As a chain does it: gradients by tape while the code is made.
+        while !compiled.is_native() {
+            compiled.gradient(&point, &mut g);
+        }
+    });
+    let (both, slope) = density.operations();
+    format!(
+        r#"{{"dim": {}, "operations": {both}, "operations_of_gradient": {slope}, "slots": {}, "record_ms": {recording},
+            "first_gradient_ms": {tape}, "machine_code_ms": {code},
+            "machine_code_cpu_ms": {code_cpu}, "chain_until_machine_code_ms": {behind}}}"#,
+        density.dim(),
+        Tape::new(&density).slots(),
+    )
+    .replace('\n', "")
+}
+
+fn check(model: &str) -> String {
+    let density = density(model);
+    let mut native = Native::compile(&density).expect("machine code for this processor");
+    let (mut value_off, mut slope_off) = (0.0_f64, 0.0_f64);
+    let mut points = 0;
+    for known in peers::known().into_iter().filter(|k| k.name == model) {
+        let mut g = vec![0.0; known.x.len()];
+        let value = native.value_and_gradient(&known.x, &mut g);
+        value_off = value_off.max((value / known.value - 1.0).abs());
+        let size = known.gradient.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        let worst = g.iter().zip(&known.gradient).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
+        slope_off = slope_off.max(worst / size);
+        points += 1;
+    }
+    format!(r#"{{"points": {points}, "value": {value_off}, "gradient": {slope_off}}}"#)
+}
+
+fn write(path: &str, draws: &[Draws]) {
+    if path != "-" {
+        let bytes: Vec<u8> = draws.iter().flat_map(|d| &d.x).flat_map(|x| x.to_ne_bytes()).collect();
+        std::fs::write(path, bytes).unwrap_or_else(|error| panic!("{path}: {error}"));
+    }
+}
+
+fn report(draws: &[Draws], seconds: f64, cpu: f64) -> String {
+    let gradients: u64 = draws.iter().map(|d| d.gradients + d.warmup_gradients).sum();
+    let accept: f64 = draws.iter().map(|d| d.accept.iter().sum::<f64>() / d.len() as f64).sum();
+    format!(
+        r#"{{"gradients": {gradients}, "seconds": {seconds}, "cpu_seconds": {cpu}, "accept": {}, "divergences": {}, "draws": {}}}"#,
+        accept / draws.len() as f64,
+        draws.iter().map(|d| d.divergences.len()).sum::<usize>(),
+        draws.iter().map(Draws::len).sum::<usize>(),
+    )
+}
+
+fn sample(args: &[&str]) -> String {
+    let [what, model, point, rest @ ..] = args else { panic!("{USAGE}") };
+    let text = std::fs::read_to_string(point).unwrap_or_else(|error| panic!("{point}: {error}"));
+    let start: Vec<f64> = text.split_whitespace().map(|word| word.parse().expect(USAGE)).collect();
+    let number = |k: usize| rest.get(k).and_then(|word| word.parse::<u32>().ok()).expect(USAGE);
+    let density = Arc::new(density(model));
+    if *what == "nuts" {
+        let settings = Settings { warmup: number(0), draws: number(1), ..Settings::nuts() };
+        let (clock, busy) = (Instant::now(), cpu());
+        let target = Target(Compiled::new(density));
+        let chain = Chain::new(target, &start, &settings, u64::from(number(2)), 0).expect("a point of it");
+        let draws = [run(chain, &settings, &|_| true)];
+        let line = report(&draws, clock.elapsed().as_secs_f64(), cpu() - busy);
+        write(rest[3], &draws);
+        return line;
+    }
+    let settings = Settings {
+        length: Length::Fixed { steps: number(1), jitter: 0.0 },
+        warmup: 0,
+        draws: number(2),
+        shape: Shape::Unit,
+        step_size: Some(rest[0].parse().expect(USAGE)),
+        ..Settings::hmc()
+    };
+    let (seed, count) = (u64::from(number(3)), if *what == "lanes" { 64 } else { 1 });
+    let chains: Vec<_> = (0..count)
+        .map(|k| {
+            let mut compiled = Compiled::new(density.clone());
+            if *what == "chain" {
+                compiled.finish();
+            }
+            Chain::new(Target(compiled), &start, &settings, seed, k).expect("a point of it")
+        })
+        .collect();
+    let (clock, busy) = (Instant::now(), cpu());
+    let draws: Vec<Draws> = if *what == "lanes" {
+        let mut all = Vec::new();
+        let mut chains = chains.into_iter().peekable();
+        while chains.peek().is_some() {
+            let group: Vec<_> = chains.by_ref().take(LANES).collect();
+            let mut wide = Wide::<LANES>::new(&density);
+            all.extend(run_in_lanes(group, &mut wide, &settings, &|_, _| true));
+        }
+        all
+    } else {
+        chains.into_iter().map(|chain| run(chain, &settings, &|_| true)).collect()
+    };
+    let line = report(&draws, clock.elapsed().as_secs_f64(), cpu() - busy);
+    write(rest[4], &draws);
+    line
+}
+
+/// As `gradient::explore` groups them on one thread.
+const LANES: usize = 64;
+
+const USAGE: &str = "usage: trajectories start|check MODEL, chain|lanes MODEL POINT STEP LENGTH DRAWS SEED OUT, or \
+                     nuts MODEL POINT WARMUP DRAWS SEED OUT";
+
+fn main() {
+    let args: Vec<String> = std::env::args().skip(1).collect();
+    let args: Vec<&str> = args.iter().map(String::as_str).collect();
+    let line = match args[..] {
+        ["start", model] => startup(model),
+        ["check", model] => check(model),
+        ["chain" | "lanes" | "nuts", ..] => sample(&args),
+        _ => panic!("{USAGE}"),
+    };
+    println!("{line}");
+}

@@ -1,0 +1,282 @@
+//! Chains in lanes: trajectories of a fixed length, side by side in the lanes of one vector.
+//!
+//! Chains that move over one density differ in where they stand, and in step size and scales. A group of them takes
+//! each leapfrog step together, with one evaluation for all; momentum, acceptance and adaptation are each chain's own.
+//! The operations on a lane are those of [`super::leapfrog()`], in its order, so a lane gives the bits that its chain
+//! gives alone, where the wide density gives the bits of the chain's own.
+//!
+//! A point that the wide density does not cover is asked of the chain's own target.
+
+#![allow(unsafe_code)] // Calls of functions compiled for AVX2 or AVX-512, after asking whether there is that.
+
+use super::chains::{Chain, Course, Draws, Purpose, Settings};
+use super::hmc::Start;
+use super::leapfrog::Phase;
+use super::metric::{Metric, Shape};
+use super::potential::{Potential, Stop, evaluate, evaluate_gradient};
+use super::transition::{Kernel, Transition};
+use niwaki_grad::kernels::Vectors;
+use niwaki_math::Stream;
+
+/// A log density at several points at once. Coordinate `k` of lane `l` is `x[k][l]`, shapes are `(dim, L)`.
+pub trait Wide<const L: usize> {
+    /// The log densities, nats, with the gradients in `gradient`, and which lanes are covered: the others have no
+    /// meaning, and their own target is asked.
+    fn value_and_gradient(&mut self, x: &[[f64; L]], gradient: &mut [[f64; L]]) -> ([f64; L], [bool; L]);
+
+    /// The gradients alone.
+    fn gradient(&mut self, x: &[[f64; L]], gradient: &mut [[f64; L]]) -> [bool; L];
+}
+
+/// Whether chains of these settings can go in lanes: trajectories of a fixed length, a scale for each coordinate.
+pub fn suits(settings: &Settings) -> bool {
+    matches!(settings.kernel(), Kernel::Hmc(_)) && matches!(settings.shape, Shape::Unit | Shape::Diagonal)
+}
+
+/// More than this share of points outside of the wide density, and its chains go on alone.
+const SHARE_OUTSIDE: f64 = 0.25;
+
+/// Warms chains up, then draws, in lanes; `watch` is told (chain, transitions made). At most `L` chains, whose settings
+/// [`suits`] accepts.
+///
+/// # Panics
+/// For more than `L` chains.
+pub fn run_in_lanes<P: Potential, const L: usize>(
+    chains: Vec<Chain<P>>,
+    wide: &mut impl Wide<L>,
+    settings: &Settings,
+    watch: &dyn Fn(usize, u32) -> bool,
+) -> Vec<Draws> {
+    assert!(chains.len() <= L, "a lane for each chain");
+    let mut courses: Vec<_> = chains.into_iter().map(|chain| Course::new(chain, settings)).collect();
+    let Some(first) = courses.first() else { return vec![] };
+    let mut lanes = Lanes::<L>::new(first.chain.phase.x.len());
+    while !courses.iter().all(Course::is_over) {
+        let going: Vec<usize> = (0..courses.len()).filter(|&l| !courses[l].is_over()).collect();
+        let made = if lanes.outside > SHARE_OUTSIDE || going.len() * 4 < courses.len() {
+            going.iter().map(|&l| courses[l].chain.advance()).collect()
+        } else {
+            let mut group: Vec<_> =
+                courses.iter_mut().filter(|c| !c.is_over()).map(|course| &mut course.chain).collect();
+            lanes.advance(&mut group, wide)
+        };
+        for (&l, made) in going.iter().zip(&made) {
+            courses[l].take(made);
+            courses[l].look(&|done| watch(l, done));
+        }
+    }
+    courses.into_iter().map(Course::finish).collect()
+}
+
+/// What the chains of one group work in.
+struct Lanes<const L: usize> {
+    x: Vec<[f64; L]>,
+    p: Vec<[f64; L]>,
+    gradient: Vec<[f64; L]>,
+    variance: Vec<[f64; L]>,
+    /// For one point of one lane.
+    one: (Vec<f64>, Vec<f64>),
+    /// The share of the last transitions' points that the wide density did not cover.
+    outside: f64,
+}
+
+/// Coordinates of all lanes.
+struct Rows<'a, const L: usize> {
+    x: &'a mut [[f64; L]],
+    p: &'a mut [[f64; L]],
+    gradient: &'a [[f64; L]],
+    variance: &'a [[f64; L]],
+}
+
+impl<const L: usize> Rows<'_, L> {
+    #[inline(always)]
+    fn drift(self, kick: &[f64; L], step: &[f64; L]) {
+        let rows = self.x.iter_mut().zip(self.p).zip(self.variance).zip(self.gradient);
+        for (((x, p), s), g) in rows {
+            for l in 0..L {
+                p[l] += kick[l] * g[l];
+                x[l] += step[l] * (p[l] * s[l]);
+            }
+        }
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2")]
+    fn drift_avx2(self, kick: &[f64; L], step: &[f64; L]) {
+        self.drift(kick, step);
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx512bw")]
+    fn drift_avx512(self, kick: &[f64; L], step: &[f64; L]) {
+        self.drift(kick, step);
+    }
+}
+
+/// A lane's trajectory.
+struct Lane {
+    stream: Stream,
+    start: Start,
+    step: f64,
+    refused: Option<Stop>,
+}
+
+impl<const L: usize> Lanes<L> {
+    fn new(dim: usize) -> Self {
+        let rows = || vec![[0.0; L]; dim];
+        Lanes {
+            x: rows(),
+            p: rows(),
+            gradient: rows(),
+            variance: rows(),
+            one: (vec![0.0; dim], vec![0.0; dim]),
+            outside: 0.0,
+        }
+    }
+
+    /// One transition of each chain.
+    fn advance<P: Potential>(
+        &mut self,
+        chains: &mut [&mut Chain<P>],
+        wide: &mut impl Wide<L>,
+    ) -> Vec<Transition> {
+        let mut lanes: Vec<Lane> =
+            chains.iter_mut().enumerate().map(|(l, chain)| self.begin(l, chain)).collect();
+        // Lanes without a chain stand where the first one does.
+        for l in chains.len()..L {
+            for rows in [&mut self.x, &mut self.p, &mut self.gradient, &mut self.variance] {
+                rows.iter_mut().for_each(|row| row[l] = row[0]);
+            }
+        }
+        let longest = lanes.iter().map(|lane| lane.start.steps).max().unwrap_or(0);
+        let (mut asked, mut outside) = (0_u64, 0_u64);
+        for done in 0..longest {
+            self.drift(&lanes, done);
+            let ends = lanes.iter().any(|lane| lane.start.steps == done + 1);
+            let (values, covered) = if ends {
+                wide.value_and_gradient(&self.x, &mut self.gradient)
+            } else {
+                ([0.0; L], wide.gradient(&self.x, &mut self.gradient))
+            };
+            let finite = self.finite();
+            asked += lanes.len() as u64;
+            if !ends && covered == [true; L] && finite == [true; L] {
+                continue;
+            }
+            for (l, lane) in lanes.iter_mut().enumerate() {
+                if lane.refused.is_some() || done >= lane.start.steps {
+                    continue;
+                }
+                let last = lane.start.steps == done + 1;
+                let found = if covered[l] && finite[l] && (!last || values[l].is_finite()) {
+                    Ok(values[l])
+                } else {
+                    outside += u64::from(!covered[l]);
+                    self.alone(l, chains[l], last)
+                };
+                match found {
+                    // At once: the lane's numbers are of no use once the others have gone on.
+                    Ok(value) if last => self.arrive(l, &mut chains[l].phase, lane.step, value),
+                    Ok(_) => {}
+                    Err(stop) => {
+                        chains[l].phase.x.copy_from_slice(&self.one.0);
+                        lane.refused = Some(stop);
+                    }
+                }
+            }
+        }
+        self.outside = outside as f64 / asked.max(1) as f64;
+        chains.iter_mut().zip(lanes).map(|(chain, lane)| lane.end(chain)).collect()
+    }
+
+    /// Starts a chain's trajectory in its lane.
+    fn begin<P: Potential>(&mut self, l: usize, chain: &mut Chain<P>) -> Lane {
+        let mut stream = chain.stream(Purpose::Transition);
+        chain.visit += 1;
+        let Chain { kernel: Kernel::Hmc(hmc), metric: metric @ Metric::Diagonal { .. }, phase, .. } = chain
+        else {
+            unreachable!("`suits` accepts fixed lengths and diagonal metrics only");
+        };
+        let start = hmc.begin(metric, phase, &mut stream);
+        let Metric::Diagonal { variance, .. } = metric else { unreachable!("as above") };
+        for (rows, from) in [
+            (&mut self.x, &phase.x),
+            (&mut self.p, &phase.p),
+            (&mut self.gradient, &phase.gradient),
+            (&mut self.variance, &*variance),
+        ] {
+            rows.iter_mut().zip(from).for_each(|(row, x)| row[l] = *x);
+        }
+        Lane { stream, start, step: chain.step_size, refused: None }
+    }
+
+    /// A kick and a drift of every lane that still moves; `done` steps were made before.
+    fn drift(&mut self, lanes: &[Lane], done: u32) {
+        let (mut kick, mut step) = ([0.0; L], [0.0; L]);
+        for (l, lane) in lanes.iter().enumerate() {
+            if lane.refused.is_none() && done < lane.start.steps {
+                step[l] = lane.step;
+                kick[l] = if done == 0 { 0.5 * lane.step } else { lane.step };
+            }
+        }
+        let Lanes { x, p, gradient, variance, .. } = self;
+        let rows = Rows { x, p, gradient, variance };
+        match Vectors::here() {
+            // SAFETY: the processor has AVX-512.
+            #[cfg(target_arch = "x86_64")]
+            Vectors::Avx512 => unsafe { rows.drift_avx512(&kick, &step) },
+            // SAFETY: the processor has AVX2.
+            #[cfg(target_arch = "x86_64")]
+            Vectors::Avx2 => unsafe { rows.drift_avx2(&kick, &step) },
+            _ => rows.drift(&kick, &step),
+        }
+    }
+
+    /// Which lanes have a finite gradient: a sum of zeros is zero only where every term was finite.
+    fn finite(&self) -> [bool; L] {
+        let mut sums = [0.0; L];
+        for row in &self.gradient {
+            for (sum, slope) in sums.iter_mut().zip(row) {
+                *sum += slope * 0.0;
+            }
+        }
+        sums.map(|sum| sum == 0.0)
+    }
+
+    /// Asks a chain's own target about the point of its lane.
+    #[cold]
+    fn alone<P: Potential>(&mut self, l: usize, chain: &mut Chain<P>, last: bool) -> Result<f64, Stop> {
+        let (x, g) = &mut self.one;
+        x.iter_mut().zip(&self.x).for_each(|(x, row)| *x = row[l]);
+        let value = if last {
+            evaluate(&mut chain.target, x, g)?
+        } else {
+            evaluate_gradient(&mut chain.target, x, g)?;
+            0.0
+        };
+        self.gradient.iter_mut().zip(g).for_each(|(row, g)| row[l] = *g);
+        Ok(value)
+    }
+
+    /// Puts the end of a lane's trajectory, after its last half kick, where its chain keeps it.
+    fn arrive(&self, l: usize, phase: &mut Phase, step: f64, log_density: f64) {
+        for k in 0..phase.x.len() {
+            phase.x[k] = self.x[k][l];
+            phase.gradient[k] = self.gradient[k][l];
+            phase.p[k] = self.p[k][l] + 0.5 * step * self.gradient[k][l];
+        }
+        phase.log_density = log_density;
+    }
+}
+
+impl Lane {
+    /// Accepts where the trajectory led, or goes back.
+    fn end<P: Potential>(self, chain: &mut Chain<P>) -> Transition {
+        let Lane { mut stream, start, refused, .. } = self;
+        let Chain { kernel: Kernel::Hmc(hmc), metric, phase, .. } = chain else {
+            unreachable!("`suits` accepts fixed lengths only");
+        };
+        metric.velocity(&phase.p, &mut phase.v);
+        hmc.end(start, refused, phase, &mut stream)
+    }
+}
