@@ -4,8 +4,8 @@
     QUICK=1 make figures-hmc                      # a smoke run: few draws
     make figures-hmc PARTS="structures"           # some of the parts
 
-Parts, in order: `structures` (figures 4.8, 4.9, 4.11 to 4.13 and the table of 4.10). Each leaves pictures and one line
-of JSON for each measurement in FOLDER, out/figures-hmc unless named.
+Parts, in order: `point` (figures 4.2 and 4.3); `structures` (figures 4.8, 4.9, 4.11 to 4.13 and the table of 4.10).
+Each leaves pictures and one line of JSON for each measurement in FOLDER, out/figures-hmc unless named.
 """
 
 import json
@@ -14,9 +14,10 @@ import sys
 import time
 from pathlib import Path
 
+import point
 import structures
 
-PARTS = {"structures": structures.draw}
+PARTS = {"point": point.draw, "structures": structures.draw}
 
 
 def main(folder: Path, parts: list[str]) -> None:
