@@ -6,6 +6,7 @@
 #   make lint     formatting, clippy, ruff, mypy and the door's stub, warnings as errors
 #   make bench    rates beside WebPPL and a hand-written limit, on one thread (needs node and npm)
 #   make figures-sosmc  the figures and the table of chapter 5, into out/figures-sosmc (QUICK=1: a smoke run)
+#   make figures-hmc  the figures and the tables of chapter 4, into out/figures-hmc (QUICK=1: a smoke run)
 #   make bench-c3 proposals of Markov chains beside WebPPL and the limit, with figures (25 minutes; QUICK=1: two)
 #   make bench-hmc gradients and effective samples beside JAX, NumPyro, nutpie and the limit (8 minutes; QUICK=1: two)
 #   make soak     the long tests, with fresh printed seeds
@@ -37,7 +38,7 @@ PYTHON_SOURCES := python tests benches docs/conf.py
 
 PARTS :=
 
-.PHONY: all demo test lint bench bench-c3 bench-hmc figures-sosmc soak docs format locks clean
+.PHONY: all demo test lint bench bench-c3 bench-hmc figures-sosmc figures-hmc soak docs format locks clean
 all: $(STAMPS)/engine
 
 # ---- set-up: one stamp for each thing that is made, older than what depends on it
@@ -83,6 +84,9 @@ bench: $(STAMPS)/engine $(STAMPS)/bench
 
 figures-sosmc: $(STAMPS)/engine $(STAMPS)/bench
 	$(PY) benches/figures_sosmc out/figures-sosmc $(PARTS)
+
+figures-hmc: $(STAMPS)/engine $(STAMPS)/bench $(STAMPS)/test
+	$(PY) benches/figures_hmc out/figures-hmc $(PARTS)
 
 bench-c3: $(STAMPS)/engine $(STAMPS)/bench
 	$(PY) benches/c3.py

@@ -18,7 +18,7 @@ import niwaki
 from niwaki import kernels
 from niwaki.gallery import entry, named_target
 from niwaki.gallery.experiments import experiment
-from niwaki.infer import SearchWarning
+from niwaki.search import SearchWarning
 
 AT_ONCE = 500
 

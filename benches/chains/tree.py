@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from niwaki import _engine, mh, run, volume_match
+from niwaki import _engine, kernels, mh, run, volume_match
 from niwaki.gallery.gnarly_tree import gnarly_tree
 from niwaki.gallery.targets import bent_tube
 from niwaki.scene import Scene
@@ -24,6 +24,10 @@ from chains.report import Report, middle, short
 SMALLEST = (0.1, 0.06, 0.04)
 STRATEGIES = ("c3", "resume", "cache", "rerun")
 VOXEL = 0.4
+#: The tree that is to be looked at: its limbs end while they are a quarter of the trunk, and most segments bear one.
+LIMBS = (0.25, 0.8)
+#: How strictly it is to fill the tube: a tenth of what the rates are measured with.
+STRICT = 0.002
 
 
 @dataclass(frozen=True)
@@ -110,10 +114,12 @@ def scene_of(target: Target) -> Scene:
 
 
 def fitted(folder: Path, proposals: int, chains: int = 4) -> Any:
-    """The best tree of some long chains."""
-    result = run(
-        gnarly_tree, method=mh(steps=proposals, chains=chains, keep=0), score=score(), seed=4, threads=1
-    )
+    """The best tree of some long chains that cool down: hot ones find the bend, cold ones fill the crown."""
+    moves = kernels.mixture(kernels.mh(), kernels.drift(0.3), kernels.regenerate(), weights=[3, 3, 1])
+    kernel = kernels.anneal(moves, 4 * proposals // 5, 100.0, 1.0)
+    method = mh(steps=proposals, chains=chains, keep=0, kernel=kernel, warmup=proposals // 10)
+    wanted = volume_match(bent_tube(), VOXEL, STRICT)
+    result = run(gnarly_tree, *LIMBS, method=method, score=wanted, seed=4, threads=1)
     best = result.best
     best.save(folder / "tree.png", size=(480, 640))
     return best

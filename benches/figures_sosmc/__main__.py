@@ -6,7 +6,8 @@
     make figures-sosmc PARTS="examples growth"              # some of the parts
 
 Parts, in order: `examples` (figures 5.1 to 5.8 and table 5.1), `comparison` (figure 5.9), `growth` (what a primitive
-costs). Each leaves pictures and one line of JSON for each measurement in FOLDER, out/figures-sosmc unless named.
+costs), `threads` (what a second thread saves). Each leaves pictures and one line of JSON for each measurement in
+FOLDER, out/figures-sosmc unless named.
 """
 
 import json
@@ -18,8 +19,14 @@ from pathlib import Path
 import comparison
 import examples
 import growth
+import threads
 
-PARTS = {"examples": examples.draw, "comparison": comparison.draw, "growth": growth.draw}
+PARTS = {
+    "examples": examples.draw,
+    "comparison": comparison.draw,
+    "growth": growth.draw,
+    "threads": threads.draw,
+}
 
 
 def main(folder: Path, parts: list[str]) -> None:

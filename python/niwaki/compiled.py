@@ -116,6 +116,14 @@ def translated(name: str, replay: str = "", choices: Mapping[str, Any] | None = 
         raise _error(fault, name, replay, choices or {}) from None
 
 
+def as_fault(found: BaseException | None, name: str, replay: str = "") -> ModelFault | None:
+    """A fault that the engine kept, as ours; None for anything else."""
+    if not isinstance(found, _engine.EngineFault):
+        return None
+    error = _error(found, name, replay, {})
+    return error if isinstance(error, ModelFault) else None
+
+
 def _error(fault: Any, name: str, replay: str, choices: Mapping[str, Any]) -> Exception:
     if fault.code == "missing-choice":
         address = fault.message.partition("`")[2].rstrip("`")
@@ -134,8 +142,12 @@ def _error(fault: Any, name: str, replay: str, choices: Mapping[str, Any]) -> Ex
         pattern = fault.message.partition("`")[2].partition("`")[0]
         return InputError("no-address", pattern=pattern, name=name, nearest=fault.help or "none")
     if fault.kind == "no-start":
+        if fault.barrier == 0:
+            given = "this one is not"
+            return InputError("no-start", name=name, tried="the run that was given is", constraint=given)
         causes = ", ".join(f"{cause} ({count})" for cause, count in fault.causes)
-        return InputError("no-start", name=name, tries=fault.barrier, constraint=causes)
+        tried = f"all of {fault.barrier} forward runs were"
+        return InputError("no-start", name=name, tried=tried, constraint=f"these were not: {causes}")
     if fault.kind == "impossible":
         total = sum(count for _, count in fault.causes)
         if fault.barrier == 1 and all(cause == "avoid" for cause, _ in fault.causes):

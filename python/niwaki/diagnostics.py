@@ -156,19 +156,27 @@ def autocorrelation(draws: ArrayLike) -> Reals:
 
 
 def ess_vector(draws: ArrayLike) -> float:
-    """Effective sample size of one chain of vectors, from their autocorrelation up to where it is lost in noise.
+    """Effective sample size of vectors, from their autocorrelation up to where it is lost in noise.
 
     Parameters
     ----------
     draws
-        (draws, coordinates).
+        (draws, coordinates) of one chain, or (chains, draws, coordinates).
 
     Returns
     -------
     float
-        `n / (1 + 2 sum of AC)` with Geyer's initial monotone positive sequence.
+        `n / (1 + 2 sum of AC)` of n draws in all, with Geyer's initial monotone positive sequence. One chain is
+        measured by its own mean and variance; several also by how far their means lie apart, as in Vehtari et al. 2021,
+        eq. 10, with inner products for products: chains that stay each in its own place are worth about one draw each.
     """
     x = np.asarray(draws, dtype=np.float64)
+    if x.ndim == 3 and len(x) > 1:
+        chains, n, _ = x.shape
+        centred = x - x.mean(axis=1, keepdims=True)
+        lagged = _lagged_sums(np.moveaxis(centred, 1, 2)).sum(axis=1) / n
+        return _worth(lagged, float(x.mean(axis=1).var(axis=0, ddof=1).sum()))
+    x = x[0] if x.ndim == 3 else x
     n = len(x)
     # Geyer's pairs are of the biased estimate, whose far lags shrink.
     rho = autocorrelation(x) * (n - np.arange(n)) / n
@@ -348,10 +356,14 @@ def _ess(x: Reals) -> float:
     """Effective sample size of chains as they are (Vehtari et al. 2021, eq. 10 to 13)."""
     chains, n = x.shape
     lagged = _lagged_sums(x - x.mean(axis=1, keepdims=True)) / n
+    return _worth(lagged, float(x.mean(axis=1).var(ddof=1)) if chains > 1 else 0.0)
+
+
+def _worth(lagged: Reals, between: float) -> float:
+    """Effective sample size from each chain's autocovariances at every lag and the variance of the chains' means."""
+    chains, n = lagged.shape
     within = lagged[:, 0].mean() * n / (n - 1)
-    total = within * (n - 1) / n
-    if chains > 1:
-        total += float(x.mean(axis=1).var(ddof=1))
+    total = within * (n - 1) / n + between
     rho = 1.0 - (within - lagged.mean(axis=0)) / total
     rho[0] = 1.0
     # A chain that alternates may be worth more than its draws, but not without bound.

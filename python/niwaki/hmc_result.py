@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from niwaki.compiled import translated
-from niwaki.errors import InputError, ModelFault
+from niwaki.compiled import as_fault, translated
+from niwaki.errors import InputError
 from niwaki.methods import Hmc, Nuts
 from niwaki.result import Result, Sample
 
@@ -159,17 +159,8 @@ class HmcResult(Result):
             {path: value for path, _, value in found.fixed(chain)} for chain in chains
         ]
         faults = (found.fault(chain) for chain in chains)
-        self.fault = self._fault(next((fault for fault in faults if fault is not None), None))
-
-    def _fault(self, found: BaseException | None) -> ModelFault | None:
-        """The engine's fault as ours."""
-        try:
-            with translated(self.model.name, f"seed={self.seed}"):
-                if found is not None:
-                    raise found
-        except ModelFault as fault:
-            return fault
-        return None
+        first = next((fault for fault in faults if fault is not None), None)
+        self.fault = as_fault(first, self.model.name, f"seed={self.seed}")
 
     def _sample(self, chain: int, draw: int) -> Sample:
         with translated(self.model.name, f"seed={self.seed}"):

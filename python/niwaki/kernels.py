@@ -1,8 +1,9 @@
 """Markov kernels as values, for `niwaki.mh(kernel=...)`.
 
-Leaves propose: `mh`, `drift`, `neighbour`, `proposal` change one choice, `block` and `regenerate` many. Branches say
-which leaf is next: `cycle`, `mixture`, `repeat`; `on` restricts a kernel to some choices, `odds` weighs them, `anneal`
-and `temper` change the power of the score. One application of `cycle(a, b)` is one of `a` and then one of `b`.
+Leaves propose: `mh`, `drift`, `neighbour`, `proposal` change one choice, `block` and `regenerate` many; `hmc` and
+`nuts` move the continuous ones along their gradient. Branches say which leaf is next: `cycle`, `mixture`, `repeat`;
+`on` restricts a kernel to some choices, `odds` weighs them, `anneal` and `temper` change the power of the score. One
+application of `cycle(a, b)` is one of `a` and then one of `b`.
 
 >>> from niwaki import kernels
 >>> kernel = kernels.cycle(kernels.on("z", kernels.mh()), kernels.repeat(3, kernels.on("mean*", kernels.drift())))
@@ -28,9 +29,11 @@ __all__ = [
     "block",
     "cycle",
     "drift",
+    "hmc",
     "mh",
     "mixture",
     "neighbour",
+    "nuts",
     "odds",
     "on",
     "original",
@@ -43,6 +46,9 @@ __all__ = [
 
 #: Depths for which a function of the depth is asked; the last holds for all beyond.
 _DEEPEST = 256
+
+#: Steps of a trajectory are counted in 32 bits.
+_MOST = 2**32 - 1
 
 
 @dataclass(frozen=True)
@@ -70,7 +76,24 @@ class Kernel:
             case _:
                 return (self.name, *self.settings, *inner)
 
+    def leaves(self) -> list[Kernel]:
+        """The kernels that propose, in order, each with the restrictions that hold for it."""
+        if not self.parts:
+            return [self]
+        inner = [leaf for part in self.parts for leaf in part.leaves()]
+        return [Kernel("on", self.settings, (leaf,)) for leaf in inner] if self.name == "on" else inner
+
+    @property
+    def follows(self) -> bool:
+        """Whether a leaf of it follows the gradient."""
+        return self.name in ("hmc", "nuts") or any(part.follows for part in self.parts)
+
     def __repr__(self) -> str:
+        if self.name in ("hmc", "nuts"):
+            step, length, *rest = self.settings
+            jitter = [f"jitter={rest[0]}"] if self.name == "hmc" and rest[0] else []
+            words = [str(length), f"step={step}", *jitter, f"target={rest[-1]}"]
+            return f"{self.name}({', '.join(words)})"
         if self.name == "on":
             (sites, depth, by_site, _), (inner,) = self.settings, self.parts
             if sites:
@@ -132,6 +155,49 @@ def block(step: float = 0.2, share: float = 1.0, target: float = 0.234) -> Kerne
 def regenerate(levels: int = 0) -> Kernel:
     """A call and all that it makes are drawn anew: the one that stands `levels` calls or iterations above a choice."""
     return Kernel("regenerate", (_whole("levels", levels, 0),))
+
+
+def hmc(steps: int = 10, step: float = 0.1, jitter: float = 0.0, target: float = 0.8) -> Kernel:
+    """All continuous choices move together along their gradient, for a fixed number of steps (dissertation 4.3, 7.1).
+
+    Discrete choices keep their values, and with them the structure of the run: other kernels of the same chain move
+    those. A trajectory that reaches another structure is rejected. Under `on` only the choices that match move.
+
+    Parameters
+    ----------
+    steps
+        Leapfrog steps of a trajectory; each costs one gradient.
+    step
+        First step for one coordinate, in standard deviations of bell-shaped choices and in logarithms of bounded ones;
+        `d` coordinates take `d ** -0.25` of it. Step and scales are adapted in the warm-up, and frozen afterwards.
+    jitter
+        The number of steps varies by this share of itself, [0, 1].
+    target
+        The acceptance to which the step is adapted.
+    """
+    if not _number(jitter) or not 0 <= jitter <= 1:
+        raise _wrong("jitter", jitter, "a share in [0, 1]", "0.5")
+    settings = (
+        _positive("step", step),
+        _whole("steps", steps, 1, _MOST),
+        float(jitter),
+        _share("target", target),
+    )
+    return Kernel("hmc", settings)
+
+
+def nuts(max_depth: int = 8, step: float = 0.1, target: float = 0.8) -> Kernel:
+    """All continuous choices move together along their gradient until they turn back; else as for `hmc`.
+
+    Parameters
+    ----------
+    max_depth
+        Most doublings of a trajectory: 2^max_depth - 1 steps; up to 20.
+    step, target
+        As for `hmc`.
+    """
+    settings = (_positive("step", step), _whole("max_depth", max_depth, 1, 20), _share("target", target))
+    return Kernel("nuts", settings)
 
 
 def proposal(function: Callable[[Any], Any]) -> Kernel:
@@ -291,6 +357,8 @@ _WRITTEN: dict[str, Callable[..., Kernel]] = {
         neighbour,
         block,
         regenerate,
+        hmc,
+        nuts,
         cycle,
         mixture,
         repeat,
@@ -342,7 +410,9 @@ def _share(name: str, value: Any) -> float:
     return float(value)
 
 
-def _whole(name: str, value: Any, least: int) -> int:
+def _whole(name: str, value: Any, least: int, most: int | None = None) -> int:
     if not isinstance(value, int) or isinstance(value, bool) or value < least:
         raise _wrong(name, value, f"a whole number, at least {least}", str(least))
+    if most is not None and value > most:
+        raise _wrong(name, value, f"a whole number, at most {most}", str(most))
     return value

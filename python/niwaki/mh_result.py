@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import time
+import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -11,12 +12,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from niwaki.compiled import translated
+from niwaki.compiled import as_fault, translated
+from niwaki.hmc_result import SOME, Divergences, GradientWarning
+from niwaki.kernels import Kernel
 from niwaki.methods import Mh, at_least_one
 from niwaki.result import Result, Sample
 
 if TYPE_CHECKING:
     from niwaki import _engine
+    from niwaki.errors import ModelFault
     from niwaki.sketches import Score
     from niwaki.words.models import Model
 
@@ -48,6 +52,49 @@ class Acceptance:
     def rate(self) -> float:
         """The share that was kept."""
         return self.accepted / self.proposed if self.proposed else math.nan
+
+
+@dataclass(frozen=True)
+class Trajectories:
+    """What became of the trajectories of one `hmc` or `nuts` in a kernel, all chains together.
+
+    Attributes
+    ----------
+    kernel : Kernel
+        The leaf, with the restrictions that hold for it.
+    made, moved : int
+        Transitions, those of the warm-up included, and how many of them moved the chain.
+    acceptance : float
+        Mean acceptance of the trajectories' points after the warm-up: what the step was adapted to.
+    divergences : Divergences
+        Trajectories after the warm-up that broke off, by the reason; each was rejected.
+    warmup_divergences : int
+        Those of the warm-up.
+    unwritten : int
+        Ends that the run itself did not take: it goes another way there than its recording, which is a matter of
+        rounding.
+    gradients : int
+        Gradients taken, without those that first guesses of a step took.
+    structures, recordings : int
+        Structures met (sets of choices, with the values of discrete ones), and how often the model was recorded.
+    step : tuple of float
+        The step for one coordinate, by chain (and temperature).
+    fault : ModelFault or None
+        With its line: what the first trajectory met that came to a point without a finite gradient.
+    """
+
+    kernel: Kernel
+    made: int
+    moved: int
+    acceptance: float
+    divergences: Divergences
+    warmup_divergences: int
+    unwritten: int
+    gradients: int
+    structures: int
+    recordings: int
+    step: tuple[float, ...]
+    fault: ModelFault | None = None
 
 
 class ChainResult(Result):
@@ -89,6 +136,7 @@ class ChainResult(Result):
         try:
             with translated(self.model.name, f"seed={self.seed}"):
                 self.interrupted = self._chains.advance(steps, self._threads, self._watch)
+            self._warn()
         finally:
             self.seconds += time.perf_counter() - wall
             self.cpu_seconds += time.process_time() - cpu
@@ -129,6 +177,46 @@ class ChainResult(Result):
             name if names.count(name) == 1 else f"{name} line {row.line}": row
             for name, row in zip(names, rows, strict=True)
         }
+
+    @property
+    def trajectories(self) -> list[Trajectories]:
+        """What became of the trajectories of each `hmc` and `nuts` of the kernel, in its order."""
+        leaves = [] if self.method.kernel is None else self.method.kernel.leaves()
+        found = []
+        rows = iter(self._chains.trajectories())
+        for leaf in leaves:
+            if not leaf.follows:
+                continue
+            row = next(rows)
+            broke = Divergences(row["energy"], row["guard"], row["impossible"], row["not_finite"])
+            found.append(
+                Trajectories(
+                    kernel=leaf,
+                    made=row["made"],
+                    moved=row["moved"],
+                    acceptance=row["accept"] / row["settled"] if row["settled"] else math.nan,
+                    divergences=broke,
+                    warmup_divergences=row["warmup_divergences"],
+                    unwritten=row["unwritten"],
+                    gradients=row["gradients"],
+                    structures=row["structures"],
+                    recordings=row["recordings"],
+                    step=tuple(row["steps"]),
+                    fault=as_fault(row["fault"], self.model.name, f"seed={self.seed}"),
+                )
+            )
+        return found
+
+    def _warn(self) -> None:
+        """Say where many trajectories came to points without a finite gradient."""
+        for one in self.trajectories:
+            if one.fault is not None and one.divergences.not_finite > SOME * one.made:
+                warnings.warn(
+                    f"{one.divergences.not_finite} trajectories of `{self.model.name}` came to points without a finite "
+                    f"gradient and were rejected; the first:\n{one.fault.render()}",
+                    GradientWarning,
+                    stacklevel=5,
+                )
 
     @property
     def counters(self) -> dict[str, int]:

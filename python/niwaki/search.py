@@ -7,66 +7,25 @@ result on any number of threads. Ctrl-C stops a search, which then gives what it
 from __future__ import annotations
 
 import secrets
-import time
 import warnings
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 from niwaki import _engine
 from niwaki.compiled import as_model, task, translated
 from niwaki.errors import InputError
-from niwaki.methods import (
-    EnumerateAll,
-    Forward,
-    Hmc,
-    Importance,
-    Method,
-    Mh,
-    Nuts,
-    ParticleGibbs,
-    Pimh,
-    Rejection,
-    Smc,
-    smc,
-)
+from niwaki.methods import Forward, Hmc, Method, Mh, Nuts, Smc, smc
+from niwaki.one_search import Progress, SearchWarning, Watch, chains_of, once, told, trajectories
 from niwaki.result import Result, Sample
 from niwaki.sketches import Score, no_self_intersection, volume_match
 from niwaki.words.models import Model
 
 if TYPE_CHECKING:
+    from niwaki.kernels import Kernel
     from niwaki.target import Target
 
-
-class SearchWarning(UserWarning):
-    """A search gave a result, but less than was asked for."""
-
-
-@dataclass(frozen=True)
-class Progress:
-    """How far a search is; given to `progress` now and then.
-
-    Attributes
-    ----------
-    run, runs : int
-        Which of how many runs, from 0.
-    done : int
-        Barriers of a population, runs of the other methods.
-    ended : int
-        Particles that have ended.
-    best : float
-        Best log score of the population so far, nats.
-    """
-
-    run: int
-    runs: int
-    done: int
-    ended: int
-    best: float
-
-
-Watch = Callable[[Progress], None]
+__all__ = ["Progress", "SearchWarning", "Watch", "explain", "grow", "run"]
 
 
 def run(
@@ -131,12 +90,10 @@ def run(
         with translated(model.name, choices=choices):
             first = made.replay(dict(choices), given_seed)
         known = {choice[1]: choice[3] for choice in first.choices}
-        start = _chains if isinstance(method, Mh) else _trajectories
-        watch = _told(progress, 0, 1)
+        start = chains_of if isinstance(method, Mh) else trajectories
+        watch = told(progress, 0, 1)
         return start(model, made, method, score, given_seed, check_threads(threads), watch, known)  # type: ignore[arg-type]
-    return _search(
-        model, made, method or Forward(), score, given_seed, check_threads(threads), progress, 0, 1
-    )
+    return once(model, made, method or Forward(), score, given_seed, check_threads(threads), progress, 0, 1)
 
 
 def grow(
@@ -157,6 +114,11 @@ def grow(
     populations: int | None = None,
     diverse: int | None = None,
     seconds: float | None = None,
+    rejuvenate: Kernel | None = None,
+    moves: int = 1,
+    at: int | str = 1,
+    draws: int | None = None,
+    chains: int = 1,
     rule: str = "solid",
     runs: int = 1,
     seed: int | None = None,
@@ -181,7 +143,7 @@ def grow(
         `no_self_intersection(rule)` and, where there is a target, `volume_match(target, voxel, sigma)`.
     method
         Another search than `smc` with the settings below, which are then left out.
-    particles, order, weights, resampling, ess, anneal, populations, seconds
+    particles, order, weights, resampling, ess, anneal, populations, seconds, rejuvenate, moves, at, draws, chains
         As for `smc`.
     diverse
         As for `smc`: so many results that differ, for each run.
@@ -216,6 +178,11 @@ def grow(
         populations=populations,
         diverse=diverse,
         seconds=seconds,
+        rejuvenate=rejuvenate,
+        moves=moves,
+        at=at,
+        draws=draws,
+        chains=chains,
     )
     if not isinstance(runs, int) or runs < 1:
         raise InputError(
@@ -239,9 +206,7 @@ def grow(
     plan: tuple[int, ...] = ()
     for number in range(runs):
         try:
-            one = _search(
-                model, made, chosen, score, (first + number) % 2**64, threads, progress, number, runs
-            )
+            one = once(model, made, chosen, score, (first + number) % 2**64, threads, progress, number, runs)
         except InputError as error:
             if error.code != "everything-impossible":
                 raise
@@ -352,203 +317,3 @@ def check_threads(threads: int | None) -> int | None:
             suggestion="such a number, or leave it out for all cores",
         )
     return threads
-
-
-def _diverse(outcomes: list[_engine.Outcome], wanted: int, populations: int) -> list[_engine.Outcome]:
-    """The best of those that differ; runs that did not end or are impossible are none."""
-    ended = [one for one in outcomes if one.has_ended and one.cause is None]
-    ranked = sorted(ended, key=lambda one: -one.log_score)
-    chosen = [ranked[place] for place in _engine.different(ranked, wanted)]
-    if len(chosen) < wanted:
-        warnings.warn(
-            f"{len(chosen)} of {wanted} results that differ were found in {populations} "
-            f"population{'' if populations == 1 else 's'}; give more `populations`",
-            SearchWarning,
-            stacklevel=4,
-        )
-    return chosen
-
-
-def _search(
-    model: Model[..., Any],
-    made: _engine.Task,
-    method: Method,
-    score: Score,
-    seed: int,
-    threads: int | None,
-    progress: Watch | None,
-    number: int,
-    runs: int,
-) -> Result:
-    """One search with one seed, timed."""
-    watch = _told(progress, number, runs)
-    if isinstance(method, Mh):
-        return _chains(model, made, method, score, seed, threads, watch)
-    if isinstance(method, Hmc | Nuts):
-        return _trajectories(model, made, method, score, seed, threads, watch)
-    facts: dict[str, Any] = {}
-    wall, cpu = time.perf_counter(), time.process_time()
-    with translated(model.name, f"seed={seed}"):
-        match method:
-            case Smc():
-                facts = made.smc(
-                    method.plan,
-                    seed,
-                    order=method.order,
-                    weights=method.weights,
-                    temper=method.temper,
-                    anneal=method.anneal,
-                    resampling=method.resampling,
-                    ess=method.ess,
-                    rejuvenate=None if method.rejuvenate is None else method.rejuvenate.form(),
-                    moves=method.moves,
-                    at=method.at,
-                    seconds=method.seconds,
-                    threads=threads,
-                    watch=watch,
-                )
-                outcomes = facts.pop("particles")
-                if method.diverse is not None:
-                    outcomes = _diverse(outcomes, method.diverse, len(facts["plan"]))
-            case ParticleGibbs():
-                facts = made.particle_gibbs(
-                    method.particles,
-                    method.sweeps,
-                    seed,
-                    order=method.order,
-                    temper=method.temper,
-                    anneal=method.anneal,
-                    ess=method.ess,
-                    ancestors=method.ancestors,
-                    start=None if method.start is None else method.start._outcome,
-                    threads=threads,
-                    watch=watch,
-                )
-                outcomes = facts.pop("particles")
-            case Pimh():
-                facts = made.pimh(
-                    method.particles,
-                    method.sweeps,
-                    seed,
-                    order=method.order,
-                    temper=method.temper,
-                    anneal=method.anneal,
-                    resampling=method.resampling,
-                    ess=method.ess,
-                    threads=threads,
-                    watch=watch,
-                )
-                outcomes = facts.pop("particles")
-            case EnumerateAll():
-                table, log_evidence, count = made.enumerate(method.max_runs, watch)
-                outcomes, facts = [], {"log_evidence": log_evidence, "table": table, "tries": count}
-            case Rejection():
-                outcomes, tries, stopped = made.rejection(
-                    method.n, method.bound, method.max_tries, seed, watch
-                )
-                facts = {"tries": tries, "interrupted": stopped}
-            case Importance():
-                outcomes, log_evidence = made.importance(method.n, seed, threads, watch)
-                facts = {"log_evidence": log_evidence, "interrupted": len(outcomes) < method.n}
-            case Forward():
-                outcomes = made.forward(seed, method.n, watch)
-                facts = {"interrupted": len(outcomes) < method.n}
-            case _:
-                raise InputError(
-                    "bad-setting",
-                    name="method",
-                    found=repr(method),
-                    expected="smc, particle_gibbs, pimh, mh, hmc, nuts, enumerate_all, rejection, importance, forward",
-                    suggestion="such a method, for instance `smc(particles=300)`",
-                )
-    seconds, cpu_seconds = time.perf_counter() - wall, time.process_time() - cpu
-    samples = [Sample(outcome, made, score, seed, seconds, cpu_seconds) for outcome in outcomes]
-    result = Result(model, samples, seed, method, score, **facts)
-    result.seconds, result.cpu_seconds = seconds, cpu_seconds
-    return result
-
-
-def _told(progress: Watch | None, number: int, runs: int) -> Callable[[int, int, float], None]:
-    """What the engine tells, as a `Progress`."""
-
-    def watch(done: int, ended: int, best: float) -> None:
-        if progress is not None:
-            progress(Progress(number, runs, done, ended, best))
-
-    return watch
-
-
-def _chains(
-    model: Model[..., Any],
-    made: _engine.Task,
-    method: Mh,
-    score: Score,
-    seed: int,
-    threads: int | None,
-    watch: Callable[[int, int, float], None],
-    known: Mapping[int, Any] | None = None,
-) -> Result:
-    """Chains in their first states, and their first proposals."""
-    from niwaki.mh_result import ChainResult
-
-    kernel, temperatures, every = method.kernel, None, 1
-    if kernel is not None and kernel.name == "temper":
-        (temperatures, every), (kernel,) = kernel.settings, kernel.parts
-    with translated(model.name, f"seed={seed}"):
-        chains = _engine.Chains(
-            made,
-            seed,
-            kernel=None if kernel is None else kernel.form(),
-            temperatures=temperatures,
-            every=every,
-            chains=method.chains,
-            strategy=method.strategy,
-            warmup=method.warmup,
-            thin=method.spacing,
-            tries=method.tries,
-            known=known,
-            threads=threads,
-        )
-    return ChainResult(model, made, chains, seed, method, score, watch, threads).more(method.steps)
-
-
-def _trajectories(
-    model: Model[..., Any],
-    made: _engine.Task,
-    method: Hmc | Nuts,
-    score: Score,
-    seed: int,
-    threads: int | None,
-    watch: Callable[[int, int, float], None],
-    known: Mapping[int, Any] | None = None,
-) -> Result:
-    """Chains that follow the gradient, timed."""
-    from niwaki.hmc_result import HmcResult
-
-    length: dict[str, Any] = (
-        {"max_depth": method.max_depth}
-        if isinstance(method, Nuts)
-        else {"steps": method.steps, "jitter": method.jitter}
-    )
-    wall, cpu = time.perf_counter(), time.process_time()
-    with translated(model.name, f"seed={seed}"):
-        found = _engine.Trajectories(
-            made,
-            seed,
-            chains=method.chains,
-            draws=method.draws,
-            warmup=method.warmup,
-            thin=method.thin,
-            target_accept=method.target_accept,
-            metric=method.metric,
-            step_size=method.step_size,
-            tries=method.tries,
-            known=known,
-            threads=threads,
-            watch=watch,
-            **length,
-        )
-    seconds, cpu_seconds = time.perf_counter() - wall, time.process_time() - cpu
-    result = HmcResult(model, made, found, seed, method, score, seconds, cpu_seconds)
-    result.warn()
-    return result

@@ -182,6 +182,36 @@ def test_a_vector_of_one_coordinate_is_worth_what_the_coordinate_is() -> None:
     assert 700 < diagnostics.ess_vector(walk(0.0, 1, 1000)[0][:, None]) < 1400
 
 
+def test_autoregressive_chains_have_the_known_autocorrelation_and_worth() -> None:
+    """x' = phi x + noise: AC(t) = phi^t, and n draws are worth n (1 - phi) / (1 + phi)."""
+    n, far = 40_000, 8
+    for phi in (0.0, 0.5, 0.9):
+        # Three coordinates of different sizes; inner products weigh them by variance, and each has the same phi.
+        x = np.stack([scale * walk(phi, 3, n)[k] for k, scale in enumerate((1.0, 0.5, 2.0))], axis=1) + 7.0
+        # Bartlett: an estimate of AC(t) has a standard error below sqrt((1 + phi^2) / (1 - phi^2) / n) = 0.0155 at 0.9,
+        # times the root of 1.2 for three unequal coordinates' worth; 5 of those.
+        error = 5.0 * math.sqrt(1.2 * (1 + phi**2) / (1 - phi**2) / n)
+        found = diagnostics.autocorrelation(x)[:far]
+        assert np.abs(found - phi ** np.arange(far)).max() < error
+        worth = n * (1.0 - phi) / (1.0 + phi)
+        assert diagnostics.ess_vector(x) == pytest.approx(worth, rel=0.15)
+        # The dissertation's measure, with another run's mean and variance, is another number.
+        wrong = (x[: n - 1] * x[1:]).sum() / (n - 1) / (x * x).sum(axis=1).mean()
+        assert abs(wrong - phi) > error
+
+
+def test_several_chains_of_vectors_are_worth_their_sum_unless_they_stay_apart() -> None:
+    chains = np.stack([walk(0.9, 8, 1000), 2.0 * walk(0.9, 9, 1000)[1:]], axis=2)
+    # 53 each.
+    assert diagnostics.ess_vector(chains) == pytest.approx(8 * 1000 * 0.1 / 1.9, rel=0.3)
+    assert diagnostics.ess_vector(chains[:1]) == diagnostics.ess_vector(chains[0])
+    one = chains[:, :, :1]
+    plain = diagnostics.ess_vector(np.concatenate([one[:, :500], one[:, 500:]]))
+    assert plain == pytest.approx(diagnostics.ess_mean(one[:, :, 0]))
+    apart = 0.01 * chains[:, :20] + np.arange(8)[:, None, None]
+    assert 4.0 < diagnostics.ess_vector(apart) < 10.0
+
+
 @pytest.mark.parametrize("share", [0.05, 0.5, 0.9])
 def test_the_error_of_a_quantile_shrinks_as_it_should(share: float) -> None:
     # Uniform draws: the standard error of a quantile is sqrt(share (1 - share) / n) / density, density 1.

@@ -52,6 +52,29 @@ def test_moves_make_copies_different(score):
     assert unique(rejuvenate=kernels.on(SHAPE, kernels.block(0.002)), moves=8, at="end") > 10
 
 
+def test_walks_take_the_place_of_the_final_set(score):
+    """Two chains of twenty states: each is what its choices say, and most are no copy of another."""
+    kernel = kernels.cycle(kernels.repeat(4, kernels.mh()), kernels.on(SHAPE, kernels.block(0.001)))
+    method = niwaki.smc(20, temper=4.0, rejuvenate=kernel, moves=5, at="end", draws=20, chains=2)
+    result = niwaki.run(gnarly_tree, method=method, score=score, seed=2, threads=1)
+    plain = niwaki.run(gnarly_tree, method=niwaki.smc(20, temper=4.0), score=score, seed=2, threads=1)
+    assert len(result) == 40 and result.moved[0] == (0, 0) and result.moved[1][0] == 200
+    assert result.unique_models > 20
+    assert result.best.log_score >= plain.best.log_score
+    for sample in [result[0], result[19], result[-1]]:
+        again = niwaki.run(gnarly_tree, choices=sample.choices, score=score)[0]
+        assert (again.log_score, again.log_prior) == (sample.log_score, sample.log_prior)
+        assert (again.primitives, again.similarity) == (sample.primitives, sample.similarity)
+
+
+def test_grow_moves_too(score):
+    asked = {"score": score, "particles": 20, "temper": 4.0, "seed": 2, "threads": 1}
+    moves = {"rejuvenate": kernels.mh(), "moves": 30, "at": "end", "draws": 5}
+    found = niwaki.grow(gnarly_tree, **asked, **moves)
+    assert len(found) == 1
+    assert found.best.log_score >= niwaki.grow(gnarly_tree, **asked).best.log_score
+
+
 @pytest.mark.parametrize(
     ("settings", "name"),
     [
@@ -62,6 +85,10 @@ def test_moves_make_copies_different(score):
         ({"rejuvenate": kernels.mh(), "weights": "absolute"}, "rejuvenate"),
         ({"rejuvenate": kernels.repeat(2, kernels.anneal(kernels.mh(), 5))}, "rejuvenate"),
         ({"rejuvenate": kernels.temper(kernels.mh())}, "rejuvenate"),
+        ({"rejuvenate": kernels.mh(), "draws": 0}, "draws"),
+        ({"draws": 3}, "draws"),
+        ({"rejuvenate": kernels.mh(), "chains": 3}, "chains"),
+        ({"rejuvenate": kernels.mh(), "draws": 3, "chains": 0}, "chains"),
     ],
 )
 def test_what_makes_no_sense_is_refused(settings, name):

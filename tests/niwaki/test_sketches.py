@@ -115,6 +115,12 @@ def test_an_obstacle_above_is_kept_clear() -> None:
         assert high[1] < 3 or low[1] > 5
 
 
+def warned(make: Callable[[], Any]) -> str:
+    with pytest.warns(TargetWarning) as found:
+        make()
+    return f"{found[0].category.__name__}: {found[0].message}"
+
+
 def refused(make: Callable[[], Any]) -> str:
     with pytest.raises(nw.NiwakiError) as found:
         make()
@@ -157,6 +163,8 @@ def test_messages(golden: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
         refused(lambda: nw.overshoot(3)),  # type: ignore[arg-type]
         refused(lambda: nw.run(tower, score=covered, method=nw.smc(particles=20), seed=1)),
     ]
+    whole = cube()
+    found.append(warned(lambda: nw.Target(whole.vertices, whole.faces[1:], "a cube with a hole")))
     monkeypatch.setattr("niwaki.target._free_memory", lambda: 1000)
     found += [
         refused(lambda: nw.Target(np.eye(3), np.tile([0, 1, 2], (10_000_000, 1)), "a scan")),

@@ -1,102 +1,75 @@
-//! What a convex solid keeps for intersection and voxels, computed once when the shape is made.
+//! What a convex solid offers to intersection and voxels.
 
+use crate::shape::Placement;
 use crate::topology::Topology;
-use crate::vector::{Mat3, Vec3, vec3};
+use crate::vector::{Vec3, vec3};
 use std::sync::{Arc, OnceLock};
 
-/// A convex solid in the world.
-#[derive(Debug)]
-pub struct Convex {
-    vertices: Vec<Vec3>,
-    topology: Arc<Topology>,
-    normals: Vec<Vec3>,
-    edges: OnceLock<Vec<Vec3>>,
-    width: f64,
-    aligned: bool,
+/// A convex solid in the world, as scores ask for it.
+///
+/// A box's corners are made from its placement when they are asked for, which costs less than to keep them: boxes are
+/// most of what models emit, and a population holds millions. Every other solid lends what it keeps.
+#[derive(Clone, Debug)]
+#[expect(clippy::large_enum_variant, reason = "corners are on the stack while they are asked for")]
+pub enum Convex<'a> {
+    /// Corners, and unit normals of the faces, along which the edges run too.
+    Cuboid([Vec3; 8], [Vec3; 3]),
+    /// Any other.
+    Hull(&'a Hull),
 }
 
-impl Convex {
+/// A convex solid that is no box, computed once when the shape is made.
+#[derive(Debug)]
+pub struct Hull {
+    /// Vertices, then face normals: one allocation.
+    points: Box<[Vec3]>,
+    vertices: usize,
+    topology: Arc<Topology>,
+    edges: OnceLock<Box<[Vec3]>>,
+    width: f64,
+}
+
+impl Hull {
     /// From world vertices (hull corners first, then the points that only triangles use).
     ///
     /// `None` when a face has no normal, which a flat solid has.
-    pub(crate) fn new(vertices: Vec<Vec3>, topology: Arc<Topology>) -> Option<Convex> {
+    pub(crate) fn new(vertices: Vec<Vec3>, topology: Arc<Topology>) -> Option<Hull> {
+        Hull::over(vertices, topology, false)
+    }
+
+    /// As [`Hull::new`], for a solid that is convex but for a little; a face without a normal is left out.
+    pub(crate) fn nearly(vertices: Vec<Vec3>, topology: Arc<Topology>) -> Option<Hull> {
+        Hull::over(vertices, topology, true)
+    }
+
+    /// A prism over a regular polygon, whose opposite sides are parallel when there is an even number of them.
+    pub(crate) fn prism(vertices: Vec<Vec3>, sides: usize) -> Option<Hull> {
+        let topology = Topology::prism(sides);
+        if sides % 2 == 1 {
+            return Hull::new(vertices, topology);
+        }
+        let faces = topology.faces[..sides / 2].iter().chain([&topology.faces[sides]]);
+        let normals = faces.map(|face| face_normal(face, &vertices)).collect::<Option<Vec<Vec3>>>()?;
+        Hull::made(vertices, normals, topology)
+    }
+
+    fn over(vertices: Vec<Vec3>, topology: Arc<Topology>, flat_faces: bool) -> Option<Hull> {
         let mut normals = Vec::with_capacity(topology.faces.len());
         for face in &topology.faces {
-            push_direction(&mut normals, face_normal(face, &vertices)?);
-        }
-        Convex::with_normals(vertices, topology, normals, false)
-    }
-
-    /// As [`Convex::new`], for a solid that is convex but for a little; a face without a normal is left out.
-    pub(crate) fn nearly(vertices: Vec<Vec3>, topology: Arc<Topology>) -> Option<Convex> {
-        let mut normals = Vec::with_capacity(topology.faces.len());
-        for face in &topology.faces {
-            if let Some(normal) = face_normal(face, &vertices) {
-                push_direction(&mut normals, normal);
+            match face_normal(face, &vertices) {
+                Some(normal) => push_direction(&mut normals, normal),
+                None if flat_faces => {}
+                None => return None,
             }
         }
-        Convex::with_normals(vertices, topology, normals, false)
+        Hull::made(vertices, normals, topology)
     }
 
-    /// A box whose sides point along the columns of `rotation`.
-    pub(crate) fn cuboid(vertices: Vec<Vec3>, rotation: &Mat3) -> Option<Convex> {
-        let aligned =
-            rotation.columns.iter().all(|c| Vec3::AXES.contains(&vec3(c.x.abs(), c.y.abs(), c.z.abs())));
-        let normals = if aligned { Vec3::AXES.to_vec() } else { rotation.columns.to_vec() };
-        Convex::with_normals(vertices, Topology::cuboid(), normals, aligned)
-    }
-
-    fn with_normals(
-        vertices: Vec<Vec3>,
-        topology: Arc<Topology>,
-        normals: Vec<Vec3>,
-        aligned: bool,
-    ) -> Option<Convex> {
-        let corners = &vertices[..topology.corners];
-        let width =
-            normals.iter().map(|n| span(corners, *n)).map(|(lo, hi)| hi - lo).fold(f64::INFINITY, f64::min);
-        (width > 0.0).then(|| Convex { vertices, topology, normals, edges: OnceLock::new(), width, aligned })
-    }
-
-    /// Corners of the hull, world space.
-    #[inline]
-    pub fn corners(&self) -> &[Vec3] {
-        &self.vertices[..self.topology.corners]
-    }
-
-    /// Corners and the centres of caps: what the indices of the topology mean.
-    #[inline]
-    pub fn vertices(&self) -> &[Vec3] {
-        &self.vertices
-    }
-
-    /// Faces, edges and triangles.
-    #[inline]
-    pub fn topology(&self) -> &Topology {
-        &self.topology
-    }
-
-    /// Unit face normals, each direction once (never both a direction and its opposite).
-    #[inline]
-    pub fn normals(&self) -> &[Vec3] {
-        &self.normals
-    }
-
-    /// Unit edge directions, each once, up to sign.
-    pub fn edges(&self) -> &[Vec3] {
-        self.edges.get_or_init(|| {
-            if self.topology.corners == 8 && self.normals.len() == 3 {
-                // A box: its edges run along its normals.
-                return self.normals.clone();
-            }
-            let mut edges = Vec::new();
-            for [a, b] in &self.topology.edges {
-                if let Some(direction) = (self.vertices[*b as usize] - self.vertices[*a as usize]).unit() {
-                    push_direction(&mut edges, direction);
-                }
-            }
-            edges
-        })
+    fn made(vertices: Vec<Vec3>, normals: Vec<Vec3>, topology: Arc<Topology>) -> Option<Hull> {
+        let width = narrowest(&vertices[..topology.corners], &normals);
+        let points = [&vertices[..], &normals].concat().into();
+        let edges = OnceLock::new();
+        (width > 0.0).then(|| Hull { points, vertices: vertices.len(), topology, edges, width })
     }
 
     /// Smallest extent along a face normal: how thick the solid is.
@@ -104,22 +77,120 @@ impl Convex {
         self.width
     }
 
-    /// True for a box whose sides are exactly the coordinate directions.
-    pub fn is_aligned_box(&self) -> bool {
-        self.aligned
+    fn edges(&self) -> &[Vec3] {
+        self.edges.get_or_init(|| {
+            let mut edges = Vec::new();
+            for [a, b] in &self.topology.edges {
+                if let Some(direction) = (self.points[*b as usize] - self.points[*a as usize]).unit() {
+                    push_direction(&mut edges, direction);
+                }
+            }
+            edges.into()
+        })
     }
+}
+
+impl<'a> Convex<'a> {
+    /// A box around the origin with full side lengths `size`, placed.
+    #[inline]
+    pub(crate) fn cuboid(size: Vec3, placement: &Placement) -> Convex<'static> {
+        let normals = if is_aligned(placement) { Vec3::AXES } else { placement.rotation.columns };
+        Convex::Cuboid(cuboid(size, 1.0, placement), normals)
+    }
+
+    /// Smallest extent along a face normal: how thick the solid is.
+    pub fn width(&self) -> f64 {
+        match self {
+            Convex::Cuboid(corners, normals) => narrowest(corners, normals),
+            Convex::Hull(hull) => hull.width,
+        }
+    }
+
+    /// Corners of the hull, world space.
+    #[inline]
+    pub fn corners(&self) -> &[Vec3] {
+        match self {
+            Convex::Cuboid(corners, _) => corners,
+            Convex::Hull(hull) => &hull.points[..hull.topology.corners],
+        }
+    }
+
+    /// Corners and the centres of caps: what the indices of the topology mean.
+    #[inline]
+    pub fn vertices(&self) -> &[Vec3] {
+        match self {
+            Convex::Cuboid(corners, _) => corners,
+            Convex::Hull(hull) => &hull.points[..hull.vertices],
+        }
+    }
+
+    /// Faces, edges and triangles.
+    #[inline]
+    pub fn topology(&self) -> &'a Topology {
+        match self {
+            Convex::Cuboid(..) => Topology::cuboid(),
+            Convex::Hull(hull) => &hull.topology,
+        }
+    }
+
+    /// Unit face normals, each direction once (never both a direction and its opposite).
+    #[inline]
+    pub fn normals(&self) -> &[Vec3] {
+        match self {
+            Convex::Cuboid(_, normals) => normals,
+            Convex::Hull(hull) => &hull.points[hull.vertices..],
+        }
+    }
+
+    /// Unit edge directions, each once, up to sign.
+    #[inline]
+    pub fn edges(&self) -> &[Vec3] {
+        match self {
+            Convex::Cuboid(_, normals) => normals,
+            Convex::Hull(hull) => hull.edges(),
+        }
+    }
+}
+
+/// Smallest extent of `corners` along one of `normals`.
+fn narrowest(corners: &[Vec3], normals: &[Vec3]) -> f64 {
+    normals.iter().map(|n| span(corners, *n)).map(|(low, high)| high - low).fold(f64::INFINITY, f64::min)
+}
+
+/// True when a placement leaves the sides of a box exactly along the coordinate directions.
+#[inline]
+pub(crate) fn is_aligned(placement: &Placement) -> bool {
+    placement.rotation.columns.iter().all(|c| Vec3::AXES.contains(&vec3(c.x.abs(), c.y.abs(), c.z.abs())))
+}
+
+/// Corners of a box whose +z face is scaled by `taper`; bits 0, 1 and 2 of the index choose the high x, y and z.
+#[inline]
+pub(crate) fn cuboid(size: Vec3, taper: f64, placement: &Placement) -> [Vec3; 8] {
+    let half = size * 0.5;
+    std::array::from_fn(|i| {
+        let sign = |bit: usize| if i >> bit & 1 == 1 { 1.0 } else { -1.0 };
+        let end = if i >> 2 == 1 { taper } else { 1.0 };
+        placement.apply(vec3(sign(0) * half.x * end, sign(1) * half.y * end, sign(2) * half.z))
+    })
 }
 
 /// Extent of `points` along `axis`.
 #[inline]
 pub(crate) fn span(points: &[Vec3], axis: Vec3) -> (f64, f64) {
-    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    for p in points {
+    // Two at a time, so that one need not wait for the other.
+    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    let mut look = |k: usize, p: &Vec3| {
         let along = p.dot(axis);
-        low = if along < low { along } else { low };
-        high = if along > high { along } else { high };
+        low[k] = if along < low[k] { along } else { low[k] };
+        high[k] = if along > high[k] { along } else { high[k] };
+    };
+    let (pairs, rest) = points.as_chunks::<2>();
+    for [p, q] in pairs {
+        look(0, p);
+        look(1, q);
     }
-    (low, high)
+    rest.iter().for_each(|p| look(0, p));
+    (low[0].min(low[1]), high[0].max(high[1]))
 }
 
 /// Newell's normal: exact for planar faces, the mean one otherwise.
@@ -129,6 +200,7 @@ fn face_normal(face: &[u32], vertices: &[Vec3]) -> Option<Vec3> {
     (1..face.len() - 1).fold(Vec3::ZERO, |sum, i| sum + (at(i) - origin).cross(at(i + 1) - origin)).unit()
 }
 
+/// Adds a direction, unless it is among them.
 fn push_direction(directions: &mut Vec<Vec3>, new: Vec3) {
     // Parallel to within 1e-10 radians, either way round.
     if !directions.iter().any(|d| d.dot(new).abs() > 0.999_999 && d.cross(new).dot(d.cross(new)) < 1e-20) {

@@ -31,13 +31,13 @@ pub mod voxel;
 pub mod words;
 
 pub use bounds::Aabb;
-pub use convex::Convex;
+pub use convex::{Convex, Hull};
 pub use error::GeomError;
 pub use intersect::{Rule, intersects};
 pub use mesh::TriMesh;
 pub use niwaki_math::vector::{self, Mat3, Vec3, vec3};
 pub use primitive::Primitive;
-pub use segment::{Bark, Frame};
+pub use segment::{Bark, Frame, Tube};
 pub use shape::{Placement, Ring, Shape, Solid};
 pub use sketch::avoid::{Avoid, avoid};
 pub use sketch::floor::{Floor, floor};

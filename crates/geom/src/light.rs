@@ -3,7 +3,7 @@
 //! Polygons are inscribed and have a vertex on each axis that they can, because parts are attached flush exactly
 //! there. A frustum that ends in a point, and a limb whose rings cut each other's plane, take the general hull.
 
-use crate::convex::Convex;
+use crate::convex::{Hull, cuboid};
 use crate::hull::hull;
 use crate::limb::band;
 use crate::segment;
@@ -12,50 +12,36 @@ use crate::topology::Topology;
 use crate::vector::{Vec3, vec3};
 use std::sync::Arc;
 
-/// The convex solid in the world; `None` for a mesh, and for a solid without inside.
-pub(crate) fn convex(solid: &Solid, placement: &Placement) -> Option<Convex> {
+/// The convex solid in the world; `None` for a box, a mesh, and for a solid without inside.
+pub(crate) fn convex(solid: &Solid, placement: &Placement) -> Option<Hull> {
     match solid {
-        Solid::Box { size } => Convex::cuboid(cuboid(*size, 1.0, placement), &placement.rotation),
         Solid::TaperedBox { size, taper } => {
-            let vertices = cuboid(*size, *taper, placement);
-            if *taper > 0.0 { Convex::new(vertices, Topology::cuboid()) } else { hulled(vertices) }
+            let vertices = cuboid(*size, *taper, placement).to_vec();
+            if *taper > 0.0 { Hull::new(vertices, Topology::shared_cuboid()) } else { hulled(vertices) }
         }
         Solid::Cylinder { radius, length, sides } => prism(*radius, *radius, *length, *sides, placement),
         Solid::TaperedCylinder { radius, top_radius, length, sides } => {
             prism(*radius, *top_radius, *length, *sides, placement)
         }
-        Solid::Limb { start, end, sides } => {
-            let points = start.vertices(*sides).chain(end.vertices(*sides));
+        Solid::Limb { rings, sides } => {
+            let points = rings.iter().flat_map(|ring| ring.vertices(*sides));
             let vertices: Vec<Vec3> = points.map(|p| placement.apply(p)).collect();
             match band(&vertices, *sides) {
-                Some(topology) => Convex::new(vertices, Arc::new(topology)),
+                Some(topology) => Hull::new(vertices, Arc::new(topology)),
                 None => hulled(vertices),
             }
         }
-        Solid::Segment { frames, onto } => {
-            Convex::nearly(segment::corners(frames, onto.as_ref())?, segment::tube())
-        }
-        Solid::Mesh(_) => None,
+        Solid::Segment(tube) => Hull::nearly(segment::corners(tube)?, segment::tube()),
+        Solid::Box { .. } | Solid::Mesh(_) => None,
     }
 }
 
-fn hulled(vertices: Vec<Vec3>) -> Option<Convex> {
+fn hulled(vertices: Vec<Vec3>) -> Option<Hull> {
     let topology = hull(&vertices)?;
-    Convex::new(vertices, Arc::new(topology))
+    Hull::new(vertices, Arc::new(topology))
 }
 
-fn cuboid(size: Vec3, taper: f64, placement: &Placement) -> Vec<Vec3> {
-    let half = size * 0.5;
-    (0..8)
-        .map(|i| {
-            let sign = |bit: usize| if i >> bit & 1 == 1 { 1.0 } else { -1.0 };
-            let end = if i >> 2 == 1 { taper } else { 1.0 };
-            placement.apply(vec3(sign(0) * half.x * end, sign(1) * half.y * end, sign(2) * half.z))
-        })
-        .collect()
-}
-
-fn prism(bottom: f64, top: f64, length: f64, sides: usize, placement: &Placement) -> Option<Convex> {
+fn prism(bottom: f64, top: f64, length: f64, sides: usize, placement: &Placement) -> Option<Hull> {
     let half = 0.5 * length;
     let mut vertices = Vec::with_capacity(2 * sides + 2);
     vertices.extend(ring(sides).map(|(sin, cos)| placement.apply(vec3(sin * bottom, -half, cos * bottom))));
@@ -65,7 +51,7 @@ fn prism(bottom: f64, top: f64, length: f64, sides: usize, placement: &Placement
     }
     vertices.extend(ring(sides).map(|(sin, cos)| placement.apply(vec3(sin * top, half, cos * top))));
     vertices.extend([-half, half].map(|y| placement.apply(vec3(0.0, y, 0.0))));
-    Convex::new(vertices, Topology::prism(sides))
+    if top == bottom { Hull::prism(vertices, sides) } else { Hull::new(vertices, Topology::prism(sides)) }
 }
 
 /// Sine and cosine of `2 pi k / sides`. Exact on the axes, where flush attachment needs it.

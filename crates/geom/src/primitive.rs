@@ -2,38 +2,70 @@
 
 use crate::bounds::Aabb;
 use crate::shape::Shape;
+use crate::tree::Boxed;
 use std::sync::Arc;
 
 /// The shapes of one `emit`. Cloning shares them.
 #[derive(Clone, Debug)]
-pub struct Primitive {
-    shapes: Arc<[Shape]>,
+pub struct Primitive(Held);
+
+/// Most primitives are one shape, which is shared already.
+#[derive(Clone, Debug)]
+enum Held {
+    One(Shape),
+    Several(Arc<Several>),
+}
+
+#[derive(Debug, PartialEq)]
+struct Several {
     aabb: Aabb,
+    shapes: Box<[Shape]>,
 }
 
 impl Primitive {
     /// A primitive of `shapes`, in order.
-    pub fn new(shapes: impl Into<Arc<[Shape]>>) -> Primitive {
-        let shapes = shapes.into();
-        let aabb = shapes.iter().fold(Aabb::EMPTY, |b, s| b.union(s.aabb()));
-        Primitive { shapes, aabb }
+    pub fn new(shapes: impl AsRef<[Shape]>) -> Primitive {
+        Primitive(match shapes.as_ref() {
+            [one] => Held::One(one.clone()),
+            shapes => {
+                let aabb = shapes.iter().fold(Aabb::EMPTY, |b, s| b.union(s.aabb()));
+                Held::Several(Arc::new(Several { aabb, shapes: shapes.into() }))
+            }
+        })
     }
 
     /// The shapes.
     #[inline]
     pub fn shapes(&self) -> &[Shape] {
-        &self.shapes
+        match &self.0 {
+            Held::One(shape) => std::slice::from_ref(shape),
+            Held::Several(several) => &several.shapes,
+        }
     }
 
     /// The smallest box around all of them.
     #[inline]
     pub fn aabb(&self) -> &Aabb {
-        &self.aabb
+        match &self.0 {
+            Held::One(shape) => shape.aabb(),
+            Held::Several(several) => &several.aabb,
+        }
+    }
+}
+
+impl Boxed for Primitive {
+    #[inline]
+    fn aabb(&self) -> &Aabb {
+        Primitive::aabb(self)
     }
 }
 
 impl PartialEq for Primitive {
     fn eq(&self, other: &Primitive) -> bool {
-        Arc::ptr_eq(&self.shapes, &other.shapes) || (self.aabb == other.aabb && self.shapes == other.shapes)
+        match (&self.0, &other.0) {
+            (Held::One(a), Held::One(b)) => a == b,
+            (Held::Several(a), Held::Several(b)) => Arc::ptr_eq(a, b) || a == b,
+            _ => false,
+        }
     }
 }

@@ -14,7 +14,7 @@
 //! also has *pieces*, each convex, that stay clear of what they touch: the wedge, the cone, and instead of the wedge
 //! over a welded base one wedge for each strip of the base.
 
-use crate::convex::Convex;
+use crate::convex::Hull;
 use crate::topology::Topology;
 use crate::vector::Vec3;
 use std::sync::{Arc, OnceLock};
@@ -46,6 +46,15 @@ pub struct Bark {
     pub high: Vec3,
     /// The cone's radius there.
     pub high_radius: f64,
+}
+
+/// The three rings, and what the base lies on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tube {
+    /// Start, split and end.
+    pub frames: [Frame; 3],
+    /// What the base lies on.
+    pub onto: Option<Bark>,
 }
 
 impl Frame {
@@ -82,7 +91,7 @@ impl Bark {
 }
 
 /// Corners of the three rings, start first; the start lies on the bark when there is one.
-pub(crate) fn corners(frames: &[Frame; 3], onto: Option<&Bark>) -> Option<Vec<Vec3>> {
+pub(crate) fn corners(Tube { frames, onto }: &Tube) -> Option<Vec<Vec3>> {
     let around = || crate::light::ring(SEGMENT_SIDES);
     let mut corners: Vec<Vec3> = frames.iter().flat_map(|f| around().map(|turn| f.at(turn))).collect();
     if let Some(bark) = onto {
@@ -130,16 +139,16 @@ fn strips() -> impl Iterator<Item = [u32; 4]> {
 }
 
 /// The convex pieces: the cone, and below the bend a wedge, or one over each strip of a welded base.
-pub(crate) fn pieces(corners: &[Vec3], welded: bool) -> Vec<Convex> {
+pub(crate) fn pieces(corners: &[Vec3], welded: bool) -> Box<[Hull]> {
     let n = SEGMENT_SIDES;
     let wedge = |strip: [u32; 4]| {
         let low = strip.iter().map(|k| corners[*k as usize]);
         low.chain(strip.iter().map(|k| corners[n + *k as usize])).collect::<Vec<Vec3>>()
     };
     // A piece without inside hides nothing.
-    let solid = |points: Vec<Vec3>, sides: usize| Convex::nearly(points, Topology::frustum(sides));
+    let solid = |points: Vec<Vec3>, sides: usize| Hull::nearly(points, Topology::frustum(sides));
     let cone = solid(corners[n..].to_vec(), n);
-    let below: Vec<Convex> = match welded {
+    let below: Vec<Hull> = match welded {
         true => strips().filter_map(|strip| solid(wedge(strip), 4)).collect(),
         false => solid(corners[..2 * n].to_vec(), n).into_iter().collect(),
     };

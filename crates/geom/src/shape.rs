@@ -5,11 +5,11 @@
 //! finer mesh from the same solid.
 
 use crate::bounds::Aabb;
-use crate::convex::Convex;
+use crate::convex::{Convex, Hull, is_aligned};
 use crate::error::GeomError;
 use crate::light::{convex, ring};
 use crate::mesh::TriMesh;
-use crate::segment::{self, Bark, Frame};
+use crate::segment::{self, Tube};
 use crate::vector::{Mat3, Vec3, vec3};
 use std::sync::{Arc, OnceLock};
 
@@ -78,20 +78,13 @@ pub enum Solid {
     /// Convex hull of two rings: a bent, tapered segment. Limbs that share a ring only touch, as long as each lies
     /// on its own side of the ring's plane.
     Limb {
-        /// First ring.
-        start: Ring,
-        /// Second ring.
-        end: Ring,
+        /// Start and end.
+        rings: Box<[Ring; 2]>,
         /// Of both rings.
         sides: usize,
     },
     /// A bent, tapered tube over three rings whose base may lie on a parent's bark: see [`crate::segment`].
-    Segment {
-        /// Start, split and end.
-        frames: [Frame; 3],
-        /// What the base lies on.
-        onto: Option<Bark>,
-    },
+    Segment(Box<Tube>),
     /// Any closed mesh.
     Mesh(Arc<TriMesh>),
 }
@@ -116,16 +109,30 @@ impl Placement {
     }
 }
 
+/// What most shapes need, and small: a population of particles holds millions of them.
 #[derive(Debug)]
 struct Inner {
     solid: Solid,
     placement: Placement,
-    bevel: Option<f64>,
+    /// NaN for none.
+    bevel: f64,
     color: Option<[f32; 3]>,
     aabb: Aabb,
-    convex: Option<Convex>,
-    pieces: OnceLock<Vec<Convex>>,
-    world: OnceLock<TriMesh>,
+    /// A box with its sides along the coordinate directions.
+    aligned: bool,
+    /// Of a solid that is neither a box nor a mesh.
+    hull: Option<Box<Made>>,
+    world: OnceLock<Box<TriMesh>>,
+}
+
+const _: () = assert!(std::mem::size_of::<Inner>() <= 240);
+
+/// The light geometry that is worth keeping.
+#[derive(Debug)]
+struct Made {
+    whole: Hull,
+    /// Of a segment, once they were needed.
+    pieces: OnceLock<Box<[Hull]>>,
 }
 
 /// A placed solid with its look. Cloning shares it.
@@ -138,7 +145,7 @@ impl PartialEq for Shape {
         Arc::ptr_eq(&self.0, &other.0)
             || (a.aabb == b.aabb
                 && a.placement == b.placement
-                && a.bevel == b.bevel
+                && a.bevel.to_bits() == b.bevel.to_bits()
                 && a.color == b.color
                 && a.solid == b.solid)
     }
@@ -172,14 +179,21 @@ impl Shape {
         if let Some(c) = color.filter(|c| !c.iter().all(|c| c.is_finite())) {
             return bad(format!("the color is {c:?}, expected three finite numbers"));
         }
-        let (convex, aabb) = match &solid {
+        let flat = || bad(format!("{} has no inside", kind(&solid)));
+        let (hull, aabb) = match &solid {
             Solid::Mesh(mesh) => (None, Aabb::around(mesh.corners().flatten().map(|p| placement.apply(p)))),
+            Solid::Box { size } => {
+                let convex = Convex::cuboid(*size, &placement);
+                // A size that vanishes beside the placement is one that no corner shows.
+                if convex.width() <= 0.0 {
+                    return flat();
+                }
+                (None, Aabb::around(convex.corners().iter().copied()))
+            }
             solid => {
-                let Some(convex) = convex(solid, &placement) else {
-                    return bad(format!("{} has no inside", kind(solid)));
-                };
-                let aabb = Aabb::around(convex.corners().iter().copied());
-                (Some(convex), aabb)
+                let Some(hull) = convex(solid, &placement) else { return flat() };
+                let aabb = Aabb::around(Convex::Hull(&hull).corners().iter().copied());
+                (Some(Box::new(Made { whole: hull, pieces: OnceLock::new() })), aabb)
             }
         };
         // Beyond this, squares and products of lengths lose all meaning.
@@ -187,16 +201,9 @@ impl Shape {
         if reach.is_nan() || reach > 1e12 {
             return bad("the shape is farther than 1e12 from the origin".to_string());
         }
-        Ok(Shape(Arc::new(Inner {
-            solid,
-            placement,
-            bevel,
-            color,
-            aabb,
-            convex,
-            pieces: OnceLock::new(),
-            world: OnceLock::new(),
-        })))
+        let aligned = matches!(solid, Solid::Box { .. }) && is_aligned(&placement);
+        let (bevel, world) = (bevel.unwrap_or(f64::NAN), OnceLock::new());
+        Ok(Shape(Arc::new(Inner { solid, placement, bevel, color, aabb, aligned, hull, world })))
     }
 
     /// The solid, in its own coordinates.
@@ -211,7 +218,7 @@ impl Shape {
 
     /// Rounding of edges in pictures and exports, as a share of the half lengths.
     pub fn bevel(&self) -> Option<f64> {
-        self.0.bevel
+        Some(self.0.bevel).filter(|bevel| !bevel.is_nan())
     }
 
     /// Linear colour in `[0, 1]`.
@@ -230,33 +237,46 @@ impl Shape {
         &self.0.aabb
     }
 
+    /// True for a box whose sides are exactly the coordinate directions: it is its [`Shape::aabb`].
+    #[inline]
+    pub fn is_aligned_box(&self) -> bool {
+        self.0.aligned
+    }
+
+    /// True for all but a mesh.
+    #[inline]
+    pub fn is_convex(&self) -> bool {
+        !matches!(self.0.solid, Solid::Mesh(_))
+    }
+
     /// The convex solid; `None` for a mesh. A segment's is a little larger than it: see [`Shape::pieces`].
     #[inline]
-    pub fn convex(&self) -> Option<&Convex> {
-        self.0.convex.as_ref()
+    pub fn convex(&self) -> Option<Convex<'_>> {
+        match (&self.0.hull, &self.0.solid) {
+            (Some(made), _) => Some(Convex::Hull(&made.whole)),
+            (None, Solid::Box { size }) => Some(Convex::cuboid(*size, &self.0.placement)),
+            (None, _) => None,
+        }
     }
 
     /// The convex solids whose union it is, where [`Shape::convex`] is larger than the shape.
-    pub fn pieces(&self) -> Option<&[Convex]> {
-        match (&self.0.solid, &self.0.convex) {
-            (Solid::Segment { onto, .. }, Some(convex)) => {
-                Some(self.0.pieces.get_or_init(|| segment::pieces(convex.corners(), onto.is_some())))
-            }
-            _ => None,
-        }
+    pub fn pieces(&self) -> Option<&[Hull]> {
+        let (Solid::Segment(tube), Some(made)) = (&self.0.solid, &self.0.hull) else { return None };
+        let corners = Convex::Hull(&made.whole);
+        Some(made.pieces.get_or_init(|| segment::pieces(corners.corners(), tube.onto.is_some())))
     }
 
     /// The light geometry as triangles in the world; made when first asked for.
     pub fn world_mesh(&self) -> &TriMesh {
         self.0.world.get_or_init(|| {
-            let mesh = match (&self.0.solid, &self.0.convex) {
+            let mesh = match (&self.0.solid, self.convex()) {
                 (Solid::Mesh(mesh), _) => Ok(mesh.map(|p| self.0.placement.apply(p))),
                 (_, Some(convex)) => {
                     TriMesh::new(convex.vertices().to_vec(), convex.topology().triangles.clone())
                 }
                 (_, None) => Err(GeomError::new("bad-shape", "a solid without geometry")),
             };
-            mesh.expect("checked when the shape was made")
+            Box::new(mesh.expect("checked when the shape was made"))
         })
     }
 
@@ -264,7 +284,11 @@ impl Shape {
     pub fn thickness(&self) -> f64 {
         let e = self.0.aabb.extent();
         let boxed = e.x.min(e.y).min(e.z);
-        self.0.convex.as_ref().map_or(boxed, |c| boxed.min(c.width()))
+        match (&self.0.hull, &self.0.solid) {
+            (Some(made), _) => boxed.min(made.whole.width()),
+            (None, Solid::Box { size }) => boxed.min(size.x.min(size.y).min(size.z)),
+            (None, _) => boxed,
+        }
     }
 }
 
@@ -275,7 +299,7 @@ fn kind(solid: &Solid) -> &'static str {
         Solid::Cylinder { .. } => "cylinder",
         Solid::TaperedCylinder { .. } => "tapered-cylinder",
         Solid::Limb { .. } => "limb",
-        Solid::Segment { .. } => "segment",
+        Solid::Segment(_) => "segment",
         Solid::Mesh(_) => "mesh",
     }
 }
@@ -309,8 +333,8 @@ fn check_solid(solid: &Solid) -> Result<(), GeomError> {
             positive("length", *length)?;
             polygon(*sides)
         }
-        Solid::Limb { start, end, sides } => {
-            for ring in [start, end] {
+        Solid::Limb { rings, sides } => {
+            for ring in rings.iter() {
                 positive("radius", ring.radius)?;
                 let unit = (ring.normal.norm() - 1.0).abs() < 1e-6;
                 if !ring.center.is_finite() || !unit {
@@ -321,8 +345,8 @@ fn check_solid(solid: &Solid) -> Result<(), GeomError> {
             }
             polygon(*sides)
         }
-        Solid::Segment { frames, onto } => {
-            for frame in frames {
+        Solid::Segment(tube) => {
+            for frame in &tube.frames {
                 positive("radius", frame.radius)?;
                 let square = (frame.forward.norm() - 1.0).abs().max((frame.up.norm() - 1.0).abs())
                     + frame.forward.dot(frame.up).abs();
@@ -332,7 +356,7 @@ fn check_solid(solid: &Solid) -> Result<(), GeomError> {
                     ));
                 }
             }
-            onto.as_ref().map_or(Ok(()), |bark| {
+            tube.onto.as_ref().map_or(Ok(()), |bark| {
                 positive("parent's radius", bark.low_radius)?;
                 positive("parent's radius", bark.high_radius)
             })

@@ -38,13 +38,22 @@ impl Topology {
     }
 
     /// A box with eight corners.
-    pub fn cuboid() -> Arc<Topology> {
+    pub fn cuboid() -> &'static Topology {
+        Topology::the_cuboid()
+    }
+
+    /// The same, to be kept.
+    pub fn shared_cuboid() -> Arc<Topology> {
+        Topology::the_cuboid().clone()
+    }
+
+    fn the_cuboid() -> &'static Arc<Topology> {
         static CUBOID: OnceLock<Arc<Topology>> = OnceLock::new();
         let build = || {
             let faces = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
             Arc::new(Topology::from_faces(8, faces.iter().map(|f| f.to_vec()).collect()))
         };
-        CUBOID.get_or_init(build).clone()
+        CUBOID.get_or_init(build)
     }
 
     /// A prism or frustum over an `n`-gon whose caps have no middle.
@@ -91,7 +100,9 @@ mod tests {
     #[test]
     fn solids_are_closed() {
         let prisms = [Topology::prism(8), Topology::prism(3), Topology::prism(70)];
-        for t in [Topology::cuboid(), Topology::frustum(4), Topology::frustum(20)].into_iter().chain(prisms) {
+        for t in
+            [Topology::shared_cuboid(), Topology::frustum(4), Topology::frustum(20)].into_iter().chain(prisms)
+        {
             assert_eq!(t.corners + t.faces.len(), t.edges.len() + 2);
             let mut sides: Vec<(u32, u32)> =
                 t.triangles.iter().flat_map(|t| [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])]).collect();

@@ -8,43 +8,60 @@
 use crate::bounds::Aabb;
 use std::sync::Arc;
 
+/// Something with a box around it.
+pub trait Boxed {
+    /// The box.
+    fn aabb(&self) -> &Aabb;
+}
+
 /// A bag of items, each with a box.
 #[derive(Clone, Debug)]
 pub struct BoxTree<T> {
-    root: Option<Arc<Node<T>>>,
+    root: Node<T>,
     len: usize,
 }
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 enum Node<T> {
-    Leaf { aabb: Aabb, item: T },
-    Branch { aabb: Aabb, height: u32, children: [Arc<Node<T>>; 2] },
+    #[default]
+    Nothing,
+    Leaf(T),
+    Branch(Arc<Branch<T>>),
 }
 
-impl<T> Node<T> {
+#[derive(Debug)]
+struct Branch<T> {
+    aabb: Aabb,
+    height: u32,
+    children: [Node<T>; 2],
+}
+
+impl<T: Boxed> Node<T> {
     #[inline]
     fn aabb(&self) -> &Aabb {
         match self {
-            Node::Leaf { aabb, .. } | Node::Branch { aabb, .. } => aabb,
+            Node::Nothing => &Aabb::EMPTY,
+            Node::Leaf(item) => item.aabb(),
+            Node::Branch(branch) => &branch.aabb,
         }
     }
 
     #[inline]
     fn height(&self) -> u32 {
         match self {
-            Node::Leaf { .. } => 0,
-            Node::Branch { height, .. } => *height,
+            Node::Nothing | Node::Leaf(_) => 0,
+            Node::Branch(branch) => branch.height,
         }
     }
 }
 
 impl<T> Default for BoxTree<T> {
     fn default() -> BoxTree<T> {
-        BoxTree { root: None, len: 0 }
+        BoxTree { root: Node::Nothing, len: 0 }
     }
 }
 
-impl<T: Clone> BoxTree<T> {
+impl<T: Clone + Boxed> BoxTree<T> {
     /// Number of items.
     pub fn len(&self) -> usize {
         self.len
@@ -57,37 +74,30 @@ impl<T: Clone> BoxTree<T> {
 
     /// The smallest box around all items.
     pub fn bounds(&self) -> Aabb {
-        self.root.as_ref().map_or(Aabb::EMPTY, |root| *root.aabb())
+        *self.root.aabb()
     }
 
     /// Puts an item into the bag.
-    pub fn insert(&mut self, aabb: Aabb, item: T) {
-        let leaf = Arc::new(Node::Leaf { aabb, item });
+    pub fn insert(&mut self, item: T) {
         self.len += 1;
-        self.root = Some(match self.root.take() {
-            None => leaf,
-            Some(root) => inserted(root, leaf),
-        });
+        self.root = inserted(std::mem::take(&mut self.root), Node::Leaf(item));
     }
 
     /// Takes one item out for which `is` holds and whose box is `aabb`; `None` when there is no such item.
     pub fn remove(&mut self, aabb: &Aabb, is: impl Fn(&T) -> bool) -> Option<T> {
-        let root = self.root.clone()?;
-        let (rest, item) = removed(&root, aabb, &is)?;
+        let (rest, item) = removed(&self.root, aabb, &is)?;
         self.root = rest;
         self.len -= 1;
         Some(item)
     }
 
     /// Calls `f` with every item whose box meets `aabb`, borders included.
-    pub fn visit(&self, aabb: &Aabb, mut f: impl FnMut(&Aabb, &T)) {
-        if let Some(root) = &self.root {
-            visit(root, aabb, &mut f);
-        }
+    pub fn visit(&self, aabb: &Aabb, mut f: impl FnMut(&T)) {
+        visit(&self.root, aabb, &mut f);
     }
 
     /// Calls `f` with every item.
-    pub fn each(&self, mut f: impl FnMut(&Aabb, &T)) {
+    pub fn each(&self, mut f: impl FnMut(&T)) {
         let everything = Aabb { low: Aabb::EMPTY.high, high: Aabb::EMPTY.low };
         self.visit(&everything, &mut f);
     }
@@ -95,58 +105,78 @@ impl<T: Clone> BoxTree<T> {
 
 // The tree's height is logarithmic, so these recursions are shallow.
 
-fn visit<T>(node: &Node<T>, near: &Aabb, f: &mut impl FnMut(&Aabb, &T)) {
+fn visit<T: Boxed>(node: &Node<T>, near: &Aabb, f: &mut impl FnMut(&T)) {
     if !node.aabb().meets(near) {
         return;
     }
     match node {
-        Node::Leaf { aabb, item } => f(aabb, item),
-        Node::Branch { children, .. } => children.iter().for_each(|c| visit(c, near, f)),
+        Node::Nothing => {}
+        Node::Leaf(item) => f(item),
+        Node::Branch(branch) => branch.children.iter().for_each(|c| visit(c, near, f)),
     }
 }
 
-/// A branch over two trees whose heights may differ by two: the taller one's taller child moves up.
-fn joined<T: Clone>(a: Arc<Node<T>>, b: Arc<Node<T>>) -> Arc<Node<T>> {
+/// A branch over two trees whose heights may differ by two: the taller one's taller child moves up. `old` is a branch
+/// that is needed no more.
+fn joined<T: Clone + Boxed>(a: Node<T>, b: Node<T>, old: Option<Arc<Branch<T>>>) -> Node<T> {
     let (tall, low) = if a.height() >= b.height() { (a, b) } else { (b, a) };
-    if tall.height() > low.height() + 1
-        && let Node::Branch { children: [p, q], .. } = &*tall
-    {
-        let (up, down) = if p.height() >= q.height() { (p, q) } else { (q, p) };
-        return branch(up.clone(), joined(down.clone(), low));
+    match tall {
+        Node::Branch(tall) if tall.height > low.height() + 1 => {
+            let [p, q] = &tall.children;
+            let (up, down) = if p.height() >= q.height() { (p, q) } else { (q, p) };
+            branch(up.clone(), joined(down.clone(), low, None), old)
+        }
+        tall => branch(tall, low, old),
     }
-    branch(tall, low)
 }
 
-fn branch<T>(a: Arc<Node<T>>, b: Arc<Node<T>>) -> Arc<Node<T>> {
+fn branch<T: Boxed>(a: Node<T>, b: Node<T>, old: Option<Arc<Branch<T>>>) -> Node<T> {
     let aabb = a.aabb().union(b.aabb());
-    let height = 1 + a.height().max(b.height());
-    Arc::new(Node::Branch { aabb, height, children: [a, b] })
+    let made = Branch { aabb, height: 1 + a.height().max(b.height()), children: [a, b] };
+    if let Some(mut old) = old
+        && let Some(place) = Arc::get_mut(&mut old)
+    {
+        *place = made;
+        return Node::Branch(old);
+    }
+    Node::Branch(Arc::new(made))
 }
 
-fn inserted<T: Clone>(node: Arc<Node<T>>, leaf: Arc<Node<T>>) -> Arc<Node<T>> {
-    let Node::Branch { children: [a, b], .. } = &*node else {
-        return branch(node, leaf);
-    };
-    let growth = |c: &Node<T>| c.aabb().union(leaf.aabb()).half_area() - c.aabb().half_area();
-    let (near, far) = if growth(a) <= growth(b) { (a, b) } else { (b, a) };
-    let (near, far) = (near.clone(), far.clone());
-    drop(node);
-    joined(inserted(near, leaf), far)
+fn inserted<T: Clone + Boxed>(node: Node<T>, leaf: Node<T>) -> Node<T> {
+    match node {
+        Node::Nothing => leaf,
+        Node::Leaf(_) => branch(node, leaf, None),
+        Node::Branch(mut at) => {
+            let growth = |c: &Node<T>| c.aabb().union(leaf.aabb()).half_area() - c.aabb().half_area();
+            let near = usize::from(growth(&at.children[0]) > growth(&at.children[1]));
+            // What nobody else holds is changed in place.
+            let (near, far) = match Arc::get_mut(&mut at) {
+                Some(own) => {
+                    (std::mem::take(&mut own.children[near]), std::mem::take(&mut own.children[1 - near]))
+                }
+                None => (at.children[near].clone(), at.children[1 - near].clone()),
+            };
+            joined(inserted(near, leaf), far, Some(at))
+        }
+    }
 }
 
-type Rest<T> = Option<Arc<Node<T>>>;
-
-fn removed<T: Clone>(node: &Arc<Node<T>>, aabb: &Aabb, is: &impl Fn(&T) -> bool) -> Option<(Rest<T>, T)> {
-    match &**node {
-        Node::Leaf { aabb: there, item } => (there == aabb && is(item)).then(|| (None, item.clone())),
-        Node::Branch { aabb: around, children: [a, b], .. } => {
-            if !around.contains(aabb) {
+fn removed<T: Clone + Boxed>(node: &Node<T>, aabb: &Aabb, is: &impl Fn(&T) -> bool) -> Option<(Node<T>, T)> {
+    match node {
+        Node::Nothing => None,
+        Node::Leaf(item) => (item.aabb() == aabb && is(item)).then(|| (Node::Nothing, item.clone())),
+        Node::Branch(branch) => {
+            if !branch.aabb.contains(aabb) {
                 return None;
             }
+            let [a, b] = &branch.children;
             for (in_here, other) in [(a, b), (b, a)] {
                 if let Some((rest, item)) = removed(in_here, aabb, is) {
-                    let rest = rest.map_or_else(|| other.clone(), |rest| joined(rest, other.clone()));
-                    return Some((Some(rest), item));
+                    let rest = match rest {
+                        Node::Nothing => other.clone(),
+                        rest => joined(rest, other.clone(), None),
+                    };
+                    return Some((rest, item));
                 }
             }
             None
@@ -160,15 +190,24 @@ mod tests {
     use super::*;
     use crate::vector::vec3;
 
+    #[derive(Clone)]
+    struct Item(Aabb, u64);
+
+    impl Boxed for Item {
+        fn aabb(&self) -> &Aabb {
+            &self.0
+        }
+    }
+
     fn cube(k: u64) -> Aabb {
         let x = |s: u64| (k.wrapping_mul(s) % 97) as f64;
         let low = vec3(x(31), x(57), x(83));
         Aabb { low, high: low + vec3(5.0, 4.0, 3.0) }
     }
 
-    fn found(tree: &BoxTree<u64>, near: &Aabb) -> Vec<u64> {
+    fn found(tree: &BoxTree<Item>, near: &Aabb) -> Vec<u64> {
         let mut items = Vec::new();
-        tree.visit(near, |_, item| items.push(*item));
+        tree.visit(near, |item| items.push(item.1));
         items.sort_unstable();
         items
     }
@@ -178,13 +217,13 @@ mod tests {
         let mut tree = BoxTree::default();
         let mut list: Vec<u64> = Vec::new();
         for k in 0..300 {
-            tree.insert(cube(k), k);
+            tree.insert(Item(cube(k), k));
             list.push(k);
             if k % 3 == 2 {
                 let gone = list.remove((k as usize * 7) % list.len());
                 let before = tree.clone();
-                assert_eq!(tree.remove(&cube(gone), |item| *item == gone), Some(gone));
-                assert!(tree.remove(&cube(gone), |item| *item == gone).is_none());
+                assert_eq!(tree.remove(&cube(gone), |item| item.1 == gone).map(|item| item.1), Some(gone));
+                assert!(tree.remove(&cube(gone), |item| item.1 == gone).is_none());
                 assert!(found(&before, &cube(gone)).contains(&gone));
             }
             let near = cube(k * 13 + 5);
@@ -195,7 +234,7 @@ mod tests {
             assert_eq!(tree.len(), list.len());
         }
         for k in list {
-            tree.remove(&cube(k), |item| *item == k).unwrap();
+            tree.remove(&cube(k), |item| item.1 == k).unwrap();
         }
         assert!(tree.is_empty() && tree.bounds().is_empty());
     }
@@ -205,9 +244,9 @@ mod tests {
         let mut tree = BoxTree::default();
         for k in 0..1024 {
             let low = vec3(k as f64, 0.0, 0.0);
-            tree.insert(Aabb { low, high: low + vec3(1.0, 1.0, 1.0) }, k);
+            tree.insert(Item(Aabb { low, high: low + vec3(1.0, 1.0, 1.0) }, k));
         }
         // An AVL tree of n leaves is at most 1.44 log2(n) high.
-        assert!(tree.root.unwrap().height() <= 15);
+        assert!(tree.root.height() <= 15);
     }
 }

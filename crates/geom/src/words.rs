@@ -2,7 +2,7 @@
 
 use crate::error::GeomError;
 use crate::mesh::TriMesh;
-use crate::segment::{Bark, Frame};
+use crate::segment::{Bark, Frame, Tube};
 use crate::shape::{CYLINDER_SIDES, LIMB_SIDES, Placement, Ring, Shape, Solid};
 use crate::vector::{Mat3, Vec3, vec3};
 use std::sync::Arc;
@@ -90,7 +90,7 @@ impl Shape {
         let normal = |given: Option<Vec3>| direction(given.unwrap_or(end - start), "normal");
         let start = Ring { center: start, normal: normal(normals.0)?, radius: radii.0 };
         let end = Ring { center: end, normal: normal(normals.1)?, radius: radii.1 };
-        let solid = Solid::Limb { start, end, sides: LIMB_SIDES };
+        let solid = Solid::Limb { rings: Box::new([start, end]), sides: LIMB_SIDES };
         place(solid, Vec3::ZERO, Mat3::IDENTITY, look)
     }
 
@@ -99,7 +99,7 @@ impl Shape {
     /// # Errors
     /// `bad-shape`, as for [`Shape::new`].
     pub fn segment(frames: [Frame; 3], onto: Option<Bark>, look: &Look) -> Result<Shape, GeomError> {
-        place(Solid::Segment { frames, onto }, Vec3::ZERO, Mat3::IDENTITY, look)
+        place(Solid::Segment(Box::new(Tube { frames, onto })), Vec3::ZERO, Mat3::IDENTITY, look)
     }
 
     /// A mesh, scaled about its own origin, turned and moved to `center`.
@@ -151,7 +151,8 @@ mod tests {
         for axis in 0..3 {
             let b = Shape::tapered_box(Vec3::ZERO, size, 0.5, axis, &PLAIN).unwrap();
             assert_eq!(b.aabb().extent(), size);
-            let top = b.convex().unwrap().corners().iter().filter(|p| p[axis] > 0.0);
+            let convex = b.convex().unwrap();
+            let top = convex.corners().iter().filter(|p| p[axis] > 0.0);
             let other = (axis + 1) % 3;
             assert!(top.into_iter().all(|p| p[other].abs() == 0.25 * size[other]));
         }

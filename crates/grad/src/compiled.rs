@@ -6,17 +6,17 @@
 use crate::density::Density;
 use crate::native::Part;
 use crate::tape::{Lanes, Tape};
-use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Gradients by tape before machine code is asked for: it must be worth its compilation.
-const WARM: u32 = 200;
+pub(crate) const WARM: u32 = 200;
 
 enum Progress {
     /// Not asked for yet: gradients so far.
     Tape(u32),
-    /// Being made: first the gradient alone, then both.
-    Waiting(Receiver<Part>),
+    /// Being made: first the gradient alone, then both. The lock is never waited for; with it threads may share this.
+    Waiting(Mutex<Receiver<Part>>),
     /// There is no more to come. A processor without machine code ends here with none.
     Done,
 }
@@ -29,14 +29,21 @@ pub struct Compiled {
     slope: Option<Part>,
     both: Option<Part>,
     progress: Progress,
+    /// Gradients by tape before machine code is asked for.
+    warm: u32,
 }
 
 impl Compiled {
     /// Ready to evaluate by tape; machine code follows when it has been used for a while.
     pub fn new(density: Arc<Density>) -> Compiled {
+        Compiled::after(density, WARM)
+    }
+
+    /// The same, asking for machine code after so many gradients by tape.
+    pub fn after(density: Arc<Density>, warm: u32) -> Compiled {
         let tape = Arc::new(Tape::new(&density));
         let lanes = tape.lanes();
-        Compiled { density, tape, lanes, slope: None, both: None, progress: Progress::Tape(0) }
+        Compiled { density, tape, lanes, slope: None, both: None, progress: Progress::Tape(0), warm }
     }
 
     /// Compiles now, and waits for it.
@@ -46,7 +53,10 @@ impl Compiled {
                 self.slope = Part::compile(&self.density, false).ok();
                 self.both = self.slope.is_some().then(|| Part::compile(&self.density, true).ok()).flatten();
             }
-            Progress::Waiting(receiver) => receiver.iter().for_each(|part| self.take(part)),
+            Progress::Waiting(parts) => {
+                let parts = parts.into_inner().unwrap_or_else(PoisonError::into_inner);
+                parts.iter().for_each(|part| self.take(part));
+            }
             Progress::Done => {}
         }
     }
@@ -74,7 +84,7 @@ impl Compiled {
     /// Asks for machine code after a while, and takes what there is of it.
     fn advance(&mut self) {
         match &mut self.progress {
-            Progress::Tape(n) if *n < WARM => *n += 1,
+            Progress::Tape(n) if *n < self.warm => *n += 1,
             Progress::Tape(_) => {
                 let (give, take) = channel();
                 let density = self.density.clone();
@@ -86,13 +96,16 @@ impl Compiled {
                         }
                     }
                 });
-                self.progress = if made.is_ok() { Progress::Waiting(take) } else { Progress::Done };
+                self.progress =
+                    if made.is_ok() { Progress::Waiting(Mutex::new(take)) } else { Progress::Done };
             }
-            Progress::Waiting(receiver) => match receiver.try_recv() {
-                Ok(part) => self.take(part),
-                Err(TryRecvError::Empty) => {}
-                Err(TryRecvError::Disconnected) => self.progress = Progress::Done,
-            },
+            Progress::Waiting(parts) => {
+                match parts.get_mut().unwrap_or_else(PoisonError::into_inner).try_recv() {
+                    Ok(part) => self.take(part),
+                    Err(TryRecvError::Empty) => {}
+                    Err(TryRecvError::Disconnected) => self.progress = Progress::Done,
+                }
+            }
             Progress::Done => {}
         }
     }

@@ -52,8 +52,16 @@ pub struct Density {
 
 impl Density {
     /// Differentiates `value`; guards that hold for sure are left out.
-    pub fn new(mut graph: Graph, value: Id, guards: &[Guard]) -> Density {
-        let gradient = reverse::gradient(&mut graph, value);
+    pub fn new(graph: Graph, value: Id, guards: &[Guard]) -> Density {
+        let moves = vec![true; graph.inputs()];
+        Density::along(graph, value, guards, &moves)
+    }
+
+    /// The same, by the coordinates that move; the derivatives by the others are zeros.
+    pub fn along(mut graph: Graph, value: Id, guards: &[Guard], moves: &[bool]) -> Density {
+        let mut gradient = reverse::gradient(&mut graph, value);
+        let zero = graph.constant(0.0);
+        gradient.iter_mut().zip(moves).filter(|(_, moves)| !**moves).for_each(|(slope, _)| *slope = zero);
         let mut kept: Vec<Guard> = Vec::new();
         for guard in guards {
             if !is_sure(&graph, guard) {

@@ -6,10 +6,12 @@
 //! * [`wide`]: the tapes of a density with their memory;
 //! * [`native`]: machine code by Cranelift;
 //! * [`scalar`]: the number that records what happens to it; [`mod@record`]: a run of a program, recorded;
+//! * [`coordinates`]: from bounded values to coordinates without bounds and back;
 //! * [`compiled`]: the tape first, machine code when it is ready; [`live`]: recorded again where a guard fails;
 //! * [`jax`]: the same density as Python text.
 
 pub mod compiled;
+pub mod coordinates;
 pub mod density;
 pub mod graph;
 pub mod jax;
@@ -24,12 +26,13 @@ pub mod tape;
 pub mod wide;
 
 pub use compiled::Compiled;
+pub use coordinates::{Continuous, Transform};
 pub use density::{Comparison, Density, Guard};
 pub use graph::{Graph, Id};
 pub use live::{Live, Model, Refused};
 pub use native::Native;
 pub use operation::Op;
-pub use record::{Continuous, Recorded, Run, Transform, record};
+pub use record::{Recorded, Run, Scope, record};
 pub use scalar::Var;
 pub use tape::{Lanes, Tape};
 pub use wide::Wide;

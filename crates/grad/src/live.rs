@@ -4,8 +4,8 @@
 //! values), another path is the same density elsewhere, and paths are kept. Where the choices change, the point is
 //! refused: what moves there is not a gradient.
 
-use crate::compiled::Compiled;
-use crate::record::{HostCall, Recorded, Run, blame, record};
+use crate::compiled::{Compiled, WARM};
+use crate::record::{HostCall, Recorded, Run, Scope, blame, record};
 use crate::scalar::Var;
 use niwaki_vm::code::Program;
 use niwaki_vm::fault::Fault;
@@ -29,6 +29,8 @@ pub struct Model {
     pub limits: Limits,
     /// Its host functions.
     pub host: Host,
+    /// What moves.
+    pub scope: Scope,
 }
 
 impl Model {
@@ -47,7 +49,13 @@ impl Model {
     }
 
     fn run(&self) -> Run<'_> {
-        Run { program: &self.program, args: &self.args, limits: self.limits, host: &*self.host }
+        Run {
+            program: &self.program,
+            args: &self.args,
+            limits: self.limits,
+            host: &*self.host,
+            scope: &self.scope,
+        }
     }
 }
 
@@ -74,8 +82,8 @@ struct Path {
 }
 
 impl Path {
-    fn of(recorded: Recorded) -> Path {
-        Path { compiled: Compiled::new(recorded.density.clone()), recorded: Arc::new(recorded) }
+    fn of(recorded: Recorded, warm: u32) -> Path {
+        Path { compiled: Compiled::after(recorded.density.clone(), warm), recorded: Arc::new(recorded) }
     }
 }
 
@@ -85,13 +93,20 @@ pub struct Live {
     paths: Vec<Path>,
     now: usize,
     recordings: usize,
+    /// Gradients of a path before machine code is asked for.
+    warm: u32,
 }
 
 impl Live {
     /// The density around a recorded run.
     pub fn new(model: Model, recorded: Recorded) -> Live {
-        let mut live = Live { model, paths: vec![], now: 0, recordings: 1 };
-        live.keep(Path::of(recorded));
+        Live::after(model, recorded, WARM)
+    }
+
+    /// The same, asking for machine code of a path after so many gradients: where many are left soon.
+    pub fn after(model: Model, recorded: Recorded, warm: u32) -> Live {
+        let mut live = Live { model, paths: vec![], now: 0, recordings: 1, warm };
+        live.keep(Path::of(recorded, warm));
         live
     }
 
@@ -116,6 +131,11 @@ impl Live {
     /// The path that the last point was on.
     pub fn recorded(&self) -> &Arc<Recorded> {
         &self.paths[self.now].recorded
+    }
+
+    /// How many operations its paths hold together.
+    pub fn size(&self) -> usize {
+        self.paths.iter().map(|path| path.recorded.density.graph().len()).sum()
     }
 
     /// How often the program was recorded.
@@ -183,7 +203,7 @@ impl Live {
             if recorded.structure != at.structure {
                 return Err(Refused::Structure);
             }
-            let mut path = Path::of(recorded);
+            let mut path = Path::of(recorded, self.warm);
             if let Some(value) = path.compiled.inside(x, g) {
                 self.keep(path);
                 return Ok(value);
@@ -191,6 +211,33 @@ impl Live {
             at = path.recorded;
         }
         Err(Refused::Rounding)
+    }
+
+    /// Goes to the path of a run with these choices, and gives its coordinates: `coordinates` tells them by a path, as far as
+    /// it holds them. `None` where the run has other choices, fails, or is a point of no path.
+    pub fn locate(
+        &mut self,
+        coordinates: &mut dyn FnMut(&Recorded) -> Option<Vec<f64>>,
+        choices: &mut dyn FnMut() -> HashMap<u128, Value>,
+    ) -> Option<Vec<f64>> {
+        let mut slopes = vec![0.0; self.dim()];
+        let others = (0..self.paths.len()).filter(|at| *at != self.now);
+        for at in std::iter::once(self.now).chain(others).collect::<Vec<_>>() {
+            if let Some(x) = coordinates(&self.paths[at].recorded)
+                && self.paths[at].compiled.inside(&x, &mut slopes).is_some()
+            {
+                self.now = at;
+                return Some(x);
+            }
+        }
+        self.recordings += 1;
+        let recorded = self.model.record(&choices()).ok()?;
+        if recorded.structure != self.recorded().structure {
+            return None;
+        }
+        let x = coordinates(&recorded)?;
+        self.keep(Path::of(recorded, self.warm));
+        Some(x)
     }
 
     /// The values of all choices at `x`, fixed ones included.

@@ -1,26 +1,16 @@
 //! Recording: one run of a program, its continuous choices as coordinates, becomes a [`Density`].
 //!
-//! Coordinates are unconstrained. With `s(v) = 1 / (1 + exp(-v))`, and each transform's log Jacobian in the density:
-//!
-//! | support | value | log Jacobian |
-//! | --- | --- | --- |
-//! | line | `v` | 0 |
-//! | above `lo` | `lo + exp(v)` | `v` |
-//! | `lo` to `hi` | `lo + (hi - lo) s(v)` | `ln(hi - lo) + 2 ln s(v) - v` |
-//! | circle (von Mises) | `v` less whole turns, within half a turn of zero | 0: the line winds around the circle |
-//! | simplex of `n` | `n - 1` sticks: `z_k = s(v_k - ln(n - 1 - k))` of what is left | `sum ln(z_k (1 - z_k) left_k)` |
-//! | vectors | `v` | 0 |
-//!
-//! The bounds may depend on other choices. The stick breaking is centred, so that zeros are the middle of the simplex
-//! (Stan reference manual, "Unit simplexes"). Discrete choices keep their values; their probabilities belong to the
-//! density. Scores of a scene are no part of it: see the caller.
+//! Coordinates are unconstrained: see [`crate::coordinates`]. Discrete choices keep their values; their probabilities
+//! belong to the density. Scores of a scene are no part of it: see the caller. A [`Scope`] says which continuous choices
+//! keep their values too, and with what power the score counts.
 
+use crate::coordinates::{Continuous, Edge, Placed, Transform};
 use crate::density::Density;
 use crate::graph::Id;
 use crate::scalar::{Var, with_sheet};
 use crate::tape::{Lanes, Tape};
 use niwaki_geom::Shape;
-use niwaki_math::{Dist, Draw, Family, Scalar};
+use niwaki_math::{Dist, Draw, Scalar};
 use niwaki_vm::builtins::{draw_to_value, value_to_draw};
 use niwaki_vm::code::Program;
 use niwaki_vm::fault::Fault;
@@ -28,71 +18,8 @@ use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
 use niwaki_vm::machine::stack::RunFault;
 use niwaki_vm::machine::{Limits, Machine};
 use niwaki_vm::value::Value;
-use std::collections::HashMap;
-use std::f64::consts::{PI, TAU};
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
-
-/// How a choice's value follows from its coordinates.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Transform {
-    /// The coordinate itself.
-    Line,
-    /// A lower bound and an exponential.
-    Above,
-    /// Two bounds and a logistic.
-    Between,
-    /// Whole turns taken off.
-    Circle,
-    /// Sticks broken off what is left.
-    Simplex,
-    /// The coordinates themselves.
-    Vector,
-}
-
-impl Transform {
-    /// The name in Python.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Transform::Line => "line",
-            Transform::Above => "above",
-            Transform::Between => "between",
-            Transform::Circle => "circle",
-            Transform::Simplex => "simplex",
-            Transform::Vector => "vector",
-        }
-    }
-}
-
-/// A continuous choice.
-#[derive(Clone, Debug)]
-pub struct Continuous {
-    /// Hash of its address.
-    pub address: u128,
-    /// Readable address.
-    pub path: String,
-    /// Its family.
-    pub family: Family,
-    /// From coordinates to value.
-    pub transform: Transform,
-    /// Its first coordinate.
-    pub first: usize,
-    /// How many coordinates it has.
-    pub coordinates: usize,
-    /// Nodes of its value: one, or one for each entry of a vector.
-    values: Vec<Id>,
-}
-
-impl Continuous {
-    /// How many numbers its value has.
-    pub fn width(&self) -> usize {
-        self.values.len()
-    }
-
-    /// Whether its value is a list of numbers rather than a number.
-    pub fn is_vector(&self) -> bool {
-        matches!(self.transform, Transform::Simplex | Transform::Vector)
-    }
-}
 
 /// A recorded run.
 #[derive(Clone)]
@@ -109,7 +36,9 @@ pub struct Recorded {
     pub structure: u128,
     /// How many primitives the run emitted. Their scores are no part of the density.
     pub emitted: usize,
-    /// From coordinates to values.
+    /// The coordinates that move: all but those of held choices and of the power.
+    pub moving: Vec<usize>,
+    /// From coordinates to values, and last to the log Jacobian.
     unpack: Tape,
 }
 
@@ -126,57 +55,35 @@ pub struct Run<'a> {
     pub limits: Limits,
     /// Pure functions of the host, by the number of the constant that names them.
     pub host: &'a HostCall<'a>,
+    /// What moves.
+    pub scope: &'a Scope,
 }
 
-struct Recorder<'a> {
+/// What of a run moves, and with what power its score counts.
+#[derive(Clone, Debug, Default)]
+pub struct Scope {
+    /// Continuous choices that keep their values, by address: they have coordinates, which do not move.
+    pub held: Option<Arc<HashSet<u128>>>,
+    /// The power of factors and observations, as the first coordinate, which does not move; left out, it is 1.
+    pub power: Option<f64>,
+    /// Leaves the Jacobians out: a mutant, for the tests that must see it.
+    #[doc(hidden)]
+    pub drops_jacobian: bool,
+}
+
+pub(crate) struct Recorder<'a> {
     run: &'a Run<'a>,
     choices: &'a HashMap<u128, Value>,
     density: Var,
-    continuous: Vec<(Continuous, Vec<Var>)>,
+    power: Option<Var>,
+    slope: Var,
+    continuous: Vec<(Continuous, Placed)>,
     fixed: Vec<(u128, Value)>,
-    start: Vec<f64>,
+    pub(crate) start: Vec<f64>,
     structure: u128,
     emitted: usize,
     /// Whether each term must have a finite gradient.
     strict: bool,
-}
-
-/// Lower and upper bound of a family of reals.
-fn bounds(dist: &Dist<Var>) -> Option<(Option<Var>, Option<Var>)> {
-    let c = Var::from_f64;
-    Some(match dist {
-        Dist::Gaussian { .. } | Dist::Laplace { .. } | Dist::Cauchy { .. } | Dist::StudentT { .. } => {
-            (None, None)
-        }
-        Dist::LogNormal { .. }
-        | Dist::Gamma { .. }
-        | Dist::InverseGamma { .. }
-        | Dist::Exponential { .. } => (Some(c(0.0)), None),
-        Dist::Beta { .. } => (Some(c(0.0)), Some(c(1.0))),
-        Dist::Uniform { lo, hi } | Dist::TruncatedGaussian { lo, hi, .. } => (Some(*lo), Some(*hi)),
-        Dist::VonMises { .. } => (Some(c(-PI)), Some(c(PI))),
-        Dist::Mixture(m) => {
-            let mut all = m.components.iter().map(bounds);
-            let first = all.next()??;
-            all.try_fold(first, |(lo, hi), next| {
-                let (lo2, hi2) = next?;
-                Some((lo.zip(lo2).map(|(a, b)| a.min(b)), hi.zip(hi2).map(|(a, b)| a.max(b))))
-            })?
-        }
-        _ => return None,
-    })
-}
-
-/// Coordinates beyond lose the digits of the bound that they approach.
-const FARTHEST: f64 = 36.0;
-
-fn logistic(v: Var) -> Var {
-    let one = Var::from_f64(1.0);
-    one / (one + (-v).exp())
-}
-
-fn log_odds(share: f64) -> f64 {
-    (share.ln() - (-share).ln_1p()).clamp(-FARTHEST, FARTHEST)
 }
 
 impl<'a> Recorder<'a> {
@@ -185,6 +92,8 @@ impl<'a> Recorder<'a> {
             run,
             choices,
             density: Var::from_f64(0.0),
+            power: None,
+            slope: Var::from_f64(0.0),
             continuous: vec![],
             fixed: vec![],
             start: vec![],
@@ -201,96 +110,21 @@ impl<'a> Recorder<'a> {
         let bare = |fault| Box::new(RunFault { fault, stack: vec![], omitted: 0, path: String::new() });
         let mut state = machine.start(run.args, true).map_err(bare)?;
         state.remember_origins();
-        machine.finish(&mut state, self)
-    }
-
-    fn coordinate(&mut self, v: f64) -> Var {
-        self.start.push(v);
-        Var::input(v)
-    }
-
-    /// A real choice: its transform, its value and the log density over the coordinate.
-    fn real(&mut self, dist: &Dist<Var>, x: f64) -> Result<(Transform, Var, Var), Fault> {
-        let two = Var::from_f64(2.0);
-        let at = |value: Var| dist.log_density_of_real(value);
-        if let Dist::VonMises { .. } = dist {
-            let v = self.coordinate(x);
-            let turns = (v * Var::from_f64(1.0 / TAU)).round();
-            let value = (v - Var::from_f64(TAU) * turns).within(-PI, PI).at(x);
-            return Ok((Transform::Circle, value, at(value)));
+        self.power = run.scope.power.map(|power| self.coordinate(power));
+        machine.finish(&mut state, self)?;
+        if run.scope.drops_jacobian {
+            self.density = self.density - std::mem::replace(&mut self.slope, Var::from_f64(0.0));
         }
-        let (lo, hi) = bounds(dist).ok_or_else(|| no_coordinates(dist))?;
-        Ok(match (lo, hi) {
-            (None, None) => {
-                let v = self.coordinate(x);
-                (Transform::Line, v, at(v))
-            }
-            (Some(lo), None) => {
-                let v = self.coordinate((x - lo.value()).max(f64::MIN_POSITIVE).ln());
-                let value = (lo + v.exp()).at(x);
-                (Transform::Above, value, at(value) + v)
-            }
-            (None, Some(hi)) => {
-                let v = self.coordinate((hi.value() - x).max(f64::MIN_POSITIVE).ln());
-                let value = (hi - v.exp()).at(x);
-                (Transform::Above, value, at(value) + v)
-            }
-            (Some(lo), Some(hi)) => {
-                let v = self.coordinate(log_odds((x - lo.value()) / (hi.value() - lo.value())));
-                let s = logistic(v);
-                let log = s.ln();
-                let width = hi - lo;
-                let mut value = (lo + width * s).at(x);
-                if !lo.varies() && !hi.varies() {
-                    value = value.within(lo.value(), hi.value());
-                }
-                let slope = two * log - v;
-                // Where the density is one of the share, its logarithms are at hand, and nothing cancels.
-                let log_density = match dist {
-                    Dist::Uniform { .. } => slope,
-                    Dist::Beta { a, b } => {
-                        let norm = a.ln_gamma() + b.ln_gamma() - (*a + *b).ln_gamma();
-                        *a * log + *b * (log - v) - norm
-                    }
-                    _ => at(value) + width.ln() + slope,
-                };
-                (Transform::Between, value, log_density)
-            }
-        })
-    }
-
-    /// A point of the simplex, and the log density over its coordinates.
-    fn simplex(&mut self, concentrations: &[Var], x: &[f64]) -> (Vec<Var>, Var) {
-        let c = Var::from_f64;
-        let n = concentrations.len();
-        let (mut left, mut log_left, mut left_at) = (c(1.0), c(0.0), 1.0);
-        let (mut values, mut log) = (Vec::with_capacity(n), c(0.0));
-        let total = concentrations.iter().fold(c(0.0), |sum, a| sum + *a);
-        for (k, a) in concentrations.iter().enumerate() {
-            log = log - a.ln_gamma();
-            if k + 1 == n {
-                values.push(left.at(x[k]));
-                log = log + (*a - c(1.0)) * log_left;
-                break;
-            }
-            let shift = ((n - 1 - k) as f64).ln();
-            let v = self.coordinate(log_odds(x[k] / left_at) + shift);
-            let centred = v - c(shift);
-            let z = logistic(centred);
-            let log_z = z.ln();
-            values.push((left * z).within(0.0, 1.0).at(x[k]));
-            // ln x_k = ln left + ln z; the Jacobian of this stick is z (1 - z) left.
-            log = log + (*a - c(1.0)) * (log_left + log_z) + (log_z + log_z - centred) + log_left;
-            log_left = log_left + (log_z - centred);
-            left = (left * (c(1.0) - z)).within(0.0, 1.0);
-            left_at -= x[k];
-        }
-        (values, log + total.ln_gamma())
+        Ok(())
     }
 
     /// Adds a term to the log density.
     fn add(&mut self, log: Var) -> Result<(), Fault> {
         self.density = self.density + log;
+        if Var::met_nan() {
+            return Err(Fault::new("non-finite-score", "a comparison on the way to this term met nan")
+                .with_help("keep roots, logarithms and quotients away from where they are no numbers"));
+        }
         if self.strict
             && let Some(bad) = log.slopes(&self.start).into_iter().find(|slope| !slope.is_finite())
         {
@@ -307,7 +141,7 @@ impl<'a> Recorder<'a> {
 }
 
 #[cold]
-fn no_coordinates(dist: &Dist<Var>) -> Fault {
+pub(crate) fn no_coordinates(dist: &Dist<Var>) -> Fault {
     let name = dist.family().name();
     Fault::new("no-derivative", format!("a choice from this `{name}` has no continuous coordinates"))
         .with_help("a mixture must have components that are all of one kind")
@@ -335,51 +169,41 @@ impl Answers<Var> for Recorder<'_> {
         let unfit = || Fault::type_mismatch(format!("no distribution draws {}", given.described()));
         let draw = value_to_draw(given).ok_or_else(unfit)?;
         self.mix(address);
-        let first = self.start.len();
-        let family = dist.family();
-        let (transform, values, log, draw) = match (dist, &draw) {
-            (Dist::Dirichlet(a), Draw::Vector(x)) if a.len() == x.len() => {
-                let (values, log) = self.simplex(a, x);
-                (Transform::Simplex, values.clone(), log, Draw::Vector(values.into()))
+        let (first, family) = (self.start.len(), dist.family());
+        let is_held = self.run.scope.held.as_ref().is_some_and(|held| held.contains(&address));
+        let Some(placed) = self.place(dist, &draw, is_held)? else {
+            let value = draw.convert(&Var::from_f64);
+            let log = dist.log_density(&value);
+            if log.value() == f64::NEG_INFINITY {
+                return Err(impossible("a choice of probability zero"));
             }
-            (Dist::MultivariateGaussian(_), Draw::Vector(x)) => {
-                let values: Vec<Var> = x.iter().map(|x| self.coordinate(*x)).collect();
-                let draw = Draw::Vector(values.clone().into());
-                (Transform::Vector, values, dist.log_density(&draw), draw)
-            }
-            (_, Draw::Real(_) | Draw::Int(_) | Draw::Bool(_)) if bounds(dist).is_some() => {
-                let Some(x) = draw.as_real() else { return Err(unfit()) };
-                let (transform, value, log) = self.real(dist, x)?;
-                (transform, vec![value], log, Draw::Real(value))
-            }
-            (_, Draw::Vector(_)) => return Err(no_coordinates(dist)),
-            _ => {
-                let value = draw.convert(&Var::from_f64);
-                let log = dist.log_density(&value);
-                if log.value() == f64::NEG_INFINITY {
-                    return Err(impossible("a choice of probability zero"));
-                }
-                self.add(log)?;
-                let kept = match &draw {
-                    Draw::Bool(b) => u128::from(*b),
-                    Draw::Int(i) => *i as u128,
-                    Draw::Real(x) => u128::from(x.to_bits()),
-                    Draw::Vector(_) => 0,
-                };
-                self.mix(kept);
-                self.fixed.push((address, given.clone()));
-                return Ok(Answer::Go(draw_to_value(value)));
-            }
+            self.add(log)?;
+            let kept = match &draw {
+                Draw::Bool(b) => u128::from(*b),
+                Draw::Int(i) => *i as u128,
+                Draw::Real(x) => u128::from(x.to_bits()),
+                Draw::Vector(_) => 0,
+            };
+            self.mix(kept);
+            self.fixed.push((address, given.clone()));
+            return Ok(Answer::Go(draw_to_value(value)));
         };
-        if log.value() == f64::NEG_INFINITY {
+        if placed.log.value() == f64::NEG_INFINITY {
             return Err(impossible("a choice outside its support"));
         }
+        let transform = placed.transform;
         self.mix(1 + transform as u128);
-        self.add(log)?;
+        self.add(placed.log)?;
+        self.slope = self.slope + placed.slope;
         let coordinates = self.start.len() - first;
+        let draw = match transform {
+            Transform::Simplex | Transform::Vector => Draw::Vector(placed.values.clone().into()),
+            _ => Draw::Real(placed.values[0]),
+        };
+        let (path, values, edges) = (at.path(), vec![], [Edge::Open; 2]);
         let choice =
-            Continuous { address, path: at.path(), family, transform, first, coordinates, values: vec![] };
-        self.continuous.push((choice, values));
+            Continuous { address, path, family, transform, first, coordinates, is_held, values, edges };
+        self.continuous.push((choice, placed));
         Ok(Answer::Go(draw_to_value(draw)))
     }
 
@@ -396,7 +220,7 @@ impl Answers<Var> for Recorder<'_> {
                 Factor::Condition => "this condition",
             }));
         }
-        self.add(log)?;
+        self.add(self.power.map_or(log, |power| power * log))?;
         Ok(Answer::Go(()))
     }
 
@@ -437,18 +261,29 @@ pub fn record(run: &Run<'_>, choices: &HashMap<u128, Value>) -> Result<Recorded,
     let choices: Vec<Continuous> = recorder
         .continuous
         .into_iter()
-        .map(|(choice, vars)| Continuous {
-            values: vars.into_iter().map(|var| var.id(&mut graph)).collect(),
+        .map(|(choice, placed)| Continuous {
+            values: placed.values.into_iter().map(|var| var.id(&mut graph)).collect(),
+            edges: placed.bounds.map(|bound| Edge::of(bound, &mut graph)),
             ..choice
         })
         .collect();
-    let density = Density::new(graph, value, &sheet.guards);
-    let outputs: Vec<Id> = choices.iter().flat_map(|choice| choice.values.iter().copied()).collect();
+    let mut moves = vec![true; recorder.start.len()];
+    if run.scope.power.is_some() {
+        moves[0] = false;
+    }
+    for choice in choices.iter().filter(|choice| choice.is_held) {
+        moves[choice.first..choice.first + choice.coordinates].fill(false);
+    }
+    let slope = recorder.slope.id(&mut graph);
+    let density = Density::along(graph, value, &sheet.guards, &moves);
+    let outputs: Vec<Id> =
+        choices.iter().flat_map(|choice| choice.values.iter().copied()).chain([slope]).collect();
     let unpack = Tape::of(density.graph(), &outputs, &[]);
     Ok(Recorded {
         density: Arc::new(density),
         choices,
         fixed: recorder.fixed,
+        moving: (0..moves.len()).filter(|k| moves[*k]).collect(),
         start: recorder.start,
         structure: recorder.structure,
         emitted: recorder.emitted,
@@ -482,8 +317,18 @@ impl Recorded {
     /// # Panics
     /// When there is not one number for each coordinate.
     pub fn numbers(&self, x: &[f64]) -> Vec<f64> {
+        self.numbers_and_slope(x).0
+    }
+
+    /// The same, and the log Jacobian of values by coordinates, nats.
+    ///
+    /// # Panics
+    /// When there is not one number for each coordinate.
+    pub fn numbers_and_slope(&self, x: &[f64]) -> (Vec<f64>, f64) {
         let mut lanes: Lanes<1> = self.unpack.lanes();
-        lanes.outputs(&self.unpack, x).to_vec()
+        let mut numbers = lanes.outputs(&self.unpack, x).to_vec();
+        let slope = numbers.pop().unwrap_or(0.0);
+        (numbers, slope)
     }
 
     /// The values of all choices by address, from the numbers of the continuous ones.
@@ -494,7 +339,7 @@ impl Recorded {
         let mut all: HashMap<u128, Value> = self.fixed.iter().cloned().collect();
         let mut at = 0;
         for choice in &self.choices {
-            let n = choice.values.len();
+            let n = choice.width();
             let part = &numbers[at..at + n];
             at += n;
             let draw = match choice.transform {

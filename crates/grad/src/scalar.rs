@@ -22,6 +22,8 @@ pub struct Sheet {
     pub graph: Graph,
     /// The comparisons that steered the run, each once, in order.
     pub guards: Vec<Guard>,
+    /// Whether a comparison met a NaN: it steers the run, and no guard can say when it would again.
+    pub met_nan: bool,
     seen: HashSet<Guard, BuildHasherDefault<Mix>>,
 }
 
@@ -150,13 +152,22 @@ impl Var {
         })
     }
 
+    /// Whether a comparison of the recording so far met a NaN.
+    pub fn met_nan() -> bool {
+        SHEET.with_borrow(|sheet| sheet.as_ref().is_some_and(|sheet| sheet.met_nan))
+    }
+
     /// Notes that a comparison held.
     fn guard(comparison: Comparison, a: Var, b: Var) {
-        if a.node == FIXED && b.node == FIXED || a.value.is_nan() || b.value.is_nan() {
+        if a.node == FIXED && b.node == FIXED {
             return;
         }
         SHEET.with_borrow_mut(|sheet| {
             if let Some(sheet) = sheet {
+                if a.value.is_nan() || b.value.is_nan() {
+                    sheet.met_nan = true;
+                    return;
+                }
                 let (a, b) = (a.id(&mut sheet.graph), b.id(&mut sheet.graph));
                 let guard = Guard { comparison, a, b };
                 if sheet.seen.insert(guard) {
@@ -177,7 +188,10 @@ impl PartialEq for Var {
 
 impl PartialOrd for Var {
     fn partial_cmp(&self, other: &Var) -> Option<Ordering> {
-        let order = self.value.partial_cmp(&other.value)?;
+        let Some(order) = self.value.partial_cmp(&other.value) else {
+            Var::guard(Comparison::NotEqual, *self, *other);
+            return None;
+        };
         match order {
             Ordering::Less => Var::guard(Comparison::Less, *self, *other),
             Ordering::Equal => Var::guard(Comparison::Equal, *self, *other),
@@ -270,6 +284,26 @@ impl Scalar for Var {
             return Var::from_f64(self.value.powi(n));
         }
         Var::written(self.value.powi(n), |sheet| sheet.graph.powi(Id(self.node), n))
+    }
+    fn floor(self) -> Var {
+        if self.node == FIXED {
+            Var::from_f64(self.value.floor())
+        } else {
+            (self - Var::from_f64(0.5)).round()
+        }
+    }
+    fn above(self, bound: f64, over: impl FnOnce() -> Var, under: impl FnOnce() -> Var) -> Var {
+        if self.node == FIXED {
+            return if self.value > bound { over() } else { under() };
+        }
+        let (over, under) = (over(), under());
+        let taken = if self.value > bound { over } else { under };
+        Var::written(taken.value, |sheet| {
+            let g = &mut sheet.graph;
+            let (bound, over, under) = (g.constant(bound), over.id(g), under.id(g));
+            let test = g.binary(Op::Less, bound, Id(self.node));
+            g.select(test, over, under)
+        })
     }
     fn is_finite(self) -> bool {
         self.value.is_finite()

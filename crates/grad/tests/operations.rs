@@ -131,7 +131,7 @@ const CASES: &[Case] = cases! {
     "soft_at_most" reals [0.3, 0.5, 0.4]; "soft_at_most" reals [0.9, 0.5, 0.4];
     "smooth_max" reals [0.3, 0.5, 0.4]; "smooth_min" reals [0.3, 0.5, 0.4]; "smooth_abs" reals [-0.3, 0.2];
     "hsv" reals [0.3, 0.5, 0.7]; "lab" reals [55.0, 12.0, -20.0]; "to_hsv" vectors [0.3, 0.5, 0.7];
-    "to_lab" vectors [0.3, 0.5, 0.7]; "color_difference" vectors [0.3, 0.5, 0.7, 0.6, 0.4, 0.2];
+    "to_lab" vectors [0.3, 0.5, 0.7]; "to_lab" vectors [0.02, 0.5, 0.01]; "color_difference" vectors [0.3, 0.5, 0.7, 0.6, 0.4, 0.2];
     "polygon_area" cornered [0.0, 0.1, 2.0, 0.0, 2.3, 1.9, -0.2, 1.7];
     "polygon_contains" around [0.0, 0.1, 2.0, 0.0, 2.3, 1.9, -0.2, 1.7, 0.8, 0.4];
     "polygon_distance" around [0.0, 0.1, 2.0, 0.0, 2.3, 1.9, -0.2, 1.7, 0.8, 0.4];
@@ -210,6 +210,30 @@ fn every_builtin_has_the_slope_of_central_differences_or_none_to_have() {
         let known = CASES.iter().any(|case| case.0 == builtin.name) || WITHOUT.contains(&builtin.name);
         assert!(known, "`{}` is neither checked nor known to have no slope", builtin.name);
     }
+}
+
+#[test]
+fn a_recording_holds_wherever_its_guards_do() {
+    // A function that decides by a number without a guard is caught at points where it would decide otherwise.
+    let (mut seed, mut inside) = (5, 0);
+    for (name, plain, noted, x) in CASES {
+        let density =
+            recorded(x, |vars| call(name, &noted(vars)).unwrap_or_else(|fault| panic!("{name}: {fault}")));
+        for _ in 0..300 {
+            let wide = 10f64.powf(-2.0 + 2.5 * unit(&mut seed));
+            let point: Vec<f64> =
+                x.iter().map(|x| x + wide * x.abs().max(0.3) * (2.0 * unit(&mut seed) - 1.0)).collect();
+            let Ok(expected) = call(name, &plain(&point)) else { continue };
+            if density.broken(&point).is_some() {
+                continue;
+            }
+            inside += 1;
+            let value = density.interpret(&point, &mut vec![0.0; x.len()]);
+            let close = (value - expected).abs() <= 1e-9 * expected.abs().max(1.0);
+            assert!(close, "{name} recorded at {x:?}, at {point:?}: {value}, not {expected}");
+        }
+    }
+    assert!(inside > 100 * CASES.len(), "{inside}");
 }
 
 #[test]

@@ -19,7 +19,7 @@ pub enum Failure {
     },
     /// A chain found no state to start from.
     NoStart {
-        /// How many forward runs were tried.
+        /// How many forward runs were tried; none where the run was given.
         tries: u64,
         /// What made them impossible: constraint and count, most frequent first.
         causes: Vec<(String, usize)>,
@@ -38,6 +38,7 @@ impl std::fmt::Display for Failure {
             Failure::Impossible { barrier, causes } => {
                 write!(f, "every particle is impossible at barrier {barrier}: {}", listed(causes))
             }
+            Failure::NoStart { tries: 0, .. } => write!(f, "the run to start from is impossible"),
             Failure::NoStart { tries, causes } => {
                 write!(f, "{tries} runs gave no possible state to start from: {}", listed(causes))
             }

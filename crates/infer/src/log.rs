@@ -10,33 +10,50 @@ use std::sync::Arc;
 /// Most barriers are a few choices apart: that many need no allocation of their own.
 type Few = SmallVec<[Entry; 4]>;
 
+/// Own entries beyond this many are put aside: a list that grows without copies would be half empty.
+const BLOCK: usize = 64;
+
 /// One choice.
 #[derive(Clone, Debug)]
 pub struct Entry {
-    /// Its address, in two halves (a `u128` would align the entry to 16 bytes, and make it larger by a fifth).
+    /// Its address, in two halves (a `u128` would align the entry to 16 bytes).
     halves: [u64; 2],
-    /// Its value.
+    /// Its value. That of an order choice, which future ran, is a `Value::Future`, which no model can choose.
     pub value: Value,
-    /// Whether it is an order choice: which future ran.
-    pub is_order: bool,
 }
+
+// A population holds one for each choice of each particle.
+const _: () = assert!(std::mem::size_of::<Entry>() == 32);
 
 impl Entry {
     #[inline]
-    fn new(address: u128, value: Value, is_order: bool) -> Self {
-        Entry { halves: [address as u64, (address >> 64) as u64], value, is_order }
+    fn new(address: u128, value: Value) -> Self {
+        Entry { halves: [address as u64, (address >> 64) as u64], value }
     }
 
     /// Its address.
     pub fn address(&self) -> u128 {
         u128::from(self.halves[0]) | u128::from(self.halves[1]) << 64
     }
+
+    /// Whether it is an order choice.
+    pub fn is_order(&self) -> bool {
+        self.which().is_some()
+    }
+
+    /// Of an order choice, the place of the future that ran among those that could.
+    pub fn which(&self) -> Option<usize> {
+        match self.value {
+            Value::Future(which) => Some(which as usize),
+            _ => None,
+        }
+    }
 }
 
 /// Entries that no one changes any more, and those before them.
 #[derive(Debug)]
 struct Frozen {
-    entries: Few,
+    entries: Box<[Entry]>,
     before: Option<Arc<Frozen>>,
 }
 
@@ -61,12 +78,15 @@ impl Log {
     /// Adds a choice.
     #[inline]
     pub fn push(&mut self, address: u128, value: Value) {
-        self.own.push(Entry::new(address, value, false));
+        if self.own.len() == BLOCK {
+            self.freeze();
+        }
+        self.own.push(Entry::new(address, value));
     }
 
-    /// Adds an order choice.
+    /// Adds an order choice: the place of the future that ran among those that could.
     pub fn push_order(&mut self, address: u128, which: usize) {
-        self.own.push(Entry::new(address, Value::Int(which as i64), true));
+        self.push(address, Value::Future(which as u32));
     }
 
     /// A copy; both share what is there now.
@@ -77,7 +97,10 @@ impl Log {
 
     fn freeze(&mut self) {
         if !self.own.is_empty() {
-            let entries = std::mem::take(&mut self.own);
+            // As large as they are, and not a bit larger.
+            let mut entries = Vec::with_capacity(self.own.len());
+            entries.extend(self.own.drain(..));
+            let entries = entries.into_boxed_slice();
             self.frozen = Some(Arc::new(Frozen { entries, before: self.frozen.take() }));
         }
     }
@@ -132,6 +155,20 @@ mod tests {
         assert_eq!(addresses(&a), [1, 2]);
         assert_eq!(addresses(&b), [1, 3]);
         assert_eq!(addresses(&c), [1, 2]);
+    }
+
+    #[test]
+    fn long_logs_keep_their_order() {
+        let mut log = Log::default();
+        for i in 0..1000 {
+            if i % 7 == 0 { log.push_order(i, 3) } else { log.push(i, Value::Int(3)) }
+        }
+        let entries = log.fork().entries();
+        assert_eq!((log.len(), entries.len()), (1000, 1000));
+        for (i, entry) in entries.iter().enumerate() {
+            assert_eq!((entry.address(), entry.is_order()), (i as u128, i % 7 == 0));
+            assert_eq!(entry.which(), (i % 7 == 0).then_some(3));
+        }
     }
 
     #[test]

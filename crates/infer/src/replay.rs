@@ -146,7 +146,7 @@ impl Answers<f64> for Replay<'_> {
 
 /// The values of a log by address, order choices left out.
 pub fn by_address(entries: &[Entry]) -> HashMap<u128, Value> {
-    entries.iter().filter(|e| !e.is_order).map(|e| (e.address(), e.value.clone())).collect()
+    entries.iter().filter(|e| !e.is_order()).map(|e| (e.address(), e.value.clone())).collect()
 }
 
 /// Runs the program once more with the choices of `source`.

@@ -45,8 +45,7 @@ fn numbers(value: &Value, simplex: bool) -> Vec<f64> {
 
 fn flat(recorded: &Recorded, x: &[f64]) -> Vec<f64> {
     let values = recorded.values(x);
-    let one =
-        |c: &niwaki_grad::record::Continuous| numbers(&values[&c.address], c.transform.name() == "simplex");
+    let one = |c: &niwaki_grad::Continuous| numbers(&values[&c.address], c.transform.name() == "simplex");
     recorded.choices.iter().flat_map(one).collect()
 }
 

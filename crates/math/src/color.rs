@@ -32,7 +32,7 @@ pub fn srgb_from_hsv<S: Scalar>([h, s, v]: [S; 3]) -> [S; 3] {
     let (zero, one) = (S::from_f64(0.0), S::from_f64(1.0));
     [5.0, 3.0, 1.0].map(|n| {
         let k = S::from_f64(n) + S::from_f64(6.0) * h;
-        let k = k - S::from_f64(6.0 * (k.value() / 6.0).floor());
+        let k = k - S::from_f64(6.0) * (k / S::from_f64(6.0)).floor();
         v - v * s * k.min(S::from_f64(4.0) - k).min(one).max(zero)
     })
 }
@@ -42,55 +42,51 @@ pub fn hsv_from_srgb<S: Scalar>([r, g, b]: [S; 3]) -> [S; 3] {
     let zero = S::from_f64(0.0);
     let (most, least) = (r.max(g).max(b), r.min(g).min(b));
     let chroma = most - least;
-    if chroma.value() == 0.0 {
+    if chroma == zero {
         return [zero, zero, most];
     }
-    let (sector, difference) = if most.value() == r.value() {
+    let (sector, difference) = if most == r {
         (0.0, g - b)
-    } else if most.value() == g.value() {
+    } else if most == g {
         (2.0, b - r)
     } else {
         (4.0, r - g)
     };
     let hue = (S::from_f64(sector) + difference / chroma) / S::from_f64(6.0);
-    let hue = if hue.value() < 0.0 { hue + S::from_f64(1.0) } else { hue };
-    [hue, if most.value() == 0.0 { zero } else { chroma / most }, most]
+    let hue = (-hue).above(0.0, || hue + S::from_f64(1.0), || hue);
+    [hue, if most == zero { zero } else { chroma / most }, most]
 }
 
 /// A part of a displayed colour as an amount of light.
 fn linear<S: Scalar>(c: S) -> S {
-    if c.value() <= 0.04045 {
-        c / S::from_f64(12.92)
-    } else {
-        ((c + S::from_f64(0.055)) / S::from_f64(1.055)).powf(S::from_f64(2.4))
-    }
+    c.above(
+        0.04045,
+        || ((c + S::from_f64(0.055)) / S::from_f64(1.055)).powf(S::from_f64(2.4)),
+        || c / S::from_f64(12.92),
+    )
 }
 
 fn displayed<S: Scalar>(light: S) -> S {
-    if light.value() <= 0.0031308 {
-        light * S::from_f64(12.92)
-    } else {
-        S::from_f64(1.055) * light.powf(S::from_f64(1.0 / 2.4)) - S::from_f64(0.055)
-    }
+    light.above(
+        0.0031308,
+        || S::from_f64(1.055) * light.powf(S::from_f64(1.0 / 2.4)) - S::from_f64(0.055),
+        || light * S::from_f64(12.92),
+    )
 }
 
 /// Where CIELAB's cube root becomes a line.
 const DELTA: f64 = 6.0 / 29.0;
 
 fn root<S: Scalar>(t: S) -> S {
-    if t.value() > DELTA * DELTA * DELTA {
-        t.powf(S::from_f64(1.0 / 3.0))
-    } else {
-        t / S::from_f64(3.0 * DELTA * DELTA) + S::from_f64(4.0 / 29.0)
-    }
+    t.above(
+        DELTA * DELTA * DELTA,
+        || t.powf(S::from_f64(1.0 / 3.0)),
+        || t / S::from_f64(3.0 * DELTA * DELTA) + S::from_f64(4.0 / 29.0),
+    )
 }
 
 fn cube<S: Scalar>(t: S) -> S {
-    if t.value() > DELTA {
-        t * t * t
-    } else {
-        S::from_f64(3.0 * DELTA * DELTA) * (t - S::from_f64(4.0 / 29.0))
-    }
+    t.above(DELTA, || t * t * t, || S::from_f64(3.0 * DELTA * DELTA) * (t - S::from_f64(4.0 / 29.0)))
 }
 
 /// CIELAB (L, a, b) of an sRGB colour.
@@ -119,38 +115,31 @@ pub fn difference<S: Scalar>([l1, a1, b1]: [S; 3], [l2, a2, b2]: [S; 3]) -> S {
         (c7 / (c7 + number(25f64.powi(7)))).sqrt()
     };
     let length =
-        |a: S, b: S| if a.value() == 0.0 && b.value() == 0.0 { number(0.0) } else { (a * a + b * b).sqrt() };
+        |a: S, b: S| if a == number(0.0) && b == number(0.0) { number(0.0) } else { (a * a + b * b).sqrt() };
     // Equations 2 to 7: a stretched near the grey axis, then chroma and hue (radians, in [0, tau)).
     let g = half * (one - pull((length(a1, b1) + length(a2, b2)) * half));
     let (a1, a2) = ((one + g) * a1, (one + g) * a2);
     let (c1, c2) = (length(a1, b1), length(a2, b2));
-    let hue = |a: S, b: S, c: S| match c.value() {
-        0.0 => number(0.0),
-        _ => {
-            let h = b.atan2(a);
-            if h.value() < 0.0 { h + number(TAU) } else { h }
+    let hue = |a: S, b: S, c: S| {
+        if c == number(0.0) {
+            return number(0.0);
         }
+        let h = b.atan2(a);
+        (-h).above(0.0, || h + number(TAU), || h)
     };
     let (h1, h2) = (hue(a1, b1, c1), hue(a2, b2, c2));
     // Equations 8 to 11.
-    let grey = c1.value() == 0.0 || c2.value() == 0.0;
-    let turn = match (h2 - h1).value() {
-        _ if grey => number(0.0),
-        d if d > TAU / 2.0 => h2 - h1 - number(TAU),
-        d if d < -TAU / 2.0 => h2 - h1 + number(TAU),
-        _ => h2 - h1,
-    };
+    let grey = c1 == number(0.0) || c2 == number(0.0);
+    let apart = h2 - h1;
+    let back = || (-apart).above(TAU / 2.0, || apart + number(TAU), || apart);
+    let turn = if grey { number(0.0) } else { apart.above(TAU / 2.0, || apart - number(TAU), back) };
     let (dl, dc) = (l2 - l1, c2 - c1);
     let dh = if grey { number(0.0) } else { two * (c1 * c2).sqrt() * (turn * half).sin() };
     // Equations 12 to 14: the means.
     let (l, c) = ((l1 + l2) * half, (c1 + c2) * half);
     let sum = h1 + h2;
-    let h = match (h1 - h2).value().abs() {
-        _ if grey => sum,
-        apart if apart <= TAU / 2.0 => sum * half,
-        _ if sum.value() < TAU => (sum + number(TAU)) * half,
-        _ => (sum - number(TAU)) * half,
-    };
+    let around = || (-sum).above(-TAU, || (sum + number(TAU)) * half, || (sum - number(TAU)) * half);
+    let h = if grey { sum } else { apart.abs().above(TAU / 2.0, around, || sum * half) };
     // Equations 15 to 21.
     let degrees = |x: f64| number(x.to_radians());
     let t = one - number(0.17) * (h - degrees(30.0)).cos()

@@ -38,9 +38,8 @@ pub fn area<S: Scalar>(corners: &[Point<S>]) -> S {
 /// Whether a point is inside: whether a ray from it towards +x crosses the boundary an odd number of times. A point of
 /// the boundary counts as inside on left and lower edges and as outside on the others.
 pub fn contains<S: Scalar>(corners: &[Point<S>], point: Point<S>) -> bool {
-    let [x, y] = point.map(Scalar::value);
-    edges(corners).fold(false, |inside, (a, b)| {
-        let ([ax, ay], [bx, by]) = (a.map(Scalar::value), b.map(Scalar::value));
+    let [x, y] = point;
+    edges(corners).fold(false, |inside, ([ax, ay], [bx, by])| {
         if (ay > y) == (by > y) {
             return inside;
         }
@@ -58,9 +57,7 @@ pub fn boundary_distance<S: Scalar>(corners: &[Point<S>], point: Point<S>) -> S 
         let t = t.max(S::from_f64(0.0)).min(S::from_f64(1.0));
         let away = minus(from, [edge[0] * t, edge[1] * t]);
         let square = dot(away, away);
-        if least.is_none_or(|least| square.value() < least.value()) {
-            least = Some(square);
-        }
+        least = Some(least.map_or(square, |least| least.min(square)));
     }
     least.map_or(S::from_f64(f64::INFINITY), |square| {
         if square.value() == 0.0 { S::from_f64(0.0) } else { square.sqrt() }
@@ -72,7 +69,7 @@ pub fn boundary_distance<S: Scalar>(corners: &[Point<S>], point: Point<S>) -> S 
 /// With the centre at the origin, the sum over edges of the signed area between the edge and the centre, as far as it
 /// lies in the disc: a triangle for the part of the edge inside of the circle, a sector for each part outside of it.
 pub fn disc_area<S: Scalar>(corners: &[Point<S>], center: Point<S>, radius: S) -> S {
-    if radius.value() <= 0.0 {
+    if radius <= S::from_f64(0.0) {
         return S::from_f64(0.0);
     }
     let half = S::from_f64(0.5);
@@ -87,19 +84,19 @@ pub fn disc_area<S: Scalar>(corners: &[Point<S>], center: Point<S>, radius: S) -
         // Where the line meets the circle, in parts of the edge.
         let middle = -(dot(a, edge) / square);
         let discriminant = middle * middle - (dot(a, a) - radius * radius) / square;
-        if discriminant.value() <= 0.0 {
+        if discriminant <= S::from_f64(0.0) {
             return sum + sector(a, b);
         }
         let reach = discriminant.sqrt();
         let clamped = |t: S| t.max(S::from_f64(0.0)).min(S::from_f64(1.0));
         let (enter, leave) = (clamped(middle - reach), clamped(middle + reach));
-        if enter.value() >= leave.value() {
+        if enter >= leave {
             return sum + sector(a, b);
         }
         let at = |t: S| [a[0] + edge[0] * t, a[1] + edge[1] * t];
         let (p, q) = (at(enter), at(leave));
-        let before = if enter.value() > 0.0 { sector(a, p) } else { S::from_f64(0.0) };
-        let after = if leave.value() < 1.0 { sector(q, b) } else { S::from_f64(0.0) };
+        let before = if enter > S::from_f64(0.0) { sector(a, p) } else { S::from_f64(0.0) };
+        let after = if leave < S::from_f64(1.0) { sector(q, b) } else { S::from_f64(0.0) };
         sum + before + cross(p, q) * half + after
     });
     total.abs()
@@ -111,11 +108,11 @@ pub fn disc_area<S: Scalar>(corners: &[Point<S>], center: Point<S>, radius: S) -
 /// and face each other.
 pub fn inset<S: Scalar>(corners: &[Point<S>], by: S) -> Option<Vec<Point<S>>> {
     let n = corners.len();
-    let turn = twice_signed(corners).value();
-    if n < 3 || turn == 0.0 {
+    let (turn, zero) = (twice_signed(corners), S::from_f64(0.0));
+    if n < 3 || turn == zero {
         return None;
     }
-    let by = if turn > 0.0 { by } else { -by };
+    let by = if turn > zero { by } else { -by };
     // Inward normal of each edge, and the moved edge's distance from the origin along it.
     let mut lines = Vec::with_capacity(n);
     for (a, b) in edges(corners) {
@@ -132,8 +129,8 @@ pub fn inset<S: Scalar>(corners: &[Point<S>], by: S) -> Option<Vec<Point<S>>> {
     for at in 0..n {
         let ((m, p), (k, q)) = (lines[(at + n - 1) % n], lines[at]);
         let sine = cross(m, k);
-        if sine.value().abs() < 1e-12 {
-            if dot(m, k).value() < 0.0 {
+        if sine.abs() < S::from_f64(1e-12) {
+            if dot(m, k) < zero {
                 return None;
             }
             // A corner in the middle of a straight edge.
@@ -143,8 +140,7 @@ pub fn inset<S: Scalar>(corners: &[Point<S>], by: S) -> Option<Vec<Point<S>>> {
         }
         made.push([(p * k[1] - q * m[1]) / sine, (q * m[0] - p * k[0]) / sine]);
     }
-    let kept =
-        edges(corners).zip(edges(&made)).all(|((a, b), (c, d))| dot(minus(b, a), minus(d, c)).value() > 0.0);
+    let kept = edges(corners).zip(edges(&made)).all(|((a, b), (c, d))| dot(minus(b, a), minus(d, c)) > zero);
     kept.then_some(made)
 }
 

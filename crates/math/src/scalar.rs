@@ -76,6 +76,12 @@ pub trait Scalar:
     fn min(self, other: Self) -> Self;
     /// The larger of two.
     fn max(self, other: Self) -> Self;
+    /// The largest whole number that is not above it. Recorded, it may be one less at a whole number itself: only for what
+    /// has the same value on both sides of the jump.
+    fn floor(self) -> Self;
+    /// One of two pieces: `over` where the number is above the bound, else `under`. Recorded, it is both of them and a choice
+    /// between, so that no run need be recorded again where the other piece begins; neither may compare numbers.
+    fn above(self, bound: f64, over: impl FnOnce() -> Self, under: impl FnOnce() -> Self) -> Self;
     /// True when neither infinite nor NaN.
     fn is_finite(self) -> bool;
     /// Whether the number varies with what a run is recorded over. Plain numbers never do.
@@ -100,6 +106,14 @@ impl Scalar for f64 {
         self
     }
     standard! { sqrt exp ln ln_1p exp_m1 sin cos tan asin acos atan sinh cosh tanh abs }
+    #[inline]
+    fn floor(self) -> f64 {
+        f64::floor(self)
+    }
+    #[inline]
+    fn above(self, bound: f64, over: impl FnOnce() -> f64, under: impl FnOnce() -> f64) -> f64 {
+        if self > bound { over() } else { under() }
+    }
     #[inline]
     fn atan2(self, x: f64) -> f64 {
         f64::atan2(self, x)

@@ -124,7 +124,12 @@ impl Index<usize> for Vec3 {
     type Output = f64;
     #[inline]
     fn index(&self, axis: usize) -> &f64 {
-        [&self.x, &self.y, &self.z][axis]
+        match axis {
+            0 => &self.x,
+            1 => &self.y,
+            2 => &self.z,
+            _ => panic!("entry {axis} of a vector of three"),
+        }
     }
 }
 

@@ -1,16 +1,20 @@
 //! Markov chains behind the door: they stay alive between two calls, so that a search goes on where it stopped.
 
+use crate::faults;
 use crate::kernels;
 use crate::outcome::PyOutcome;
 use crate::search::{PyTask, detached};
 use crate::settings::unknown;
+use niwaki_infer::Failure;
 use niwaki_infer::chain::agreement::compare;
 use niwaki_infer::chain::counts::{Count, Counts};
 use niwaki_infer::chain::explain::What;
 use niwaki_infer::chain::kernel::Kernel;
 use niwaki_infer::chain::ladder::Ladder;
 use niwaki_infer::chain::many::Chains;
+use niwaki_infer::chain::trajectory::travel::Travel;
 use niwaki_infer::chain::{Chain, Settings};
+use niwaki_infer::hamiltonian::Cause;
 use niwaki_vm::machine::kept::Strategy;
 use niwaki_vm::value::Value;
 use pyo3::prelude::*;
@@ -164,6 +168,48 @@ impl PyChains {
         let row =
             |(f, c, line, n): (String, String, u32, Count)| (f, c, line, n.proposed, n.accepted, n.outside);
         all.named(program).into_iter().map(row).collect()
+    }
+
+    /// Of each leaf of the kernel that follows the gradient, in order, all chains and temperatures together: a dict with
+    /// ``made``, ``moved``, ``unwritten``, ``settled`` (after the warm-up), ``accept`` (their sum), ``gradients``,
+    /// ``structures``, ``recordings``, ``warmup_divergences``; by reason how many broke off after the warm-up: ``energy``,
+    /// ``guard``, ``impossible``, ``not_finite``; ``steps``, by chain; and ``fault``, an exception or None.
+    fn trajectories<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
+        let chains = self.lock();
+        let mut all: Vec<(Travel, Vec<f64>, u64, u64)> = Vec::new();
+        for chain in chains.chains.iter().flat_map(|ladder| &ladder.rungs) {
+            for (leaf, (travel, step, (structures, recordings))) in chain.trajectories().enumerate() {
+                if all.len() == leaf {
+                    all.push((Travel::default(), vec![], 0, 0));
+                }
+                let sum = &mut all[leaf];
+                sum.0 += travel;
+                sum.1.push(step);
+                (sum.2, sum.3) = (sum.2 + structures, sum.3 + recordings);
+            }
+        }
+        let program = &self.task.get().task.program;
+        let row = |(travel, steps, structures, recordings): (Travel, Vec<f64>, u64, u64)| {
+            let facts = PyDict::new(py);
+            facts.set_item("made", travel.made)?;
+            facts.set_item("moved", travel.moved)?;
+            facts.set_item("unwritten", travel.unwritten)?;
+            facts.set_item("settled", travel.settled)?;
+            facts.set_item("accept", travel.accept)?;
+            facts.set_item("gradients", travel.gradients)?;
+            facts.set_item("structures", structures)?;
+            facts.set_item("recordings", recordings)?;
+            facts.set_item("warmup_divergences", travel.warmup_divergences)?;
+            facts.set_item("energy", travel.drifted)?;
+            facts.set_item("guard", travel.refused[Cause::Guard as usize])?;
+            facts.set_item("impossible", travel.refused[Cause::Impossible as usize])?;
+            facts.set_item("not_finite", travel.refused[Cause::NotFinite as usize])?;
+            facts.set_item("steps", steps)?;
+            let fault = travel.fault.map(|fault| faults::raise(py, &Failure::Run(fault), program));
+            facts.set_item("fault", fault)?;
+            Ok(facts)
+        };
+        all.into_iter().map(row).collect()
     }
 
     /// Sums over the chains: proposals, activations entered, calls skipped, instructions, primitives that were taken out

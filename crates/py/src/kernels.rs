@@ -4,6 +4,7 @@ use crate::faults;
 use crate::search::PyTask;
 use niwaki_infer::chain::kernel::{Kernel, Selection};
 use niwaki_infer::chain::user::User;
+use niwaki_infer::hamiltonian::chains::Length;
 use niwaki_vm::fault::Fault;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
@@ -26,6 +27,19 @@ pub fn kernel(task: &PyTask, form: &Bound<'_, PyAny>) -> PyResult<Kernel> {
             target: form.get_item(3)?.extract()?,
         },
         "regenerate" => Kernel::Regenerate { levels: form.get_item(1)?.extract()? },
+        "hmc" => Kernel::Trajectory {
+            step: form.get_item(1)?.extract()?,
+            length: Length::Fixed {
+                steps: form.get_item(2)?.extract()?,
+                jitter: form.get_item(3)?.extract()?,
+            },
+            target: form.get_item(4)?.extract()?,
+        },
+        "nuts" => Kernel::Trajectory {
+            step: form.get_item(1)?.extract()?,
+            length: Length::NoUTurn { max_depth: form.get_item(2)?.extract()? },
+            target: form.get_item(3)?.extract()?,
+        },
         "proposal" => {
             let own: Bound<'_, PyTask> = form.get_item(1)?.extract()?;
             let user = User::new(own.get().task.clone());

@@ -113,14 +113,13 @@ impl PyOutcome {
     /// Choices in the order made: (hash of the address, value).
     fn choices<'py>(&self, py: Python<'py>) -> PyResult<Vec<(u128, Bound<'py, PyAny>)>> {
         let entries = self.log.entries();
-        let chosen = entries.iter().filter(|e| !e.is_order);
+        let chosen = entries.iter().filter(|e| !e.is_order());
         chosen.map(|e| Ok((e.address(), self.classes.object(py, &e.value)?))).collect()
     }
 
     /// Order choices in the order made: (hash of the address of the future that ran, its place among the runnable).
     fn order(&self) -> Vec<(u128, i64)> {
-        let which = |value: &Value| if let Value::Int(n) = value { *n } else { 0 };
-        self.log.entries().iter().filter(|e| e.is_order).map(|e| (e.address(), which(&e.value))).collect()
+        self.log.entries().iter().filter_map(|e| Some((e.address(), e.which()? as i64))).collect()
     }
 }
 

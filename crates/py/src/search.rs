@@ -17,7 +17,7 @@ use niwaki_infer::gradient::live;
 use niwaki_infer::importance::importance;
 use niwaki_infer::nested::Method;
 use niwaki_infer::particles::{
-    self, Ancestors, Chain, Progress, Rejuvenation, particle_gibbs, pimh, populations, within,
+    self, Ancestors, Chain, Progress, Rejuvenation, Walks, particle_gibbs, pimh, populations, within,
 };
 use niwaki_infer::rejection::rejection;
 use niwaki_infer::replay::{Missing, Source, replay};
@@ -231,9 +231,10 @@ impl PyTask {
     /// ``plan`` holds the sizes of the populations; with ``seconds`` the measured costs decide them. ``rejuvenate`` is the
     /// form of a kernel, ``moves`` how many proposals each time, and ``at`` when: a number of barriers, ``"resampled"`` or
     /// ``"end"``; proposals and those kept are told as ``moved``, of particles that ran and of those that had ended.
+    /// ``walks`` says how many chains start from the final set, and how many states of each take its place.
     #[pyo3(signature = (plan, seed, *, order="stochastic", weights="ratio", temper=1.0, anneal=None,
-                        resampling="systematic", ess=None, rejuvenate=None, moves=1, at=At::Barriers(1), seconds=None,
-                        threads=None, watch=None))]
+                        resampling="systematic", ess=None, rejuvenate=None, moves=1, at=At::Barriers(1), walks=None,
+                        seconds=None, threads=None, watch=None))]
     #[expect(clippy::too_many_arguments, reason = "the settings of the method")]
     fn smc<'py>(
         &self,
@@ -249,6 +250,7 @@ impl PyTask {
         rejuvenate: Option<Bound<'py, PyAny>>,
         moves: u64,
         at: At,
+        walks: Option<(usize, usize)>,
         seconds: Option<f64>,
         threads: Option<usize>,
         watch: Option<Py<PyAny>>,
@@ -259,7 +261,8 @@ impl PyTask {
         let mut settings = settings(py, program, words)?;
         if let Some(form) = rejuvenate {
             let kernel = kernel(self, &form)?;
-            settings.rejuvenate = Some(Rejuvenation { kernel, moves, at: at.moment(py, program)? });
+            let walks = walks.map(|(chains, draws)| Walks { chains, draws });
+            settings.rejuvenate = Some(Rejuvenation { kernel, moves, at: at.moment(py, program)?, walks });
         }
         let (found, pressed) = detached(py, program, threads, watch.as_ref(), |watch| {
             let mut look = |p: Progress| watch.look(p.barriers as u64, p.ended, p.best);

@@ -62,31 +62,19 @@ pub fn settings(py: Python<'_>, program: &Program, words: Words<'_>) -> PyResult
         particles: words.particles,
         seed: words.seed,
         temper: words.temper,
-        order: match words.order {
-            "stochastic" => Order::Stochastic,
-            "depth-first" => Order::DepthFirst,
-            other => return Err(unknown("order", other, "\"stochastic\" or \"depth-first\"")),
-        },
-        weights: match words.weights {
-            "ratio" => Weights::Ratio,
-            "absolute" => Weights::Absolute,
-            other => return Err(unknown("weights", other, "\"ratio\" or \"absolute\"")),
-        },
+        order: Order::from_name(words.order)
+            .ok_or_else(|| unknown("order", words.order, "\"stochastic\" or \"depth-first\""))?,
+        weights: Weights::from_name(words.weights)
+            .ok_or_else(|| unknown("weights", words.weights, "\"ratio\" or \"absolute\""))?,
         anneal: match words.anneal {
             None => Anneal::Constant,
             Some(Way::Share(share)) => Anneal::Adaptive(share),
             Some(Way::Path(path)) => Anneal::Schedule(path.into()),
         },
-        resampling: match words.resampling {
-            "systematic" => Resampling::Systematic,
-            "residual" => Resampling::Residual,
-            "stratified" => Resampling::Stratified,
-            "multinomial" => Resampling::Multinomial,
-            other => {
-                let known = "\"systematic\", \"residual\", \"stratified\" or \"multinomial\"";
-                return Err(unknown("resampling", other, known));
-            }
-        },
+        resampling: Resampling::from_name(words.resampling).ok_or_else(|| {
+            let known = "\"systematic\", \"residual\", \"stratified\" or \"multinomial\"";
+            unknown("resampling", words.resampling, known)
+        })?,
         rejuvenate: None,
         when: words.ess.map_or(When::Always, When::EffectiveBelow),
     })

@@ -119,6 +119,20 @@ fn programs(n: usize) -> Vec<(&'static str, String)> {
               (set $a (sample (dist gaussian $a0 $sa))) (set $b (sample (dist gaussian $b0 $sb)))
               (for $j (range 5) (body (do (observe (dist gaussian (add $a (mul $b (sub $j 2))) $sy) (mul 0.3 (mod (add $i $j) 7)))))))))
             (entry "m"))"#, n / 5)),
+        ("hlr-lines", format!(
+            r#"(module (const 0 (list -2.0 -1.0 0.0 1.0 2.0))
+            (fn "line" (params $ys $a0 $b0 $sa $sb $sy)
+            (set $a (sample (dist gaussian $a0 $sa))) (set $b (sample (dist gaussian $b0 $sb)))
+              (for $p (zip (data 0) $ys) (body (unpack ($x $y) $p) (do (observe (dist gaussian (add $a (mul $b $x)) $sy) $y))))
+              (return (tuple $a $b)))
+            (fn "m" (params)
+            (set $a0 (sample (dist gaussian 0.0 10.0))) (set $b0 (sample (dist gaussian 0.0 10.0)))
+            (set $sa (sample (dist uniform 0.05 3.0))) (set $sb (sample (dist uniform 0.05 3.0))) (set $sy (sample (dist uniform 0.05 3.0)))
+            (set $lines (list))
+            (for $i (range {}) (body
+              (set $lines (append $lines (call "line" (list 0.1 0.2 0.3 (mul 0.1 (mod $i 7)) 0.5) $a0 $b0 $sa $sb $sy)))))
+            (return (tuple $a0 $lines)))
+            (entry "m"))"#, n / 5)),
     ]
 }
 

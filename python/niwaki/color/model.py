@@ -28,6 +28,7 @@ from niwaki import factor, model, soft_at_least, soft_at_most, softeq, uniform
 TINY = 1e-24
 FARTHEST = 300.0  # CIELAB: the root of 100^2 + 200^2 + 200^2
 WIDEST = 282.9  # CIELAB: the same without lightness
+KNEE = 216.0 / 24389.0
 
 
 class Lab(NamedTuple):
@@ -143,5 +144,6 @@ def to_lab(r, g, b):
 
 
 def root(t):
-    """The cube root, with a straight foot below 216/24389."""
-    return t ** (1.0 / 3.0) if t > 216.0 / 24389.0 else (24389.0 / 27.0 * t + 16.0) / 116.0
+    """The cube root, with a straight foot below 216/24389 whose slope there is the root's."""
+    # Without a branch: dark colors do not make other paths of the model.
+    return max(t, KNEE) ** (1.0 / 3.0) + (min(t, KNEE) - KNEE) * (24389.0 / 27.0 / 116.0)

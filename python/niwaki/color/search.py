@@ -22,7 +22,9 @@ from niwaki.color.model import coloring
 from niwaki.color.rules import Rule, Rules
 from niwaki.color.settle import settled
 from niwaki.errors import InputError
+from niwaki.file_errors import FileError
 from niwaki.methods import Method, Mh, at_least_one
+from niwaki.methods.checks import bad, is_number
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -209,7 +211,11 @@ def color(
         drawing = Drawing.load(drawing)
     if not isinstance(rules, Rules):
         rules = Rules.load(rules)
+    if not is_number(weight) or not 0 < weight < float("inf"):
+        raise bad("weight", weight, "a number above 0", "100")
     given = arguments(drawing, rules, weight)
+    if all(name in rules.pinned for name in drawing.names):
+        raise FileError("rules-pin-all", rules.place, count=len(drawing.names))
     result = run(
         coloring,
         method or default_method(count),

@@ -1,4 +1,4 @@
-"""Palettes of colours as rows of swatches, several columns of them under titles."""
+"""Palettes of colours: as rows of swatches, several columns of them under titles; or as ribbons, a palette a column."""
 
 from __future__ import annotations
 
@@ -52,6 +52,40 @@ def swatches(
     for width, title in zip(widths, columns, strict=True):
         pen.text((left + width / 2, (head + gap // 2) / 2), title, INK, font, anchor="mm")
         left += width + gap
+    return page
+
+
+def ribbons(
+    rows: Mapping[str, Sequence[Sequence[VecLike]]], *, column: int = 3, tall: int = 120, gap: int = 18
+) -> Image.Image:
+    """Draw sequences of palettes, each as a ribbon under its title: a palette is a column, its colours are bands.
+
+    Parameters
+    ----------
+    rows
+        Sequences of palettes by title; as for `swatches`.
+    column
+        Width of a palette in pixels.
+    tall
+        Height of a ribbon in pixels.
+    gap
+        Pixels around ribbons.
+    """
+    if not rows or not all(row and all(row) for row in rows.values()):
+        raise FileError("setting", name="rows", found="a row without colours", expected="palettes")
+    font = ImageFont.load_default(15)
+    head = 24
+    wide = column * max(map(len, rows.values()))
+    page = Image.new("RGB", (wide + 2 * gap, gap + len(rows) * (head + tall + gap)), PAPER)
+    pen = ImageDraw.Draw(page)
+    for at, (title, row) in enumerate(rows.items()):
+        top = gap + at * (head + tall + gap)
+        pen.text((gap, top + head / 2 - 2), title, INK, font, anchor="lm")
+        for place, palette in enumerate(row):
+            edges = [top + head + round(tall * band / len(palette)) for band in range(len(palette) + 1)]
+            left = gap + place * column
+            for color, high, low in zip(palette, edges, edges[1:], strict=False):
+                pen.rectangle((left, high, left + column - 1, low - 1), fill=_bytes(color))
     return page
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from niwaki import kernels
 from niwaki.gallery import entry, named_target, targets
 
 if TYPE_CHECKING:
@@ -159,6 +160,14 @@ AROUND: dict[str, Any] = {"particles": 300, "temper": 4.0, "anneal": None}
 FRONT: dict[str, Any] = {"temper": 64.0, "anneal": None}
 #: Seven storeys on each other are rare: more particles find them.
 TOWERS: dict[str, Any] = {"particles": 1000, "anneal": None}
+#: Blocks hardly depend on each other, so that a move of one costs microseconds: one result of many is followed far.
+BLOCKS: dict[str, Any] = {
+    "anneal": None,
+    "rejuvenate": kernels.mixture(kernels.mh(), kernels.drift(0.1), kernels.drift(0.02)),
+    "moves": 1000,
+    "at": "end",
+    "draws": 100,
+}
 #: A sigma of thirty pixels is sharp enough, too sharp at first: one pipe then outweighs all others. Nets that end early
 #: are a matter of luck, so there are eight populations.
 NETS: dict[str, Any] = {"populations": 8, "temper": 1.0, "anneal": 0.5}
@@ -194,7 +203,7 @@ EXPERIMENTS = (
         weights="face_stroke",
         camera=CEILING,
         light=(-1.0, -0.3, 0.0),
-        ours={"particles": 6000, "anneal": None},
+        ours=BLOCKS,
     ),
     Experiment(
         "digits-of-pipes",

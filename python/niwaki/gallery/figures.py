@@ -3,7 +3,8 @@
     python -m niwaki.gallery.figures docs/pictures
 
 coin.png: the exact answer; hmm.png, lda.png, gmm.png, hlr.png: what the data say; cafe.png and cafe-plan.png: a
-furnished room from the side and from above; palettes.png: three palettes at each of three stages.
+furnished room from the side and from above; palettes.png: three palettes at each of three stages; harmonies.png: three
+chains through palettes whose scheme is a choice.
 """
 
 from __future__ import annotations
@@ -18,11 +19,13 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
+from niwaki import kernels
 from niwaki.draw.picture import picture
 from niwaki.draw.plan import plan
-from niwaki.draw.swatches import swatches
-from niwaki.gallery import coin, furniture, gmm, hlr, hmm, lda, palettes
+from niwaki.draw.swatches import ribbons, swatches
+from niwaki.gallery import coin, furniture, gmm, harmonies, hlr, hmm, lda, palettes
 from niwaki.gallery.pictures import written
+from niwaki.methods import mh
 from niwaki.result import Result
 from niwaki.search import run
 
@@ -57,6 +60,7 @@ def draw(folder: Path) -> list[Path]:
         "cafe": picture(room, elevation=46.0, azimuth=24.0, size=(960, 640), margin=0.03),
         "cafe-plan": plan(room, furniture.ROOM, width=880),
         "palettes": stages(),
+        "harmonies": harmony_ribbons(),
     }
     return [written(folder / f"{name}.png", image) for name, image in made.items()]
 
@@ -69,6 +73,20 @@ def stages() -> Image.Image:
         "split-complementary, with shades": best_of(palettes.harmonious),
     }
     return swatches(columns)
+
+
+def harmony_ribbons() -> Image.Image:
+    """The same number of states of three chains, whose kernels can do more and more."""
+    moves = {
+        "Metropolis-Hastings": kernels.mh(),
+        "discrete choices by Metropolis-Hastings, real ones along their gradient": harmonies.BOTH,
+        "the same at six temperatures": harmonies.KERNEL,
+    }
+    rows = {}
+    for title, kernel in moves.items():
+        method = mh(steps=40_000, warmup=8_000, thin=100, kernel=kernel)
+        rows[title] = [sample.value[1] for sample in run(harmonies.harmonies, method=method, seed=1)]
+    return ribbons(rows)
 
 
 def best_of(model: Any) -> list[Any]:

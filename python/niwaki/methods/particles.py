@@ -33,6 +33,8 @@ class Smc:
     rejuvenate: Kernel | None = None
     moves: int = 1
     at: int | str = 1
+    draws: int | None = None
+    chains: int = 1
 
     @property
     def plan(self) -> tuple[int, ...]:
@@ -84,6 +86,8 @@ def smc(
     rejuvenate: Kernel | None = None,
     moves: int = 1,
     at: int | str = 1,
+    draws: int | None = None,
+    chains: int = 1,
 ) -> Smc:
     """Particles that are scored and resampled while they grow.
 
@@ -111,11 +115,11 @@ def smc(
         size allows. The final law is that of `temper` whatever the way.
     populations
         So many independent populations of `particles` each, side by side, combined by their evidence. 1, or with
-        `diverse` as many as that, when left out.
+        `diverse` and no `draws` as many as that, when left out.
     diverse
         Give so many results that differ, best score first: none shares more than half of its choices with another. One
-        population ends as many copies of few runs, so this needs several. Where fewer are found, fewer are given, with
-        a warning.
+        population ends as many copies of few runs, so this needs several, or `draws`. Where fewer are found, fewer are
+        given, with a warning.
     seconds
         Instead of a number of particles: populations one after the other until this time is spent, their sizes planned
         from measured costs and told by `Result.plan`.
@@ -123,12 +127,16 @@ def smc(
         A kernel of `niwaki.kernels` that moves each particle without changing the law that all follow, so that copies
         become different again (Gilks & Berzuini 2001). A particle that still runs keeps its skeleton: which parts,
         which futures, where each call waits; one that has ended may change its structure. Not with absolute weights,
-        and no kernel that anneals or tempers.
+        no kernel that anneals or tempers, and `hmc` and `nuts` only at the end.
     moves
         Proposals for each particle, each time; `Result.moved` says how many were made and kept.
     at
         When: once all have ended ("end"); and before that at every so-many-th barrier, or after each resampling
         ("resampled").
+    draws, chains
+        Once all have ended, follow `chains` of them, drawn by weight, instead of moving each: `draws` states of each
+        chain, `moves` proposals apart, are the final set. Much cheaper than as many moves of every particle, as a run
+        is built once for a chain, and they go further.
     """
     if seconds is not None:
         if not is_number(seconds) or not 0 < seconds < float("inf"):
@@ -152,6 +160,7 @@ def smc(
         if not isinstance(sizes, int):
             raise bad("populations", populations, "nothing beside a list of sizes", "None")
     _check_moves(rejuvenate, moves, at, weights)
+    _check_walks(rejuvenate, draws, chains)
     return Smc(
         sizes,
         order,
@@ -160,12 +169,14 @@ def smc(
         resampling,
         ess,
         _way(anneal, weights),
-        populations or diverse or 1,
+        populations or (diverse if draws is None else None) or 1,
         diverse,
         None if seconds is None else float(seconds),
         rejuvenate,
         moves,
         at,
+        draws,
+        chains,
     )
 
 
@@ -254,12 +265,26 @@ def _check_moves(rejuvenate: Any, moves: int, at: Any, weights: str) -> None:
         raise bad("rejuvenate", rejuvenate, "a kernel", "one of `niwaki.kernels`, such as `kernels.mh()`")
     if weights == "absolute":
         raise bad(
-            "rejuvenate", rejuvenate, "nothing beside absolute weights, which have no law to keep", '"ratio"'
+            "rejuvenate",
+            rejuvenate,
+            "nothing beside absolute weights, which have no law to keep",
+            'None, or `weights` to "ratio"',
         )
     changing = _first(rejuvenate, ("anneal", "temper"))
     if changing is not None:
         expected = "a kernel that keeps the particles' law, which annealing and tempering do not"
         raise bad("rejuvenate", rejuvenate, expected, f"{changing.parts[0]!r}, and `anneal=` of `smc`")
+
+
+def _check_walks(rejuvenate: Kernel | None, draws: int | None, chains: int) -> None:
+    at_least_one("chains", chains)
+    if draws is None:
+        if chains != 1:
+            raise bad("chains", chains, "nothing without `draws`, which says how many states of each", "1")
+        return
+    at_least_one("draws", draws)
+    if rejuvenate is None:
+        raise bad("draws", draws, "nothing without `rejuvenate`, which says how chains move", "None")
 
 
 def _first(kernel: Kernel, names: tuple[str, ...]) -> Kernel | None:

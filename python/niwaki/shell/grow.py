@@ -46,6 +46,12 @@ def grow(
     diverse: searching.Diverse = None,
     seconds: searching.Seconds = None,
     sweeps: searching.Sweeps = None,
+    rejuvenate: searching.Rejuvenate = None,
+    moves: searching.Moves = None,
+    at: searching.At = None,
+    draws: searching.Draws = None,
+    chains: searching.Chains = None,
+    ancestors: searching.Ancestors = None,
     runs: Annotated[int, typer.Option(help="How many results, with seeds SEED, SEED + 1, ...")] = 1,
     seed: Annotated[int | None, typer.Option(help="Default: a fresh one, which is written down.")] = None,
     threads: Annotated[
@@ -96,6 +102,12 @@ def grow(
         diverse,
         seconds,
         sweeps,
+        rejuvenate,
+        moves,
+        at,
+        draws,
+        chains,
+        ancestors,
     )
     files = writing.Files.asked(formats, scale, fuse, frames, size)
     found = find(model)

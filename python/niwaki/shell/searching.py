@@ -59,6 +59,40 @@ Seconds = Annotated[
 Sweeps = Annotated[
     int | None, typer.Option("--sweeps", help="particle-gibbs, pimh: length of the chain; default: 100.")
 ]
+Rejuvenate = Annotated[
+    str | None,
+    typer.Option(
+        "--rejuvenate",
+        metavar="KERNEL",
+        help='smc: how particles are moved, as in Python: "mh()", "cycle(mh(), drift(0.1))".',
+    ),
+]
+Moves = Annotated[
+    int | None, typer.Option("--moves", help="With --rejuvenate: proposals for each particle; default: 1.")
+]
+At = Annotated[
+    str | None,
+    typer.Option(
+        "--at",
+        metavar="WHEN",
+        help="With --rejuvenate: end, resampled, or at every so-many-th barrier; default: 1, each.",
+    ),
+]
+Draws = Annotated[
+    int | None,
+    typer.Option(
+        "--draws", help="With --rejuvenate: so many states of a chain from the final set, instead of it."
+    ),
+]
+Chains = Annotated[
+    int | None, typer.Option("--chains", help="With --draws: from so many of the final set; default: 1.")
+]
+Ancestors = Annotated[
+    bool | None,
+    typer.Option(
+        "--ancestors/--no-ancestors", help="particle-gibbs: draw the past of the held run anew; default: so."
+    ),
+]
 
 #: Which methods have a setting that not all have.
 OWNERS = {
@@ -68,6 +102,15 @@ OWNERS = {
     "seconds": ("smc",),
     "sweeps": ("particle-gibbs", "pimh"),
     "resampling": ("smc", "pimh"),
+    "rejuvenate": ("smc",),
+    "ancestors": ("particle-gibbs",),
+}
+#: Settings that need another: which, and why.
+NEEDS = {
+    "moves": ("rejuvenate", "it says how particles are moved"),
+    "at": ("rejuvenate", "it says how particles are moved"),
+    "draws": ("rejuvenate", "it says how chains move"),
+    "chains": ("draws", "it says how many states of each chain are kept"),
 }
 
 
@@ -87,6 +130,12 @@ class Search:
     diverse: int | None = None
     seconds: float | None = None
     sweeps: int | None = None
+    rejuvenate: str | None = None
+    moves: int | None = None
+    at: str | None = None
+    draws: int | None = None
+    chains: int | None = None
+    ancestors: bool | None = None
 
     def __post_init__(self) -> None:
         if self.method not in METHODS:
@@ -103,6 +152,9 @@ class Search:
                 other = " or ".join(f"`--method {owner}`" for owner in owners)
                 reason = f"`--method {self.method}` has no such setting"
                 raise InputError("flag-alone", flag=f"--{name}", other=other, reason=reason)
+        for name, (other, reason) in NEEDS.items():
+            if getattr(self, name) is not None and getattr(self, other) is None:
+                raise InputError("flag-alone", flag=f"--{name}", other=f"`--{other}`", reason=reason)
         if self.seconds is not None:
             for flag, given in (("-n", self.particles), ("--populations", self.populations)):
                 if given is not None:
@@ -130,8 +182,14 @@ class Search:
         if self.method == "smc":
             found |= {"weights": weights, "populations": self.populations, "diverse": self.diverse}
             found["seconds"] = self.seconds
+            if self.rejuvenate is not None:
+                found |= {"rejuvenate": self.rejuvenate, "moves": 1 if self.moves is None else self.moves}
+                found |= {"at": _moment(self.at), "draws": self.draws}
+                found["chains"] = 1 if self.chains is None else self.chains
         else:
             found["sweeps"] = 100 if self.sweeps is None else self.sweeps
+        if self.method == "particle-gibbs":
+            found["ancestors"] = self.ancestors is not False
         if self.method != "particle-gibbs":
             found["resampling"] = self.resampling or "systematic"
         return found
@@ -139,10 +197,21 @@ class Search:
 
 def method(settings: dict[str, Any]) -> Method:
     """The method that such settings name, checked."""
+    from niwaki import kernels
     from niwaki.methods import particle_gibbs, pimh, smc
 
     makers: dict[str, Callable[..., Method]] = {"smc": smc, "particle-gibbs": particle_gibbs, "pimh": pimh}
-    return makers[settings["method"]](**{key: value for key, value in settings.items() if key != "method"})
+    given = {key: value for key, value in settings.items() if key != "method"}
+    if "rejuvenate" in given:
+        given["rejuvenate"] = kernels.parse(given["rejuvenate"])
+    return makers[settings["method"]](**given)
+
+
+def _moment(text: str | None) -> int | str:
+    """A number of barriers, or the name of a moment."""
+    if text is None:
+        return 1
+    return int(text) if text.isdecimal() else text
 
 
 def _way(text: str | None) -> float | list[float] | None:

@@ -2,7 +2,8 @@
 
 Models: `stack`, `lean`, `top_heavy`, `every_step`; `platforms`; `arch`, `symmetric_arch`, `tri_arch`,
 `symmetric_tri_arch`, `wheel`; of pieces to cut, `cut_stack`, `cut_lean`, `cut_top_heavy`, `cut_arch`, `tilt_stack`,
-`tilt_arch`. All their choices are continuous. `start` finds where a chain may begin. A sample becomes a `Structure`,
+`tilt_arch`. All their choices are continuous. `start` finds where a chain may begin, `polished` moves
+a draw to where it balances more exactly. A sample becomes a `Structure`,
 which `balanced` and `simulated` judge and `cut_sheet` lays out on a board. What needs a library of the extra `stacks`
 imports it when it is used.
 """
@@ -12,7 +13,7 @@ from niwaki.stacks.cut_pieces import cut_arch, cut_lean, cut_stack, cut_top_heav
 from niwaki.stacks.cut_sheet import Piece, Sheet, assembly, cut_sheet
 from niwaki.stacks.judges import Balance, Simulation, balanced, simulated
 from niwaki.stacks.platforms import platforms
-from niwaki.stacks.starting import start
+from niwaki.stacks.starting import polished, start
 from niwaki.stacks.structure import Structure, Touch, plain
 from niwaki.stacks.towers import every_step, lean, stack, top_heavy
 
@@ -35,6 +36,7 @@ __all__ = [
     "lean",
     "plain",
     "platforms",
+    "polished",
     "simulated",
     "stack",
     "start",

@@ -26,6 +26,7 @@ from niwaki.stacks.blocks import (
     top_shear_x,
     welded,
 )
+from niwaki.stacks.clearance import clear
 from niwaki.stacks.contacts import (
     DOWN,
     GROUND,
@@ -158,6 +159,7 @@ def arch(width=0.01, blocks=11, friction="cone", safety=SAFETY):
     pieces = curve((ground_at(0.2), 0.3 * UP, ground_at(0.8), 0.3 * UP), blocks)
     touches = tuple(links(0, blocks, pieces) + feet(0, blocks, pieces))
     balance(pieces, touches, OAK, asking(width, friction, safety), DOWN)
+    clear(pieces, touches, GROUND_TOP)
     show(pieces)
     return Made(tuple(pieces), touches, OAK, (DOWN,), (blocks,))
 
@@ -191,6 +193,7 @@ def three(starts, asked):
         ]
     )
     balance(pieces, touches, OAK, asked, DOWN)
+    clear(pieces, touches, GROUND_TOP)
     show(pieces)
     return Made(tuple(pieces), touches, OAK, (DOWN,), (29,))
 
@@ -248,5 +251,6 @@ def wheel(width=0.01, friction="cone", safety=SAFETY):
         ]
     )
     balance(pieces, touches, OAK, asking(width, friction, safety), DOWN)
+    clear(pieces, touches, GROUND_TOP)
     show(pieces)
     return Made(tuple(pieces), touches, OAK, (DOWN,), (29,))

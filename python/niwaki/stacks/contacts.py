@@ -6,7 +6,9 @@ mean weight times the cube root of the mean volume, so that neither size nor den
 
 Where this is not the original: friction is a true cone (the original's square pyramid is `friction="pyramid"`); the
 centre of mass is exact; a push has an exponential prior of ten mean weights, where the original's is flat in newtons
-and so prefers heavy structures by the power of the number of pushes.
+and so prefers heavy structures by the power of the number of pushes; a block that is lighter than the mean balances
+within a share of its own weight, since one that stands on the tolerance of heavier ones falls; and latent forces spare
+a share of each contact and of its friction.
 """
 
 from __future__ import annotations
@@ -33,7 +35,10 @@ GROUND = -1
 DOWN = vec(0.0, 0.0, -1.0)
 
 #: The share of a contact and of its friction that models spare unless told otherwise.
-SAFETY = 0.05
+SAFETY = 0.15
+
+#: The share of the mean weight below which a block's balance is asked for no more exactly.
+LIGHTEST = 0.01
 
 #: Mean of the prior of a push, mean weights.
 PUSH = 10.0
@@ -68,7 +73,7 @@ class Asked(NamedTuple):
     ----------
     width : float
         The standard deviation of a net force in mean weights, and of a net torque in mean weights times the cube root
-        of the mean volume.
+        of the mean volume; for a block that is lighter than the mean, in its own weights.
     cone : bool
         Friction in Coulomb's cone; otherwise in the original's square pyramid, which is up to 1.4 times too strong.
     safety : float
@@ -174,7 +179,8 @@ def asking(width, friction, safety):
 def balance(blocks, contacts, friction, asked, down=DOWN):
     """Ask for equilibrium under latent forces: a force and a torque factor for each block.
 
-    `asked` is the tolerance of the balance, `down` the direction of gravity. Every call has forces of its own.
+    `asked` is the tolerance of the balance, `down` the direction of gravity. Every call has forces of its own. The
+    normal densities are whole, with their widths: a light block is not asked to be heavier.
     """
     safety = asked.safety
     spared = [drawn_in(touch, safety) for touch in contacts]
@@ -193,8 +199,9 @@ def balance(blocks, contacts, friction, asked, down=DOWN):
             elif touch.first == body:
                 total = total - added(push)
                 torque = torque - turned(touch.points, push, centre)
-        force_balance(total, asked.width)
-        torque_balance(torque / size, asked.width)
+        width = asked.width * max(LIGHTEST, min(1.0, volume / mean_volume))
+        force_balance(total, width)
+        torque_balance(torque / size, width)
 
 
 def drawn_in(touch, safety):

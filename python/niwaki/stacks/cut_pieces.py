@@ -10,6 +10,7 @@ from __future__ import annotations
 from math import cos, radians, sin
 
 from niwaki import model, norm, uniform, vec
+from niwaki.stacks.arches import GROUND_TOP as ARCH_GROUND
 from niwaki.stacks.arches import curve, feet, ground_at, links
 from niwaki.stacks.blocks import (
     TOP,
@@ -22,9 +23,11 @@ from niwaki.stacks.blocks import (
     standing,
     top_shear_x,
 )
+from niwaki.stacks.clearance import clear
 from niwaki.stacks.contacts import DOWN, SAFETY, Made, asking, balance
 from niwaki.stacks.towers import (
     FEET,
+    GROUND_TOP,
     POPLAR,
     UP,
     grow_by,
@@ -71,10 +74,11 @@ def raised(blocks, i, count, tall, wide, margin, turned):
     return raised(blocks + [block], i + 1, count, tall, wide, margin, turned)
 
 
-def finish(pieces, touches, downs, asked):
+def finish(pieces, touches, downs, asked, ground):
     """Balance for each direction of gravity, and emit."""
     for down in downs:
         balance(pieces, touches, POPLAR, asked, down)
+    clear(pieces, touches, ground)
     show(pieces)
     return Made(tuple(pieces), touches, POPLAR, downs, (len(pieces),))
 
@@ -83,14 +87,14 @@ def finish(pieces, touches, downs, asked):
 def cut_stack(width=0.01, friction="cone", safety=SAFETY):
     """A tower of outlines in one plane: 101 continuous choices."""
     pieces = pile(6, (0.04, 0.075), (0.015, 0.075), 0.01, False)
-    return finish(pieces, touching(pieces), (DOWN,), asking(width, friction, safety))
+    return finish(pieces, touching(pieces), (DOWN,), asking(width, friction, safety), GROUND_TOP)
 
 
 @model
 def cut_lean(width=0.01, friction="cone", safety=SAFETY, astray=0.01):
     """A leaning tower of outlines, every other one turned: 106 continuous choices."""
     pieces = pile(6, (0.03, 0.07), (0.015, 0.07), 0.008, True)
-    made = finish(pieces, touching(pieces), (DOWN,), asking(width, friction, safety))
+    made = finish(pieces, touching(pieces), (DOWN,), asking(width, friction, safety), GROUND_TOP)
     lean_on(made.blocks, astray)
     return made
 
@@ -99,7 +103,7 @@ def cut_lean(width=0.01, friction="cone", safety=SAFETY, astray=0.01):
 def cut_top_heavy(width=0.01, friction="cone", safety=SAFETY, ratio=1.5):
     """A tower of outlines that grow from the bottom to the top: 106 continuous choices."""
     pieces = pile(6, (0.015, 0.07), (0.015, 0.07), 0.008, True)
-    made = finish(pieces, touching(pieces), (DOWN,), asking(width, friction, safety))
+    made = finish(pieces, touching(pieces), (DOWN,), asking(width, friction, safety), GROUND_TOP)
     grow_by(made.blocks, ratio)
     return made
 
@@ -108,7 +112,7 @@ def cut_top_heavy(width=0.01, friction="cone", safety=SAFETY, ratio=1.5):
 def tilt_stack(width=0.002, friction="cone", safety=SAFETY):
     """A tower that stands on ground tilted by ten degrees either way: 178 continuous choices."""
     pieces = pile(6, (0.015, 0.07), (0.015, 0.07), 0.008, True)
-    return finish(pieces, touching(pieces), TILTED, asking(width, friction, safety))
+    return finish(pieces, touching(pieces), TILTED, asking(width, friction, safety), GROUND_TOP)
 
 
 def cut_curve():
@@ -121,7 +125,11 @@ def cut_arch(width=0.01, friction="cone", safety=SAFETY):
     """An arch of outlines: 130 continuous choices."""
     pieces = cut_curve()
     return finish(
-        pieces, tuple(links(0, 7, pieces) + feet(0, 7, pieces)), (DOWN,), asking(width, friction, safety)
+        pieces,
+        tuple(links(0, 7, pieces) + feet(0, 7, pieces)),
+        (DOWN,),
+        asking(width, friction, safety),
+        ARCH_GROUND,
     )
 
 
@@ -130,5 +138,9 @@ def tilt_arch(width=0.002, friction="cone", safety=SAFETY):
     """An arch of outlines that stands on ground tilted by ten degrees either way: 226 continuous choices."""
     pieces = cut_curve()
     return finish(
-        pieces, tuple(links(0, 7, pieces) + feet(0, 7, pieces)), TILTED, asking(width, friction, safety)
+        pieces,
+        tuple(links(0, 7, pieces) + feet(0, 7, pieces)),
+        TILTED,
+        asking(width, friction, safety),
+        ARCH_GROUND,
     )

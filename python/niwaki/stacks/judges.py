@@ -37,7 +37,8 @@ class Balance:
         volume, at the forces where it is smallest; the worst of all directions of gravity and steps of construction.
     margin : float
         The largest share of its own weight by which every block can be pushed sideways, in the worst of eight
-        directions, while balance remains: the tangent of the tilt at which it falls. 0 where there is no balance.
+        directions, while balance remains: the tangent of the tilt at which it falls. 0 where there is no balance, NaN
+        where it was not asked for.
     """
 
     residual: float
@@ -49,7 +50,7 @@ class Balance:
         return self.residual <= BALANCE
 
 
-def balanced(structure: Structure, cone: bool = True) -> Balance:
+def balanced(structure: Structure, cone: bool = True, margin: bool = True) -> Balance:
     """Look for contact forces that hold every block.
 
     Parameters
@@ -58,6 +59,8 @@ def balanced(structure: Structure, cone: bool = True) -> Balance:
         What should stand.
     cone
         Friction within Coulomb's cone, a polygon of 32 sides inside it; otherwise the original's pyramid around it.
+    margin
+        Whether to look for the margin, which takes eight programs more.
 
     Raises
     ------
@@ -71,9 +74,11 @@ def balanced(structure: Structure, cone: bool = True) -> Balance:
         for down in structure.downs:
             residual = _residual(rays, weights, down)
             holds = residual <= BALANCE
-            margin = min(_margin(rays, weights, down, k) for k in range(PUSHES)) if holds else 0.0
-            worst = Balance(max(worst.residual, residual), min(worst.margin, margin))
-    return worst
+            least = 0.0
+            if holds and margin:
+                least = min(_margin(rays, weights, down, k) for k in range(PUSHES))
+            worst = Balance(max(worst.residual, residual), min(worst.margin, least))
+    return worst if margin else Balance(worst.residual, np.nan)
 
 
 def _program(part: Structure, cone: bool) -> tuple[Any, Floats]:
@@ -162,7 +167,7 @@ class Simulation:
         return self.moved <= 0.05
 
 
-def simulated(structure: Structure, seconds: float = 5.0, time_step: float = 0.00025) -> Simulation:
+def simulated(structure: Structure, seconds: float = 5.0, time_step: float = 0.0005) -> Simulation:
     """Let go of the blocks in MuJoCo: rigid bodies, elliptic friction cones with the structure's coefficient.
 
     Parameters

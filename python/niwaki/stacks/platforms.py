@@ -22,6 +22,7 @@ from niwaki.stacks.blocks import (
     top_shear_x,
     welded,
 )
+from niwaki.stacks.clearance import clear
 from niwaki.stacks.contacts import DOWN, GROUND, SAFETY, Made, asking, balance, contact, corners
 from niwaki.stacks.towers import GROUND_TOP, OAK, PAINTS, UP, WIDEST, slope
 
@@ -139,6 +140,7 @@ def platforms(width=0.01, friction="cone", safety=SAFETY):
         + joined(11, 6, GROUND, FLOOR, 17, pieces)
     )
     balance(pieces, touches, OAK, asking(width, friction, safety), DOWN)
+    clear(pieces, touches, GROUND_TOP)
     for i in range(len(pieces)):
         drawn(pieces[i], BAR if i == 8 or i == 17 else PAINTS[i % 5])
     return Made(tuple(pieces), touches, OAK, (DOWN,), (18,))

@@ -21,6 +21,9 @@ if TYPE_CHECKING:
 #: Tolerances on the way, as multiples of the last.
 WIDER = (300.0, 30.0, 3.0, 1.0)
 
+#: Tolerances of a polish, as multiples of the model's.
+FINER = (0.3, 0.1, 1.0 / 30.0)
+
 #: Draws of the prior that may be impossible (a contact that vanishes) before giving up.
 TRIES = 1000
 
@@ -28,6 +31,9 @@ TRIES = 1000
 SPREAD = 0.3
 
 STEPS = 800
+
+#: What the search for a start takes for an impossible run, in nats.
+WALL = 1e30
 
 
 def start(model: Model[..., Any], seed: int, width: float, **arguments: Any) -> tuple[LogDensity, Floats]:
@@ -57,13 +63,47 @@ def start(model: Model[..., Any], seed: int, width: float, **arguments: Any) -> 
     for wider in WIDER:
         density = density_of(model, seed, width=wider * width, **arguments)
         density.compile()
-        while x is None or not np.isfinite(density(x)):
+        while x is None or _downhill(x, density)[0] == WALL:
             x = SPREAD * random.normal(size=density.dim)
         x = optimize.minimize(
             _downhill, x, args=(density,), jac=True, method="L-BFGS-B", options={"maxiter": STEPS}
         ).x
     assert x is not None
     return density, x
+
+
+def polished(
+    model: Model[..., Any], choices: dict[str, Any], width: float, **arguments: Any
+) -> dict[str, Any]:
+    """Move a structure to where it balances more exactly, by minimisation: no longer a draw.
+
+    Parameters
+    ----------
+    model
+        A model of stacks.
+    choices
+        Of a draw.
+    width
+        The model's tolerance; balance is asked for within a thirtieth of it.
+    arguments
+        The model's other arguments.
+
+    Returns
+    -------
+    dict of str to values
+        The choices of the structure that was found.
+    """
+    from niwaki.gradient import log_density
+    from niwaki.search import run
+
+    optimize = need("scipy.optimize")
+    for finer in FINER:
+        density = log_density(run(model, choices=choices, width=finer * width, **arguments).best)
+        x = optimize.minimize(
+            _downhill, density.start, args=(density,), jac=True, method="L-BFGS-B", options={"maxiter": STEPS}
+        ).x
+        choices = density.values(x)
+    return choices
 
 
 def density_of(model: Model[..., Any], seed: int, **arguments: Any) -> LogDensity:
@@ -81,5 +121,11 @@ def density_of(model: Model[..., Any], seed: int, **arguments: Any) -> LogDensit
 
 
 def _downhill(x: Floats, density: LogDensity) -> tuple[float, Floats]:
-    value, gradient = density.value_and_gradient(x)
-    return (-value, -gradient) if np.isfinite(value) else (1e30, np.zeros_like(x))
+    """Minus the log density and its gradient; a wall where the run is impossible."""
+    try:
+        value, gradient = density.value_and_gradient(x)
+    except ModelFault as fault:
+        if fault.code != "impossible-trace":
+            raise
+        value = -np.inf
+    return (-value, -gradient) if np.isfinite(value) else (WALL, np.zeros_like(x))

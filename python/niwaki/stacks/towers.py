@@ -26,6 +26,7 @@ from niwaki.stacks.blocks import (
     top_shear_y,
     volume_and_centre,
 )
+from niwaki.stacks.clearance import clear
 from niwaki.stacks.contacts import DOWN, GROUND, SAFETY, Made, asking, balance, contact, corners
 
 GROUND_TOP = -0.03
@@ -129,6 +130,7 @@ def stack(width=0.005, blocks=6, friction="cone", safety=SAFETY):
     pieces = pile(blocks, 0.01)
     touches = touching(pieces)
     balance(pieces, touches, OAK, asking(width, friction, safety), DOWN)
+    clear(pieces, touches, GROUND_TOP)
     show(pieces)
     return Made(tuple(pieces), touches, OAK, (DOWN,), (blocks,))
 
@@ -173,6 +175,7 @@ def every_step(width=0.005, blocks=5, friction="cone", safety=SAFETY):
     touches = touching(pieces)
     for built in range(2, blocks + 1):
         balance(pieces[:built], touches[:built], OAK, asking(width, friction, safety), DOWN)
+    clear(pieces, touches, GROUND_TOP)
     show(pieces)
     return Made(tuple(pieces), touches, OAK, (DOWN,), tuple([built for built in range(2, blocks + 1)]))
 

@@ -81,6 +81,12 @@ def test_more_colourings_than_the_sampler_gives(small) -> None:
         color(small, count=500, method=QUICK, seed=1)
 
 
+@pytest.mark.parametrize("weight", [0, -1.0, float("nan"), float("inf"), True])
+def test_a_weight_is_a_number_above_zero(small, weight: float) -> None:
+    with pytest.raises(InputError, match="weight"):
+        color(small, weight=weight, count=1, seed=1)
+
+
 def test_the_command_writes_what_it_says(small, tmp_path) -> None:
     out = tmp_path / "out"
     said = CliRunner().invoke(

@@ -25,6 +25,16 @@ MISTAKES = {
         PLAIN,
         'lightness = [["wall", "roof"]]\n[pinned]\nwall = "#101010"\nroof = "#ffffff"',
     ),
+    "shades that are pinned apart": (
+        PLAIN,
+        'same-chroma = [["wall", "roof"]]\n[pinned]\nwall = "#c02020"\nroof = "#2020c0"',
+    ),
+    "muted and pinned to what is loud": (
+        PLAIN,
+        'same-chroma = [["wall", "roof"]]\n[muted]\nwall = 10\n[pinned]\nroof = "#c02020"',
+    ),
+    "a region against itself": (PLAIN, 'lighter = [["wall", "wall"]]'),
+    "everything pinned": (PLAIN, '[pinned]\nwall = "#101010"\nroof = "#ffffff"'),
 }
 
 

@@ -7,13 +7,13 @@ layout stands free and palettes are harmonious are a designer's bars for fixed s
 from __future__ import annotations
 
 import math
-from itertools import combinations
+from itertools import combinations, pairwise
 from typing import Any
 
 import niwaki as nw
 import numpy as np
 import pytest
-from niwaki.gallery import coin, data, furnishings, furniture, gmm, hlr, hmm, lda, palettes
+from niwaki.gallery import coin, data, furnishings, furniture, gmm, harmonies, hlr, hmm, lda, palettes
 
 PROGRAMS = {
     "coin": (coin.coin, ()),
@@ -24,6 +24,7 @@ PROGRAMS = {
     "wild": (palettes.wild, ()),
     "pastel": (palettes.pastel, ()),
     "harmonious": (palettes.harmonious, ()),
+    "harmonies": (harmonies.harmonies, ()),
     "layout": (furniture.layout, ()),
 }
 
@@ -158,3 +159,21 @@ def test_palettes_are_harmonious(seed: int) -> None:
     # A palette of any colours is not.
     wild = hues(nw.run(palettes.wild, seed=seed).value)
     assert abs(apart(wild[0], wild[1]) - 150.0) + abs(apart(wild[1], wild[3]) - 60.0) > 12.0
+
+
+def test_one_chain_comes_through_many_harmonies() -> None:
+    result = nw.run(harmonies.harmonies, harmonies.METHOD, seed=1)
+    drawn = [sample.value for sample in result]
+    assert len({scheme for scheme, _ in drawn}) >= 3
+    assert sum(a != b for (a, _), (b, _) in pairwise(drawn)) > 10
+    (one,) = result.trajectories
+    assert one.structures > 50 and one.acceptance > 0.5 and one.unwritten == 0
+    for scheme, colors in drawn[::20]:
+        assert len(colors) == harmonies.COLORS
+        off = [nw.color_difference(a, b) - harmonies.APART for a, b in pairwise(colors)]
+        assert max(map(abs, off)) < 6 * harmonies.WITHIN
+        for angle, color in zip(harmonies.ANGLES[scheme], colors[1:], strict=False):
+            assert abs(apart(*hues([colors[0], color])) - min(abs(angle), 360 - abs(angle))) < 18.0
+    # One chain without the loose temperatures keeps its scheme.
+    alone = nw.run(harmonies.harmonies, nw.mh(steps=20_000, warmup=4000, kernel=harmonies.BOTH), seed=1)
+    assert len({sample.value[0] for sample in alone}) == 1

@@ -106,6 +106,9 @@ def test_a_shadow_is_matched(place: Path) -> None:
         ["--method", "pimh", "--sweeps", "3", "--resampling", "residual"],
         ["--populations", "3", "--anneal", "1,4,16"],
         ["--weights", "absolute"],
+        ["--rejuvenate", "cycle(mh(), drift(0.1))", "--moves", "2", "--at", "resampled"],
+        ["--rejuvenate", "mh()", "--moves", "3", "--at", "end", "--draws", "4", "--chains", "2"],
+        ["--method", "particle-gibbs", "--sweeps", "2", "--no-ancestors"],
     ],
     ids=lambda words: "-".join(words[:2]),
 )
@@ -124,6 +127,13 @@ def test_results_that_differ(place: Path) -> None:
     assert all(len(a & b) <= len(a) / 2 for k, a in enumerate(values) for b in values[:k])
     assert run("replay", "out/run.json", "--run", "2", "-o", "third", "--no-picture").exit_code == 0
     assert Path("third/best.glb").read_bytes() != Path("out/best.glb").read_bytes()
+
+
+def test_states_of_chains_that_differ(place: Path) -> None:
+    moves = ["--rejuvenate", "cycle(repeat(4, mh()), block(0.01))", "--moves", "5", "--at", "end"]
+    data = grown(*IMAGE, *moves, "--draws", "12", "--diverse", "3", "--no-picture")
+    assert len(data["runs"]) == 3 and len(data["settings"]["plan"]) == 1
+    assert data["settings"]["rejuvenate"] == moves[1] and data["settings"]["draws"] == 12
 
 
 def test_a_time_instead_of_particles(place: Path) -> None:
@@ -185,6 +195,13 @@ REFUSALS = {
     "a setting of another method": [*IMAGE, "--method", "pimh", "--diverse", "3"],
     "sweeps of a population": [*IMAGE, "--sweeps", "3"],
     "a time and a number of particles": [*IMAGE, "--seconds", "1"],
+    "a kernel that nobody has": [*IMAGE, "--rejuvenate", "drifts()"],
+    "moves of nothing": [*IMAGE, "--moves", "3"],
+    "a moment that never comes": [*IMAGE, "--rejuvenate", "mh()", "--at", "noon"],
+    "chains without draws": [*IMAGE, "--rejuvenate", "mh()", "--chains", "2"],
+    "moves of a chain of whole runs": [*IMAGE, "--method", "pimh", "--rejuvenate", "mh()"],
+    "moves of what has no law": [*IMAGE, "--rejuvenate", "mh()", "--weights", "absolute"],
+    "ancestors of a population": [*IMAGE, "--no-ancestors"],
     "a way that is none": [*IMAGE, "--anneal", "slowly"],
     "a format that nobody writes": [*IMAGE, "--format", "glb,fbx"],
     "a scale of nothing printed": [*IMAGE, "--scale", "10"],

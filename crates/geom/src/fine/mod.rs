@@ -74,8 +74,8 @@ pub fn fine_mesh(shape: &Shape) -> FineMesh {
         Solid::TaperedCylinder { radius, top_radius, length, .. } => {
             revolve::rounded(*radius, *top_radius, *length, bevel(RIM_BEVEL))
         }
-        Solid::Limb { start, end, .. } => limb::domed(start, end),
-        Solid::Segment { frames, onto } => segment::grown(frames, onto.as_ref()),
+        Solid::Limb { rings, .. } => limb::domed(&rings[0], &rings[1]),
+        Solid::Segment(tube) => segment::grown(&tube.frames, tube.onto.as_ref()),
         Solid::Mesh(mesh) => crease::creased(mesh, crease::SHARP),
     };
     let placement = shape.placement();

@@ -16,12 +16,13 @@ pub fn boxes_apart(a: &Aabb, b: &Aabb, tolerance: f64) -> bool {
 }
 
 /// True when a face normal of either has the solids overlap by no more than `tolerance`.
-pub fn faces_apart(a: &Convex, b: &Convex, tolerance: f64) -> bool {
-    a.normals().iter().chain(b.normals()).any(|n| apart(a, b, *n, tolerance))
+pub fn faces_apart(a: &Convex<'_>, b: &Convex<'_>, tolerance: f64) -> bool {
+    // Ends come last among the faces, and what is built flush touches with its ends.
+    a.normals().iter().rev().chain(b.normals().iter().rev()).any(|n| apart(a, b, *n, tolerance))
 }
 
 /// True when the solids overlap by more than `tolerance`, scene units, in every direction.
-pub fn overlap(a: &Convex, b: &Convex, tolerance: f64) -> bool {
+pub fn overlap(a: &Convex<'_>, b: &Convex<'_>, tolerance: f64) -> bool {
     if faces_apart(a, b, tolerance) {
         return false;
     }
@@ -38,7 +39,7 @@ pub fn overlap(a: &Convex, b: &Convex, tolerance: f64) -> bool {
     true
 }
 
-fn apart(a: &Convex, b: &Convex, axis: Vec3, tolerance: f64) -> bool {
+fn apart(a: &Convex<'_>, b: &Convex<'_>, axis: Vec3, tolerance: f64) -> bool {
     let ((a_low, a_high), (b_low, b_high)) = (span(a.corners(), axis), span(b.corners(), axis));
     (a_high - b_low).min(b_high - a_low) <= tolerance
 }

@@ -12,9 +12,9 @@ pub mod axes;
 pub mod inside;
 pub mod triangles;
 
+use crate::convex::Convex;
 use crate::primitive::Primitive;
 use crate::shape::Shape;
-use std::slice::from_ref;
 use triangles::Crossing;
 
 /// What counts as an intersection.
@@ -42,31 +42,31 @@ pub fn intersects(a: &Shape, b: &Shape, rule: Rule) -> bool {
         return false;
     }
     let thickness = a.thickness().min(b.thickness());
-    match (rule, a.convex(), b.convex()) {
-        (Rule::Solid, Some(p), Some(q)) => {
-            let tolerance = SOLID_TOLERANCE * thickness;
-            if axes::boxes_apart(a.aabb(), b.aabb(), tolerance) {
-                return false;
-            }
-            if p.is_aligned_box() && q.is_aligned_box() {
-                return true;
-            }
-            !axes::faces_apart(p, q, tolerance) && {
-                let (p, q) = (a.pieces().unwrap_or(from_ref(p)), b.pieces().unwrap_or(from_ref(q)));
-                p.iter().any(|p| q.iter().any(|q| axes::overlap(p, q, tolerance)))
-            }
+    let tolerance = thickness * if rule == Rule::Solid { SOLID_TOLERANCE } else { APART };
+    let convex = a.is_convex() && b.is_convex();
+    if (convex || rule == Rule::Solid) && axes::boxes_apart(a.aabb(), b.aabb(), tolerance) {
+        return false;
+    }
+    if rule == Rule::Solid && a.is_aligned_box() && b.is_aligned_box() {
+        return true;
+    }
+    let (Some(p), Some(q)) = (a.convex(), b.convex()) else {
+        return match rule {
+            Rule::Solid => triangles::cross(a, b, Crossing::Deeper(tolerance)) || inside::overlap(a, b),
+            Rule::Surface => triangles::cross(a, b, Crossing::Original),
+        };
+    };
+    !axes::faces_apart(&p, &q, tolerance)
+        && match rule {
+            Rule::Solid => any_piece(a, &p, |p| any_piece(b, &q, |q| axes::overlap(p, q, tolerance))),
+            Rule::Surface => triangles::cross(a, b, Crossing::Original),
         }
-        (Rule::Solid, _, _) => {
-            let tolerance = SOLID_TOLERANCE * thickness;
-            !axes::boxes_apart(a.aabb(), b.aabb(), tolerance)
-                && (triangles::cross(a, b, Crossing::Deeper(tolerance)) || inside::overlap(a, b))
-        }
-        (Rule::Surface, Some(p), Some(q)) => {
-            let tolerance = APART * thickness;
-            !axes::boxes_apart(a.aabb(), b.aabb(), tolerance)
-                && !axes::faces_apart(p, q, tolerance)
-                && triangles::cross(a, b, Crossing::Original)
-        }
-        (Rule::Surface, _, _) => triangles::cross(a, b, Crossing::Original),
+}
+
+/// True when `f` is so for a convex piece of the shape.
+fn any_piece(shape: &Shape, whole: &Convex<'_>, mut f: impl FnMut(&Convex<'_>) -> bool) -> bool {
+    match shape.pieces() {
+        Some(pieces) => pieces.iter().any(|piece| f(&Convex::Hull(piece))),
+        None => f(whole),
     }
 }

@@ -36,7 +36,8 @@ impl SketchSpec for AvoidSpec {
 pub struct Avoid {
     obstacle: Arc<Target>,
     shared: u64,
-    bag: Bag,
+    /// With the cells of the obstacle that each primitive fills.
+    bag: Bag<u64>,
 }
 
 impl Avoid {
@@ -49,11 +50,12 @@ impl Avoid {
     pub fn shared(&self) -> u64 {
         self.shared
     }
+}
 
-    fn shared_with(&self, primitive: &Primitive) -> u64 {
-        let voxels = primitive.shapes().iter().filter_map(|s| Voxels::of(s, self.obstacle.grid()));
-        voxels.map(|voxels| self.obstacle.shared_with(&voxels)).sum()
-    }
+/// Cells of `obstacle` that the shapes of `primitive` fill, each shape counted by itself.
+fn shared_by(obstacle: &Target, primitive: &Primitive) -> u64 {
+    let voxels = primitive.shapes().iter().filter_map(|s| Voxels::of(s, obstacle.grid()));
+    voxels.map(|voxels| obstacle.shared_with(&voxels)).sum()
 }
 
 impl PartialEq for Avoid {
@@ -68,16 +70,19 @@ impl Sketch for Avoid {
     }
 
     fn add(&mut self, primitive: &Primitive) {
-        self.shared += self.shared_with(primitive);
-        self.bag.add(primitive);
+        let shared = shared_by(&self.obstacle, primitive);
+        self.shared += shared;
+        self.bag.add(primitive, shared);
     }
 
     fn remove(&mut self, primitive: &Primitive) -> bool {
-        let there = self.bag.remove(primitive);
-        if there {
-            self.shared -= self.shared_with(primitive);
-        }
-        there
+        let shared = self.bag.remove(primitive, || shared_by(&self.obstacle, primitive));
+        self.shared -= shared.unwrap_or(0);
+        shared.is_some()
+    }
+
+    fn expect_removals(&mut self) {
+        self.bag.expect_removals();
     }
 
     fn log_score(&self) -> f64 {

@@ -2,25 +2,41 @@
 //!
 //! As long as primitives only come, which is all that particles do, the bag is a list from the newest to the oldest
 //! whose tail copies share: one entry for each primitive, whatever the number of copies. The first removal makes a
-//! tree of boxes of it, and it stays one: under Metropolis-Hastings primitives come and go.
+//! tree of boxes of it, and it stays one: under Metropolis-Hastings primitives come and go. From then on the bag also
+//! keeps each primitive's *mark*, which is what the sketch found out about it alone and needs to take it back: the cells
+//! that it fills, say. Copies share marks, also one that is found out only after they were made.
 
 use super::same_bag;
 use crate::bounds::Aabb;
 use crate::primitive::Primitive;
-use crate::tree::BoxTree;
-use std::sync::Arc;
+use crate::tree::{BoxTree, Boxed};
+use std::sync::{Arc, OnceLock};
 
-/// A bag of primitives and the box around all of them.
+/// A bag of primitives with marks, and the box around all of them.
 #[derive(Clone, Debug)]
-pub struct Bag {
+pub struct Bag<M = ()> {
     bounds: Aabb,
-    held: Held,
+    held: Held<M>,
 }
 
 #[derive(Clone, Debug)]
-enum Held {
+enum Held<M> {
     List(Option<Arc<Entry>>),
-    Tree(BoxTree<Primitive>),
+    Tree(BoxTree<Marked<M>>),
+}
+
+/// A primitive and its mark, once it is known.
+#[derive(Clone, Debug)]
+struct Marked<M> {
+    primitive: Primitive,
+    mark: Arc<OnceLock<M>>,
+}
+
+impl<M> Boxed for Marked<M> {
+    #[inline]
+    fn aabb(&self) -> &Aabb {
+        self.primitive.aabb()
+    }
 }
 
 #[derive(Debug)]
@@ -39,47 +55,56 @@ impl Drop for Entry {
     }
 }
 
-impl Default for Bag {
-    fn default() -> Bag {
+impl<M> Default for Bag<M> {
+    fn default() -> Bag<M> {
         Bag { bounds: Aabb::EMPTY, held: Held::List(None) }
     }
 }
 
-impl Bag {
+impl<M: Clone> Bag<M> {
     /// The smallest box around all primitives: an order statistic, which removal gives back.
     pub fn bounds(&self) -> Aabb {
         self.bounds
     }
 
     /// Puts a primitive in.
-    pub fn add(&mut self, primitive: &Primitive) {
+    pub fn add(&mut self, primitive: &Primitive, mark: M) {
         self.bounds = self.bounds.union(primitive.aabb());
         match &mut self.held {
             Held::List(newest) => {
                 let older = newest.take();
                 *newest = Some(Arc::new(Entry { primitive: primitive.clone(), older }));
             }
-            Held::Tree(tree) => tree.insert(*primitive.aabb(), primitive.clone()),
+            Held::Tree(tree) => {
+                let mark = Arc::new(OnceLock::from(mark));
+                tree.insert(Marked { primitive: primitive.clone(), mark });
+            }
         }
     }
 
-    /// Takes one primitive equal to this out; false when there is none.
-    pub fn remove(&mut self, primitive: &Primitive) -> bool {
+    /// Takes one primitive equal to this out, and gives its mark, which `mark` makes if it is not known; `None` when
+    /// there is no such primitive.
+    pub fn remove(&mut self, primitive: &Primitive, mark: impl FnOnce() -> M) -> Option<M> {
         let mut tree = self.tree();
-        let found = tree.remove(primitive.aabb(), |p| p == primitive).is_some();
+        let found = tree.remove(primitive.aabb(), |p| p.primitive == *primitive);
         self.bounds = tree.bounds();
         self.held = Held::Tree(tree);
-        found
+        found.map(|item| item.mark.get_or_init(mark).clone())
     }
 
-    fn tree(&self) -> BoxTree<Primitive> {
+    /// Becomes a tree, as the first removal would make it: copies then need not make their own.
+    pub fn expect_removals(&mut self) {
+        self.held = Held::Tree(self.tree());
+    }
+
+    fn tree(&self) -> BoxTree<Marked<M>> {
         match &self.held {
             Held::Tree(tree) => tree.clone(),
             Held::List(newest) => {
                 let mut tree = BoxTree::default();
                 let mut next = newest.as_ref();
                 while let Some(entry) = next {
-                    tree.insert(*entry.primitive.aabb(), entry.primitive.clone());
+                    tree.insert(Marked { primitive: entry.primitive.clone(), mark: Arc::default() });
                     next = entry.older.as_ref();
                 }
                 tree
@@ -88,9 +113,9 @@ impl Bag {
     }
 }
 
-impl PartialEq for Bag {
-    fn eq(&self, other: &Bag) -> bool {
-        same_bag(&self.tree(), &other.tree())
+impl<M: Clone> PartialEq for Bag<M> {
+    fn eq(&self, other: &Bag<M>) -> bool {
+        same_bag(&self.tree(), &other.tree(), |item| &item.primitive)
     }
 }
 
@@ -107,19 +132,25 @@ mod tests {
     #[test]
     fn lists_and_trees_are_the_same_bag() {
         let (mut list, mut tree) = (Bag::default(), Bag::default());
-        tree.add(&cube(9.0));
-        assert!(tree.remove(&cube(9.0)) && !tree.remove(&cube(9.0)));
+        tree.add(&cube(9.0), 'a');
+        assert_eq!((tree.remove(&cube(9.0), || 'b'), tree.remove(&cube(9.0), || 'c')), (Some('b'), None));
         assert!(tree == list && tree.bounds().is_empty());
         for x in [0.0, 3.0, 3.0, -2.0] {
-            list.add(&cube(x));
+            list.add(&cube(x), 'l');
         }
         for x in [-2.0, 3.0, 0.0, 3.0] {
-            tree.add(&cube(x));
+            tree.add(&cube(x), 't');
         }
         assert!(list == tree && list.bounds() == tree.bounds());
         let whole = list.clone();
-        assert!(list.remove(&cube(3.0)) && list != whole && list.remove(&cube(3.0)));
-        assert!(!list.remove(&cube(3.0)));
+        // The list kept no marks, the tree did; what one copy finds out, the others know.
+        assert_eq!(tree.clone().remove(&cube(0.0), || 'n'), Some('t'));
+        list.expect_removals();
+        assert_eq!(list.clone().remove(&cube(0.0), || 'n'), Some('n'));
+        assert_eq!(list.clone().remove(&cube(0.0), || 'm'), Some('n'));
+        assert_eq!(list.remove(&cube(3.0), || 'n'), Some('n'));
+        assert!(list != whole && list.remove(&cube(3.0), || 'n').is_some());
+        assert_eq!(list.remove(&cube(3.0), || 'n'), None);
         assert_eq!((list.bounds().low.x, list.bounds().high.x), (-2.5, 0.5));
         assert!(whole == tree);
     }
@@ -128,7 +159,7 @@ mod tests {
     fn a_long_list_goes_without_overflowing_the_stack() {
         let one = cube(0.0);
         let mut bag = Bag::default();
-        (0..300_000).for_each(|_| bag.add(&one));
+        (0..300_000).for_each(|_| bag.add(&one, ()));
         let copy = bag.clone();
         drop(bag);
         assert_eq!(copy.bounds(), *one.aabb());

@@ -13,24 +13,36 @@
 pub type Plane = [u64; 64];
 
 /// Counts of 64 words of cells.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Brick(Vec<Plane>);
+#[derive(Clone, Debug, PartialEq)]
+pub struct Brick {
+    /// Most cells have one count or none: the lowest plane is always there.
+    lowest: Plane,
+    higher: Vec<Plane>,
+}
+
+impl Default for Brick {
+    fn default() -> Brick {
+        Brick { lowest: [0; 64], higher: Vec::new() }
+    }
+}
 
 impl Brick {
     /// Adds one to `cells` of a word; returns those of them that had none.
     #[inline]
     pub fn raise(&mut self, word: usize, cells: u64) -> u64 {
-        let (mut carry, mut before) = (cells, 0);
-        for plane in &mut self.0 {
+        let mut before = self.lowest[word];
+        let mut carry = cells & before;
+        self.lowest[word] ^= cells;
+        for plane in &mut self.higher {
             let old = plane[word];
             before |= old;
             plane[word] = old ^ carry;
             carry &= old;
         }
         if carry != 0 {
-            self.0.push([0; 64]);
-            let top = self.0.len() - 1;
-            self.0[top][word] = carry;
+            let mut top = [0; 64];
+            top[word] = carry;
+            self.higher.push(top);
         }
         cells & !before
     }
@@ -39,7 +51,7 @@ impl Brick {
     #[inline]
     pub fn lower(&mut self, word: usize, cells: u64) -> u64 {
         let (mut borrow, mut after) = (cells, 0);
-        for plane in &mut self.0 {
+        for plane in std::iter::once(&mut self.lowest).chain(&mut self.higher) {
             let old = plane[word];
             plane[word] = old ^ borrow;
             borrow &= !old;
@@ -49,28 +61,32 @@ impl Brick {
         cells & !after
     }
 
-    /// Drops planes that hold nothing; true when none is left.
+    /// Drops planes that hold nothing; true when no count is left.
     #[inline]
     pub fn trim(&mut self) -> bool {
-        while self.0.last().is_some_and(|top| top.iter().all(|w| *w == 0)) {
-            self.0.pop();
+        while self.higher.last().is_some_and(|top| top.iter().all(|w| *w == 0)) {
+            self.higher.pop();
         }
-        self.0.is_empty()
+        self.is_empty()
     }
 
     /// True when there is no count.
     #[inline]
     pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
+        self.higher.is_empty() && self.lowest.iter().all(|w| *w == 0)
+    }
+
+    fn planes(&self) -> impl Iterator<Item = &Plane> {
+        std::iter::once(&self.lowest).chain(&self.higher)
     }
 
     /// Cells of a word that have a count.
     pub fn any(&self, word: usize) -> u64 {
-        self.0.iter().fold(0, |all, plane| all | plane[word])
+        self.planes().fold(0, |all, plane| all | plane[word])
     }
 
     /// Count of one cell.
     pub fn get(&self, word: usize, bit: usize) -> u32 {
-        self.0.iter().enumerate().map(|(k, plane)| ((plane[word] >> bit & 1) as u32) << k).sum()
+        self.planes().enumerate().map(|(k, plane)| ((plane[word] >> bit & 1) as u32) << k).sum()
     }
 }

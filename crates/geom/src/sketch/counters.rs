@@ -24,10 +24,13 @@ pub struct Change {
     pub inside: i64,
 }
 
+/// Bricks of one layer of z. Copies share layers too, so that a change copies references to few bricks.
+type Layer = Arc<Vec<Option<Arc<Brick>>>>;
+
 /// A count for every cell of a grid. Cloning shares all bricks.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Counters {
-    bricks: Arc<Vec<Option<Arc<Brick>>>>,
+    layers: Arc<Vec<Layer>>,
     across: [usize; 3],
 }
 
@@ -35,23 +38,26 @@ impl Counters {
     /// All zero.
     pub fn new(dims: [usize; 3]) -> Counters {
         let across = bricks_of(dims);
-        Counters { bricks: Arc::new(vec![None; across.iter().product()]), across }
+        let layer: Layer = Arc::new(vec![None; across[0] * across[1]]);
+        Counters { layers: Arc::new(vec![layer; across[2]]), across }
     }
 
     /// Adds one to every cell of `voxels`; `target` tells which filled cells are wanted.
     pub fn add(&mut self, voxels: &Voxels, target: &[Plane]) -> Change {
-        let bricks = Arc::make_mut(&mut self.bricks);
+        let (layers, size) = (Arc::make_mut(&mut self.layers), self.across[0] * self.across[1]);
         let mut change = Change::default();
         visit(&voxels.cells, self.across, |index, column, words| {
-            let brick = Arc::make_mut(bricks[index].get_or_insert_with(Arc::default));
+            let place = &mut Arc::make_mut(&mut layers[index / size])[index % size];
+            let is_new = place.is_none();
+            let brick = Arc::make_mut(place.get_or_insert_with(Arc::default));
             for (word, y, z) in words {
                 let cells = voxels.word(column, y, z);
                 let new = brick.raise(word, cells);
                 change.filled += i64::from(new.count_ones());
                 change.inside += i64::from((new & target[index][word]).count_ones());
             }
-            if brick.is_empty() {
-                bricks[index] = None;
+            if is_new && brick.is_empty() {
+                *place = None;
             }
         });
         change
@@ -59,10 +65,11 @@ impl Counters {
 
     /// Takes one from every cell of `voxels`, all of which must have one.
     pub fn remove(&mut self, voxels: &Voxels, target: &[Plane]) -> Change {
-        let bricks = Arc::make_mut(&mut self.bricks);
+        let (layers, size) = (Arc::make_mut(&mut self.layers), self.across[0] * self.across[1]);
         let mut change = Change::default();
         visit(&voxels.cells, self.across, |index, column, words| {
-            let Some(brick) = &mut bricks[index] else { return };
+            let place = &mut Arc::make_mut(&mut layers[index / size])[index % size];
+            let Some(brick) = place else { return };
             let brick = Arc::make_mut(brick);
             for (word, y, z) in words {
                 let cells = voxels.word(column, y, z);
@@ -71,22 +78,26 @@ impl Counters {
                 change.inside -= i64::from((gone & target[index][word]).count_ones());
             }
             if brick.trim() {
-                bricks[index] = None;
+                *place = None;
             }
         });
         change
     }
 
+    fn bricks(&self) -> impl Iterator<Item = &Option<Arc<Brick>>> {
+        self.layers.iter().flat_map(|layer| layer.iter())
+    }
+
     /// Count of one cell.
     pub fn get(&self, cell: [usize; 3]) -> u32 {
         let [x, y, z] = cell;
-        let index = ((z / 8) * self.across[1] + y / 8) * self.across[0] + x / 64;
-        self.bricks[index].as_ref().map_or(0, |brick| brick.get(z % 8 * 8 + y % 8, x % 64))
+        let brick = &self.layers[z / 8][y / 8 * self.across[0] + x / 64];
+        brick.as_ref().map_or(0, |brick| brick.get(z % 8 * 8 + y % 8, x % 64))
     }
 
     /// Bricks that this and `other` share in memory.
     pub fn shared_with(&self, other: &Counters) -> usize {
-        let pairs = self.bricks.iter().zip(other.bricks.iter());
+        let pairs = self.bricks().zip(other.bricks());
         pairs.filter(|(a, b)| matches!((a, b), (Some(a), Some(b)) if Arc::ptr_eq(a, b))).count()
     }
 }

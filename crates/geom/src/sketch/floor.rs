@@ -64,15 +64,19 @@ impl Sketch for Floor {
 
     fn add(&mut self, primitive: &Primitive) {
         self.below += self.below(primitive);
-        self.bag.add(primitive);
+        self.bag.add(primitive, ());
     }
 
     fn remove(&mut self, primitive: &Primitive) -> bool {
-        let there = self.bag.remove(primitive);
+        let there = self.bag.remove(primitive, || ()).is_some();
         if there {
             self.below -= self.below(primitive);
         }
         there
+    }
+
+    fn expect_removals(&mut self) {
+        self.bag.expect_removals();
     }
 
     fn log_score(&self) -> f64 {

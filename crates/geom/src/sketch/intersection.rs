@@ -49,16 +49,15 @@ impl NoSelfIntersection {
 
     fn pairs_with(&self, primitive: &Primitive) -> u64 {
         let mut pairs = 0;
-        self.boxes.visit(primitive.aabb(), |_, p| {
-            pairs += u64::from(primitives_intersect(p, primitive, self.rule))
-        });
+        self.boxes
+            .visit(primitive.aabb(), |p| pairs += u64::from(primitives_intersect(p, primitive, self.rule)));
         pairs
     }
 }
 
 impl PartialEq for NoSelfIntersection {
     fn eq(&self, other: &NoSelfIntersection) -> bool {
-        (self.rule, self.pairs) == (other.rule, other.pairs) && same_bag(&self.boxes, &other.boxes)
+        (self.rule, self.pairs) == (other.rule, other.pairs) && same_bag(&self.boxes, &other.boxes, |p| p)
     }
 }
 
@@ -69,7 +68,7 @@ impl Sketch for NoSelfIntersection {
 
     fn add(&mut self, primitive: &Primitive) {
         self.pairs += self.pairs_with(primitive);
-        self.boxes.insert(*primitive.aabb(), primitive.clone());
+        self.boxes.insert(primitive.clone());
     }
 
     fn remove(&mut self, primitive: &Primitive) -> bool {

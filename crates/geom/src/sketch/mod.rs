@@ -25,7 +25,7 @@ pub mod volume;
 
 use crate::error::GeomError;
 use crate::primitive::Primitive;
-use crate::tree::BoxTree;
+use crate::tree::{BoxTree, Boxed};
 
 /// A running score of a bag of primitives.
 pub trait Sketch: Send + Sync {
@@ -35,6 +35,8 @@ pub trait Sketch: Send + Sync {
     fn add(&mut self, primitive: &Primitive);
     /// Takes one primitive equal to this out of the bag; false, and nothing changed, when there is none.
     fn remove(&mut self, primitive: &Primitive) -> bool;
+    /// From now on primitives also go: what taking them out needs is kept, so that copies share it.
+    fn expect_removals(&mut self) {}
     /// Log of the score of the bag, nats; negative infinity when it is forbidden.
     fn log_score(&self) -> f64;
     /// A copy that shares what neither changes.
@@ -51,11 +53,15 @@ pub trait SketchSpec: Send + Sync {
     fn start(&self) -> Box<dyn Sketch>;
 }
 
-/// Equality of bags: every item of one is in the other as often.
-pub(crate) fn same_bag(a: &BoxTree<Primitive>, b: &BoxTree<Primitive>) -> bool {
+/// Equality of bags: every primitive of one is in the other as often.
+pub(crate) fn same_bag<T: Clone + Boxed>(
+    a: &BoxTree<T>,
+    b: &BoxTree<T>,
+    of: impl Fn(&T) -> &Primitive,
+) -> bool {
     let mut rest = a.clone();
     let mut same = a.len() == b.len();
-    b.each(|aabb, primitive| same = same && rest.remove(aabb, |p| p == primitive).is_some());
+    b.each(|item| same = same && rest.remove(item.aabb(), |p| of(p) == of(item)).is_some());
     same
 }
 

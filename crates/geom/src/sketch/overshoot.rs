@@ -79,11 +79,15 @@ impl Sketch for Overshoot {
     }
 
     fn add(&mut self, primitive: &Primitive) {
-        self.bag.add(primitive);
+        self.bag.add(primitive, ());
     }
 
     fn remove(&mut self, primitive: &Primitive) -> bool {
-        self.bag.remove(primitive)
+        self.bag.remove(primitive, || ()).is_some()
+    }
+
+    fn expect_removals(&mut self) {
+        self.bag.expect_removals();
     }
 
     fn log_score(&self) -> f64 {

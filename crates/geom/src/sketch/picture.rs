@@ -211,7 +211,8 @@ pub struct PictureMatch {
     /// Pixels that are on, and those of them that should be.
     on: Amount,
     right: Amount,
-    bag: Bag,
+    /// With the rays that meet each primitive, shape by shape.
+    bag: Bag<Arc<[Cover]>>,
 }
 
 impl PictureMatch {
@@ -252,11 +253,11 @@ impl PictureMatch {
         }
         mask
     }
+}
 
-    fn covers<'a>(&self, primitive: &'a Primitive) -> impl Iterator<Item = Cover> + use<'a> {
-        let picture = self.picture.clone();
-        primitive.shapes().iter().map(move |shape| picture.rays.meeting(shape))
-    }
+/// The rays that meet each shape.
+fn covers(primitive: &Primitive, rays: &Rays) -> Arc<[Cover]> {
+    primitive.shapes().iter().map(|shape| rays.meeting(shape)).collect()
 }
 
 impl PartialEq for PictureMatch {
@@ -274,28 +275,33 @@ impl Sketch for PictureMatch {
     }
 
     fn add(&mut self, primitive: &Primitive) {
-        for cover in self.covers(primitive) {
+        let covers = covers(primitive, &self.picture.rays);
+        for cover in &*covers {
             let (picture, on, right) = (&self.picture, &mut self.on, &mut self.right);
-            self.tiles.add(&cover, |word, new| {
+            self.tiles.add(cover, |word, new| {
                 *on += picture.amount(word, new);
                 *right += picture.amount(word, new & picture.on[word]);
             });
         }
-        self.bag.add(primitive);
+        self.bag.add(primitive, covers);
     }
 
     fn remove(&mut self, primitive: &Primitive) -> bool {
-        if !self.bag.remove(primitive) {
+        let Some(covers) = self.bag.remove(primitive, || covers(primitive, &self.picture.rays)) else {
             return false;
-        }
-        for cover in self.covers(primitive) {
+        };
+        for cover in &*covers {
             let (picture, on, right) = (&self.picture, &mut self.on, &mut self.right);
-            self.tiles.remove(&cover, |word, gone| {
+            self.tiles.remove(cover, |word, gone| {
                 *on -= picture.amount(word, gone);
                 *right -= picture.amount(word, gone & picture.on[word]);
             });
         }
         true
+    }
+
+    fn expect_removals(&mut self) {
+        self.bag.expect_removals();
     }
 
     fn log_score(&self) -> f64 {

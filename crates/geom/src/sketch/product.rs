@@ -17,13 +17,30 @@ pub struct Sketches {
 
 struct Member {
     sketch: Box<dyn Sketch>,
+    /// Of what the sketch has seen.
+    log_score: f64,
     /// Primitives of the scene that the sketch has not seen yet.
     waiting: Vec<Primitive>,
 }
 
 impl Member {
     fn fork(&self) -> Member {
-        Member { sketch: self.sketch.fork(), waiting: self.waiting.clone() }
+        Member { sketch: self.sketch.fork(), log_score: self.log_score, waiting: self.waiting.clone() }
+    }
+
+    fn is_forbidden(&self) -> bool {
+        self.log_score == f64::NEG_INFINITY
+    }
+
+    /// Shows the sketch what waits for it, and one primitive more.
+    fn see(&mut self, last: Option<&Primitive>) {
+        for primitive in self.waiting.drain(..) {
+            self.sketch.add(&primitive);
+        }
+        if let Some(primitive) = last {
+            self.sketch.add(primitive);
+        }
+        self.log_score = self.sketch.log_score();
     }
 }
 
@@ -36,7 +53,10 @@ impl Clone for Sketches {
 impl Sketches {
     /// The empty scene as `specs` see it, in order.
     pub fn start(specs: &[Arc<dyn SketchSpec>]) -> Sketches {
-        let member = |spec: &Arc<dyn SketchSpec>| Member { sketch: spec.start(), waiting: Vec::new() };
+        let member = |spec: &Arc<dyn SketchSpec>| {
+            let sketch = spec.start();
+            Member { log_score: sketch.log_score(), sketch, waiting: Vec::new() }
+        };
         Sketches { members: specs.iter().map(member).collect() }
     }
 
@@ -57,8 +77,16 @@ impl Sketches {
 
     /// Adds a primitive to the scene; returns the name of the first sketch that forbids it now.
     pub fn add(&mut self, primitive: &Primitive) -> Option<&'static str> {
-        self.members.iter_mut().for_each(|m| m.waiting.push(primitive.clone()));
-        self.catch_up()
+        let mut forbidden = None;
+        for member in &mut self.members {
+            if forbidden.is_some() {
+                member.waiting.push(primitive.clone());
+                continue;
+            }
+            member.see(Some(primitive));
+            forbidden = member.is_forbidden().then(|| member.sketch.name());
+        }
+        forbidden
     }
 
     /// Takes a primitive out of the scene; false, and nothing changed, when the scene has none like it.
@@ -97,20 +125,24 @@ impl Sketches {
         true
     }
 
+    /// From now on primitives also go: what taking them out needs is kept, so that copies share it.
+    pub fn expect_removals(&mut self) {
+        self.members.iter_mut().for_each(|member| member.sketch.expect_removals());
+    }
+
     /// Name of the first sketch that forbids the scene.
     pub fn forbidden_by(&self) -> Option<&'static str> {
-        self.iter().find(|s| s.log_score() == f64::NEG_INFINITY).map(|s| s.name())
+        self.members.iter().find(|m| m.is_forbidden()).map(|m| m.sketch.name())
     }
 
     /// Sum of the log scores, each rounded to a multiple of 2^-32, so that the sum is exact in any order.
     pub fn log_score(&self) -> f64 {
         let mut sum = 0.0;
         for member in &self.members {
-            let score = member.sketch.log_score();
-            if score == f64::NEG_INFINITY {
-                return score;
+            if member.is_forbidden() {
+                return f64::NEG_INFINITY;
             }
-            sum += grid(score);
+            sum += grid(member.log_score);
         }
         sum
     }
@@ -126,16 +158,13 @@ impl Sketches {
     }
 
     /// Shows each sketch what waits for it, up to the first that forbids the scene.
-    fn catch_up(&mut self) -> Option<&'static str> {
+    fn catch_up(&mut self) {
         for member in &mut self.members {
-            for primitive in member.waiting.drain(..) {
-                member.sketch.add(&primitive);
-            }
-            if member.sketch.log_score() == f64::NEG_INFINITY {
-                return Some(member.sketch.name());
+            member.see(None);
+            if member.is_forbidden() {
+                return;
             }
         }
-        None
     }
 }
 

@@ -116,7 +116,8 @@ pub struct VolumeMatch {
     /// Filled cells, and those of them that the target fills too.
     filled: i64,
     inside: i64,
-    bag: Bag,
+    /// With the cells that each primitive fills, shape by shape.
+    bag: Bag<Arc<[Voxels]>>,
 }
 
 impl VolumeMatch {
@@ -155,6 +156,11 @@ impl VolumeMatch {
     }
 }
 
+/// The cells that each shape fills, but for those that fill none.
+fn filled_by(primitive: &Primitive, grid: &Grid) -> Arc<[Voxels]> {
+    primitive.shapes().iter().filter_map(|shape| Voxels::of(shape, grid)).collect()
+}
+
 impl PartialEq for VolumeMatch {
     fn eq(&self, other: &VolumeMatch) -> bool {
         Arc::ptr_eq(&self.target, &other.target)
@@ -171,28 +177,29 @@ impl Sketch for VolumeMatch {
     }
 
     fn add(&mut self, primitive: &Primitive) {
-        for shape in primitive.shapes() {
-            if let Some(voxels) = Voxels::of(shape, &self.target.grid) {
-                let change = self.counters.add(&voxels, &self.target.planes);
-                self.filled += change.filled;
-                self.inside += change.inside;
-            }
+        let filled = filled_by(primitive, &self.target.grid);
+        for voxels in &*filled {
+            let change = self.counters.add(voxels, &self.target.planes);
+            self.filled += change.filled;
+            self.inside += change.inside;
         }
-        self.bag.add(primitive);
+        self.bag.add(primitive, filled);
     }
 
     fn remove(&mut self, primitive: &Primitive) -> bool {
-        if !self.bag.remove(primitive) {
+        let Some(filled) = self.bag.remove(primitive, || filled_by(primitive, &self.target.grid)) else {
             return false;
-        }
-        for shape in primitive.shapes() {
-            if let Some(voxels) = Voxels::of(shape, &self.target.grid) {
-                let change = self.counters.remove(&voxels, &self.target.planes);
-                self.filled += change.filled;
-                self.inside += change.inside;
-            }
+        };
+        for voxels in &*filled {
+            let change = self.counters.remove(voxels, &self.target.planes);
+            self.filled += change.filled;
+            self.inside += change.inside;
         }
         true
+    }
+
+    fn expect_removals(&mut self) {
+        self.bag.expect_removals();
     }
 
     fn log_score(&self) -> f64 {

@@ -51,7 +51,7 @@ impl Rays {
         let mut words = Vec::new();
         let mut pieces = 0;
         match shape.convex() {
-            Some(convex) => of_convex(convex, self.projection(), self.near, |outline| {
+            Some(convex) => of_convex(&convex, self.projection(), self.near, |outline| {
                 self.take(outline, &mut words);
                 pieces += 1;
             }),

@@ -147,7 +147,7 @@ fn packed(ones: &[u8; 64]) -> u64 {
 
 /// The outlines of a convex solid: one, or several that share edges when it has very many.
 pub(super) fn of_convex(
-    convex: &Convex,
+    convex: &Convex<'_>,
     projection: &Projection,
     near: Option<f64>,
     each: impl FnMut(&Outline),

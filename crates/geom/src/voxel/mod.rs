@@ -39,8 +39,8 @@ pub struct Voxels {
 enum Kind {
     /// Every cell of the box.
     Block,
-    /// For each (y, z) of the box, y fastest, the first and last x; nothing when first is above last.
-    Rows(Vec<(u32, u32)>),
+    /// One run of x for each row.
+    Rows(slabs::Rows),
     /// Any set.
     Bits(Bits),
 }
@@ -48,17 +48,11 @@ enum Kind {
 impl Voxels {
     /// Cells of `grid` that `shape` fills; `None` when it fills none.
     pub fn of(shape: &Shape, grid: &Grid) -> Option<Voxels> {
-        match shape.convex() {
-            Some(convex) if convex.is_aligned_box() => {
-                let cells = grid.cells_of(shape.aabb())?;
-                Some(Voxels { cells, kind: Kind::Block })
-            }
-            Some(convex) => {
-                let cells = grid.cells_of(shape.aabb())?;
-                Some(Voxels { cells, kind: Kind::Rows(slabs::rows(convex, grid, &cells)) })
-            }
-            None => Voxels::of_mesh(shape.world_mesh(), grid),
-        }
+        let Some(convex) = shape.convex() else { return Voxels::of_mesh(shape.world_mesh(), grid) };
+        let cells = grid.cells_of(shape.aabb())?;
+        let kind =
+            if shape.is_aligned_box() { Kind::Block } else { Kind::Rows(slabs::rows(&convex, grid, &cells)) };
+        Some(Voxels { cells, kind })
     }
 
     /// Cells that a closed mesh fills, the plain way.
@@ -75,7 +69,7 @@ impl Voxels {
             Kind::Block => (self.cells.low[0], self.cells.high[0]),
             Kind::Rows(rows) => {
                 let [_, y0, z0] = self.cells.low;
-                let (first, last) = rows[(z - z0) * (self.cells.high[1] - y0 + 1) + (y - y0)];
+                let (first, last) = rows.get(y - y0, z - z0);
                 (first as usize, last as usize)
             }
             Kind::Bits(bits) => {

@@ -5,100 +5,114 @@
 //! of that polygon over the y slab is the row's first and last cell, since both sides of a convex polygon are
 //! concave: the farthest point of the slab is the side's apex, or else the slab's border nearer to it.
 //!
-//! When the solid stands upright (all corners on two heights) the slabs are cut along y instead, so that all slices
-//! in the middle are one polygon and computed once.
+//! The slabs are cut along y instead when the solid stands upright (all corners on two heights). A prism along either
+//! is cut once: all its slices are one polygon.
 
 use super::CellBox;
 use super::grid::{Grid, TOUCH};
 use crate::convex::Convex;
-use crate::vector::Vec3;
 
 const NOTHING: (u32, u32) = (1, 0);
 
-/// First and last x for each (y, z) of `cells`, y fastest. `cells` must be the cells of the solid's box.
-pub fn rows(convex: &Convex, grid: &Grid, cells: &CellBox) -> Vec<(u32, u32)> {
-    let corners: Vec<Vec3> = convex.corners().iter().map(|p| grid.to_grid(*p)).collect();
-    let upright = {
-        let first = corners[0].y;
-        let mut others = corners.iter().map(|p| p.y).filter(|y| *y != first);
-        others.next().is_none_or(|second| others.all(|y| y == second))
-    };
-    let (outer, inner) = if upright { (1, 2) } else { (2, 1) };
-    let count = |a: usize| cells.high[a] - cells.low[a] + 1;
-    let (ny, limit) = (count(1), grid.dims()[0]);
-    let place = |o: usize, i: usize| if upright { i * ny + o } else { o * ny + i };
-
-    let mut rows = vec![NOTHING; ny * count(2)];
-    let mut slice: Vec<[f64; 2]> = Vec::with_capacity(2 * convex.topology().edges.len());
-    let mut before: Vec<[f64; 2]> = Vec::with_capacity(slice.capacity());
-    let mut polygon = Polygon::default();
-    let ends = straight_between(&corners, convex, (outer, inner));
-    let mut in_the_middle = false;
-    for o in 0..count(outer) {
-        let low = (cells.low[outer] + o) as f64 - TOUCH;
-        let was_in_the_middle = in_the_middle;
-        in_the_middle = ends.is_some_and(|(first, last)| first < low && low + 1.0 + 2.0 * TOUCH < last);
-        if in_the_middle && was_in_the_middle {
-            for i in 0..count(inner) {
-                rows[place(o, i)] = rows[place(o - 1, i)];
-            }
-            continue;
-        }
-        slice_of(&corners, convex, (outer, inner), (low, low + 1.0 + 2.0 * TOUCH), &mut slice);
-        if o > 0 && slice == before {
-            for i in 0..count(inner) {
-                rows[place(o, i)] = rows[place(o - 1, i)];
-            }
-            continue;
-        }
-        before.clone_from(&slice);
-        polygon.enclose(&mut slice);
-        for i in 0..count(inner) {
-            let low = (cells.low[inner] + i) as f64 - TOUCH;
-            if let Some((left, right)) = polygon.extent(low, low + 1.0 + 2.0 * TOUCH) {
-                let (first, last) = ((left - TOUCH).floor(), (right + TOUCH).floor());
-                if last >= 0.0 && first < limit as f64 {
-                    rows[place(o, i)] = (first.max(0.0) as u32, (last as u32).min(limit as u32 - 1));
-                }
-            }
-        }
-    }
-    rows
+/// The first and last x of each row of a box of cells; nothing when first is above last.
+#[derive(Clone, Debug)]
+pub struct Rows {
+    rows: Vec<(u32, u32)>,
+    /// From one y to the next, and from one z to the next: zero where all slices are alike.
+    steps: [usize; 2],
 }
 
-/// Where a prism along `outer` begins and ends; between them all its slices are one. `None` for other solids.
-fn straight_between(corners: &[Vec3], convex: &Convex, (outer, inner): (usize, usize)) -> Option<(f64, f64)> {
-    let heights = || corners.iter().map(|p| p[outer]);
-    let (first, last) =
-        (heights().fold(f64::INFINITY, f64::min), heights().fold(f64::NEG_INFINITY, f64::max));
-    let at_ends = heights().all(|h| h == first || h == last);
+impl Rows {
+    /// The first and last x of the row that is the `y`-th and `z`-th of the box.
+    #[inline]
+    pub fn get(&self, y: usize, z: usize) -> (u32, u32) {
+        self.rows[y * self.steps[0] + z * self.steps[1]]
+    }
+}
+
+/// A corner: its place along the axis that is cut, along the other of y and z, and along x.
+type Corner = [f64; 3];
+
+/// The rows of `cells`, which must be the cells of the solid's box.
+pub fn rows(convex: &Convex<'_>, grid: &Grid, cells: &CellBox) -> Rows {
+    let laid = |outer: usize| {
+        let corner = |p: &_| {
+            let [x, y, z] = grid.to_grid(*p).to_array();
+            if outer == 1 { [y, z, x] } else { [z, y, x] }
+        };
+        convex.corners().iter().map(corner).collect::<Vec<Corner>>()
+    };
+    let count = |a: usize| cells.high[a] - cells.low[a] + 1;
+    let mut corners = laid(2);
+    let mut end = end_of_prism(&corners, convex);
+    let mut outer = 2;
+    if end.is_none() {
+        let upright: Vec<Corner> = corners.iter().map(|[z, y, x]| [*y, *z, *x]).collect();
+        if has_two_heights(&upright) {
+            end = end_of_prism(&upright, convex);
+            (corners, outer) = (upright, 1);
+        }
+    }
+    let inner = 3 - outer;
+    let mut polygon = Polygon::default();
+    let slices = if end.is_some() { 1 } else { count(outer) };
+    let mut rows = vec![NOTHING; slices * count(inner)];
+    let mut slice: Vec<[f64; 2]> = Vec::with_capacity(2 * corners.len());
+    for (o, rows) in rows.chunks_exact_mut(count(inner)).enumerate() {
+        match end {
+            Some(end) => slice.extend(corners.iter().filter(|p| p[0] == end).map(|p| [p[1], p[2]])),
+            None => {
+                let low = (cells.low[outer] + o) as f64 - TOUCH;
+                slice_of(&corners, convex, (low, low + 1.0 + 2.0 * TOUCH), &mut slice);
+            }
+        }
+        polygon.enclose(&slice);
+        polygon.fill(cells.low[inner], grid.dims()[0], rows);
+    }
+    let along_outer = if end.is_some() { 0 } else { count(inner) };
+    Rows { rows, steps: if outer == 1 { [along_outer, 1] } else { [1, along_outer] } }
+}
+
+/// Whether the first coordinate has no more than two values.
+fn has_two_heights(corners: &[Corner]) -> bool {
+    let end = corners[0][0];
+    let mut others = corners.iter().map(|p| p[0]).filter(|at| *at != end);
+    others.next().is_none_or(|other| others.all(|at| at == other))
+}
+
+/// Where a prism along the first coordinate has an end; `None` for other solids.
+fn end_of_prism(corners: &[Corner], convex: &Convex<'_>) -> Option<f64> {
     let straight = |&[a, b]: &[u32; 2]| {
         let (a, b) = (corners[a as usize], corners[b as usize]);
-        a[outer] == b[outer] || (a[inner] == b[inner] && a.x == b.x)
+        a[0] == b[0] || a[1..] == b[1..]
     };
-    (at_ends && convex.topology().edges.iter().all(straight)).then_some((first, last))
+    let is_prism = has_two_heights(corners) && convex.topology().edges.iter().all(straight);
+    is_prism.then_some(corners[0][0])
 }
 
-/// Points `[inner, x]` whose hull is the solid between the two planes across `outer`, seen along it.
-fn slice_of(
-    corners: &[Vec3],
-    convex: &Convex,
-    (outer, inner): (usize, usize),
-    (low, high): (f64, f64),
-    slice: &mut Vec<[f64; 2]>,
-) {
+/// Points whose hull is the solid between two planes across the first coordinate, seen along it.
+fn slice_of(corners: &[Corner], convex: &Convex<'_>, (low, high): (f64, f64), slice: &mut Vec<[f64; 2]>) {
     slice.clear();
-    slice.extend(corners.iter().filter(|p| low <= p[outer] && p[outer] <= high).map(|p| [p[inner], p.x]));
+    slice.extend(corners.iter().filter(|p| low <= p[0] && p[0] <= high).map(|p| [p[1], p[2]]));
     for [a, b] in &convex.topology().edges {
-        let (a, b) = (corners[*a as usize], corners[*b as usize]);
-        let rise = b[outer] - a[outer];
+        let (a, b) = (&corners[*a as usize], &corners[*b as usize]);
+        let (first, last) = if a[0] < b[0] { (a[0], b[0]) } else { (b[0], a[0]) };
+        if first >= high || last < low {
+            continue;
+        }
         for plane in [low, high] {
-            if (a[outer] < plane) != (b[outer] < plane) {
-                let t = (plane - a[outer]) / rise;
-                slice.push([a[inner] + t * (b[inner] - a[inner]), a.x + t * (b.x - a.x)]);
+            if first < plane && plane <= last {
+                let t = (plane - a[0]) / (b[0] - a[0]);
+                slice.push([a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])]);
             }
         }
     }
+}
+
+/// Above zero where the way from `a` by `b` to `p` turns towards higher x, below where it turns away.
+#[inline]
+fn turn(a: [f64; 2], b: [f64; 2], p: [f64; 2]) -> f64 {
+    (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
 }
 
 /// Both sides of a convex polygon, x as a function of v.
@@ -109,53 +123,97 @@ struct Polygon {
 }
 
 impl Polygon {
-    /// Becomes the hull of `points` (monotone chain, Andrew 1979). Sorts them.
-    fn enclose(&mut self, points: &mut [[f64; 2]]) {
-        points.sort_unstable_by(|p, q| p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1])));
+    /// Becomes the hull of `points`: those on either side of the line from the lowest to the highest, each side by the
+    /// monotone chain (Andrew 1979).
+    fn enclose(&mut self, points: &[[f64; 2]]) {
+        let order = |p: &[f64; 2], q: &[f64; 2]| p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1]));
+        let ends = points.iter().min_by(|p, q| order(p, q)).zip(points.iter().max_by(|p, q| order(p, q)));
+        self.left.clear();
+        self.right.clear();
+        let Some((first, last)) = ends else { return };
+        self.left.push(*first);
+        self.right.push(*first);
+        for p in points {
+            let side = turn(*first, *last, *p);
+            if side < 0.0 {
+                self.left.push(*p);
+            } else if side > 0.0 {
+                self.right.push(*p);
+            }
+        }
         for (side, sign) in [(&mut self.left, 1.0), (&mut self.right, -1.0)] {
-            side.clear();
-            for p in points.iter() {
-                while let [.., a, b] = side[..] {
-                    let turn = (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
-                    if turn * sign > 0.0 {
-                        break;
-                    }
-                    side.pop();
+            side[1..].sort_unstable_by(order);
+            side.push(*last);
+            let mut kept = 1;
+            for at in 1..side.len() {
+                let p = side[at];
+                while kept > 1 && turn(side[kept - 2], side[kept - 1], p) * sign <= 0.0 {
+                    kept -= 1;
                 }
-                side.push(*p);
+                side[kept] = p;
+                kept += 1;
+            }
+            side.truncate(kept);
+        }
+    }
+
+    /// Cells of x below `limit` in each row of v, the first at `low`.
+    fn fill(&self, low: usize, limit: usize, rows: &mut [(u32, u32)]) {
+        let (Some(first), Some(last)) = (self.left.first(), self.left.last()) else { return };
+        let (mut left, mut right) = (Side::new(&self.left, -1.0), Side::new(&self.right, 1.0));
+        for (i, row) in rows.iter_mut().enumerate() {
+            let from = (low + i) as f64 - TOUCH;
+            let (from, to) = (from.max(first[0]), (from + 1.0 + 2.0 * TOUCH).min(last[0]));
+            if from <= to {
+                let (first, last) = (-left.farthest(from, to), right.farthest(from, to));
+                let (first, last) = ((first - TOUCH).floor(), (last + TOUCH).floor());
+                if last >= 0.0 && first < limit as f64 {
+                    *row = (first.max(0.0) as u32, (last as u32).min(limit as u32 - 1));
+                }
             }
         }
     }
-
-    /// Smallest and largest x where v is in `[low, high]`.
-    fn extent(&self, low: f64, high: f64) -> Option<(f64, f64)> {
-        let (first, last) = (self.left.first()?[0], self.left.last()?[0]);
-        let (low, high) = (low.max(first), high.min(last));
-        if low > high {
-            return None;
-        }
-        Some((-extreme(&self.left, -1.0, low, high), extreme(&self.right, 1.0, low, high)))
-    }
 }
 
-/// Largest `sign * x` of a side over `[low, high]`.
-fn extreme(side: &[[f64; 2]], sign: f64, low: f64, high: f64) -> f64 {
-    let mut best = (sign * at(side, low)).max(sign * at(side, high));
-    for p in side {
-        if low <= p[0] && p[0] <= high {
-            best = best.max(sign * p[1]);
-        }
-    }
-    best
+/// A side that is walked along v.
+struct Side<'a> {
+    points: &'a [[f64; 2]],
+    sign: f64,
+    next: usize,
 }
 
-fn at(side: &[[f64; 2]], v: f64) -> f64 {
-    let next = side.partition_point(|p| p[0] < v).min(side.len() - 1);
-    let (a, b) = (side[next.max(1) - 1], side[next]);
-    if b[0] == a[0] {
-        return b[1];
+impl<'a> Side<'a> {
+    fn new(points: &'a [[f64; 2]], sign: f64) -> Side<'a> {
+        Side { points, sign, next: 0 }
     }
-    // Kept between the ends: a steep side must not overshoot by rounding.
-    let t = ((v - a[0]) / (b[0] - a[0])).clamp(0.0, 1.0);
-    a[1] + t * (b[1] - a[1])
+
+    /// Largest `sign * x` over `[low, high]`; `low` may only rise from call to call.
+    fn farthest(&mut self, low: f64, high: f64) -> f64 {
+        while self.next < self.points.len() && self.points[self.next][0] < low {
+            self.next += 1;
+        }
+        let mut best = self.sign * self.at(self.next, low);
+        let mut beyond = self.next;
+        let mut reaches_high = None;
+        while beyond < self.points.len() && self.points[beyond][0] <= high {
+            if self.points[beyond][0] == high {
+                reaches_high.get_or_insert(beyond);
+            }
+            best = best.max(self.sign * self.points[beyond][1]);
+            beyond += 1;
+        }
+        best.max(self.sign * self.at(reaches_high.unwrap_or(beyond), high))
+    }
+
+    /// x at `v`, where `next` is the first point not before it.
+    fn at(&self, next: usize, v: f64) -> f64 {
+        let next = next.min(self.points.len() - 1);
+        let (a, b) = (self.points[next.max(1) - 1], self.points[next]);
+        if b[0] == a[0] {
+            return b[1];
+        }
+        // Kept between the ends: a steep side must not overshoot by rounding.
+        let t = ((v - a[0]) / (b[0] - a[0])).clamp(0.0, 1.0);
+        a[1] + t * (b[1] - a[1])
+    }
 }

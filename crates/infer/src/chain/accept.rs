@@ -10,6 +10,8 @@
 //! Each log density is a multiple of 2^-32, so that the first two lines are exact. Dissertation 3.2, with the odds of
 //! a choice in place of the ratio of the numbers of choices.
 
+use crate::hamiltonian::{Kernel, Metric, Phase, Potential, Transition};
+use niwaki_math::Stream;
 use niwaki_vm::code::Program;
 use niwaki_vm::machine::kept::Trace;
 
@@ -34,10 +36,32 @@ pub struct Terms {
 
 /// How a chain decides. Searches use [`MetropolisHastings`]; the tests also hold mutants of it, which must be found out.
 pub trait Rules: Send {
+    /// Whether densities over coordinates leave their Jacobians out.
+    const DROPS_JACOBIAN: bool = false;
+
     /// Log of the acceptance ratio; NaN where two infinities meet, which counts as impossible.
     #[inline(always)]
     fn log_ratio(t: &Terms) -> f64 {
         (t.prior + t.score) + (t.stale - t.fresh) + (t.backward - t.forward) + t.odds
+    }
+
+    /// Log of the probability with which chains that follow these powers of the score exchange their states, which have
+    /// these log scores, nats: the colder one's first.
+    #[inline]
+    fn log_exchange(powers: (f64, f64), scores: (f64, f64)) -> f64 {
+        (powers.0 - powers.1) * (scores.1 - scores.0)
+    }
+
+    /// One transition along the gradient.
+    fn travel<P: Potential>(
+        kernel: &mut Kernel,
+        target: &mut P,
+        metric: &Metric,
+        step: f64,
+        phase: &mut Phase,
+        stream: &mut Stream,
+    ) -> Transition {
+        kernel.step(target, metric, step, phase, stream)
     }
 
     /// Told of a chain's trace before its first proposal.

@@ -1,7 +1,8 @@
-//! Four strategies in step: the same proposals, decisions, scores and scenes to the bit, rollbacks that leave nothing,
-//! and sums that are those of a run from the start.
+//! Four strategies in step: the same proposals, decisions, exchanges, scores and scenes to the bit, rollbacks that leave
+//! nothing, and sums that are those of a run from the start. With several temperatures this holds for each rung.
 
 use super::accept::{MetropolisHastings, Rules};
+use super::ladder::Ladder;
 use super::snapshot::present;
 use super::state::State;
 use super::{Chain, Settings};
@@ -18,12 +19,14 @@ const STRATEGIES: [Strategy; 4] = [Strategy::Rerun, Strategy::Resume, Strategy::
 /// What was looked at.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Seen {
-    /// Proposals, of each strategy.
+    /// Proposals, of each rung of each strategy.
     pub proposals: u64,
     /// Those that were kept.
     pub accepted: u64,
     /// Those at which every strategy met the same fault.
     pub faults: u64,
+    /// Exchanges of states between rungs that were made.
+    pub exchanges: u64,
 }
 
 /// Everything that a state holds, as text.
@@ -58,34 +61,41 @@ pub fn disagreement<R: Rules>(
     seen: &mut Seen,
 ) -> Result<Option<String>, Failure> {
     let program = &*task.program;
-    let mut chains = Vec::new();
+    let mut ladders = Vec::new();
     for strategy in STRATEGIES {
-        chains.push(Chain::<R>::start(task, &Settings { strategy, ..settings.clone() }, 0, None)?);
+        ladders.push(Ladder::<R>::start(task, &Settings { strategy, ..settings.clone() }, 0, None)?);
     }
     let mut machine = task.machine();
     for step in 0..steps {
-        let mut outcomes = Vec::new();
-        for chain in &mut chains {
-            let told = match chain.propose(task, &mut machine, step + 1) {
-                Ok(()) => format!("{:?} {:?}", chain.last, chain.state.trace.totals()),
+        let mut outcomes: Vec<Vec<String>> = Vec::new();
+        for ladder in &mut ladders {
+            let propose = |rung: &mut Chain<R>| match rung.propose(task, &mut machine, step + 1) {
+                Ok(()) => format!("{:?} {:?}", rung.last, rung.state.trace.totals()),
                 Err(Failure::Run(run)) => format!("fault {} {}", run.fault.code, run.fault.message),
                 Err(other) => format!("fault {other}"),
             };
-            outcomes.push(told);
+            outcomes.push(ladder.rungs.iter_mut().map(propose).collect());
+            ladder.exchange_if_due();
         }
-        for (strategy, outcome) in STRATEGIES.iter().zip(&outcomes) {
-            if *outcome != outcomes[0] {
-                let first = &outcomes[0];
-                return Ok(Some(format!("proposal {step}, {strategy:?}: {outcome}\n  but a rerun: {first}")));
+        for ((strategy, ladder), outcome) in STRATEGIES.iter().zip(&ladders).zip(&outcomes) {
+            let (found, first) = ((outcome, &ladder.exchanges), (&outcomes[0], &ladders[0].exchanges));
+            if found != first {
+                return Ok(Some(format!(
+                    "proposal {step}, {strategy:?}: {found:?}\n  but a rerun: {first:?}"
+                )));
             }
         }
-        seen.proposals += 1;
-        seen.accepted += u64::from(chains[0].last.accepted);
-        seen.faults += u64::from(outcomes[0].starts_with("fault"));
-        if (step + 1) % every == 0
-            && let Some(found) = look_closer(task, program, &mut machine, &mut chains, step)
-        {
-            return Ok(Some(found));
+        seen.proposals += outcomes[0].len() as u64;
+        seen.accepted += ladders[0].rungs.iter().map(|rung| u64::from(rung.last.accepted)).sum::<u64>();
+        seen.faults += outcomes[0].iter().map(|told| u64::from(told.starts_with("fault"))).sum::<u64>();
+        seen.exchanges = ladders[0].exchanges.iter().map(|pair| pair.1).sum();
+        if (step + 1) % every == 0 {
+            for rung in 0..outcomes[0].len() {
+                let mut chains: Vec<_> = ladders.iter_mut().map(|ladder| &mut ladder.rungs[rung]).collect();
+                if let Some(found) = look_closer(task, program, &mut machine, &mut chains, step) {
+                    return Ok(Some(found));
+                }
+            }
         }
     }
     Ok(None)
@@ -95,7 +105,7 @@ fn look_closer<R: Rules>(
     task: &Task,
     program: &Program,
     machine: &mut niwaki_vm::machine::Machine<'_>,
-    chains: &mut [Chain<R>],
+    chains: &mut [&mut Chain<R>],
     step: u64,
 ) -> Option<String> {
     let dumps: Vec<String> = chains.iter().map(|chain| dump(&chain.state, program)).collect();

@@ -13,8 +13,6 @@ use niwaki_vm::value::Value;
 pub(crate) struct ByFamily;
 
 impl Move for ByFamily {
-    const MAY_LEAVE: bool = true;
-
     fn propose(
         &mut self,
         site: usize,

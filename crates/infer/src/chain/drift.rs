@@ -23,7 +23,8 @@ use std::f64::consts::PI;
 /// Drift with a step for each site, adapted while the chain warms up and frozen then.
 #[derive(Clone, Debug)]
 pub struct Drift {
-    /// Logs of the steps, by number of the site.
+    /// The steps and their logs, by number of the site.
+    steps: Vec<f64>,
     log_steps: Vec<f64>,
     /// How often each was adapted.
     adapted: Vec<u32>,
@@ -38,12 +39,13 @@ impl Drift {
     /// The same first step at each of so many sites.
     pub fn new(step: f64, target: f64, sites: usize) -> Drift {
         let log_steps = vec![step.ln(); sites];
-        Drift { log_steps, adapted: vec![0; sites], target, adapting: false, drifted: false }
+        let steps = log_steps.iter().map(|log| log.exp()).collect();
+        Drift { steps, log_steps, adapted: vec![0; sites], target, adapting: false, drifted: false }
     }
 
     /// The step at a site.
     pub fn step(&self, site: usize) -> f64 {
-        self.log_steps[site].exp()
+        self.steps[site]
     }
 }
 
@@ -57,8 +59,6 @@ pub(super) fn adapt(log_step: &mut f64, n: &mut u32, decision: Decision, target:
 }
 
 impl Move for Drift {
-    const MAY_LEAVE: bool = true;
-
     fn propose(
         &mut self,
         site: usize,
@@ -78,6 +78,7 @@ impl Move for Drift {
     fn learn(&mut self, site: usize, decision: Decision) {
         if self.adapting && self.drifted {
             adapt(&mut self.log_steps[site], &mut self.adapted[site], decision, self.target);
+            self.steps[site] = self.log_steps[site].exp();
         }
     }
 }

@@ -4,6 +4,7 @@
 //! counts proposals, so it may stop in the middle of a cycle and go on there.
 
 use super::user::User;
+use crate::hamiltonian::chains::Length;
 use std::sync::Arc;
 
 /// Which choices a kernel may change, and with what odds.
@@ -51,6 +52,15 @@ pub enum Kernel {
     Regenerate {
         /// How many levels above the picked choice the call stands.
         levels: usize,
+    },
+    /// The continuous choices move together along their gradient.
+    Trajectory {
+        /// How long trajectories are.
+        length: Length,
+        /// First step for one coordinate, in spreads of its site's first distribution.
+        step: f64,
+        /// Acceptance that the step is adapted to while the chain warms up.
+        target: f64,
     },
     /// One choice, from a distribution that a model function makes of its value.
     User(Arc<User>),

@@ -36,13 +36,26 @@ impl<R: Rules> Ladder<R> {
         number: u64,
         known: Option<&HashMap<u128, Value>>,
     ) -> Result<Ladder<R>, Failure> {
+        Ladder::start_at(task, settings, number, |_| known)
+    }
+
+    /// As [`Ladder::start`], each rung with first values of its own.
+    ///
+    /// # Errors
+    /// As for [`Chain::start`].
+    pub fn start_at<'a>(
+        task: &Task,
+        settings: &Settings,
+        number: u64,
+        known: impl Fn(usize) -> Option<&'a HashMap<u128, Value>>,
+    ) -> Result<Ladder<R>, Failure> {
         let mut rungs = Vec::new();
         for (rung, temperature) in settings.temperatures.iter().enumerate() {
             let mut own = settings.clone();
             if rung > 0 {
                 own.thin = 0;
             }
-            let mut chain = Chain::start(task, &own, number + rung as u64 * APART, known)?;
+            let mut chain = Chain::start(task, &own, number + rung as u64 * APART, known(rung))?;
             chain.beta = 1.0 / temperature;
             rungs.push(chain);
         }
@@ -71,9 +84,7 @@ impl<R: Rules> Ladder<R> {
                 .par_iter_mut()
                 .map(|rung| rung.advance(task, block, &mut |_, _| true))
                 .collect::<Result<Vec<()>, Failure>>()?;
-            if self.visit().is_multiple_of(self.every) {
-                self.exchange();
-            }
+            self.exchange_if_due();
             if !watch(self.visit(), self.best_score()) {
                 break;
             }
@@ -81,14 +92,18 @@ impl<R: Rules> Ladder<R> {
         Ok(())
     }
 
-    /// Every other pair of neighbours, by turns, may exchange states.
-    fn exchange(&mut self) {
+    /// Every other pair of neighbours, by turns, may exchange states, if this is the time.
+    pub(super) fn exchange_if_due(&mut self) {
+        if !self.visit().is_multiple_of(self.every) {
+            return;
+        }
         let round = self.visit() / self.every;
         let mut rng = self.streams.decisions(round);
         for low in ((round % 2) as usize..self.exchanges.len()).step_by(2) {
             let (below, above) = self.rungs.split_at_mut(low + 1);
             let (cold, hot) = (&mut below[low], &mut above[0]);
-            let log_ratio = (cold.beta - hot.beta) * (hot.state.log_score() - cold.state.log_score());
+            let scores = (cold.state.log_score(), hot.state.log_score());
+            let log_ratio = R::log_exchange((cold.beta, hot.beta), scores);
             self.exchanges[low].0 += 1;
             if rng.uniform().ln() < log_ratio {
                 self.exchanges[low].1 += 1;

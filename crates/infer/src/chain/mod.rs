@@ -4,6 +4,7 @@
 //! * [`kernel`]: kernels as values; `plan`: which leaf is next; `select`, [`glob`], [`odds`]: which choice it changes;
 //! * `single`: proposals that change one choice: from the prior, [`drift`], [`neighbour`], `by_family`, by the [`user`]'s function;
 //!   [`block`], `regenerate`: proposals that change many;
+//! * [`trajectory`]: the continuous choices move together along their gradient;
 //! * [`accept`]: the acceptance ratio, in plain letters; `decide`: a proposal is kept or undone;
 //! * [`counts`], [`best`], [`samples`], [`snapshot`]: what is told afterwards;
 //! * [`ladder`]: parallel tempering; [`many`]: several searches side by side;
@@ -34,9 +35,10 @@ pub(crate) mod single;
 pub mod snapshot;
 pub mod state;
 pub mod streams;
+pub mod trajectory;
 pub mod user;
 
-use crate::{Failure, Task};
+use crate::{Failure, Task, gradient};
 use accept::{MetropolisHastings, Rules};
 use best::Best;
 use by_family::ByFamily;
@@ -50,12 +52,13 @@ use niwaki_vm::value::Value;
 use odds::Table;
 use plan::{Plan, Way};
 use samples::Samples;
-use single::FromPrior;
+use single::{Ahead, FromPrior};
 use snapshot::Snapshot;
 use state::State;
 use std::collections::HashMap;
 use std::marker::PhantomData;
 use streams::Streams;
+use trajectory::travel::Travel;
 
 /// What a chain is asked for.
 #[derive(Clone, Debug)]
@@ -117,6 +120,8 @@ pub struct Chain<R: Rules = MetropolisHastings> {
     spreads: Vec<f64>,
     /// The number of proposals so far.
     visit: u64,
+    /// The decisions of the next proposal.
+    ahead: Ahead,
     /// What became of the last proposal.
     last: Decision,
     /// Whether every proposal is undone, to see that nothing is left.
@@ -143,8 +148,15 @@ impl<R: Rules> Chain<R> {
         let sites = task.program.functions.iter().map(|f| f.sites.len()).sum();
         let (plan, streams) = (Plan::new(&settings.kernel, sites)?, Streams::new(settings.seed, number));
         let (state, spreads) = State::start(task, streams, settings.tries, known)?;
-        for leaf in plan.leaves.iter().filter(|leaf| !leaf.selection.is_all()) {
-            leaf.selection.check(&state.trace, &task.program)?;
+        for leaf in &plan.leaves {
+            if !leaf.selection.is_all() {
+                leaf.selection.check(&state.trace, &task.program)?;
+            }
+            if matches!(leaf.way, Way::Trajectory(_))
+                && !leaf.selection.may_be_continuous(&state.trace, &task.program)
+            {
+                return Err(gradient::nothing_continuous().into());
+            }
         }
         Chain::at(task, settings, number, plan, state, &spreads)
     }
@@ -166,6 +178,9 @@ impl<R: Rules> Chain<R> {
         R::begin(&mut state.trace);
         let mut tables = Vec::new();
         for leaf in &mut plan.leaves {
+            if let Way::Trajectory(own) = &mut leaf.way {
+                own.prepare::<R>(task)?;
+            }
             if !leaf.selection.is_all() {
                 leaf.table = Some(tables.len());
                 tables.push(Table::new(Box::new(leaf.selection.clone()), &state.trace, program));
@@ -183,6 +198,7 @@ impl<R: Rules> Chain<R> {
             streams,
             plan,
             tables,
+            ahead: Ahead::of(&streams, 0),
             visit: 0,
             last: Decision::default(),
             undoing: false,
@@ -200,6 +216,12 @@ impl<R: Rules> Chain<R> {
     /// How many proposals it has made.
     pub fn visit(&self) -> u64 {
         self.visit
+    }
+
+    /// What became of the trajectories of each leaf that follows the gradient, in the order of the kernel: their counts,
+    /// the step for one coordinate, structures met and runs recorded.
+    pub fn trajectories(&self) -> impl Iterator<Item = (&Travel, f64, (u64, u64))> {
+        self.plan.trajectories().map(|own| (&own.travel, own.step(), own.recorded()))
     }
 
     /// The present state.
@@ -260,6 +282,10 @@ impl<R: Rules> Chain<R> {
                     self.block(task, machine, block, table, beta)
                 }
                 Way::Regenerate(levels) => self.regenerate(task, machine, *levels, table, beta),
+                Way::Trajectory(own) => {
+                    own.warming = adapting.then(|| self.visit as f64 / self.settings.warmup as f64);
+                    self.trajectory(task, machine, own, table, beta)
+                }
                 Way::User(user) => self.single(task, machine, &mut user::Asking(user), table, beta),
             };
             self.plan.leaves[leaf].way = way;

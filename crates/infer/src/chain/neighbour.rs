@@ -16,8 +16,6 @@ pub struct Neighbour {
 }
 
 impl Move for Neighbour {
-    const MAY_LEAVE: bool = true;
-
     fn propose(
         &mut self,
         site: usize,

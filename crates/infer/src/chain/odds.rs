@@ -23,17 +23,27 @@ pub struct Table {
     /// `sums[i]` covers the `lowbit(i + 1)` weights up to `i`.
     sums: Vec<u64>,
     total: u64,
+    /// As long as no choice came or went and all that have a weight have the same: that weight, and who they are.
+    alike: Option<(u64, Vec<u32>)>,
 }
 
 impl Table {
     /// The weights of a trace's choices.
     pub fn new(weigh: Box<dyn Weigh>, trace: &Trace, program: &Program) -> Table {
-        let mut table = Table { weigh, weights: vec![], sums: vec![], total: 0 };
+        let mut table = Table { weigh, weights: vec![], sums: vec![], total: 0, alike: None };
         for choice in trace.numbers() {
             let weight = table.weigh.weight(&trace.place(program, choice));
             table.push(weight);
         }
+        table.alike = table.all_alike();
         table
+    }
+
+    fn all_alike(&self) -> Option<(u64, Vec<u32>)> {
+        let weight = *self.weights.iter().find(|weight| **weight > 0)?;
+        let choices =
+            (0u32..).zip(&self.weights).filter(|(_, w)| **w > 0).map(|(choice, _)| choice).collect();
+        self.weights.iter().all(|w| *w == 0 || *w == weight).then_some((weight, choices))
     }
 
     /// Sum of all weights.
@@ -52,8 +62,16 @@ impl Table {
     }
 
     /// The choice in whose stretch of the line of weights `at` lies, from 0 to below the total.
-    pub fn find(&self, mut at: u64) -> usize {
+    #[inline]
+    pub fn find(&self, at: u64) -> usize {
         debug_assert!(at < self.total);
+        match &self.alike {
+            Some((weight, choices)) => choices[(at / weight) as usize] as usize,
+            None => self.descend(at),
+        }
+    }
+
+    fn descend(&self, mut at: u64) -> usize {
         let (mut found, mut step) = (0, self.sums.len().next_power_of_two());
         while step > 0 {
             if found + step <= self.sums.len() && self.sums[found + step - 1] <= at {
@@ -73,7 +91,15 @@ impl Table {
     }
 
     /// Follows the trace's table, just before the open transaction is kept.
+    #[inline]
     pub fn follow(&mut self, trace: &Trace, program: &Program) {
+        if !trace.deaths().is_empty() || trace.births(program).len() > 0 {
+            self.alike = None;
+            self.change(trace, program);
+        }
+    }
+
+    fn change(&mut self, trace: &Trace, program: &Program) {
         let mut deaths = trace.deaths().to_vec();
         deaths.sort_unstable();
         for dead in deaths.into_iter().rev() {
@@ -137,7 +163,7 @@ mod tests {
 
     #[test]
     fn finds_agree_with_a_walk() {
-        let mut table = Table { weigh: Box::new(Same), weights: vec![], sums: vec![], total: 0 };
+        let mut table = Table { weigh: Box::new(Same), weights: vec![], sums: vec![], total: 0, alike: None };
         let mut state = 1u64;
         let mut next = |n: u64| {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -158,8 +184,11 @@ mod tests {
                 for (i, weight) in table.weights.iter().enumerate() {
                     expected.extend(std::iter::repeat_n(i, *weight as usize));
                 }
-                let found: Vec<usize> = (0..table.total).map(|at| table.find(at)).collect();
-                assert_eq!(found, expected);
+                for alike in [table.all_alike(), None] {
+                    table.alike = alike;
+                    let found: Vec<usize> = (0..table.total).map(|at| table.find(at)).collect();
+                    assert_eq!(found, expected);
+                }
             }
         }
     }

@@ -6,6 +6,7 @@ use super::block::Block;
 use super::drift::Drift;
 use super::kernel::{Kernel, Selection};
 use super::neighbour::Neighbour;
+use super::trajectory::Trajectory;
 use super::user::User;
 use crate::Failure;
 use niwaki_math::Stream;
@@ -21,6 +22,7 @@ pub(crate) enum Way {
     ByFamily,
     Block(Box<Block>),
     Regenerate(usize),
+    Trajectory(Box<Trajectory>),
     User(Arc<User>),
 }
 
@@ -55,6 +57,8 @@ pub(crate) struct Plan {
     pub leaves: Vec<Leaf>,
     branches: Vec<Branch>,
     root: usize,
+    /// Of a mixture of leaves and nothing else: cumulative weights, and the leaves.
+    flat: Option<(Vec<f64>, Vec<usize>)>,
     /// Branches that are being applied, and how many applications of what is in them have begun.
     cursor: Vec<(usize, u64)>,
 }
@@ -63,11 +67,25 @@ fn bad(what: &str) -> Failure {
     Fault::new("bad-kernel", format!("this kernel {what}")).with_help("see `niwaki.kernels`").into()
 }
 
+/// A place by cumulative weights.
+#[inline]
+fn picked(sums: &[f64], rng: &mut Stream) -> usize {
+    let at = rng.uniform() * sums[sums.len() - 1];
+    sums.iter().filter(|sum| **sum <= at).count().min(sums.len() - 1)
+}
+
 impl Plan {
     /// The plan of a kernel for a program with so many sites.
     pub fn new(kernel: &Kernel, sites: usize) -> Result<Plan, Failure> {
-        let mut plan = Plan { leaves: vec![], branches: vec![], root: 0, cursor: vec![] };
+        let mut plan = Plan { leaves: vec![], branches: vec![], root: 0, flat: None, cursor: vec![] };
         plan.root = plan.add(kernel, &Selection::default(), sites)?;
+        if let Branch::Mixture(sums, inner) = &plan.branches[plan.root] {
+            let leaf = |branch: &usize| match &plan.branches[*branch] {
+                Branch::Leaf(leaf) => Some(*leaf),
+                _ => None,
+            };
+            plan.flat = inner.iter().map(leaf).collect::<Option<_>>().map(|leaves| (sums.clone(), leaves));
+        }
         Ok(plan)
     }
 
@@ -85,6 +103,9 @@ impl Plan {
                 adapting: false,
             }))),
             Kernel::Regenerate { levels } => leaf(Way::Regenerate(*levels)),
+            Kernel::Trajectory { length, step, target } => {
+                leaf(Way::Trajectory(Box::new(Trajectory::new(*length, *step, *target))))
+            }
             Kernel::ByFamily => leaf(Way::ByFamily),
             Kernel::User(user) => leaf(Way::User(user.clone())),
             Kernel::On(inner, kernel) => return self.add(kernel, &selection.and(inner), sites),
@@ -133,6 +154,14 @@ impl Plan {
         Ok(self.branches.len() - 1)
     }
 
+    /// The leaves that follow the gradient.
+    pub fn trajectories(&self) -> impl Iterator<Item = &Trajectory> {
+        self.leaves.iter().filter_map(|leaf| match &leaf.way {
+            Way::Trajectory(own) => Some(&**own),
+            _ => None,
+        })
+    }
+
     /// Whether it is one leaf that draws from the prior, all choices alike.
     pub fn is_plain(&self) -> bool {
         self.leaves.len() == 1
@@ -141,7 +170,16 @@ impl Plan {
     }
 
     /// The next leaf, and the power of the score under which it proposes. Mixtures draw from `rng`.
+    #[inline]
     pub fn next(&mut self, rng: &mut Stream) -> (usize, f64) {
+        match &self.flat {
+            Some((sums, leaves)) => (leaves[picked(sums, rng)], 1.0),
+            None => self.walk(rng),
+        }
+    }
+
+    /// The next leaf of any plan.
+    fn walk(&mut self, rng: &mut Stream) -> (usize, f64) {
         loop {
             let Some((branch, begun)) = self.cursor.last_mut() else {
                 self.cursor.push((self.root, 0));
@@ -155,10 +193,7 @@ impl Plan {
                 }
                 Branch::Cycle(inner) => inner.get(*begun as usize).copied(),
                 Branch::Repeat(times, inner) => (*begun < *times).then_some(*inner),
-                Branch::Mixture(sums, inner) => (*begun == 0).then(|| {
-                    let at = rng.uniform() * sums[sums.len() - 1];
-                    inner[sums.partition_point(|sum| *sum <= at).min(inner.len() - 1)]
-                }),
+                Branch::Mixture(sums, inner) => (*begun == 0).then(|| inner[picked(sums, rng)]),
                 Branch::Anneal { inner, .. } => (*begun == 0).then_some(*inner),
             };
             *begun += 1;

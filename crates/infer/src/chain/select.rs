@@ -4,10 +4,12 @@ use super::glob::{last, matches, nearest};
 use super::kernel::Selection;
 use super::odds::{UNIT, Weigh};
 use crate::Failure;
-use niwaki_vm::code::{Program, SiteKind};
+use niwaki_math::Family;
+use niwaki_vm::code::{FunctionId, Program, SiteKind};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::kept::Trace;
 use niwaki_vm::machine::kept::inspect::Place;
+use std::collections::HashMap;
 
 impl Selection {
     /// Both selections at once.
@@ -25,6 +27,31 @@ impl Selection {
     /// Whether every choice is chosen with the same odds.
     pub(crate) fn is_all(&self) -> bool {
         *self == Selection::default()
+    }
+
+    /// Whether one of the program's sites that it may take may draw real numbers: where the text does not say, the trace
+    /// does, if it came there.
+    pub(super) fn may_be_continuous(&self, trace: &Trace, program: &Program) -> bool {
+        let mut seen: HashMap<_, bool> = HashMap::new();
+        for choice in trace.numbers() {
+            let is_real = trace.family(choice).is_some_and(is_continuous);
+            *seen.entry(trace.site_of(choice)).or_default() |= is_real;
+        }
+        let takes = |label: &str| {
+            self.sites.iter().all(|patterns| patterns.iter().any(|pattern| matches(last(pattern), label)))
+        };
+        program.functions.iter().enumerate().any(|(f, function)| {
+            function.sites.iter().enumerate().any(|(s, site)| {
+                let may = match site.kind {
+                    SiteKind::Sample { family } => is_continuous(family),
+                    SiteKind::SampleDist | SiteKind::SampleIndexed => {
+                        seen.get(&(FunctionId(f as _), s as u16)).copied().unwrap_or(true)
+                    }
+                    _ => false,
+                };
+                may && takes(&site.label)
+            })
+        })
     }
 
     fn takes(&self, path: &str) -> bool {
@@ -60,6 +87,12 @@ impl Selection {
         }
         Ok(())
     }
+}
+
+/// Whether a family draws real numbers, other than one that is given.
+fn is_continuous(family: Family) -> bool {
+    use Family::{Bernoulli, Binomial, Categorical, Delta, DiscreteUniform, Geometric, Poisson};
+    !matches!(family, Bernoulli | Binomial | Categorical | Delta | DiscreteUniform | Geometric | Poisson)
 }
 
 /// Whether an address of the trace ends in the last component of the pattern.

@@ -2,11 +2,11 @@
 
 use super::Chain;
 use super::accept::Rules;
-use super::decide::{Decision, below};
+use super::decide::Decision;
 use super::state::Fresh;
-use crate::record::log_density as log_density_of;
+use super::streams::Streams;
 use crate::{Failure, Task};
-use niwaki_math::{Dist, Stream, StreamKey, grid};
+use niwaki_math::{Dist, RngCore, Stream, StreamKey, grid};
 use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Machine;
@@ -16,8 +16,8 @@ use niwaki_vm::value::Value;
 
 /// A way to move one choice.
 pub(crate) trait Move {
-    /// Whether it may propose what is outside the support.
-    const MAY_LEAVE: bool = false;
+    /// Whether it draws from the choice's own distribution, and gives the log density of what it drew.
+    const FROM_PRIOR: bool = false;
 
     /// A new value for a choice at the site of that number, its random bits from `rng`.
     fn propose(
@@ -38,6 +38,8 @@ pub(crate) trait Move {
 pub(crate) struct FromPrior;
 
 impl Move for FromPrior {
+    const FROM_PRIOR: bool = true;
+
     #[inline(always)]
     fn propose(
         &mut self,
@@ -60,10 +62,11 @@ struct Asked<'a, M> {
     /// Whether the value before is wanted afterwards.
     noting: bool,
     old: Option<(u128, Value)>,
-    outside: bool,
 }
 
 impl<M: Move> Propose<f64> for Asked<'_, M> {
+    const FROM_PRIOR: bool = M::FROM_PRIOR;
+
     #[inline]
     fn propose(
         &mut self,
@@ -76,11 +79,30 @@ impl<M: Move> Propose<f64> for Asked<'_, M> {
         if self.noting {
             self.old = Some((address, old.clone()));
         }
-        let proposed = self.way.propose(self.site, dist, old, log_density, &mut self.key.at(address))?;
-        if M::MAY_LEAVE {
-            self.outside = log_density_of(dist, &proposed.value)? == f64::NEG_INFINITY;
-        }
-        Ok(proposed)
+        self.way.propose(self.site, dist, old, log_density, &mut self.key.at(address))
+    }
+}
+
+/// The random numbers that decide over a proposal, drawn while the one before runs, so that what it will need can be
+/// asked for.
+pub(crate) struct Ahead {
+    visit: u64,
+    /// The first number: which choice.
+    first: u64,
+    rest: Stream,
+}
+
+impl Ahead {
+    /// Of that visit.
+    pub fn of(streams: &Streams, visit: u64) -> Ahead {
+        let mut rest = streams.decisions(visit);
+        Ahead { visit, first: rest.next_u64(), rest }
+    }
+
+    /// A number below `n`, evenly (up to `n / 2^64`).
+    #[inline(always)]
+    fn below(&self, n: u64) -> u64 {
+        ((u128::from(self.first) * u128::from(n)) >> 64) as u64
     }
 }
 
@@ -97,17 +119,22 @@ impl<R: Rules> Chain<R> {
     ) -> Result<(), Failure> {
         let visit = self.visit;
         self.visit += 1;
-        let mut rng = self.streams.decisions(visit);
+        let ahead = std::mem::replace(&mut self.ahead, Ahead::of(&self.streams, visit + 1));
+        let now = if ahead.visit == visit { ahead } else { Ahead::of(&self.streams, visit) };
         let total = table.map_or(self.state.trace.len() as u64, |t| self.tables[t].total());
         if total == 0 {
             return Ok(());
         }
-        let at = below(&mut rng, total);
+        let at = now.below(total);
+        let next = self.ahead.below(total) as usize;
+        if table.is_none() {
+            self.state.trace.approach(next);
+        }
+        let mut rng = now.rest;
         let choice = table.map_or(at as usize, |t| self.tables[t].find(at));
         let site = self.counts.number(self.state.trace.site_of(choice));
         let noting = self.best.is_noting();
-        let mut asked =
-            Asked { way, site, key: self.streams.moves(visit), noting, old: None, outside: false };
+        let mut asked = Asked { way, site, key: self.streams.moves(visit), noting, old: None };
         let mut answers =
             Fresh { key: self.streams.fresh(visit), known: None, hosts: &*task.hosts, spreads: None };
         let trace = &mut self.state.trace;
@@ -115,7 +142,10 @@ impl<R: Rules> Chain<R> {
             Ok(change) => change,
             Err(fault) => return Err(self.give_up(task, fault.into())),
         };
-        let (old, outside) = (asked.old.take(), asked.outside);
+        if table.is_none() {
+            trace.approach_closer(&task.program, next);
+        }
+        let (old, outside) = (asked.old.take(), trace.left_support());
         let decision = self.decide(
             task,
             change,

@@ -71,7 +71,16 @@ pub struct State {
     pub primitives: usize,
     /// How many shapes proposals have taken out of the scene or put into it.
     pub moved: u64,
-    before: (f64, usize),
+    before: Before,
+}
+
+/// What the open transaction may have to go back to.
+#[derive(Default)]
+struct Before {
+    /// The sketches, where the transaction changed the scene: a copy that shares with them what did not change.
+    sketches: Option<Sketches>,
+    log_sketches: f64,
+    primitives: usize,
 }
 
 impl State {
@@ -100,11 +109,12 @@ impl State {
                 log_sketches: 0.0,
                 primitives: 0,
                 moved: 0,
-                before: (0.0, 0),
+                before: Before::default(),
             };
             let cause = if change == Change::Impossible {
                 Some(impossible(&state.trace, &task.program))
             } else {
+                state.sketches.expect_removals();
                 state.look()?;
                 state.sketches.forbidden_by().map(str::to_string)
             };
@@ -128,7 +138,7 @@ impl State {
     pub(crate) fn of_run(
         task: &Task,
         known: &HashMap<u128, Value>,
-        sketches: Sketches,
+        mut sketches: Sketches,
         primitives: usize,
     ) -> Result<State, Failure> {
         let key = StreamKey::new(0, 0, 0);
@@ -139,8 +149,9 @@ impl State {
             return Err(Failure::NoStart { tries: 1, causes: vec![(cause, 1)] });
         }
         trace.commit(&task.program);
+        sketches.expect_removals();
         let log_sketches = sketches.log_score();
-        Ok(State { trace, sketches, log_sketches, primitives, before: (log_sketches, primitives), moved: 0 })
+        Ok(State { trace, sketches, log_sketches, primitives, moved: 0, before: Before::default() })
     }
 
     /// Factors, observations and sketches, nats.
@@ -155,7 +166,8 @@ impl State {
     /// A sketch scores NaN.
     #[inline]
     pub fn look(&mut self) -> Result<(), Failure> {
-        self.before = (self.log_sketches, self.primitives);
+        let (log_sketches, primitives) = (self.log_sketches, self.primitives);
+        self.before = Before { sketches: None, log_sketches, primitives };
         let (gone, come) = (self.trace.retracted().count(), self.trace.emitted().count());
         if gone + come == 0 && self.primitives > 0 {
             return Ok(());
@@ -165,6 +177,7 @@ impl State {
         if self.sketches.is_empty() {
             return Ok(());
         }
+        self.before.sketches = Some(self.sketches.fork());
         let kept = self.sketches.exchange(self.trace.retracted(), self.trace.emitted());
         debug_assert!(kept, "the sketches and the trace hold the same scene");
         self.log_sketches = self.sketches.log_score();
@@ -185,18 +198,16 @@ impl State {
     /// Change of the sketches' log score in the open transaction, nats.
     #[inline]
     pub fn sketch_change(&self) -> f64 {
-        self.log_sketches - self.before.0
+        self.log_sketches - self.before.log_sketches
     }
 
     /// Undoes what [`State::look`] did; the trace is still to be rolled back.
     #[inline]
     pub fn look_back(&mut self) {
-        if !self.sketches.is_empty()
-            && (self.trace.retracted().next().is_some() || self.trace.emitted().next().is_some())
-        {
-            self.sketches.exchange(self.trace.emitted(), self.trace.retracted());
+        if let Some(before) = self.before.sketches.take() {
+            self.sketches = before;
         }
-        (self.log_sketches, self.primitives) = self.before;
+        (self.log_sketches, self.primitives) = (self.before.log_sketches, self.before.primitives);
     }
 }
 

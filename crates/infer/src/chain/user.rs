@@ -68,8 +68,6 @@ impl User {
 pub(crate) struct Asking<'a>(pub &'a User);
 
 impl Move for Asking<'_> {
-    const MAY_LEAVE: bool = true;
-
     fn propose(
         &mut self,
         _: usize,

@@ -8,7 +8,7 @@ pub mod follow;
 
 use crate::Failure;
 use crate::task::Task;
-use niwaki_grad::{Live, Model, Recorded, Var};
+use niwaki_grad::{Live, Model, Recorded, Scope, Var};
 use niwaki_math::Scalar;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::value::Value;
@@ -20,6 +20,11 @@ use std::sync::Arc;
 /// # Errors
 /// A scene that sketches score: they count cells and pixels, which have no slope.
 pub fn model(task: &Task) -> Result<Model, Failure> {
+    if task.model.is_some() {
+        return Err(Fault::new("bad-kernel", "no gradient is followed within an `infer` of a model")
+            .with_help("use `mh()` without `hmc()` and `nuts()` there")
+            .into());
+    }
     if let Some(sketch) = task.sketches.first() {
         let name = sketch.name();
         return Err(Failure::Setting(
@@ -33,6 +38,7 @@ pub fn model(task: &Task) -> Result<Model, Failure> {
         args: task.args.iter().map(|arg| arg.convert(&Var::from_f64)).collect(),
         limits: task.limits,
         host: Arc::new(move |constant, args: &[Value]| hosts.call(constant, args)),
+        scope: Scope::default(),
     })
 }
 
@@ -56,10 +62,14 @@ pub fn live(task: &Task, choices: &HashMap<u128, Value>) -> Result<Live, Failure
 pub(crate) fn live_of(model: Model, choices: &HashMap<u128, Value>) -> Result<Live, Failure> {
     let recorded = model.record(choices)?;
     if recorded.dim() == 0 {
-        return Err(Failure::Setting(
-            Fault::new("no-continuous-choices", "this run makes no continuous choices")
-                .with_help("use `mh()`, which moves discrete choices"),
-        ));
+        return Err(nothing_continuous().into());
     }
     Ok(Live::new(model, recorded))
+}
+
+/// There is nothing that a gradient could move.
+#[cold]
+pub(crate) fn nothing_continuous() -> Fault {
+    Fault::new("no-continuous-choices", "this run makes no continuous choices")
+        .with_help("use `mh()`, which moves discrete choices")
 }

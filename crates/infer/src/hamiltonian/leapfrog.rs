@@ -50,15 +50,21 @@ impl Phase {
     /// The Hamiltonian, nats: kinetic energy less the log density.
     #[inline]
     pub fn energy(&self) -> f64 {
-        0.5 * dot(&self.p, &self.v) - self.log_density
+        self.kinetic() - self.log_density
     }
 
-    /// Becomes a copy of `other`, in place.
+    /// Its kinetic part, nats.
+    #[inline]
+    pub fn kinetic(&self) -> f64 {
+        0.5 * dot(&self.p, &self.v)
+    }
+
+    /// Becomes a copy of `other`, in place; it may have had another number of coordinates.
     pub fn copy_from(&mut self, other: &Phase) {
-        self.x.copy_from_slice(&other.x);
-        self.p.copy_from_slice(&other.p);
-        self.v.copy_from_slice(&other.v);
-        self.gradient.copy_from_slice(&other.gradient);
+        self.x.clone_from(&other.x);
+        self.p.clone_from(&other.p);
+        self.v.clone_from(&other.v);
+        self.gradient.clone_from(&other.gradient);
         self.log_density = other.log_density;
     }
 }

@@ -143,7 +143,7 @@ impl Answers<f64> for Walk<'_> {
         let mut known = None;
         let (value, log) = match &mut self.source {
             Source::Log(entries, next) => {
-                let own = entries.get(*next).filter(|e| !e.is_order && e.address() == address);
+                let own = entries.get(*next).filter(|e| !e.is_order() && e.address() == address);
                 let Some(entry) = own else {
                     return Err(Fault::new(
                         "missing-choice",
@@ -385,12 +385,9 @@ impl Walk<'_> {
         let careless = self.careless;
         match &mut self.source {
             Source::Log(entries, next) => {
-                let entry = entries.get(*next).filter(|e| e.is_order)?;
+                let which = entries.get(*next)?.which()?;
                 *next += 1;
-                match entry.value {
-                    Value::Int(which) => Some(which as usize),
-                    _ => None,
-                }
+                Some(which)
             }
             Source::Before { course, mark, .. } => {
                 let found = course.steps.iter().skip(*mark).position(|s| !matches!(s, Step::Chose(_)))?;

@@ -21,7 +21,7 @@ impl Choices {
         };
         let runs = logs.map(|log| {
             let entries = log.entries();
-            let mut own: Vec<u32> = entries.iter().filter(|e| !e.is_order).map(&mut number).collect();
+            let mut own: Vec<u32> = entries.iter().filter(|e| !e.is_order()).map(&mut number).collect();
             own.sort_unstable();
             own
         });

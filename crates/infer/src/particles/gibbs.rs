@@ -169,12 +169,8 @@ fn conditional(
             let last = population.barriers + 1 == segments.len();
             let row = &mut population.particles[held];
             if row.follow(&mut machine, &task, segment, last)?.is_none() {
-                return Err(Fault::new(
-                    "impossible-start",
-                    "the run that the chain starts from is impossible",
-                )
-                .with_help("start it from a run that the model can make, or leave the start out")
-                .into());
+                // Nothing was tried: the run was given.
+                return Err(Failure::NoStart { tries: 0, causes: vec![] });
             }
         }
         let seen = population.weigh()?;

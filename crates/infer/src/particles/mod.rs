@@ -9,7 +9,8 @@
 //! 3. *Resample* ([`resampling`]): at every barrier, or when the effective sample size is low; weights are reset. Copies
 //!    are made side by side (`copies`).
 //! 4. *Rejuvenate*, where asked for ([`rejuvenation`]): each particle is moved by a Markov kernel that keeps `F_n`; of one
-//!    that still runs the way is done again with other values (`course`, `moves`).
+//!    that still runs the way is done again with other values (`course`, `moves`). In the end chains may start from a few
+//!    of the final set, and their states take its place (`walks`).
 //!
 //! The temperature may differ from barrier to barrier ([`Anneal`]): weights then count `s(r_n)^(T_n) / s(r_{n-1})^(T_{n-1})`, and
 //! the final set is weighed by the declared `T`, so that the way there changes neither law nor constant.
@@ -39,6 +40,7 @@ pub mod rejuvenation;
 pub mod resampling;
 mod settings;
 mod smc;
+mod walks;
 mod weights;
 
 #[cfg(test)]
@@ -51,3 +53,4 @@ pub use rejuvenation::{Moment, Moved, Rejuvenation};
 pub use resampling::Resampling;
 pub use settings::{Anneal, Order, Settings, Weights, When};
 pub use smc::{Outcome, Progress, Result, smc};
+pub use walks::Walks;

@@ -28,7 +28,7 @@ use niwaki_vm::machine::state::State;
 /// Visits of a particle's stream, four for each move: the model's own choices and the order have the first two.
 const VISITS: u64 = 4;
 /// The stream from which seeds of chains come: no lineage has this number.
-const CHAINS: u64 = u64::MAX - 8;
+pub(super) const CHAINS: u64 = u64::MAX - 8;
 
 /// Moves a particle that still runs.
 pub(super) fn move_running(
@@ -164,8 +164,8 @@ fn propose(
             };
             now.again(with, machine, &mut ask, fresh)?
         }
-        // It is made to change what there is, and here that must stay.
-        Way::Regenerate(_) => return Ok(None),
+        // One is made to change what there is, and here that must stay; the other moves particles at the end only.
+        Way::Regenerate(_) | Way::Trajectory(_) => return Ok(None),
     };
     let blocks = matches!(own.way, Way::Block(_));
     let found = found.map(|(next, densities)| {
@@ -191,8 +191,10 @@ fn decide(
     let record = &mut p.record;
     let before = record.log_sketches;
     let (gone, come) = next.exchanged(now);
-    let looks = !record.sketches.is_empty() && gone.len() + come.len() > 0;
-    if looks {
+    let mut undone = None;
+    if !record.sketches.is_empty() && gone.len() + come.len() > 0 {
+        record.sketches.expect_removals();
+        undone = Some(record.sketches.fork());
         let kept = record.sketches.exchange(gone.iter().copied(), come.iter().copied());
         debug_assert!(kept, "the sketches and the way hold the same scene");
         record.log_sketches = record.sketches.log_score();
@@ -219,8 +221,8 @@ fn decide(
     let log_ratio = MetropolisHastings::log_ratio(&terms);
     let accepted = possible && (log_ratio >= 0.0 || u.ln() < log_ratio);
     if !accepted {
-        if looks {
-            record.sketches.exchange(come.iter().copied(), gone.iter().copied());
+        if let Some(sketches) = undone {
+            record.sketches = sketches;
         }
         record.log_sketches = before;
     }
@@ -262,7 +264,10 @@ pub(super) fn move_ended(p: &mut Particle, round: &Round<'_>) -> Result<Count, F
     let seed = Stream::new(round.settings.seed, CHAINS, u128::from(p.lineage), round.number).next_u64();
     let settings = ChainSettings { seed, thin: 0, ..ChainSettings::default() };
     let mut chain: Chain = Chain::at(task, &settings, 0, mover.plan.clone(), state, &mover.spreads)?;
-    chain.restrict(round.temper, round.ending);
+    let ending = round.ending;
+    #[cfg(test)]
+    let ending = super::tests::own_ending(ending, &chain.state, round);
+    chain.restrict(round.temper, ending);
     chain.advance(task, round.leaves.len() as u64, &mut |_, _| true)?;
     let mut count = chain.counts.many;
     chain.counts.sites.iter().for_each(|site| count += *site);

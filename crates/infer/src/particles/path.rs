@@ -113,7 +113,7 @@ impl Path {
         random: &mut Stream,
     ) -> Result<Path, Failure> {
         let values = by_address(entries);
-        let mut ran = entries.iter().filter(|e| e.is_order).map(Entry::address);
+        let mut ran = entries.iter().filter(|e| e.is_order()).map(Entry::address);
         let mut machine = task.machine();
         let mut state = task.start(&machine, settings.order == Order::DepthFirst)?;
         let mut record = Record::start(&task.sketches);

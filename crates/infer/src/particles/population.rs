@@ -17,8 +17,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// The stream of the resampling draws: no lineage has this number.
 pub(super) const RESAMPLING: u64 = u64::MAX;
 
-/// Particles that one task of the thread pool advances.
+/// Most particles that one task of the thread pool advances.
 pub(super) const BATCH: usize = 16;
+/// Tasks for each thread: particles differ in what they cost, and those that have ended cost nothing.
+const TASKS: usize = 8;
 
 /// Halvings in the search for a temperature.
 const HALVINGS: u32 = 20;
@@ -121,12 +123,14 @@ impl<'a> Population<'a> {
         // Of several faults, the one of the first particle is reported, whatever thread met its own first. Batches
         // behind one that failed need not run: an endless model would use up its budget once for each.
         let failed = AtomicUsize::new(usize::MAX);
+        let size = (particles.len() / (TASKS * rayon::current_num_threads())).clamp(1, BATCH);
         let faults: Vec<Failure> = particles
-            .par_chunks_mut(BATCH)
+            .par_chunks_mut(size)
             .enumerate()
+            .with_max_len(1)
             .filter(|(number, _)| *number < failed.load(Ordering::Relaxed))
             .filter_map(|(number, particles)| {
-                let fault = batch(number * BATCH, particles).err()?;
+                let fault = batch(number * size, particles).err()?;
                 failed.fetch_min(number, Ordering::Relaxed);
                 Some(fault)
             })

@@ -15,9 +15,11 @@
 use super::moves::{move_ended, move_running};
 use super::population::{BATCH, Population};
 use super::settings::{Settings, Weights};
+use super::walks::Walks;
+use crate::chain::accept::MetropolisHastings;
 use crate::chain::counts::Count;
 use crate::chain::kernel::Kernel;
-use crate::chain::plan::Plan;
+use crate::chain::plan::{Plan, Way};
 use crate::chain::state::Fresh;
 use crate::{Failure, Task};
 use niwaki_math::{Stream, StreamKey};
@@ -52,6 +54,8 @@ pub struct Rejuvenation {
     pub moves: u64,
     /// When.
     pub at: Moment,
+    /// What becomes of the final set; every particle is moved where there is none.
+    pub walks: Option<Walks>,
 }
 
 impl Rejuvenation {
@@ -61,7 +65,8 @@ impl Rejuvenation {
             return Err(Fault::new("bad-setting", "absolute weights have no law that a move could keep")
                 .with_help("use ratio weights"));
         }
-        if self.moves == 0 || self.at == Moment::Every(0) {
+        let stand = self.walks.is_some_and(|walks| walks.chains == 0 || walks.draws == 0);
+        if self.moves == 0 || self.at == Moment::Every(0) || stand {
             return Err(Fault::new("bad-setting", "no move was asked for").with_help("ask for at least one"));
         }
         if anneals(&self.kernel) {
@@ -70,7 +75,23 @@ impl Rejuvenation {
                 Fault::new("bad-kernel", what).with_help("anneal the particles, and move them plainly")
             );
         }
+        if follows(&self.kernel) && self.at != Moment::End {
+            let what = "a particle that still runs has no gradient to follow";
+            return Err(Fault::new("bad-kernel", what)
+                .with_help("move the particles at the end, or without `hmc()` and `nuts()`"));
+        }
         Ok(())
+    }
+}
+
+/// Whether a kernel follows the gradient.
+fn follows(kernel: &Kernel) -> bool {
+    match kernel {
+        Kernel::Trajectory { .. } => true,
+        Kernel::Cycle(inner) => inner.iter().any(follows),
+        Kernel::Mixture(inner) => inner.iter().any(|(_, kernel)| follows(kernel)),
+        Kernel::Repeat(_, kernel) | Kernel::On(_, kernel) | Kernel::Anneal { kernel, .. } => follows(kernel),
+        _ => false,
     }
 }
 
@@ -136,7 +157,12 @@ impl Mover {
         let Some(rejuvenation) = &settings.rejuvenate else { return Ok(None) };
         let sites = task.program.functions.iter().flat_map(|f| &f.sites);
         let numbers: HashMap<u128, usize> = sites.enumerate().map(|(n, site)| (site.key, n)).collect();
-        let plan = Plan::new(&rejuvenation.kernel, numbers.len())?;
+        let mut plan = Plan::new(&rejuvenation.kernel, numbers.len())?;
+        for leaf in &mut plan.leaves {
+            if let Way::Trajectory(own) = &mut leaf.way {
+                own.prepare::<MetropolisHastings>(task)?;
+            }
+        }
         let choosy = (0..plan.leaves.len()).filter(|n| !plan.leaves[*n].selection.is_all()).collect();
         let mut spreads = HashMap::new();
         for run in 0..FIRST_RUNS {
@@ -173,6 +199,8 @@ impl Population<'_> {
         let leaves = (0..rejuvenation.moves).map(|_| mover.plan.next(&mut rng).0).collect();
         let ending = resampled.map(|_| self.barriers - 1);
         let last = ending.is_none();
+        #[cfg(test)]
+        let last = last || self.settings.is(super::tests::Mutant::MovesOn);
         #[cfg(test)]
         let ending = ending.filter(|_| !self.settings.is(super::tests::Mutant::EndsLate));
         let round = Round {

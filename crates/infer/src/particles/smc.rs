@@ -120,7 +120,11 @@ pub(super) fn run(
         population.rejuvenate(Some(resampled))?;
     }
     population.finish();
-    population.rejuvenate(None)?;
+    let walked = if interrupted { None } else { population.walk(watch)? };
+    let stopped = walked.as_ref().is_some_and(|(_, stopped)| *stopped);
+    if walked.is_none() {
+        population.rejuvenate(None)?;
+    }
     let log_normaliser =
         (settings.weights == Weights::Ratio && !interrupted).then_some(population.log_normaliser);
     Ok(Result {
@@ -130,7 +134,7 @@ pub(super) fn run(
         steps: population.steps,
         resampled: population.resampled,
         ancestors: population.ancestors(),
-        interrupted,
+        interrupted: interrupted || stopped,
         plan: vec![settings.particles],
         died: 0,
         moved: population.moved,
@@ -138,7 +142,10 @@ pub(super) fn run(
             Anneal::Constant => Vec::new(),
             Anneal::Schedule(_) | Anneal::Adaptive(_) => population.temperatures,
         },
-        particles: population.particles.into_iter().map(outcome).collect(),
+        particles: match walked {
+            Some((states, _)) => states,
+            None => population.particles.into_iter().map(outcome).collect(),
+        },
     })
 }
 

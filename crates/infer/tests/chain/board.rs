@@ -197,7 +197,7 @@ fn every_kernel_gives_the_exact_answer() {
 }
 
 /// Leaves out how likely the move was chosen, before and after.
-struct NoCountRatio;
+pub struct NoCountRatio;
 impl Rules for NoCountRatio {
     fn log_ratio(t: &Terms) -> f64 {
         MetropolisHastings::log_ratio(&Terms { odds: 0.0, ..*t })
@@ -205,7 +205,7 @@ impl Rules for NoCountRatio {
 }
 
 /// Forgets the choices that went.
-struct StaleForgotten;
+pub struct StaleForgotten;
 impl Rules for StaleForgotten {
     fn log_ratio(t: &Terms) -> f64 {
         MetropolisHastings::log_ratio(&Terms { stale: 0.0, ..*t })
@@ -217,6 +217,14 @@ pub struct NoReverse;
 impl Rules for NoReverse {
     fn log_ratio(t: &Terms) -> f64 {
         MetropolisHastings::log_ratio(&Terms { backward: t.forward, ..*t })
+    }
+}
+
+/// Exchanges states of two temperatures whatever their scores.
+pub struct ExchangesAnyway;
+impl Rules for ExchangesAnyway {
+    fn log_exchange(_: (f64, f64), _: (f64, f64)) -> f64 {
+        0.0
     }
 }
 
@@ -241,6 +249,7 @@ fn mutants_are_found_out() {
         ("stale choices forgotten", worst::<StaleForgotten>(recursion, row("prior"), 11)),
         ("no reverse density", worst::<NoReverse>(bound, row("own proposal"), 11)),
         ("redrawn when outside", worst::<RedrawnOutside>(bound, row("prior"), 11)),
+        ("exchanged anyway", worst::<ExchangesAnyway>(recursion, row("temper"), 11)),
     ] {
         assert!(z > 8.0, "{name}: z = {z} only");
     }

@@ -1,30 +1,43 @@
 //! The claim: a kernel leaves the posterior as it is, on continuous programs with bounds, simplexes and angles, and on
-//! programs whose choices come and go; a chain that leaves out the reverse density of a drift does not.
+//! programs whose choices come and go; a chain that leaves out a term of its acceptance ratio does not.
 //!
 //! Gandy and Scott 2020, algorithm 1: draw parameters and data from the model, start a chain at those parameters with
 //! those data, and make some proposals. What comes out is again a draw from the prior, exactly, whatever the number of
 //! proposals; and the draws of different replicates are independent. So each coordinate is compared with fresh prior draws
 //! by the two-sample test of Kolmogorov and Smirnov: 4,000 against 4,000, at 2.86 sqrt(2 / 4000), which the true kernel
-//! exceeds once in 6 million (Smirnov's bound 2 exp(-2 d^2)); about 170 coordinates are looked at.
+//! exceeds once in 6 million (Smirnov's bound 2 exp(-2 d^2)); about 300 coordinates are looked at.
+//!
+//! With several temperatures each rung must start where it belongs, in the posterior of its own power of the likelihood.
+//! Such a state is a draw from the prior, taken with probability (likelihood / its largest value)^power: the data are
+//! normal with a known deviation, so the largest value is known. A kernel that holds the score at one temperature is
+//! given data whose deviation is as many times the root of the temperature.
 
-use super::board::NoReverse;
+use super::board::{ExchangesAnyway, NoCountRatio, NoReverse, StaleForgotten};
 use super::programs::task;
 use niwaki_infer::Task;
+use niwaki_infer::chain::Settings;
 use niwaki_infer::chain::accept::{MetropolisHastings, Rules};
 use niwaki_infer::chain::kernel::{Kernel, Selection};
+use niwaki_infer::chain::ladder::Ladder;
+use niwaki_infer::chain::state::State;
+use niwaki_infer::chain::streams::Streams;
 use niwaki_infer::chain::user::User;
-use niwaki_infer::chain::{Chain, Settings};
 use niwaki_infer::forward::forward;
 use niwaki_infer::replay::by_address;
+use niwaki_math::StreamKey;
 use niwaki_vm::value::Value;
+use std::collections::HashMap;
 use std::sync::Arc;
 
 const REPLICATES: u64 = 4000;
 const PROPOSALS: u64 = 12;
-const LIMIT: f64 = 2.86;
+pub const LIMIT: f64 = 2.86;
+
+/// Values of choices by address.
+type Known = HashMap<u128, Value>;
 
 /// Each twice: drawing its data (`DATA` is a choice) and observing what it is given.
-const PROGRAMS: [(&str, &str); 6] = [
+pub const PROGRAMS: [(&str, &str); 6] = [
     (
         "location and scale",
         r#"(set $x (sample (dist gaussian 0.0 1.0))) (set $s (sample (dist gamma 2.0 1.0)))
@@ -69,26 +82,45 @@ const PROGRAMS: [(&str, &str); 6] = [
     ),
 ];
 
-/// The program that draws its data, and the one that observes them.
-fn both(text: &str) -> (Task, Task) {
-    let filled = |head: &str, data: &dyn Fn(&str) -> String| {
-        let from = text.find("DATA(").expect("data");
-        let rest = &text[from + 5..];
+/// The program that draws its data, with so many times the deviation, the one that observes them (`$y`, `$y2`, ...), and how many there are.
+fn both(text: &str, widened: f64) -> (Task, Task, usize) {
+    let wide = |dist: &str| match dist.rsplit_once(' ') {
+        Some((head, deviation)) if widened != 1.0 => format!("{head} (mul {widened} {deviation})"),
+        _ => dist.to_string(),
+    };
+    let (mut drawing, mut observing, mut names) = (String::new(), String::new(), Vec::new());
+    let mut rest = text;
+    while let Some(from) = rest.find("DATA(") {
+        let behind = &rest[from + 5..];
         let (mut open, mut end) = (1, 0);
-        for (i, c) in rest.char_indices() {
+        for (i, c) in behind.char_indices() {
             open += i32::from(c == '(') - i32::from(c == ')');
             if open == 0 {
                 end = i;
                 break;
             }
         }
-        let body = format!("{}{}{}", &text[..from], data(&rest[..end]), &rest[end + 1..]);
-        task(&format!(r#"(module (fn "m" (params {head}) {body}) (entry "m"))"#))
+        let number = names.len() + 1;
+        let name = if number == 1 { "$y".to_string() } else { format!("$y{number}") };
+        for body in [&mut drawing, &mut observing] {
+            body.push_str(&rest[..from]);
+        }
+        drawing += &format!("(set {name} (sample (dist {})))", wide(&behind[..end]));
+        observing += &format!("(do (observe (dist {}) {name}))", &behind[..end]);
+        names.push(name);
+        rest = &behind[end + 1..];
+    }
+    let filled = |head: &str, body: &str| {
+        task(&format!(r#"(module (fn "m" (params {head}) {body}{rest}) (entry "m"))"#))
     };
-    (
-        filled("", &|dist| format!("(set $y (sample (dist {dist})))")),
-        filled("$y", &|dist| format!("(do (observe (dist {dist}) $y))")),
-    )
+    (filled("", &drawing), filled(&names.join(" "), &observing), names.len())
+}
+
+/// The deviation of the data, where it is constant.
+fn deviation(text: &str) -> f64 {
+    let data = text.split("DATA(").nth(1).expect("data").lines().next().expect("a line");
+    let last = data.trim_end_matches(')').rsplit(' ').next().expect("a deviation");
+    last.parse().expect("a constant")
 }
 
 fn numbers(value: &Value) -> Vec<f64> {
@@ -102,26 +134,73 @@ fn numbers(value: &Value) -> Vec<f64> {
     items.items().iter().map(number).collect()
 }
 
+/// A draw from the posterior of a power of the likelihood, for a rung of a ladder. The data are normal with a constant
+/// deviation.
+fn tempered(drawing: &Task, given: &Task, deviation: f64, power: f64, replicate: u64, rung: u64) -> Known {
+    let log_largest = -deviation.ln() - 0.5 * std::f64::consts::TAU.ln();
+    for attempt in 0..100_000 {
+        let seed = (rung << 32) + attempt;
+        let run = forward(drawing, seed, replicate, true).expect("a run");
+        let known = by_address(&run.record.log.entries());
+        if power == 0.0 {
+            return known;
+        }
+        let (state, _) =
+            State::start(given, Streams::new(4, replicate), 1, Some(&known)).expect("that state");
+        let u = StreamKey::new(seed, replicate, 1).at(0).uniform();
+        if u.ln() < power * (state.log_score() - log_largest) {
+            return known;
+        }
+    }
+    panic!("no draw was taken")
+}
+
 /// The largest of the coordinates' Kolmogorov distances, in units of sqrt(2 / n).
-fn distance<R: Rules>(text: &str, kernel: &Kernel) -> f64 {
-    let (drawing, observing) = both(text);
+pub fn distance<R: Rules>(text: &str, kernel: &Kernel) -> f64 {
+    distance_of::<R>(text, kernel, REPLICATES)
+}
+
+/// The same, of so many replicates.
+pub fn distance_of<R: Rules>(text: &str, kernel: &Kernel, replicates: u64) -> f64 {
+    distance_at::<R>(text, kernel, replicates, 1.0, &[1.0])
+}
+
+/// The same, of a kernel that holds the score at one temperature, or of chains at several.
+fn distance_at<R: Rules>(
+    text: &str,
+    kernel: &Kernel,
+    replicates: u64,
+    held: f64,
+    temperatures: &[f64],
+) -> f64 {
+    let (drawing, observing, data) = both(text, held.sqrt());
     let (mut fresh, mut kept): (Vec<Vec<f64>>, Vec<Vec<f64>>) = (vec![], vec![]);
-    for replicate in 0..REPLICATES {
+    for replicate in 0..replicates {
         fresh.push(numbers(&forward(&drawing, 1, replicate, true).expect("a run").value));
         let first = forward(&drawing, 2, replicate, true).expect("a run");
         let (choices, values) = (first.record.log.entries(), numbers(&first.value));
-        let y = choices.last().expect("data").value.clone();
-        let given = Task { args: vec![y], ..observing.clone() };
-        let settings =
-            Settings { seed: 3 + replicate, kernel: kernel.clone(), thin: 0, ..Settings::default() };
-        let mut chain = Chain::<R>::start(&given, &settings, 0, Some(&by_address(&choices)))
-            .expect("the state that was drawn");
-        let started = numbers(&chain.state.trace.result());
+        let args = choices[choices.len() - data..].iter().map(|choice| choice.value.clone()).collect();
+        let given = Task { args, ..observing.clone() };
+        let settings = Settings {
+            seed: 3 + replicate,
+            kernel: kernel.clone(),
+            thin: 0,
+            temperatures: temperatures.to_vec(),
+            every: 2,
+            ..Settings::default()
+        };
+        let hotter = (1..).zip(&temperatures[1..]).map(|(rung, temperature)| {
+            tempered(&drawing, &given, deviation(text), 1.0 / temperature, replicate, rung)
+        });
+        let known: Vec<Known> = std::iter::once(by_address(&choices)).chain(hotter).collect();
+        let mut ladder = Ladder::<R>::start_at(&given, &settings, 0, |rung| Some(&known[rung]))
+            .expect("the states that were drawn");
+        let started = numbers(&ladder.rungs[0].state.trace.result());
         assert_eq!(started[..started.len().min(2)], values[..started.len().min(2)], "the chain starts there");
-        chain.advance(&given, PROPOSALS, &mut |_, _| true).expect("proposals");
-        kept.push(numbers(&chain.state.trace.result()));
+        ladder.advance(&given, PROPOSALS, &mut |_, _| true).expect("proposals");
+        kept.push(numbers(&ladder.rungs[0].state.trace.result()));
     }
-    let scale = (REPLICATES as f64 / 2.0).sqrt();
+    let scale = (replicates as f64 / 2.0).sqrt();
     (0..fresh[0].len())
         .map(|i| {
             let sorted = |rows: &[Vec<f64>]| {
@@ -150,18 +229,24 @@ fn kernels() -> Vec<(&'static str, Kernel)> {
     let drift = |step| Kernel::Drift { step, target: 0.44 };
     let all = || Kernel::Cycle(vec![Kernel::Prior, drift(1.0), Kernel::Regenerate { levels: 0 }]);
     let odds = Selection { odds: vec![("g".into(), 5.0), ("k".into(), 0.5)], ..Selection::default() };
+    let deep = Selection { depth: vec![1.0, 4.0, 2.0], ..Selection::default() };
     vec![
         ("prior", Kernel::Prior),
         ("drift", drift(1.0)),
         ("neighbour", Kernel::Neighbour { reach: 2 }),
         ("block", Kernel::Block { step: 0.5, share: 0.7, target: 0.23 }),
         ("regenerate", Kernel::Regenerate { levels: 0 }),
+        ("regenerate 1", Kernel::Regenerate { levels: 1 }),
         ("cycle", all()),
-        (
-            "mixture by weight",
-            Kernel::On(odds, Box::new(Kernel::Mixture(vec![(1.0, Kernel::Prior), (2.0, drift(0.5))]))),
-        ),
+        ("mixture", mixture()),
+        ("odds by depth", Kernel::On(deep, Box::new(mixture()))),
+        ("odds by site", Kernel::On(odds, Box::new(mixture()))),
     ]
+}
+
+fn mixture() -> Kernel {
+    let drift = Kernel::Drift { step: 0.5, target: 0.44 };
+    Kernel::Mixture(vec![(1.0, Kernel::Prior), (2.0, drift), (1.0, Kernel::Regenerate { levels: 0 })])
 }
 
 #[test]
@@ -169,7 +254,7 @@ fn kernels_leave_the_posterior_as_it_is() {
     let mut wrong = String::new();
     for (name, text) in PROGRAMS {
         for (kind, kernel) in kernels() {
-            if kind == "mixture by weight" && name != "a count of terms" {
+            if kind == "odds by site" && name != "a count of terms" {
                 continue;
             }
             let d = distance::<MetropolisHastings>(text, &kernel);
@@ -192,6 +277,53 @@ fn a_proposal_of_ones_own_leaves_the_posterior_as_it_is() {
     assert!(d < LIMIT, "{d}");
     let d = distance::<NoReverse>(PROGRAMS[0].1, &kernel);
     assert!(d > 2.0 * LIMIT, "the mutant without the reverse density: {d} only");
+}
+
+#[test]
+fn a_kernel_at_one_temperature_leaves_its_posterior_as_it_is() {
+    let held = |hot| Kernel::Anneal { hot, cold: hot, steps: 9, kernel: Box::new(mixture()) };
+    for (name, text) in &PROGRAMS[1..] {
+        let d = distance_at::<MetropolisHastings>(text, &held(2.0), REPLICATES, 2.0, &[1.0]);
+        assert!(d < LIMIT, "{name}: {d}");
+    }
+    // A hot kernel, given data as if the temperature were 1.
+    let d = furthest::<MetropolisHastings>(&[1, 3, 5], &held(50.0));
+    assert!(d > 1.1 * LIMIT, "another temperature: {d} only");
+}
+
+#[test]
+fn tempering_leaves_the_posterior_as_it_is() {
+    let temperatures = [1.0, 2.0, f64::INFINITY];
+    for (name, text) in &PROGRAMS[1..] {
+        let d = distance_at::<MetropolisHastings>(text, &mixture(), REPLICATES, 1.0, &temperatures);
+        assert!(d < LIMIT, "{name}: {d}");
+    }
+    for at in [3, 5] {
+        let d = distance_at::<ExchangesAnyway>(PROGRAMS[at].1, &mixture(), REPLICATES, 1.0, &temperatures);
+        assert!(d > 1.5 * LIMIT, "{}: exchanged anyway: {d} only", PROGRAMS[at].0);
+    }
+}
+
+#[test]
+fn regeneration_and_mixtures_that_forget_a_term_are_found_out() {
+    let regenerate = Kernel::Regenerate { levels: 0 };
+    let mut missed = String::new();
+    for (name, d) in [
+        ("what went, regenerated", furthest::<StaleForgotten>(&[3, 5], &regenerate)),
+        ("what went, mixed", furthest::<StaleForgotten>(&[3, 5], &mixture())),
+        ("the ratio of numbers, mixed", furthest::<NoCountRatio>(&[3, 5], &mixture())),
+        ("the reverse density, mixed", furthest::<NoReverse>(&[0, 2, 4], &mixture())),
+    ] {
+        if d < 1.1 * LIMIT {
+            missed += &format!("{name}: {d} only\n");
+        }
+    }
+    assert!(missed.is_empty(), "\n{missed}");
+}
+
+/// The largest distance over some of the programs.
+fn furthest<R: Rules>(programs: &[usize], kernel: &Kernel) -> f64 {
+    programs.iter().map(|at| distance::<R>(PROGRAMS[*at].1, kernel)).fold(0.0, f64::max)
 }
 
 #[test]

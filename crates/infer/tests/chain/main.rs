@@ -3,23 +3,31 @@
 
 mod board;
 mod calibration;
+mod mixed;
 mod programs;
 
-use niwaki_infer::chain::Settings;
-use niwaki_infer::chain::accept::Rules;
+use niwaki_infer::Task;
+use niwaki_infer::chain::accept::{MetropolisHastings, Rules};
 use niwaki_infer::chain::agreement::{Seen, compare, disagreement};
 use niwaki_infer::chain::kernel::{Kernel, Selection};
+use niwaki_infer::chain::user::User;
+use niwaki_infer::chain::{Chain, Settings};
 use niwaki_vm::code::Program;
 use niwaki_vm::machine::kept::Trace;
+use niwaki_vm::machine::kept::inspect::Item;
+use niwaki_vm::value::Value;
 use programs::{PROGRAMS, task};
+use std::sync::Arc;
 
 /// One of every kind, and all of them together.
-pub fn kernels() -> Vec<(&'static str, Kernel)> {
+fn kernels(task: &Task) -> Vec<(&'static str, Kernel)> {
     let drift = || Kernel::Drift { step: 0.7, target: 0.44 };
     let neighbour = || Kernel::Neighbour { reach: 2 };
     let block = || Kernel::Block { step: 0.3, share: 0.4, target: 0.23 };
     let regenerate = |levels| Kernel::Regenerate { levels };
     let deep = Selection { depth: vec![1.0, 3.0, 0.5], ..Selection::default() };
+    let first = choices(task).swap_remove(0).0;
+    let by_site = Selection { odds: vec![(first, 3.0)], ..Selection::default() };
     let all = Kernel::Cycle(vec![
         Kernel::Prior,
         Kernel::Repeat(2, Box::new(drift())),
@@ -35,22 +43,82 @@ pub fn kernels() -> Vec<(&'static str, Kernel)> {
         ("regenerate 0", regenerate(0)),
         ("regenerate 2", regenerate(2)),
         ("odds by depth", Kernel::On(deep, Box::new(Kernel::Cycle(vec![Kernel::Prior, regenerate(1)])))),
+        ("odds by site", Kernel::On(by_site, Box::new(Kernel::Prior))),
+        ("own proposals", own_proposals(task)),
         ("annealed", Kernel::Anneal { hot: 4.0, cold: 0.5, steps: 200, kernel: Box::new(all.clone()) }),
         ("all", all),
     ]
+}
+
+/// Choices of a first state: the last part of the address, and the value.
+fn choices(task: &Task) -> Vec<(String, Value)> {
+    let chain = Chain::<MetropolisHastings>::start(task, &settings(), 0, None).expect("a chain");
+    let mut found = vec![];
+    chain.state.trace.visit(&task.program, |place, item| {
+        if let Item::Choice(value, _) = item {
+            found.push((place.path().rsplit('/').next().expect("a part").to_string(), value.clone()));
+        }
+    });
+    found
+}
+
+/// Proposals of the user's own, by what a choice holds in a first state: a real number, a whole one, a boolean.
+fn own_proposals(task: &Task) -> Kernel {
+    let mut sites: [Vec<String>; 3] = Default::default();
+    for (site, value) in choices(task) {
+        match value {
+            Value::Real(_) => sites[0].push(site),
+            Value::Int(_) => sites[1].push(site),
+            Value::Bool(_) => sites[2].push(site),
+            _ => {}
+        }
+    }
+    let dists = [
+        "gaussian (mul 0.5 $x) 0.8",
+        "poisson (add 0.5 (mul 0.5 (mul $x $x)))",
+        "bernoulli (cond $x 0.3 0.8)",
+    ];
+    let own = sites.into_iter().zip(dists).filter(|(sites, _)| !sites.is_empty()).map(|(sites, dist)| {
+        let text = format!(r#"(module (fn "near" (params $x) (return (dist {dist}))) (entry "near"))"#);
+        let user = Kernel::User(Arc::new(User::new(programs::task(&text)).expect("a proposal")));
+        Kernel::On(Selection { sites: vec![sites], ..Selection::default() }, Box::new(user))
+    });
+    Kernel::Cycle(std::iter::once(Kernel::Prior).chain(own).collect())
 }
 
 #[test]
 fn four_strategies_make_the_same_chain() {
     for (name, text) in PROGRAMS {
         let task = task(text);
-        for (kind, kernel) in kernels() {
-            let settings = Settings { seed: 5, kernel, warmup: 150, thin: 0, ..Settings::default() };
+        for (kind, kernel) in kernels(&task) {
+            let settings = Settings { kernel, warmup: 150, ..settings() };
             let (found, seen) = compare(&task, &settings, 300, 30).expect("a chain");
             assert!(found.is_none(), "{name}, {kind}: {}", found.unwrap_or_default());
             assert!(seen.accepted > 0, "{name}, {kind}: nothing was accepted");
         }
     }
+}
+
+#[test]
+fn four_strategies_make_the_same_ladder() {
+    let mut exchanges = 0;
+    for (name, text) in PROGRAMS {
+        let task = task(text);
+        for (kind, kernel) in kernels(&task) {
+            if matches!(kind, "drift" | "all" | "odds by depth" | "own proposals") {
+                let temperatures = vec![1.0, 3.0, f64::INFINITY];
+                let settings = Settings { seed: 6, kernel, temperatures, every: 4, ..settings() };
+                let (found, seen) = compare(&task, &settings, 120, 30).expect("a ladder");
+                assert!(found.is_none(), "{name}, {kind}: {}", found.unwrap_or_default());
+                exchanges += seen.exchanges;
+            }
+        }
+    }
+    assert!(exchanges > 1000, "{exchanges} exchanges only");
+}
+
+fn settings() -> Settings {
+    Settings { seed: 5, thin: 0, ..Settings::default() }
 }
 
 /// A rollback that leaves one register.
@@ -64,13 +132,19 @@ impl Rules for LeavesOneRegister {
 
 #[test]
 fn a_rollback_that_leaves_one_register_is_found_out() {
-    let mut found_out = 0;
-    for (_, text) in PROGRAMS {
-        let settings = Settings { seed: 5, thin: 0, ..Settings::default() };
-        let mut seen = Seen::default();
-        let found = disagreement::<LeavesOneRegister>(&task(text), &settings, 300, 30, &mut seen);
-        found_out += usize::from(!matches!(found, Ok(None)));
+    for kind in ["prior", "own proposals", "temper"] {
+        let mut found_out = 0;
+        for (_, text) in PROGRAMS {
+            let task = task(text);
+            let settings = match kind {
+                "prior" => settings(),
+                "own proposals" => Settings { kernel: own_proposals(&task), ..settings() },
+                _ => Settings { temperatures: vec![1.0, 3.0], every: 4, ..settings() },
+            };
+            let found = disagreement::<LeavesOneRegister>(&task, &settings, 300, 30, &mut Seen::default());
+            found_out += usize::from(!matches!(found, Ok(None)));
+        }
+        // Where hardly anything is rejected, or the register is written again before it is read, nothing is to be seen.
+        assert!(2 * found_out > PROGRAMS.len(), "{kind}: in {found_out} of {} programs", PROGRAMS.len());
     }
-    // Where hardly anything is rejected, or the register is written again before it is read, nothing is to be seen.
-    assert!(2 * found_out > PROGRAMS.len(), "in {found_out} of {} programs", PROGRAMS.len());
 }

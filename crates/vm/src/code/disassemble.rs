@@ -23,6 +23,9 @@ pub fn disassemble<S: Scalar>(program: &Program<S>) -> String {
             let _ = writeln!(out, "     k{k} = {value:?}");
         }
         for (at, op) in f.code.iter().enumerate() {
+            if at == f.body as usize {
+                let _ = writeln!(out, "     slices");
+            }
             let _ = writeln!(out, "  {at:3}  {}", instruction(f, op));
         }
     }
@@ -70,6 +73,8 @@ fn instruction<S: Scalar>(f: &Function<S>, op: &Op) -> String {
         }
         Op::CheckSet { a, name } => format!("check {a:?} is set ({})", f.names[name as usize]),
         Op::Assert { a, message } => format!("assert {a:?}, {message:?}"),
+        Op::Pass { site, arg } => format!("argument {arg} of site {}", site.0),
+        Op::Done => "done".into(),
         Op::Clear { from, to } => format!("clear sites {from}..{to}"),
         Op::Return { a } => format!("return {a:?}"),
         Op::ReturnIteration { exit, args } => format!("end iteration {exit} {}", run(f, args)),

@@ -227,6 +227,10 @@ pub enum Op {
     Return { a: Operand },
     /// Return from an iteration: how it ended, carried values (and the returned value).
     ReturnIteration { exit: i8, args: Args },
+    /// In a slice: a call that was made before, of whose arguments only that one may have changed.
+    Pass { site: SiteId, arg: u16 },
+    /// The end of a slice: what the activation returns has not changed.
+    Done,
 }
 
 /// What happens at a suspension site.
@@ -335,6 +339,8 @@ pub struct Site {
     pub span: Span,
     /// The instruction after it.
     pub next: u32,
+    /// Where a run goes on when nothing but its results has changed: a slice, or the instruction after it.
+    pub again: u32,
 }
 
 /// How activations of a function live.
@@ -371,8 +377,14 @@ pub struct Function<S: Scalar = f64> {
     pub node_registers: u16,
     /// Scratch registers.
     pub scratch_registers: u16,
-    /// The instructions.
+    /// The instructions; from `body` on, slices of those before.
     pub code: Vec<Op>,
+    /// How many instructions there are without slices.
+    pub body: u32,
+    /// Where an activation is entered of which one parameter (or capture, after the parameters) has changed.
+    pub inputs: Vec<u32>,
+    /// Where an iteration is entered when one register of the loop node above has changed, by its number.
+    pub outers: Vec<u32>,
     /// Where each instruction comes from.
     pub spans: Vec<Span>,
     /// Operand lists.

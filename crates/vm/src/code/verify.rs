@@ -68,7 +68,7 @@ fn function<S: Scalar>(program: &Program<S>, f: &Function<S>, outer: usize) -> R
     };
     let mut seen = vec![false; f.sites.len()];
     for (at, op) in f.code.iter().enumerate() {
-        if let Op::Site { site } = *op {
+        if let (Op::Site { site }, true) = (*op, at < f.body as usize) {
             let Some(seen) = seen.get_mut(site.0 as usize) else { return fail(at, "no such site") };
             if std::mem::replace(seen, true) {
                 return fail(at, "a site at two places");
@@ -91,6 +91,10 @@ fn function<S: Scalar>(program: &Program<S>, f: &Function<S>, outer: usize) -> R
             return fail(at, "a write to something that is no register");
         }
         match *op {
+            Op::Done | Op::Pass { .. } if at < f.body as usize => return fail(at, "a slice's end elsewhere"),
+            Op::Pass { site, .. } | Op::Site { site } if site.0 as usize >= f.sites.len() => {
+                return fail(at, "no such site");
+            }
             Op::Jump { target }
             | Op::JumpIf { target, .. }
             | Op::JumpUnless { target, .. }
@@ -118,8 +122,16 @@ fn function<S: Scalar>(program: &Program<S>, f: &Function<S>, outer: usize) -> R
             _ => {}
         }
     }
-    match f.code.last() {
-        Some(Op::Return { .. } | Op::ReturnIteration { .. } | Op::Jump { .. }) => Ok(()),
+    let starts = f.sites.iter().map(|site| site.again).chain(f.inputs.iter().chain(&f.outers).copied());
+    if starts.into_iter().any(|start| start as usize >= f.code.len()) {
+        return fail(f.code.len(), "no such slice");
+    }
+    // Slices end as the code does, or by being done.
+    match (f.code.get((f.body as usize).wrapping_sub(1)), f.code.last()) {
+        (
+            Some(Op::Return { .. } | Op::ReturnIteration { .. } | Op::Jump { .. }),
+            Some(Op::Return { .. } | Op::ReturnIteration { .. } | Op::Jump { .. } | Op::Done),
+        ) => Ok(()),
         _ => fail(f.code.len(), "control can run off the end"),
     }
 }

@@ -63,6 +63,28 @@ impl<S: Scalar> Machine<'_, S> {
                 (to, Value::Dist(Arc::new(builtins::make_dist(family, &self.buffer)?)))
             }
             Op::Unpack { from, to } => {
+                let names = &f.operands[to.range()];
+                if let Value::Tuple(tuple) = r.get(state, &self.scratch, from)
+                    && tuple.items().len() == names.len()
+                    && !names.contains(&from)
+                {
+                    // Read where it lies: none of its elements comes to lie there.
+                    for (k, o) in names.iter().enumerate() {
+                        let Value::Tuple(tuple) = r.get(state, &self.scratch, from) else { continue };
+                        match &tuple.items()[k] {
+                            // Most are numbers, and go over as one word.
+                            Value::Real(x) if !(K::KEEPS && o.is_node()) => {
+                                let x = *x;
+                                r.slot(state, &mut self.scratch, *o).store_real(x);
+                            }
+                            item => {
+                                let item = item.clone();
+                                put(keep, state, &mut self.scratch, r, *o, item);
+                            }
+                        }
+                    }
+                    return Ok(());
+                }
                 let value = r.get(state, &self.scratch, from).clone();
                 let n = iter_len(&value)?;
                 if n != to.len as usize {

@@ -230,11 +230,16 @@ impl<S: Scalar> Machine<'_, S> {
                     }
                 }
                 Op::Site { site: number } if K::KEEPS => {
+                    keep.at(pc);
                     match keep.site(self, state, answers, r!(), node, number) {
                         Ok(After::Next) => {}
-                        Ok(After::Enter(inner)) => {
+                        Ok(After::Enter(inner, at)) => {
                             step!();
-                            enter!(inner, 0);
+                            enter!(inner, at);
+                        }
+                        Ok(After::Goto(next)) => {
+                            pc = next as usize;
+                            continue;
                         }
                         Ok(After::Pure { function, to, .. }) => call_pure!(function, to, false),
                         Ok(After::Stop(stop)) => return Ok(stop),
@@ -265,9 +270,13 @@ impl<S: Scalar> Machine<'_, S> {
                         }
                         _ => match check!(self.suspend(state, answers, future, node, r!(), number, pc)) {
                             After::Next => {}
-                            After::Enter(inner) => {
+                            After::Enter(inner, at) => {
                                 step!();
-                                enter!(inner, 0);
+                                enter!(inner, at);
+                            }
+                            After::Goto(next) => {
+                                pc = next as usize;
+                                continue;
                             }
                             After::Pure { function, to, as_future } => call_pure!(function, to, as_future),
                             After::Stop(stop) => return Ok(stop),
@@ -348,7 +357,7 @@ impl<S: Scalar> Machine<'_, S> {
                         continue;
                     }
                     let next = if K::KEEPS {
-                        keep.give_back(self, state, node, value)
+                        keep.give_back(self, state, node, value).place()
                     } else {
                         self.give_back(state, future, node, value)
                     };
@@ -365,7 +374,7 @@ impl<S: Scalar> Machine<'_, S> {
                 Op::ReturnIteration { exit: kind, args } => {
                     let kind = i64::from(kind);
                     if K::KEEPS {
-                        match check!(keep.end_iteration(self, state, r!(), node, kind, args)) {
+                        match check!(keep.end_iteration(self, state, r!(), node, kind, args)).place() {
                             Some((next, at)) => {
                                 step!();
                                 enter!(next, at);
@@ -384,6 +393,24 @@ impl<S: Scalar> Machine<'_, S> {
                     gather!(args);
                     let (parent, next) = self.end_loop(state, node, kind);
                     enter!(parent, next);
+                }
+                Op::Pass { site, arg } => {
+                    if K::KEEPS {
+                        keep.at(pc);
+                        if let After::Enter(inner, at) = keep.pass(self, state, r!(), node, site, arg) {
+                            step!();
+                            enter!(inner, at);
+                        }
+                    }
+                }
+                Op::Done => {
+                    if K::KEEPS {
+                        if let Some((next, at)) = check!(keep.done(self, state, node)).place() {
+                            enter!(next, at);
+                        }
+                        keep.count(executed);
+                        return Ok(Stop::Returned);
+                    }
                 }
                 op => check!(self.construct(state, keep, r!(), op)),
             }

@@ -14,6 +14,27 @@ use crate::fault::Fault;
 use crate::value::Value;
 use niwaki_math::Scalar;
 
+/// Where a run goes on: at an instruction of an activation, or nowhere. One word, so that it is returned in a register.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Onward(u64);
+
+impl Onward {
+    /// The run is over.
+    pub const END: Onward = Onward(u64::MAX);
+
+    /// At that instruction.
+    #[inline(always)]
+    pub fn at(node: NodeId, pc: u32) -> Onward {
+        Onward(u64::from(node.0) << 32 | u64::from(pc))
+    }
+
+    /// Where, unless the run is over.
+    #[inline(always)]
+    pub fn place(self) -> Option<(NodeId, u32)> {
+        (self != Onward::END).then_some((NodeId((self.0 >> 32) as u32), self.0 as u32))
+    }
+}
+
 /// How activations live. Nothing but `KEEPS` is asked where they are dropped.
 pub(super) trait Keep<S: Scalar>: Sized {
     /// Whether they are kept.
@@ -24,6 +45,9 @@ pub(super) trait Keep<S: Scalar>: Sized {
 
     /// Writes a register of the activation in hand.
     fn write(&mut self, state: &mut State<S>, place: usize, value: Value<S>);
+
+    /// The instruction in hand.
+    fn at(&mut self, pc: usize);
 
     /// Carries out a site.
     #[allow(clippy::too_many_arguments)] // the registers of the loop in `interpret`, by value
@@ -47,7 +71,7 @@ pub(super) trait Keep<S: Scalar>: Sized {
         state: &mut State<S>,
         node: NodeId,
         value: Value<S>,
-    ) -> Option<(NodeId, u32)>;
+    ) -> Onward;
 
     /// An iteration ends: where to go on, unless the run is over.
     fn end_iteration(
@@ -58,7 +82,26 @@ pub(super) trait Keep<S: Scalar>: Sized {
         node: NodeId,
         exit: i64,
         carried: Args,
-    ) -> Result<Option<(NodeId, u32)>, Fault>;
+    ) -> Result<Onward, Fault>;
+
+    /// A call that was made before, of whose arguments only that one may have changed.
+    fn pass(
+        &mut self,
+        machine: &Machine<'_, S>,
+        state: &mut State<S>,
+        r: Registers<'_, S>,
+        node: NodeId,
+        number: SiteId,
+        arg: u16,
+    ) -> After;
+
+    /// An activation leaves what it left before: where to go on, unless the run is over.
+    fn done(
+        &mut self,
+        machine: &mut Machine<'_, S>,
+        state: &mut State<S>,
+        node: NodeId,
+    ) -> Result<Onward, Fault>;
 
     /// So many instructions were carried out.
     fn count(&mut self, instructions: u64);
@@ -91,6 +134,8 @@ impl<S: Scalar> Keep<S> for Dropped {
 
     fn write(&mut self, _: &mut State<S>, _: usize, _: Value<S>) {}
 
+    fn at(&mut self, _: usize) {}
+
     fn site<A: Answers<S>>(
         &mut self,
         _: &mut Machine<'_, S>,
@@ -105,14 +150,8 @@ impl<S: Scalar> Keep<S> for Dropped {
 
     fn clear(&mut self, _: &Machine<'_, S>, _: &mut State<S>, _: NodeId, _: u16, _: u16) {}
 
-    fn give_back(
-        &mut self,
-        _: &Machine<'_, S>,
-        _: &mut State<S>,
-        _: NodeId,
-        _: Value<S>,
-    ) -> Option<(NodeId, u32)> {
-        None
+    fn give_back(&mut self, _: &Machine<'_, S>, _: &mut State<S>, _: NodeId, _: Value<S>) -> Onward {
+        Onward::END
     }
 
     fn end_iteration(
@@ -123,8 +162,24 @@ impl<S: Scalar> Keep<S> for Dropped {
         _: NodeId,
         _: i64,
         _: Args,
-    ) -> Result<Option<(NodeId, u32)>, Fault> {
-        Ok(None)
+    ) -> Result<Onward, Fault> {
+        Ok(Onward::END)
+    }
+
+    fn pass(
+        &mut self,
+        _: &Machine<'_, S>,
+        _: &mut State<S>,
+        _: Registers<'_, S>,
+        _: NodeId,
+        _: SiteId,
+        _: u16,
+    ) -> After {
+        After::Next
+    }
+
+    fn done(&mut self, _: &mut Machine<'_, S>, _: &mut State<S>, _: NodeId) -> Result<Onward, Fault> {
+        Ok(Onward::END)
     }
 
     fn count(&mut self, _: u64) {}

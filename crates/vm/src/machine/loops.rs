@@ -48,7 +48,7 @@ impl<S: Scalar> Machine<'_, S> {
         if state.bytes() > self.limits.bytes {
             return Err(self.out_of_memory());
         }
-        Ok(After::Enter(inner))
+        Ok(After::Enter(inner, 0))
     }
 
     /// Begins the next iteration in the node of the last one; false when that was the last of all.

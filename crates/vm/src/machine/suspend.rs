@@ -14,8 +14,10 @@ use niwaki_math::Scalar;
 pub(super) enum After {
     /// At the next instruction.
     Next,
-    /// In a new activation.
-    Enter(NodeId),
+    /// In another activation, at that instruction.
+    Enter(NodeId, u32),
+    /// At another instruction of this one.
+    Goto(u32),
     /// In a pure function, its arguments in the buffer.
     Pure { function: FunctionId, to: Operand, as_future: bool },
     /// Not now.
@@ -242,7 +244,7 @@ impl<S: Scalar> Machine<'_, S> {
         if state.bytes() > self.limits.bytes {
             return Err(self.out_of_memory());
         }
-        let Some(detached) = deferred else { return Ok(After::Enter(made)) };
+        let Some(detached) = deferred else { return Ok(After::Enter(made, 0)) };
         if state.origins.is_some() {
             let above = state.path(self.program, node);
             let origin =

@@ -153,6 +153,9 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
             node_registers: 0,
             scratch_registers: 0,
             code: self.code,
+            body: 0,
+            inputs: vec![],
+            outers: vec![],
             spans: self.spans,
             operands: self.operands,
             constants: self.constants,
@@ -160,6 +163,7 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
             sites: self.sites,
         };
         place::place(&mut f, self.registers);
+        super::slices::slice(&mut f);
         Ok(f)
     }
 

@@ -1,11 +1,12 @@
-//! Core form to bytecode, in five steps:
+//! Core form to bytecode, in six steps:
 //!
 //! 1. [`effects`]: which functions can suspend (the others are pure);
 //! 2. [`collections`]: which lists hold references to what their elements are made from;
 //! 3. [`liveness`]: what a loop must hand from one iteration to the next;
 //! 4. `emit`, `expressions`, `sites`, `statements`: one walk over each function; static single assignment with
 //!    merges written by each arm; loops that can suspend are *lifted* into functions of their own;
-//! 5. `place`: which registers live in the node and which are scratch, by liveness on bytecode.
+//! 5. `place`: which registers live in the node and which are scratch, by liveness on bytecode;
+//! 6. `slices`: what one changed value can reach.
 
 pub mod collections;
 pub mod effects;
@@ -15,6 +16,7 @@ pub mod liveness;
 mod place;
 pub(crate) use place::reads_and_writes;
 mod sites;
+mod slices;
 mod statements;
 
 use crate::code::{Function, FunctionId, Mode, Program, verify};

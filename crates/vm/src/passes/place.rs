@@ -56,7 +56,11 @@ pub(crate) fn reads_and_writes<S: Scalar>(f: &Function<S>, op: &Op) -> (Vec<Oper
         | Op::Host { to, args, .. }
         | Op::CallPure { to, args, .. } => (run(args), vec![to]),
         Op::Unpack { from, to } | Op::UnpackStar { from, to, .. } => (vec![from], run(to)),
-        Op::Jump { .. } | Op::Clear { .. } => (vec![], vec![]),
+        Op::Jump { .. } | Op::Clear { .. } | Op::Done => (vec![], vec![]),
+        Op::Pass { site, arg } => {
+            let args = f.sites[site.0 as usize].args;
+            (vec![f.operands[args.start as usize + arg as usize]], vec![])
+        }
         Op::JumpIf { a, .. } | Op::JumpUnless { a, .. } | Op::CheckSet { a, .. } | Op::Return { a } => {
             (vec![a], vec![])
         }
@@ -144,6 +148,10 @@ pub(crate) fn place<S: Scalar>(f: &mut Function<S>, registers: usize) {
             );
             if read_again {
                 f.operands[s.args.range()].iter().for_each(|o| node.set(*o));
+            }
+            // What a loop runs over is kept, so that it need not be made again to see that it is the same.
+            if let SiteKind::Loop(l) = &s.kind {
+                l.over.into_iter().for_each(|over| node.set(over));
             }
             let unread = !after[at].has(s.to);
             f.sites[site.0 as usize].is_read = !unread;
@@ -258,7 +266,12 @@ fn rewrite<S: Scalar>(f: &mut Function<S>, map: impl Fn(Operand) -> Operand) {
                 (*to, *over, *index, *length) = (map(*to), map(*over), map(*index), map(*length));
             }
             Op::Assert { a, message } => (*a, *message) = (map(*a), map(*message)),
-            Op::Jump { .. } | Op::ReturnIteration { .. } | Op::Site { .. } | Op::Clear { .. } => {}
+            Op::Jump { .. }
+            | Op::ReturnIteration { .. }
+            | Op::Site { .. }
+            | Op::Clear { .. }
+            | Op::Pass { .. }
+            | Op::Done => {}
         }
     }
 }

@@ -207,7 +207,17 @@ impl<S: Scalar> Builder<'_, '_, S> {
             (None, n) => Name::from(format!("{named}#{n}")),
         };
         let key = address::site_key(&key.0, key.1);
-        self.sites.push(Site { kind, to, is_read: true, args, key, label, span: self.span, next: 0 });
+        self.sites.push(Site {
+            kind,
+            to,
+            is_read: true,
+            args,
+            key,
+            label,
+            span: self.span,
+            next: 0,
+            again: 0,
+        });
         self.op(Op::Site { site: crate::code::SiteId((self.sites.len() - 1) as u16) });
         Ok(to)
     }

@@ -98,12 +98,17 @@ pub fn len<S: Scalar>(value: &Value<S>) -> Result<usize, Fault> {
 /// `x[i]`.
 #[inline]
 pub fn index<S: Scalar>(value: &Value<S>, at: &Value<S>) -> Result<Value<S>, Fault> {
-    if let (Value::List(list), Value::Int(n)) = (value, at)
-        && let Some(item) = place(*n, list.len()).and_then(|at| list.get(at))
-    {
-        return Ok(item.clone());
+    let item = match (value, at) {
+        (Value::List(list), Value::Int(n)) => place(*n, list.len()).and_then(|at| list.get(at)),
+        (Value::Tuple(tuple), Value::Int(n)) => {
+            place(*n, tuple.items().len()).and_then(|at| tuple.items().get(at))
+        }
+        _ => None,
+    };
+    match item {
+        Some(item) => Ok(item.clone()),
+        None => index_others(value, at),
     }
-    index_others(value, at)
 }
 
 /// A position from the front, for one that may count from the back; `None` outside.
@@ -117,9 +122,8 @@ fn index_others<S: Scalar>(value: &Value<S>, at: &Value<S>) -> Result<Value<S>, 
     if let Value::Dict(dict) = value {
         return dict.get(at).cloned().ok_or_else(|| missing_key(at));
     }
-    let kind = value.described();
     let Some(len) = length(value) else {
-        return Err(Fault::type_mismatch(format!("cannot take an element of {kind}")));
+        return Err(Fault::type_mismatch(format!("cannot take an element of {}", value.described())));
     };
     let n = match Number::of(at) {
         Some(Number::Int(n)) => n,
@@ -130,7 +134,7 @@ fn index_others<S: Scalar>(value: &Value<S>, at: &Value<S>) -> Result<Value<S>, 
             );
         }
         None => {
-            let message = format!("cannot take the element of {kind} at {}", at.described());
+            let message = format!("cannot take the element of {} at {}", value.described(), at.described());
             return Err(Fault::type_mismatch(message));
         }
     };
@@ -258,17 +262,23 @@ pub fn contains<S: Scalar>(value: &Value<S>, item: &Value<S>) -> Result<bool, Fa
 
 /// `value.name`: a record's field or a vector's component.
 pub fn field<S: Scalar>(value: &Value<S>, name: &str) -> Result<Value<S>, Fault> {
-    let (found, has) = match value {
-        Value::Record(record) => (record.field(name).cloned(), record.class.fields.join(", ")),
-        Value::Vector(v) => {
-            (v.field(name).map(Value::Real), ["x", "y", "z", "w"][..v.components().len()].join(", "))
-        }
-        _ => (None, String::new()),
+    let found = match value {
+        Value::Record(record) => record.field(name).cloned(),
+        Value::Vector(v) => v.field(name).map(Value::Real),
+        _ => None,
     };
-    found.ok_or_else(|| {
-        let fault = Fault::missing_field(format!("{} has no field `{name}`", value.described()));
-        if has.is_empty() { fault } else { fault.with_help(format!("it has {has}")) }
-    })
+    found.ok_or_else(|| no_field(value, name))
+}
+
+#[cold]
+fn no_field<S: Scalar>(value: &Value<S>, name: &str) -> Fault {
+    let fault = Fault::missing_field(format!("{} has no field `{name}`", value.described()));
+    let has = match value {
+        Value::Record(record) => record.class.fields.join(", "),
+        Value::Vector(v) => ["x", "y", "z", "w"][..v.components().len()].join(", "),
+        _ => String::new(),
+    };
+    if has.is_empty() { fault } else { fault.with_help(format!("it has {has}")) }
 }
 
 #[cold]

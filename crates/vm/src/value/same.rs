@@ -110,8 +110,11 @@ fn glance_behind<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Glance {
         (Value::Range(a), Value::Range(b)) => ((a.start, a.stop, a.step) == (b.start, b.stop, b.step)).into(),
         (Value::Shape(a), Value::Shape(b)) => same_shape(a, b).into(),
         (Value::Dist(a), Value::Dist(b)) => (Arc::ptr_eq(a, b) || same_dist(a, b)).into(),
-        (Value::Tuple(a), Value::Tuple(b)) => look_if(a.ptr_eq(b), a.items().len() == b.items().len()),
-        (Value::List(a), Value::List(b)) => look_if(a.ptr_eq(b), a.len() == b.len()),
+        (Value::Tuple(a), Value::Tuple(b)) => look_if(a.ptr_eq(b), may_be_same(a.items(), b.items())),
+        (Value::List(a), Value::List(b)) => look_if(
+            a.ptr_eq(b),
+            a.len() == b.len() && !a.get(0).zip(b.get(0)).is_some_and(|(a, b)| are_other_numbers(a, b)),
+        ),
         (Value::Dict(a), Value::Dict(b)) => look_if(Arc::ptr_eq(a, b), a.len() == b.len()),
         (Value::Record(a), Value::Record(b)) => {
             look_if(Arc::ptr_eq(a, b), a.class.id == b.class.id && a.fields.len() == b.fields.len())
@@ -121,6 +124,22 @@ fn glance_behind<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Glance {
         }
         _ => Glance::Different,
     }
+}
+
+/// Two numbers that are not the same: most lists and tuples that differ do so in what comes first.
+#[inline]
+fn are_other_numbers<S: Scalar>(a: &Value<S>, b: &Value<S>) -> bool {
+    match (a, b) {
+        (Value::Real(a), Value::Real(b)) => !same_scalar(*a, *b),
+        (Value::Int(a), Value::Int(b)) => a != b,
+        _ => false,
+    }
+}
+
+/// Whether nothing tells two tuples apart at once.
+#[inline]
+fn may_be_same<S: Scalar>(a: &[Value<S>], b: &[Value<S>]) -> bool {
+    a.len() == b.len() && !a.iter().zip(b).take(4).any(|(a, b)| are_other_numbers(a, b))
 }
 
 /// [`same`] with a budget of elements.

@@ -5,6 +5,7 @@ mod chain;
 mod programs;
 
 use chain::{Chain, fresh_totals};
+use niwaki_vm::code::Op;
 use niwaki_vm::machine::kept::Strategy;
 use programs::{PROGRAMS, compiled};
 
@@ -50,6 +51,40 @@ fn a_block_of_changes_agrees_with_a_rerun() {
             assert_eq!(fresh_totals(&program, &a), b.trace.totals(), "{name}, seed {seed}: sums");
         }
     }
+}
+
+/// Mutants: a slice that ends one instruction early leaves something as it was before. Some of what it leaves out has
+/// no consequence (a query tells what lies in registers; an argument that never changes alone), most has.
+#[test]
+fn a_slice_that_leaves_out_an_instruction_is_found_out() {
+    let program = compiled(
+        r#"(module
+          (fn "line" (params $n $a0 $sy)
+            (set $t (mul 0.25 $n))
+            (set $a (sample (dist gaussian $a0 1.0)))
+            (set $b (sample (dist gaussian $t 1.0)))
+            (do (observe (dist gaussian (add $a $b) $sy) $t))
+            (return (tuple $a $n)))
+          (fn "m" (params)
+            (set $a0 (sample (dist gaussian 0.0 2.0))) (set $sy (sample (dist uniform 0.5 2.0)))
+            (for $i (range 3) (body
+              (set $one (call "line" $i $a0 $sy))
+              (do (factor (mul -0.1 (index $one 0))))))) (entry "m"))"#,
+    );
+    let (mut mutants, mut found) = (0, 0);
+    for f in 0..program.functions.len() {
+        let slices = program.functions[f].body as usize..program.functions[f].code.len();
+        for at in slices.filter(|at| program.functions[f].code[*at] != Op::Done) {
+            let mut mutant = program.clone();
+            mutant.functions[f].code[at] = Op::Done;
+            let mut rerun = Chain::start(&program, Strategy::Rerun, 3);
+            let mut mutated = Chain::start(&mutant, Strategy::C3, 3);
+            let differs = (0..300).any(|step| rerun.step(step) != mutated.step(step));
+            mutants += 1;
+            found += usize::from(differs || fresh_totals(&program, &mutated) != mutated.trace.totals());
+        }
+    }
+    assert!(mutants > 10 && found * 4 > mutants * 3, "{found} of {mutants}");
 }
 
 #[test]

@@ -238,4 +238,60 @@ pub const PROGRAMS: &[(&str, &str)] = &[
             (return (tuple $s (append (index $before 1) $s))))
           (fn "m" (params) (return (call "h" 7))) (entry "m"))"#,
     ),
+    (
+        "much that does not depend on what changed",
+        r#"(module
+          (fn "half" (params $x) (return (mul $x 0.5)))
+          (fn "line" (params $n $a0 $sa $sy $w)
+            (set $t (mul 0.25 $n))
+            (set $a (sample (dist gaussian $a0 $sa)))
+            (set $u (add $t 1.0))
+            (set $b (sample (dist gaussian 0.0 $u)))
+            (if (gt $n 2) (then (set $t (add $t $b))) (else (do (factor (mul -0.1 $u)))))
+            (set $v (add $u $t))
+            (set $c (sample (dist gaussian (call "half" $v) 1.0)))
+            (for $j (range 3) (body (set $v (add $v $j))))
+            (for $p (zip (list 0.1 0.2 0.3) (list $v 1.0 $w)) (body (unpack ($x $y) $p)
+              (do (observe (dist gaussian (add $a (mul $b $x)) $sy) $y))))
+            (do (query $n (tuple $u $c)))
+            (if (gt $c 2.0) (then (return (tuple $n $c))))
+            (do (observe (dist gaussian $c $sy) (mul $w $u)))
+            (return (tuple $a $n)))
+          (fn "m" (params)
+            (set $a0 (sample (dist gaussian 0.0 2.0)))
+            (set $sa (sample (dist uniform 0.5 2.0)))
+            (set $sy (sample (dist uniform 0.5 2.0)))
+            (set $k (sample (dist categorical (list 0.5 0.5))))
+            (set $lines (list)) (set $w 0.0)
+            (for $i (range 5) (body
+              (set $one (call "line" (add $i (mul 2 $k)) $a0 $sa $sy $w))
+              (set $w (mul 0.1 (index $one 0)))
+              (set $lines (append $lines $one))
+              (do (call "line" $i 0.5 $sa $sy 0.0))))
+            (return (tuple $lines $w))) (entry "m"))"#,
+    ),
+    (
+        "a choice that is drawn anew in the middle of what is left out",
+        r#"(module
+          (fn "f" (params $c $x $n)
+            (set $d (cond $c (dist delta $x) (dist gaussian $x 1.0)))
+            (set $y (sample $d))
+            (set $z (sample (dist gaussian 0.0 1.0)))
+            (set $e (add $y $z))
+            (do (observe (dist gaussian $e 1.0) $n))
+            (set $q (sample (dist dirichlet (cond $c (list 1.0 1.0) (list 1.0 2.0 1.0)))))
+            (return (add $e (index $q 1))))
+          (fn "m" (params)
+            (set $c (sample (dist bernoulli 0.5)))
+            (set $x (sample (dist gaussian 0.0 1.0)))
+            (set $s 0.0)
+            (for $i (range 4) (body
+              (set $r (call "f" $c $x $i))
+              (do (observe (dist gaussian $r 2.0) 0.1))
+              (set $s (add $s (sample (dist uniform 0.0 1.0))))))
+            (set $n 0)
+            (while (lt $n 3) (body (set $x (add $x (sample (dist gaussian $x 0.5)))) (set $n (add $n 1))
+              (do (call "f" (gt $x 0.0) $s $n))))
+            (return (tuple $s $x))) (entry "m"))"#,
+    ),
 ];

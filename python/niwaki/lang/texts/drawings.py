@@ -53,4 +53,12 @@ DRAWINGS = (
         example='lightness = [["wall", "roof"], ["roof", "wall"]]',
         cure='lightness = [["wall", "roof"]]',
     ),
+    Message(
+        "rules-pin-all",
+        "nothing is left to color: all {count} regions are pinned",
+        why="a pinned colour does not change, and each region of this drawing has one",
+        help="leave out a region of `[pinned]`",
+        example='[pinned]\nroof = "#702020"\nwall = "#e8d9b0"  # and no other regions',
+        cure='[pinned]\nroof = "#702020"',
+    ),
 )

@@ -107,14 +107,6 @@ INPUTS = (
         cure="a ship that starts beside it",
     ),
     Message(
-        "impossible-start",
-        "the run that the chain starts from is impossible",
-        why="a chain goes from one possible run to another, so its first must have a score",
-        help="start it from a run that the model can make, or leave `start` out",
-        example="particle_gibbs(start=a sample that breaks a condition)",
-        cure="particle_gibbs(start=result.best)",
-    ),
-    Message(
         "not-enumerable",
         "not every choice of the model can be listed",
         why="an exact answer visits every value of every choice, so each needs a finite list of them",

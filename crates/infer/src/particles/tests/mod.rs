@@ -20,8 +20,9 @@ mod annealed;
 mod chains;
 mod rejuvenated;
 mod several;
+mod walking;
 
-pub(super) use rejuvenated::complete_score;
+pub(super) use rejuvenated::{complete_score, own_ending};
 
 /// Deliberate errors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,6 +55,10 @@ pub enum Mutant {
     EndsLate,
     /// Changed values do not reach the suspended activations.
     StateStays,
+    /// A particle that has ended is moved at every barrier that there still is, among runs with as many barriers as it has.
+    MovesOn,
+    /// Walks start from the best particles, and not from particles drawn by weight.
+    StartsAtBest,
 }
 
 /// What a mutant does to a particle after resampling.

@@ -7,8 +7,10 @@
 //! fewer than 10 times are left out), so a re-seeded suite fails once in 5,000 runs.
 
 use super::super::population::Population;
+use super::super::rejuvenation::Round;
 use super::*;
 use crate::chain::kernel::Kernel;
+use crate::chain::state::State as ChainState;
 use crate::forward::Forward;
 use crate::record::Record;
 use niwaki_math::StreamKey;
@@ -71,7 +73,13 @@ pub fn complete_score(task: &Task, machine: &mut Machine<'_>, state: &State, str
     record.log_score().max(-50.0)
 }
 
-fn every_kind() -> Kernel {
+/// How many barriers a run that has ended must keep: where it moves on, as many as it has.
+pub fn own_ending(ending: Option<usize>, state: &ChainState, round: &Round<'_>) -> Option<usize> {
+    let own = state.primitives + state.trace.totals().factors;
+    ending.map(|n| if round.settings.is(Mutant::MovesOn) { own } else { n })
+}
+
+pub fn every_kind() -> Kernel {
     let block = Kernel::Block { step: 0.5, share: 0.5, target: 0.3 };
     Kernel::Mixture(vec![
         (2.0, Kernel::Prior),
@@ -84,7 +92,7 @@ fn every_kind() -> Kernel {
 }
 
 fn rejuvenation(kernel: Kernel, moves: u64, at: Moment) -> Option<Rejuvenation> {
-    Some(Rejuvenation { kernel, moves, at })
+    Some(Rejuvenation { kernel, moves, at, walks: None })
 }
 
 /// A run as text: in order while it runs, as a set once it has ended.
@@ -92,9 +100,9 @@ fn text(p: &Particle) -> String {
     let one = |e: &crate::log::Entry| format!("{:x}={}", e.address(), repr(&e.value).unwrap());
     let entries = p.record.log.entries();
     if !p.state.has_ended() {
-        return entries.iter().map(|e| if e.is_order { format!("!{}", one(e)) } else { one(e) }).collect();
+        return entries.iter().map(|e| if e.is_order() { format!("!{}", one(e)) } else { one(e) }).collect();
     }
-    let mut own: Vec<String> = entries.iter().filter(|e| !e.is_order).map(one).collect();
+    let mut own: Vec<String> = entries.iter().filter(|e| !e.is_order()).map(one).collect();
     own.sort();
     format!("ended {}", own.concat())
 }
@@ -229,6 +237,33 @@ fn mutants_are_seen_in_the_final_set() {
     assert!(caught, "WholeScore passes");
     // Once only, as its log no longer leads to where it is.
     assert!(scores(MORE[2].1, Mutant::StateStays, 1, 2) > LIMIT, "StateStays passes");
+}
+
+/// Runs that end at once, with a good or a bad score, and a few that go on: whether there is a second barrier depends on
+/// who was good, and so must not decide who is moved.
+const SOON: &str = r#"(module (fn "m" (params)
+    (set $a (sample (dist categorical (list 0.15 0.15 0.35 0.35))))
+    (do (factor (index (list 0.4 0.9 2.0 -1.0) $a)))
+    (if (lt $a 2) (then (set $b (sample (dist bernoulli 0.5))) (do (factor (cond $b -0.5 0.2)))
+       (set $c (sample (dist bernoulli 0.5))) (do (factor (cond $c 0.3 -0.4)))))
+    (return $a)) (entry "m"))"#;
+
+/// Two particles, so that one decides much about the other.
+#[test]
+fn who_is_moved_must_not_depend_on_the_others() {
+    let scores = |mutant| {
+        let settings = Settings {
+            particles: 2,
+            rejuvenate: rejuvenation(Kernel::Prior, 1, Moment::Every(1)),
+            mutant,
+            ..settings(Order::Stochastic, Resampling::Systematic)
+        };
+        z_scores(&task(SOON), &settings, 0..100_000)
+    };
+    let right = scores(None);
+    assert!(worst(&right) < LIMIT, "{right:?}");
+    let wrong = scores(Some(Mutant::MovesOn));
+    assert!(worst(&wrong) > LIMIT, "{wrong:?}");
 }
 
 #[test]

@@ -2,10 +2,12 @@
 
 use super::super::Machine;
 use super::super::address::join;
+use super::super::keep::Onward;
 use super::super::question::Halt;
 use super::super::registers::Registers;
 use super::super::state::{NodeId, State};
 use super::super::suspend::After;
+use super::part::Entry;
 use super::{Kept, Slot, Step};
 use crate::code::{FunctionId, Mode, Program, Site, SiteId, SiteKind};
 use crate::fault::Fault;
@@ -40,26 +42,27 @@ impl<S: Scalar> Kept<S> {
                 let value = r.get(state, &machine.scratch, *o).clone();
                 state.registers[to + i].store(value);
             }
-            return Ok(self.enter_call(made));
+            return Ok(self.enter_call(made, 0));
         }
         let child = NodeId(held);
         let to = state.nodes[held as usize].registers as usize;
-        let mut changed = false;
+        let mut changed = Entry::Unchanged;
         if !self.sites.is_on(state.nodes[node.0 as usize].function, u32::from(number.0)) {
             for (i, o) in operands.iter().enumerate() {
                 let value = r.get(state, &machine.scratch, *o).clone();
                 let old = std::mem::replace(&mut state.registers[to + i], value);
                 self.journal.registers.push(((to + i) as u32, old));
             }
-            return Ok(self.enter_call(child));
+            return Ok(self.enter_call(child, 0));
         }
+        let inputs = &machine.program.function(function).inputs;
         for (i, o) in operands.iter().enumerate() {
             let value = r.get(state, &machine.scratch, *o);
             if !same(value, &state.registers[to + i]) {
                 let value = value.clone();
                 let old = std::mem::replace(&mut state.registers[to + i], value);
                 self.journal.registers.push(((to + i) as u32, old));
-                changed = true;
+                changed.add(inputs[i]);
             }
         }
         Ok(self.call_again(state, child, changed))
@@ -85,9 +88,12 @@ impl<S: Scalar> Kept<S> {
         let held = self.slots[at].held;
         if held != Slot::NOTHING && state.nodes[held as usize].function == function {
             let to = state.nodes[held as usize].registers as usize;
-            let mut changed = false;
+            let mut changed = Entry::Unchanged;
+            let inputs = &machine.program.function(function).inputs;
             for (i, value) in machine.buffer.drain(..).enumerate() {
-                changed |= self.write_to(state, false, to + i, value);
+                if self.write_to(state, false, to + i, value) {
+                    changed.add(inputs[i]);
+                }
             }
             return Ok(self.call_again(state, NodeId(held), changed));
         }
@@ -97,7 +103,7 @@ impl<S: Scalar> Kept<S> {
         for (i, value) in machine.buffer.drain(..).enumerate() {
             state.registers[to + i].store(value);
         }
-        Ok(self.enter_call(made))
+        Ok(self.enter_call(made, 0))
     }
 
     #[allow(clippy::too_many_arguments)] // the registers of the loop in `interpret`, by value
@@ -122,9 +128,9 @@ impl<S: Scalar> Kept<S> {
 
     /// A call that was made before: entered, unless it can be skipped. Its result is in the caller's register.
     #[inline]
-    fn call_again(&mut self, state: &State<S>, child: NodeId, changed: bool) -> After {
+    pub(super) fn call_again(&mut self, state: &State<S>, child: NodeId, changed: Entry) -> After {
         let (function, site) = Kept::caller(state, child);
-        if !changed && self.reuse && !self.is_marked(child) {
+        if changed == Entry::Unchanged && self.reuse && !self.is_marked(child) {
             self.sites.paid(function, site);
             self.counters.skipped += 1;
             self.note(Step::Skipped(child));
@@ -133,16 +139,17 @@ impl<S: Scalar> Kept<S> {
         if self.reuse {
             self.sites.missed(function, site, self.now);
         }
-        self.enter_call(child)
+        self.enter_call(child, self.entry(changed))
     }
 
     #[inline]
-    fn enter_call(&mut self, child: NodeId) -> After {
+    fn enter_call(&mut self, child: NodeId, at: u32) -> After {
         self.leaves_its_activation();
         self.depth += 1;
+        self.returns.push(self.pc + 1);
         self.counters.entered += 1;
         self.note(Step::Entered(child));
-        After::Enter(child)
+        After::Enter(child, at)
     }
 
     /// An activation returns. The run ends when nothing that it left is changed.
@@ -152,7 +159,7 @@ impl<S: Scalar> Kept<S> {
         state: &mut State<S>,
         node: NodeId,
         value: Value<S>,
-    ) -> Option<(NodeId, u32)> {
+    ) -> Onward {
         self.note(Step::Unwound(node));
         let (parent, number) = {
             let n = &state.nodes[node.0 as usize];
@@ -163,7 +170,7 @@ impl<S: Scalar> Kept<S> {
                 let old = std::mem::replace(&mut self.result, value);
                 self.result_before.get_or_insert(old);
             }
-            return None;
+            return Onward::END;
         }
         let above = &state.nodes[parent.0 as usize];
         let (own, is_new) = (above.registers as usize, above.made == self.now);
@@ -175,14 +182,16 @@ impl<S: Scalar> Kept<S> {
         }
         if self.depth > 0 {
             self.depth -= 1;
-        } else if self.early && !changed {
-            return None;
-        } else {
-            self.leaves_its_activation();
-            self.counters.entered += 1;
-            self.note(Step::Entered(parent));
+            let next = self.returns.pop().unwrap_or(site.next);
+            return Onward::at(parent, if changed { site.next } else { next });
         }
-        Some((parent, site.next))
+        if self.early && !changed {
+            return Onward::END;
+        }
+        self.leaves_its_activation();
+        self.counters.entered += 1;
+        self.note(Step::Entered(parent));
+        Onward::at(parent, if self.early { site.again } else { site.next })
     }
 
     /// The site is not on the path taken: what its slot holds goes.

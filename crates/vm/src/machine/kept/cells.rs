@@ -16,8 +16,8 @@ use super::super::registers::Registers;
 use super::super::stack::RunFault;
 use super::super::state::{NodeId, State};
 use super::{Change, Kept, Slot, Trace};
-use crate::code::{Operand, Site, SiteKind};
-use crate::value::{Cell, List, Value, index, ops, same};
+use crate::code::{Operand, Site};
+use crate::value::{Cell, List, Value, index, ops};
 use niwaki_math::Scalar;
 
 /// A read of an element.
@@ -146,13 +146,37 @@ impl<S: Scalar> Kept<S> {
             Value::Cell(cell) => (state.registers[cell.register as usize].clone(), cell.readers),
             other => (other, Slot::UNWATCHED),
         };
-        if self.slots[slot].held != held {
+        let before = self.slots[slot];
+        if before.held != held {
             let reader = Reader { node, site: number, slot: slot as u32 };
-            self.journal.reads.push((reader, self.slots[slot].held));
-            self.subscribe(reader, held);
+            if before.is_filled() {
+                // Which list it stands in matters when an element changes, and when the transaction is kept: most are
+                // not.
+                if before.mark & Slot::MOVING == 0 {
+                    self.journal.moves.push((reader, before.held));
+                }
+                self.slots[slot] = Slot { held, mark: before.mark | Slot::MOVING, ..before };
+            } else {
+                self.journal.reads.push((reader, before.held));
+                self.subscribe(reader, held);
+            }
         }
         self.write_to(state, self.quiet, r.own + site.to.index(), value);
         Ok(())
+    }
+
+    /// Readers that read another element than before leave the lists in which they stand and enter those of their
+    /// elements.
+    pub(super) fn move_readers(&mut self) {
+        for i in 0..self.journal.moves.len() {
+            let (reader, before) = self.journal.moves[i];
+            let slot = &mut self.slots[reader.slot as usize];
+            let held = std::mem::replace(&mut slot.held, before);
+            slot.mark &= !Slot::MOVING;
+            self.journal.reads.push((reader, before));
+            self.subscribe(reader, held);
+        }
+        self.journal.moves.clear();
     }
 
     /// A reader leaves the list it stands in and enters another; `held` may say that there is none.
@@ -162,7 +186,8 @@ impl<S: Scalar> Kept<S> {
             let all = &mut self.readers[slot.held as usize].all;
             all.swap_remove(slot.mark as usize);
             if let Some(moved) = all.get(slot.mark as usize) {
-                self.slots[moved.slot as usize].mark = slot.mark;
+                let place = &mut self.slots[moved.slot as usize].mark;
+                *place = slot.mark | *place & Slot::MOVING;
             }
         }
         let mut mark = 0;
@@ -176,6 +201,7 @@ impl<S: Scalar> Kept<S> {
 
     /// An element has changed.
     fn wake(&mut self, state: &State<S>, id: usize) {
+        self.move_readers();
         if !self.reuse || self.readers[id].all.is_empty() {
             return;
         }
@@ -195,22 +221,6 @@ impl<S: Scalar> Kept<S> {
     #[inline(always)]
     pub(super) fn leaves_its_activation(&mut self) {
         self.tangled |= self.confined;
-    }
-
-    /// The first read of an activation whose element is not what it read: its site, and what it reads now.
-    fn stale_read(&self, machine: &Machine<'_, S>, state: &State<S>, node: NodeId) -> Option<(u16, u32)> {
-        let n = &state.nodes[node.0 as usize];
-        let f = machine.program.function(n.function);
-        f.sites.iter().enumerate().find_map(|(i, site)| {
-            if !matches!(site.kind, SiteKind::Read) {
-                return None;
-            }
-            let held = self.slots[n.slots as usize + i].held;
-            let register = self.readers.get(held as usize)?.register;
-            let place = n.registers as usize + site.to.index();
-            let stale = !same(&state.registers[register as usize], &state.registers[place]);
-            stale.then_some((i as u16, register))
-        })
     }
 
     /// The elements themselves, of a value that may be a collection.
@@ -242,16 +252,18 @@ impl<S: Scalar> Machine<'_, S> {
     ) -> Result<Option<Change>, Box<RunFault>> {
         while trace.kept.taken < trace.kept.woken.len() {
             let (state, kept) = (&mut trace.state, &mut trace.kept);
-            let Reader { node, .. } = kept.woken[kept.taken];
+            let Reader { node, site, slot } = kept.woken[kept.taken];
             kept.taken += 1;
-            let Some((site, register)) = kept.stale_read(self, state, node) else { continue };
+            let Some(readers) = kept.readers.get(kept.slots[slot as usize].held as usize) else { continue };
             let n = &state.nodes[node.0 as usize];
-            let (own, function) = (n.registers as usize, n.function);
-            let site = &self.program.function(function).sites[site as usize];
-            let value = state.registers[register as usize].clone();
-            kept.write_to(state, false, own + site.to.index(), value);
+            let site = &self.program.function(n.function).sites[site as usize];
+            let place = n.registers as usize + site.to.index();
+            let value = state.registers[readers.register as usize].clone();
+            if !kept.write_to(state, false, place, value) {
+                continue;
+            }
             let alone = kept.woken.len() == 1;
-            let next = site.next as usize;
+            let next = site.again as usize;
             let change = self.run_kept(trace, node, next, answers);
             if trace.kept.tangled {
                 return Ok(None);

@@ -27,6 +27,8 @@ pub(crate) struct Journal<S: Scalar> {
     pub deaths: Vec<u32>,
     /// Reads that went to another list of readers, and where they stood.
     pub reads: Vec<(Reader, u32)>,
+    /// Reads of another element than before, and the list in which they still stand.
+    pub moves: Vec<(Reader, u32)>,
     /// Lists of readers of cells that were made, and of those taken away.
     pub cells: Vec<u32>,
     pub dead_cells: Vec<u32>,
@@ -65,6 +67,7 @@ impl<S: Scalar> Default for Journal<S> {
             births: vec![],
             deaths: vec![],
             reads: vec![],
+            moves: vec![],
             cells: vec![],
             dead_cells: vec![],
             anew: vec![],
@@ -86,6 +89,7 @@ impl<S: Scalar> Journal<S> {
         self.births.clear();
         self.deaths.clear();
         self.reads.clear();
+        self.moves.clear();
         self.cells.clear();
         self.dead_cells.clear();
         self.anew.clear();

@@ -5,10 +5,12 @@
 
 use super::super::Machine;
 use super::super::address::{iteration_key, join};
+use super::super::keep::Onward;
 use super::super::registers::Registers;
 use super::super::state::{NodeId, State};
 use super::super::suspend::After;
 use super::journal::Cut;
+use super::part::Entry;
 use super::{Active, Kept, Slot, Step};
 use crate::code::{Args, Loop, Operand, Site, SiteId, SiteKind, exit};
 use crate::fault::Fault;
@@ -17,7 +19,7 @@ use niwaki_math::Scalar;
 
 /// What an iteration is handed by the one before.
 #[derive(Clone, Copy, PartialEq)]
-enum Handed {
+pub(super) enum Handed {
     /// What it was handed the last time.
     Unchanged,
     /// What is in the machine's buffer.
@@ -25,9 +27,9 @@ enum Handed {
 }
 
 /// Where a loop goes on.
-enum Next {
-    /// In this iteration.
-    Enter(NodeId),
+pub(super) enum Next {
+    /// In this iteration, at that instruction.
+    Enter(NodeId, u32),
     /// It has ended, and left what it left before or something else.
     Ended { changed: bool },
 }
@@ -46,24 +48,28 @@ impl<S: Scalar> Kept<S> {
         l: &Loop,
     ) -> Result<After, Fault> {
         let at = Kept::slot_at(state, node, number.0 as usize);
-        let over = l.over.map(|o| r.get(state, &machine.scratch, o).clone());
-        if let Some(over) = &over
+        macro_rules! over {
+            () => {
+                l.over.map(|o| r.get(state, &machine.scratch, o))
+            };
+        }
+        if let Some(over) = over!()
             && iter_len(over)? == 0
         {
             self.vacate(machine.program, state, node, number.0);
             r.gather(state, &machine.scratch, l.carried, &mut machine.buffer);
-            self.leave(machine, state, node, number, exit::NEXT);
-            return Ok(After::Next);
+            let changed = self.leave(machine, state, node, number, exit::NEXT);
+            return Ok(self.after(r.f, site, changed));
         }
-        let over = over.unwrap_or_default();
         let held = self.slots[at].held;
-        let mut active = Active { header: NodeId(held), captures: false, over: false };
+        let mut active = Active { header: NodeId(held), captures: Entry::Unchanged, over: false };
         let captures = &r.f.operands[l.captures.range()];
         if held == Slot::NOTHING {
             let path = join(state.nodes[node.0 as usize].path, site.key);
             let header = self.new_node(machine.program, state, l.header, node, u32::from(number.0), path);
             self.write_slot(self.quiet, at, Slot { held: header.0, mark: 0, log: 0.0 });
             let to = state.nodes[header.0 as usize].registers as usize;
+            let over = over!().cloned().unwrap_or_default();
             state.registers[to].store(over);
             for (i, o) in captures.iter().enumerate() {
                 let value = r.get(state, &machine.scratch, *o).clone();
@@ -72,27 +78,38 @@ impl<S: Scalar> Kept<S> {
             active.header = header;
         } else {
             let to = state.nodes[held as usize].registers as usize;
-            active.over = self.write_to(state, false, to, over);
+            let outers = &machine.program.function(l.body).outers;
+            if let Some(over) = over!()
+                && !same(over, &state.registers[to])
+            {
+                let over = over.clone();
+                active.over = self.write_to(state, false, to, over);
+            }
             for (i, o) in captures.iter().enumerate() {
-                let value = r.get(state, &machine.scratch, *o).clone();
-                active.captures |= self.write_to(state, false, to + 1 + i, value);
+                let value = r.get(state, &machine.scratch, *o);
+                if !same(value, &state.registers[to + 1 + i]) {
+                    let value = value.clone();
+                    self.write_to(state, false, to + 1 + i, value);
+                    active.captures.add(outers.get(1 + i).copied().unwrap_or(0));
+                }
             }
         }
         r.gather(state, &machine.scratch, l.carried, &mut machine.buffer);
         self.counters.entered += 1;
         self.note(Step::Entered(active.header));
         match self.iterate(machine, state, active, 0, Handed::Buffer)? {
-            Next::Enter(child) => {
+            Next::Enter(child, at) => {
                 self.active.push(active);
                 self.depth += 1;
-                Ok(After::Enter(child))
+                self.returns.push(self.pc + 1);
+                Ok(After::Enter(child, at))
             }
-            Next::Ended { .. } => Ok(After::Next),
+            Next::Ended { changed } => Ok(self.after(r.f, site, changed)),
         }
     }
 
     /// Goes on with iteration `i` of a loop: to the first that must be entered, or to its end.
-    fn iterate(
+    pub(super) fn iterate(
         &mut self,
         machine: &mut Machine<'_, S>,
         state: &mut State<S>,
@@ -105,15 +122,16 @@ impl<S: Scalar> Kept<S> {
             let n = &state.nodes[header.0 as usize];
             (n.path, n.registers as usize, n.slots as usize)
         };
-        let over = state.registers[at].clone();
-        let count = if matches!(over, Value::None) { usize::MAX } else { iter_len(&over)? };
+        let over = &state.registers[at];
+        let count = if matches!(over, Value::None) { usize::MAX } else { iter_len(over)? };
         let first = usize::from(count != usize::MAX);
         loop {
             if i >= count {
                 return Ok(self.end(machine, state, header, i, exit::NEXT, handed));
             }
-            let element = (count != usize::MAX).then(|| iter_get(&over, i));
+            let element = |state: &State<S>| (first == 1).then(|| iter_get(&state.registers[at], i));
             let Some(child) = self.loops[list].get(i).copied() else {
+                let element = element(state);
                 self.leaves_its_activation();
                 if handed == Handed::Unchanged {
                     // The loop has grown: what its last iteration left is what it left the owner.
@@ -141,23 +159,29 @@ impl<S: Scalar> Kept<S> {
                     return Err(machine.out_of_memory());
                 }
                 self.counters.entered += 1;
-                return Ok(Next::Enter(made));
+                return Ok(Next::Enter(made, 0));
             };
             let to = state.nodes[child.0 as usize].registers as usize;
             let mut changed = active.captures;
-            if let Some(element) = element {
-                changed |= self.write_to(state, false, to, element);
+            let inputs = &machine.program.function(state.nodes[child.0 as usize].function).inputs;
+            if active.over
+                && let Some(element) = element(state)
+                && self.write_to(state, false, to, element)
+            {
+                changed.add(inputs[0]);
             }
             if handed == Handed::Buffer {
                 for (k, value) in machine.buffer.drain(..).enumerate() {
-                    changed |= self.write_to(state, false, to + first + k, value);
+                    if self.write_to(state, false, to + first + k, value) {
+                        changed.add(inputs[first + k]);
+                    }
                 }
             }
-            if changed || !self.reuse || self.is_marked(child) {
+            if changed != Entry::Unchanged || !self.reuse || self.is_marked(child) {
                 self.leaves_its_activation();
                 self.counters.entered += 1;
                 self.note(Step::Entered(child));
-                return Ok(Next::Enter(child));
+                return Ok(Next::Enter(child, self.entry(changed)));
             }
             self.counters.skipped += 1;
             self.note(Step::Skipped(child));
@@ -179,7 +203,7 @@ impl<S: Scalar> Kept<S> {
         node: NodeId,
         kind: i64,
         carried: Args,
-    ) -> Result<Option<(NodeId, u32)>, Fault> {
+    ) -> Result<Onward, Fault> {
         self.note(Step::Unwound(node));
         let n = state.nodes[node.0 as usize];
         let (header, i) = (n.parent, n.iteration as usize);
@@ -190,7 +214,7 @@ impl<S: Scalar> Kept<S> {
         let is_base = self.depth == 0;
         let active = match self.active.last() {
             Some(active) if active.header == header && !is_base => *active,
-            _ => Active { header, captures: false, over: false },
+            _ => Active { header, captures: Entry::Unchanged, over: false },
         };
         if let Some(next) = next
             && self.reuse
@@ -200,7 +224,7 @@ impl<S: Scalar> Kept<S> {
             && i64::from(n.pc) == kind
         {
             // The frequent case: nothing but what is handed on, or what all iterations capture, can have changed.
-            let mut changed = false;
+            let mut changed = active.captures;
             if !operands.is_empty() {
                 let first = usize::from(!matches!(state.registers[above.registers as usize], Value::None));
                 let to = state.nodes[next.0 as usize].registers as usize + first;
@@ -210,18 +234,18 @@ impl<S: Scalar> Kept<S> {
                         let value = value.clone();
                         let old = std::mem::replace(&mut state.registers[to + k], value);
                         self.journal.registers.push(((to + k) as u32, old));
-                        changed = true;
+                        changed.add(r.f.inputs[first + k]);
                     }
                 }
             }
-            if changed || active.captures || self.is_marked(next) {
+            if changed != Entry::Unchanged || self.is_marked(next) {
                 self.leaves_its_activation();
                 self.counters.entered += 1;
                 self.note(Step::Entered(next));
-                return Ok(Some((next, 0)));
+                return Ok(Onward::at(next, self.entry(changed)));
             }
             if is_base {
-                return Ok(None);
+                return Ok(Onward::END);
             }
             if !self.is_marked(header) {
                 return Ok(self.go_on(machine, state, header, false, false));
@@ -250,9 +274,9 @@ impl<S: Scalar> Kept<S> {
         }
         if unchanged && self.reuse {
             if is_base && self.early {
-                return Ok(None);
+                return Ok(Onward::END);
             }
-            if !is_base && !active.captures && !active.over && !self.is_marked(header) {
+            if !is_base && active.captures == Entry::Unchanged && !active.over && !self.is_marked(header) {
                 return Ok(self.go_on(machine, state, header, is_base, false));
             }
         }
@@ -263,36 +287,36 @@ impl<S: Scalar> Kept<S> {
             self.end(machine, state, header, i + 1, kind, Handed::Buffer)
         };
         Ok(match next {
-            Next::Enter(child) => Some((child, 0)),
+            Next::Enter(child, at) => Onward::at(child, at),
             Next::Ended { changed } => self.go_on(machine, state, header, is_base, changed),
         })
     }
 
     /// The loop has ended: its owner goes on, unless nothing is changed for it.
-    fn go_on(
+    pub(super) fn go_on(
         &mut self,
         machine: &Machine<'_, S>,
         state: &State<S>,
         header: NodeId,
         is_base: bool,
         changed: bool,
-    ) -> Option<(NodeId, u32)> {
-        if is_base {
-            if self.early && !changed {
-                return None;
-            }
-        } else {
-            self.depth -= 1;
-            self.active.pop();
-        }
+    ) -> Onward {
         let n = &state.nodes[header.0 as usize];
         let owner = &state.nodes[n.parent.0 as usize];
-        if is_base {
-            self.leaves_its_activation();
-            self.counters.entered += 1;
-            self.note(Step::Entered(n.parent));
+        let site = &machine.program.function(owner.function).sites[n.site as usize];
+        if !is_base {
+            self.depth -= 1;
+            self.active.pop();
+            let next = self.returns.pop().unwrap_or(site.next);
+            return Onward::at(n.parent, if changed { site.next } else { next });
         }
-        Some((n.parent, machine.program.function(owner.function).sites[n.site as usize].next))
+        if self.early && !changed {
+            return Onward::END;
+        }
+        self.leaves_its_activation();
+        self.counters.entered += 1;
+        self.note(Step::Entered(n.parent));
+        Onward::at(n.parent, if self.early { site.again } else { site.next })
     }
 
     fn is_for(&self, state: &State<S>, header: NodeId) -> bool {

@@ -5,11 +5,13 @@
 //! [`Machine::change`], then [`Trace::commit`] or [`Trace::rollback`]. Two switches make four strategies
 //! ([`Strategy`]); they differ in what they skip and in nothing else.
 //!
-//! * `slot`, `journal`: what is remembered, and what can be undone;
+//! * `begin`: the first run; `slot`, `journal`: what is remembered, and what can be undone;
 //! * `questions`: choices, factors, emits and queries that are reached again;
 //! * `calls`, `loops`: activations that are entered, skipped, made and taken away; `adapt`: calls that never pay;
+//! * `part`: activations that are entered for one change only, and run no more than what depends on it;
 //! * `cells`: elements of collections, and those who read them;
 //! * `transaction`: changing choices, keeping or undoing it; `changes`: what that did to the choices;
+//! * `ahead`: memory that the next proposal will need;
 //! * [`inspect`]: what a trace holds, in program order.
 //!
 //! Futures run where they are made, so a future's handle is its value.
@@ -17,12 +19,15 @@
 //! Source: C3, dissertation chapter 3: its cache is the slots, its continuations are (node, program counter).
 
 mod adapt;
+mod ahead;
+mod begin;
 mod calls;
 mod cells;
 mod changes;
 pub mod inspect;
 mod journal;
 mod loops;
+mod part;
 mod questions;
 mod slot;
 mod transaction;
@@ -32,21 +37,21 @@ pub use questions::fits;
 pub use transaction::{Change, Changed, Propose, Proposed};
 
 use super::Machine;
-use super::address;
 use super::answers::Answers;
-use super::keep::Keep;
+use super::keep::{Keep, Onward};
 use super::question::Halt;
 use super::registers::Registers;
 use super::state::{NodeId, State};
 use super::suspend::After;
-use crate::code::{Args, FunctionId, Mode, Program, SiteId};
+use crate::code::{Args, Mode, Program, SiteId};
 use crate::fault::Fault;
-use crate::value::{Closure, Value, same};
+use crate::value::{Value, same};
 use adapt::Sites;
 use cells::{Reader, Readers};
 use journal::Journal;
 use niwaki_geom::Primitive;
 use niwaki_math::Scalar;
+use part::Entry;
 use slot::Slot;
 
 /// How much of a run is done again when a choice changes.
@@ -113,7 +118,7 @@ pub(crate) struct ChoiceAt {
 struct Active {
     header: NodeId,
     /// What its iterations capture has changed.
-    captures: bool,
+    captures: Entry,
     /// What it runs over has changed.
     over: bool,
 }
@@ -158,11 +163,16 @@ pub(crate) struct Kept<S: Scalar> {
     /// Log densities of choices that were drawn, and of those that went.
     pub fresh: f64,
     pub stale: f64,
+    /// The changed choice was to have a value that it cannot have.
+    pub outside: bool,
     /// The changed choices: slot, and the log densities of changing it there and back.
     pub changed: Vec<(u32, f64, f64)>,
     pub now: u32,
     // The run in progress.
     depth: u32,
+    /// The instruction in hand, and where each activation entered from above goes on when it is left.
+    pc: u32,
+    returns: Vec<u32>,
     /// The activation in hand was made in this transaction: nothing of it needs to be journaled.
     quiet: bool,
     early: bool,
@@ -209,9 +219,12 @@ impl<S: Scalar> Kept<S> {
             result_before: None,
             fresh: 0.0,
             stale: 0.0,
+            outside: false,
             changed: vec![],
             now: 0,
             depth: 0,
+            pc: 0,
+            returns: vec![],
             quiet: false,
             early: false,
             reuse: false,
@@ -328,6 +341,11 @@ impl<S: Scalar> Keep<S> for Kept<S> {
     }
 
     #[inline(always)]
+    fn at(&mut self, pc: usize) {
+        self.pc = pc as u32;
+    }
+
+    #[inline(always)]
     fn write(&mut self, state: &mut State<S>, place: usize, value: Value<S>) {
         let register = &mut state.registers[place];
         if self.quiet {
@@ -371,9 +389,9 @@ impl<S: Scalar> Keep<S> for Kept<S> {
         state: &mut State<S>,
         node: NodeId,
         value: Value<S>,
-    ) -> Option<(NodeId, u32)> {
+    ) -> Onward {
         let next = self.return_to_caller(machine.program, state, node, value);
-        next.filter(|_| !self.tangled)
+        if self.tangled { Onward::END } else { next }
     }
 
     fn end_iteration(
@@ -384,9 +402,32 @@ impl<S: Scalar> Keep<S> for Kept<S> {
         node: NodeId,
         exit: i64,
         carried: Args,
-    ) -> Result<Option<(NodeId, u32)>, Fault> {
+    ) -> Result<Onward, Fault> {
         let next = self.end_of_iteration(machine, state, r, node, exit, carried)?;
-        Ok(next.filter(|_| !self.tangled))
+        Ok(if self.tangled { Onward::END } else { next })
+    }
+
+    #[inline]
+    fn pass(
+        &mut self,
+        machine: &Machine<'_, S>,
+        state: &mut State<S>,
+        r: Registers<'_, S>,
+        node: NodeId,
+        number: SiteId,
+        arg: u16,
+    ) -> After {
+        self.pass_one(machine, state, r, node, number, arg)
+    }
+
+    fn done(
+        &mut self,
+        machine: &mut Machine<'_, S>,
+        state: &mut State<S>,
+        node: NodeId,
+    ) -> Result<Onward, Fault> {
+        let next = self.leave_unchanged(machine, state, node)?;
+        Ok(if self.tangled { Onward::END } else { next })
     }
 
     fn count(&mut self, instructions: u64) {
@@ -436,64 +477,5 @@ impl<S: Scalar> Trace<S> {
     /// The steps noted since the last call.
     pub fn take_steps(&mut self) -> Vec<Step> {
         self.kept.steps.replace(Vec::new()).unwrap_or_default()
-    }
-}
-
-impl<'p, S: Scalar> Machine<'p, S> {
-    /// Runs the program from the start and keeps its activations. The transaction that made them is open; a start that
-    /// came to a score of minus infinity is of no further use.
-    ///
-    /// # Errors
-    /// The wrong number of arguments, or a fault of the program.
-    pub fn begin<A: Answers<S>>(
-        &mut self,
-        args: &[Value<S>],
-        answers: &mut A,
-    ) -> Result<(Trace<S>, Change), Box<super::stack::RunFault>> {
-        self.begin_call(self.program.entry, &[], args, answers)
-    }
-
-    /// As [`Machine::begin`], of a closure of the program.
-    ///
-    /// # Errors
-    /// As for [`Machine::begin`].
-    pub fn begin_closure<A: Answers<S>>(
-        &mut self,
-        closure: &Closure<S>,
-        args: &[Value<S>],
-        answers: &mut A,
-    ) -> Result<(Trace<S>, Change), Box<super::stack::RunFault>> {
-        self.begin_call(FunctionId(closure.function), &closure.captures, args, answers)
-    }
-
-    fn begin_call<A: Answers<S>>(
-        &mut self,
-        entry: FunctionId,
-        captures: &[Value<S>],
-        args: &[Value<S>],
-        answers: &mut A,
-    ) -> Result<(Trace<S>, Change), Box<super::stack::RunFault>> {
-        let bare = |fault| {
-            Box::new(super::stack::RunFault { fault, stack: vec![], omitted: 0, path: String::new() })
-        };
-        let template = self.start_call(entry, captures, args, true).map_err(bare)?;
-        let mut trace = Trace { state: State::empty(), kept: Kept::new(self.program) };
-        let (state, kept) = (&mut trace.state, &mut trace.kept);
-        state.depth_first = true;
-        kept.open();
-        let root = kept.new_node(self.program, state, entry, NodeId::NONE, 0, address::ROOT);
-        if self.program.function(entry).mode == Mode::Pure {
-            // A pure entry function reads its arguments at the start of the register file.
-            state.registers.extend(template.registers.iter().cloned());
-        } else {
-            let f = self.program.function(entry);
-            let count = usize::from(f.params) + usize::from(f.captures);
-            for (i, value) in template.registers.iter().take(count).enumerate() {
-                state.registers[i] = value.clone();
-            }
-        }
-        kept.prepare(Strategy::Rerun);
-        let change = self.run_kept(&mut trace, root, 0, answers)?;
-        Ok((trace, change))
     }
 }

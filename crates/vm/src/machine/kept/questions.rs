@@ -76,8 +76,8 @@ impl<S: Scalar> Kept<S> {
         let site = &r.f.sites[number.0 as usize];
         match &site.kind {
             SiteKind::Sample { .. } | SiteKind::SampleDist | SiteKind::SampleIndexed => {
-                self.choose(machine, state, answers, r, node, number, site)?;
-                Ok(After::Next)
+                let drawn = self.choose(machine, state, answers, r, node, number, site)?;
+                Ok(self.after(r.f, site, drawn))
             }
             SiteKind::Observe { .. }
             | SiteKind::ObserveDist
@@ -130,7 +130,8 @@ impl<S: Scalar> Kept<S> {
         }
     }
 
-    /// A choice keeps its value when family and dimension are unchanged, and is scored again; else it is drawn.
+    /// A choice keeps its value when family and dimension are unchanged, and is scored again; else it is drawn, and
+    /// the answer is true.
     #[allow(clippy::too_many_arguments)] // the registers of the loop in `interpret`, by value
     fn choose<A: Answers<S>>(
         &mut self,
@@ -141,7 +142,7 @@ impl<S: Scalar> Kept<S> {
         node: NodeId,
         number: SiteId,
         site: &Site,
-    ) -> Result<(), Halt> {
+    ) -> Result<bool, Halt> {
         let (place, at) = (r.own + site.to.index(), Kept::slot_at(state, node, number.0 as usize));
         let program = machine.program;
         let mut made = None;
@@ -154,7 +155,7 @@ impl<S: Scalar> Kept<S> {
                 self.set_log(self.quiet, at, log, true);
             }
             if log > f64::NEG_INFINITY {
-                return Ok(());
+                return Ok(false);
             } else if stays {
                 return Err(Halt::Impossible);
             }
@@ -180,7 +181,7 @@ impl<S: Scalar> Kept<S> {
         self.add(true, log);
         self.write_slot(self.quiet, at, Slot { held, mark: family, log });
         self.write_to(state, self.quiet, place, value);
-        if log == f64::NEG_INFINITY { Err(Halt::Impossible) } else { Ok(()) }
+        if log == f64::NEG_INFINITY { Err(Halt::Impossible) } else { Ok(true) }
     }
 
     fn factor(
@@ -291,6 +292,7 @@ impl<S: Scalar> Kept<S> {
             SiteKind::Emit => self.journal.retracted.push(slot.held),
             SiteKind::Cell { .. } | SiteKind::Append { .. } => self.journal.dead_cells.push(slot.held),
             SiteKind::Read => {
+                self.move_readers();
                 let reader = Reader { node, site, slot: at as u32 };
                 self.journal.reads.push((reader, slot.held));
                 self.subscribe(reader, Slot::NOTHING);

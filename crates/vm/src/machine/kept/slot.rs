@@ -40,6 +40,10 @@ impl Slot {
     /// Set in the `mark` of a choice that the open transaction changes.
     pub const CHANGED: u32 = 1 << 8;
 
+    /// Set in the `mark` of a read that the open transaction has given another element: it stands in the list of the one
+    /// before.
+    pub const MOVING: u32 = 1 << 31;
+
     /// Whether its site is on the path taken.
     #[inline(always)]
     pub fn is_filled(&self) -> bool {

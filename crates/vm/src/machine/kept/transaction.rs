@@ -36,6 +36,9 @@ pub struct Proposed<S: Scalar> {
 
 /// Whoever proposes a new value for one choice.
 pub trait Propose<S: Scalar> {
+    /// Whether it draws from the choice's own distribution: what it proposes forward with is the value's log density.
+    const FROM_PRIOR: bool = false;
+
     /// A new value for the choice, given its distribution, its value and that value's log density.
     ///
     /// # Errors
@@ -66,6 +69,7 @@ impl<S: Scalar> Kept<S> {
         self.now = self.now.wrapping_add(1);
         self.before = self.totals;
         (self.fresh, self.stale) = (0.0, 0.0);
+        self.outside = false;
     }
 
     /// Sets the switches of a run.
@@ -73,6 +77,7 @@ impl<S: Scalar> Kept<S> {
         self.early = strategy == Strategy::C3;
         self.reuse = strategy.reuses();
         self.depth = 0;
+        self.returns.clear();
         self.active.clear();
         self.marking = false;
         self.woken.clear();
@@ -113,6 +118,11 @@ impl<S: Scalar> Trace<S> {
         self.kept.proposal()
     }
 
+    /// Whether the value last proposed for a single choice lay outside the support of its distribution.
+    pub fn left_support(&self) -> bool {
+        self.kept.outside
+    }
+
     /// Primitives that the open transaction put into the scene.
     pub fn emitted(&self) -> impl Iterator<Item = &Primitive> + Clone {
         self.kept.journal.emitted.iter().filter_map(|row| self.kept.emits[*row as usize].as_ref())
@@ -127,6 +137,7 @@ impl<S: Scalar> Trace<S> {
     /// order of their addresses, so that it does not depend on the strategy.
     pub fn commit(&mut self, program: &Program<S>) {
         let (state, kept) = (&mut self.state, &mut self.kept);
+        kept.move_readers();
         kept.journal.deaths.sort_unstable();
         while let Some(dead) = kept.journal.deaths.pop() {
             kept.choices.swap_remove(dead as usize);
@@ -165,6 +176,10 @@ impl<S: Scalar> Trace<S> {
     /// Undoes what was done, and leaves the transaction open.
     fn undo(&mut self, program: &Program<S>) {
         let (state, kept) = (&mut self.state, &mut self.kept);
+        while let Some((reader, held)) = kept.journal.moves.pop() {
+            let slot = &mut kept.slots[reader.slot as usize];
+            (slot.held, slot.mark) = (held, slot.mark & !Slot::MOVING);
+        }
         while let Some((reader, held)) = kept.journal.reads.pop() {
             kept.subscribe(reader, held);
         }
@@ -228,7 +243,11 @@ impl<S: Scalar> Machine<'_, S> {
         let proposal = self.dist(state, r, site, site.args, &mut made).and_then(|dist| {
             let (question, old) = (At { site, function: f, node, state, program }, &state.registers[place]);
             let proposed = proposer.propose(&question, dist, old, kept.slots[at].log)?;
-            let log = grid(log_density(dist, &proposed.value)?.value());
+            let log = if P::FROM_PRIOR {
+                proposed.forward
+            } else {
+                grid(log_density(dist, &proposed.value)?.value())
+            };
             Ok((proposed, log))
         });
         let (proposed, log) = match proposal {
@@ -250,12 +269,13 @@ impl<S: Scalar> Machine<'_, S> {
         kept.slots[at].mark |= Slot::CHANGED;
         let value = proposed.value;
         kept.write_to(state, false, place, value.clone());
-        if log == f64::NEG_INFINITY {
+        kept.outside = log == f64::NEG_INFINITY;
+        if kept.outside {
             return Ok(Change::Impossible);
         }
         if strategy.starts_at_choice() {
             kept.set_log(false, at, log, true);
-            let next = site.next as usize;
+            let next = if strategy == Strategy::C3 { site.again } else { site.next } as usize;
             let change = self.run_kept(trace, node, next, answers);
             if trace.kept.woken.is_empty() {
                 return change;

@@ -1,0 +1,53 @@
+"""A page of draws that a judge does not pass, each with the reason; the table leaves none out, the page shows some."""
+
+from pathlib import Path
+from typing import Any
+
+import matplotlib
+
+matplotlib.use("Agg")
+
+import matplotlib.pyplot as plt
+from stacking.files import Verdicts, chains
+from stacking.judging import passes
+from stacking.kinds import KINDS
+from towers_and_arches import framed, scene_of
+
+#: Of each kind at most.
+SHOWN = 2
+COLUMNS = 4
+
+
+def failures(path: Path, folder: Path) -> None:
+    """Draw the first failures of each kind; no page where there are none."""
+    found = [
+        (name, row)
+        for name in KINDS
+        for row in [row for row in Verdicts(folder, name, "nuts") if not passes(row)][:SHOWN]
+    ]
+    if not found:
+        return
+    down = -(-len(found) // COLUMNS)
+    figure, axes = plt.subplots(down, COLUMNS, figsize=(3.5 * COLUMNS, 4.0 * down), squeeze=False)
+    for cell in axes.flat:
+        cell.axis("off")
+    for cell, (name, row) in zip(axes.flat, found, strict=False):
+        scene = scene_of(KINDS[name], chains(folder, name, "nuts"), (row["chain"], row["draw"]))
+        cell.imshow(framed(scene, None))
+        cell.set_title(f"{name}: {why(row)}", fontsize=9)
+    figure.tight_layout()
+    figure.savefig(path, dpi=75)
+    plt.close(figure)
+
+
+def why(row: dict[str, Any]) -> str:
+    """What the judges have against a draw."""
+    if "refused" in row:
+        told = row["refused"].replace("-", " ")
+    else:
+        program = "balances" if row["holds"] else f"lacks {100 * row['residual']:.2g} % of a weight"
+        drop = "stands" if row["stands"] else f"block {row['block'] + 1} moves {100 * row['moved']:.0f} %"
+        told = f"{program},\n{drop}"
+    if "polished" in row:
+        told += "; polished it passes" if passes(row["polished"]) else "; polished it does not either"
+    return told

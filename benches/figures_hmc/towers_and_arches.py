@@ -1,0 +1,159 @@
+"""Pages of structures: three draws of each, the mean picture of all draws, and autocorrelations."""
+
+from pathlib import Path
+from typing import Any
+
+import matplotlib
+
+matplotlib.use("Agg")
+
+import matplotlib.pyplot as plt
+import niwaki as nw
+import numpy as np
+from niwaki.scene import Scene
+from PIL import Image
+from stacking.files import Drawn, Verdicts, chains
+from stacking.judging import passes
+from stacking.kinds import KINDS, Kind
+from stacking.table import corners
+from stacking.worth import autocorrelation
+
+#: Pixels of a picture's side.
+SIDE = 360
+VIEW = {"azimuth": 32.0, "elevation": 14.0}
+TITLES = {"nuts": "HMC (no-U-turn)", "mh-original": "MH, the original's", "mh-adaptive": "MH, put right"}
+NAMES = {
+    "stack": "Stack",
+    "lean": "Lean",
+    "top_heavy": "TopHeavy",
+    "platforms": "Platforms",
+    "wheel": "Wheel",
+    "tri_arch": "TriArch",
+    "symmetric_arch": "Arch, symmetric",
+    "symmetric_tri_arch": "TriArch, symmetric",
+    "every_step": "Stable at every step",
+}
+
+
+def scene_of(kind: Kind, found: list[Drawn], place: tuple[int, int]) -> Scene:
+    """The scene of a draw."""
+    chain, draw = place
+    return nw.run(kind.model, width=kind.width, choices=found[chain].choices(draw)).best.scene
+
+
+def far_apart(kind: Kind, folder: Path, found: list[Drawn], count: int) -> list[tuple[int, int]]:
+    """Draws that pass, each as far as can be from those before it; the first is nearest to the mean."""
+    rows = list(Verdicts(folder, kind.name, "nuts"))
+    good = [(row["chain"], row["draw"]) for row in [row for row in rows if passes(row)] or rows]
+    at = corners(kind, found)
+    flat = np.array([at[place] for place in good if place[1] < at.shape[1]])
+    taken = [int(np.argmin(((flat - flat.mean(axis=0)) ** 2).sum(axis=1)))]
+    while len(taken) < min(count, len(flat)):
+        near = ((flat[:, None] - flat[taken][None]) ** 2).sum(axis=2).min(axis=1)
+        taken.append(int(near.argmax()))
+    return [good[k] for k in taken]
+
+
+def framed(scene: Scene, frame: Scene | None, size: int = SIDE, **view: float) -> Image.Image:
+    return scene.picture(size=(size, size), frame=frame, **(VIEW | view)).convert("RGB")
+
+
+def mean_picture(kind: Kind, found: list[Drawn], frame: Scene, most: int = 60, **view: float) -> Image.Image:
+    """The mean of pictures of draws, at most `most` of them, evenly spread."""
+    places = [(chain, draw) for chain, one in enumerate(found) for draw in range(len(one.values))]
+    places = [places[k] for k in np.unique(np.linspace(0, len(places) - 1, most).astype(int))]
+    total = np.zeros((SIDE // 2, SIDE // 2, 3))
+    for place in places:
+        picture = scene_of(kind, found, place).picture(
+            size=(SIDE // 2, SIDE // 2), samples=4, frame=frame, **(VIEW | view)
+        )
+        total += np.asarray(picture.convert("RGB"), dtype=np.float64)
+    small = Image.fromarray((total / len(places)).round().astype(np.uint8))
+    return small.resize((SIDE, SIDE), Image.Resampling.LANCZOS)
+
+
+def compared(path: Path, folder: Path, names: tuple[str, ...]) -> None:
+    """Rows: three draws, the mean of all draws of both samplers, and their autocorrelations."""
+    names = tuple(name for name in names if chains(folder, name, "nuts"))
+    if not names:
+        return
+    figure, axes = plt.subplots(len(names), 6, figsize=(18, 3.2 * len(names)), squeeze=False)
+    for row, name in zip(axes, names, strict=True):
+        kind, found = KINDS[name], chains(folder, name, "nuts")
+        places = far_apart(kind, folder, found, 3)
+        scenes = [scene_of(kind, found, place) for place in places]
+        largest = max(scenes, key=extent)
+        shown = [framed(scene, largest) for scene in scenes]
+        shown.append(mean_picture(kind, found, largest))
+        theirs = chains(folder, name, "mh-original")
+        if theirs:
+            shown.append(mean_picture(kind, theirs, largest))
+        titles = [NAMES[name], "", "", "mean of HMC's draws", "mean of MH's (the original's)"]
+        for cell, picture, title in zip(row, shown, titles, strict=False):
+            cell.imshow(picture)
+            cell.set_title(title, fontsize=11)
+        for cell in row[:5]:
+            cell.axis("off")
+        curves(row[5], kind, folder)
+    figure.tight_layout()
+    figure.savefig(path, dpi=75)
+    plt.close(figure)
+
+
+def extent(scene: Scene) -> float:
+    """The diagonal of a scene's box."""
+    low, high = np.array(scene.bounds)
+    return float(np.linalg.norm(high - low))
+
+
+def curves(cell: Any, kind: Kind, folder: Path) -> None:
+    """Autocorrelations of all corners, by draws."""
+    for way, title in TITLES.items():
+        found = chains(folder, kind.name, way)
+        if found and len(found[0].values) > 2:
+            lags = autocorrelation(corners(kind, found))
+            cell.plot(lags[: max(2, len(lags) * 4 // 5)], label=title)
+    cell.axhline(0.0, color="0.7", linewidth=0.8)
+    cell.set_ylim(-0.6, 1.05)
+    cell.set_xlabel("draws apart")
+    cell.set_title("autocorrelation", fontsize=11)
+    cell.legend(fontsize=8, frameon=False)
+
+
+def gallery(path: Path, folder: Path, names: tuple[str, ...], **view: float) -> None:
+    """Three draws of each, without comparison."""
+    names = tuple(name for name in names if chains(folder, name, "nuts"))
+    if not names:
+        return
+    figure, axes = plt.subplots(len(names), 3, figsize=(10.5, 3.6 * len(names)), squeeze=False)
+    for row, name in zip(axes, names, strict=True):
+        kind, found = KINDS[name], chains(folder, name, "nuts")
+        scenes = [scene_of(kind, found, place) for place in far_apart(kind, folder, found, 3)]
+        largest = max(scenes, key=extent)
+        for cell in row:
+            cell.axis("off")
+        for cell, scene in zip(row, scenes, strict=False):
+            cell.imshow(framed(scene, largest, **view))
+        row[0].set_title(NAMES[name], fontsize=11)
+    figure.tight_layout()
+    figure.savefig(path, dpi=75)
+    plt.close(figure)
+
+
+def tilted(path: Path, folder: Path) -> None:
+    """One tower on ground tilted by 10 degrees to the left, level, and to the right."""
+    kind, found = KINDS["tilt_stack"], chains(folder, "tilt_stack", "nuts")
+    if not found:
+        return
+    scene = scene_of(kind, found, far_apart(kind, folder, found, 1)[0])
+    figure, axes = plt.subplots(1, 3, figsize=(10.5, 3.8))
+    for cell, degrees in zip(axes, (-10.0, 0.0, 10.0), strict=True):
+        picture = framed(scene, scene, azimuth=0.0, elevation=4.0, size=2 * SIDE)
+        turned = picture.rotate(degrees, Image.Resampling.BICUBIC, fillcolor=picture.getpixel((4, 4)))
+        edge = SIDE // 4
+        cell.imshow(turned.crop((edge, edge, 2 * SIDE - edge, 2 * SIDE - edge)))
+        cell.set_title(f"ground tilted by {degrees:+.0f}°" if degrees else "level", fontsize=11)
+        cell.axis("off")
+    figure.tight_layout()
+    figure.savefig(path, dpi=75)
+    plt.close(figure)

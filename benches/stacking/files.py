@@ -1,0 +1,90 @@
+"""What is kept between runs: a file of draws for each chain, and a line for each draw that was judged.
+
+    KIND-WAY-CHAIN.json   addresses, values (draws, choices), seconds, gradients
+    KIND-WAY.jsonl        chain, draw, and what the judges say
+
+A run that was stopped goes on where it was: a chain that has a file is not drawn again, a draw that has a line is not
+judged again.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """The draws of a chain.
+
+    `values` is (draws, choices). `warmup_seconds` and `seconds` are CPU seconds, `gradients` counts evaluations after
+    the warm-up, `acceptance` is their mean, `settings` says how they were drawn.
+    """
+
+    addresses: list[str]
+    values: Any
+    start_seconds: float
+    warmup_seconds: float
+    seconds: float
+    gradients: int
+    acceptance: float
+    divergences: int
+    settings: str
+
+    def choices(self, draw: int) -> dict[str, float]:
+        return dict(zip(self.addresses, map(float, self.values[draw]), strict=True))
+
+    def save(self, path: Path) -> None:
+        whole = asdict(self) | {"values": [[float(f"{x:.12g}") for x in row] for row in self.values]}
+        part = path.with_suffix(".part")
+        part.write_text(json.dumps(whole))
+        part.replace(path)
+
+    @classmethod
+    def load(cls, path: Path) -> Drawn:
+        found = json.loads(path.read_text())
+        found["values"] = np.array(found["values"])
+        return cls(**found)
+
+
+def chain_file(folder: Path, kind: str, way: str, chain: int) -> Path:
+    return folder / f"{kind}-{way}-{chain}.json"
+
+
+def chains(folder: Path, kind: str, way: str) -> list[Drawn]:
+    """The chains that there are."""
+    found = []
+    while (path := chain_file(folder, kind, way, len(found))).exists():
+        found.append(Drawn.load(path))
+    return found
+
+
+class Verdicts:
+    """Lines of judged draws."""
+
+    def __init__(self, folder: Path, kind: str, way: str) -> None:
+        self.path = folder / f"{kind}-{way}.jsonl"
+        self.rows: list[dict[str, Any]] = []
+        if self.path.exists():
+            text = self.path.read_text()
+            # A line that was cut short by a stop is judged again.
+            whole = text[: text.rfind("\n") + 1]
+            if whole != text:
+                self.path.write_text(whole)
+            self.rows = [json.loads(line) for line in whole.splitlines()]
+
+    def __iter__(self) -> Iterator[dict[str, Any]]:
+        return iter(self.rows)
+
+    def has(self, chain: int, draw: int) -> bool:
+        return any(row["chain"] == chain and row["draw"] == draw for row in self.rows)
+
+    def add(self, row: dict[str, Any]) -> None:
+        self.rows.append(row)
+        with self.path.open("a") as lines:
+            lines.write(json.dumps(row) + "\n")

@@ -1,0 +1,377 @@
+//! Coordinates: what a continuous choice is in numbers without bounds, there and back.
+//!
+//! Unconstrained, with `s(v) = 1 / (1 + exp(-v))`, and each transform's log Jacobian in the density:
+//!
+//! | support | value | log Jacobian |
+//! | --- | --- | --- |
+//! | line | `v` | 0 |
+//! | above `lo` | `lo + exp(v)` | `v` |
+//! | `lo` to `hi` | `lo + (hi - lo) s(v)` | `ln(hi - lo) + 2 ln s(v) - v` |
+//! | circle (von Mises) | `v` less whole turns, within half a turn of zero | 0: the line winds around the circle |
+//! | simplex of `n` | `n - 1` sticks: `z_k = s(v_k - ln(n - 1 - k))` of what is left | `sum ln(z_k (1 - z_k) left_k)` |
+//! | vectors | `v` | 0 |
+//!
+//! The bounds may depend on other choices. The stick breaking is centred, so that zeros are the middle of the simplex
+//! (Stan reference manual, "Unit simplexes"). A choice that is held is the line, or vectors, whatever its support.
+
+use crate::graph::{Graph, Id};
+use crate::operation::apply;
+use crate::record::{Recorded, Recorder, no_coordinates};
+use crate::scalar::Var;
+use niwaki_math::{Dist, Draw, Family, Scalar};
+use niwaki_vm::builtins::value_to_draw;
+use niwaki_vm::fault::Fault;
+use niwaki_vm::value::Value;
+use std::f64::consts::{PI, TAU};
+
+/// How a choice's value follows from its coordinates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Transform {
+    /// The coordinate itself.
+    Line,
+    /// A lower bound and an exponential.
+    Above,
+    /// Two bounds and a logistic.
+    Between,
+    /// Whole turns taken off.
+    Circle,
+    /// Sticks broken off what is left.
+    Simplex,
+    /// The coordinates themselves.
+    Vector,
+}
+
+impl Transform {
+    /// The name in Python.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Transform::Line => "line",
+            Transform::Above => "above",
+            Transform::Between => "between",
+            Transform::Circle => "circle",
+            Transform::Simplex => "simplex",
+            Transform::Vector => "vector",
+        }
+    }
+}
+
+/// A continuous choice.
+#[derive(Clone, Debug)]
+pub struct Continuous {
+    /// Hash of its address.
+    pub address: u128,
+    /// Readable address.
+    pub path: String,
+    /// Its family.
+    pub family: Family,
+    /// From coordinates to value.
+    pub transform: Transform,
+    /// Its first coordinate.
+    pub first: usize,
+    /// How many coordinates it has.
+    pub coordinates: usize,
+    /// Whether it keeps its value: its coordinates are its value, and do not move.
+    pub is_held: bool,
+    /// Nodes of its value: one, or one for each entry of a vector.
+    pub(crate) values: Vec<Id>,
+    /// Its bounds, where it has some.
+    pub(crate) edges: [Edge; 2],
+}
+
+/// A bound of a choice.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Edge {
+    /// There is none.
+    Open,
+    /// A number.
+    At(f64),
+    /// What other choices say: a node that was written before the choice's own coordinate.
+    Node(Id),
+}
+
+impl Edge {
+    pub fn of(bound: Option<Var>, graph: &mut Graph) -> Edge {
+        match bound {
+            None => Edge::Open,
+            Some(bound) if !bound.varies() => Edge::At(bound.value()),
+            Some(bound) => Edge::Node(bound.id(graph)),
+        }
+    }
+}
+
+/// A choice of which a run says what it is in coordinates.
+pub(crate) struct Placed {
+    pub transform: Transform,
+    /// The value: one number, or one for each entry of a vector.
+    pub values: Vec<Var>,
+    /// Log density of the choice over its coordinates.
+    pub log: Var,
+    /// The part of that which is the log Jacobian.
+    pub slope: Var,
+    pub bounds: [Option<Var>; 2],
+}
+
+impl Placed {
+    fn plain(transform: Transform, values: Vec<Var>, log: Var) -> Placed {
+        Placed { transform, values, log, slope: Var::from_f64(0.0), bounds: [None, None] }
+    }
+}
+
+impl Continuous {
+    /// How many numbers its value has.
+    pub fn width(&self) -> usize {
+        self.values.len()
+    }
+
+    /// Whether its value is a list of numbers rather than a number.
+    pub fn is_vector(&self) -> bool {
+        matches!(self.transform, Transform::Simplex | Transform::Vector)
+    }
+}
+
+/// Lower and upper bound of a family of reals.
+pub(crate) fn bounds(dist: &Dist<Var>) -> Option<(Option<Var>, Option<Var>)> {
+    let c = Var::from_f64;
+    Some(match dist {
+        Dist::Gaussian { .. } | Dist::Laplace { .. } | Dist::Cauchy { .. } | Dist::StudentT { .. } => {
+            (None, None)
+        }
+        Dist::LogNormal { .. }
+        | Dist::Gamma { .. }
+        | Dist::InverseGamma { .. }
+        | Dist::Exponential { .. } => (Some(c(0.0)), None),
+        Dist::Beta { .. } => (Some(c(0.0)), Some(c(1.0))),
+        Dist::Uniform { lo, hi } | Dist::TruncatedGaussian { lo, hi, .. } => (Some(*lo), Some(*hi)),
+        Dist::VonMises { .. } => (Some(c(-PI)), Some(c(PI))),
+        Dist::Mixture(m) => {
+            let mut all = m.components.iter().map(bounds);
+            let first = all.next()??;
+            all.try_fold(first, |(lo, hi), next| {
+                let (lo2, hi2) = next?;
+                Some((lo.zip(lo2).map(|(a, b)| a.min(b)), hi.zip(hi2).map(|(a, b)| a.max(b))))
+            })?
+        }
+        _ => return None,
+    })
+}
+
+/// Coordinates beyond lose the digits of the bound that they approach.
+const FARTHEST: f64 = 36.0;
+
+fn logistic(v: Var) -> Var {
+    let one = Var::from_f64(1.0);
+    one / (one + (-v).exp())
+}
+
+fn log_odds(share: f64) -> f64 {
+    (share.ln() - (-share).ln_1p()).clamp(-FARTHEST, FARTHEST)
+}
+
+impl Recorder<'_> {
+    pub(crate) fn coordinate(&mut self, v: f64) -> Var {
+        self.start.push(v);
+        Var::input(v)
+    }
+
+    /// A continuous choice with its value; `None` where it has no coordinates of this kind.
+    pub(crate) fn place(
+        &mut self,
+        dist: &Dist<Var>,
+        draw: &Draw,
+        held: bool,
+    ) -> Result<Option<Placed>, Fault> {
+        Ok(Some(match (dist, draw) {
+            (Dist::Dirichlet(a), Draw::Vector(x)) if a.len() == x.len() && !held => self.simplex(a, x),
+            (Dist::Dirichlet(_) | Dist::MultivariateGaussian(_), Draw::Vector(x)) => {
+                let values: Vec<Var> = x.iter().map(|x| self.coordinate(*x)).collect();
+                let log = dist.log_density(&Draw::Vector(values.clone().into()));
+                Placed::plain(Transform::Vector, values, log)
+            }
+            (_, Draw::Real(_) | Draw::Int(_) | Draw::Bool(_)) if bounds(dist).is_some() => {
+                let Some(x) = draw.as_real() else { return Ok(None) };
+                if held {
+                    let value = self.coordinate(x);
+                    return Ok(Some(Placed::plain(
+                        Transform::Line,
+                        vec![value],
+                        dist.log_density_of_real(value),
+                    )));
+                }
+                self.real(dist, x)?
+            }
+            (_, Draw::Vector(_)) => return Err(no_coordinates(dist)),
+            _ => return Ok(None),
+        }))
+    }
+
+    /// A real choice.
+    fn real(&mut self, dist: &Dist<Var>, x: f64) -> Result<Placed, Fault> {
+        let two = Var::from_f64(2.0);
+        let at = |value: Var| dist.log_density_of_real(value);
+        if let Dist::VonMises { .. } = dist {
+            let v = self.coordinate(x);
+            let turns = (v * Var::from_f64(1.0 / TAU)).round();
+            let value = (v - Var::from_f64(TAU) * turns).within(-PI, PI).at(x);
+            return Ok(Placed::plain(Transform::Circle, vec![value], at(value)));
+        }
+        let (lo, hi) = bounds(dist).ok_or_else(|| no_coordinates(dist))?;
+        let placed = |transform, value, log, slope| Placed {
+            transform,
+            values: vec![value],
+            log,
+            slope,
+            bounds: [lo, hi],
+        };
+        Ok(match (lo, hi) {
+            (None, None) => {
+                let v = self.coordinate(x);
+                Placed::plain(Transform::Line, vec![v], at(v))
+            }
+            (Some(lo), None) => {
+                let v = self.coordinate(log_above(x - lo.value()));
+                let value = (lo + v.exp()).at(x);
+                placed(Transform::Above, value, at(value) + v, v)
+            }
+            (None, Some(hi)) => {
+                let v = self.coordinate(log_above(hi.value() - x));
+                let value = (hi - v.exp()).at(x);
+                placed(Transform::Above, value, at(value) + v, v)
+            }
+            (Some(lo), Some(hi)) => {
+                let v = self.coordinate(log_odds((x - lo.value()) / (hi.value() - lo.value())));
+                let s = logistic(v);
+                let log = s.ln();
+                let width = hi - lo;
+                let mut value = (lo + width * s).at(x);
+                if !lo.varies() && !hi.varies() {
+                    value = value.within(lo.value(), hi.value());
+                }
+                let share = two * log - v;
+                let slope = width.ln() + share;
+                // Where the density is one of the share, its logarithms are at hand, and nothing cancels.
+                let log_density = match dist {
+                    Dist::Uniform { .. } => share,
+                    Dist::Beta { a, b } => {
+                        let norm = a.ln_gamma() + b.ln_gamma() - (*a + *b).ln_gamma();
+                        *a * log + *b * (log - v) - norm
+                    }
+                    _ => at(value) + width.ln() + share,
+                };
+                placed(Transform::Between, value, log_density, slope)
+            }
+        })
+    }
+
+    /// A point of the simplex.
+    fn simplex(&mut self, concentrations: &[Var], x: &[f64]) -> Placed {
+        let c = Var::from_f64;
+        let n = concentrations.len();
+        let (mut left, mut log_left, mut left_at) = (c(1.0), c(0.0), 1.0);
+        let (mut values, mut log, mut slope) = (Vec::with_capacity(n), c(0.0), c(0.0));
+        let total = concentrations.iter().fold(c(0.0), |sum, a| sum + *a);
+        for (k, a) in concentrations.iter().enumerate() {
+            log = log - a.ln_gamma();
+            if k + 1 == n {
+                values.push(left.at(x[k]));
+                log = log + (*a - c(1.0)) * log_left;
+                break;
+            }
+            let v = self.coordinate(stick(x[k], left_at, n, k));
+            let centred = v - c(shift(n, k));
+            let z = logistic(centred);
+            let log_z = z.ln();
+            values.push((left * z).within(0.0, 1.0).at(x[k]));
+            // ln x_k = ln left + ln z; the Jacobian of this stick is z (1 - z) left.
+            let own = (log_z + log_z - centred) + log_left;
+            log = log + (*a - c(1.0)) * (log_left + log_z) + own;
+            slope = slope + own;
+            log_left = log_left + (log_z - centred);
+            left = (left * (c(1.0) - z)).within(0.0, 1.0);
+            left_at -= x[k];
+        }
+        let log = log + total.ln_gamma();
+        Placed { slope, ..Placed::plain(Transform::Simplex, values, log) }
+    }
+}
+
+/// The coordinate of what lies so far above a bound.
+fn log_above(distance: f64) -> f64 {
+    distance.max(f64::MIN_POSITIVE).ln()
+}
+
+/// What centres the `k`-th stick of a simplex of `n`.
+fn shift(n: usize, k: usize) -> f64 {
+    ((n - 1 - k) as f64).ln()
+}
+
+/// The coordinate of the `k`-th stick, of what is left.
+fn stick(x: f64, left: f64, n: usize, k: usize) -> f64 {
+    log_odds(x / left) + shift(n, k)
+}
+
+impl Recorded {
+    /// The coordinates of other values of the same choices: [`Recorded::numbers`] backwards. `value` tells the value of
+    /// each choice, in their order; the coordinates that are none of a choice are those of the recorded run. `None` where
+    /// a value is of another kind, or outside its bounds.
+    pub fn coordinates<'a>(
+        &self,
+        mut value: impl FnMut(&Continuous) -> Option<&'a Value>,
+    ) -> Option<Vec<f64>> {
+        let mut x = self.start.clone();
+        let mut nodes: Vec<f64> = Vec::new();
+        for choice in &self.choices {
+            let draw = value_to_draw(value(choice)?)?;
+            let place = choice.first..choice.first + choice.coordinates;
+            let mut edge = |edge: Edge| match edge {
+                Edge::Open => None,
+                Edge::At(bound) => Some(bound),
+                // It was written before the choice's coordinate, so it depends on coordinates that are known by now.
+                Edge::Node(id) => Some(self.node(id, &x, &mut nodes)),
+            };
+            let (lo, hi) = (edge(choice.edges[0]), edge(choice.edges[1]));
+            match (choice.transform, &draw) {
+                (Transform::Simplex, Draw::Vector(shares)) if shares.len() == choice.width() => {
+                    let mut left = 1.0;
+                    for (k, (x, share)) in x[place].iter_mut().zip(shares.iter()).enumerate() {
+                        *x = stick(*share, left, shares.len(), k);
+                        left -= share;
+                    }
+                }
+                (Transform::Vector, Draw::Vector(all)) if all.len() == choice.width() => {
+                    x[place].copy_from_slice(all);
+                }
+                (Transform::Simplex | Transform::Vector, _) => return None,
+                (_, draw) => {
+                    let value = draw.as_real()?;
+                    if lo.is_some_and(|lo| value < lo) || hi.is_some_and(|hi| value > hi) {
+                        return None;
+                    }
+                    x[choice.first] = match (lo, hi) {
+                        (None, None) => value,
+                        (Some(lo), None) => log_above(value - lo),
+                        (None, Some(hi)) => log_above(hi - value),
+                        (Some(lo), Some(hi)) => log_odds((value - lo) / (hi - lo)),
+                    };
+                }
+            }
+        }
+        Some(x)
+    }
+
+    /// A node's number at `x`; `known` holds those of the first nodes.
+    fn node(&self, id: Id, x: &[f64], known: &mut Vec<f64>) -> f64 {
+        for (_, node) in self.density.graph().nodes().take(id.index() + 1).skip(known.len()) {
+            let number = match (node.constant(), node.input()) {
+                (Some(c), _) => c,
+                (_, Some(k)) => x[k],
+                _ => {
+                    let mut args = [0.0; 3];
+                    args.iter_mut().zip(node.args()).for_each(|(slot, arg)| *slot = known[arg.index()]);
+                    apply(node.op, args[0], args[1], args[2])
+                }
+            };
+            known.push(number);
+        }
+        known[id.index()]
+    }
+}

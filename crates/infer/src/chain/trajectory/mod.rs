@@ -1,0 +1,213 @@
+//! Trajectories: the continuous choices of a trace move together along their gradient, within a chain whose other kernels
+//! move the discrete ones (dissertation 7.1).
+//!
+//! One transition, of fixed length or without a U-turn, in the coordinates of [`niwaki_grad::coordinates`]:
+//!
+//! 1. the trace's structure (which choices there are, and the values of the discrete ones) finds the graph of its density,
+//!    or a recording makes it: [`structures`];
+//! 2. a Hamiltonian transition goes from `x` to `x'`, with a step and scales that every structure shares: [`scales`];
+//! 3. the values at `x'` are written as one block, through the same transaction as every other proposal, so that scores,
+//!    scene and queries stay exact.
+//!
+//! The second step leaves the recorded density `g` as it is. So it is a proposal that is as likely there as `g` says, and
+//! the transaction is kept with probability `min(1, p(x') g(x) / (p(x) g(x')))`, where `p` is what the trace itself says:
+//! 1 up to rounding, as the two are the same density (Liu 2001, section 9.4.3, calls a `g` that is not `p` a surrogate). A
+//! trajectory that reaches another structure, a density of zero or what is not a number is rejected, and counted.
+//!
+//! [`travel`]: what is counted.
+
+pub(crate) mod scales;
+pub(crate) mod structures;
+pub mod travel;
+
+use super::Chain;
+use super::accept::Rules;
+use super::decide::Decision;
+use super::state::Fresh;
+use crate::gradient::follow::reason;
+use crate::hamiltonian::chains::Length;
+use crate::hamiltonian::hmc::Hmc;
+use crate::hamiltonian::nuts::Nuts;
+use crate::hamiltonian::step_size::first_guess;
+use crate::hamiltonian::{Cause, Kernel};
+use crate::{Failure, Task, gradient};
+use niwaki_grad::{Model, Scope, Transform};
+use niwaki_vm::machine::Machine;
+use niwaki_vm::machine::kept::{Changed, Proposed, Trace};
+use scales::Scales;
+use structures::{Moving, Structures};
+use travel::Travel;
+
+/// An energy error above this many nats is a divergence, as in Stan.
+const MAX_ENERGY_ERROR: f64 = 1000.0;
+
+/// Trajectories of one leaf of a kernel.
+pub(crate) struct Trajectory {
+    kernel: Kernel,
+    scales: Scales,
+    structures: Structures,
+    model: Option<Model>,
+    /// What became of them.
+    pub travel: Travel,
+    /// Whether step and scales are adapted now, and the share of the warm-up that is over.
+    pub warming: Option<f64>,
+}
+
+impl Clone for Trajectory {
+    /// What was learnt is copied; graphs are recorded anew.
+    fn clone(&self) -> Self {
+        Trajectory {
+            kernel: self.kernel.clone(),
+            scales: self.scales.clone(),
+            structures: Structures::default(),
+            model: self.model.clone(),
+            travel: Travel::default(),
+            warming: self.warming,
+        }
+    }
+}
+
+impl std::fmt::Debug for Trajectory {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Trajectory").field("kernel", &self.kernel).field("travel", &self.travel).finish()
+    }
+}
+
+impl Trajectory {
+    pub fn new(length: Length, step: f64, target: f64) -> Trajectory {
+        let kernel = match length {
+            Length::Fixed { steps, jitter } => Kernel::Hmc(Hmc::new(steps, jitter, MAX_ENERGY_ERROR)),
+            Length::NoUTurn { max_depth } => Kernel::Nuts(Nuts::new(max_depth, MAX_ENERGY_ERROR)),
+        };
+        Trajectory {
+            kernel,
+            scales: Scales::new(step, target),
+            structures: Structures::default(),
+            model: None,
+            travel: Travel::default(),
+            warming: None,
+        }
+    }
+
+    /// Makes ready what it records; once for a task.
+    ///
+    /// # Errors
+    /// Sketches, which have no gradient.
+    pub fn prepare<R: Rules>(&mut self, task: &Task) -> Result<(), Failure> {
+        if self.model.is_none() {
+            let scope = Scope { drops_jacobian: R::DROPS_JACOBIAN, ..Scope::default() };
+            self.model = Some(Model { scope, ..gradient::model(task)? });
+        }
+        Ok(())
+    }
+
+    /// The step in use.
+    pub fn step(&self) -> f64 {
+        self.scales.step(1)
+    }
+
+    /// Graphs recorded: structures met, and runs recorded for them.
+    pub fn recorded(&self) -> (u64, u64) {
+        self.structures.recorded()
+    }
+}
+
+impl<R: Rules> Chain<R> {
+    /// One transition of the continuous choices that a table gives weight; all of them, where there is none.
+    pub(super) fn trajectory(
+        &mut self,
+        task: &Task,
+        machine: &mut Machine<'_>,
+        own: &mut Trajectory,
+        table: Option<usize>,
+        beta: f64,
+    ) -> Result<(), Failure> {
+        let (visit, program) = (self.visit, &*task.program);
+        self.visit += 1;
+        self.last = Decision { same: true, accepted: true, log_ratio: 0.0 };
+        own.prepare::<R>(task)?;
+        let Some(model) = &own.model else { return Ok(()) };
+        if own.warming.is_none() {
+            own.scales.freeze();
+        }
+        // The structure, its graph, and where the trace stands in its coordinates.
+        let (trace, tables) = (&self.state.trace, &self.tables);
+        let moves = |choice: usize| table.is_none_or(|t| tables[t].weight(choice) > 0);
+        let mut label = |choice: usize, transform: Transform, place: usize| {
+            let site = self.counts.number(trace.site_of(choice));
+            let is_plain = matches!(transform, Transform::Line | Transform::Vector);
+            own.scales.label(site as u32, place as u32, if is_plain { self.spreads[site] } else { 1.0 })
+        };
+        own.structures.find(model, trace, program, beta, &moves, &mut label)?;
+        let Some(Moving { target, labels, numbers }) = own.structures.present() else { return Ok(()) };
+        if target.is_still() {
+            return Ok(());
+        }
+        self.last = Decision { same: false, accepted: false, log_ratio: f64::NEG_INFINITY };
+        let mut phase = match target.stand(trace, program, numbers, beta) {
+            Ok(phase) => phase,
+            Err(stop) => {
+                let fault = || reason(target.live(), &target.all(&[]));
+                own.travel.refused(stop.cause, own.warming.is_some(), fault);
+                self.count_many(self.last);
+                return Ok(());
+            }
+        };
+        let (backward, _) = target.values(&phase.x, phase.log_density);
+
+        // From x to x'.
+        let (key, dim) = (self.streams.moves(visit), phase.x.len());
+        let metric = own.scales.metric(labels);
+        if own.warming.is_some() && own.scales.wants_a_guess() {
+            let guess = first_guess(target, &metric, &phase, own.scales.step(dim), &mut key.at(1));
+            own.scales.guessed(guess, dim);
+        }
+        let step = own.scales.step(dim);
+        let made = R::travel(&mut own.kernel, target, &metric, step, &mut phase, &mut key.at(0));
+        if let Some(share) = own.warming {
+            own.scales.learn(labels, &phase.gradient, made.accept, share);
+        }
+        let faulty = made.divergence.as_ref().filter(|d| d.stop.is_some_and(|s| s.cause == Cause::NotFinite));
+        let faulty = faulty.map(|divergence| target.all(&divergence.end));
+        own.travel.count(&made, own.warming.is_some(), || reason(target.live(), &faulty?));
+        self.last.log_ratio = made.accept.ln();
+        // The last point that was looked at may lie on another path than x'.
+        let there = if made.moved { target.look(&phase.x).ok() } else { None };
+        let Some(log_density) = there else {
+            self.count_many(self.last);
+            return Ok(());
+        };
+
+        // The values there, as one block. All of the proposal's density stands with its first choice.
+        let (forward, values) = target.values(&phase.x, log_density);
+        let noting = self.best.is_noting();
+        let (mut moved, mut changes) = (Vec::new(), Vec::with_capacity(values.len()));
+        for (place, value) in values {
+            let choice = numbers[place];
+            if noting {
+                moved.push((trace.address(program, choice), trace.choice(program, choice).0.clone()));
+            }
+            let (forward, backward) = if changes.is_empty() { (forward, backward) } else { (0.0, 0.0) };
+            changes.push(Changed { choice, proposed: Proposed { value, forward, backward } });
+        }
+        let mut answers =
+            Fresh { key: self.streams.fresh(visit), known: None, hosts: &*task.hosts, spreads: None };
+        let change =
+            match machine.change(&mut self.state.trace, changes, self.settings.strategy, &mut answers) {
+                Ok(change) => change,
+                Err(fault) => return Err(self.give_up(task, fault.into())),
+            };
+        let odds = |_: &Self, trace: &Trace| {
+            // What was drawn on the way is no part of the density: the way back would not lead here.
+            let anew = trace.drawn_anew().iter().any(|(address, _)| own.structures.knows(*address));
+            let is_other = trace.births(program).len() > 0 || !trace.deaths().is_empty() || anew;
+            if is_other { f64::NEG_INFINITY } else { 0.0 }
+        };
+        let mut rng = self.streams.decisions(visit);
+        let decision = self.decide(task, change, beta, &mut rng, odds, |_| moved)?;
+        own.travel.moved += u64::from(decision.accepted);
+        own.travel.unwritten += u64::from(!decision.accepted);
+        self.count_many(decision);
+        Ok(())
+    }
+}

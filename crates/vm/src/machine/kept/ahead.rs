@@ -1,0 +1,49 @@
+//! Memory that the next proposal will need, asked for while this one runs: in a long chain a choice's activation lies in
+//! no cache, and each step on the way to it would wait for the one before.
+#![allow(unsafe_code)] // The processor's prefetch, which reads nothing and may be given any address.
+
+use super::{ChoiceAt, Trace};
+use crate::code::{Mode, Program};
+use niwaki_math::Scalar;
+
+/// Asks for what lies there.
+#[inline(always)]
+fn fetch<T>(items: &[T], at: usize) {
+    #[cfg(target_arch = "x86_64")]
+    if let Some(item) = items.get(at) {
+        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        // SAFETY: a hint, which changes nothing and cannot fail; it is part of every x86-64.
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(std::ptr::from_ref(item).cast()) }
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = (items, at);
+}
+
+impl<S: Scalar> Trace<S> {
+    /// A proposal to that choice comes soon: its activation's node is asked for.
+    #[inline]
+    pub fn approach(&self, choice: usize) {
+        if let Some(ChoiceAt { node, .. }) = self.kept.choices.get(choice) {
+            fetch(&self.state.nodes, node.0 as usize);
+        }
+    }
+
+    /// A proposal to that choice comes next: what its activation, and an iteration after it, hold is asked for.
+    #[inline]
+    pub fn approach_closer(&self, program: &Program<S>, choice: usize) {
+        let Some(ChoiceAt { node, .. }) = self.kept.choices.get(choice) else { return };
+        let n = &self.state.nodes[node.0 as usize];
+        let (registers, slots) = (n.registers as usize, n.slots as usize);
+        fetch(&self.state.registers, registers);
+        fetch(&self.state.registers, registers + 4);
+        fetch(&self.kept.slots, slots);
+        if program.function(n.function).mode == Mode::Iteration {
+            let header = &self.state.nodes[n.parent.0 as usize];
+            fetch(&self.kept.loops[header.slots as usize], n.iteration as usize + 1);
+            // Iterations that were made one after the other lie so.
+            fetch(&self.state.nodes, node.0 as usize + 1);
+            fetch(&self.state.registers, registers + 8);
+            fetch(&self.kept.slots, slots + 4);
+        }
+    }
+}

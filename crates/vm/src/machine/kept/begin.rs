@@ -1,0 +1,66 @@
+//! The first run of a trace.
+
+use super::super::address;
+use super::super::stack::RunFault;
+use super::super::{Answers, Machine, NodeId, State};
+use super::{Change, Kept, Strategy, Trace};
+use crate::code::{FunctionId, Mode};
+use crate::value::{Closure, Value};
+use niwaki_math::Scalar;
+
+impl<'p, S: Scalar> Machine<'p, S> {
+    /// Runs the program from the start and keeps its activations. The transaction that made them is open; a start that
+    /// came to a score of minus infinity is of no further use.
+    ///
+    /// # Errors
+    /// The wrong number of arguments, or a fault of the program.
+    pub fn begin<A: Answers<S>>(
+        &mut self,
+        args: &[Value<S>],
+        answers: &mut A,
+    ) -> Result<(Trace<S>, Change), Box<RunFault>> {
+        self.begin_call(self.program.entry, &[], args, answers)
+    }
+
+    /// As [`Machine::begin`], of a closure of the program.
+    ///
+    /// # Errors
+    /// As for [`Machine::begin`].
+    pub fn begin_closure<A: Answers<S>>(
+        &mut self,
+        closure: &Closure<S>,
+        args: &[Value<S>],
+        answers: &mut A,
+    ) -> Result<(Trace<S>, Change), Box<RunFault>> {
+        self.begin_call(FunctionId(closure.function), &closure.captures, args, answers)
+    }
+
+    fn begin_call<A: Answers<S>>(
+        &mut self,
+        entry: FunctionId,
+        captures: &[Value<S>],
+        args: &[Value<S>],
+        answers: &mut A,
+    ) -> Result<(Trace<S>, Change), Box<RunFault>> {
+        let bare = |fault| Box::new(RunFault { fault, stack: vec![], omitted: 0, path: String::new() });
+        let template = self.start_call(entry, captures, args, true).map_err(bare)?;
+        let mut trace = Trace { state: State::empty(), kept: Kept::new(self.program) };
+        let (state, kept) = (&mut trace.state, &mut trace.kept);
+        state.depth_first = true;
+        kept.open();
+        let root = kept.new_node(self.program, state, entry, NodeId::NONE, 0, address::ROOT);
+        if self.program.function(entry).mode == Mode::Pure {
+            // A pure entry function reads its arguments at the start of the register file.
+            state.registers.extend(template.registers.iter().cloned());
+        } else {
+            let f = self.program.function(entry);
+            let count = usize::from(f.params) + usize::from(f.captures);
+            for (i, value) in template.registers.iter().take(count).enumerate() {
+                state.registers[i] = value.clone();
+            }
+        }
+        kept.prepare(Strategy::Rerun);
+        let change = self.run_kept(&mut trace, root, 0, answers)?;
+        Ok((trace, change))
+    }
+}

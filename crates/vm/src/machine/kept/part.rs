@@ -1,0 +1,125 @@
+//! Activations that are entered for one change only, in a slice of their code (see `passes::slices`).
+//!
+//! Only C3 takes slices. A run from the root marks readers of changed elements as it goes, and those may stand in a call
+//! that a slice leaves out.
+
+use super::super::Machine;
+use super::super::keep::Onward;
+use super::super::registers::Registers;
+use super::super::state::{NodeId, State};
+use super::super::suspend::After;
+use super::loops::{Handed, Next};
+use super::{Active, Kept, Step};
+use crate::code::{Function, Mode, Site, SiteId, exit};
+use crate::fault::Fault;
+use crate::value::same;
+use niwaki_math::Scalar;
+
+/// Where an activation is entered, by what has changed of its inputs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Entry {
+    /// Nothing: it need not be entered.
+    Unchanged,
+    /// One input, of which this is the slice.
+    One(u32),
+    /// More than one.
+    Whole,
+}
+
+impl Entry {
+    /// An input has changed whose slice begins there.
+    #[inline(always)]
+    pub fn add(&mut self, slice: u32) {
+        *self = if *self == Entry::Unchanged { Entry::One(slice) } else { Entry::Whole };
+    }
+}
+
+impl<S: Scalar> Kept<S> {
+    /// The instruction at which it is entered.
+    #[inline(always)]
+    pub(super) fn entry(&self, changed: Entry) -> u32 {
+        match changed {
+            Entry::One(slice) if self.early => slice,
+            _ => 0,
+        }
+    }
+
+    /// Where to go on after a site: when what it leaves has changed, in the whole code.
+    #[inline(always)]
+    pub(super) fn after(&self, f: &Function<S>, site: &Site, changed: bool) -> After {
+        if changed && self.pc >= f.body { After::Goto(site.next) } else { After::Next }
+    }
+
+    /// A call that was made before, of whose arguments only one may have changed.
+    #[inline]
+    pub(super) fn pass_one(
+        &mut self,
+        machine: &Machine<'_, S>,
+        state: &mut State<S>,
+        r: Registers<'_, S>,
+        node: NodeId,
+        number: SiteId,
+        arg: u16,
+    ) -> After {
+        let site = &r.f.sites[number.0 as usize];
+        let child = NodeId(self.slots[Kept::slot_at(state, node, number.0 as usize)].held);
+        let n = &state.nodes[child.0 as usize];
+        let (place, function) = (n.registers as usize + arg as usize, n.function);
+        let value = r.get(state, &machine.scratch, r.f.operands[site.args.start as usize + arg as usize]);
+        if same(value, &state.registers[place]) {
+            return After::Next;
+        }
+        let value = value.clone();
+        let old = std::mem::replace(&mut state.registers[place], value);
+        self.journal.registers.push((place as u32, old));
+        self.call_again(state, child, Entry::One(machine.program.function(function).inputs[arg as usize]))
+    }
+
+    /// An activation leaves what it left before. The run ends when it was not entered from above.
+    pub(super) fn leave_unchanged(
+        &mut self,
+        machine: &mut Machine<'_, S>,
+        state: &mut State<S>,
+        node: NodeId,
+    ) -> Result<Onward, Fault> {
+        self.note(Step::Unwound(node));
+        if self.depth == 0 {
+            return Ok(Onward::END);
+        }
+        let n = state.nodes[node.0 as usize];
+        if machine.program.function(n.function).mode == Mode::Node {
+            let (function, site) = Kept::caller(state, node);
+            self.sites.paid(function, site);
+            self.depth -= 1;
+            return Ok(self.returns.pop().map_or(Onward::END, |next| Onward::at(n.parent, next)));
+        }
+        let header = n.parent;
+        if i64::from(n.pc) != exit::NEXT {
+            return Ok(self.go_on(machine, state, header, false, false));
+        }
+        // What the iteration was entered for: a loop that was entered from above, or (when the iteration before changed
+        // what it handed on) one that was not.
+        let active = match self.active.last() {
+            Some(active) if active.header == header => *active,
+            _ => Active { header, captures: Entry::Unchanged, over: false },
+        };
+        if !active.over {
+            // There are as many iterations as before; what they all capture is all that can have changed for the next.
+            let list = state.nodes[header.0 as usize].slots as usize;
+            let next = self.loops[list].get(n.iteration as usize + 1).copied();
+            return Ok(match next.filter(|_| active.captures != Entry::Unchanged) {
+                Some(next) => {
+                    self.leaves_its_activation();
+                    self.counters.entered += 1;
+                    self.note(Step::Entered(next));
+                    Onward::at(next, self.entry(active.captures))
+                }
+                None => self.go_on(machine, state, header, false, false),
+            });
+        }
+        Ok(match self.iterate(machine, state, active, n.iteration as usize + 1, Handed::Unchanged)? {
+            Next::Enter(child, at) => Onward::at(child, at),
+            Next::Ended { changed } => self.go_on(machine, state, header, false, changed),
+        })
+    }
+}

@@ -1,0 +1,74 @@
+"""Palettes whose harmony is a choice, explored in one chain with many modes (dissertation 2.3.2 and 7.1).
+
+What `palettes.harmonious` fixes is decided here by the chain: which scheme of the colour wheel holds, and of which
+colours there are shades, so that a palette of five has one accent and three shades, or two of each. Those choices are
+discrete, and decide what other choices there are; hues, saturations and values are real. The constraint is tight:
+each colour differs from the one before by the same amount, to a hundredth. A colour is a triple of hue (turns),
+saturation and value.
+
+`KERNEL` moves the discrete choices by Metropolis-Hastings and the real ones along their gradient, at several
+temperatures: where the constraint is loose the scheme turns, and where it is tight the colours are.
+"""
+
+from math import pi
+
+from niwaki import kernels
+from niwaki.methods import mh
+from niwaki.words import (
+    beta,
+    categorical,
+    color_difference,
+    discrete_uniform,
+    factor,
+    gaussian,
+    hsv,
+    model,
+    softeq,
+    truncated_gaussian,
+    uniform,
+    vec,
+    von_mises,
+)
+
+TITLE = "palettes of many harmonies, by one chain"
+
+#: Schemes of the colour wheel: where the accents stand, degrees from the main hue.
+SCHEMES = ("complementary", "split complementary", "triad", "analogous")
+ANGLES = ((180.0,), (150.0, 210.0), (120.0, 240.0), (-32.0, 32.0))
+
+#: How many colours a palette has, how different neighbours are (CIEDE2000), and within what.
+COLORS, APART, WITHIN = 5, 25.0, 0.25
+
+#: One of each: a discrete choice by Metropolis-Hastings, all real ones along their gradient.
+BOTH = kernels.cycle(
+    kernels.repeat(3, kernels.on(["scheme", "of"], kernels.mh())), kernels.hmc(steps=10, jitter=0.5)
+)
+KERNEL = kernels.temper(BOTH, temperatures=(1, 4, 16, 64, 256, 1024), every=8)
+METHOD = mh(steps=40_000, warmup=8_000, thin=32, kernel=KERNEL)
+
+
+@model
+def harmonies():
+    """A scheme, a main colour, its accents, and shades; (scheme, colours as they are shown)."""
+    scheme = categorical([0.25, 0.25, 0.25, 0.25])
+    colors = [colored(von_mises(0.0, 0.0) / (2.0 * pi))]
+    for angle in ANGLES[scheme]:
+        # How far the accent is off its place, so that it goes along when the scheme turns it elsewhere.
+        off = gaussian(0.0, 0.008)
+        colors = colors + [colored(colors[0].x + angle / 360.0 + off)]
+    for _ in range(COLORS - len(colors)):
+        of = discrete_uniform(0, len(ANGLES[scheme]))
+        saturation = truncated_gaussian(colors[of].y, 0.05, 0.0, 1.0)
+        colors = colors + [vec(colors[of].x, saturation, uniform(0.25, 1.0))]
+    shown = [hsv(color.x, color.y, color.z) for color in colors]
+    for i in range(1, COLORS):
+        factor(softeq(color_difference(shown[i - 1], shown[i]), APART, WITHIN))
+    return (scheme, shown)
+
+
+def colored(hue):
+    """A colour of that hue, neither grey nor dark."""
+    return vec(hue, beta(5.0, 6.0), beta(8.0, 2.5))
+
+
+MODEL = harmonies
