@@ -184,7 +184,11 @@ def curves(rows: list[dict], path: Path) -> None:
             means = [statistics.fmean(row["scores"]) for row in points]
             at = [row["particles"] for row in points]
             panel.plot(at, means, "o-", color=color, label=way, markersize=3.5)
-            sixths = [statistics.quantiles(row["scores"], n=6, method="inclusive") for row in points]
+            # One search alone has no spread.
+            sixths = [
+                statistics.quantiles(2 * scores if len(scores) == 1 else scores, n=6, method="inclusive")
+                for scores in (row["scores"] for row in points)
+            ]
             low, high = ([cut[end] for cut in sixths] for end in (0, -1))
             panel.fill_between(at, low, high, color=color, alpha=0.15, linewidth=0)
             panel.plot(at, [min(row["scores"]) for row in points], "_", color=color, markersize=8)

@@ -160,7 +160,9 @@ def numpyro_nuts(name: str, point: np.ndarray, warmup: int, draws: int, seed: in
 
     def run(seed: int) -> Any:
         fields = ("num_steps", "accept_prob")
-        chain.warmup(jax.random.key(seed), init_params=jnp.asarray(point), extra_fields=fields, collect_warmup=True)
+        chain.warmup(
+            jax.random.key(seed), init_params=jnp.asarray(point), extra_fields=fields, collect_warmup=True
+        )
         steps = int(chain.get_extra_fields()["num_steps"].sum())
         chain.run(jax.random.key(seed + 1000), extra_fields=fields)
         return chain.get_samples(), chain.get_extra_fields(), steps
@@ -197,7 +199,14 @@ def nutpie_nuts(name: str, point: np.ndarray, warmup: int, draws: int, seed: int
         warnings.simplefilter("ignore")
         wall, cpu = time.perf_counter(), time.process_time()
         trace = nutpie.sample(
-            model, draws=draws, tune=warmup, chains=1, cores=1, seed=seed, progress_bar=False, save_warmup=True
+            model,
+            draws=draws,
+            tune=warmup,
+            chains=1,
+            cores=1,
+            seed=seed,
+            progress_bar=False,
+            save_warmup=True,
         )
         wall, cpu = time.perf_counter() - wall, time.process_time() - cpu
     facts = trace.sample_stats

@@ -21,14 +21,25 @@ def measure(report: Report, programs: Programs, rounds: int, peers: dict[str, fl
     for model, most in SIZES.items():
         runs = [programs.start(model) for _ in range(rounds)]
         middle = {key: statistics.median(run[key] for run in runs) for key in runs[0]}
-        times = ("record_ms", "first_gradient_ms", "machine_code_ms", "machine_code_cpu_ms", "chain_until_machine_code_ms")
+        times = (
+            "record_ms",
+            "first_gradient_ms",
+            "machine_code_ms",
+            "machine_code_cpu_ms",
+            "chain_until_machine_code_ms",
+        )
         table.add_row(
-            model, f"{middle['dim']:.0f}", f"{middle['operations']:.0f}", *(f"{middle[key]:.2f}" for key in times)
+            model,
+            f"{middle['dim']:.0f}",
+            f"{middle['operations']:.0f}",
+            *(f"{middle[key]:.2f}" for key in times),
         )
         report.note(start=model, **middle)
         if most is not None:
             report.ask(f"{model}: ms until machine code", middle["chain_until_machine_code_ms"], most=most)
-    report.ask("stack28: ms from a graph to the first gradient", middle["first_gradient_ms"], most=FIRST_GRADIENT)
+    report.ask(
+        "stack28: ms from a graph to the first gradient", middle["first_gradient_ms"], most=FIRST_GRADIENT
+    )
     report.show(table)
     if peers:
         table = report.table("seconds to compile (first run less a later one)", "model and system", "seconds")

@@ -2,11 +2,11 @@
 
 import numpy as np
 from chains.report import Report, short
+from niwaki import diagnostics
 
 from hmc import densities, peers
 from hmc.ours import Programs
 from hmc.peers import Run
-from niwaki import diagnostics
 
 WARMUP, DRAWS = 500, 1000
 
@@ -44,9 +44,7 @@ def measure(report: Report, programs: Programs, models: tuple[str, ...], share: 
                 f"{run.accept:.2f}",
                 f"{compiling:.1f}" if compiling else "",
             )
-            report.note(
-                nuts=model, system=name, gradients=run.gradients, seconds=run.seconds, effective=size
-            )
+            report.note(nuts=model, system=name, gradients=run.gradients, seconds=run.seconds, effective=size)
     report.show(table)
 
 

@@ -12,8 +12,6 @@ from niwaki import stacks
 from stacking.files import Drawn, Verdicts, chains
 from stacking.kinds import Kind
 
-#: Seconds of the simulation's steps.
-TIME_STEP = 0.0005
 #: The margin takes eight programs: it is looked for in every so many draws.
 MARGINS = 5
 #: Columns of a row that a polish has of its own.
@@ -47,7 +45,7 @@ def verdict(kind: Kind, choices: dict[str, Any], margin: bool) -> dict[str, Any]
     except nw.NiwakiError as fault:
         return {"refused": getattr(fault, "code", type(fault).__name__)}
     balance = stacks.balanced(structure, margin=margin)
-    drop = stacks.simulated(structure, time_step=TIME_STEP)
+    drop = stacks.simulated(structure)
     found = {
         "residual": balance.residual,
         "holds": balance.holds,

@@ -2,7 +2,7 @@
 
 Five models of the Inference Gym (Apache-2.0), whose data and ground truths lie in its wheel; these files are read as
 data, so that TensorFlow is not needed. Every mean lies within 4 standard errors, ours and theirs combined. A true
-sampler is outside once in 16,000 means; 240 means are judged, so one set of seeds in 65 would fail; the seeds are
+sampler is outside once in 16,000 means; 360 means are judged, so one set of seeds in 45 would fail; the seeds are
 fixed. A mutant, whose observations are twice as noisy as the data's, must be found out.
 
 These run in `make soak`, where `inference_gym` is installed (extra `bench-hmc`).
@@ -83,16 +83,28 @@ def convection(seen, innovation, noise, step):
     deviation = math.sqrt(step) * innovation
     if seen[0] is not None:
         nw.observe(Gaussian(x, noise), seen[0])
+    # Innovations in units of their deviation: the data say little of each.
     for value in seen[1:]:
         dx = 10.0 * (y - x)
         dy = x * (28.0 - z) - y
         dz = x * y - 8.0 / 3.0 * z
-        x = nw.gaussian(x + step * dx, deviation)
-        y = nw.gaussian(y + step * dy, deviation)
-        z = nw.gaussian(z + step * dz, deviation)
+        x = x + step * dx + deviation * nw.gaussian(0.0, 1.0)
+        y = y + step * dy + deviation * nw.gaussian(0.0, 1.0)
+        z = z + step * dz + deviation * nw.gaussian(0.0, 1.0)
         if value is not None:
             nw.observe(Gaussian(x, noise), value)
     return x
+
+
+def states(draws: np.ndarray, innovation: float, step: float) -> np.ndarray:
+    """The states of the convection from its choices, both (numbers, chains, draws)."""
+    at, found = draws[:3], [draws[:3]]
+    for k in range(3, len(draws), 3):
+        x, y, z = at
+        slope = np.array([10.0 * (y - x), x * (28.0 - z) - y, x * y - 8.0 / 3.0 * z])
+        at = at + step * slope + math.sqrt(step) * innovation * draws[k : k + 3]
+        found.append(at)
+    return np.concatenate(found)
 
 
 @model
@@ -101,23 +113,17 @@ def volatility(returns):
     mean = nw.cauchy(0.0, 5.0)
     # A half-Cauchy by its quantiles.
     shock = 2.0 * math.tan(0.5 * math.pi * nw.uniform(0.0, 1.0))
-    above = shock / math.sqrt(1.0 - persistence * persistence) * nw.gaussian(0.0, 1.0)
-    for i in range(len(returns)):
-        if i > 0:
-            above = persistence * above + shock * nw.gaussian(0.0, 1.0)
-        nw.observe(Gaussian(0.0, math.exp(0.5 * (mean + above))), returns[i])
+    log_volatility = nw.gaussian(mean, shock / math.sqrt(1.0 - persistence * persistence))
+    nw.observe(Gaussian(0.0, math.exp(0.5 * log_volatility)), returns[0])
+    for r in returns[1:]:
+        log_volatility = nw.gaussian(mean + persistence * (log_volatility - mean), shock)
+        nw.observe(Gaussian(0.0, math.exp(0.5 * log_volatility)), r)
     return mean
 
 
 def volatilities(draws: np.ndarray) -> np.ndarray:
     """What the Gym calls its parameters, from our choices, both (numbers, chains, draws)."""
-    persistence, mean, shock = 2 * draws[0] - 1, draws[1], 2 * np.tan(0.5 * np.pi * draws[2])
-    above = shock / np.sqrt(1 - persistence**2) * draws[3]
-    series = [mean + above]
-    for z in draws[4:]:
-        above = persistence * above + shock * z
-        series.append(mean + above)
-    return np.array([persistence, mean, shock, *series])
+    return np.array([2 * draws[0] - 1, draws[1], 2 * np.tan(0.5 * np.pi * draws[2]), *draws[3:]])
 
 
 def with_gaps(values: Any, seen: Any) -> list[float | None]:
@@ -168,23 +174,62 @@ def test_a_walk_with_a_gap_and_not_one_of_twice_the_noise() -> None:
     assert errors(mutant, BROWNIAN, ("",)).max() > 10
 
 
-def test_a_walk_of_unknown_scales() -> None:
-    result = nw.run(walk_of_unknown_scales, nuts(target_accept=0.95), brownian()[0], seed=3)
-    names = ("INNOVATION_NOISE_SCALE", "OBSERVATION_NOISE_SCALE", "LOCS")
-    assert errors(result, "brownian_motion_unknown_scales_missing_middle_observations", names).max() < 4
+def walk_by_quadrature(seen: list[float | None]) -> np.ndarray:
+    """Posterior means of the walk's two scales and its places: given the scales all is normal, and they are two."""
+    there = np.array([y is not None for y in seen])
+    steps = np.arange(1.0, len(seen) + 1)
+    cover = np.minimum.outer(steps, steps)
+    spread, turn = np.linalg.eigh(cover[np.ix_(there, there)])
+    data, back = turn.T @ np.array([y for y in seen if y is not None]), cover[:, there] @ turn
+    innovation, noise = np.linspace(-7.0, 2.0, 361), np.linspace(-9.0, 1.0, 401)
+    log, places = np.empty((361, 401)), np.empty((361, 401, len(seen)))
+    for i, a in enumerate(innovation):
+        variance = np.exp(2 * a) * spread + np.exp(2 * noise)[:, None]
+        log[i] = -0.5 * (np.log(variance) + data**2 / variance).sum(axis=1) - (a**2 + noise**2) / 8
+        places[i] = (np.exp(2 * a) * data / variance) @ back.T
+    weight = np.exp(log - log.max())
+    weight /= weight.sum()
+    scales = [(weight.sum(axis=1) * np.exp(innovation)).sum(), (weight.sum(axis=0) * np.exp(noise)).sum()]
+    return np.concatenate([scales, np.tensordot(weight, places, 2)])
+
+
+def test_a_walk_of_unknown_scales_by_quadrature_and_not_by_the_gym() -> None:
+    # The Gym's figures for this model are not its posterior means: quadrature, and any chain, is 20 of its standard
+    # errors away. So the exact answer is the judge here.
+    seen = brownian()[0]
+    draws = np.array(
+        list(nw.run(walk_of_unknown_scales, nuts(target_accept=0.95), seen, seed=3).draws.values())
+    )
+    exact = walk_by_quadrature(seen)
+    ours = np.array([diagnostics.mcse_mean(x) for x in draws])
+    assert (np.abs(draws.mean(axis=(1, 2)) - exact) / ours).max() < 4
+    known = read("targets", "ground_truth", "brownian_motion_unknown_scales_missing_middle_observations.py")
+    theirs = (
+        known["IDENTITY_OBSERVATION_NOISE_SCALE_MEAN"],
+        known["IDENTITY_OBSERVATION_NOISE_SCALE_MEAN_STANDARD_ERROR"],
+    )
+    assert (exact[1] - theirs[0]) / theirs[1] > 15
 
 
 def test_convection() -> None:
     data = dataset("convection_lorenz_bridge")
     seen = with_gaps(data["OBSERVED_VALUES"], data["OBSERVATION_MASK"])
     assert data["OBSERVATION_INDEX"] == 0
-    scales = (data["INNOVATION_SCALE"], data["OBSERVATION_SCALE"], data["STEP_SIZE"])
-    result = nw.run(convection, nuts(), seen, *map(float, scales), seed=4)
-    assert errors(result, "convection_lorenz_bridge", ("",)).max() < 4
+    innovation, noise, step = (
+        float(data[name]) for name in ("INNOVATION_SCALE", "OBSERVATION_SCALE", "STEP_SIZE")
+    )
+    given = (seen, innovation, noise, step)
+    # Started anywhere, a chain may stay on a path that spirals the other way, 275 nats below: start where runs do well.
+    start = nw.run(convection, nw.importance(2000), *given, seed=4).best.choices
+    result = nw.run(convection, nuts(), *given, seed=4, choices=start)
+    off = errors(result, "convection_lorenz_bridge", ("",), lambda draws: states(draws, innovation, step))
+    assert off.max() < 4
 
 
-def test_stochastic_volatility() -> None:
-    returns = np.diff(np.log(dataset("sp500_closing_prices")["CLOSING_PRICES"]))[-100:]
+@pytest.mark.parametrize("scale", ["log_", ""])
+def test_stochastic_volatility(scale: str) -> None:
+    prices = dataset("sp500_closing_prices")["CLOSING_PRICES"]
+    returns = np.diff(np.log(prices) if scale else prices)[-100:]
     result = nw.run(volatility, nuts(target_accept=0.95), list(returns - returns.mean()), seed=5)
     names = ("PERSISTENCE_OF_VOLATILITY", "MEAN_LOG_VOLATILITY", "WHITE_NOISE_SHOCK_SCALE", "LOG_VOLATILITY")
-    assert errors(result, "stochastic_volatility_log_sp500_small", names, volatilities).max() < 4
+    assert errors(result, f"stochastic_volatility_{scale}sp500_small", names, volatilities).max() < 4

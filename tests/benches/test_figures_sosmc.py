@@ -59,3 +59,4 @@ def test_every_search_is_measured(drawn: Path) -> None:
     }
     assert len(compared) == 3 * 4
     assert len(rows(drawn / "growth.jsonl")) == 1 + 2
+    assert len(rows(drawn / "threads.jsonl")) == 5

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import linecache
 import os
 import signal
@@ -263,6 +264,22 @@ def test_explain_tells_what_each_strategy_did() -> None:
     assert seen["rerun"]["invoked"] == total
     assert seen["c3"]["untouched"] > seen["resume"]["untouched"] >= 0
     assert seen["c3"]["invoked"] + seen["c3"]["unwound"] <= 2
+
+
+def test_the_shell_fills_a_target_of_the_gallery(tmp_path: Path) -> None:
+    (tmp_path / "chains.py").write_text(TEXT)
+    words = ["sample", f"{tmp_path / 'chains.py'}:tower", "--target", "gallery:bent-tube", "--voxel", "1"]
+    more = ["--steps", "200", "--chains", "1", "--seed", "1", "--no-picture", "-o", str(tmp_path / "out")]
+    found = CliRunner().invoke(app, [*words, *more])
+    assert found.exit_code == 0, found.output
+    written = json.loads((tmp_path / "out" / "run.json").read_text())
+    assert written["target"]["reference"] == "gallery:bent_tube"
+    again = CliRunner().invoke(
+        app, ["replay", str(tmp_path / "out" / "run.json"), "-o", str(tmp_path / "again"), "--no-picture"]
+    )
+    assert again.exit_code == 0, again.output
+    words[3] = "gallery:bent-tub"
+    assert CliRunner().invoke(app, [*words, *more]).exit_code != 0
 
 
 def test_the_shell_samples_and_explains(tmp_path: Path) -> None:

@@ -10,6 +10,7 @@ use std::sync::{Arc, OnceLock};
 /// A box's corners are made from its placement when they are asked for, which costs less than to keep them: boxes are
 /// most of what models emit, and a population holds millions. Every other solid lends what it keeps.
 #[derive(Clone, Debug)]
+#[expect(clippy::large_enum_variant, reason = "corners are on the stack while they are asked for")]
 pub enum Convex<'a> {
     /// Corners, and unit normals of the faces, along which the edges run too.
     Cuboid([Vec3; 8], [Vec3; 3]),

@@ -123,7 +123,7 @@ fn compare(
     scene: &str,
 ) -> PictureMatch {
     let mut sketch = PictureMatch::new("match", picture.clone(), 0.02);
-    let primitives: Vec<Primitive> = shapes.chunks(2).map(|c| Primitive::new(c.to_vec())).collect();
+    let primitives: Vec<Primitive> = shapes.chunks(2).map(Primitive::new).collect();
     primitives.iter().for_each(|p| sketch.add(p));
     for (ray, pixel) in picture.rays().pixels().iter().enumerate() {
         let expected = rendered[*pixel as usize];

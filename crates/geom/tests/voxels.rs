@@ -144,7 +144,7 @@ fn counts_are_those_of_a_list_of_sets_in_any_order() {
     let mut dice = Dice::new(3);
     let target = target();
     let shapes: Vec<Shape> = (0..24).map(|_| any_shape(&mut dice, 1.0)).collect();
-    let primitives: Vec<Primitive> = shapes.chunks(2).map(|c| Primitive::new(c.to_vec())).collect();
+    let primitives: Vec<Primitive> = shapes.chunks(2).map(Primitive::new).collect();
     let (mut forward, mut backward) =
         (VolumeMatch::new(target.clone(), 0.02), VolumeMatch::new(target.clone(), 0.02));
     primitives.iter().for_each(|p| forward.add(p));

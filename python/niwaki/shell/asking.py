@@ -52,6 +52,17 @@ Voxel = Annotated[
 Sigma = Annotated[float, typer.Option("--sigma", help="Strictness of the match; smaller is stricter.")]
 
 
+def solid(reference: str) -> tuple[Target, str]:
+    """A volume to fill and how to find it again: a mesh file, or `gallery:` and the name of a target there."""
+    from niwaki.gallery.targets import TARGETS
+    from niwaki.target import Target
+
+    made = TARGETS.get(reference.removeprefix("gallery:").replace("-", "_"))
+    if reference.startswith("gallery:") and made is not None:
+        return made(), f"gallery:{made.__name__}"
+    return Target.load(reference), str(Path(reference).resolve())
+
+
 @dataclass(frozen=True)
 class Asked:
     """The controls as they were typed; None where nothing was said."""
@@ -133,10 +144,8 @@ class Asked:
 
         It is the one named; else the model's own, unless a picture is asked for.
         """
-        from niwaki.target import Target
-
         if self.target is not None:
-            return Target.load(self.target), str(Path(self.target).resolve())
+            return solid(self.target)
         if self.match_image is not None or self.match_shadow is not None:
             return None, None
         if found.entry is None or found.entry.target_name is None:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from niwaki.shell import asking
 from niwaki.shell.app import Folder, ModelName, app, made_folder
 
 if TYPE_CHECKING:
@@ -37,7 +38,11 @@ def sample(
     strategy: Annotated[str, typer.Option(help="c3, resume, cache or rerun.")] = "c3",
     target: Annotated[
         str | None,
-        typer.Option("--target", metavar="FILE", help="A mesh to fill, without self-intersection."),
+        typer.Option(
+            "--target",
+            metavar="FILE",
+            help="A mesh to fill, or `gallery:` and a target's name; without self-intersection.",
+        ),
     ] = None,
     voxel: Annotated[float | None, typer.Option(metavar="SIZE", help="Cell size for the target.")] = None,
     sigma: Annotated[float, typer.Option(help="Strictness of the match.")] = 0.02,
@@ -60,10 +65,8 @@ def sample(
     found = find(model)
     score, reference = Score(), ""
     if target is not None:
-        from niwaki.target import Target
-
-        score = no_self_intersection() * volume_match(Target.load(target), voxel, sigma)
-        reference = str(Path(target).resolve())
+        wanted, reference = asking.solid(target)
+        score = no_self_intersection() * volume_match(wanted, voxel, sigma)
     settings: dict[str, Any] = {
         "steps": steps,
         "chains": chains,

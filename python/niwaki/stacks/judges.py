@@ -167,7 +167,7 @@ class Simulation:
         return self.moved <= 0.05
 
 
-def simulated(structure: Structure, seconds: float = 5.0, time_step: float = 0.00025) -> Simulation:
+def simulated(structure: Structure, seconds: float = 5.0, time_step: float = 0.0005) -> Simulation:
     """Let go of the blocks in MuJoCo: rigid bodies, elliptic friction cones with the structure's coefficient.
 
     Parameters

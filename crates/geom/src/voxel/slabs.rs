@@ -5,8 +5,8 @@
 //! of that polygon over the y slab is the row's first and last cell, since both sides of a convex polygon are
 //! concave: the farthest point of the slab is the side's apex, or else the slab's border nearer to it.
 //!
-//! The slabs are cut along y instead where there are fewer of them that way. A prism along either is cut once: all its
-//! slices are one polygon.
+//! The slabs are cut along y instead when the solid stands upright (all corners on two heights). A prism along either
+//! is cut once: all its slices are one polygon.
 
 use super::CellBox;
 use super::grid::{Grid, TOUCH};
@@ -48,8 +48,8 @@ pub fn rows(convex: &Convex<'_>, grid: &Grid, cells: &CellBox) -> Rows {
     let mut outer = 2;
     if end.is_none() {
         let upright: Vec<Corner> = corners.iter().map(|[z, y, x]| [*y, *z, *x]).collect();
-        end = end_of_prism(&upright, convex);
-        if end.is_some() || count(1) < count(2) {
+        if has_two_heights(&upright) {
+            end = end_of_prism(&upright, convex);
             (corners, outer) = (upright, 1);
         }
     }
@@ -73,16 +73,21 @@ pub fn rows(convex: &Convex<'_>, grid: &Grid, cells: &CellBox) -> Rows {
     Rows { rows, steps: if outer == 1 { [along_outer, 1] } else { [1, along_outer] } }
 }
 
-/// Where a prism along the first coordinate has an end; `None` for other solids.
-fn end_of_prism(corners: &[Corner], convex: &Convex<'_>) -> Option<f64> {
+/// Whether the first coordinate has no more than two values.
+fn has_two_heights(corners: &[Corner]) -> bool {
     let end = corners[0][0];
     let mut others = corners.iter().map(|p| p[0]).filter(|at| *at != end);
-    let other = others.next()?;
+    others.next().is_none_or(|other| others.all(|at| at == other))
+}
+
+/// Where a prism along the first coordinate has an end; `None` for other solids.
+fn end_of_prism(corners: &[Corner], convex: &Convex<'_>) -> Option<f64> {
     let straight = |&[a, b]: &[u32; 2]| {
         let (a, b) = (corners[a as usize], corners[b as usize]);
         a[0] == b[0] || a[1..] == b[1..]
     };
-    (others.all(|at| at == other) && convex.topology().edges.iter().all(straight)).then_some(end)
+    let is_prism = has_two_heights(corners) && convex.topology().edges.iter().all(straight);
+    is_prism.then_some(corners[0][0])
 }
 
 /// Points whose hull is the solid between two planes across the first coordinate, seen along it.

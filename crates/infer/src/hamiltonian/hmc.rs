@@ -6,7 +6,7 @@
 
 use super::leapfrog::{Phase, leapfrog};
 use super::metric::Metric;
-use super::potential::{Potential, Stop};
+use super::potential::{Cause, Potential, Stop};
 use super::transition::{Divergence, Transition, acceptance};
 use niwaki_math::Stream;
 
@@ -50,6 +50,9 @@ impl Hmc {
     ) -> Transition {
         let start = self.begin(metric, phase, stream);
         let refused = leapfrog(target, metric, phase, step, start.steps).err();
+        if refused.is_some() {
+            metric.velocity(&phase.p, &mut phase.v);
+        }
         self.end(start, refused, phase, stream)
     }
 
@@ -62,7 +65,10 @@ impl Hmc {
         Start { steps, energy: before.energy() }
     }
 
-    /// Stays where the trajectory led, or goes back.
+    /// Stays where the trajectory led, or goes back. Momentum and velocity are those with which it came there.
+    ///
+    /// The gradient alone is asked for on the way, so a trajectory that runs off is seen at its end, or where numbers
+    /// overflow: there its kinetic energy tells that it had diverged before.
     pub(super) fn end(
         &mut self,
         start: Start,
@@ -72,7 +78,14 @@ impl Hmc {
     ) -> Transition {
         let Start { steps, energy: start_energy } = start;
         let before = self.before.get_or_insert_with(|| phase.clone());
-        let energy_error = if refused.is_some() { f64::NAN } else { phase.energy() - start_energy };
+        let overflows = matches!(refused, Some(Stop { cause: Cause::Impossible | Cause::NotFinite, .. }));
+        let ran_off = overflows && phase.kinetic() - before.kinetic() > self.max_energy_error;
+        let refused = refused.filter(|_| !ran_off);
+        let energy_error = match refused {
+            Some(_) => f64::NAN,
+            None if ran_off => f64::INFINITY,
+            None => phase.energy() - start_energy,
+        };
         let accept = acceptance(-energy_error);
         let diverged = energy_error.is_nan() || energy_error > self.max_energy_error;
         let divergence = diverged.then(|| Divergence {
@@ -102,7 +115,6 @@ pub(super) struct Start {
 mod tests {
     //! A refused trajectory leaves the point where it was and is reported; jitter is uniform.
     use super::*;
-    use crate::hamiltonian::potential::Cause;
     use crate::hamiltonian::potential::tests::{By, normals};
 
     #[test]
@@ -131,6 +143,20 @@ mod tests {
         let made = hmc.step(&mut narrow, &Metric::unit(1), 1.0, &mut phase, &mut Stream::new(1, 0, 0, 0));
         assert!(!made.moved && made.divergence.is_some() && made.accept == 0.0);
         assert_eq!(phase.x, [1e-3]);
+    }
+
+    #[test]
+    fn a_trajectory_that_ran_off_before_it_overflowed_diverged_by_its_energy() {
+        let mut narrow = By(1, |x: &[f64], g: &mut [f64]| {
+            g[0] = -x[0] * x[0] * x[0];
+            Ok(-0.25 * x[0].powi(4))
+        });
+        let mut phase = Phase::at(&mut narrow, &[3.0]).expect("a point of the target");
+        let mut hmc = Hmc::new(50, 0.0, 1000.0);
+        let made = hmc.step(&mut narrow, &Metric::unit(1), 2.0, &mut phase, &mut Stream::new(1, 0, 0, 0));
+        let divergence = made.divergence.expect("steps of two are far too long");
+        assert_eq!((divergence.stop, divergence.energy_error), (None, f64::INFINITY));
+        assert_eq!((phase.x[0], made.accept), (3.0, 0.0));
     }
 
     #[test]

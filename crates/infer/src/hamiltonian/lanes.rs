@@ -179,7 +179,9 @@ impl<const L: usize> Lanes<L> {
                     Ok(value) if last => self.arrive(l, &mut chains[l].phase, lane.step, value),
                     Ok(_) => {}
                     Err(stop) => {
-                        chains[l].phase.x.copy_from_slice(&self.one.0);
+                        let Phase { x, p, .. } = &mut chains[l].phase;
+                        x.copy_from_slice(&self.one.0);
+                        p.iter_mut().zip(&self.p).for_each(|(p, row)| *p = row[l]);
                         lane.refused = Some(stop);
                     }
                 }

@@ -50,7 +50,13 @@ impl Phase {
     /// The Hamiltonian, nats: kinetic energy less the log density.
     #[inline]
     pub fn energy(&self) -> f64 {
-        0.5 * dot(&self.p, &self.v) - self.log_density
+        self.kinetic() - self.log_density
+    }
+
+    /// Its kinetic part, nats.
+    #[inline]
+    pub fn kinetic(&self) -> f64 {
+        0.5 * dot(&self.p, &self.v)
     }
 
     /// Becomes a copy of `other`, in place; it may have had another number of coordinates.
