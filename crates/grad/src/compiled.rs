@@ -46,6 +46,12 @@ impl Compiled {
         Compiled { density, tape, lanes, slope: None, both: None, progress: Progress::Tape(0), warm }
     }
 
+    /// Another that evaluates the same density, with memory of its own.
+    pub fn beside(&self) -> Compiled {
+        let (density, tape, progress) = (self.density.clone(), self.tape.clone(), Progress::Tape(0));
+        Compiled { density, lanes: tape.lanes(), tape, slope: None, both: None, progress, warm: self.warm }
+    }
+
     /// Compiles now, and waits for it.
     pub fn finish(&mut self) {
         match std::mem::replace(&mut self.progress, Progress::Done) {

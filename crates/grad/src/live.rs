@@ -110,6 +110,21 @@ impl Live {
         live
     }
 
+    /// A follower of the same model at another run, with its coordinates there, without a recording: where that run is on
+    /// the path that this one is on. `None` elsewhere.
+    pub fn beside(&self, choices: &HashMap<u128, Value>) -> Option<(Live, Vec<f64>)> {
+        let here = &self.paths[self.now];
+        if !here.recorded.fixed.iter().all(|(address, value)| choices.get(address) == Some(value)) {
+            return None;
+        }
+        let x = here.recorded.coordinates(|choice| choices.get(&choice.address))?;
+        let mut path = Path { recorded: here.recorded.clone(), compiled: here.compiled.beside() };
+        // Inside the guards the run goes the same way, and makes the same choices.
+        path.compiled.inside(&x, &mut vec![0.0; x.len()])?;
+        let (model, paths) = (self.model.clone(), vec![path]);
+        Some((Live { model, paths, now: 0, recordings: 0, warm: self.warm }, x))
+    }
+
     fn keep(&mut self, path: Path) {
         if self.paths.len() == PATHS {
             self.paths.remove(0);

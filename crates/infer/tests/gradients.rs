@@ -208,6 +208,31 @@ fn where_a_guard_fails_the_program_is_recorded_again() {
 }
 
 #[test]
+fn a_run_on_the_same_path_needs_no_recording_of_its_own() {
+    let coin = task(&format!("(set $c (sample (dist bernoulli 0.5))) {CORNER}"));
+    let first = live(&coin, &choices(&coin, 1)).expect("a density");
+    let mut shared = 0;
+    for seed in 2..40 {
+        let (other, own) = (choices(&coin, seed), record(&coin, &choices(&coin, seed)).expect("a density"));
+        let alike = own.structure == first.recorded().structure
+            && own.density.guards() == first.recorded().density.guards();
+        match first.beside(&other) {
+            Some((mut found, x)) => {
+                assert!(alike && found.recordings() == 0, "{seed}");
+                let (mut g, mut expected) = (vec![0.0; 2], vec![0.0; 2]);
+                let value = found.value_and_gradient(&x, &mut g).expect("inside");
+                let near = |a: f64, b: f64| (a - b).abs() < 1e-12 * (1.0 + b.abs());
+                assert!(near(value, own.density.interpret(&own.start, &mut expected)));
+                assert!(g.iter().zip(&expected).all(|(a, b)| near(*a, *b)));
+                shared += 1;
+            }
+            None => assert!(!alike, "{seed}"),
+        }
+    }
+    assert!((3..25).contains(&shared), "one of two sides, and one of two coins: {shared}");
+}
+
+#[test]
 fn where_the_choices_change_the_point_is_refused() {
     let task = task(
         "(set $x (sample (dist gaussian 0 1)))

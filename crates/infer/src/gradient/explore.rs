@@ -9,6 +9,7 @@ use crate::chain::snapshot::Snapshot;
 use crate::chain::state::State;
 use crate::chain::streams::Streams;
 use crate::hamiltonian::chains::{GLANCE, run};
+use crate::hamiltonian::climb::climb_in_lanes;
 use crate::hamiltonian::{Cause, Chain, Draws, Settings, lanes};
 use crate::replay::{Choice, Missing, Source, Trace, by_address, replay};
 use crate::{Failure, Task};
@@ -93,6 +94,16 @@ const FEW: usize = 16;
 /// Fewer chains go alone, each with machine code: empty lanes cost as much as full ones.
 const LEAST: usize = 12;
 
+/// A chain before it goes.
+struct Member {
+    number: usize,
+    target: Live,
+    /// The path of its first run, which its target may leave.
+    recorded: Arc<Recorded>,
+    /// The coordinates of that run.
+    start: Vec<f64>,
+}
+
 /// Draws from a task's distribution. `watch` is told the transitions of all chains now and then; when it answers false,
 /// they end with what they have.
 ///
@@ -108,15 +119,21 @@ pub fn explore(
     watch: &(dyn Fn(u64) -> bool + Sync),
 ) -> Result<Vec<Explored>, Failure> {
     let (model, done) = (model(task)?, AtomicU64::new(0));
-    let targets: Vec<Result<Live, Failure>> = (0..plan.chains as u64)
+    if plan.chains == 0 {
+        return Ok(vec![]);
+    }
+    let first = start(task, &model, plan, 0, None)?;
+    let others: Vec<Result<Member, Failure>> = (1..plan.chains)
         .into_par_iter()
-        .map(|number| start(task, model.clone(), plan, number))
+        .map(|number| start(task, &model, plan, number, Some(&first.target)))
         .collect();
-    let mut targets: Vec<Option<Live>> =
-        targets.into_iter().map(|t| t.map(Some)).collect::<Result<_, _>>()?;
-    let groups: Vec<Vec<(usize, Live)>> = grouped(plan.settings, &targets)
+    let mut members = vec![Some(first)];
+    for other in others {
+        members.push(Some(other?));
+    }
+    let groups: Vec<Vec<Member>> = grouped(plan.settings, &members)
         .into_iter()
-        .map(|group| group.into_iter().filter_map(|k| Some((k, targets[k].take()?))).collect())
+        .map(|group| group.into_iter().filter_map(|k| members[k].take()).collect())
         .collect();
     let look = || watch(done.fetch_add(GLANCE, Ordering::Relaxed) + GLANCE);
     let found: Vec<Result<Vec<(usize, Explored)>, Failure>> =
@@ -128,10 +145,10 @@ pub fn explore(
 }
 
 /// Chains that move together: those of one structure, in lanes; the others each alone.
-fn grouped(settings: &Settings, targets: &[Option<Live>]) -> Vec<Vec<usize>> {
+fn grouped(settings: &Settings, members: &[Option<Member>]) -> Vec<Vec<usize>> {
     let mut alike: Vec<(u128, Vec<usize>)> = Vec::new();
-    for (k, target) in targets.iter().enumerate() {
-        let structure = target.as_ref().map_or(0, |target| target.recorded().structure);
+    for (k, member) in members.iter().enumerate() {
+        let structure = member.as_ref().map_or(0, |member| member.recorded.structure);
         match alike.iter_mut().find(|(key, _)| *key == structure) {
             Some((_, group)) => group.push(k),
             None => alike.push((structure, vec![k])),
@@ -146,51 +163,98 @@ fn grouped(settings: &Settings, targets: &[Option<Live>]) -> Vec<Vec<usize>> {
             LEAST.. => FEW,
             _ => 1,
         };
-        groups.extend(chains.chunks(lanes).map(<[usize]>::to_vec));
+        // Groups of one size, so that no few are left over.
+        let even = chains.len().div_ceil(chains.len().div_ceil(lanes));
+        groups.extend(chains.chunks(if even < LEAST { lanes } else { even }).map(<[usize]>::to_vec));
     }
     groups
 }
 
-/// The density around a chain's first run.
-fn start(task: &Task, model: Model, plan: &Plan<'_>, number: u64) -> Result<Live, Failure> {
-    let (state, _) = State::start(task, Streams::new(plan.seed, number), plan.tries, plan.known)?;
+/// The density around a chain's first run: that of the first chain, where the run is on its path.
+fn start(
+    task: &Task,
+    model: &Model,
+    plan: &Plan<'_>,
+    number: usize,
+    first: Option<&Live>,
+) -> Result<Member, Failure> {
+    let (state, _) = State::start(task, Streams::new(plan.seed, number as u64), plan.tries, plan.known)?;
     let choices = by_address(&Snapshot::of(&state, &task.program, 0).log.entries());
     drop(state);
-    live_of(model, &choices)
+    let (target, start) = match first.and_then(|first| first.beside(&choices)) {
+        Some(found) => found,
+        None => {
+            let live = live_of(model.clone(), &choices)?;
+            let start = live.recorded().start.clone();
+            (live, start)
+        }
+    };
+    let recorded = target.recorded().clone();
+    Ok(Member { number, target, recorded, start })
 }
 
-/// Runs the chains of a group, by their numbers.
+/// Runs the chains of a group.
 fn together(
     task: &Task,
     plan: &Plan<'_>,
-    mut group: Vec<(usize, Live)>,
+    group: Vec<Member>,
     look: &(dyn Fn() -> bool + Sync),
 ) -> Result<Vec<(usize, Explored)>, Failure> {
-    let starts: Vec<Arc<Recorded>> = group.iter().map(|(_, target)| target.recorded().clone()).collect();
+    match group.len() {
+        ..LEAST => alone(task, plan, group, look),
+        ..=FEW => in_lanes::<FEW>(task, plan, group, look),
+        _ => in_lanes::<MANY>(task, plan, group, look),
+    }
+}
+
+/// One after another.
+fn alone(
+    task: &Task,
+    plan: &Plan<'_>,
+    group: Vec<Member>,
+    look: &(dyn Fn() -> bool + Sync),
+) -> Result<Vec<(usize, Explored)>, Failure> {
+    let go = |Member { number, mut target, recorded, start }| {
+        let chain = Chain::new(&mut target, &start, plan.settings, plan.seed, number as u64);
+        let draws = chain.map(|chain| run(chain, plan.settings, &|_| look()));
+        let Ok(draws) = draws else { return Err(no_slope(&target, &start)) };
+        Ok((number, explored(task, target, recorded, &start, draws)?))
+    };
+    group.into_iter().map(go).collect()
+}
+
+/// Side by side.
+fn in_lanes<const L: usize>(
+    task: &Task,
+    plan: &Plan<'_>,
+    mut group: Vec<Member>,
+    look: &(dyn Fn() -> bool + Sync),
+) -> Result<Vec<(usize, Explored)>, Failure> {
+    let mut wide = Wide::<L>::new(&group[0].recorded.density);
+    let mut tops: Vec<Vec<f64>> = group.iter().map(|member| member.start.clone()).collect();
+    let climbed = {
+        let mut targets: Vec<&mut Live> = group.iter_mut().map(|member| &mut member.target).collect();
+        let mut tops: Vec<&mut Vec<f64>> = tops.iter_mut().collect();
+        climb_in_lanes(&mut targets, &mut tops, &mut wide, plan.settings.climb)
+    };
     let mut chains = Vec::with_capacity(group.len());
     let mut refused = None;
-    for (at, ((number, target), recorded)) in group.iter_mut().zip(&starts).enumerate() {
-        match Chain::new(target, &recorded.start, plan.settings, plan.seed, *number as u64) {
+    for (at, (Member { number, target, .. }, top)) in group.iter_mut().zip(&tops).enumerate() {
+        match Chain::on_top(target, top, climbed[at], plan.settings, plan.seed, *number as u64) {
             Ok(chain) => chains.push(chain),
             Err(_) => refused = refused.or(Some(at)),
         }
     }
     if let Some(at) = refused {
         drop(chains);
-        return Err(no_slope(&group[at].1, &starts[at].start));
+        return Err(no_slope(&group[at].target, &group[at].start));
     }
-    let draws = if chains.len() < LEAST {
-        chains.into_iter().map(|chain| run(chain, plan.settings, &|_| look())).collect()
-    } else if chains.len() <= FEW {
-        let mut wide = Wide::<FEW>::new(&starts[0].density);
-        lanes::run_in_lanes(chains, &mut wide, plan.settings, &|_, _| look())
-    } else {
-        let mut wide = Wide::<MANY>::new(&starts[0].density);
-        lanes::run_in_lanes(chains, &mut wide, plan.settings, &|_, _| look())
-    };
-    let ends = group.into_iter().zip(starts).zip(draws);
-    ends.map(|(((number, target), recorded), draws)| Ok((number, explored(task, target, recorded, draws)?)))
-        .collect()
+    let draws = lanes::run_in_lanes(chains, &mut wide, plan.settings, &|_, _| look());
+    let ends = group.into_iter().zip(draws);
+    ends.map(|(Member { number, target, recorded, start }, draws)| {
+        Ok((number, explored(task, target, recorded, &start, draws)?))
+    })
+    .collect()
 }
 
 /// What a chain found, with values for its coordinates.
@@ -198,6 +262,7 @@ fn explored(
     task: &Task,
     mut target: Live,
     recorded: Arc<Recorded>,
+    start: &[f64],
     draws: Draws,
 ) -> Result<Explored, Failure> {
     let stopped = |cause| draws.divergences.iter().find(move |d| d.stop.is_some_and(|s| s.cause == cause));
@@ -210,16 +275,16 @@ fn explored(
         debug_assert!(on_path, "draw {draw} is a point of the density");
         numbers.extend(target.recorded().numbers(x));
     }
-    let fixed = fixed(task, &recorded)?;
+    let fixed = fixed(task, &recorded, start)?;
     Ok(Explored { fixed, numbers, recordings: target.recordings(), fault, draws, recorded })
 }
 
 /// The fixed choices of a recorded run by name.
-fn fixed(task: &Task, recorded: &Recorded) -> Result<Vec<Choice>, Failure> {
+fn fixed(task: &Task, recorded: &Recorded, start: &[f64]) -> Result<Vec<Choice>, Failure> {
     if recorded.fixed.is_empty() {
         return Ok(vec![]);
     }
-    let trace = replay(task, Source::Addresses(recorded.values(&recorded.start)), Missing::Refuse)?;
+    let trace = replay(task, Source::Addresses(recorded.values(start)), Missing::Refuse)?;
     let is_fixed = |choice: &Choice| recorded.fixed.iter().any(|(address, _)| *address == choice.address);
     Ok(trace.choices.into_iter().filter(is_fixed).collect())
 }

@@ -139,7 +139,22 @@ impl<P: Potential> Chain<P> {
     ) -> Result<Self, Stop> {
         let mut start = start.to_vec();
         let climbed = climb(&mut target, &mut start, settings.climb);
-        let phase = Phase::at(&mut target, &start)?;
+        Chain::on_top(target, &start, climbed, settings, seed, number)
+    }
+
+    /// A chain at `start`, which took so many gradients to find.
+    ///
+    /// # Errors
+    /// The target's refusal of `start`.
+    pub fn on_top(
+        mut target: P,
+        start: &[f64],
+        climbed: u32,
+        settings: &Settings,
+        seed: u64,
+        number: u64,
+    ) -> Result<Self, Stop> {
+        let phase = Phase::at(&mut target, start)?;
         let metric = Metric::unit(start.len());
         let (kernel, step_size) = (settings.kernel(), settings.step_size.unwrap_or(1.0));
         Ok(Chain { target, phase, metric, step_size, kernel, seed, number, rung: 0, visit: 0, climbed })

@@ -2,6 +2,7 @@
 //! that only its own target covers.
 
 use niwaki_infer::hamiltonian::chains::{Length, run};
+use niwaki_infer::hamiltonian::climb::{climb, climb_in_lanes};
 use niwaki_infer::hamiltonian::lanes::{Wide, run_in_lanes, suits};
 use niwaki_infer::hamiltonian::{Cause, Chain, Draws, Potential, Settings, Shape, Stop};
 
@@ -95,6 +96,28 @@ fn a_lane_gives_what_its_chain_gives_alone() {
         }
         assert!(alone.iter().map(|a| a.refused[Cause::Guard as usize]).sum::<u64>() > 0, "the wall is met");
         assert_eq!(wide.asked < 100, top == f64::NEG_INFINITY, "{}", wide.asked);
+    }
+}
+
+#[test]
+fn a_way_uphill_in_a_lane_is_the_way_alone() {
+    for top in [f64::INFINITY, 0.5, f64::NEG_INFINITY] {
+        // The last but one meets the corner without a gradient, the last the wall: their ways end there.
+        let starts = [[0.3, 1.5], [-1.0, -2.0], [1.5, 0.1], [0.2, -2.6], [1.9, 0.0]];
+        let (mut one, mut wide) = (Banana { curve: 1.0 }, Bananas { one: Banana { curve: 1.0 }, top, asked: 0 });
+        let mut alone: Vec<Vec<f64>> = starts.iter().map(|start| start.to_vec()).collect();
+        let taken: Vec<u32> = alone.iter_mut().map(|x| climb(&mut one, x, 50)).collect();
+        let mut targets = vec![one; starts.len()];
+        let mut tops: Vec<Vec<f64>> = starts.iter().map(|start| start.to_vec()).collect();
+        let found = climb_in_lanes::<8>(
+            &mut targets.iter_mut().collect::<Vec<_>>(),
+            &mut tops.iter_mut().collect::<Vec<_>>(),
+            &mut wide,
+            50,
+        );
+        assert_eq!((&alone, &taken), (&tops, &found), "{top}");
+        assert_eq!(taken[..2], [50, 50]);
+        assert_eq!((taken[3..].to_vec(), &tops[4]), (vec![1, 1], &starts[4].to_vec()));
     }
 }
 
