@@ -36,12 +36,15 @@ class Chains:
         Seconds, the first run of the model and machine code included.
     accepted
         The share of proposals.
+    log_density
+        Of each draw, over coordinates, nats.
     """
 
     colors: Any
     gradients: int
     cpu: float
     accepted: float
+    log_density: Any
 
     @property
     def effective(self) -> float:
@@ -96,7 +99,8 @@ def originals(name: str, seed: int, draws: int = DRAWS) -> dict[str, Chains]:
         coordinates, accepted = make()
         spent = time.process_time() - start
         colors = 1.0 / (1.0 + np.exp(-coordinates.reshape(1, draws, len(drawing.names), 3)))
-        found[way] = Chains(colors, evaluations, spent, accepted)
+        heights = np.array([ask(x)[0] for x in coordinates])
+        found[way] = Chains(colors, evaluations, spent, accepted, heights)
     return found
 
 
@@ -105,6 +109,12 @@ def ours(name: str, seed: int, chains: int | None = None) -> Chains:
     """Our default sampler on one thread; as many chains as it takes by default."""
     method = nw.explore() if chains is None else nw.explore(chains=chains)
     return timed(name, method, seed)
+
+
+@cache
+def level(name: str, warmup: int = 300) -> float:
+    """The median log density where chains have forgotten their starts: those of `explore`, after a long warm-up."""
+    return float(np.median(timed(name, nw.explore(draws=20, chains=64, warmup=warmup, steps=60), 1).log_density))
 
 
 @cache
@@ -118,4 +128,4 @@ def timed(name: str, method: Any, seed: int) -> Chains:
     colors = np.stack(list(found.draws.values()), axis=-1)
     shape = (*colors.shape[:2], len(drawing.names), 3)
     accepted = float(found.stats["acceptance_rate"].mean())
-    return Chains(colors.reshape(shape), found.gradients, spent, accepted)
+    return Chains(colors.reshape(shape), found.gradients, spent, accepted, found.log_density)

@@ -84,7 +84,7 @@ def hmc(
         A step to keep instead of an adapted one.
     climb
         Steps uphill from each chain's first run, before the warm-up: where tight constraints leave almost every run of
-        the prior far from all that is likely. 0, the default, for none; `explore` takes 100.
+        the prior far from all that is likely. 0, the default, for none; `explore` takes 200.
     tries
         Most forward runs for the start of each chain.
     """
@@ -129,29 +129,20 @@ def nuts(
     return Nuts(max_depth=max_depth, **common)
 
 
-def explore(draws: int = 10, chains: int = 32, warmup: int = 30, steps: int = 16, climb: int = 100) -> Hmc:
+def explore(draws: int = 8, chains: int = 128, warmup: int = 12, steps: int = 12, climb: int = 200) -> Hmc:
     """Many short chains, for designs rather than for figures: each climbs from a run of its own and looks around.
 
     Tight constraints leave narrow ground in separate places, which one chain crosses slowly or never leaves. Chains
     from many places see more of it with as many gradients. How much each place weighs is then left to where they come
-    from: take `nuts` with a long warm-up, and look at `rhat`, where that matters.
+    from, and some are still on their way down to what is typical: take `nuts` with a long warm-up, and look at `rhat`,
+    where that matters.
 
     Parameters
     ----------
     draws, chains, warmup, steps, climb
-        As for `hmc`, which this is, with lengths that vary by half, an acceptance of 0.8 and no metric: few draws teach
-        none.
+        As for `hmc`, which this is, with lengths that vary by half and no metric: few draws teach none.
     """
-    return hmc(
-        draws,
-        steps,
-        jitter=0.5,
-        chains=chains,
-        warmup=warmup,
-        target_accept=0.8,
-        metric="unit",
-        climb=climb,
-    )
+    return hmc(draws, steps, jitter=0.5, chains=chains, warmup=warmup, metric="unit", climb=climb)
 
 
 def _chain_settings(
