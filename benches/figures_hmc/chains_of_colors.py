@@ -114,7 +114,9 @@ def ours(name: str, seed: int, chains: int | None = None) -> Chains:
 @cache
 def level(name: str, warmup: int = 300) -> float:
     """The median log density where chains have forgotten their starts: those of `explore`, after a long warm-up."""
-    return float(np.median(timed(name, nw.explore(draws=20, chains=64, warmup=warmup, steps=60), 1).log_density))
+    return float(
+        np.median(timed(name, nw.explore(draws=20, chains=64, warmup=warmup, steps=60), 1).log_density)
+    )
 
 
 @cache

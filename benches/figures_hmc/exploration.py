@@ -9,6 +9,7 @@ a sampler sees on its way there counts as seen too, so it must not be more than 
 
 import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +19,7 @@ import numpy as np
 import original
 from chains_of_colors import DRAWINGS, DRAWS, STEPS, Chains, level, originals, ours
 from niwaki import diagnostics, stacks
+from niwaki.errors import ModelFault
 
 SEEDS = (1, 2, 3)
 STACK_DRAWS, STACK_STEPS, STACK_WIDTH = 200, 1000, 0.005
@@ -62,13 +64,21 @@ def told(name: str, way: str, made: list[Chains], high: float) -> dict[str, Any]
     return line
 
 
+def ask(density: nw.LogDensity, x: np.ndarray) -> tuple[float, np.ndarray]:
+    """Value and gradient; minus infinity where the model fails, which ends a trajectory."""
+    try:
+        return density.value_and_gradient(x)
+    except ModelFault:
+        return -np.inf, np.zeros_like(x)
+
+
 def stack(draws: int, steps: int, seeds: tuple[int, ...]) -> list[dict[str, Any]]:
     """Six blocks on one another, both samplers from where `niwaki.stacks.start` finds a balance."""
     theirs, default = [], []
     for seed in seeds:
         density, x = stacks.start(stacks.stack, seed=seed, width=STACK_WIDTH)
         begun = time.process_time()
-        found, _ = original.hmc(density.value_and_gradient, x, draws, steps, seed)
+        found, _ = original.hmc(partial(ask, density), x, draws, steps, seed)
         theirs.append((found[None], draws * steps, time.process_time() - begun))
         begun = time.process_time()
         made = nw.run(

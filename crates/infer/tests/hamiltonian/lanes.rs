@@ -104,7 +104,8 @@ fn a_way_uphill_in_a_lane_is_the_way_alone() {
     for top in [f64::INFINITY, 0.5, f64::NEG_INFINITY] {
         // The last but one meets the corner without a gradient, the last the wall: their ways end there.
         let starts = [[0.3, 1.5], [-1.0, -2.0], [1.5, 0.1], [0.2, -2.6], [1.9, 0.0]];
-        let (mut one, mut wide) = (Banana { curve: 1.0 }, Bananas { one: Banana { curve: 1.0 }, top, asked: 0 });
+        let (mut one, mut wide) =
+            (Banana { curve: 1.0 }, Bananas { one: Banana { curve: 1.0 }, top, asked: 0 });
         let mut alone: Vec<Vec<f64>> = starts.iter().map(|start| start.to_vec()).collect();
         let taken: Vec<u32> = alone.iter_mut().map(|x| climb(&mut one, x, 50)).collect();
         let mut targets = vec![one; starts.len()];
