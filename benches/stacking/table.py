@@ -71,8 +71,8 @@ def line(one: dict[str, Any]) -> str:
     mended = f"{one['mended']} of {one['failed']}" if one["failed"] else ""
     return (
         f"| `{one['model']}` | {one['way']} | {one['width']:g} | {one['original']:g} | {one['draws']} "
-        f"| {one['effective']:.0f} | {one['holds']} | {one['stands']} | {mended} | {margin} | {litres} | {one['seconds']:.0f} "
-        f"| {one['gradients']} |"
+        f"| {one['effective']:.0f} | {one['holds']} | {one['stands']} | {mended} | {margin} | {litres} "
+        f"| {one['seconds']:.0f} | {one['gradients']} |"
     )
 
 
