@@ -70,9 +70,9 @@ def line(one: dict[str, Any]) -> str:
     litres = "" if one["litres"] is None else f"{one['litres']:.3g}"
     mended = f"{one['mended']} of {one['failed']}" if one["failed"] else ""
     return (
-        f"| `{one['model']}` | {one['way']} | {one['width']:g} | {one['original']:g} | {one['draws']} | {one['effective']:.0f} "
-        f"| {one['holds']} | {one['stands']} | {mended} | {margin} | {litres} | {one['seconds']:.0f} "
-        f"| {one['gradients']} |"
+        f"| `{one['model']}` | {one['way']} | {one['width']:g} | {one['original']:g} | {one['draws']} "
+        f"| {one['effective']:.0f} | {one['holds']} | {one['stands']} | {mended} | {margin} | {litres} "
+        f"| {one['seconds']:.0f} | {one['gradients']} |"
     )
 
 

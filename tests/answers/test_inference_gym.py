@@ -218,7 +218,10 @@ def test_convection() -> None:
     innovation, noise, step = (
         float(data[name]) for name in ("INNOVATION_SCALE", "OBSERVATION_SCALE", "STEP_SIZE")
     )
-    result = nw.run(convection, nuts(), seen, innovation, noise, step, seed=4)
+    given = (seen, innovation, noise, step)
+    # Started anywhere, a chain may stay on a path that spirals the other way, 275 nats below: start where runs do well.
+    start = nw.run(convection, nw.importance(2000), *given, seed=4).best.choices
+    result = nw.run(convection, nuts(), *given, seed=4, choices=start)
     off = errors(result, "convection_lorenz_bridge", ("",), lambda draws: states(draws, innovation, step))
     assert off.max() < 4
 

@@ -84,9 +84,12 @@ fn startup(model: &str) -> String {
     let (_, code) = milliseconds(|| Native::compile(&density).is_ok());
     let code_cpu = (cpu() - busy) * 1e3;
     let (_, behind) = milliseconds(|| {
-        // As a chain does it: gradients by tape while the code is made.
+        // As a chain does it: gradients by tape while the code is made, a value at the end of each trajectory.
         while !compiled.is_native() {
-            compiled.gradient(&point, &mut g);
+            (0..100).for_each(|_| {
+                compiled.gradient(&point, &mut g);
+            });
+            compiled.inside(&point, &mut g);
         }
     });
     let (both, slope) = density.operations();

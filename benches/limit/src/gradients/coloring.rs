@@ -42,7 +42,8 @@ impl Coloring {
             let mut one = || next().parse().expect("a whole number");
             (0..count).map(|_| (one(), one())).collect()
         };
-        let edges = pairs(e).into_iter().map(|(i, j)| ((i, j), if i == 0 || j == 0 { 0.3 } else { 0.2 })).collect();
+        let edges =
+            pairs(e).into_iter().map(|(i, j)| ((i, j), if i == 0 || j == 0 { 0.3 } else { 0.2 })).collect();
         let (chroma, light) = (pairs(c), pairs(l));
         let rows = [[0.0; 3]; REGIONS];
         Coloring {
@@ -135,7 +136,11 @@ impl Density<DIM> for Coloring {
         }
         for region in 0..REGIONS {
             let ([l, a, b], slopes) = (self.back[region], &self.slopes[region]);
-            let root = [500.0 * a * slopes[3], (116.0 * l - 500.0 * a + 200.0 * b) * slopes[4], -200.0 * b * slopes[5]];
+            let root = [
+                500.0 * a * slopes[3],
+                (116.0 * l - 500.0 * a + 200.0 * b) * slopes[4],
+                -200.0 * b * slopes[5],
+            ];
             for k in 0..3 {
                 let s = self.share[3 * region + k];
                 let light = root[0] * M[0][k] + root[1] * M[1][k] + root[2] * M[2][k];

@@ -80,7 +80,8 @@ fn chain<const D: usize>(mut density: impl Density<D>, plan: &Plan) -> Value {
 fn check<const D: usize>(mut density: impl Density<D>, program: &str, path: &str) -> Value {
     let (mut value_off, mut slope_off, mut points) = (0.0f64, 0.0f64, 0);
     for line in numbers(path).lines().filter(|line| line.split_whitespace().next() == Some(program)) {
-        let all: Vec<f64> = line.split_whitespace().skip(2).map(|word| word.parse().expect("a number")).collect();
+        let all: Vec<f64> =
+            line.split_whitespace().skip(2).map(|word| word.parse().expect("a number")).collect();
         let x: [f64; D] = all[1..=D].try_into().expect("a number for each coordinate");
         let (known, mut g) = (&all[1 + D..], [0.0; D]);
         value_off = value_off.max((density.gradient::<true>(&x, &mut g) / all[0] - 1.0).abs());
