@@ -72,7 +72,8 @@ def mh(
 ) -> tuple[Reals, float]:
     """Draws in the coordinates of `density`, every `thin`-th, and the share of proposals accepted.
 
-    Every coordinate is that of a number within the same bounds. `corrected` asks the density of the bounded numbers.
+    Every coordinate is that of a number within the same bounds; a move across them ends at them. `corrected` asks the
+    density of the bounded numbers, and refuses such moves.
     """
     random = np.random.default_rng(seed)
     low, high = bounds
@@ -83,15 +84,18 @@ def mh(
     found = np.empty((iterations // thin, len(x)))
     for k in range(iterations):
         i = int(random.integers(len(x)))
-        moved = min(max(y[i] + widths[i] * random.normal(), low + inside), high - inside)
+        wanted = y[i] + widths[i] * random.normal()
+        moved = min(max(wanted, low + inside), high - inside)
         there = x.copy()
         there[i] = math.log(moved - low) - math.log(high - moved)
         at = density(there)[0]
         proposed[i] += 1
         log_ratio = at - value
         if corrected:
-            # The Jacobian of a bounded number is (y - low) (high - y), up to a factor.
+            # The Jacobian of a bounded number is (y - low) (high - y), up to a factor. What would be moved back to the
+            # bounds is refused: the way back from there is another.
             log_ratio += math.log((y[i] - low) * (high - y[i]) / ((moved - low) * (high - moved)))
+            log_ratio = log_ratio if moved == wanted else -math.inf
         if math.log(1.0 - random.uniform()) < log_ratio:
             x, value = there, at
             y[i] = moved
