@@ -65,7 +65,7 @@ def main() -> int:
         match part:
             case "answers":
                 check(report, programs, found)
-                worth.moments(report, programs, points["ring"], 3_000 if quick else 30_000)
+                worth.moments(report, programs, points["ring"], 3_000 if quick else 10_000)
             case "rates":
                 compiling = rates.measure(report, programs, points, 2 if quick else 5, share)
             case "starts":

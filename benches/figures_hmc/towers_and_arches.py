@@ -82,7 +82,7 @@ def compared(path: Path, folder: Path, names: tuple[str, ...]) -> None:
         kind, found = KINDS[name], chains(folder, name, "nuts")
         places = far_apart(kind, folder, found, 3)
         scenes = [scene_of(kind, found, place) for place in places]
-        largest = max(scenes, key=extent)
+        largest = scene_of(kind, found, widest(kind, found))
         shown = [framed(scene, largest) for scene in scenes]
         shown.append(mean_picture(kind, found, largest))
         theirs = chains(folder, name, "mh-original")
@@ -98,6 +98,14 @@ def compared(path: Path, folder: Path, names: tuple[str, ...]) -> None:
     figure.tight_layout()
     figure.savefig(path, dpi=75)
     plt.close(figure)
+
+
+def widest(kind: Kind, found: list[Drawn]) -> tuple[int, int]:
+    """The draw that takes the most room."""
+    at = corners(kind, found)
+    boxes = np.ptp(at.reshape(*at.shape[:2], -1, 3), axis=2)
+    chain, draw = np.unravel_index(np.linalg.norm(boxes, axis=-1).argmax(), at.shape[:2])
+    return int(chain), int(draw)
 
 
 def extent(scene: Scene) -> float:

@@ -19,13 +19,14 @@ MIXTURE = kernels.mixture(
     kernels.on(["weights", "deviations", "k"], kernels.mh()),
     weights=[4, 105],
 )
+MOVES = kernels.mixture(kernels.mh(), kernels.drift(), kernels.regenerate(), weights=[8, 8, 1])
 
 
 def subjects():
     """Models with their arguments, kernel and score."""
     return {
         "mixture": (gmm, (100,), MIXTURE, None),
-        "tree": (gnarly_tree, (0.2,), kernels.mh(), nw.volume_match(bent_tube(), 0.4)),
+        "tree": (gnarly_tree, (0.2,), MOVES, nw.volume_match(bent_tube(), 0.4)),
     }
 
 

@@ -122,7 +122,7 @@ def test_what_became_of_trajectories_is_told() -> None:
     kernel = k.cycle(k.mh(), k.on("size", k.hmc(steps=4)), k.on("shares", k.nuts(max_depth=3)))
     result = nw.run(BEADS, nw.mh(steps=6000, warmup=3000, kernel=kernel), seed=2)
     sizes, shares = result.trajectories
-    assert repr(sizes.kernel) == "on(['size'], hmc(4, step=0.1, target=0.65))"
+    assert repr(sizes.kernel) == "on(['size'], hmc(4, step=0.1, target=0.8))"
     assert repr(shares.kernel) == "on(['shares'], nuts(3, step=0.1, target=0.8))"
     assert sizes.made == shares.made == 2000
     assert abs(sizes.acceptance - 0.8) < 0.15 and abs(shares.acceptance - 0.8) < 0.15

@@ -24,6 +24,6 @@ pub mod vector;
 
 pub use distributions::{BadParameter, Dist, Draw, Family, Param, Support};
 pub use rounding::grid;
-pub use scalar::Scalar;
+pub use scalar::{LastLog, Scalar};
 pub use streams::{RngCore, Stream, StreamKey};
 pub use vector::{Mat3, Vec3, vec3};

@@ -91,6 +91,33 @@ pub trait Scalar:
     }
 }
 
+/// The logarithm that was taken last: a deviation that many observations in a row share costs one.
+#[derive(Clone, Copy, Debug)]
+pub struct LastLog<S: Scalar> {
+    of: u64,
+    log: S,
+}
+
+impl<S: Scalar> Default for LastLog<S> {
+    fn default() -> Self {
+        LastLog { of: 1.0_f64.to_bits(), log: S::from_f64(0.0) }
+    }
+}
+
+impl<S: Scalar> LastLog<S> {
+    /// `x.ln()`, bit for bit. That of a number that varies is taken (and recorded) each time.
+    #[inline(always)]
+    pub fn of(&mut self, x: S) -> S {
+        if x.varies() {
+            return x.ln();
+        }
+        if x.value().to_bits() != self.of {
+            *self = LastLog { of: x.value().to_bits(), log: x.ln() };
+        }
+        self.log
+    }
+}
+
 /// The standard library's functions of one argument, under the same names.
 macro_rules! standard {
     ($($name:ident)*) => { $( #[inline] fn $name(self) -> f64 { f64::$name(self) } )* };

@@ -24,7 +24,7 @@ const REPLICATES: u64 = 2000;
 /// for every labelling.
 const MIXTURE: &str = r#"
     (set $k (add 1 (sample (dist categorical (list 0.3 0.4 0.3)))))
-    (set $s (sample (dist gamma 4.0 0.2)))
+    (set $s (sample (dist uniform 0.2 1.6)))
     (set $means (list))
     (for $i (range $k) (body (set $means (append $means (sample (dist gaussian 0.0 2.0))))))
     (set $a (sample (dist discrete_uniform 0 (sub $k 1))))
@@ -69,7 +69,7 @@ fn rows() -> Vec<(&'static str, &'static str, Kernel)> {
     let mut rows = vec![
         ("a mixture, hmc", MIXTURE, mixed(hmc(0.4))),
         ("a mixture, nuts", MIXTURE, mixed(nuts(0.4))),
-        ("a mixture, means only", MIXTURE, mixed(on(&["*gaussian*", "means*"], hmc(0.5)))),
+        ("a mixture, means only", MIXTURE, mixed(on(&["means"], hmc(0.5)))),
         ("branches, hmc", BRANCHES, mixed(hmc(0.5))),
         ("branches, nuts", BRANCHES, mixed(nuts(0.5))),
         ("branches, one held", BRANCHES, mixed(held())),
@@ -165,11 +165,13 @@ fn mutants_of_mixed_chains_are_found_out() {
             ("a dropped Jacobian", distance_of::<DropsJacobian>(text, &kernel, REPLICATES)),
             ("another metric", distance_of::<OtherMetric>(text, &kernel, REPLICATES)),
             ("the wrong sign", distance_of::<WrongSign>(text, &kernel, REPLICATES)),
-            ("an end as likely as any", distance_of::<NoReverse>(text, &kernel, REPLICATES)),
         ] {
             assert!(d > 1.5 * LIMIT, "{name}: {d} only");
         }
     }
+    // This one takes ends that it should take, only too many of them.
+    let d = distance_of::<NoReverse>(MIXTURE, &mixed(hmc(0.6)), 8 * REPLICATES);
+    assert!(d > 1.5 * LIMIT, "an end as likely as any: {d} only");
 }
 
 fn module(text: &str) -> niwaki_infer::Task {
@@ -236,7 +238,7 @@ fn what_has_no_gradient_is_told() {
     let coin = r#"(module (fn "m" (params) (set $a (sample (dist bernoulli 0.3))) (return $a)) (entry "m"))"#;
     assert_eq!(start(coin, hmc(0.1)), "no-continuous-choices");
     let both = r#"(module (fn "m" (params) (set $a (sample (dist bernoulli 0.3)))
-        (set $x (sample (dist gaussian 0.0 1.0))) (do (factor (floor $x))) (return $x)) (entry "m"))"#;
+        (set $x (sample (dist gaussian 0.0 1.0))) (do (factor (round $x 1))) (return $x)) (entry "m"))"#;
     assert_eq!(start(both, on(&["a"], hmc(0.1))), "no-continuous-choices");
     assert_eq!(start(both, hmc(0.1)), "no-derivative");
 }

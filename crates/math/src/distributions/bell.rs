@@ -10,8 +10,14 @@ pub(super) const HALF_LN_TAU: f64 = 0.918_938_533_204_672_7;
 /// `-z^2 / 2 - ln sd - ln(2 pi) / 2` with `z = (x - mean) / sd`.
 #[inline]
 pub(super) fn gaussian_log_density<S: Scalar>(mean: S, sd: S, x: S) -> S {
+    gaussian_log_density_with(mean, sd, sd.ln(), x)
+}
+
+/// [`gaussian_log_density`], the logarithm of the deviation known.
+#[inline(always)]
+pub(super) fn gaussian_log_density_with<S: Scalar>(mean: S, sd: S, log_sd: S, x: S) -> S {
     let z = (x - mean) / sd;
-    S::from_f64(-0.5) * z * z - sd.ln() - S::from_f64(HALF_LN_TAU)
+    S::from_f64(-0.5) * z * z - log_sd - S::from_f64(HALF_LN_TAU)
 }
 
 /// A standard Gaussian by the kept ziggurat, moved and scaled.

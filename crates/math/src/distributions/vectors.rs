@@ -2,7 +2,7 @@
 
 use super::bell::HALF_LN_TAU;
 use super::check::{BadParameter, Reader};
-use super::waiting::log_gamma_draw;
+use super::waiting::{gamma_draw, log_gamma_draw};
 use crate::scalar::Scalar;
 use crate::streams::RngCore;
 use rand_distr::{Distribution, StandardNormal};
@@ -23,17 +23,28 @@ pub(super) fn dirichlet_log_density<S: Scalar>(concentrations: &[S], x: &[S]) ->
     let (mut total, mut log) = (S::from_f64(0.0), S::from_f64(0.0));
     for (a, x) in concentrations.iter().zip(x) {
         total = total + *a;
-        log = log + (*a - S::from_f64(1.0)) * x.ln() - a.ln_gamma();
+        // Of a concentration of one both terms are zero, and most have it.
+        if a.varies() || a.value() != 1.0 {
+            log = log + (*a - S::from_f64(1.0)) * x.ln() - a.ln_gamma();
+        }
     }
     log + total.ln_gamma()
 }
 
-/// Gamma draws over their sum, by their logarithms: small concentrations underflow.
+/// Gamma draws over their sum; by their logarithms where a concentration is below one, of which draws underflow.
 #[inline(never)]
 pub(super) fn dirichlet_sample<S: Scalar>(
     concentrations: &[S],
     rng: &mut (impl RngCore + ?Sized),
 ) -> Vec<f64> {
+    if concentrations.iter().all(|a| a.value() >= 1.0) {
+        let mut draws: Vec<f64> = concentrations.iter().map(|a| gamma_draw(a.value(), rng)).collect();
+        let total: f64 = draws.iter().sum();
+        if total.is_finite() {
+            draws.iter_mut().for_each(|x| *x = (*x / total).max(f64::MIN_POSITIVE));
+            return draws;
+        }
+    }
     let logs: Vec<f64> = concentrations.iter().map(|a| log_gamma_draw(a.value(), rng)).collect();
     let largest = logs.iter().fold(f64::NEG_INFINITY, |m, l| m.max(*l));
     let total: f64 = logs.iter().map(|l| (l - largest).exp()).sum();
@@ -163,6 +174,26 @@ mod tests {
         assert_eq!(d.log_density(&vector(&[f64::NAN, 0.5])), f64::NEG_INFINITY);
         let firsts: Vec<f64> = (0..DRAWS as u64).map(|k| entry(&d.sample(&mut stream(k)), 0)).collect();
         follows(&beta, 0.0, 1.0, firsts);
+    }
+
+    #[test]
+    fn a_flat_dirichlet_has_betas_for_margins() {
+        let d = Dist::new(Family::Dirichlet, &[Param::Vector(vec![1.0; 5])]).unwrap();
+        for k in 0..100 {
+            // Of ones the density is `gamma(5)` everywhere.
+            assert!((d.log_density(&d.sample(&mut stream(k))) - 24.0_f64.ln()).abs() < 1e-12);
+        }
+        let lasts: Vec<f64> = (0..DRAWS as u64).map(|k| entry(&d.sample(&mut stream(k)), 4)).collect();
+        follows(&dist(Family::Beta, &[1.0, 4.0]), 0.0, 1.0, lasts);
+    }
+
+    #[test]
+    fn huge_concentrations_draw_points_with_a_density() {
+        let d = Dist::new(Family::Dirichlet, &[Param::Vector(vec![1e308, 1e308, 1.0])]).unwrap();
+        for k in 0..100 {
+            let x = d.sample(&mut stream(k));
+            assert!((entry(&x, 0) - 0.5).abs() < 1e-6 && entry(&x, 2) > 0.0);
+        }
     }
 
     #[test]

@@ -40,6 +40,12 @@ pub(super) fn log_gamma_draw(shape: f64, rng: &mut (impl RngCore + ?Sized)) -> f
     g.max(f64::MIN_POSITIVE).ln() + log_power
 }
 
+/// The kept sampler's draw of a shape of one or more.
+#[inline]
+pub(super) fn gamma_draw(shape: f64, rng: &mut (impl RngCore + ?Sized)) -> f64 {
+    rand_distr::Gamma::new(shape, 1.0).map_or(shape, |d| d.sample(rng)).max(f64::MIN_POSITIVE)
+}
+
 /// The kept sampler's draw, scaled.
 #[inline(never)]
 pub(super) fn gamma_sample(shape: f64, scale: f64, rng: &mut (impl RngCore + ?Sized)) -> f64 {

@@ -107,7 +107,7 @@ pub fn clip<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let [x, lo, hi] = args else { return Err(Fault::argument_count("`clip` takes 3 arguments")) };
     if let (Some(a), Some(b), Some(c)) = (Number::of(x), Number::of(lo), Number::of(hi)) {
         let (a, b, c) = (a.real(), b.real(), c.real());
-        if (a.varies() || b.varies() || c.varies()) && b.value() <= c.value() {
+        if (a.varies() || b.varies() || c.varies()) && b <= c {
             return Ok(Value::Real(a.max(b).min(c)));
         }
     }

@@ -73,7 +73,8 @@ fn elements<S: Scalar>(value: &Value<S>) -> Option<impl Iterator<Item = Value<S>
 fn numbers<S: Scalar>(value: &Value<S>) -> Option<Vec<S>> {
     match value {
         Value::Vector(v) => Some(v.components().to_vec()),
-        Value::Tuple(_) | Value::List(_) | Value::Record(_) => {
+        Value::Tuple(tuple) => tuple.items().iter().map(|item| Number::of(item).map(Number::real)).collect(),
+        Value::List(_) | Value::Record(_) => {
             elements(value)?.map(|item| Number::of(&item).map(Number::real)).collect()
         }
         _ => None,

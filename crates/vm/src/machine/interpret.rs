@@ -406,10 +406,31 @@ impl<S: Scalar> Machine<'_, S> {
                 Op::Done => {
                     if K::KEEPS {
                         if let Some((next, at)) = check!(keep.done(self, state, node)).place() {
+                            let (this, that) = (&state.nodes[node.0 as usize], &state.nodes[next.0 as usize]);
+                            if that.parent == this.parent && that.function == id {
+                                // The next iteration: the same code below the same loop.
+                                (node, pc, own) = (next, at as usize, that.registers as usize);
+                                keep.enter(state, node);
+                                continue;
+                            }
                             enter!(next, at);
                         }
                         keep.count(executed);
                         return Ok(Stop::Returned);
+                    }
+                }
+                Op::Unpack { from, to } => {
+                    // Most are pairs of numbers.
+                    if let Value::Tuple(tuple) = get!(from)
+                        && let [Value::Real(x), Value::Real(y)] = tuple.items()
+                        && let [a, b] = f.operands[to.range()]
+                        && !(K::KEEPS && (a.is_node() || b.is_node()))
+                    {
+                        let (x, y) = (*x, *y);
+                        r!().slot(state, &mut self.scratch, a).store_real(x);
+                        r!().slot(state, &mut self.scratch, b).store_real(y);
+                    } else {
+                        check!(self.construct(state, keep, r!(), code[pc]));
                     }
                 }
                 op => check!(self.construct(state, keep, r!(), op)),

@@ -36,7 +36,7 @@ use answers::Answers;
 use keep::Dropped;
 use known::Known;
 use niwaki_geom::Shape;
-use niwaki_math::Scalar;
+use niwaki_math::{LastLog, Scalar};
 use stack::RunFault;
 use state::{FutureId, NodeId, State, Status};
 
@@ -94,6 +94,7 @@ pub struct Machine<'p, S: Scalar = f64> {
     buffer: Vec<Value<S>>,
     shapes: Vec<Shape>,
     known: Known<S>,
+    logs: LastLog<S>,
     here: Here,
 }
 
@@ -108,6 +109,7 @@ impl<'p, S: Scalar> Machine<'p, S> {
             buffer: Vec::new(),
             shapes: Vec::new(),
             known: Known::default(),
+            logs: LastLog::default(),
             here: Here { node: NodeId::NONE, function: program.entry, pc: 0 },
         }
     }

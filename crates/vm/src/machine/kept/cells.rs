@@ -11,12 +11,13 @@
 
 use super::super::Machine;
 use super::super::answers::Answers;
+use super::super::keep::Keep;
 use super::super::question::Halt;
 use super::super::registers::Registers;
 use super::super::stack::RunFault;
 use super::super::state::{NodeId, State};
-use super::{Change, Kept, Slot, Trace};
-use crate::code::{Operand, Site};
+use super::{Change, Kept, Slot, Step, Trace};
+use crate::code::{Op, Operand, Site, SiteKind};
 use crate::value::{Cell, List, Value, index, ops};
 use niwaki_math::Scalar;
 
@@ -244,6 +245,30 @@ impl<S: Scalar> Kept<S> {
 }
 
 impl<S: Scalar> Machine<'_, S> {
+    /// Where all that a reader does is to score once more, scores it here; false where it does more, and where
+    /// that does not go well: then it is to be run.
+    #[inline(always)]
+    fn scores_alone(&mut self, state: &mut State<S>, kept: &mut Kept<S>, node: NodeId, pc: usize) -> bool {
+        let f = self.program.function(state.nodes[node.0 as usize].function);
+        let (Op::Site { site: number }, Some(Op::Done)) = (f.code[pc], f.code.get(pc + 1)) else {
+            return false;
+        };
+        let site = &f.sites[number.0 as usize];
+        if !matches!(site.kind, SiteKind::Observe { .. } | SiteKind::ObserveDist | SiteKind::ObserveIndexed) {
+            return false;
+        }
+        let (own, outer) = self.bases(state, f, node);
+        kept.enter(state, node);
+        if kept.factor(self, state, Registers { f, own, outer, scratch: 0 }, node, number, site).is_err() {
+            return false;
+        }
+        kept.counters.entered += 1;
+        kept.counters.instructions += 2;
+        kept.note(Step::Entered(node));
+        kept.note(Step::Unwound(node));
+        true
+    }
+
     /// Takes up those who were woken; `None` when the run is tangled.
     pub(super) fn take_up_readers<A: Answers<S>>(
         &mut self,
@@ -264,6 +289,9 @@ impl<S: Scalar> Machine<'_, S> {
             }
             let alone = kept.woken.len() == 1;
             let next = site.again as usize;
+            if self.scores_alone(state, kept, node, next) {
+                continue;
+            }
             let change = self.run_kept(trace, node, next, answers);
             if trace.kept.tangled {
                 return Ok(None);

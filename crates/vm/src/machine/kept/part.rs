@@ -86,27 +86,27 @@ impl<S: Scalar> Kept<S> {
         if self.depth == 0 {
             return Ok(Onward::END);
         }
-        let n = state.nodes[node.0 as usize];
-        if machine.program.function(n.function).mode == Mode::Node {
-            let (function, site) = Kept::caller(state, node);
-            self.sites.paid(function, site);
-            self.depth -= 1;
-            return Ok(self.returns.pop().map_or(Onward::END, |next| Onward::at(n.parent, next)));
-        }
-        let header = n.parent;
-        if i64::from(n.pc) != exit::NEXT {
-            return Ok(self.go_on(machine, state, header, false, false));
-        }
+        let n = &state.nodes[node.0 as usize];
+        let (header, end, i) = (n.parent, i64::from(n.pc), n.iteration as usize);
         // What the iteration was entered for: a loop that was entered from above, or (when the iteration before changed
         // what it handed on) one that was not.
         let active = match self.active.last() {
             Some(active) if active.header == header => *active,
+            _ if machine.program.function(n.function).mode == Mode::Node => {
+                let (function, site) = Kept::caller(state, node);
+                self.sites.paid(function, site);
+                self.depth -= 1;
+                return Ok(self.returns.pop().map_or(Onward::END, |next| Onward::at(header, next)));
+            }
             _ => Active { header, captures: Entry::Unchanged, over: false },
         };
+        if end != exit::NEXT {
+            return Ok(self.go_on(machine, state, header, false, false));
+        }
         if !active.over {
             // There are as many iterations as before; what they all capture is all that can have changed for the next.
             let list = state.nodes[header.0 as usize].slots as usize;
-            let next = self.loops[list].get(n.iteration as usize + 1).copied();
+            let next = self.loops[list].get(i + 1).copied();
             return Ok(match next.filter(|_| active.captures != Entry::Unchanged) {
                 Some(next) => {
                     self.leaves_its_activation();
@@ -117,7 +117,7 @@ impl<S: Scalar> Kept<S> {
                 None => self.go_on(machine, state, header, false, false),
             });
         }
-        Ok(match self.iterate(machine, state, active, n.iteration as usize + 1, Handed::Unchanged)? {
+        Ok(match self.iterate(machine, state, active, i + 1, Handed::Unchanged)? {
             Next::Enter(child, at) => Onward::at(child, at),
             Next::Ended { changed } => self.go_on(machine, state, header, false, changed),
         })

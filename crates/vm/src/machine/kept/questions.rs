@@ -9,11 +9,11 @@ use super::super::suspend::After;
 use super::cells::Reader;
 use super::journal::Birth;
 use super::{Kept, Slot};
-use crate::code::{Args, Site, SiteId, SiteKind};
+use crate::code::{Args, Operand, Site, SiteId, SiteKind};
 use crate::fault::Fault;
 use crate::value::{Value, ops, same};
 use niwaki_geom::{Primitive, Shape};
-use niwaki_math::{Dist, Scalar, grid};
+use niwaki_math::{Dist, Family, Scalar, grid};
 
 pub(super) use super::super::question::log_density;
 
@@ -34,6 +34,39 @@ fn check(log: f64, what: &str) -> Result<f64, Fault> {
             .with_help("a log factor is a finite number, or minus infinity for what is impossible"));
     }
     Ok(grid(log))
+}
+
+/// The log density of a number, of a family and its two parameters, without making the distribution; `None` where they
+/// are no numbers, or it must be made.
+#[inline(always)]
+fn number_log_density<S: Scalar>(
+    machine: &mut Machine<'_, S>,
+    state: &State<S>,
+    r: Registers<'_, S>,
+    family: Family,
+    (a, b): (Operand, Operand),
+    x: S,
+) -> Option<f64> {
+    let Value::Real(a) = *r.get(state, &machine.scratch, a) else { return None };
+    let Value::Real(b) = *r.get(state, &machine.scratch, b) else { return None };
+    Some(Dist::log_density_of_reals(family, a, b, x, &mut machine.logs)?.value())
+}
+
+/// [`number_log_density`] of an observation whose value is not read.
+#[inline(always)]
+fn observed_number<S: Scalar>(
+    machine: &mut Machine<'_, S>,
+    state: &State<S>,
+    r: Registers<'_, S>,
+    site: &Site,
+) -> Option<f64> {
+    let (SiteKind::Observe { family }, false, [a, b, x]) =
+        (&site.kind, site.is_read, &r.f.operands[site.args.range()])
+    else {
+        return None;
+    };
+    let Value::Real(x) = *r.get(state, &machine.scratch, *x) else { return None };
+    number_log_density(machine, state, r, *family, (*a, *b), x)
 }
 
 impl<S: Scalar> Kept<S> {
@@ -145,9 +178,24 @@ impl<S: Scalar> Kept<S> {
     ) -> Result<bool, Halt> {
         let (place, at) = (r.own + site.to.index(), Kept::slot_at(state, node, number.0 as usize));
         let program = machine.program;
+        let slot = self.slots[at];
+        if let SiteKind::Sample { family } = site.kind
+            && slot.is_filled()
+            && slot.mark & Slot::FAMILY == family as u32
+            && let Value::Real(x) = state.registers[place]
+            && let [a, b] = &r.f.operands[site.args.range()]
+            && let Some(log) = number_log_density(machine, state, r, family, (*a, *b), x)
+            && let log = check(log, "a log density")?
+            && log > f64::NEG_INFINITY
+        {
+            if log.to_bits() != slot.log.to_bits() {
+                self.set_log(self.quiet, at, log, true);
+            }
+            return Ok(false);
+        }
         let mut made = None;
         let dist = machine.dist(state, r, site, site.args, &mut made)?;
-        let (slot, family) = (self.slots[at], dist.family() as u32);
+        let family = dist.family() as u32;
         if slot.is_filled() && slot.mark & Slot::FAMILY == family && fits(dist, &state.registers[place]) {
             let log = check(log_density(dist, &state.registers[place])?.value(), "a log density")?;
             let stays = log > f64::NEG_INFINITY || !self.redraws_outside;
@@ -184,7 +232,8 @@ impl<S: Scalar> Kept<S> {
         if log == f64::NEG_INFINITY { Err(Halt::Impossible) } else { Ok(true) }
     }
 
-    fn factor(
+    #[inline(always)]
+    pub(super) fn factor(
         &mut self,
         machine: &mut Machine<'_, S>,
         state: &mut State<S>,
@@ -204,17 +253,20 @@ impl<S: Scalar> Kept<S> {
                     f64::NEG_INFINITY
                 }
             }
-            _ => {
-                let mut made = None;
-                let args = Args { len: last as u16, ..site.args };
-                let value = r.get(state, &machine.scratch, operand).clone();
-                let dist = machine.dist(state, r, site, args, &mut made)?;
-                let log = log_density(dist, &value)?.value();
-                if site.is_read {
-                    self.write_to(state, self.quiet, r.own + site.to.index(), value);
+            _ => match observed_number(machine, state, r, site) {
+                Some(log) => log,
+                None => {
+                    let mut made = None;
+                    let args = Args { len: last as u16, ..site.args };
+                    let value = r.get(state, &machine.scratch, operand).clone();
+                    let dist = machine.dist(state, r, site, args, &mut made)?;
+                    let log = log_density(dist, &value)?.value();
+                    if site.is_read {
+                        self.write_to(state, self.quiet, r.own + site.to.index(), value);
+                    }
+                    log
                 }
-                log
-            }
+            },
         };
         let log = check(log, "a factor")?;
         let at = Kept::slot_at(state, node, number.0 as usize);
