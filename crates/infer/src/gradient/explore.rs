@@ -202,7 +202,7 @@ fn together(
 ) -> Result<Vec<(usize, Explored)>, Failure> {
     match group.len() {
         ..LEAST => alone(task, plan, group, look),
-        ..=FEW => in_lanes::<FEW>(task, plan, group, look),
+        LEAST..=FEW => in_lanes::<FEW>(task, plan, group, look),
         _ => in_lanes::<MANY>(task, plan, group, look),
     }
 }
