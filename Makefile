@@ -7,8 +7,8 @@
 #   make bench    rates beside WebPPL and a hand-written limit, on one thread (needs node and npm)
 #   make figures-sosmc  the figures and the table of chapter 5, into out/figures-sosmc (QUICK=1: a smoke run)
 #   make figures-hmc  the figures and the tables of chapter 4, into out/figures-hmc (QUICK=1: a smoke run)
-#   make bench-c3 proposals of Markov chains beside WebPPL and the limit, with figures (25 minutes; QUICK=1: two)
-#   make bench-hmc gradients and effective samples beside JAX, NumPyro, nutpie and the limit (8 minutes; QUICK=1: two)
+#   make bench-c3 proposals of Markov chains beside WebPPL and the limit, with figures (15 minutes; QUICK=1: two)
+#   make bench-hmc gradients and effective samples beside JAX, NumPyro, nutpie and the limit (4 minutes; QUICK=1: one)
 #   make soak     the long tests, with fresh printed seeds
 #   make docs     the manual, into docs/_build/html, and the engine's pages, into target/doc
 #   make format   rewrite the sources in the house's style

@@ -294,7 +294,7 @@ def to_arviz(draws: Mapping[str, ArrayLike], stats: Mapping[str, ArrayLike] | No
 
         raise InputError("no-arviz") from None
     posterior = {name: np.asarray(values) for name, values in draws.items()}
-    groups = {"posterior": posterior}
+    groups: dict[str, Any] = {"posterior": posterior}
     if stats:
         groups["sample_stats"] = {name: np.asarray(values) for name, values in stats.items()}
     if int(arviz.__version__.split(".")[0]) >= 1:
