@@ -9,16 +9,16 @@ default sampler beside the original's settings); `structures` (figures 4.8, 4.9,
 Each leaves pictures and one line of JSON for each measurement in FOLDER, out/figures-hmc unless named.
 """
 
-import json
-import os
 import sys
-import time
 from pathlib import Path
+
+sys.path.append(str(Path(__file__).resolve().parents[1]))
 
 import colors
 import exploration
 import point
 import structures
+from parts import main
 
 PARTS = {
     "point": point.draw,
@@ -27,22 +27,5 @@ PARTS = {
     "structures": structures.draw,
 }
 
-
-def main(folder: Path, parts: list[str]) -> None:
-    """Make the parts that are named, all without a name, and say how long each took."""
-    quick = bool(os.environ.get("QUICK"))
-    folder.mkdir(parents=True, exist_ok=True)
-    for name in parts or list(PARTS):
-        start = time.perf_counter()
-        with (folder / f"{name}.jsonl").open("w") as lines:
-
-            def tell(row: dict, lines=lines) -> None:
-                lines.write(json.dumps(row) + "\n")
-                lines.flush()
-
-            PARTS[name](folder, tell, quick)
-        print(f"{name}: {time.perf_counter() - start:.0f} s, in {folder}", flush=True)
-
-
 if __name__ == "__main__":
-    main(Path(sys.argv[1] if len(sys.argv) > 1 else "out/figures-hmc"), sys.argv[2:])
+    main(PARTS, "out/figures-hmc")

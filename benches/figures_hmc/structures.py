@@ -6,11 +6,8 @@ by eye: those farthest apart among the draws that both judges pass.
 """
 
 import os
-import sys
 from collections.abc import Callable
 from pathlib import Path
-
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 import towers_and_arches as pages
 from failures import failures
