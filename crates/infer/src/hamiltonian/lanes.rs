@@ -2,7 +2,7 @@
 //!
 //! Chains that move over one density differ in where they stand, and in step size and scales. A group of them takes
 //! each leapfrog step together, with one evaluation for all; momentum, acceptance and adaptation are each chain's own.
-//! The operations on a lane are those of [`super::leapfrog()`], in its order, so a lane gives the bits that its chain
+//! The operations on a lane are those of the leapfrog integrator, in its order, so a lane gives the bits that its chain
 //! gives alone, where the wide density gives the bits of the chain's own.
 //!
 //! A point that the wide density does not cover is asked of the chain's own target.

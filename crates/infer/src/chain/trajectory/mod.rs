@@ -4,8 +4,8 @@
 //! One transition, of fixed length or without a U-turn, in the coordinates of [`niwaki_grad::coordinates`]:
 //!
 //! 1. the trace's structure (which choices there are, and the values of the discrete ones) finds the graph of its density,
-//!    or a recording makes it: [`structures`];
-//! 2. a Hamiltonian transition goes from `x` to `x'`, with a step and scales that every structure shares: [`scales`];
+//!    or a recording makes it: `structures`;
+//! 2. a Hamiltonian transition goes from `x` to `x'`, with a step and scales that every structure shares: `scales`;
 //! 3. the values at `x'` are written as one block, through the same transaction as every other proposal, so that scores,
 //!    scene and queries stay exact.
 //!
