@@ -48,7 +48,6 @@ def settled(sample: Sample, steps: int) -> dict[str, Any]:
         even = slope / (1.0 - SLOPE_MEMORY ** (k + 1))
         scale = np.sqrt(size / (1.0 - SIZE_MEMORY ** (k + 1))) + 1e-9
         x = x + FIRST * (LAST / FIRST) ** (k / steps) * even / scale
-    # Rounded far below what is seen: the engine's tape and its machine code, which takes over when it is ready, agree
-    # to rounding only, and a seed is to give the same colours.
+    # Rounded far below what is seen, so that the colours of a seed are short to write and to compare.
     values = np.round(np.clip(1.0 / (1.0 + np.exp(-kept)), GRAIN, 1.0 - GRAIN), DIGITS)
     return {choice.name: float(values[choice.first]) for choice in density.choices}

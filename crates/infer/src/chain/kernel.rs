@@ -84,3 +84,18 @@ pub enum Kernel {
         kernel: Box<Kernel>,
     },
 }
+
+impl Kernel {
+    /// Whether the kernel, or one that it is made of, is of a kind.
+    pub fn any(&self, is: &impl Fn(&Kernel) -> bool) -> bool {
+        is(self)
+            || match self {
+                Kernel::Cycle(inner) => inner.iter().any(|kernel| kernel.any(is)),
+                Kernel::Mixture(inner) => inner.iter().any(|(_, kernel)| kernel.any(is)),
+                Kernel::Repeat(_, kernel) | Kernel::On(_, kernel) | Kernel::Anneal { kernel, .. } => {
+                    kernel.any(is)
+                }
+                _ => false,
+            }
+    }
+}

@@ -69,39 +69,18 @@ impl Rejuvenation {
         if self.moves == 0 || self.at == Moment::Every(0) || stand {
             return Err(Fault::new("bad-setting", "no move was asked for").with_help("ask for at least one"));
         }
-        if anneals(&self.kernel) {
+        if self.kernel.any(&|part| matches!(part, Kernel::Anneal { .. })) {
             let what = "an annealing kernel does not keep the particles' law";
             return Err(
                 Fault::new("bad-kernel", what).with_help("anneal the particles, and move them plainly")
             );
         }
-        if follows(&self.kernel) && self.at != Moment::End {
+        if self.at != Moment::End && self.kernel.any(&|part| matches!(part, Kernel::Trajectory { .. })) {
             let what = "a particle that still runs has no gradient to follow";
             return Err(Fault::new("bad-kernel", what)
                 .with_help("move the particles at the end, or without `hmc()` and `nuts()`"));
         }
         Ok(())
-    }
-}
-
-/// Whether a kernel follows the gradient.
-fn follows(kernel: &Kernel) -> bool {
-    match kernel {
-        Kernel::Trajectory { .. } => true,
-        Kernel::Cycle(inner) => inner.iter().any(follows),
-        Kernel::Mixture(inner) => inner.iter().any(|(_, kernel)| follows(kernel)),
-        Kernel::Repeat(_, kernel) | Kernel::On(_, kernel) | Kernel::Anneal { kernel, .. } => follows(kernel),
-        _ => false,
-    }
-}
-
-fn anneals(kernel: &Kernel) -> bool {
-    match kernel {
-        Kernel::Anneal { .. } => true,
-        Kernel::Cycle(inner) => inner.iter().any(anneals),
-        Kernel::Mixture(inner) => inner.iter().any(|(_, kernel)| anneals(kernel)),
-        Kernel::Repeat(_, kernel) | Kernel::On(_, kernel) => anneals(kernel),
-        _ => false,
     }
 }
 
