@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import signal
+from collections.abc import Callable, Mapping
 from pathlib import Path
+from typing import Any
 
 import pytest
+from niwaki.errors import NiwakiError
 
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     # A shell's background jobs ignore Ctrl-C, and tests that press it would wait for ever.
@@ -26,5 +29,20 @@ def golden(request: pytest.FixtureRequest):
             path.write_text(text)
         assert path.exists(), f"no golden file {path.name}; run with --update-golden"
         assert text == path.read_text()
+
+    return check
+
+
+@pytest.fixture
+def reviewed(golden: Callable[[Path, str], None]) -> Callable[[Path, Mapping[str, Callable[[], Any]]], None]:
+    """A function that compares the errors of calls that must fail, each under its name, with a file."""
+
+    def check(path: Path, failing: Mapping[str, Callable[[], Any]]) -> None:
+        lines = []
+        for what, fails in failing.items():
+            with pytest.raises(NiwakiError) as found:
+                fails()
+            lines.append(f"# {what}\n{found.value}")
+        golden(path, "\n\n".join(lines) + "\n")
 
     return check
