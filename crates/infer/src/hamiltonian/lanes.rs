@@ -186,6 +186,7 @@ impl<const L: usize> Lanes<L> {
         }
         let longest = lanes.iter().map(|lane| lane.start.steps).max().unwrap_or(0);
         let (mut asked, mut outside, mut done) = (0_u64, 0_u64, 0);
+        let mut refused: Vec<usize> = vec![];
         while done < longest {
             // Until a chain arrives or is refused, all steps are alike but the first, whose kick is half.
             let (kick, step) = sizes(&lanes, done);
@@ -227,7 +228,16 @@ impl<const L: usize> Lanes<L> {
                         x.copy_from_slice(&self.one.0);
                         p.iter_mut().zip(&self.p).for_each(|(p, row)| *p = row[l]);
                         lane.refused = Some(stop);
+                        refused.push(l);
                     }
+                }
+            }
+            // A refused lane rests where another one is: numbers that are not finite would hold up all others at each step.
+            if let Some(sound) = (0..L).find(|&l| covered[l] && finite[l]) {
+                for l in refused.drain(..) {
+                    self.x.iter_mut().for_each(|row| row[l] = row[sound]);
+                    self.p.iter_mut().for_each(|row| row[l] = 0.0);
+                    self.gradient.iter_mut().for_each(|row| row[l] = row[sound]);
                 }
             }
         }
