@@ -187,28 +187,32 @@ impl<const L: usize> Lanes<L> {
         let longest = lanes.iter().map(|lane| lane.start.steps).max().unwrap_or(0);
         let (mut asked, mut outside, mut done) = (0_u64, 0_u64, 0);
         let mut refused: Vec<usize> = vec![];
+        let (mut kick, mut step, mut arrival) = ([0.0; L], [0.0; L], 0);
         while done < longest {
-            // Until a chain arrives or is refused, all steps are alike but the first, whose kick is half.
-            let (kick, step) = sizes(&lanes, done);
-            let arrival = lanes.iter().map(|lane| lane.start.steps).filter(|steps| *steps > done).min();
-            let arrival = arrival.unwrap_or(longest);
-            let alike = if done == 0 { 1 } else { arrival };
-            let (values, covered, finite) = loop {
-                self.drift(&kick, &step);
-                done += 1;
-                asked += lanes.len() as u64;
-                if done == arrival {
-                    let (values, covered) = wide.value_and_gradient(&self.x, &mut self.gradient);
-                    break (values, covered, self.finite());
-                }
-                let covered = wide.gradient(&self.x, &mut self.gradient);
-                let finite = self.finite();
-                let fine = covered == [true; L] && finite == [true; L];
-                if !fine || done == alike {
-                    break ([0.0; L], covered, finite);
-                }
+            if done == arrival {
+                (kick, step) = sizes(&lanes, done);
+                let next = lanes.iter().map(|lane| lane.start.steps).filter(|steps| *steps > done).min();
+                arrival = next.unwrap_or(longest);
+            }
+            self.drift(&kick, &step);
+            if done == 0 {
+                // The first kick is half of the others.
+                kick = step;
+            }
+            done += 1;
+            asked += lanes.len() as u64;
+            let ends = done == arrival;
+            let (values, covered) = if ends {
+                wide.value_and_gradient(&self.x, &mut self.gradient)
+            } else {
+                ([0.0; L], wide.gradient(&self.x, &mut self.gradient))
             };
-            for (l, lane) in lanes.iter_mut().enumerate() {
+            let finite = self.finite();
+            if !ends && covered == [true; L] && finite == [true; L] {
+                continue;
+            }
+            for l in (0..lanes.len()).filter(|&l| ends || !covered[l] || !finite[l]) {
+                let lane = &mut lanes[l];
                 if lane.refused.is_some() || done > lane.start.steps {
                     continue;
                 }
@@ -238,6 +242,7 @@ impl<const L: usize> Lanes<L> {
                     self.x.iter_mut().for_each(|row| row[l] = row[sound]);
                     self.p.iter_mut().for_each(|row| row[l] = 0.0);
                     self.gradient.iter_mut().for_each(|row| row[l] = row[sound]);
+                    (kick[l], step[l]) = (0.0, 0.0);
                 }
             }
         }
