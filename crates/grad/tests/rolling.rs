@@ -16,7 +16,13 @@ fn recorded(x: &[f64], f: impl FnOnce(&[Var]) -> Var) -> Density {
 type Phase = [Vec<f64>; 3];
 
 /// As the integrator does it, by tape: how many of `n` steps can be taken, and where they lead.
-fn by_tape(density: &Density, [x, p, g]: &Phase, variance: &[f64], sizes: (f64, f64), n: u32) -> (u32, Phase) {
+fn by_tape(
+    density: &Density,
+    [x, p, g]: &Phase,
+    variance: &[f64],
+    sizes: (f64, f64),
+    n: u32,
+) -> (u32, Phase) {
     let tape = Tape::new(density);
     let mut lanes = tape.lanes::<1>();
     let (mut x, mut p, mut g, mut kick) = (x.clone(), p.clone(), g.clone(), sizes.0);

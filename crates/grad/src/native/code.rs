@@ -46,8 +46,8 @@ impl<'a, 'b> Code<'a, 'b> {
         Code { b, density, layout, x, g, scratch, inputs: vec![], values, function, masks: vec![] }
     }
 
-    /// A number, from where it lies. Loads are not kept: an instruction that reads from memory costs less than a register,
-    /// and is shorter than one that makes a constant.
+    /// A number, from where it lies. Loads are not kept: loading again costs less than a register. A constant is loaded too:
+    /// ten bytes of it in the code, and a move from one kind of register to the other, would cost more.
     pub(super) fn read(&mut self, id: Id) -> Value {
         if let (function, value) = self.values[id.index()]
             && function == self.function

@@ -157,7 +157,8 @@ impl Layout {
         for id in read.chain(results).filter(|id| graph.node(*id).op == Op::Constant) {
             uses[id.index()] += 1;
         }
-        let mut constants: Vec<Id> = graph.nodes().map(|(id, _)| id).filter(|id| uses[id.index()] > 0).collect();
+        let mut constants: Vec<Id> =
+            graph.nodes().map(|(id, _)| id).filter(|id| uses[id.index()] > 0).collect();
         constants.sort_by_key(|id| (std::cmp::Reverse(uses[id.index()]), *id));
         for (at, id) in constants.iter().enumerate() {
             layout.place[id.index()] = at as u32;

@@ -16,15 +16,8 @@ use cranelift_module::{FuncId, Module};
 const COORDINATES: usize = 4;
 
 /// `(x, g, scratch, p, variance, [kick, step], n)`: up to `n >= 1` steps; gives how many were taken.
-pub(super) type Entry = unsafe extern "C" fn(
-    *mut f64,
-    *mut f64,
-    *mut f64,
-    *mut f64,
-    *const f64,
-    *const [f64; 2],
-    u64,
-) -> u64;
+pub(super) type Entry =
+    unsafe extern "C" fn(*mut f64, *mut f64, *mut f64, *mut f64, *const f64, *const [f64; 2], u64) -> u64;
 
 impl Writer<'_> {
     /// The loop, where the gradient suits it.
@@ -49,8 +42,7 @@ fn write(code: &mut Code<'_, '_>, given: &[Value], layout: &Layout) {
         (0..dim as u32).map(|k| code.load(at, k)).collect()
     };
     let (kick, step) = (code.load(sizes, 0), code.load(sizes, 1));
-    let scales: Vec<Value> =
-        read(code, variance).into_iter().map(|s| code.b.ins().fmul(step, s)).collect();
+    let scales: Vec<Value> = read(code, variance).into_iter().map(|s| code.b.ins().fmul(step, s)).collect();
     let zero = code.b.ins().iconst(I64, 0);
     let (body, next, stop, exit) =
         (code.b.create_block(), code.b.create_block(), code.b.create_block(), code.b.create_block());
@@ -101,7 +93,8 @@ fn write(code: &mut Code<'_, '_>, given: &[Value], layout: &Layout) {
     let done = code.b.ins().iadd_imm_u(made, 1);
     let more = code.b.ins().icmp(IntCC::UnsignedLessThan, done, n);
     let now: Vec<Value> = [here, momentum, slopes].concat();
-    let (again, out) = (arguments(&[&[done, step], &now[..]].concat()), arguments(&[&[done], &now[..]].concat()));
+    let (again, out) =
+        (arguments(&[&[done, step], &now[..]].concat()), arguments(&[&[done], &now[..]].concat()));
     code.b.ins().brif(more, body, &again, exit, &out);
 
     code.b.switch_to_block(stop);
