@@ -157,15 +157,9 @@ fn grouped(settings: &Settings, members: &[Option<Member>]) -> Vec<Vec<usize>> {
     let mut groups = Vec::new();
     for (_, chains) in alike {
         let each = chains.len().div_ceil(rayon::current_num_threads());
-        let lanes = match each {
-            _ if !lanes::suits(settings) => 1,
-            MANY.. => MANY,
-            LEAST.. => FEW,
-            _ => 1,
-        };
-        // Groups of one size, so that no few are left over.
-        let even = chains.len().div_ceil(chains.len().div_ceil(lanes));
-        groups.extend(chains.chunks(if even < LEAST { lanes } else { even }).map(<[usize]>::to_vec));
+        let alone = !lanes::suits(settings) || each < LEAST;
+        // In lanes all that a thread has: where one is on top of its summit, another takes its lane.
+        groups.extend(chains.chunks(if alone { 1 } else { each }).map(<[usize]>::to_vec));
     }
     groups
 }
@@ -202,7 +196,7 @@ fn together(
 ) -> Result<Vec<(usize, Explored)>, Failure> {
     match group.len() {
         ..LEAST => alone(task, plan, group, look),
-        LEAST..=FEW => in_lanes::<FEW>(task, plan, group, look),
+        LEAST..MANY => in_lanes::<FEW>(task, plan, group, look),
         _ => in_lanes::<MANY>(task, plan, group, look),
     }
 }
@@ -249,7 +243,14 @@ fn in_lanes<const L: usize>(
         drop(chains);
         return Err(no_slope(&group[at].target, &group[at].start));
     }
-    let draws = lanes::run_in_lanes(chains, &mut wide, plan.settings, &|_, _| look());
+    // Companies of one size, so that no few are left over.
+    let even = chains.len().div_ceil(chains.len().div_ceil(L));
+    let mut chains = chains.into_iter().peekable();
+    let mut draws = Vec::with_capacity(chains.len());
+    while chains.peek().is_some() {
+        let company = chains.by_ref().take(even).collect();
+        draws.extend(lanes::run_in_lanes(company, &mut wide, plan.settings, &|_, _| look()));
+    }
     let ends = group.into_iter().zip(draws);
     ends.map(|(Member { number, target, recorded, start }, draws)| {
         Ok((number, explored(task, target, recorded, &start, draws)?))

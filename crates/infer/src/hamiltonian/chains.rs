@@ -97,8 +97,8 @@ pub enum Purpose {
     Transition,
     /// The search for a first step size.
     Guess,
-    /// The exchange of two rungs.
-    Exchange,
+    /// The length of one transition.
+    Length,
 }
 
 /// One chain: where it stands and how it moves.
@@ -117,8 +117,6 @@ pub struct Chain<P> {
     pub seed: u64,
     /// Which chain.
     pub number: u64,
-    /// Which rung of a tempered chain; 0 else.
-    pub rung: u32,
     /// Transitions made.
     pub visit: u64,
     /// Gradients taken on the way uphill.
@@ -157,20 +155,32 @@ impl<P: Potential> Chain<P> {
         let phase = Phase::at(&mut target, start)?;
         let metric = Metric::unit(start.len());
         let (kernel, step_size) = (settings.kernel(), settings.step_size.unwrap_or(1.0));
-        Ok(Chain { target, phase, metric, step_size, kernel, seed, number, rung: 0, visit: 0, climbed })
+        Ok(Chain { target, phase, metric, step_size, kernel, seed, number, visit: 0, climbed })
     }
 
     /// The random bits of this visit, for one purpose.
     pub fn stream(&self, purpose: Purpose) -> Stream {
-        let address = u128::from(self.rung) << 8 | purpose as u128;
-        Stream::new(self.seed, self.number, address, self.visit)
+        Stream::new(self.seed, self.number, purpose as u128, self.visit)
+    }
+
+    /// Random numbers for the length of the next transition: those of the first chain, for all chains. Side by side they
+    /// then move for as long.
+    pub(super) fn lengths(&self) -> Stream {
+        Stream::new(self.seed, 0, Purpose::Length as u128, self.visit)
     }
 
     /// One transition.
     pub fn advance(&mut self) -> Transition {
-        let mut stream = self.stream(Purpose::Transition);
+        let (mut stream, mut lengths) = (self.stream(Purpose::Transition), self.lengths());
         self.visit += 1;
-        self.kernel.step(&mut self.target, &self.metric, self.step_size, &mut self.phase, &mut stream)
+        let Chain { target, metric, step_size, phase, .. } = self;
+        match &mut self.kernel {
+            Kernel::Hmc(hmc) => {
+                let steps = hmc.length(&mut lengths);
+                hmc.step_of(target, metric, *step_size, phase, steps, &mut stream)
+            }
+            Kernel::Nuts(nuts) => nuts.step(target, metric, *step_size, phase, &mut stream),
+        }
     }
 
     /// Sets the step size to one that suits a single step, found from a guess.

@@ -119,36 +119,36 @@ pub fn climb(target: &mut (impl Potential + ?Sized), x: &mut [f64], steps: u32) 
     way.taken
 }
 
-/// The same from several points side by side, at most `L`, each with a target of its own for where the wide density does
-/// not cover it.
-///
-/// # Panics
-/// For more than `L` points.
+/// The same from several points, `L` of them side by side, each with a target of its own for where the wide density does
+/// not cover it. Where a way ends, the next point takes its lane.
 pub fn climb_in_lanes<const L: usize>(
     targets: &mut [&mut impl Potential],
     starts: &mut [&mut Vec<f64>],
     wide: &mut impl Wide<L>,
     steps: u32,
 ) -> Vec<u32> {
-    assert!(starts.len() <= L, "a lane for each point");
     let dim = starts.first().map_or(0, |start| start.len());
     let mut ways: Vec<Way> = starts.iter().map(|start| Way::from(start, steps)).collect();
     let (mut x, mut g, mut one) = (vec![[0.0; L]; dim], vec![[0.0; L]; dim], vec![0.0; dim]);
-    while !ways.iter().all(|way| way.is_over) {
-        for l in 0..L {
+    let mut waiting = 0..if steps > 0 { ways.len() } else { 0 };
+    let mut lanes: [Option<usize>; L] = [(); L].map(|()| waiting.next());
+    while let Some(first) = lanes.iter().flatten().next().copied() {
+        for (l, lane) in lanes.iter().enumerate() {
             // Lanes without a point stand where the first one does.
-            let way = ways.get(l).unwrap_or(&ways[0]);
+            let way = &ways[lane.unwrap_or(first)];
             x.iter_mut().zip(&way.at).for_each(|(row, x)| row[l] = *x);
         }
         let (values, covered) = wide.value_and_gradient(&x, &mut g);
-        for (l, (way, target)) in ways.iter_mut().zip(targets.iter_mut()).enumerate() {
-            if way.is_over {
-                continue;
-            }
+        for (l, lane) in lanes.iter_mut().enumerate() {
+            let Some(number) = *lane else { continue };
+            let way = &mut ways[number];
             if covered[l] && values[l].is_finite() && g.iter().all(|row| row[l].is_finite()) {
                 way.step(values[l], g.iter().map(|row| row[l]), steps);
             } else {
-                way.step_alone(&mut **target, &mut one, steps);
+                way.step_alone(&mut *targets[number], &mut one, steps);
+            }
+            if way.is_over {
+                *lane = waiting.next();
             }
         }
     }

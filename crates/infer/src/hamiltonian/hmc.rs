@@ -30,7 +30,7 @@ impl Hmc {
     }
 
     /// How many steps this time.
-    fn length(&self, stream: &mut Stream) -> u32 {
+    pub(super) fn length(&self, stream: &mut Stream) -> u32 {
         if self.jitter == 0.0 {
             return self.steps;
         }
@@ -48,7 +48,35 @@ impl Hmc {
         phase: &mut Phase,
         stream: &mut Stream,
     ) -> Transition {
-        let start = self.begin(metric, phase, stream);
+        phase.refresh(metric, stream);
+        let steps = self.length(stream);
+        self.go(target, metric, step, phase, steps, stream)
+    }
+
+    /// The same, of a length that was drawn before.
+    pub(super) fn step_of(
+        &mut self,
+        target: &mut (impl Potential + ?Sized),
+        metric: &Metric,
+        step: f64,
+        phase: &mut Phase,
+        steps: u32,
+        stream: &mut Stream,
+    ) -> Transition {
+        phase.refresh(metric, stream);
+        self.go(target, metric, step, phase, steps, stream)
+    }
+
+    fn go(
+        &mut self,
+        target: &mut (impl Potential + ?Sized),
+        metric: &Metric,
+        step: f64,
+        phase: &mut Phase,
+        steps: u32,
+        stream: &mut Stream,
+    ) -> Transition {
+        let start = self.begin(phase, steps);
         let refused = leapfrog(target, metric, phase, step, start.steps).err();
         if refused.is_some() {
             metric.velocity(&phase.p, &mut phase.v);
@@ -56,10 +84,8 @@ impl Hmc {
         self.end(start, refused, phase, stream)
     }
 
-    /// Draws momentum and length, and keeps where the trajectory starts.
-    pub(super) fn begin(&mut self, metric: &Metric, phase: &mut Phase, stream: &mut Stream) -> Start {
-        phase.refresh(metric, stream);
-        let steps = self.length(stream);
+    /// Keeps where the trajectory starts, its momentum drawn.
+    pub(super) fn begin(&mut self, phase: &Phase, steps: u32) -> Start {
         let before = self.before.get_or_insert_with(|| phase.clone());
         before.copy_from(phase);
         Start { steps, energy: before.energy() }

@@ -252,13 +252,15 @@ impl<const L: usize> Lanes<L> {
 
     /// Starts a chain's trajectory in its lane.
     fn begin<P: Potential>(&mut self, l: usize, chain: &mut Chain<P>) -> Lane {
-        let mut stream = chain.stream(Purpose::Transition);
+        let (mut stream, mut lengths) = (chain.stream(Purpose::Transition), chain.lengths());
         chain.visit += 1;
         let Chain { kernel: Kernel::Hmc(hmc), metric: metric @ Metric::Diagonal { .. }, phase, .. } = chain
         else {
             unreachable!("`suits` accepts fixed lengths and diagonal metrics only");
         };
-        let start = hmc.begin(metric, phase, &mut stream);
+        phase.refresh(metric, &mut stream);
+        let steps = hmc.length(&mut lengths);
+        let start = hmc.begin(phase, steps);
         let Metric::Diagonal { variance, .. } = metric else { unreachable!("as above") };
         for (rows, from) in [
             (&mut self.x, &phase.x),
