@@ -1,5 +1,5 @@
-"""Claim: `Result.polish` and `grow(polish=...)` go on from the best sample of a search, no worse than it, and do what chains
-with those choices do."""
+"""Claim: `Result.polish` and `grow(polish=...)` go on from the best sample of a search, end no worse than it, and do
+what chains with those choices do."""
 
 from __future__ import annotations
 
