@@ -4,7 +4,7 @@
 //! gradient alone, which is most of what a trajectory asks for, then the value with its gradient.
 
 use crate::density::Density;
-use crate::native::Part;
+use crate::native::{Native, Rest, Rolling};
 use crate::tape::{Lanes, Tape};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -15,10 +15,26 @@ pub(crate) const WARM: u32 = 200;
 enum Progress {
     /// Not asked for yet: gradients so far.
     Tape(u32),
-    /// Being made: first the gradient alone, then both. The lock is never waited for; with it threads may share this.
-    Waiting(Mutex<Receiver<Part>>),
+    /// Being made: first the gradient, then the rest. The lock is never waited for; with it threads may share this.
+    Waiting(Mutex<Receiver<Made>>),
     /// There is no more to come. A processor without machine code ends here with none.
     Done,
+}
+
+/// What the background has made.
+enum Made {
+    Gradient(Native),
+    Rest(Rest),
+}
+
+/// Compiles a density, and hands over each part as soon as it is there; stops where `give` says that nobody waits.
+fn make(density: &Density, mut give: impl FnMut(Made) -> bool) {
+    let Ok((native, draft)) = Native::of_gradient(density) else { return };
+    if give(Made::Gradient(native))
+        && let Ok(rest) = draft.compile(density)
+    {
+        give(Made::Rest(rest));
+    }
 }
 
 /// What evaluates a density at one point after another.
@@ -26,8 +42,7 @@ pub struct Compiled {
     density: Arc<Density>,
     tape: Arc<Tape>,
     lanes: Lanes<1>,
-    slope: Option<Part>,
-    both: Option<Part>,
+    native: Option<Native>,
     progress: Progress,
     /// Gradients by tape before machine code is asked for.
     warm: u32,
@@ -43,21 +58,24 @@ impl Compiled {
     pub fn after(density: Arc<Density>, warm: u32) -> Compiled {
         let tape = Arc::new(Tape::new(&density));
         let lanes = tape.lanes();
-        Compiled { density, tape, lanes, slope: None, both: None, progress: Progress::Tape(0), warm }
+        Compiled { density, tape, lanes, native: None, progress: Progress::Tape(0), warm }
     }
 
     /// Another that evaluates the same density, with memory of its own.
     pub fn beside(&self) -> Compiled {
         let (density, tape, progress) = (self.density.clone(), self.tape.clone(), Progress::Tape(0));
-        Compiled { density, lanes: tape.lanes(), tape, slope: None, both: None, progress, warm: self.warm }
+        Compiled { density, lanes: tape.lanes(), tape, native: None, progress, warm: self.warm }
     }
 
     /// Compiles now, and waits for it.
     pub fn finish(&mut self) {
         match std::mem::replace(&mut self.progress, Progress::Done) {
             Progress::Tape(_) => {
-                self.slope = Part::compile(&self.density, false).ok();
-                self.both = self.slope.is_some().then(|| Part::compile(&self.density, true).ok()).flatten();
+                let density = self.density.clone();
+                make(&density, |made| {
+                    self.take(made);
+                    true
+                });
             }
             Progress::Waiting(parts) => {
                 let parts = parts.into_inner().unwrap_or_else(PoisonError::into_inner);
@@ -67,14 +85,17 @@ impl Compiled {
         }
     }
 
-    fn take(&mut self, part: Part) {
-        let place = if self.slope.is_none() { &mut self.slope } else { &mut self.both };
-        *place = Some(part);
+    fn take(&mut self, made: Made) {
+        match (made, &mut self.native) {
+            (Made::Gradient(native), place) => *place = Some(native),
+            (Made::Rest(rest), Some(native)) => native.complete(rest),
+            (Made::Rest(_), None) => {}
+        }
     }
 
     /// Whether all is machine code.
     pub fn is_native(&self) -> bool {
-        self.both.is_some()
+        self.native.as_ref().is_some_and(Native::is_complete)
     }
 
     /// The density.
@@ -94,14 +115,9 @@ impl Compiled {
             Progress::Tape(_) => {
                 let (give, take) = channel();
                 let density = self.density.clone();
-                let made = std::thread::Builder::new().name("machine code".into()).spawn(move || {
-                    for with_value in [false, true] {
-                        let Ok(part) = Part::compile(&density, with_value) else { return };
-                        if give.send(part).is_err() {
-                            return; // No one waits any more.
-                        }
-                    }
-                });
+                let made = std::thread::Builder::new()
+                    .name("machine code".into())
+                    .spawn(move || make(&density, |made| give.send(made).is_ok()));
                 self.progress =
                     if made.is_ok() { Progress::Waiting(Mutex::new(take)) } else { Progress::Done };
             }
@@ -131,8 +147,8 @@ impl Compiled {
     /// As for [`Compiled::value_and_gradient`].
     #[inline]
     pub fn inside(&mut self, x: &[f64], g: &mut [f64]) -> Option<f64> {
-        if let Some(both) = &mut self.both {
-            return both.inside(x, g);
+        if let Some(native) = self.native.as_mut().filter(|native| native.is_complete()) {
+            return native.inside(x, g);
         }
         self.advance();
         self.lanes.inside(&self.tape, x, g)
@@ -144,10 +160,19 @@ impl Compiled {
     /// As for [`Compiled::value_and_gradient`].
     #[inline]
     pub fn gradient(&mut self, x: &[f64], g: &mut [f64]) -> bool {
-        if let Some(slope) = &mut self.slope {
-            return slope.inside(x, g).is_some();
+        if let Some(native) = &mut self.native {
+            return native.gradient(x, g);
         }
         self.advance();
         self.lanes.inside(&self.tape, x, g).is_some()
+    }
+
+    /// Leapfrog steps in machine code, as [`Native::roll`]; none while there is no such.
+    ///
+    /// # Panics
+    /// As for [`Native::roll`].
+    #[inline]
+    pub fn roll(&mut self, at: Rolling<'_>, kick: f64, step: f64, steps: u32) -> u32 {
+        self.native.as_mut().map_or(0, |native| native.roll(at, kick, step, steps))
     }
 }

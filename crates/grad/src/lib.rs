@@ -30,7 +30,7 @@ pub use coordinates::{Continuous, Transform};
 pub use density::{Comparison, Density, Guard};
 pub use graph::{Graph, Id};
 pub use live::{Live, Model, Refused};
-pub use native::Native;
+pub use native::{Native, Rolling};
 pub use operation::Op;
 pub use record::{Recorded, Run, Scope, record};
 pub use scalar::Var;

@@ -11,6 +11,7 @@ use std::f64::consts::FRAC_2_SQRT_PI;
 /// The derivatives of `root` by each of the graph's inputs.
 pub fn gradient(graph: &mut Graph, root: Id) -> Vec<Id> {
     let end = root.index() + 1;
+    let first = Id(graph.len() as u32);
     let depends = depends_on_inputs(graph, end);
     let mut adjoint: Vec<Option<Id>> = vec![None; end];
     adjoint[root.index()] = Some(graph.constant(1.0));
@@ -35,7 +36,7 @@ pub fn gradient(graph: &mut Graph, root: Id) -> Vec<Id> {
             let slot = &mut adjoint[arg.index()];
             *slot = Some(match *slot {
                 None => part,
-                Some(sum) => graph.add(sum, part),
+                Some(sum) => add(graph, sum, part, first),
             });
         }
     }
@@ -49,6 +50,48 @@ fn depends_on_inputs(graph: &Graph, end: usize) -> Vec<bool> {
         depends[id.index()] = node.op == Op::Input || node.args().any(|arg| depends[arg.index()]);
     }
     depends
+}
+
+/// A product as its constant and its factors, the second of which may be missing.
+fn factors(graph: &Graph, id: Id) -> (f64, Id, Option<Id>) {
+    let node = graph.node(id);
+    if node.op == Op::Neg {
+        let (c, a, b) = factors(graph, node.arg(0));
+        return (-c, a, b);
+    }
+    if node.op != Op::Mul {
+        return (1.0, id, None);
+    }
+    match graph.constant_of(node.arg(0)) {
+        Some(c) => {
+            let rest = graph.node(node.arg(1));
+            if rest.op == Op::Mul { (c, rest.arg(0), Some(rest.arg(1))) } else { (c, node.arg(1), None) }
+        }
+        None => (1.0, node.arg(0), Some(node.arg(1))),
+    }
+}
+
+/// `a + b`, two parts of an adjoint. Where one is a multiple of a factor of the other, they are one product with it:
+/// `c u v + d u = u (c v + d)`, so that `v`, which is often known long before `u`, waits for nothing. Only what was made
+/// for the gradient, from `first` on, is taken apart: nothing else needs it.
+fn add(graph: &mut Graph, a: Id, b: Id, first: Id) -> Id {
+    if a < first || b < first {
+        return graph.add(a, b);
+    }
+    let (whole, part) = match (factors(graph, a), factors(graph, b)) {
+        ((c, u, Some(v)), (d, w, None)) | ((d, w, None), (c, u, Some(v))) => ((c, u, v), (d, w)),
+        _ => return graph.add(a, b),
+    };
+    let ((c, u, v), (d, w)) = (whole, part);
+    let other = match w {
+        w if w == u => v,
+        w if w == v => u,
+        _ => return graph.add(a, b),
+    };
+    let (c, d) = (graph.constant(c), graph.constant(d));
+    let scaled = graph.mul(c, other);
+    let sum = graph.add(scaled, d);
+    graph.mul(w, sum)
 }
 
 /// What argument `k` of a node adds to its adjoint, `out` being the node's; `None` for nothing.

@@ -122,8 +122,24 @@ impl Tape {
         Lanes { memory }
     }
 
+    /// Computes all at `x`, and writes the first outputs to `g`; says which lanes are inside.
     #[inline(always)]
-    fn run<const L: usize>(&self, memory: &mut [[f64; L]], inside: &mut [bool; L]) {
+    fn run<const L: usize>(
+        &self,
+        memory: &mut [[f64; L]],
+        x: &[[f64; L]],
+        g: &mut [[f64; L]],
+        inside: &mut [bool; L],
+    ) {
+        memory.iter_mut().zip(x).for_each(|(to, x)| copy(x, to));
+        self.compute(memory, inside);
+        for (g, slot) in g.iter_mut().zip(&self.outputs) {
+            copy(&memory[*slot as usize], g);
+        }
+    }
+
+    #[inline(always)]
+    fn compute<const L: usize>(&self, memory: &mut [[f64; L]], inside: &mut [bool; L]) {
         let base = memory.as_mut_ptr();
         let slots = memory.len();
         for step in &self.steps {
@@ -154,14 +170,34 @@ impl Tape {
 
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2")]
-    fn run_avx2<const L: usize>(&self, memory: &mut [[f64; L]], inside: &mut [bool; L]) {
-        self.run(memory, inside);
+    fn run_avx2<const L: usize>(
+        &self,
+        memory: &mut [[f64; L]],
+        x: &[[f64; L]],
+        g: &mut [[f64; L]],
+        inside: &mut [bool; L],
+    ) {
+        self.run(memory, x, g, inside);
     }
 
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx512bw")]
-    fn run_avx512<const L: usize>(&self, memory: &mut [[f64; L]], inside: &mut [bool; L]) {
-        self.run(memory, inside);
+    fn run_avx512<const L: usize>(
+        &self,
+        memory: &mut [[f64; L]],
+        x: &[[f64; L]],
+        g: &mut [[f64; L]],
+        inside: &mut [bool; L],
+    ) {
+        self.run(memory, x, g, inside);
+    }
+}
+
+/// A row, number by number: vector moves in the caller, where a call of `memcpy` would take as long as an instruction.
+#[inline(always)]
+fn copy<const L: usize>(from: &[f64; L], to: &mut [f64; L]) {
+    for (to, from) in to.iter_mut().zip(from) {
+        *to = *from;
     }
 }
 
@@ -198,11 +234,7 @@ impl<const L: usize> Lanes<L> {
     /// As for [`Lanes::value_and_gradient`]; for a tape of fewer outputs.
     pub fn covered(&mut self, tape: &Tape, x: &[[f64; L]], g: &mut [[f64; L]]) -> [bool; L] {
         assert!(g.len() == x.len() && tape.outputs.len() >= x.len());
-        let inside = self.run(tape, x);
-        for (g, slot) in g.iter_mut().zip(&tape.outputs) {
-            *g = self.memory[*slot as usize];
-        }
-        inside
+        self.run(tape, x, g)
     }
 
     /// The last output of the last evaluation: of a density's tape, its values.
@@ -210,19 +242,18 @@ impl<const L: usize> Lanes<L> {
         tape.outputs.last().map_or([f64::NAN; L], |slot| self.memory[*slot as usize])
     }
 
-    /// Computes all, and says which lanes are inside the guards.
-    fn run(&mut self, tape: &Tape, x: &[[f64; L]]) -> [bool; L] {
+    /// Computes all, with the first outputs in `g`, and says which lanes are inside the guards.
+    fn run(&mut self, tape: &Tape, x: &[[f64; L]], g: &mut [[f64; L]]) -> [bool; L] {
         assert!(x.len() == tape.dim() && self.memory.len() == tape.slots);
-        self.memory[..x.len()].copy_from_slice(x);
         let mut inside = [true; L];
         match Vectors::here() {
             // SAFETY: the processor has AVX-512.
             #[cfg(target_arch = "x86_64")]
-            Vectors::Avx512 => unsafe { tape.run_avx512(&mut self.memory, &mut inside) },
+            Vectors::Avx512 => unsafe { tape.run_avx512(&mut self.memory, x, g, &mut inside) },
             // SAFETY: the processor has AVX2.
             #[cfg(target_arch = "x86_64")]
-            Vectors::Avx2 => unsafe { tape.run_avx2(&mut self.memory, &mut inside) },
-            _ => tape.run(&mut self.memory, &mut inside),
+            Vectors::Avx2 => unsafe { tape.run_avx2(&mut self.memory, x, g, &mut inside) },
+            _ => tape.run(&mut self.memory, x, g, &mut inside),
         }
         inside
     }
@@ -235,20 +266,17 @@ impl Lanes<1> {
     /// As for [`Lanes::value_and_gradient`].
     pub fn inside(&mut self, tape: &Tape, x: &[f64], g: &mut [f64]) -> Option<f64> {
         assert!(g.len() == x.len() && tape.outputs.len() == x.len() + 1);
-        let [inside] = self.run(tape, x.as_chunks().0);
+        let [inside] = self.run(tape, x.as_chunks().0, g.as_chunks_mut().0);
         if !inside {
             g.fill(f64::NAN);
             return None;
-        }
-        for (g, slot) in g.iter_mut().zip(&tape.outputs) {
-            *g = self.memory[*slot as usize][0];
         }
         Some(self.memory[tape.outputs[x.len()] as usize][0])
     }
 
     /// The outputs at one point.
     pub(crate) fn outputs(&mut self, tape: &Tape, x: &[f64]) -> Vec<f64> {
-        self.run(tape, x.as_chunks().0);
+        self.run(tape, x.as_chunks().0, &mut []);
         tape.outputs.iter().map(|slot| self.memory[*slot as usize][0]).collect()
     }
 

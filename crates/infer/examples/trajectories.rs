@@ -12,7 +12,7 @@
 #[path = "../../grad/tests/peers/mod.rs"]
 mod peers;
 
-use niwaki_grad::{Compiled, Density, Native, Tape, Wide};
+use niwaki_grad::{Compiled, Density, Native, Rolling, Tape, Wide};
 use niwaki_infer::hamiltonian::chains::{Length, run};
 use niwaki_infer::hamiltonian::lanes::run_in_lanes;
 use niwaki_infer::hamiltonian::{Cause, Chain, Draws, Potential, Settings, Shape, Stop};
@@ -33,6 +33,9 @@ impl Potential for Target {
     }
     fn gradient(&mut self, x: &[f64], g: &mut [f64]) -> Result<(), Stop> {
         if self.0.gradient(x, g) { Ok(()) } else { Err(OUTSIDE) }
+    }
+    fn roll(&mut self, at: Rolling<'_>, kick: f64, step: f64, steps: u32) -> u32 {
+        self.0.roll(at, kick, step, steps)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::hamiltonian::lanes;
 use crate::hamiltonian::{Cause, Potential, Stop};
-use niwaki_grad::{Live, Refused, Wide};
+use niwaki_grad::{Live, Refused, Rolling, Wide};
 use niwaki_vm::machine::stack::RunFault;
 
 impl Potential for Live {
@@ -20,6 +20,11 @@ impl Potential for Live {
     #[inline]
     fn gradient(&mut self, x: &[f64], gradient: &mut [f64]) -> Result<(), Stop> {
         Live::gradient(self, x, gradient).map_err(|refused| Stop { cause: cause(&refused), place: 0 })
+    }
+
+    #[inline]
+    fn roll(&mut self, at: Rolling<'_>, kick: f64, step: f64, steps: u32) -> u32 {
+        self.compiled().roll(at, kick, step, steps)
     }
 }
 

@@ -95,7 +95,7 @@ impl<const L: usize> Rows<'_, L> {
         for (((x, p), s), g) in rows {
             for l in 0..L {
                 p[l] += kick[l] * g[l];
-                x[l] += step[l] * (p[l] * s[l]);
+                x[l] += (step[l] * s[l]) * p[l];
             }
         }
     }
@@ -111,6 +111,42 @@ impl<const L: usize> Rows<'_, L> {
     fn drift_avx512(self, kick: &[f64; L], step: &[f64; L]) {
         self.drift(kick, step);
     }
+}
+
+/// Which lanes have only finite numbers: a sum of zeros is zero only where every term was finite.
+#[inline(always)]
+fn finite<const L: usize>(rows: &[[f64; L]]) -> [bool; L] {
+    let mut sums = [0.0; L];
+    for row in rows {
+        for (sum, slope) in sums.iter_mut().zip(row) {
+            *sum += slope * 0.0;
+        }
+    }
+    sums.map(|sum| sum == 0.0)
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn finite_avx2<const L: usize>(rows: &[[f64; L]]) -> [bool; L] {
+    finite(rows)
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx512bw")]
+fn finite_avx512<const L: usize>(rows: &[[f64; L]]) -> [bool; L] {
+    finite(rows)
+}
+
+/// The kick and the step of each lane that still moves, `done` steps having been made; zeros for the others.
+fn sizes<const L: usize>(lanes: &[Lane], done: u32) -> ([f64; L], [f64; L]) {
+    let (mut kick, mut step) = ([0.0; L], [0.0; L]);
+    for (l, lane) in lanes.iter().enumerate() {
+        if lane.refused.is_none() && done < lane.start.steps {
+            step[l] = lane.step;
+            kick[l] = if done == 0 { 0.5 * lane.step } else { lane.step };
+        }
+    }
+    (kick, step)
 }
 
 /// A lane's trajectory.
@@ -149,25 +185,38 @@ impl<const L: usize> Lanes<L> {
             }
         }
         let longest = lanes.iter().map(|lane| lane.start.steps).max().unwrap_or(0);
-        let (mut asked, mut outside) = (0_u64, 0_u64);
-        for done in 0..longest {
-            self.drift(&lanes, done);
-            let ends = lanes.iter().any(|lane| lane.start.steps == done + 1);
+        let (mut asked, mut outside, mut done) = (0_u64, 0_u64, 0);
+        let mut refused: Vec<usize> = vec![];
+        let (mut kick, mut step, mut arrival) = ([0.0; L], [0.0; L], 0);
+        while done < longest {
+            if done == arrival {
+                (kick, step) = sizes(&lanes, done);
+                let next = lanes.iter().map(|lane| lane.start.steps).filter(|steps| *steps > done).min();
+                arrival = next.unwrap_or(longest);
+            }
+            self.drift(&kick, &step);
+            if done == 0 {
+                // The first kick is half of the others.
+                kick = step;
+            }
+            done += 1;
+            asked += lanes.len() as u64;
+            let ends = done == arrival;
             let (values, covered) = if ends {
                 wide.value_and_gradient(&self.x, &mut self.gradient)
             } else {
                 ([0.0; L], wide.gradient(&self.x, &mut self.gradient))
             };
             let finite = self.finite();
-            asked += lanes.len() as u64;
             if !ends && covered == [true; L] && finite == [true; L] {
                 continue;
             }
-            for (l, lane) in lanes.iter_mut().enumerate() {
-                if lane.refused.is_some() || done >= lane.start.steps {
+            for l in (0..lanes.len()).filter(|&l| ends || !covered[l] || !finite[l]) {
+                let lane = &mut lanes[l];
+                if lane.refused.is_some() || done > lane.start.steps {
                     continue;
                 }
-                let last = lane.start.steps == done + 1;
+                let last = lane.start.steps == done;
                 let found = if covered[l] && finite[l] && (!last || values[l].is_finite()) {
                     Ok(values[l])
                 } else {
@@ -183,7 +232,17 @@ impl<const L: usize> Lanes<L> {
                         x.copy_from_slice(&self.one.0);
                         p.iter_mut().zip(&self.p).for_each(|(p, row)| *p = row[l]);
                         lane.refused = Some(stop);
+                        refused.push(l);
                     }
+                }
+            }
+            // A refused lane rests where another one is: numbers that are not finite would hold up all others at each step.
+            if let Some(sound) = (0..L).find(|&l| covered[l] && finite[l]) {
+                for l in refused.drain(..) {
+                    self.x.iter_mut().for_each(|row| row[l] = row[sound]);
+                    self.p.iter_mut().for_each(|row| row[l] = 0.0);
+                    self.gradient.iter_mut().for_each(|row| row[l] = row[sound]);
+                    (kick[l], step[l]) = (0.0, 0.0);
                 }
             }
         }
@@ -212,37 +271,32 @@ impl<const L: usize> Lanes<L> {
         Lane { stream, start, step: chain.step_size, refused: None }
     }
 
-    /// A kick and a drift of every lane that still moves; `done` steps were made before.
-    fn drift(&mut self, lanes: &[Lane], done: u32) {
-        let (mut kick, mut step) = ([0.0; L], [0.0; L]);
-        for (l, lane) in lanes.iter().enumerate() {
-            if lane.refused.is_none() && done < lane.start.steps {
-                step[l] = lane.step;
-                kick[l] = if done == 0 { 0.5 * lane.step } else { lane.step };
-            }
-        }
+    /// A kick and a drift of every lane.
+    fn drift(&mut self, kick: &[f64; L], step: &[f64; L]) {
         let Lanes { x, p, gradient, variance, .. } = self;
         let rows = Rows { x, p, gradient, variance };
         match Vectors::here() {
             // SAFETY: the processor has AVX-512.
             #[cfg(target_arch = "x86_64")]
-            Vectors::Avx512 => unsafe { rows.drift_avx512(&kick, &step) },
+            Vectors::Avx512 => unsafe { rows.drift_avx512(kick, step) },
             // SAFETY: the processor has AVX2.
             #[cfg(target_arch = "x86_64")]
-            Vectors::Avx2 => unsafe { rows.drift_avx2(&kick, &step) },
-            _ => rows.drift(&kick, &step),
+            Vectors::Avx2 => unsafe { rows.drift_avx2(kick, step) },
+            _ => rows.drift(kick, step),
         }
     }
 
-    /// Which lanes have a finite gradient: a sum of zeros is zero only where every term was finite.
+    /// Which lanes have a finite gradient.
     fn finite(&self) -> [bool; L] {
-        let mut sums = [0.0; L];
-        for row in &self.gradient {
-            for (sum, slope) in sums.iter_mut().zip(row) {
-                *sum += slope * 0.0;
-            }
+        match Vectors::here() {
+            // SAFETY: the processor has AVX-512.
+            #[cfg(target_arch = "x86_64")]
+            Vectors::Avx512 => unsafe { finite_avx512(&self.gradient) },
+            // SAFETY: the processor has AVX2.
+            #[cfg(target_arch = "x86_64")]
+            Vectors::Avx2 => unsafe { finite_avx2(&self.gradient) },
+            _ => finite(&self.gradient),
         }
-        sums.map(|sum| sum == 0.0)
     }
 
     /// Asks a chain's own target about the point of its lane.

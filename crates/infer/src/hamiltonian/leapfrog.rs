@@ -11,6 +11,7 @@
 
 use super::metric::Metric;
 use super::potential::{Potential, Stop, evaluate, evaluate_gradient};
+use niwaki_grad::Rolling;
 use niwaki_math::Stream;
 
 /// A point in phase space, with what is known of the target there.
@@ -95,9 +96,19 @@ pub fn leapfrog(
     step: f64,
     steps: u32,
 ) -> Result<(), Stop> {
-    let mut kick = 0.5 * step;
-    for left in (0..steps).rev() {
+    let (mut kick, mut left) = (0.5 * step, steps);
+    while left > 0 {
+        // What the target can do by itself; a step that it stops before is taken here, and its reason found.
+        if left > 1
+            && let Metric::Diagonal { variance, .. } = metric
+        {
+            let Phase { x, p, gradient: g, .. } = phase;
+            let taken = target.roll(Rolling { x, p, g, variance }, kick, step, left - 1);
+            left -= taken;
+            kick = if taken > 0 { step } else { kick };
+        }
         drift(metric, phase, kick, step);
+        left -= 1;
         if left == 0 {
             phase.log_density = evaluate(target, &phase.x, &mut phase.gradient)?;
         } else {
@@ -119,7 +130,7 @@ fn drift(metric: &Metric, phase: &mut Phase, kick: f64, step: f64) {
     if let Metric::Diagonal { variance, .. } = metric {
         for (((x, p), s), g) in x.iter_mut().zip(p).zip(variance).zip(gradient) {
             *p += kick * *g;
-            *x += step * (*p * s);
+            *x += (step * s) * *p;
         }
         return;
     }

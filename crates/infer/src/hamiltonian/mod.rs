@@ -10,8 +10,7 @@
 //! * [`transition`]: what both report, and the choice between them;
 //! * [`mod@climb`]: the way uphill from a start that is unlikely;
 //! * [`step_size`], [`estimate`], [`warmup`]: what is adapted in warm-up and frozen afterwards;
-//! * [`chains`]: whole chains, side by side; [`lanes`]: many of them in the lanes of one vector;
-//! * [`tempering`]: a path of targets from loose to tight, walked down once or by all rungs at a time.
+//! * [`chains`]: whole chains, side by side; [`lanes`]: many of them in the lanes of one vector.
 //!
 //! Not here: programs, how a gradient is made, diagnostics of the draws (they are the package's).
 
@@ -25,7 +24,6 @@ pub mod metric;
 pub mod nuts;
 pub mod potential;
 pub mod step_size;
-pub mod tempering;
 pub mod transition;
 pub mod warmup;
 

@@ -4,6 +4,8 @@
 //! transform's Jacobian (dissertation 4.3, "bounded variables"). The target may refuse a point; the trajectory that
 //! reached it then ends and is rejected, which leaves the target distribution as it is.
 
+use niwaki_grad::Rolling;
+
 /// A log density over `dim` real coordinates, with its gradient.
 pub trait Potential {
     /// How many coordinates.
@@ -24,6 +26,15 @@ pub trait Potential {
     fn gradient(&mut self, x: &[f64], gradient: &mut [f64]) -> Result<(), Stop> {
         self.value_and_gradient(x, gradient).map(|_| ())
     }
+
+    /// Takes up to `steps` leapfrog steps with a diagonal metric and gives how many were taken, to the bit those that
+    /// [`super::leapfrog::leapfrog`] takes one by one: `p += kick g`, `x += (step variance) p`, `g` the gradient at `x`, with
+    /// `step` for the kick of all but the first. Stops before a step that the target would refuse. A target that knows
+    /// no faster way takes none.
+    #[inline]
+    fn roll(&mut self, _at: Rolling<'_>, _kick: f64, _step: f64, _steps: u32) -> u32 {
+        0
+    }
 }
 
 impl<P: Potential + ?Sized> Potential for &mut P {
@@ -36,6 +47,9 @@ impl<P: Potential + ?Sized> Potential for &mut P {
     fn gradient(&mut self, x: &[f64], gradient: &mut [f64]) -> Result<(), Stop> {
         (**self).gradient(x, gradient)
     }
+    fn roll(&mut self, at: Rolling<'_>, kick: f64, step: f64, steps: u32) -> u32 {
+        (**self).roll(at, kick, step, steps)
+    }
 }
 
 impl<P: Potential + ?Sized> Potential for Box<P> {
@@ -47,6 +61,9 @@ impl<P: Potential + ?Sized> Potential for Box<P> {
     }
     fn gradient(&mut self, x: &[f64], gradient: &mut [f64]) -> Result<(), Stop> {
         (**self).gradient(x, gradient)
+    }
+    fn roll(&mut self, at: Rolling<'_>, kick: f64, step: f64, steps: u32) -> u32 {
+        (**self).roll(at, kick, step, steps)
     }
 }
 

@@ -9,7 +9,7 @@ use super::scales::LabelId;
 use crate::Failure;
 use crate::hamiltonian::potential::evaluate;
 use crate::hamiltonian::{Phase, Potential, Stop};
-use niwaki_grad::{Live, Model, Scope, Transform};
+use niwaki_grad::{Live, Model, Rolling, Scope, Transform};
 use niwaki_math::{Draw, Family};
 use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::code::Program;
@@ -312,5 +312,10 @@ impl Potential for Target {
         Potential::gradient(&mut self.live, &self.full, &mut self.slopes)?;
         gradient.iter_mut().zip(&self.moving).for_each(|(slope, k)| *slope = self.slopes[*k]);
         Ok(())
+    }
+
+    fn roll(&mut self, at: Rolling<'_>, kick: f64, step: f64, steps: u32) -> u32 {
+        let all_move = self.moving.len() == self.full.len();
+        if all_move { Potential::roll(&mut self.live, at, kick, step, steps) } else { 0 }
     }
 }

@@ -1,0 +1,225 @@
+//! In which order the operations of a density run, and where in the scratch their numbers lie.
+//!
+//! The gradient comes first; what the value needs besides is a program of its own, which runs behind it over the same
+//! scratch. Constants lie in the scratch too, those used most at its start: an instruction that reads a number near the
+//! start of the scratch is shorter than one that reads from further on, and both are shorter than the constant's bits.
+
+use crate::density::Density;
+use crate::graph::Id;
+use crate::operation::Op;
+
+/// Operations in one function of machine code.
+pub(super) const FUNCTION: usize = 600;
+
+/// No place in the scratch, no segment.
+pub(super) const NOWHERE: u32 = u32::MAX;
+
+/// Calls of one operation at one level: `n` numbers of each argument from `from` on, one argument after the other;
+/// results at `to`.
+pub(super) struct Batch {
+    pub level: u32,
+    pub op: Op,
+    pub ids: Vec<Id>,
+    pub from: u32,
+    pub to: u32,
+}
+
+/// Operations of one program, ordered by level: how many calls must have run before.
+#[derive(Default)]
+pub(super) struct Program {
+    /// Operations that are instructions, cut into functions; the level of each.
+    pub segments: Vec<(u32, Vec<Id>)>,
+    pub batches: Vec<Batch>,
+    /// Which numbers the calls take, and where they look for them.
+    pub arguments: Vec<(Id, u32)>,
+}
+
+/// Two programs over one scratch.
+pub(super) struct Layout {
+    /// The gradient, with the guards.
+    pub slope: Program,
+    /// What the value needs besides.
+    pub rest: Program,
+    /// Place in the scratch of a number that is read from there.
+    pub place: Vec<u32>,
+    /// The function that computes an instruction, counted over both programs.
+    pub segment: Vec<u32>,
+    /// Numbers in the scratch from the start.
+    pub scratch: Vec<f64>,
+    /// Place of the value.
+    pub value: u32,
+    /// Places that hold bits other than zero when guards hold.
+    pub flags: Vec<u32>,
+}
+
+/// The comparison that a select decides by itself: `a < b` is not computed as a number for it.
+pub(super) fn test_of(density: &Density, select: Id) -> Option<Id> {
+    let graph = density.graph();
+    let node = graph.node(select);
+    (node.op == Op::Select).then(|| node.arg(0)).filter(|test| graph.node(*test).op == Op::Less)
+}
+
+/// Arguments as the code reads them.
+fn reads(density: &Density, id: Id) -> impl Iterator<Item = Id> {
+    let graph = density.graph();
+    let node = *graph.node(id);
+    let test = test_of(density, id);
+    let compared = test.map(|test| [graph.node(test).arg(0), graph.node(test).arg(1)]);
+    let own = (usize::from(test.is_some())..node.op.arity()).map(move |k| node.arg(k));
+    compared.into_iter().flatten().chain(own)
+}
+
+/// Which nodes the code reads or writes for these.
+fn needed(density: &Density, roots: impl Iterator<Item = Id>) -> Vec<bool> {
+    let mut needed = vec![false; density.graph().len()];
+    roots.for_each(|id| needed[id.index()] = true);
+    for at in (0..needed.len()).rev() {
+        if needed[at] {
+            reads(density, Id(at as u32)).for_each(|arg| needed[arg.index()] = true);
+        }
+    }
+    needed
+}
+
+impl Program {
+    /// The nodes that `mine` has; all others that they read are there before.
+    fn new(density: &Density, mine: impl Fn(Id) -> bool) -> Program {
+        let graph = density.graph();
+        let mut level = vec![0_u32; graph.len()];
+        let (mut plain, mut calls): (Vec<Id>, Vec<Id>) = (vec![], vec![]);
+        for (id, node) in graph.nodes().filter(|(id, node)| mine(*id) && node.op.arity() > 0) {
+            let after = |arg: Id| level[arg.index()] + u32::from(mine(arg) && graph.node(arg).op.is_call());
+            level[id.index()] = reads(density, id).map(after).max().unwrap_or(0);
+            if node.op.is_call() { &mut calls } else { &mut plain }.push(id);
+        }
+        plain.sort_by_key(|id| (level[id.index()], *id));
+        calls.sort_by_key(|id| (level[id.index()], graph.node(*id).op, *id));
+        let mut program = Program::default();
+        for id in calls {
+            let (op, level) = (graph.node(id).op, level[id.index()]);
+            match program.batches.last_mut() {
+                Some(batch) if batch.op == op && batch.level == level => batch.ids.push(id),
+                _ => program.batches.push(Batch { level, op, ids: vec![id], from: 0, to: 0 }),
+            }
+        }
+        for id in plain {
+            let at = level[id.index()];
+            match program.segments.last_mut() {
+                Some((l, ids)) if *l == at && ids.len() < FUNCTION => ids.push(id),
+                _ => program.segments.push((at, vec![id])),
+            }
+        }
+        program
+    }
+
+    /// Hands out places from `size` on for arguments and results of calls.
+    fn place_calls(&mut self, density: &Density, place: &mut [u32], size: &mut u32) {
+        for batch in &mut self.batches {
+            let n = batch.ids.len() as u32;
+            batch.from = *size;
+            batch.to = *size + n * batch.op.arity() as u32;
+            *size = batch.to + n;
+            for (k, id) in batch.ids.iter().enumerate() {
+                place[id.index()] = batch.to + k as u32;
+                for (j, arg) in density.graph().node(*id).args().enumerate() {
+                    self.arguments.push((arg, batch.from + j as u32 * n + k as u32));
+                }
+            }
+        }
+    }
+}
+
+impl Layout {
+    pub(super) fn new(density: &Density) -> Layout {
+        let graph = density.graph();
+        let guards = || density.guards().iter().flat_map(|g| [g.a, g.b]);
+        let for_slope = needed(density, density.gradient().iter().copied().chain(guards()));
+        let for_value = needed(density, std::iter::once(density.value()));
+        let slope = Program::new(density, |id| for_slope[id.index()]);
+        let rest = Program::new(density, |id| for_value[id.index()] && !for_slope[id.index()]);
+        let mut layout = Layout {
+            slope,
+            rest,
+            place: vec![NOWHERE; graph.len()],
+            segment: vec![NOWHERE; graph.len()],
+            scratch: vec![],
+            value: NOWHERE,
+            flags: vec![],
+        };
+        let segments = || layout.slope.segments.iter().chain(&layout.rest.segments).map(|(_, ids)| ids);
+        for (at, ids) in segments().enumerate() {
+            ids.iter().for_each(|id| layout.segment[id.index()] = at as u32);
+        }
+        // Constants that instructions read, or that are results.
+        let mut uses = vec![0_u32; graph.len()];
+        let results = density.gradient().iter().copied().chain(guards()).chain([density.value()]);
+        let read = segments().flatten().flat_map(|id| reads(density, *id));
+        for id in read.chain(results).filter(|id| graph.node(*id).op == Op::Constant) {
+            uses[id.index()] += 1;
+        }
+        let mut constants: Vec<Id> =
+            graph.nodes().map(|(id, _)| id).filter(|id| uses[id.index()] > 0).collect();
+        constants.sort_by_key(|id| (std::cmp::Reverse(uses[id.index()]), *id));
+        for (at, id) in constants.iter().enumerate() {
+            layout.place[id.index()] = at as u32;
+        }
+        let mut size = constants.len() as u32;
+        layout.slope.place_calls(density, &mut layout.place, &mut size);
+        layout.rest.place_calls(density, &mut layout.place, &mut size);
+        layout.place_instructions(density, &mut size);
+        for _ in density.guards().chunks(FUNCTION) {
+            layout.flags.push(size);
+            size += 1;
+        }
+        layout.value = layout.place[density.value().index()];
+        layout.scratch = vec![0.0; size as usize];
+        let arguments = layout.slope.arguments.iter().chain(&layout.rest.arguments);
+        let read = constants.iter().map(|id| (*id, layout.place[id.index()]));
+        for (id, place) in arguments.copied().chain(read) {
+            if let Some(x) = graph.constant_of(id) {
+                layout.scratch[place as usize] = x;
+            }
+        }
+        layout
+    }
+
+    /// Whether an instruction computes it: it is no constant, no input, no result of a call.
+    pub(super) fn is_instruction(&self, id: Id) -> bool {
+        self.segment[id.index()] != NOWHERE
+    }
+
+    /// Where it is kept, if it is.
+    pub(super) fn place_of(&self, id: Id) -> Option<u32> {
+        Some(self.place[id.index()]).filter(|place| *place != NOWHERE)
+    }
+
+    /// Places of instructions that another function reads, of guards, and of the value.
+    fn place_instructions(&mut self, density: &Density, size: &mut u32) {
+        let (place, segment) = (&mut self.place, &self.segment);
+        // What only a later program's call takes is written where the call looks for it.
+        for (arg, to) in &self.rest.arguments {
+            let at = segment[arg.index()];
+            if (at as usize) < self.slope.segments.len() && place[arg.index()] == NOWHERE {
+                place[arg.index()] = *to;
+            }
+        }
+        let mut put = |id: Id| {
+            if place[id.index()] == NOWHERE {
+                place[id.index()] = *size;
+                *size += 1;
+            }
+        };
+        let segments = self.slope.segments.iter().chain(&self.rest.segments).map(|(_, ids)| ids);
+        for (at, ids) in segments.enumerate() {
+            for arg in ids.iter().flat_map(|id| reads(density, *id)) {
+                let from = segment[arg.index()];
+                if from != NOWHERE && from != at as u32 {
+                    put(arg);
+                }
+            }
+        }
+        let guards = density.guards().iter().flat_map(|g| [g.a, g.b]);
+        guards.filter(|id| segment[id.index()] != NOWHERE).for_each(&mut put);
+        put(density.value());
+    }
+}

@@ -1,0 +1,271 @@
+//! Machine code of a density, by Cranelift.
+//!
+//! Straight-line code in functions of a few hundred operations: one block for all would take time that grows with the
+//! square of its length to allocate registers for. Calls of `exp`, `log`, `pow` and the like are gathered level by
+//! level: the operations that need no call yet, then every call whose arguments are ready, as one loop over many
+//! numbers, then the operations that waited for them. A call for each would spill all registers each time.
+//!
+//! Numbers that cross from one function to another go through an array of scratch. There are two programs over one
+//! scratch: the gradient, which is all that the inside of a trajectory asks for, and behind it what the value needs
+//! besides. A gradient of few coordinates without calls is also compiled as a loop of leapfrog steps.
+//!
+//! * `layout`: the order of operations, and the scratch; `code`: instructions of one function; `write`: functions of a
+//!   program; `roll`: the loop of steps.
+//!
+//! Each operation is that of the tape, none fused and none re-ordered, so the numbers are the tape's to the bit.
+
+#![allow(unsafe_code)] // Calls of the functions that were compiled here.
+
+mod code;
+mod layout;
+mod roll;
+mod write;
+
+use crate::density::Density;
+use crate::kernels;
+use crate::operation::Op;
+use cranelift_jit::JITModule;
+use layout::Layout;
+use std::sync::Arc;
+use write::{Writer, Written};
+
+/// `(x, g, scratch)`.
+type Entry = unsafe extern "C" fn(*const f64, *mut f64, *mut f64);
+
+/// Machine code in memory, freed with its last user.
+struct Memory(Option<JITModule>);
+
+// SAFETY: the module is never touched again after compilation, except to be freed by its last owner; the code is only
+// read.
+unsafe impl Send for Memory {}
+// SAFETY: as above.
+unsafe impl Sync for Memory {}
+
+impl Memory {
+    fn of(module: JITModule) -> Memory {
+        Memory(Some(module))
+    }
+}
+
+impl Drop for Memory {
+    fn drop(&mut self) {
+        if let Some(module) = self.0.take() {
+            // SAFETY: functions are called only by `Routine`, which keeps this alive.
+            unsafe { module.free_memory() };
+        }
+    }
+}
+
+#[derive(Clone, Copy)]
+enum Step {
+    Code(Entry),
+    /// `n` numbers of each argument from `from` on, one argument after the other; results at `to`.
+    Calls {
+        op: Op,
+        from: u32,
+        to: u32,
+        n: u32,
+    },
+}
+
+impl Step {
+    /// A function that was compiled as [`Entry`].
+    fn code(address: *const u8) -> Step {
+        // SAFETY: `Writer::plan_code`, whose functions these are, gives all of them that signature.
+        Step::Code(unsafe { std::mem::transmute::<*const u8, Entry>(address) })
+    }
+}
+
+/// One program: steps over an array of scratch.
+struct Routine {
+    steps: Vec<Step>,
+    /// Leapfrog steps, where the gradient suits them.
+    roll: Option<roll::Entry>,
+    _code: Memory,
+}
+
+impl Routine {
+    fn slope(density: &Density, layout: &Layout) -> Written<Routine> {
+        let mut writer = Writer::new(density, layout)?;
+        writer.write_slope()?;
+        let roll = writer.write_roll()?;
+        let (steps, code, roll) = writer.finish(roll)?;
+        // SAFETY: `Writer::write_roll` gives it that signature.
+        let roll = roll.map(|address| unsafe { std::mem::transmute::<*const u8, roll::Entry>(address) });
+        Ok(Routine { steps, roll, _code: code })
+    }
+
+    fn rest(density: &Density, layout: &Layout) -> Written<Routine> {
+        let mut writer = Writer::new(density, layout)?;
+        writer.write_rest()?;
+        let (steps, code, _) = writer.finish(None)?;
+        Ok(Routine { steps, roll: None, _code: code })
+    }
+
+    /// # Safety
+    /// `x` and `g` hold a number for each coordinate, and `scratch` is that of the layout.
+    #[inline]
+    unsafe fn run(&self, x: &[f64], g: &mut [f64], scratch: &mut [f64]) {
+        for step in &self.steps {
+            match *step {
+                // SAFETY: the code reads numbers of `x` and writes numbers of `g`, one for each coordinate, and stays
+                // within the scratch that was laid out with it.
+                Step::Code(entry) => unsafe { entry(x.as_ptr(), g.as_mut_ptr(), scratch.as_mut_ptr()) },
+                Step::Calls { op, from, to, n } => {
+                    let (before, to) = scratch.split_at_mut(to as usize);
+                    let n = n as usize;
+                    let arguments = &before[from as usize..];
+                    let (a, b) = arguments.split_at(n);
+                    kernels::apply_all(op, a, b, &[], &mut to[..n]);
+                }
+            }
+        }
+    }
+}
+
+/// What all copies of a density's machine code share.
+struct Shared {
+    slope: Routine,
+    dim: usize,
+    /// Place of the value.
+    value: usize,
+    /// Places that hold bits other than zero when guards hold.
+    flags: Vec<u32>,
+}
+
+/// A density as machine code, with the memory that it works in. The gradient is there first; the value follows.
+#[derive(Clone)]
+pub struct Native {
+    shared: Arc<Shared>,
+    rest: Option<Rest>,
+    scratch: Vec<f64>,
+}
+
+/// What the value needs besides the gradient, as machine code.
+#[derive(Clone)]
+pub(crate) struct Rest(Arc<Routine>);
+
+/// The same, to be compiled.
+pub(crate) struct Draft(Layout);
+
+impl Draft {
+    /// Compiles it, for the density that the draft is of.
+    ///
+    /// # Errors
+    /// As for [`Native::compile`].
+    pub(crate) fn compile(&self, density: &Density) -> Result<Rest, String> {
+        let routine = Routine::rest(density, &self.0).map_err(|error| error.to_string())?;
+        Ok(Rest(Arc::new(routine)))
+    }
+}
+
+impl Native {
+    /// Compiles a density.
+    ///
+    /// # Errors
+    /// A processor that Cranelift does not know, or memory that may not be executed: the tape serves then.
+    pub fn compile(density: &Density) -> Result<Native, String> {
+        let (mut native, draft) = Native::of_gradient(density)?;
+        native.complete(draft.compile(density)?);
+        Ok(native)
+    }
+
+    /// Compiles the gradient, and drafts the rest.
+    ///
+    /// # Errors
+    /// As for [`Native::compile`].
+    pub(crate) fn of_gradient(density: &Density) -> Result<(Native, Draft), String> {
+        let mut layout = Layout::new(density);
+        let slope = Routine::slope(density, &layout).map_err(|error| error.to_string())?;
+        let scratch = std::mem::take(&mut layout.scratch);
+        let flags = std::mem::take(&mut layout.flags);
+        let shared = Shared { slope, dim: density.dim(), value: layout.value as usize, flags };
+        Ok((Native { shared: Arc::new(shared), rest: None, scratch }, Draft(layout)))
+    }
+
+    /// Takes the rest, which must be of the same draft.
+    pub(crate) fn complete(&mut self, rest: Rest) {
+        self.rest = Some(rest);
+    }
+
+    /// Whether it gives values too.
+    pub(crate) fn is_complete(&self) -> bool {
+        self.rest.is_some()
+    }
+
+    /// How many coordinates there are.
+    pub fn dim(&self) -> usize {
+        self.shared.dim
+    }
+
+    /// The log density at `x`, with its gradient in `g`; NaN outside the guards.
+    ///
+    /// # Panics
+    /// As for [`Native::inside`].
+    #[inline]
+    pub fn value_and_gradient(&mut self, x: &[f64], g: &mut [f64]) -> f64 {
+        self.inside(x, g).unwrap_or(f64::NAN)
+    }
+
+    /// The same; `None` outside the guards.
+    ///
+    /// # Panics
+    /// When `x` or `g` has not one number for each coordinate; before it is complete.
+    #[inline]
+    pub fn inside(&mut self, x: &[f64], g: &mut [f64]) -> Option<f64> {
+        if !self.gradient(x, g) {
+            return None;
+        }
+        let Rest(rest) = self.rest.as_ref().expect("complete");
+        // SAFETY: `gradient` checked the lengths.
+        unsafe { rest.run(x, g, &mut self.scratch) };
+        Some(self.scratch[self.shared.value])
+    }
+
+    /// The gradient at `x`; false, and NaN, outside the guards.
+    ///
+    /// # Panics
+    /// When `x` or `g` has not one number for each coordinate.
+    #[inline]
+    pub fn gradient(&mut self, x: &[f64], g: &mut [f64]) -> bool {
+        let Shared { slope, dim, flags, .. } = &*self.shared;
+        assert!(x.len() == *dim && g.len() == *dim);
+        // SAFETY: the lengths are right, and the scratch is this layout's.
+        unsafe { slope.run(x, g, &mut self.scratch) };
+        let holds = flags.iter().all(|&flag| self.scratch[flag as usize].to_bits() != 0);
+        if !holds {
+            g.fill(f64::NAN);
+        }
+        holds
+    }
+
+    /// Takes up to `steps` leapfrog steps: `p += kick g`, `x += (step variance) p`, `g` becomes the gradient at `x`; the
+    /// kick of all steps but the first is `step`. Stops before a step that leads outside the guards or to a slope that is
+    /// not finite, and gives how many were taken: none where the density does not suit a loop in registers.
+    ///
+    /// # Panics
+    /// When a slice has not one number for each coordinate.
+    #[inline]
+    pub fn roll(&mut self, at: Rolling<'_>, kick: f64, step: f64, steps: u32) -> u32 {
+        let Some(entry) = self.shared.slope.roll.filter(|_| steps > 0) else { return 0 };
+        let Rolling { x, p, g, variance } = at;
+        assert!([x.len(), p.len(), g.len(), variance.len()] == [self.shared.dim; 4]);
+        let (x, p, g, scratch) = (x.as_mut_ptr(), p.as_mut_ptr(), g.as_mut_ptr(), self.scratch.as_mut_ptr());
+        // SAFETY: the code reads and writes one number of each for each coordinate, and stays within the scratch that
+        // was laid out with it.
+        let taken = unsafe { entry(x, g, scratch, p, variance.as_ptr(), &[kick, step], u64::from(steps)) };
+        taken as u32
+    }
+}
+
+/// Where a trajectory is, one number for each coordinate.
+pub struct Rolling<'a> {
+    /// Position.
+    pub x: &'a mut [f64],
+    /// Momentum.
+    pub p: &'a mut [f64],
+    /// The gradient at `x`.
+    pub g: &'a mut [f64],
+    /// The diagonal of the inverse mass matrix.
+    pub variance: &'a [f64],
+}
