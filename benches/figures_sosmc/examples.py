@@ -78,6 +78,7 @@ def searches(one: Experiment, way: str, seeds: tuple[int, ...], quick: bool) -> 
     for seed in seeds:
         less = {"particles": 30, "populations": 1} if quick else {}
         less |= {"moves": 1} if quick and "moves" in one.settings(way) else {}
+        less |= {"steps": 1000} if quick else {}
         try:
             result = one.run(way, seed=seed, threads=1, **less)
         except nw.InputError as error:

@@ -27,6 +27,7 @@ from niwaki.methods import (
 from niwaki.result import Result, Sample
 
 if TYPE_CHECKING:
+    from niwaki.mh_result import ChainResult
     from niwaki.sketches import Score
     from niwaki.words.models import Model
 
@@ -195,7 +196,7 @@ def chains_of(
     threads: int | None,
     watch: Callable[[int, int, float], None],
     known: Mapping[int, Any] | None = None,
-) -> Result:
+) -> ChainResult:
     """Chains in their first states, and their first proposals."""
     from niwaki.mh_result import ChainResult
 

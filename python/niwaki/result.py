@@ -18,6 +18,9 @@ from niwaki.errors import InputError
 if TYPE_CHECKING:
     from niwaki import _engine
     from niwaki.gradient import LogDensity
+    from niwaki.methods import Mh
+    from niwaki.mh_result import ChainResult
+    from niwaki.one_search import Watch
     from niwaki.scene import Scene
     from niwaki.sketches import Score
     from niwaki.target import Target
@@ -272,6 +275,33 @@ class Result(Sequence[Sample]):
             raise InputError("no-runs", detail=repr(self))
         possible = [s for s in self.samples if s.has_ended and s.log_score > -math.inf]
         return max(possible or self.samples, key=lambda sample: sample.log_score)
+
+    def polish(
+        self,
+        method: Mh,
+        *,
+        seed: int | None = None,
+        threads: int | None = None,
+        progress: Watch | None = None,
+    ) -> ChainResult:
+        """Go on from the best sample by Markov chains; their `best` is at least as good.
+
+        Parameters
+        ----------
+        method
+            `niwaki.mh(...)`: how many proposals, and by which kernel.
+        seed, threads, progress
+            As for `niwaki.run`; the seed of this search when left out.
+
+        Returns
+        -------
+        ChainResult
+            The chains, whose seconds are those of this search and their own.
+        """
+        from niwaki.one_search import told
+        from niwaki.polish import polished
+
+        return polished(self, method, seed, threads, told(progress, 0, 1))
 
     @cached_property
     def unique_models(self) -> int:

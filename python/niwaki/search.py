@@ -17,6 +17,7 @@ from niwaki.compiled import as_model, task, translated
 from niwaki.errors import InputError
 from niwaki.methods import Forward, Hmc, Method, Mh, Nuts, Smc, smc
 from niwaki.one_search import Progress, SearchWarning, Watch, chains_of, once, told, trajectories
+from niwaki.polish import polished
 from niwaki.result import Result, Sample
 from niwaki.sketches import Score, no_self_intersection, volume_match
 from niwaki.words.models import Model
@@ -119,6 +120,7 @@ def grow(
     at: int | str = 1,
     draws: int | None = None,
     chains: int = 1,
+    polish: Mh | None = None,
     rule: str = "solid",
     runs: int = 1,
     seed: int | None = None,
@@ -147,6 +149,9 @@ def grow(
         As for `smc`.
     diverse
         As for `smc`: so many results that differ, for each run.
+    polish
+        How to go on from the best of each run, `mh(...)`: the best state of its chains takes its place
+        (`Result.polish`).
     temper
         As for `smc`; when left out 16 with ratio weights, 1 with absolute ones.
     voxel, sigma
@@ -192,6 +197,14 @@ def grow(
             expected="a whole number above 0",
             suggestion="1 or more",
         )
+    if polish is not None and _is_diverse(chosen):
+        raise InputError(
+            "bad-setting",
+            name="polish",
+            found="mh(...)",
+            expected="nothing beside `diverse`, as chains may meet",
+            suggestion="None, and `Result.polish` for one of the results",
+        )
     first, threads = check_seed(seed), check_threads(threads)
     score = no_self_intersection(rule) * _asked(score)
     if target is not None:
@@ -218,11 +231,15 @@ def grow(
                 raise
             interrupted = True
             break
-        spent, plan = spent + one.seconds, one.plan
-        interrupted = one.interrupted
-        if one.interrupted and found and not any(sample.has_ended for sample in one):
+        plan, interrupted = one.plan, one.interrupted
+        if interrupted and found and not any(sample.has_ended for sample in one):
+            spent += one.seconds
             break
-        found.extend(one.samples if isinstance(chosen, Smc) and chosen.diverse is not None else [one.best])
+        if polish is not None and not interrupted:
+            one = polished(one, polish, None, threads, told(progress, number, runs))
+            interrupted = one.interrupted
+        spent += one.seconds
+        found.extend(one.samples if _is_diverse(chosen) else [one.best])
         if interrupted:
             break
     if failed and not found:
@@ -236,6 +253,11 @@ def grow(
     result = Result(model, found, first, chosen, score, interrupted=interrupted, plan=plan)
     result.seconds = spent
     return result
+
+
+def _is_diverse(method: Method) -> bool:
+    """Whether a search gives several results that differ."""
+    return isinstance(method, Smc) and method.diverse is not None
 
 
 def _asked(score: Score | None) -> Score:

@@ -52,6 +52,8 @@ def grow(
     draws: searching.Draws = None,
     chains: searching.Chains = None,
     ancestors: searching.Ancestors = None,
+    polish: searching.Polish = None,
+    polish_kernel: searching.PolishKernel = None,
     runs: Annotated[int, typer.Option(help="How many results, with seeds SEED, SEED + 1, ...")] = 1,
     seed: Annotated[int | None, typer.Option(help="Default: a fresh one, which is written down.")] = None,
     threads: Annotated[
@@ -109,6 +111,7 @@ def grow(
         chains,
         ancestors,
     )
+    onward = searching.polish(polish, polish_kernel)
     files = writing.Files.asked(formats, scale, fuse, frames, size)
     found = find(model)
     aim, reference = asked.aim(found)
@@ -130,12 +133,15 @@ def grow(
             aim,
             score=controls,
             method=chosen,
+            polish=onward,
             seed=seed,
             threads=threads,
             progress=progress,
             **rest,
         )
     settings |= rest | {
+        "polish": polish,
+        "polish_kernel": polish_kernel,
         "plan": list(result.plan),
         "voxel": result.score.settings.get("voxel"),
         "asked": asked.record(),

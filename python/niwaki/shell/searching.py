@@ -14,7 +14,7 @@ import typer
 from niwaki.errors import InputError
 
 if TYPE_CHECKING:
-    from niwaki.methods import Method
+    from niwaki.methods import Method, Mh
 
 METHODS = ("smc", "particle-gibbs", "pimh")
 
@@ -92,6 +92,15 @@ Ancestors = Annotated[
     typer.Option(
         "--ancestors/--no-ancestors", help="particle-gibbs: draw the past of the held run anew; default: so."
     ),
+]
+
+Polish = Annotated[
+    int | None,
+    typer.Option("--polish", metavar="STEPS", help="Go on from the best: so many proposals of a chain."),
+]
+PolishKernel = Annotated[
+    str | None,
+    typer.Option("--polish-kernel", metavar="KERNEL", help='With --polish: how it moves; default: "mh()".'),
 ]
 
 #: Which methods have a setting that not all have.
@@ -205,6 +214,19 @@ def method(settings: dict[str, Any]) -> Method:
     if "rejuvenate" in given:
         given["rejuvenate"] = kernels.parse(given["rejuvenate"])
     return makers[settings["method"]](**given)
+
+
+def polish(steps: int | None, kernel: str | None) -> Mh | None:
+    """The chain that goes on from the best, if there is to be one."""
+    from niwaki import kernels
+    from niwaki.methods import mh
+
+    if steps is None:
+        if kernel is None:
+            return None
+        reason = "it says how the chain moves"
+        raise InputError("flag-alone", flag="--polish-kernel", other="`--polish`", reason=reason)
+    return mh(steps, kernel=None if kernel is None else kernels.parse(kernel), keep=0)
 
 
 def _moment(text: str | None) -> int | str:

@@ -109,6 +109,7 @@ def test_a_shadow_is_matched(place: Path) -> None:
         ["--rejuvenate", "cycle(mh(), drift(0.1))", "--moves", "2", "--at", "resampled"],
         ["--rejuvenate", "mh()", "--moves", "3", "--at", "end", "--draws", "4", "--chains", "2"],
         ["--method", "particle-gibbs", "--sweeps", "2", "--no-ancestors"],
+        ["--polish", "50"],
     ],
     ids=lambda words: "-".join(words[:2]),
 )
@@ -118,6 +119,15 @@ def test_every_search_runs_and_can_be_replayed(place: Path, words: list[str]) ->
     first = Path("out/best.glb").read_bytes()
     assert run("replay", "out/run.json", "-o", "again", "--no-picture").exit_code == 0
     assert Path("again/best.glb").read_bytes() == first
+
+
+def test_a_chain_goes_on_from_the_best(place: Path) -> None:
+    plain = grown(*IMAGE, "--no-picture")
+    data = grown(*IMAGE, "--polish", "300", "--polish-kernel", "mixture(mh(), drift(0.1))", "--no-picture")
+    assert data["runs"][0]["log_score"] > plain["runs"][0]["log_score"]
+    assert data["settings"]["polish"] == 300
+    assert data["settings"]["polish_kernel"] == "mixture(mh(), drift(0.1))"
+    assert data["settings"]["plan"] == plain["settings"]["plan"] == [60]
 
 
 def test_results_that_differ(place: Path) -> None:
@@ -201,6 +211,9 @@ REFUSALS = {
     "chains without draws": [*IMAGE, "--rejuvenate", "mh()", "--chains", "2"],
     "moves of a chain of whole runs": [*IMAGE, "--method", "pimh", "--rejuvenate", "mh()"],
     "moves of what has no law": [*IMAGE, "--rejuvenate", "mh()", "--weights", "absolute"],
+    "a chain of no proposals": [*IMAGE, "--polish", "0"],
+    "a kernel of no chain": [*IMAGE, "--polish-kernel", "mh()"],
+    "a chain from results that differ": [*IMAGE, "--diverse", "3", "--polish", "10"],
     "ancestors of a population": [*IMAGE, "--no-ancestors"],
     "a way that is none": [*IMAGE, "--anneal", "slowly"],
     "a format that nobody writes": [*IMAGE, "--format", "glb,fbx"],

@@ -1,0 +1,71 @@
+"""Claim: `Result.polish` and `grow(polish=...)` go on from the best sample of a search, end no worse than it, and do
+what chains with those choices do."""
+
+from __future__ import annotations
+
+import niwaki as nw
+import pytest
+from niwaki import kernels
+from niwaki.errors import InputError
+
+COINS = 60
+
+
+@nw.model
+def row() -> int:
+    """Coins that should all be heads: a chain from the prior needs many proposals for what a population ends with."""
+    heads = 0
+    for i in range(COINS):
+        if nw.flip(0.5):
+            heads = heads + 1
+            nw.emit(nw.box((2.0 * i, 0.5, 0.0), (1.0, 1.0, 1.0)))
+        nw.factor(-2.0 * ((i + 1) - heads) if i == COINS - 1 else 0.0)
+    return heads
+
+
+def searched(seed: int = 1) -> nw.Result:
+    return nw.run(row, method=nw.smc(20), seed=seed)
+
+
+def test_a_chain_starts_where_the_search_ended() -> None:
+    found = searched()
+    one = found.polish(nw.mh(1, keep=0))
+    # One proposal changes one coin at most, so that the present state differs in one place at most.
+    before, now = found.best.choices, one.last[0].choices
+    assert sum(before[address] != now[address] for address in before) <= 1
+    assert one.best.log_score >= found.best.log_score
+    # Mutant: a chain that starts anew differs in many.
+    anew = nw.run(row, method=nw.mh(1, keep=0), seed=found.seed).last[0].choices
+    assert sum(before[address] != anew[address] for address in before) > 5
+
+
+def test_it_is_the_chain_of_those_choices() -> None:
+    found = searched()
+    method = nw.mh(200, kernel=kernels.neighbour(), keep=10)
+    polished = found.polish(method, seed=7)
+    by_hand = nw.run(row, method=method, choices=found.best.choices, seed=7)
+    assert [s.choices for s in polished] == [s.choices for s in by_hand]
+    assert polished.best.log_score == by_hand.best.log_score > found.best.log_score
+    # A result can be polished again.
+    assert polished.polish(method).best.log_score >= polished.best.log_score
+
+
+def test_its_time_is_that_of_both() -> None:
+    found = searched()
+    polished = found.polish(nw.mh(50))
+    assert polished.cpu_seconds >= found.cpu_seconds and polished.seconds > found.seconds
+    assert polished.best.seconds == polished.seconds
+
+
+def test_grow_polishes_each_run() -> None:
+    plain = nw.grow(row, score=nw.floor(), particles=10, runs=2, seed=5)
+    better = nw.grow(row, score=nw.floor(), particles=10, runs=2, seed=5, polish=nw.mh(300, keep=0))
+    assert [s.seed for s in better] == [s.seed for s in plain] == [5, 6]
+    assert all(b.log_score > p.log_score for p, b in zip(plain, better, strict=True))
+
+
+def test_what_makes_no_sense_is_refused() -> None:
+    with pytest.raises(InputError, match="Metropolis-Hastings"):
+        searched().polish(nw.smc(10))  # type: ignore[arg-type]
+    with pytest.raises(InputError, match="diverse"):
+        nw.grow(row, score=nw.floor(), particles=10, diverse=2, polish=nw.mh(10), seed=1)
