@@ -1,72 +1,143 @@
 //! Copies at a resampling: survivors stay where they are, their further copies take the places of those that get
-//! none. Families are copied side by side, and a large family by its own members.
+//! none. They are made when the particles run again, each by the thread that runs it.
 
 use super::advance::Particle;
+use std::collections::VecDeque;
 
-/// Copies of one parent that one task makes, one after the other.
-const ONE_BY_ONE: usize = 4;
-
-/// A parent and the places of its further copies, each with the lineage that it gets.
-type Family<'a> = (&'a mut Particle, Vec<(u64, &'a mut Particle)>);
-
-/// Makes row `i` survive `copies[i]` times. `ancestor` becomes that of the new rows; `lineages` counts those given out.
-pub(super) fn copy(
-    particles: &mut [Particle],
-    copies: &[usize],
-    ancestor: &mut [usize],
-    lineages: &mut u64,
-    seed: u64,
-    parallel: bool,
-) {
-    let mut free = copies.iter().enumerate().filter(|(_, c)| **c == 0).map(|(row, _)| row);
-    // Parent and place, parents ascending; lineages are given out in this order, whatever thread copies.
-    let mut moves: Vec<(usize, usize)> = Vec::new();
-    for (row, &count) in copies.iter().enumerate() {
-        moves.extend((1..count).map_while(|_| free.next().map(|to| (row, to))));
-    }
-    let first = *lineages;
-    *lineages += moves.len() as u64;
-    for &(row, to) in &moves {
-        ancestor[to] = ancestor[row];
-    }
-    if !parallel {
-        for (i, &(row, to)) in moves.iter().enumerate() {
-            let [parent, child] = pair(particles, row, to);
-            child.copy_from(parent, first + i as u64, seed);
-        }
-        return;
-    }
-    let mut rows: Vec<Option<&mut Particle>> = particles.iter_mut().map(Some).collect();
-    let mut families: Vec<Family<'_>> = Vec::new();
-    let mut last = usize::MAX;
-    for (i, &(row, to)) in moves.iter().enumerate() {
-        if row != last {
-            families.extend(rows[row].take().map(|parent| (parent, Vec::new())));
-            last = row;
-        }
-        if let (Some(family), Some(child)) = (families.last_mut(), rows[to].take()) {
-            family.1.push((first + i as u64, child));
-        }
-    }
-    rayon::scope(|scope| {
-        for (parent, mut children) in families {
-            scope.spawn(move |_| spread(parent, &mut children, seed));
-        }
-    });
+/// Which copies are still to be made.
+#[derive(Default)]
+pub(super) struct Copies {
+    /// How often each row survives; empty where no copy waits to be made.
+    counts: Vec<usize>,
+    /// Parent and place, parents ascending.
+    moves: Vec<(usize, usize)>,
+    /// The lineage of the first copy; the others have the next ones, in the order of `moves`.
+    lineage: u64,
 }
 
-/// Copies a parent to all places; half of them from its first copy, side by side.
-fn spread(parent: &mut Particle, children: &mut [(u64, &mut Particle)], seed: u64) {
-    if children.len() <= ONE_BY_ONE {
-        for (lineage, child) in children {
-            child.copy_from(parent, *lineage, seed);
+/// A row of a population on its way.
+pub(super) struct Row<'a> {
+    pub number: usize,
+    pub particle: &'a mut Particle,
+    /// Where it is to be a copy of the last row before it that is none: the lineage that it gets.
+    lineage: Option<u64>,
+}
+
+impl Copies {
+    /// Row `i` is to survive `counts[i]` times. `ancestor` becomes that of the new rows; `lineages` counts those given out.
+    pub fn plan(counts: &[usize], ancestor: &mut [usize], lineages: &mut u64) -> Copies {
+        let mut free = counts.iter().enumerate().filter(|(_, c)| **c == 0).map(|(row, _)| row);
+        let mut moves: Vec<(usize, usize)> = Vec::with_capacity(counts.len());
+        for (row, &count) in counts.iter().enumerate() {
+            moves.extend((1..count).map_while(|_| free.next().map(|to| (row, to))));
         }
-        return;
+        let lineage = *lineages;
+        // Lineages are given out in this order, whatever thread copies.
+        *lineages += moves.len() as u64;
+        for &(row, to) in &moves {
+            ancestor[to] = ancestor[row];
+        }
+        if moves.is_empty() { Copies::default() } else { Copies { counts: counts.to_vec(), moves, lineage } }
     }
-    if let [(lineage, first), rest @ ..] = children {
-        first.copy_from(parent, *lineage, seed);
-        let (left, right) = rest.split_at_mut(rest.len() / 2);
-        rayon::join(|| spread(parent, left, seed), || spread(first, right, seed));
+
+    /// Lets each place hold what the thread of its parent made last, which is overwritten: that thread then gives the
+    /// memory back that it asked for itself. Places hold nothing else before the copies are made.
+    pub fn give_near(&self, particles: &mut [Particle]) {
+        // Places that another thread ought to have, by the thread whose they are.
+        let mut strange: Vec<Vec<usize>> = Vec::new();
+        for (at, &(parent, place)) in self.moves.iter().enumerate() {
+            let (wanted, home) = (particles[parent].home, particles[place].home);
+            if wanted == home {
+                continue;
+            }
+            if strange.len() <= wanted.max(home) {
+                strange.resize(wanted.max(home) + 1, Vec::new());
+            }
+            match strange[wanted].pop() {
+                None => strange[home].push(at),
+                Some(other) => {
+                    let (other_parent, other_place) = self.moves[other];
+                    particles.swap(place, other_place);
+                    if particles[other_parent].home != home {
+                        strange[home].push(other);
+                    }
+                }
+            }
+        }
+    }
+
+    /// How often a row is there once all copies are made.
+    pub fn count(&self, row: usize) -> usize {
+        self.counts.get(row).copied().unwrap_or(1)
+    }
+
+    /// Makes all of them.
+    pub fn make(&mut self, particles: &mut [Particle], seed: u64) {
+        for (&(row, to), lineage) in self.moves.iter().zip(self.lineage..) {
+            let [parent, child] = pair(particles, row, to);
+            child.copy_from(parent, lineage, seed);
+        }
+        *self = Copies::default();
+    }
+
+    /// The rows in batches of about `size`, for each of the `threads` those that it ran last and their copies, which
+    /// are to be made.
+    pub fn batches<'a>(
+        &mut self,
+        particles: &'a mut [Particle],
+        seed: u64,
+        size: usize,
+        threads: usize,
+    ) -> Vec<VecDeque<Vec<Row<'a>>>> {
+        let mut lists: Vec<VecDeque<Vec<Row<'a>>>> = (0..threads).map(|_| VecDeque::new()).collect();
+        let mut open: Vec<Vec<Row<'a>>> = (0..threads).map(|_| Vec::with_capacity(size)).collect();
+        let mut rows: Vec<Option<&mut Particle>> = particles.iter_mut().map(Some).collect();
+        let mut moves = self.moves.iter().zip(self.lineage..).peekable();
+        for number in 0..rows.len() {
+            if self.count(number) == 0 {
+                continue;
+            }
+            let Some(particle) = rows[number].take() else { continue };
+            let home = particle.home % threads;
+            let (batch, list) = (&mut open[home], &mut lists[home]);
+            if batch.len() >= size {
+                list.push_back(std::mem::replace(batch, Vec::with_capacity(size)));
+            }
+            let mut parent = batch.len();
+            batch.push(Row { number, particle, lineage: None });
+            while let Some((&(_, to), lineage)) = moves.next_if(|((row, _), _)| *row == number) {
+                let Some(particle) = rows[to].take() else { continue };
+                let mut waits = Some(lineage);
+                if batch.len() >= size {
+                    // The rest of a large family is copied from its first copy.
+                    particle.copy_from(batch[parent].particle, lineage, seed);
+                    list.push_back(std::mem::replace(batch, Vec::with_capacity(size)));
+                    (parent, waits) = (0, None);
+                }
+                batch.push(Row { number: to, particle, lineage: waits });
+            }
+        }
+        for (list, batch) in lists.iter_mut().zip(open) {
+            list.extend(Some(batch).filter(|batch| !batch.is_empty()));
+        }
+        lists
+    }
+
+    /// Forgets them: they are made.
+    pub fn clear(&mut self) {
+        *self = Copies::default();
+    }
+}
+
+/// Makes the copies of a batch.
+pub(super) fn copy(batch: &mut [Row<'_>], seed: u64) {
+    let mut parent = 0;
+    for at in 0..batch.len() {
+        let (before, row) = batch.split_at_mut(at);
+        match row[0].lineage.take() {
+            None => parent = at,
+            Some(lineage) => row[0].particle.copy_from(before[parent].particle, lineage, seed),
+        }
     }
 }
 
