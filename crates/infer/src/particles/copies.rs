@@ -4,6 +4,9 @@
 use super::advance::Particle;
 use std::collections::VecDeque;
 
+/// Fewer copies of one parent are not worth to be taken to another thread before it asks for them.
+const FEW: usize = 4;
+
 /// Which copies are still to be made.
 #[derive(Default)]
 pub(super) struct Copies {
@@ -11,6 +14,8 @@ pub(super) struct Copies {
     counts: Vec<usize>,
     /// Parent and place, parents ascending.
     moves: Vec<(usize, usize)>,
+    /// The thread that is to run each copy.
+    threads: Vec<usize>,
     /// The lineage of the first copy; the others have the next ones, in the order of `moves`.
     lineage: u64,
 }
@@ -37,16 +42,47 @@ impl Copies {
         for &(row, to) in &moves {
             ancestor[to] = ancestor[row];
         }
-        if moves.is_empty() { Copies::default() } else { Copies { counts: counts.to_vec(), moves, lineage } }
+        let threads = Vec::new();
+        if moves.is_empty() {
+            Copies::default()
+        } else {
+            Copies { counts: counts.to_vec(), moves, threads, lineage }
+        }
     }
 
-    /// Lets each place hold what the thread of its parent made last, which is overwritten: that thread then gives the
-    /// memory back that it asked for itself. Places hold nothing else before the copies are made.
-    pub fn give_near(&self, particles: &mut [Particle]) {
+    /// Decides which thread runs each copy: that of its parent, but for the rest of a large family where that has too
+    /// much to do.
+    pub fn share_out(&mut self, particles: &mut [Particle], threads: usize) {
+        let home = |row: usize| particles[row].home % threads;
+        let mut load = vec![0; threads];
+        self.counts.iter().enumerate().for_each(|(row, count)| load[home(row)] += count);
+        let fair = particles.len().div_ceil(threads);
+        self.threads.clear();
+        for family in self.moves.chunk_by(|a, b| a.0 == b.0) {
+            let (own, mut kept) = (home(family[0].0), family.len());
+            let end = self.threads.len() + kept;
+            self.threads.resize(end, own);
+            while let Some(idle) = (0..threads).min_by_key(|thread| load[*thread]) {
+                let room = fair.saturating_sub(load[idle]);
+                let given = load[own].saturating_sub(fair).min(room).min(kept);
+                if given < FEW {
+                    break;
+                }
+                let last = end - (family.len() - kept);
+                self.threads[last - given..last].fill(idle);
+                (load[own], load[idle], kept) = (load[own] - given, load[idle] + given, kept - given);
+            }
+        }
+        self.give_near(particles);
+    }
+
+    /// Lets each place hold what the thread that is to run there made last, which is overwritten: that thread then
+    /// gives the memory back that it asked for itself. Places hold nothing else before the copies are made.
+    fn give_near(&self, particles: &mut [Particle]) {
         // Places that another thread ought to have, by the thread whose they are.
         let mut strange: Vec<Vec<usize>> = Vec::new();
-        for (at, &(parent, place)) in self.moves.iter().enumerate() {
-            let (wanted, home) = (particles[parent].home, particles[place].home);
+        for (at, (&(_, place), &wanted)) in self.moves.iter().zip(&self.threads).enumerate() {
+            let home = particles[place].home;
             if wanted == home {
                 continue;
             }
@@ -56,9 +92,8 @@ impl Copies {
             match strange[wanted].pop() {
                 None => strange[home].push(at),
                 Some(other) => {
-                    let (other_parent, other_place) = self.moves[other];
-                    particles.swap(place, other_place);
-                    if particles[other_parent].home != home {
+                    particles.swap(place, self.moves[other].1);
+                    if self.threads[other] != home {
                         strange[home].push(other);
                     }
                 }
@@ -92,29 +127,30 @@ impl Copies {
         let mut lists: Vec<VecDeque<Vec<Row<'a>>>> = (0..threads).map(|_| VecDeque::new()).collect();
         let mut open: Vec<Vec<Row<'a>>> = (0..threads).map(|_| Vec::with_capacity(size)).collect();
         let mut rows: Vec<Option<&mut Particle>> = particles.iter_mut().map(Some).collect();
-        let mut moves = self.moves.iter().zip(self.lineage..).peekable();
+        let mut moves = self.moves.iter().zip(&self.threads).zip(self.lineage..).peekable();
+        let mut next_batch = |open: &mut Vec<Row<'a>>, thread: usize| {
+            if open.len() >= size {
+                lists[thread].push_back(std::mem::replace(open, Vec::with_capacity(size)));
+            }
+            open.len()
+        };
         for number in 0..rows.len() {
             if self.count(number) == 0 {
                 continue;
             }
             let Some(particle) = rows[number].take() else { continue };
-            let home = particle.home % threads;
-            let (batch, list) = (&mut open[home], &mut lists[home]);
-            if batch.len() >= size {
-                list.push_back(std::mem::replace(batch, Vec::with_capacity(size)));
-            }
-            let mut parent = batch.len();
-            batch.push(Row { number, particle, lineage: None });
-            while let Some((&(_, to), lineage)) = moves.next_if(|((row, _), _)| *row == number) {
+            let mut thread = particle.home % threads;
+            let mut parent = next_batch(&mut open[thread], thread);
+            open[thread].push(Row { number, particle, lineage: None });
+            while let Some(((&(_, to), &own), lineage)) = moves.next_if(|(((row, _), _), _)| *row == number) {
                 let Some(particle) = rows[to].take() else { continue };
                 let mut waits = Some(lineage);
-                if batch.len() >= size {
+                if own != thread || open[thread].len() >= size {
                     // The rest of a large family is copied from its first copy.
-                    particle.copy_from(batch[parent].particle, lineage, seed);
-                    list.push_back(std::mem::replace(batch, Vec::with_capacity(size)));
-                    (parent, waits) = (0, None);
+                    particle.copy_from(open[thread][parent].particle, lineage, seed);
+                    (thread, parent, waits) = (own, next_batch(&mut open[own], own), None);
                 }
-                batch.push(Row { number: to, particle, lineage: waits });
+                open[thread].push(Row { number: to, particle, lineage: waits });
             }
         }
         for (list, batch) in lists.iter_mut().zip(open) {

@@ -265,7 +265,7 @@ impl<'a> Population<'a> {
         self.resampled += 1;
         self.copies = Copies::plan(copies, &mut self.ancestor, &mut self.lineages);
         if self.parallel {
-            self.copies.give_near(&mut self.particles);
+            self.copies.share_out(&mut self.particles, self.apart.len());
         }
         self.particles.iter_mut().for_each(|p| p.log_weight = 0.0);
         #[cfg(test)]

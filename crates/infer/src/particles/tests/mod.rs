@@ -337,7 +337,7 @@ fn copies_are_the_same_in_batches() {
             None => copies.make(&mut population.particles, 5),
             Some((size, threads)) => {
                 population.particles.iter_mut().enumerate().for_each(|(row, p)| p.home = row % threads);
-                copies.give_near(&mut population.particles);
+                copies.share_out(&mut population.particles, threads);
                 let mut rows = Vec::new();
                 for mut batch in
                     copies.batches(&mut population.particles, 5, size, threads).into_iter().flatten()
