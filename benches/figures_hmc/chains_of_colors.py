@@ -5,14 +5,13 @@ MH 200 proposals apart. Ours: `niwaki.explore()` as it stands.
 """
 
 import time
-from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
 import niwaki as nw
 import numpy as np
 import original
-from niwaki import diagnostics
+from chains_of_numbers import Chains
 from niwaki.color import Drawing, coloring
 from niwaki.color.search import arguments, rules_of
 from niwaki.hmc_result import HmcResult
@@ -20,58 +19,6 @@ from niwaki.hmc_result import HmcResult
 DRAWINGS = ("robot", "house", "bug", "rocket")
 DRAWS, STEPS, BURN_IN = 1000, 100, 2000
 UNIT = (0.0, 1.0)
-
-
-@dataclass(frozen=True)
-class Chains:
-    """Draws of one sampler on one drawing.
-
-    Attributes
-    ----------
-    colors
-        (chains, draws, regions, 3) in [0, 1].
-    gradients
-        Gradients, or evaluations for MH, burn-in and warm-up included.
-    cpu
-        Seconds, the first run of the model and machine code included.
-    accepted
-        The share of proposals.
-    log_density
-        Of each draw, over coordinates, nats.
-    """
-
-    colors: Any
-    gradients: int
-    cpu: float
-    accepted: float
-    log_density: Any
-
-    @property
-    def effective(self) -> float:
-        """Effective draws by the vector autocorrelation."""
-        return diagnostics.ess_vector(self._flat())
-
-    @property
-    def least(self) -> float:
-        """The smallest bulk effective size of a coordinate.
-
-        Of several chains no more than their means are worth, as so many independent numbers: halves of a short chain
-        that hardly moved would count as two.
-        """
-        flat = self._flat()
-        sizes = [diagnostics.ess_bulk(flat[:, :, k]) for k in range(flat.shape[2])]
-        if len(flat) > 1:
-            worth = len(flat) * flat.var(axis=(0, 1), ddof=1) / flat.mean(axis=1).var(axis=0, ddof=1)
-            sizes = np.minimum(sizes, worth).tolist()
-        return float(min(sizes))
-
-    @property
-    def all_draws(self) -> Any:
-        """(draws of all chains, regions, 3)."""
-        return self.colors.reshape(-1, *self.colors.shape[2:])
-
-    def _flat(self) -> Any:
-        return self.colors.reshape(*self.colors.shape[:2], -1)
 
 
 @cache

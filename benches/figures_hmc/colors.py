@@ -58,7 +58,7 @@ def gallery(names: tuple[str, ...]) -> Image.Image:
             one: f"#{grey:02x}{grey:02x}{grey:02x}" for one, grey in zip(drawing.names, greys, strict=True)
         }
         sets = [template, as_rules(drawing, rules_of(name))]
-        found = ours(name, 1).colors[:SHOWN, -1]
+        found = ours(name, 1).values[:SHOWN, -1]
         sets += [dict(zip(drawing.names, map(lab.hexed, one), strict=True)) for one in found]
         for column, colors in enumerate(sets):
             image = drawing.picture(colors, SIZE - 12)
@@ -113,7 +113,7 @@ def comparison(names: tuple[str, ...], draws: int) -> plt.Figure:
                 side.set_color("0.8")
         line[3].axhline(0.0, color="0.6", linewidth=0.8)
         for way, color in (("HMC", "#3274a1"), ("MH", "#3a923a")):
-            flat = chains[way].colors[0].reshape(draws, -1)
+            flat = chains[way].values[0].reshape(draws, -1)
             line[3].plot(diagnostics.autocorrelation(flat)[:LAGS], color=color, label=way)
         line[3].set(ylim=(-0.4, 1.05), xlabel="lag, draws")
         line[3].set_title("autocorrelation", fontsize=9)
@@ -146,7 +146,7 @@ def timings(name: str, draws: int) -> list[dict[str, Any]]:
     }
     for way, (published, method) in ways.items():
         made = timed(name, method, 1)
-        count = made.colors.shape[0] * made.colors.shape[1]
+        count = made.values.shape[0] * made.values.shape[1]
         rows.append(row(way, drawing, published, made.cpu, made.accepted, count, made.effective))
     return [{"drawing": name, **one} for one in rows]
 

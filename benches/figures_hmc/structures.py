@@ -26,7 +26,15 @@ PUBLISHED = {
 }
 #: Figures 4.8 and 4.9 compare with chains that do not follow the gradient.
 COMPARED = tuple(PUBLISHED)
-FOLLOWED = (*COMPARED, "symmetric_arch", "symmetric_tri_arch", "tilt_stack", "every_step")
+FOLLOWED = (
+    *COMPARED,
+    "symmetric_arch",
+    "symmetric_tri_arch",
+    "tilt_stack",
+    "tilt_arch",
+    "every_step",
+    "cut_lean",
+)
 
 
 def draw(folder: Path, tell: Callable[[dict], None], quick: bool) -> None:
@@ -46,6 +54,7 @@ def draw(folder: Path, tell: Callable[[dict], None], quick: bool) -> None:
                 tell(found)
                 print(line(found), flush=True)
     seconds(folder, chains)
+    pages.overview(folder / "structures.png", chains)
     pages.compared(folder / "figure-4-8.png", chains, ("stack", "lean", "top_heavy"))
     pages.compared(folder / "figure-4-9.png", chains, ("platforms", "wheel", "tri_arch"))
     pages.gallery(folder / "figure-4-11.png", chains, ("symmetric_arch", "symmetric_tri_arch"), azimuth=0.0)

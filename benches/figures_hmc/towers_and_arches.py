@@ -32,7 +32,14 @@ NAMES = {
     "symmetric_arch": "Arch, symmetric",
     "symmetric_tri_arch": "TriArch, symmetric",
     "every_step": "Stable at every step",
+    "tilt_arch": "Arch on tilted ground",
+    "cut_lean": "Lean, of a board",
 }
+#: One of each, for the top of the manual's page.
+OVERVIEW = (
+    *("stack", "lean", "top_heavy", "every_step", "cut_lean"),
+    *("platforms", "wheel", "tri_arch", "symmetric_arch", "tilt_arch"),
+)
 
 
 def scene_of(kind: Kind, found: list[Drawn], place: tuple[int, int]) -> Scene:
@@ -70,6 +77,22 @@ def mean_picture(kind: Kind, found: list[Drawn], frame: Scene, most: int = 60, *
         total += np.asarray(picture.convert("RGB"), dtype=np.float64)
     small = Image.fromarray((total / len(places)).round().astype(np.uint8))
     return small.resize((SIDE, SIDE), Image.Resampling.LANCZOS)
+
+
+def overview(path: Path, folder: Path) -> None:
+    """One draw of each kind: the one farthest from the mean draw that both judges pass."""
+    names = [name for name in OVERVIEW if chains(folder, name, "nuts")]
+    figure, axes = plt.subplots(2, len(OVERVIEW) // 2, figsize=(14, 6.2), squeeze=False)
+    for cell in axes.flat:
+        cell.axis("off")
+    for cell, name in zip(axes.flat, names, strict=False):
+        kind, found = KINDS[name], chains(folder, name, "nuts")
+        scene = scene_of(kind, found, far_apart(kind, folder, found, 2)[-1])
+        cell.imshow(framed(scene, scene))
+        cell.set_title(NAMES[name], fontsize=11)
+    figure.tight_layout()
+    figure.savefig(path, dpi=75)
+    plt.close(figure)
 
 
 def compared(path: Path, folder: Path, names: tuple[str, ...]) -> None:
@@ -158,7 +181,8 @@ def tilted(path: Path, folder: Path) -> None:
     for cell, degrees in zip(axes, (-10.0, 0.0, 10.0), strict=True):
         picture = framed(scene, scene, azimuth=0.0, elevation=4.0, size=2 * SIDE)
         turned = picture.rotate(degrees, Image.Resampling.BICUBIC, fillcolor=picture.getpixel((4, 4)))
-        edge = SIDE // 4
+        # What of the picture is inside of its turned self.
+        edge = SIDE // 7
         cell.imshow(turned.crop((edge, edge, 2 * SIDE - edge, 2 * SIDE - edge)))
         cell.set_title(f"ground tilted by {degrees:+.0f}°" if degrees else "level", fontsize=11)
         cell.axis("off")

@@ -1,4 +1,4 @@
-"""What is drawn: the models of `niwaki.stacks`, each with its tolerance and the original's."""
+"""What is drawn: the models of `niwaki.stacks`, each with its tolerance, which is the original's."""
 
 from __future__ import annotations
 
@@ -9,17 +9,14 @@ from niwaki import stacks
 
 #: Standard deviations of net forces and torques of the original: half a percent of the mean weight, or one.
 TIGHT, LOOSE = 0.005, 0.01
-#: What is drawn within less than the original's.
-ANNEALED = {"tilt_stack": 0.002, "tilt_arch": 0.002}
 
 
 @dataclass(frozen=True)
 class Kind:
-    """A model, its tolerance, and the tolerance that the original had."""
+    """A model and its tolerance."""
 
     name: str
     width: float
-    original: float
 
     @property
     def model(self) -> Any:
@@ -28,7 +25,7 @@ class Kind:
 
 #: In the order of the table; small ones first, so that much is there early.
 KINDS = {
-    name: Kind(name, ANNEALED.get(name, width), width)
+    name: Kind(name, width)
     for name, width in {
         "stack": TIGHT,
         "lean": TIGHT,

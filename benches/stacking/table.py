@@ -14,9 +14,9 @@ from stacking.kinds import KINDS, Kind
 from stacking.worth import effective
 
 HEAD = (
-    "| model | sampler | width | original's | draws | effective | balance | stand | polished | margin | litres | CPU s "
+    "| model | sampler | width | draws | effective | balance | stand | polished | margin | litres | CPU s "
     "| gradients |",
-    "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |",
+    "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |",
 )
 
 
@@ -44,7 +44,6 @@ def summary(kind: Kind, way: str, folder: Path) -> dict[str, Any] | None:
         "model": kind.name,
         "way": way,
         "width": kind.width,
-        "original": kind.original,
         "choices": len(found[0].addresses),
         "draws": len(rows),
         "chains": len(found),
@@ -70,7 +69,7 @@ def line(one: dict[str, Any]) -> str:
     litres = "" if one["litres"] is None else f"{one['litres']:.3g}"
     mended = f"{one['mended']} of {one['failed']}" if one["failed"] else ""
     return (
-        f"| `{one['model']}` | {one['way']} | {one['width']:g} | {one['original']:g} | {one['draws']} "
+        f"| `{one['model']}` | {one['way']} | {one['width']:g} | {one['draws']} "
         f"| {one['effective']:.0f} | {one['holds']} | {one['stands']} | {mended} | {margin} | {litres} "
         f"| {one['seconds']:.0f} | {one['gradients']} |"
     )

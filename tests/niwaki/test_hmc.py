@@ -220,11 +220,12 @@ def test_errors_are_as_reviewed(golden) -> None:
 def test_chains_that_climb_start_higher_and_count_the_gradients_of_the_way() -> None:
     asked = {"draws": 1, "steps": 1, "step_size": 1e-9, "chains": 8, "warmup": 0, "metric": "unit"}
     flat, climbed, again = (
-        nw.run(point, 0.001, method=nw.hmc(**asked, climb=climb), seed=3) for climb in (0, 100, 100)
+        nw.run(point, 0.001, method=nw.hmc(**asked, climb=climb), seed=3) for climb in (0, 1000, 1000)
     )
     # From thousands of nats below to within a few of the top, where the log density is about 3, or tens at most.
     assert np.median(flat.log_density) < -1000.0
     assert np.median(climbed.log_density) > 0.0 and climbed.log_density.min() > -100.0
-    assert climbed.gradients == flat.gradients + 8 * 100
+    # The way up ends by itself, where nothing is to be gained.
+    assert flat.gradients + 8 * 40 < climbed.gradients < flat.gradients + 8 * 1000
     assert np.array_equal(climbed.log_density, again.log_density)
     assert len({round(float(x), 3) for x in climbed.draws[next(iter(climbed.draws))][:, 0]}) > 4

@@ -83,8 +83,9 @@ def hmc(
     step_size
         A step to keep instead of an adapted one.
     climb
-        Steps uphill from each chain's first run, before the warm-up: where tight constraints leave almost every run of
-        the prior far from all that is likely. 0, the default, for none; `explore` takes 200.
+        Most steps uphill from each chain's first run, before the warm-up: where tight constraints leave almost every
+        run of the prior far from all that is likely. They end by themselves where they gain little beside how draws
+        waver. 0, the default, for none; `explore` takes up to 2000.
     tries
         Most forward runs for the start of each chain.
     """
@@ -129,13 +130,13 @@ def nuts(
     return Nuts(max_depth=max_depth, **common)
 
 
-def explore(draws: int = 8, chains: int = 128, warmup: int = 12, steps: int = 12, climb: int = 200) -> Hmc:
+def explore(draws: int = 8, chains: int = 128, warmup: int = 6, steps: int = 30, climb: int = 2000) -> Hmc:
     """Many short chains, for designs rather than for figures: each climbs from a run of its own and looks around.
 
     Tight constraints leave narrow ground in separate places, which one chain crosses slowly or never leaves. Chains
     from many places see more of it with as many gradients. How much each place weighs is then left to where they come
-    from, and some are still on their way down to what is typical: take `nuts` with a long warm-up, and look at `rhat`,
-    where that matters.
+    from, and some chains are still on their way up to what is typical: take `nuts` with a long warm-up, and look at
+    `rhat`, where that matters.
 
     Parameters
     ----------

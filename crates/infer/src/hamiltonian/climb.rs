@@ -1,19 +1,26 @@
 //! Steps uphill before a chain: from a run of the prior, which tight constraints leave thousands of nats below all that
 //! is likely, to where trajectories start well.
 //!
-//! Each coordinate moves by the size of its own slopes (Kingma & Ba 2015, algorithm 1), a step shorter each time by the
-//! same ratio. Coarse steps pass over small summits, which a line search would stop at. Where it ends is a start and no
-//! draw: the warm-up that follows makes it one, and chains from different runs end on different summits.
+//! Each coordinate moves by the size of its own slopes (Kingma & Ba 2015, algorithm 1). Coarse steps pass over small
+//! summits, which a line search would stop at; they become finer where the height wavers by more than it grows, and the
+//! way ends where it does neither by more than draws would. Where it ends is a start and no draw: the warm-up
+//! that follows makes it one, and chains from different runs end on different summits.
 
 use super::lanes::Wide;
 use super::potential::{Potential, evaluate};
 
-/// Length of the first step and of the last, in unconstrained coordinates.
+/// Length of the first step, in unconstrained coordinates, and of one that is too short to go on with.
 const FIRST: f64 = 0.2;
-const LAST: f64 = 0.01;
+const LAST: f64 = 0.002;
+/// The share of a step that is left where the height wavers.
+const FINER: f64 = 0.7;
 /// How much of the mean slope, and of the mean squared slope, is remembered from one step to the next.
-const SLOPE_MEMORY: f64 = 0.9;
-const SIZE_MEMORY: f64 = 0.99;
+const MEMORY: f64 = 0.95;
+/// Steps between looks at how the height grows and wavers: this many, or a tenth of the steps so far.
+const LOOK: u32 = 20;
+/// Heights of draws waver by the root of half the dimension, if the density is near a normal's: a few times as much, from
+/// one look to the next, is no gain.
+const LITTLE: f64 = 3.0;
 /// Keeps a coordinate without any slope where it is.
 const TINY: f64 = 1e-9;
 
@@ -26,15 +33,18 @@ struct Way {
     height: f64,
     slope: Vec<f64>,
     size: Vec<f64>,
-    slope_share: f64,
-    size_share: f64,
+    /// How much of the means of slopes and sizes is still what they began with.
+    share: f64,
+    step: f64,
+    heights: Vec<f64>,
+    /// Mean height of the steps before the last look.
+    before: f64,
     taken: u32,
-    /// Whether the target refused a point.
     is_over: bool,
 }
 
 impl Way {
-    fn from(x: &[f64]) -> Way {
+    fn from(x: &[f64], steps: u32) -> Way {
         let none = vec![0.0; x.len()];
         Way {
             at: x.to_vec(),
@@ -42,30 +52,51 @@ impl Way {
             height: f64::NEG_INFINITY,
             slope: none.clone(),
             size: none,
-            slope_share: 1.0,
-            size_share: 1.0,
+            share: 1.0,
+            step: FIRST,
+            heights: vec![],
+            before: f64::NEG_INFINITY,
             taken: 0,
-            is_over: false,
+            is_over: steps == 0,
         }
     }
 
-    /// One of `steps` steps, by the value and the gradient here.
+    /// One of at most `steps` steps, by the value and the gradient here.
     fn step(&mut self, value: f64, gradient: impl Iterator<Item = f64>, steps: u32) {
         if value > self.height {
             self.height = value;
             self.top.copy_from_slice(&self.at);
         }
-        self.slope_share *= SLOPE_MEMORY;
-        self.size_share *= SIZE_MEMORY;
-        let step = FIRST * (LAST / FIRST).powf(f64::from(self.taken) / f64::from(steps));
+        self.taken += 1;
+        self.look(value);
+        self.is_over |= self.taken == steps;
+        self.share *= MEMORY;
         let rows = self.at.iter_mut().zip(&mut self.slope).zip(&mut self.size).zip(gradient);
         for (((at, slope), size), g) in rows {
-            *slope = SLOPE_MEMORY * *slope + (1.0 - SLOPE_MEMORY) * g;
-            *size = SIZE_MEMORY * *size + (1.0 - SIZE_MEMORY) * g * g;
-            let mean = *slope / (1.0 - self.slope_share);
-            *at += step * mean / ((*size / (1.0 - self.size_share)).sqrt() + TINY);
+            *slope = MEMORY * *slope + (1.0 - MEMORY) * g;
+            *size = MEMORY * *size + (1.0 - MEMORY) * g * g;
+            let unbiased = 1.0 / (1.0 - self.share);
+            *at += self.step * (*slope * unbiased) / ((*size * unbiased).sqrt() + TINY);
         }
-        self.taken += 1;
+    }
+
+    /// Every so often: whether steps are too long, or lead nowhere.
+    fn look(&mut self, value: f64) {
+        self.heights.push(value);
+        if self.heights.len() < LOOK.max(self.taken / 10) as usize {
+            return;
+        }
+        let count = self.heights.len() as f64;
+        let mean = self.heights.iter().sum::<f64>() / count;
+        let wavers = (self.heights.iter().map(|h| (h - mean).powi(2)).sum::<f64>() / count).sqrt();
+        let gain = mean - self.before;
+        if gain < wavers {
+            self.step *= FINER;
+        }
+        let little = LITTLE * (0.5 * self.at.len() as f64).sqrt();
+        self.is_over = self.step < LAST || gain.abs() + wavers < little;
+        self.before = mean;
+        self.heights.clear();
     }
 
     /// The same, by what its own target says.
@@ -77,11 +108,11 @@ impl Way {
     }
 }
 
-/// Moves `x` uphill, to the highest point of `steps` steps; gives the number of gradients taken. A point that the target
-/// refuses ends the way before it.
+/// Moves `x` uphill, to the highest point of at most `steps` steps; gives the number of gradients taken. A point that the
+/// target refuses ends the way before it.
 pub fn climb(target: &mut (impl Potential + ?Sized), x: &mut [f64], steps: u32) -> u32 {
-    let (mut way, mut gradient) = (Way::from(x), vec![0.0; x.len()]);
-    while way.taken < steps && !way.is_over {
+    let (mut way, mut gradient) = (Way::from(x, steps), vec![0.0; x.len()]);
+    while !way.is_over {
         way.step_alone(target, &mut gradient, steps);
     }
     x.copy_from_slice(&way.top);
@@ -101,12 +132,9 @@ pub fn climb_in_lanes<const L: usize>(
 ) -> Vec<u32> {
     assert!(starts.len() <= L, "a lane for each point");
     let dim = starts.first().map_or(0, |start| start.len());
-    let mut ways: Vec<Way> = starts.iter().map(|start| Way::from(start)).collect();
+    let mut ways: Vec<Way> = starts.iter().map(|start| Way::from(start, steps)).collect();
     let (mut x, mut g, mut one) = (vec![[0.0; L]; dim], vec![[0.0; L]; dim], vec![0.0; dim]);
-    for _ in 0..steps {
-        if ways.iter().all(|way| way.is_over) {
-            break;
-        }
+    while !ways.iter().all(|way| way.is_over) {
         for l in 0..L {
             // Lanes without a point stand where the first one does.
             let way = ways.get(l).unwrap_or(&ways[0]);
@@ -141,9 +169,10 @@ mod tests {
         let mut target = normals(vec![1e-3, 0.1, 1.0, 1e3]);
         let mut gradient = vec![0.0; 4];
         let low = evaluate(&mut target, &x, &mut gradient).expect("a point of the target");
-        assert_eq!(climb(&mut target, &mut x, 100), 100);
+        let taken = climb(&mut target, &mut x, 1000);
         let high = evaluate(&mut target, &x, &mut gradient).expect("a point of the target");
-        assert!(low < -1e6 && high > -200.0, "{low} {high}");
+        assert!(low < -1e6 && high > -3.0, "{low} {high}");
+        assert!(taken > 100 && taken < 1000, "ends by itself, after {taken}");
     }
 
     #[test]
