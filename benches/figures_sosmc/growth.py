@@ -16,8 +16,9 @@ from collections.abc import Callable
 from pathlib import Path
 
 import niwaki as nw
+from niwaki import Frame
 from niwaki.gallery import targets
-from niwaki.gallery.gnarly_tree import gnarly_tree
+from niwaki.gallery.gnarly_tree import ahead, behind_the_bend, gnarly_tree, on_the_bark
 
 #: Least radius as a share of the trunk's, odds of a side branch, decay of going on; by the segments that they give.
 SIZES = {50: (0.12, 0.5, 0.1), 200: (0.04, 0.5, 0.1), 800: (0.016, 0.5, 0.1), 3200: (0.006, 0.5, 0.1)}
@@ -36,7 +37,33 @@ def tower(n):
         nw.emit(nw.box((0.0, 0.05 + 0.1 * k, 0.0), size, rotation=nw.rotation(UP, turn)))
 
 
-UP = nw.vec(0.0, 1.0, 0.0)
+@nw.model
+def pole(n):
+    """Put up `n` tapering segments: a swaying stem, and on each of its segments a twig that is welded to its bark."""
+    climb(0, n, Frame(nw.vec(0.0, 0.0, 0.0), UP, AWAY, 1.0))
+
+
+@nw.model
+def climb(k, n, start):
+    """Grow from the `k`-th segment to the `n`-th."""
+    if k < n:
+        lean = nw.rotate(
+            nw.rotate(UP, AWAY, nw.gaussian(0.0, 0.05)), nw.vec(1.0, 0.0, 0.0), nw.gaussian(0.0, 0.05)
+        )
+        side = nw.normalize(nw.cross(lean, AWAY))
+        end = Frame(
+            start.center + nw.uniform(3.0, 5.0) * lean, lean, nw.cross(side, lean), nw.uniform(0.8, 1.0)
+        )
+        split = behind_the_bend(start, end)
+        nw.emit(nw.segment(start, split, end))
+        base, bark = on_the_bark(split, end, nw.uniform(0.0, 6.0), nw.uniform(0.2, 0.3))
+        tip = ahead(base, nw.gaussian(0.0, 0.1), nw.gaussian(0.0, 0.1), nw.uniform(1.0, 2.0), 0.1)
+        nw.emit(nw.segment(base, behind_the_bend(base, tip), tip, bark))
+        climb(k + 2, n, end)
+
+
+UP, AWAY = nw.vec(0.0, 1.0, 0.0), nw.vec(0.0, 0.0, -1.0)
+MODELS = {"turned boxes": tower, "welded segments": pole}
 
 
 def draw(folder: Path, tell: Callable[[dict], None], quick: bool) -> None:
@@ -57,12 +84,13 @@ def draw(folder: Path, tell: Callable[[dict], None], quick: bool) -> None:
         )
     print(f"largest over smallest: {max(costs) / min(costs):.2f}, asked for at most {FLAT}")
     particles, primitives = (50, 50) if quick else LARGEST
-    for sigma, name in ((0.02, "that are selected as in a search"), (1e3, "of which none is like another")):
-        few, many = (resident(count, primitives, sigma) for count in (1, particles))
-        megabytes = many - few
-        tell({"particles": particles, "primitives": primitives, "sigma": sigma, "megabytes": megabytes})
-        text = f"{particles} particles of {primitives} primitives {name}: {megabytes:.0f} MB"
-        print(f"{text}, asked for under {MEGABYTES}", flush=True)
+    for solids in MODELS:
+        for sigma, name in ((0.02, "selected as in a search"), (1e3, "none like another")):
+            few, many = (resident(solids, count, primitives, sigma) for count in (1, particles))
+            kept = {"particles": particles, "primitives": primitives, "solids": solids, "sigma": sigma}
+            tell(kept | {"megabytes": many - few})
+            text = f"{particles} particles of {primitives} {solids}, {name}: {many - few:.0f} MB"
+            print(f"{text}, asked for under {MEGABYTES}", flush=True)
 
 
 def score() -> nw.Score:
@@ -70,9 +98,9 @@ def score() -> nw.Score:
     return nw.volume_match(targets.umbrella(), 0.4, 0.5)
 
 
-def resident(particles: int, primitives: int, sigma: float) -> float:
+def resident(solids: str, particles: int, primitives: int, sigma: float) -> float:
     """Largest resident set, megabytes, of a process that grows such a population."""
-    program = f"import growth; growth.populate({particles}, {primitives}, {sigma})"
+    program = f"import growth; growth.populate({solids!r}, {particles}, {primitives}, {sigma})"
     here = os.fspath(Path(__file__).parent)
     done = subprocess.run(
         [sys.executable, "-c", program], cwd=here, check=True, capture_output=True, text=True
@@ -80,10 +108,12 @@ def resident(particles: int, primitives: int, sigma: float) -> float:
     return float(done.stdout)
 
 
-def populate(particles: int, primitives: int, sigma: float) -> None:
-    """Grow a population of towers and print this process's largest resident set, megabytes."""
+def populate(solids: str, particles: int, primitives: int, sigma: float) -> None:
+    """Grow a population of such solids and print this process's largest resident set, megabytes."""
     wanted = nw.no_self_intersection() * nw.volume_match(targets.gem(), 0.4, sigma)
     method = nw.smc(particles)
-    found = nw.run(tower, primitives, method=method, score=wanted, seed=1, threads=1, max_memory=1 << 34)
+    found = nw.run(
+        MODELS[solids], primitives, method=method, score=wanted, seed=1, threads=1, max_memory=1 << 34
+    )
     assert min(sample.primitives for sample in found) == primitives
     print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0)

@@ -57,9 +57,7 @@ impl Record {
         self.log.become_copy(&mut other.log);
         self.log_prior = other.log_prior;
         self.log_factors = other.log_factors;
-        if !other.sketches.is_empty() {
-            self.sketches = other.sketches.fork();
-        }
+        self.sketches.become_copy(&other.sketches);
         self.log_sketches = other.log_sketches;
         self.primitives = other.primitives;
         self.cause.clone_from(&other.cause);

@@ -7,9 +7,10 @@
 
 use super::bag::Bag;
 use super::volume::Target;
-use super::{Sketch, SketchSpec};
+use super::{Sketch, SketchSpec, copy_into, share};
 use crate::primitive::Primitive;
 use crate::voxel::Voxels;
+use std::any::Any;
 use std::sync::Arc;
 
 struct AvoidSpec {
@@ -32,7 +33,7 @@ impl SketchSpec for AvoidSpec {
 }
 
 /// How many cells of the obstacle the shapes fill, each shape counted by itself.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Avoid {
     obstacle: Arc<Target>,
     shared: u64,
@@ -56,6 +57,18 @@ impl Avoid {
 fn shared_by(obstacle: &Target, primitive: &Primitive) -> u64 {
     let voxels = primitive.shapes().iter().filter_map(|s| Voxels::of(s, obstacle.grid()));
     voxels.map(|voxels| obstacle.shared_with(&voxels)).sum()
+}
+
+impl Clone for Avoid {
+    fn clone(&self) -> Avoid {
+        Avoid { obstacle: self.obstacle.clone(), shared: self.shared, bag: self.bag.clone() }
+    }
+
+    fn clone_from(&mut self, source: &Avoid) {
+        share(&mut self.obstacle, &source.obstacle);
+        self.shared = source.shared;
+        self.bag.clone_from(&source.bag);
+    }
 }
 
 impl PartialEq for Avoid {
@@ -91,6 +104,14 @@ impl Sketch for Avoid {
 
     fn fork(&self) -> Box<dyn Sketch> {
         Box::new(self.clone())
+    }
+
+    fn become_copy(&mut self, other: &dyn Sketch) -> bool {
+        copy_into(self, other)
+    }
+
+    fn as_any(&self) -> &dyn Any {
+        self
     }
 
     fn measures(&self) -> Vec<(&'static str, f64)> {

@@ -4,10 +4,11 @@
 //! its own. Touching has the tolerance of intersections: a millionth of a shape's thickness.
 
 use super::bag::Bag;
-use super::{Sketch, SketchSpec};
+use super::{Sketch, SketchSpec, copy_into};
 use crate::error::GeomError;
 use crate::intersect::SOLID_TOLERANCE;
 use crate::primitive::Primitive;
+use std::any::Any;
 use std::sync::Arc;
 
 struct FloorSpec {
@@ -85,6 +86,14 @@ impl Sketch for Floor {
 
     fn fork(&self) -> Box<dyn Sketch> {
         Box::new(self.clone())
+    }
+
+    fn become_copy(&mut self, other: &dyn Sketch) -> bool {
+        copy_into(self, other)
+    }
+
+    fn as_any(&self) -> &dyn Any {
+        self
     }
 
     fn measures(&self) -> Vec<(&'static str, f64)> {

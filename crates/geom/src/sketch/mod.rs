@@ -26,6 +26,8 @@ pub mod volume;
 use crate::error::GeomError;
 use crate::primitive::Primitive;
 use crate::tree::{BoxTree, Boxed};
+use std::any::Any;
+use std::sync::Arc;
 
 /// A running score of a bag of primitives.
 pub trait Sketch: Send + Sync {
@@ -41,6 +43,11 @@ pub trait Sketch: Send + Sync {
     fn log_score(&self) -> f64;
     /// A copy that shares what neither changes.
     fn fork(&self) -> Box<dyn Sketch>;
+    /// Becomes a copy of `other`, in place and sharing as `fork` does; false, and nothing changed, when that is another
+    /// kind of sketch.
+    fn become_copy(&mut self, other: &dyn Sketch) -> bool;
+    /// Itself, to be told from other kinds.
+    fn as_any(&self) -> &dyn Any;
     /// Named numbers behind the score, for people.
     fn measures(&self) -> Vec<(&'static str, f64)>;
 }
@@ -51,6 +58,20 @@ pub trait SketchSpec: Send + Sync {
     fn name(&self) -> &'static str;
     /// The sketch of the empty scene.
     fn start(&self) -> Box<dyn Sketch>;
+}
+
+/// `become_copy` of a sketch that can be cloned.
+pub(crate) fn copy_into<T: Sketch + Clone + 'static>(to: &mut T, from: &dyn Sketch) -> bool {
+    from.as_any().downcast_ref::<T>().map(|from| to.clone_from(from)).is_some()
+}
+
+/// Makes both the same. What all sketches of a search share is left alone: writing its count would make every
+/// processor that reads it wait.
+#[inline]
+pub(crate) fn share<T>(to: &mut Arc<T>, from: &Arc<T>) {
+    if !Arc::ptr_eq(to, from) {
+        to.clone_from(from);
+    }
 }
 
 /// Equality of bags: every primitive of one is in the other as often.

@@ -16,11 +16,12 @@
 
 use super::bag::Bag;
 use super::tiles::Tiles;
-use super::{Sketch, SketchSpec, check_sigma, log_normal};
+use super::{Sketch, SketchSpec, check_sigma, copy_into, log_normal, share};
 use crate::error::GeomError;
 use crate::primitive::Primitive;
 use crate::view::camera::check_size;
 use crate::view::{Cover, Rays};
+use std::any::Any;
 use std::ops::{Add, AddAssign, Sub, SubAssign};
 use std::sync::Arc;
 
@@ -202,7 +203,7 @@ impl SketchSpec for PictureSpec {
 }
 
 /// How many shapes each pixel's ray meets.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct PictureMatch {
     name: &'static str,
     picture: Arc<Picture>,
@@ -260,6 +261,30 @@ fn covers(primitive: &Primitive, rays: &Rays) -> Arc<[Cover]> {
     primitive.shapes().iter().map(|shape| rays.meeting(shape)).collect()
 }
 
+impl Clone for PictureMatch {
+    fn clone(&self) -> PictureMatch {
+        PictureMatch {
+            picture: self.picture.clone(),
+            name: self.name,
+            sigma: self.sigma,
+            tiles: self.tiles.clone(),
+            on: self.on,
+            right: self.right,
+            bag: self.bag.clone(),
+        }
+    }
+
+    fn clone_from(&mut self, source: &PictureMatch) {
+        share(&mut self.picture, &source.picture);
+        self.name = source.name;
+        self.sigma = source.sigma;
+        self.tiles.clone_from(&source.tiles);
+        self.on = source.on;
+        self.right = source.right;
+        self.bag.clone_from(&source.bag);
+    }
+}
+
 impl PartialEq for PictureMatch {
     fn eq(&self, other: &PictureMatch) -> bool {
         Arc::ptr_eq(&self.picture, &other.picture)
@@ -310,6 +335,14 @@ impl Sketch for PictureMatch {
 
     fn fork(&self) -> Box<dyn Sketch> {
         Box::new(self.clone())
+    }
+
+    fn become_copy(&mut self, other: &dyn Sketch) -> bool {
+        copy_into(self, other)
+    }
+
+    fn as_any(&self) -> &dyn Any {
+        self
     }
 
     fn measures(&self) -> Vec<(&'static str, f64)> {

@@ -28,6 +28,12 @@ impl Member {
         Member { sketch: self.sketch.fork(), log_score: self.log_score, waiting: self.waiting.clone() }
     }
 
+    fn become_copy(&mut self, other: &Member) -> bool {
+        self.log_score = other.log_score;
+        self.waiting.clone_from(&other.waiting);
+        self.sketch.become_copy(&*other.sketch)
+    }
+
     fn is_forbidden(&self) -> bool {
         self.log_score == f64::NEG_INFINITY
     }
@@ -152,6 +158,14 @@ impl Sketches {
         Sketches { members: self.members.iter().map(Member::fork).collect() }
     }
 
+    /// Becomes a copy of `other`, in place where both are sketches of the same kinds.
+    pub fn become_copy(&mut self, other: &Sketches) {
+        let same = self.members.len() == other.members.len();
+        if !same || !self.members.iter_mut().zip(&other.members).all(|(to, from)| to.become_copy(from)) {
+            *self = other.fork();
+        }
+    }
+
     /// Named numbers of all sketches, in order.
     pub fn measures(&self) -> Vec<(&'static str, f64)> {
         self.iter().flat_map(|s| s.measures()).collect()
@@ -208,5 +222,33 @@ mod tests {
         assert_eq!((scene.log_score(), scene.forbidden_by()), (one, None));
         assert!(scene.remove(&cube(0.0)));
         assert_eq!(scene.log_score(), empty);
+    }
+
+    /// A copy in place is a copy, also of a scene that is forbidden, and neither sees what becomes of the other.
+    #[test]
+    fn a_copy_in_place_is_a_copy() {
+        let target = Arc::new(Target::new(cube(0.0).shapes()[0].world_mesh().clone(), 0.1).unwrap());
+        let specs = [no_self_intersection(Rule::Solid), volume_match(target, 0.02).unwrap()];
+        for places in [vec![0.0], vec![0.0, 0.5], vec![0.0, 0.5, 1.5]] {
+            let (mut from, mut to, mut other) =
+                (Sketches::start(&specs), Sketches::start(&specs), Sketches::default());
+            to.add(&cube(0.3));
+            for x in places {
+                from.add(&cube(x));
+            }
+            let score = from.log_score();
+            to.become_copy(&from);
+            other.become_copy(&from);
+            assert_eq!((to.log_score(), other.log_score()), (score, score));
+            assert_eq!((to.measures(), other.measures()), (from.measures(), from.measures()));
+            // What waits was copied too: once the scene is allowed again, both see the same.
+            to.add(&cube(3.0));
+            assert_eq!(from.log_score(), score);
+            from.add(&cube(3.0));
+            for scene in [&mut from, &mut to] {
+                scene.remove(&cube(0.5));
+            }
+            assert_eq!((to.log_score(), to.measures()), (from.log_score(), from.measures()));
+        }
     }
 }

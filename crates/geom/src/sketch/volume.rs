@@ -13,11 +13,12 @@ use super::bag::Bag;
 use super::brick::Plane;
 use super::counters::{Counters, bricks_of, planes_of, visit};
 use super::overshoot::overshoot;
-use super::{Sketch, SketchSpec, log_normal};
+use super::{Sketch, SketchSpec, copy_into, log_normal, share};
 use crate::error::GeomError;
 use crate::mesh::TriMesh;
 use crate::primitive::Primitive;
 use crate::voxel::{Grid, Voxels};
+use std::any::Any;
 use std::sync::Arc;
 
 /// A mesh to match, voxelised once.
@@ -108,7 +109,7 @@ impl SketchSpec for VolumeSpec {
 }
 
 /// The cells filled so far, and the box around everything.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct VolumeMatch {
     target: Arc<Target>,
     sigma: f64,
@@ -161,6 +162,28 @@ fn filled_by(primitive: &Primitive, grid: &Grid) -> Arc<[Voxels]> {
     primitive.shapes().iter().filter_map(|shape| Voxels::of(shape, grid)).collect()
 }
 
+impl Clone for VolumeMatch {
+    fn clone(&self) -> VolumeMatch {
+        VolumeMatch {
+            target: self.target.clone(),
+            sigma: self.sigma,
+            counters: self.counters.clone(),
+            filled: self.filled,
+            inside: self.inside,
+            bag: self.bag.clone(),
+        }
+    }
+
+    fn clone_from(&mut self, source: &VolumeMatch) {
+        share(&mut self.target, &source.target);
+        self.sigma = source.sigma;
+        self.counters.clone_from(&source.counters);
+        self.filled = source.filled;
+        self.inside = source.inside;
+        self.bag.clone_from(&source.bag);
+    }
+}
+
 impl PartialEq for VolumeMatch {
     fn eq(&self, other: &VolumeMatch) -> bool {
         Arc::ptr_eq(&self.target, &other.target)
@@ -208,6 +231,14 @@ impl Sketch for VolumeMatch {
 
     fn fork(&self) -> Box<dyn Sketch> {
         Box::new(self.clone())
+    }
+
+    fn become_copy(&mut self, other: &dyn Sketch) -> bool {
+        copy_into(self, other)
+    }
+
+    fn as_any(&self) -> &dyn Any {
+        self
     }
 
     fn measures(&self) -> Vec<(&'static str, f64)> {

@@ -28,6 +28,8 @@ pub(super) struct Particle {
     pub weighed: f64,
     /// Log weight since the last resampling.
     pub log_weight: f64,
+    /// The thread that ran it last.
+    pub home: usize,
 }
 
 impl Particle {
@@ -93,6 +95,7 @@ impl Particle {
             was_ended: self.was_ended,
             weighed: self.weighed,
             log_weight: self.log_weight,
+            home: self.home,
         }
     }
 
@@ -105,5 +108,6 @@ impl Particle {
         self.picks = parent.picks;
         self.was_ended = parent.was_ended;
         self.weighed = parent.weighed;
+        self.home = parent.home;
     }
 }

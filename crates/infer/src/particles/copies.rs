@@ -1,72 +1,179 @@
 //! Copies at a resampling: survivors stay where they are, their further copies take the places of those that get
-//! none. Families are copied side by side, and a large family by its own members.
+//! none. They are made when the particles run again, each by the thread that runs it.
 
 use super::advance::Particle;
+use std::collections::VecDeque;
 
-/// Copies of one parent that one task makes, one after the other.
-const ONE_BY_ONE: usize = 4;
+/// Fewer copies of one parent are not worth to be taken to another thread before it asks for them.
+const FEW: usize = 4;
 
-/// A parent and the places of its further copies, each with the lineage that it gets.
-type Family<'a> = (&'a mut Particle, Vec<(u64, &'a mut Particle)>);
-
-/// Makes row `i` survive `copies[i]` times. `ancestor` becomes that of the new rows; `lineages` counts those given out.
-pub(super) fn copy(
-    particles: &mut [Particle],
-    copies: &[usize],
-    ancestor: &mut [usize],
-    lineages: &mut u64,
-    seed: u64,
-    parallel: bool,
-) {
-    let mut free = copies.iter().enumerate().filter(|(_, c)| **c == 0).map(|(row, _)| row);
-    // Parent and place, parents ascending; lineages are given out in this order, whatever thread copies.
-    let mut moves: Vec<(usize, usize)> = Vec::new();
-    for (row, &count) in copies.iter().enumerate() {
-        moves.extend((1..count).map_while(|_| free.next().map(|to| (row, to))));
-    }
-    let first = *lineages;
-    *lineages += moves.len() as u64;
-    for &(row, to) in &moves {
-        ancestor[to] = ancestor[row];
-    }
-    if !parallel {
-        for (i, &(row, to)) in moves.iter().enumerate() {
-            let [parent, child] = pair(particles, row, to);
-            child.copy_from(parent, first + i as u64, seed);
-        }
-        return;
-    }
-    let mut rows: Vec<Option<&mut Particle>> = particles.iter_mut().map(Some).collect();
-    let mut families: Vec<Family<'_>> = Vec::new();
-    let mut last = usize::MAX;
-    for (i, &(row, to)) in moves.iter().enumerate() {
-        if row != last {
-            families.extend(rows[row].take().map(|parent| (parent, Vec::new())));
-            last = row;
-        }
-        if let (Some(family), Some(child)) = (families.last_mut(), rows[to].take()) {
-            family.1.push((first + i as u64, child));
-        }
-    }
-    rayon::scope(|scope| {
-        for (parent, mut children) in families {
-            scope.spawn(move |_| spread(parent, &mut children, seed));
-        }
-    });
+/// Which copies are still to be made.
+#[derive(Default)]
+pub(super) struct Copies {
+    /// How often each row survives; empty where no copy waits to be made.
+    counts: Vec<usize>,
+    /// Parent and place, parents ascending.
+    moves: Vec<(usize, usize)>,
+    /// The thread that is to run each copy.
+    threads: Vec<usize>,
+    /// The lineage of the first copy; the others have the next ones, in the order of `moves`.
+    lineage: u64,
 }
 
-/// Copies a parent to all places; half of them from its first copy, side by side.
-fn spread(parent: &mut Particle, children: &mut [(u64, &mut Particle)], seed: u64) {
-    if children.len() <= ONE_BY_ONE {
-        for (lineage, child) in children {
-            child.copy_from(parent, *lineage, seed);
+/// A row of a population on its way.
+pub(super) struct Row<'a> {
+    pub number: usize,
+    pub particle: &'a mut Particle,
+    /// Where it is to be a copy of the last row before it that is none: the lineage that it gets.
+    lineage: Option<u64>,
+}
+
+impl Copies {
+    /// Row `i` is to survive `counts[i]` times. `ancestor` becomes that of the new rows; `lineages` counts those given out.
+    pub fn plan(counts: &[usize], ancestor: &mut [usize], lineages: &mut u64) -> Copies {
+        let mut free = counts.iter().enumerate().filter(|(_, c)| **c == 0).map(|(row, _)| row);
+        let mut moves: Vec<(usize, usize)> = Vec::with_capacity(counts.len());
+        for (row, &count) in counts.iter().enumerate() {
+            moves.extend((1..count).map_while(|_| free.next().map(|to| (row, to))));
         }
-        return;
+        let lineage = *lineages;
+        // Lineages are given out in this order, whatever thread copies.
+        *lineages += moves.len() as u64;
+        for &(row, to) in &moves {
+            ancestor[to] = ancestor[row];
+        }
+        let threads = Vec::new();
+        if moves.is_empty() {
+            Copies::default()
+        } else {
+            Copies { counts: counts.to_vec(), moves, threads, lineage }
+        }
     }
-    if let [(lineage, first), rest @ ..] = children {
-        first.copy_from(parent, *lineage, seed);
-        let (left, right) = rest.split_at_mut(rest.len() / 2);
-        rayon::join(|| spread(parent, left, seed), || spread(first, right, seed));
+
+    /// Decides which thread runs each copy: that of its parent, but for the rest of a large family where that has too
+    /// much to do.
+    pub fn share_out(&mut self, particles: &mut [Particle], threads: usize) {
+        let home = |row: usize| particles[row].home % threads;
+        let mut load = vec![0; threads];
+        self.counts.iter().enumerate().for_each(|(row, count)| load[home(row)] += count);
+        let fair = particles.len().div_ceil(threads);
+        self.threads.clear();
+        for family in self.moves.chunk_by(|a, b| a.0 == b.0) {
+            let (own, mut kept) = (home(family[0].0), family.len());
+            let end = self.threads.len() + kept;
+            self.threads.resize(end, own);
+            while let Some(idle) = (0..threads).min_by_key(|thread| load[*thread]) {
+                let room = fair.saturating_sub(load[idle]);
+                let given = load[own].saturating_sub(fair).min(room).min(kept);
+                if given < FEW {
+                    break;
+                }
+                let last = end - (family.len() - kept);
+                self.threads[last - given..last].fill(idle);
+                (load[own], load[idle], kept) = (load[own] - given, load[idle] + given, kept - given);
+            }
+        }
+        self.give_near(particles);
+    }
+
+    /// Lets each place hold what the thread that is to run there made last, which is overwritten: that thread then
+    /// gives the memory back that it asked for itself. Places hold nothing else before the copies are made.
+    fn give_near(&self, particles: &mut [Particle]) {
+        // Places that another thread ought to have, by the thread whose they are.
+        let mut strange: Vec<Vec<usize>> = Vec::new();
+        for (at, (&(_, place), &wanted)) in self.moves.iter().zip(&self.threads).enumerate() {
+            let home = particles[place].home;
+            if wanted == home {
+                continue;
+            }
+            if strange.len() <= wanted.max(home) {
+                strange.resize(wanted.max(home) + 1, Vec::new());
+            }
+            match strange[wanted].pop() {
+                None => strange[home].push(at),
+                Some(other) => {
+                    particles.swap(place, self.moves[other].1);
+                    if self.threads[other] != home {
+                        strange[home].push(other);
+                    }
+                }
+            }
+        }
+    }
+
+    /// How often a row is there once all copies are made.
+    pub fn count(&self, row: usize) -> usize {
+        self.counts.get(row).copied().unwrap_or(1)
+    }
+
+    /// Makes all of them.
+    pub fn make(&mut self, particles: &mut [Particle], seed: u64) {
+        for (&(row, to), lineage) in self.moves.iter().zip(self.lineage..) {
+            let [parent, child] = pair(particles, row, to);
+            child.copy_from(parent, lineage, seed);
+        }
+        *self = Copies::default();
+    }
+
+    /// The rows in batches of about `size`, for each of the `threads` those that it ran last and their copies, which
+    /// are to be made.
+    pub fn batches<'a>(
+        &mut self,
+        particles: &'a mut [Particle],
+        seed: u64,
+        size: usize,
+        threads: usize,
+    ) -> Vec<VecDeque<Vec<Row<'a>>>> {
+        let mut lists: Vec<VecDeque<Vec<Row<'a>>>> = (0..threads).map(|_| VecDeque::new()).collect();
+        let mut open: Vec<Vec<Row<'a>>> = (0..threads).map(|_| Vec::with_capacity(size)).collect();
+        let mut rows: Vec<Option<&mut Particle>> = particles.iter_mut().map(Some).collect();
+        let mut moves = self.moves.iter().zip(&self.threads).zip(self.lineage..).peekable();
+        let mut next_batch = |open: &mut Vec<Row<'a>>, thread: usize| {
+            if open.len() >= size {
+                lists[thread].push_back(std::mem::replace(open, Vec::with_capacity(size)));
+            }
+            open.len()
+        };
+        for number in 0..rows.len() {
+            if self.count(number) == 0 {
+                continue;
+            }
+            let Some(particle) = rows[number].take() else { continue };
+            let mut thread = particle.home % threads;
+            let mut parent = next_batch(&mut open[thread], thread);
+            open[thread].push(Row { number, particle, lineage: None });
+            while let Some(((&(_, to), &own), lineage)) = moves.next_if(|(((row, _), _), _)| *row == number) {
+                let Some(particle) = rows[to].take() else { continue };
+                let mut waits = Some(lineage);
+                if own != thread || open[thread].len() >= size {
+                    // The rest of a large family is copied from its first copy.
+                    particle.copy_from(open[thread][parent].particle, lineage, seed);
+                    (thread, parent, waits) = (own, next_batch(&mut open[own], own), None);
+                }
+                open[thread].push(Row { number: to, particle, lineage: waits });
+            }
+        }
+        for (list, batch) in lists.iter_mut().zip(open) {
+            list.extend(Some(batch).filter(|batch| !batch.is_empty()));
+        }
+        lists
+    }
+
+    /// Forgets them: they are made.
+    pub fn clear(&mut self) {
+        *self = Copies::default();
+    }
+}
+
+/// Makes the copies of a batch.
+pub(super) fn copy(batch: &mut [Row<'_>], seed: u64) {
+    let mut parent = 0;
+    for at in 0..batch.len() {
+        let (before, row) = batch.split_at_mut(at);
+        match row[0].lineage.take() {
+            None => parent = at,
+            Some(lineage) => row[0].particle.copy_from(before[parent].particle, lineage, seed),
+        }
     }
 }
 

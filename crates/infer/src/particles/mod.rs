@@ -7,7 +7,7 @@
 //!    and whenever a future returns, the order policy picks the future that runs next.
 //! 2. *Weigh* (`weights`): `w *= (s(r_n) / s(r_{n-1}))^T`. One that has ended carries its last score.
 //! 3. *Resample* ([`resampling`]): at every barrier, or when the effective sample size is low; weights are reset. Copies
-//!    are made side by side (`copies`).
+//!    (`copies`) are made when the particles run again, by the thread that ran their parent (`shared`).
 //! 4. *Rejuvenate*, where asked for ([`rejuvenation`]): each particle is moved by a Markov kernel that keeps `F_n`; of one
 //!    that still runs the way is done again with other values (`course`, `moves`). In the end chains may start from a few
 //!    of the final set, and their states take its place (`walks`).
@@ -39,6 +39,7 @@ mod population;
 pub mod rejuvenation;
 pub mod resampling;
 mod settings;
+mod shared;
 mod smc;
 mod walks;
 mod weights;

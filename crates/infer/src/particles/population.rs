@@ -2,17 +2,18 @@
 //! conditional SMC with one row held.
 
 use super::advance::Particle;
-use super::copies::copy;
+use super::copies::{Copies, Row, copy};
 use super::rejuvenation::{Moved, Mover};
 use super::settings::{Anneal, Order, Settings, Weights, When};
+use super::shared::share;
 use super::weights::{Normalised, conditional_share};
 use crate::record::Record;
 use crate::{Failure, Task};
 use niwaki_math::{Stream, StreamKey};
 use niwaki_vm::machine::Limits;
-use rayon::prelude::*;
 use std::collections::HashMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// The stream of the resampling draws: no lineage has this number.
 pub(super) const RESAMPLING: u64 = u64::MAX;
@@ -50,6 +51,10 @@ pub(super) struct Population<'a> {
     pub moved: Moved,
     /// Whether its parts run on several threads.
     pub parallel: bool,
+    /// The task for each thread, with a program of its own.
+    apart: Vec<Task>,
+    /// Copies that the last resampling asked for.
+    copies: Copies,
     // Kept from barrier to barrier, so that none allocates.
     scores: Vec<f64>,
     logs: Vec<f64>,
@@ -81,12 +86,16 @@ impl<'a> Population<'a> {
                 was_ended: false,
                 weighed: empty_score,
                 log_weight: 0.0,
+                home: lineage as usize % rayon::current_num_threads(),
             })
             .collect();
         let temper = match &settings.anneal {
             Anneal::Constant => settings.temper,
             Anneal::Schedule(_) | Anneal::Adaptive(_) => 0.0,
         };
+        let threads = rayon::current_num_threads();
+        let parallel = !serial && n > BATCH && threads > 1;
+        let own = |_| Task { program: Arc::new(task.program.apart()), ..task.clone() };
         Ok(Population {
             settings,
             particles,
@@ -101,7 +110,9 @@ impl<'a> Population<'a> {
             weights: Normalised::default(),
             mover: Mover::of(&task, settings)?,
             moved: Moved::default(),
-            parallel: !serial && n > BATCH && rayon::current_num_threads() > 1,
+            parallel,
+            apart: (0..if parallel { threads } else { 0 }).map(own).collect(),
+            copies: Copies::default(),
             scores: Vec::with_capacity(n),
             logs: Vec::with_capacity(n),
             task,
@@ -110,39 +121,57 @@ impl<'a> Population<'a> {
 
     /// Runs every particle to its next barrier, except in the row that is `held`.
     pub fn advance(&mut self, held: Option<usize>) -> Result<(), Failure> {
-        let (task, settings) = (&self.task, self.settings);
-        let batch = |first: usize, particles: &mut [Particle]| {
-            let mut machine = task.machine();
-            let rows = particles.iter_mut().enumerate().filter(|(i, _)| Some(first + i) != held);
-            rows.map(|(_, p)| p).try_for_each(|p| p.advance(&mut machine, task, settings))
-        };
-        let particles = &mut self.particles[..];
+        let (task, settings, seed) = (&self.task, self.settings, self.settings.seed);
         if !self.parallel {
-            return batch(0, particles);
+            self.copies.make(&mut self.particles, seed);
+            let mut machine = task.machine();
+            let rows = self.particles.iter_mut().enumerate().filter(|(row, _)| Some(*row) != held);
+            return rows.map(|(_, p)| p).try_for_each(|p| p.advance(&mut machine, task, settings));
         }
-        // Of several faults, the one of the first particle is reported, whatever thread met its own first. Batches
-        // behind one that failed need not run: an endless model would use up its budget once for each.
-        let failed = AtomicUsize::new(usize::MAX);
-        let size = (particles.len() / (TASKS * rayon::current_num_threads())).clamp(1, BATCH);
-        let faults: Vec<Failure> = particles
-            .par_chunks_mut(size)
-            .enumerate()
-            .with_max_len(1)
-            .filter(|(number, _)| *number < failed.load(Ordering::Relaxed))
-            .filter_map(|(number, particles)| {
-                let fault = batch(number * size, particles).err()?;
-                failed.fetch_min(number, Ordering::Relaxed);
-                Some(fault)
-            })
-            .collect();
-        faults.into_iter().next().map_or(Ok(()), Err)
+        // Of several faults, the one of the first row is reported, whatever thread met its own first. Rows behind one
+        // that failed need not run: an endless model would use up its budget once for each.
+        let (failed, fault) = (AtomicUsize::new(usize::MAX), Mutex::new(None));
+        let threads = self.apart.len();
+        let size = (self.particles.len() / (TASKS * threads)).clamp(1, BATCH);
+        let batches = self.copies.batches(&mut self.particles, seed, size, threads);
+        let apart = &self.apart;
+        share(batches, |thread| {
+            let task = &apart[thread];
+            let mut machine = task.machine();
+            let (failed, fault) = (&failed, &fault);
+            move |mut batch: Vec<Row<'_>>| {
+                copy(&mut batch, seed);
+                for Row { number, particle, .. } in batch {
+                    particle.home = thread;
+                    if Some(number) == held || number > failed.load(Ordering::Relaxed) {
+                        continue;
+                    }
+                    if let Err(own) = particle.advance(&mut machine, task, settings)
+                        && failed.fetch_min(number, Ordering::Relaxed) > number
+                    {
+                        let mut first = fault.lock().unwrap_or_else(PoisonError::into_inner);
+                        if first.as_ref().is_none_or(|(row, _)| *row > number) {
+                            *first = Some((number, own));
+                        }
+                    }
+                }
+            }
+        });
+        self.copies.clear();
+        fault.into_inner().unwrap_or_else(PoisonError::into_inner).map_or(Ok(()), |(_, own)| Err(own))
+    }
+
+    /// Makes the copies that the last resampling asked for.
+    pub fn settle(&mut self) {
+        self.copies.make(&mut self.particles, self.settings.seed);
     }
 
     /// How many run, and how many have ended: in one pass, as a population is too large for the processor's nearest
     /// memory.
     pub fn count(&self) -> (usize, usize) {
-        self.particles.iter().fold((0, 0), |(running, ended), p| {
-            (running + usize::from(p.is_running()), ended + usize::from(p.state.has_ended()))
+        self.particles.iter().enumerate().fold((0, 0), |(running, ended), (row, p)| {
+            let times = self.copies.count(row);
+            (running + times * usize::from(p.is_running()), ended + times * usize::from(p.state.has_ended()))
         })
     }
 
@@ -230,23 +259,22 @@ impl<'a> Population<'a> {
         self.survive(&copies);
     }
 
-    /// Row `i` survives `copies[i]` times; weights are reset.
+    /// Row `i` survives `copies[i]` times, once the copies are made; weights are reset.
     pub fn survive(&mut self, copies: &[usize]) {
         self.log_normaliser += self.weights.log_mean;
         self.resampled += 1;
-        let (particles, seed) = (&mut self.particles, self.settings.seed);
-        copy(particles, copies, &mut self.ancestor, &mut self.lineages, seed, self.parallel);
-        for (row, p) in particles.iter_mut().enumerate() {
-            p.log_weight = 0.0;
-            #[cfg(test)]
-            super::tests::corrupt(p, row, self.settings, copies);
-            #[cfg(not(test))]
-            let _ = row;
+        self.copies = Copies::plan(copies, &mut self.ancestor, &mut self.lineages);
+        if self.parallel {
+            self.copies.share_out(&mut self.particles, self.apart.len());
         }
+        self.particles.iter_mut().for_each(|p| p.log_weight = 0.0);
+        #[cfg(test)]
+        super::tests::corrupt(self, copies);
     }
 
     /// Weighs the final set by the declared temperature, and reads its weights; false when none is possible.
     pub fn finish(&mut self) -> bool {
+        self.settle();
         if self.temper != self.settings.temper && !self.keeps_last_temper() {
             let change = self.settings.temper - self.temper;
             for p in &mut self.particles {

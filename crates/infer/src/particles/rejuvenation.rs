@@ -170,7 +170,11 @@ impl Population<'_> {
             (Moment::Resampled, Some(resampled)) => resampled,
             _ => false,
         };
-        let Some(mover) = self.mover.as_mut().filter(|_| due) else { return Ok(()) };
+        if !due {
+            return Ok(());
+        }
+        self.settle();
+        let Some(mover) = &mut self.mover else { return Ok(()) };
         let before = mover.clone();
         let number = mover.rounds;
         mover.rounds += 1;

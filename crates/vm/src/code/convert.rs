@@ -1,7 +1,7 @@
 //! A program for another scalar: the same instructions, its constants as constants of that scalar.
 
 use super::{Function, Program};
-use crate::value::{Closure, Dict, Record, Value, Vector};
+use crate::value::{Closure, Dict, Record, Text, Value, Vector};
 use niwaki_math::Scalar;
 use std::sync::Arc;
 
@@ -34,6 +34,26 @@ impl Program<f64> {
             functions: self.functions.iter().map(function).collect(),
             entry: self.entry,
         }
+    }
+}
+
+impl<S: Scalar> Program<S> {
+    /// The same program for another thread: what runs count references to at every step, classes and constants of one
+    /// piece, is its own, so that processors do not wait for each other's counts. Large constants are shared.
+    pub fn apart(&self) -> Program<S> {
+        let mut program = self.clone();
+        program.classes.iter_mut().for_each(|class| *class = Arc::new((**class).clone()));
+        for constant in program.functions.iter_mut().flat_map(|f| &mut f.constants) {
+            match constant {
+                Value::Str(text) => *text = Text::from(&**text),
+                Value::Dist(dist) => *dist = Arc::new((**dist).clone()),
+                Value::Function(f) if f.captures.is_empty() => {
+                    *f = Arc::new(Closure { function: f.function, captures: vec![] });
+                }
+                _ => {}
+            }
+        }
+        program
     }
 }
 

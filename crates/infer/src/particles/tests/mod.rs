@@ -7,6 +7,8 @@
 //! (normal approximation); with about 60 quantities looked at, a re-seeded suite fails once in 29,000 runs.
 
 use super::advance::Particle;
+use super::copies::{Copies, copy};
+use super::population::Population;
 use super::*;
 use crate::enumeration::enumerate;
 use crate::task::Task;
@@ -62,13 +64,19 @@ pub enum Mutant {
 }
 
 /// What a mutant does to a particle after resampling.
-pub(super) fn corrupt(p: &mut Particle, row: usize, settings: &Settings, copies: &[usize]) {
-    if settings.is(Mutant::WeightsNotReset) && copies[row] > 0 {
-        p.log_weight = settings.temper * p.weighed.max(-50.0);
+pub(super) fn corrupt(population: &mut super::population::Population<'_>, copies: &[usize]) {
+    let settings = population.settings;
+    if settings.is(Mutant::WeightsNotReset) || settings.is(Mutant::StreamByRow) {
+        population.settle();
     }
-    if settings.is(Mutant::StreamByRow) {
-        p.lineage = row as u64;
-        p.stream = niwaki_math::StreamKey::new(settings.seed, p.lineage, 0);
+    for (row, p) in population.particles.iter_mut().enumerate() {
+        if settings.is(Mutant::WeightsNotReset) && copies[row] > 0 {
+            p.log_weight = settings.temper * p.weighed.max(-50.0);
+        }
+        if settings.is(Mutant::StreamByRow) {
+            p.lineage = row as u64;
+            p.stream = niwaki_math::StreamKey::new(settings.seed, p.lineage, 0);
+        }
     }
 }
 
@@ -311,6 +319,46 @@ fn threads_change_nothing() {
     };
     assert_eq!(run(1), run(2));
     assert_eq!(run(1), run(8));
+}
+
+/// Copies made in batches, by whichever thread, are those that are made one by one; the large family is divided.
+#[test]
+fn copies_are_the_same_in_batches() {
+    let task = task(PROGRAMS[5].1);
+    let settings = Settings { particles: 40, seed: 5, ..Settings::default() };
+    let mut counts = vec![0; 40];
+    (counts[7], counts[8], counts[30], counts[39]) = (1, 25, 3, 11);
+    let made = |batches: Option<(usize, usize)>| {
+        let mut population = Population::start(&task, &settings, true).unwrap();
+        population.advance(None).unwrap();
+        let (mut ancestor, mut lineages) = ((0..40).collect::<Vec<_>>(), 40);
+        let mut copies = Copies::plan(&counts, &mut ancestor, &mut lineages);
+        match batches {
+            None => copies.make(&mut population.particles, 5),
+            Some((size, threads)) => {
+                population.particles.iter_mut().enumerate().for_each(|(row, p)| p.home = row % threads);
+                copies.share_out(&mut population.particles, threads);
+                let mut rows = Vec::new();
+                for mut batch in
+                    copies.batches(&mut population.particles, 5, size, threads).into_iter().flatten()
+                {
+                    assert!(batch.len() <= size);
+                    copy(&mut batch, 5);
+                    rows.extend(batch.iter().map(|row| row.number));
+                }
+                rows.sort_unstable();
+                assert_eq!(rows, (0..40).collect::<Vec<_>>());
+            }
+        }
+        let one = |p: &Particle| {
+            let own = p.record.log.entries();
+            (p.lineage, own.iter().map(|e| (e.address(), repr(&e.value).unwrap())).collect::<Vec<_>>())
+        };
+        (population.particles.iter().map(one).collect::<Vec<_>>(), ancestor, lineages)
+    };
+    for batches in [(1, 2), (4, 1), (4, 3), (16, 2)] {
+        assert_eq!(made(None), made(Some(batches)));
+    }
 }
 
 #[test]

@@ -1,0 +1,70 @@
+//! Work shared out among the threads of the pool: each does its own first, then takes from those that have some left.
+//!
+//! What a thread made last time is in the memory nearest to its processor, and was allocated there: given to the same
+//! thread again it costs no traffic between processors.
+
+use std::collections::VecDeque;
+use std::sync::{Mutex, PoisonError};
+
+/// Does every item of `lists`, one list for each thread of the pool. `worker` makes what a thread works with; it is
+/// told the thread's number.
+pub(super) fn share<T: Send, W: FnMut(T)>(lists: Vec<VecDeque<T>>, worker: impl Fn(usize) -> W + Sync) {
+    let lists: Vec<Mutex<VecDeque<T>>> = lists.into_iter().map(Mutex::new).collect();
+    let work = || {
+        let own = rayon::current_thread_index().unwrap_or(0) % lists.len();
+        let mut next = next(&lists, own);
+        if next.is_none() {
+            return;
+        }
+        let mut work = worker(own);
+        while let Some(item) = next {
+            work(item);
+            next = self::next(&lists, own);
+        }
+    };
+    rayon::scope(|scope| {
+        (1..lists.len()).for_each(|_| scope.spawn(|_| work()));
+        work();
+    });
+}
+
+/// The first of the thread's own, or the last of another's.
+fn next<T>(lists: &[Mutex<VecDeque<T>>], own: usize) -> Option<T> {
+    // One lock at a time: two threads that look at each other's lists must not wait for each other.
+    (0..lists.len()).find_map(|more| {
+        let list = &lists[(own + more) % lists.len()];
+        let mut list = list.lock().unwrap_or_else(PoisonError::into_inner);
+        if more == 0 { list.pop_front() } else { list.pop_back() }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::atomic::{AtomicU64, Ordering};
+
+    /// Every item is done once, whoever has it in its list.
+    #[test]
+    fn everything_is_done_once() {
+        for threads in [1, 2, 8] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            // Many rounds: threads that wait for each other would, now and then, for ever.
+            for round in 0..2000 {
+                let lopsided = round % 2 == 0;
+                let mut lists: Vec<VecDeque<u32>> = vec![VecDeque::new(); threads];
+                for item in 0..50 {
+                    lists[if lopsided { 0 } else { item as usize % threads }].push_back(item);
+                }
+                let done = AtomicU64::new(0);
+                pool.install(|| {
+                    share(lists, |_| {
+                        |item| {
+                            assert_eq!(done.fetch_or(1 << item, Ordering::Relaxed) & 1 << item, 0);
+                        }
+                    });
+                });
+                assert_eq!(done.into_inner(), (1 << 50) - 1);
+            }
+        }
+    }
+}
