@@ -3,8 +3,8 @@
 Three models on our own targets and, where NIWAKI_REFERENCE_TARGETS names their folder, on the original's. At each
 number of particles ten searches by stochastic order, ten depth-first, both weighted by whole scores as in the original;
 ten Metropolis-Hastings chains for as many CPU seconds as the first took on average; and ten by the way we recommend:
-weights that are ratios, and a temperature that rises. One thread; sigma 0.02; the original's rule for intersections
-(`surface`).
+weights that are ratios, a temperature that rises, and a chain of as many proposals as particles from the best. One
+thread; sigma 0.02; the original's rule for intersections (`surface`).
 
 The chains move by `kernels.original`: its proposals, its sharpening to sigma 0.005 and, on the tree, its odds by depth;
 scores are reported at 0.02. They run on the models of the particles, by the strategy of this engine, which runs again
@@ -26,10 +26,11 @@ import niwaki as nw
 from niwaki import kernels
 from niwaki.gallery import entry, named_target
 from niwaki.gallery.experiments import RECOMMENDED
+from niwaki.methods import Mh
 
 SIGMA = 0.02
 #: The power of the score that makes it one of sigma 0.005; the calls that count as depth on a model, where they do.
-SHARPEN, NESTING = 16.0, {"gnarly-tree": "side_branch"}
+SHARPEN, NESTING = 16.0, {"gnarly_tree": "side_branch"}
 RUNS = 10
 PARTICLES = (10, 30, 100, 300, 1000)
 #: Model, cell size, our target, the original's.
@@ -98,10 +99,7 @@ def measured(
     model: str, target: nw.Target, voxel: float, sizes: tuple[int, ...], runs: int
 ) -> Iterator[dict]:
     """One row for each number of particles and way: all best scores, and mean CPU seconds."""
-    program = entry(model).model
-    rule = nw.no_self_intersection("surface")
-    score = rule * nw.volume_match(target, voxel, SIGMA)
-    kernel = kernels.original(SHARPEN, NESTING.get(model))
+    program, score = entry(model).model, score_of(target, voxel)
     # The first run compiles.
     searched(program, score, 2, {}, 0)
     for particles in sizes:
@@ -110,9 +108,10 @@ def measured(
         found: dict[str, list[tuple[float | None, float]]] = {way: [] for way in WAYS}
         for seed in range(1, runs + 1):
             for way, settings in WAYS.items():
-                found[way].append(searched(program, score, particles, settings, seed))
+                more = onward(program, particles) if way == "recommended" else None
+                found[way].append(searched(program, score, particles, settings, seed, more))
         budget = statistics.fmean(cpu for _, cpu in found["stochastic"])
-        found[CHAINS] = [chained(program, score, kernel, budget, seed) for seed in range(1, runs + 1)]
+        found[CHAINS] = [chained(program, score, moves(program), budget, seed) for seed in range(1, runs + 1)]
         for way, ends in found.items():
             scores = [one for one, _ in ends if one is not None]
             yield {
@@ -124,10 +123,25 @@ def measured(
             }
 
 
+def score_of(target: nw.Target, voxel: float) -> nw.Score:
+    """What is asked of all of them."""
+    return nw.no_self_intersection("surface") * nw.volume_match(target, voxel, SIGMA)
+
+
+def moves(program: nw.Model) -> kernels.Kernel:
+    """How chains of a model move: as the original's."""
+    return kernels.original(SHARPEN, NESTING.get(program.name))
+
+
+def onward(program: nw.Model, particles: int) -> Mh:
+    """The chain that we recommend behind a population."""
+    return nw.mh(particles, kernel=moves(program), keep=0)
+
+
 def searched(
-    program: nw.Model, score: nw.Score, particles: int, settings: dict, seed: int
+    program: nw.Model, score: nw.Score, particles: int, settings: dict, seed: int, more: Mh | None = None
 ) -> tuple[float | None, float]:
-    """The best log score of one population, nothing where it died, and its CPU seconds."""
+    """The best log score of one population, and of a chain behind it, nothing where it died; CPU seconds."""
     start = time.process_time()
     try:
         found = nw.run(program, method=nw.smc(particles, **settings), score=score, seed=seed, threads=1)
@@ -135,6 +149,8 @@ def searched(
         if error.code != "everything-impossible":
             raise
         return None, time.process_time() - start
+    if more is not None:
+        found = found.polish(more, threads=1)
     return found.best.log_score, found.cpu_seconds
 
 
