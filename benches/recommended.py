@@ -63,10 +63,11 @@ def print_rows(head: str, program: nw.Model, score: nw.Score, particles: int, se
         ]
         error = statistics.stdev(less) / math.sqrt(len(less))
         cpu = 1000.0 * statistics.fmean(row[way][1] for row in rows)
+        middle, died = statistics.median(lived), searches - len(lived)
         print(
-            f"{head}{particles:>5} {way:<16} mean {statistics.fmean(lived):7.2f}"
-            f"  median {statistics.median(lived):7.2f}  worst {min(lived):8.2f}"
-            f"  died {searches - len(lived):>2} of {searches}  {statistics.fmean(less):+6.2f} ({error:.2f})  {cpu:6.1f} ms",
+            f"{head}{particles:>5} {way:<16} mean {statistics.fmean(lived):7.2f}  median {middle:7.2f}"
+            f"  worst {min(lived):8.2f}  died {died:>2} of {searches}"
+            f"  {statistics.fmean(less):+6.2f} ({error:.2f})  {cpu:6.1f} ms",
             flush=True,
         )
 
