@@ -2,7 +2,7 @@
 
     .venv/bin/python benches/recommended.py [PARTICLES:SEARCHES ...]
 
-Sigma 0.02, the original's rule for intersections (`surface`), seeds from 200 on, the same for all ways, one thread.
+Sigma 0.02, the original's rule for intersections (`surface`), seeds from 1000 on, the same for all ways, one thread.
 For each model and target, at each number of particles: mean, median and worst of the best log scores of the searches
 that lived, how many died, the mean difference to the original's weights with its standard error (of the seeds that
 lived both ways), and CPU milliseconds of one search. `without a chain` stops where the population ends.
@@ -19,7 +19,7 @@ import niwaki as nw
 from comparison import CASES, WAYS, meshes, onward, score_of, searched
 from niwaki.gallery import entry
 
-SEED = 200
+SEED = 1000
 ORIGINAL, OURS, ALONE = "stochastic", "recommended", "without a chain"
 
 

@@ -58,5 +58,6 @@ def test_every_search_is_measured(drawn: Path) -> None:
         "Metropolis-Hastings, same time",
     }
     assert len(compared) == 3 * 4
-    assert len(rows(drawn / "growth.jsonl")) == 1 + 2
+    # Trees, and memory: boxes and segments, selected and not.
+    assert len(rows(drawn / "growth.jsonl")) == 1 + 4
     assert len(rows(drawn / "threads.jsonl")) == 5

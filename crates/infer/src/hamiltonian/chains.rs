@@ -176,8 +176,9 @@ impl<P: Potential> Chain<P> {
         let Chain { target, metric, step_size, phase, .. } = self;
         match &mut self.kernel {
             Kernel::Hmc(hmc) => {
+                phase.refresh(metric, &mut stream);
                 let steps = hmc.length(&mut lengths);
-                hmc.step_of(target, metric, *step_size, phase, steps, &mut stream)
+                hmc.go(target, metric, *step_size, phase, steps, &mut stream)
             }
             Kernel::Nuts(nuts) => nuts.step(target, metric, *step_size, phase, &mut stream),
         }

@@ -53,21 +53,8 @@ impl Hmc {
         self.go(target, metric, step, phase, steps, stream)
     }
 
-    /// The same, of a length that was drawn before.
-    pub(super) fn step_of(
-        &mut self,
-        target: &mut (impl Potential + ?Sized),
-        metric: &Metric,
-        step: f64,
-        phase: &mut Phase,
-        steps: u32,
-        stream: &mut Stream,
-    ) -> Transition {
-        phase.refresh(metric, stream);
-        self.go(target, metric, step, phase, steps, stream)
-    }
-
-    fn go(
+    /// The rest of a transition: `steps` steps from the momentum that `phase` has, and whether to stay there.
+    pub(super) fn go(
         &mut self,
         target: &mut (impl Potential + ?Sized),
         metric: &Metric,
