@@ -28,7 +28,7 @@ PUBLISHED = {
     "bug": ((6.08, 0.24), (3.56, 0.63)),
     "rocket": ((14.53, 0.23), (10.61, 0.63)),
 }
-SHOWN, SIZE, LAGS = 4, 300, 200
+SHOWN, SIZE, LAGS = 4, 270, 200
 
 
 def draw(folder: Path, tell: Callable[[dict], None], quick: bool) -> None:

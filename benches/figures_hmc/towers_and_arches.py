@@ -119,7 +119,7 @@ def compared(path: Path, folder: Path, names: tuple[str, ...]) -> None:
             cell.axis("off")
         curves(row[5], kind, folder)
     figure.tight_layout()
-    figure.savefig(path, dpi=75)
+    figure.savefig(path, dpi=60)
     plt.close(figure)
 
 
