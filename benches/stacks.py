@@ -2,6 +2,7 @@
 
     python benches/stacks.py [--draws 200] [--chains 4] [--out out/stacks] [KIND ...]
     python benches/stacks.py --way mh-original --chains 1 stack lean top_heavy
+    python benches/stacks.py --way explore --chains 1 --draws 64 stack lean top_heavy
     python benches/stacks.py --table                        # the table of what there is
 
 Each chain starts from a balance of its own and warms up; every draw after that is judged by the linear program and by
@@ -15,14 +16,14 @@ import argparse
 from functools import partial
 from pathlib import Path
 
-from stacking import following, metropolis
+from stacking import exploring, following, metropolis
 from stacking.files import chain_file
 from stacking.judging import judge
 from stacking.kinds import KINDS
 from stacking.table import HEAD, line, summary, table
 
 FOLLOWING = "nuts"
-WAYS = {FOLLOWING: following.draw, **metropolis.WAYS}
+WAYS = {FOLLOWING: following.draw, "explore": exploring.draw, **metropolis.WAYS}
 
 
 def measure(name: str, way: str, folder: Path, draws: int, chains: range, warmup: int | None = None) -> None:

@@ -1,0 +1,24 @@
+"""Many short chains: `niwaki.explore()` as it stands, the last draw of each chain, each from a run of its own."""
+
+from __future__ import annotations
+
+import time
+
+import niwaki as nw
+import numpy as np
+
+from stacking.files import Drawn
+from stacking.kinds import Kind
+
+
+def draw(kind: Kind, chain: int, draws: int) -> Drawn:
+    """The last draws of so many chains; `chain` decides their seed."""
+    begun = time.process_time()
+    found = nw.run(
+        kind.model, method=nw.explore(chains=draws), seed=100 * chain + 1, width=kind.width, threads=1
+    )
+    spent = time.process_time() - begun
+    values = np.array([numbers[:, -1] for numbers in found.draws.values()]).T
+    accepted = float(found.stats["acceptance_rate"].mean())
+    made = (0.0, 0.0, spent, found.gradients, accepted, found.divergences.total)
+    return Drawn(list(found.draws), values, *made, "explore, the last of each chain")
