@@ -12,8 +12,8 @@ import numpy as np
 import original
 from chains_of_numbers import Chains
 from niwaki import stacks
-from niwaki.errors import ModelFault
 from niwaki.hmc_result import HmcResult
+from niwaki.stacks.starting import height
 
 DRAWS, STEPS, WIDTH = 200, 1000, 0.005
 
@@ -22,7 +22,7 @@ def originals(seed: int, draws: int = DRAWS, steps: int = STEPS) -> Chains:
     """The original's chain."""
     density, x = stacks.start(stacks.stack, seed=seed, width=WIDTH)
     begun = time.process_time()
-    found, accepted = original.hmc(partial(ask, density), x, draws, steps, seed)
+    found, accepted = original.hmc(partial(height, density), x, draws, steps, seed)
     spent = time.process_time() - begun
     heights = np.array([[density(x) for x in found]])
     return Chains(found[None], draws * steps, spent, accepted, heights)
@@ -45,11 +45,3 @@ def level(draws: int) -> float:
     found = nw.run(stacks.stack, width=WIDTH, method=method, choices=density.values(x), seed=1, threads=1)
     assert isinstance(found, HmcResult)
     return float(np.median(found.log_density))
-
-
-def ask(density: nw.LogDensity, x: np.ndarray) -> tuple[float, np.ndarray]:
-    """Value and gradient; minus infinity where the model fails, which ends a trajectory."""
-    try:
-        return density.value_and_gradient(x)
-    except ModelFault:
-        return -np.inf, np.zeros_like(x)

@@ -16,9 +16,8 @@ from typing import Any
 
 import numpy as np
 from niwaki import stacks
-from niwaki.errors import ModelFault
 from niwaki.gradient import LogDensity
-from niwaki.stacks.starting import density_of
+from niwaki.stacks.starting import density_of, height
 
 from stacking.files import Drawn
 from stacking.kinds import Kind
@@ -104,12 +103,12 @@ def walk(
     x = x.copy()
     steps = np.full(density.dim, 0.002 if units else 0.1) if frozen is None else frozen
     tried, taken = np.zeros(density.dim), np.zeros(density.dim)
-    score = height(density, x)
+    score = height(density, x)[0]
     for number in range(count):
         i = int(random.integers(density.dim))
         before, by = x[i], steps[i] * random.normal()
         x[i] = units.coordinate(i, units.value(i, before) + by) if units else before + by
-        found = height(density, x)
+        found = height(density, x)[0]
         tried[i] += 1
         accepted = np.log(random.uniform()) < found - score
         if accepted:
@@ -123,16 +122,6 @@ def walk(
             steps[i] *= np.exp((accepted - BEST) * tried[i] ** -0.6)
         see(number, x)
     return x, steps, float(taken.sum() / max(tried.sum(), 1))
-
-
-def height(density: LogDensity, x: Any) -> float:
-    """The log density; minus infinity where a contact vanishes."""
-    try:
-        return density(x)
-    except ModelFault as fault:
-        if fault.code != "impossible-trace":
-            raise
-        return -np.inf
 
 
 def keeper(kept: list[Any], thin: int) -> Callable[[int, Any], None]:

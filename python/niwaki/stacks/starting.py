@@ -120,12 +120,17 @@ def density_of(model: Model[..., Any], seed: int, **arguments: Any) -> LogDensit
     raise AssertionError
 
 
-def _downhill(x: Floats, density: LogDensity) -> tuple[float, Floats]:
-    """Minus the log density and its gradient; a wall where the run is impossible."""
+def height(density: LogDensity, x: Floats) -> tuple[float, Floats]:
+    """The log density and its gradient; minus infinity, and nothing, where a contact vanishes."""
     try:
-        value, gradient = density.value_and_gradient(x)
+        return density.value_and_gradient(x)
     except ModelFault as fault:
         if fault.code != "impossible-trace":
             raise
-        value = -np.inf
+        return -np.inf, np.zeros_like(x)
+
+
+def _downhill(x: Floats, density: LogDensity) -> tuple[float, Floats]:
+    """Minus the log density and its gradient; a wall where the run is impossible."""
+    value, gradient = height(density, x)
     return (-value, -gradient) if np.isfinite(value) else (WALL, np.zeros_like(x))

@@ -7,10 +7,9 @@
 
 use super::bag::Bag;
 use super::volume::Target;
-use super::{Sketch, SketchSpec, copy_into, share};
+use super::{Sketch, SketchSpec, share};
 use crate::primitive::Primitive;
 use crate::voxel::Voxels;
-use std::any::Any;
 use std::sync::Arc;
 
 struct AvoidSpec {
@@ -100,18 +99,6 @@ impl Sketch for Avoid {
 
     fn log_score(&self) -> f64 {
         if self.shared == 0 { 0.0 } else { f64::NEG_INFINITY }
-    }
-
-    fn fork(&self) -> Box<dyn Sketch> {
-        Box::new(self.clone())
-    }
-
-    fn become_copy(&mut self, other: &dyn Sketch) -> bool {
-        copy_into(self, other)
-    }
-
-    fn as_any(&self) -> &dyn Any {
-        self
     }
 
     fn measures(&self) -> Vec<(&'static str, f64)> {

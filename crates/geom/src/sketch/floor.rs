@@ -4,11 +4,10 @@
 //! its own. Touching has the tolerance of intersections: a millionth of a shape's thickness.
 
 use super::bag::Bag;
-use super::{Sketch, SketchSpec, copy_into};
+use super::{Sketch, SketchSpec};
 use crate::error::GeomError;
 use crate::intersect::SOLID_TOLERANCE;
 use crate::primitive::Primitive;
-use std::any::Any;
 use std::sync::Arc;
 
 struct FloorSpec {
@@ -82,18 +81,6 @@ impl Sketch for Floor {
 
     fn log_score(&self) -> f64 {
         if self.below == 0 { 0.0 } else { f64::NEG_INFINITY }
-    }
-
-    fn fork(&self) -> Box<dyn Sketch> {
-        Box::new(self.clone())
-    }
-
-    fn become_copy(&mut self, other: &dyn Sketch) -> bool {
-        copy_into(self, other)
-    }
-
-    fn as_any(&self) -> &dyn Any {
-        self
     }
 
     fn measures(&self) -> Vec<(&'static str, f64)> {

@@ -3,11 +3,10 @@
 //! Pieces of one primitive are not tested against each other. A tree of boxes that copies share finds the few
 //! primitives near a new one, so that the price does not grow with what is far away.
 
-use super::{Sketch, SketchSpec, copy_into, same_bag};
+use super::{Sketch, SketchSpec, same_bag};
 use crate::intersect::{Rule, primitives_intersect};
 use crate::primitive::Primitive;
 use crate::tree::BoxTree;
-use std::any::Any;
 use std::sync::Arc;
 
 struct IntersectionSpec {
@@ -82,18 +81,6 @@ impl Sketch for NoSelfIntersection {
 
     fn log_score(&self) -> f64 {
         if self.pairs == 0 { 0.0 } else { f64::NEG_INFINITY }
-    }
-
-    fn fork(&self) -> Box<dyn Sketch> {
-        Box::new(self.clone())
-    }
-
-    fn become_copy(&mut self, other: &dyn Sketch) -> bool {
-        copy_into(self, other)
-    }
-
-    fn as_any(&self) -> &dyn Any {
-        self
     }
 
     fn measures(&self) -> Vec<(&'static str, f64)> {

@@ -30,7 +30,7 @@ use std::any::Any;
 use std::sync::Arc;
 
 /// A running score of a bag of primitives.
-pub trait Sketch: Send + Sync {
+pub trait Sketch: Copied + Any + Send + Sync {
     /// The name a person knows it by, e.g. `no_self_intersection`.
     fn name(&self) -> &'static str;
     /// Puts a primitive into the bag.
@@ -41,13 +41,6 @@ pub trait Sketch: Send + Sync {
     fn expect_removals(&mut self) {}
     /// Log of the score of the bag, nats; negative infinity when it is forbidden.
     fn log_score(&self) -> f64;
-    /// A copy that shares what neither changes.
-    fn fork(&self) -> Box<dyn Sketch>;
-    /// Becomes a copy of `other`, in place and sharing as `fork` does; false, and nothing changed, when that is another
-    /// kind of sketch.
-    fn become_copy(&mut self, other: &dyn Sketch) -> bool;
-    /// Itself, to be told from other kinds.
-    fn as_any(&self) -> &dyn Any;
     /// Named numbers behind the score, for people.
     fn measures(&self) -> Vec<(&'static str, f64)>;
 }
@@ -60,9 +53,24 @@ pub trait SketchSpec: Send + Sync {
     fn start(&self) -> Box<dyn Sketch>;
 }
 
-/// `become_copy` of a sketch that can be cloned.
-pub(crate) fn copy_into<T: Sketch + Clone + 'static>(to: &mut T, from: &dyn Sketch) -> bool {
-    from.as_any().downcast_ref::<T>().map(|from| to.clone_from(from)).is_some()
+/// Copies of a sketch whose kind is not known: every sketch that can be cloned has them.
+pub trait Copied {
+    /// A copy that shares what neither changes.
+    fn fork(&self) -> Box<dyn Sketch>;
+    /// Becomes a copy of `other`, in place and sharing as `fork` does; false, and nothing changed, when that is another
+    /// kind of sketch.
+    fn become_copy(&mut self, other: &dyn Sketch) -> bool;
+}
+
+impl<T: Sketch + Clone> Copied for T {
+    fn fork(&self) -> Box<dyn Sketch> {
+        Box::new(self.clone())
+    }
+
+    fn become_copy(&mut self, other: &dyn Sketch) -> bool {
+        let other: &dyn Any = other;
+        other.downcast_ref::<T>().map(|other| self.clone_from(other)).is_some()
+    }
 }
 
 /// Makes both the same. What all sketches of a search share is left alone: writing its count would make every

@@ -9,11 +9,10 @@
 //! do not see what leaves them. differs: a sum over the sides, as the original's code has it; its text says maximum.
 
 use super::bag::Bag;
-use super::{Sketch, SketchSpec, check_sigma, copy_into, log_normal};
+use super::{Sketch, SketchSpec, check_sigma, log_normal};
 use crate::bounds::Aabb;
 use crate::error::GeomError;
 use crate::primitive::Primitive;
-use std::any::Any;
 use std::sync::Arc;
 
 struct OvershootSpec {
@@ -93,18 +92,6 @@ impl Sketch for Overshoot {
 
     fn log_score(&self) -> f64 {
         log_normal(overshoot(&self.bag.bounds(), &self.domain), 0.0, self.sigma)
-    }
-
-    fn fork(&self) -> Box<dyn Sketch> {
-        Box::new(self.clone())
-    }
-
-    fn become_copy(&mut self, other: &dyn Sketch) -> bool {
-        copy_into(self, other)
-    }
-
-    fn as_any(&self) -> &dyn Any {
-        self
     }
 
     fn measures(&self) -> Vec<(&'static str, f64)> {

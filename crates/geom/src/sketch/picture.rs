@@ -16,12 +16,11 @@
 
 use super::bag::Bag;
 use super::tiles::Tiles;
-use super::{Sketch, SketchSpec, check_sigma, copy_into, log_normal, share};
+use super::{Sketch, SketchSpec, check_sigma, log_normal, share};
 use crate::error::GeomError;
 use crate::primitive::Primitive;
 use crate::view::camera::check_size;
 use crate::view::{Cover, Rays};
-use std::any::Any;
 use std::ops::{Add, AddAssign, Sub, SubAssign};
 use std::sync::Arc;
 
@@ -331,18 +330,6 @@ impl Sketch for PictureMatch {
 
     fn log_score(&self) -> f64 {
         log_normal(self.similarity(), 1.0, self.sigma)
-    }
-
-    fn fork(&self) -> Box<dyn Sketch> {
-        Box::new(self.clone())
-    }
-
-    fn become_copy(&mut self, other: &dyn Sketch) -> bool {
-        copy_into(self, other)
-    }
-
-    fn as_any(&self) -> &dyn Any {
-        self
     }
 
     fn measures(&self) -> Vec<(&'static str, f64)> {

@@ -13,12 +13,11 @@ use super::bag::Bag;
 use super::brick::Plane;
 use super::counters::{Counters, bricks_of, planes_of, visit};
 use super::overshoot::overshoot;
-use super::{Sketch, SketchSpec, copy_into, log_normal, share};
+use super::{Sketch, SketchSpec, log_normal, share};
 use crate::error::GeomError;
 use crate::mesh::TriMesh;
 use crate::primitive::Primitive;
 use crate::voxel::{Grid, Voxels};
-use std::any::Any;
 use std::sync::Arc;
 
 /// A mesh to match, voxelised once.
@@ -227,18 +226,6 @@ impl Sketch for VolumeMatch {
 
     fn log_score(&self) -> f64 {
         log_normal(self.similarity(), 1.0, self.sigma) + log_normal(self.overshoot(), 0.0, self.sigma)
-    }
-
-    fn fork(&self) -> Box<dyn Sketch> {
-        Box::new(self.clone())
-    }
-
-    fn become_copy(&mut self, other: &dyn Sketch) -> bool {
-        copy_into(self, other)
-    }
-
-    fn as_any(&self) -> &dyn Any {
-        self
     }
 
     fn measures(&self) -> Vec<(&'static str, f64)> {

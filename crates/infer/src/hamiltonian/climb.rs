@@ -6,7 +6,7 @@
 //! way ends where it does neither by more than draws would. Where it ends is a start and no draw: the warm-up
 //! that follows makes it one, and chains from different runs end on different summits.
 
-use super::lanes::Wide;
+use super::lanes::{Wide, finite};
 use super::potential::{Potential, evaluate};
 
 /// Length of the first step, in unconstrained coordinates, and of one that is too short to go on with.
@@ -130,7 +130,7 @@ pub fn climb_in_lanes<const L: usize>(
     let dim = starts.first().map_or(0, |start| start.len());
     let mut ways: Vec<Way> = starts.iter().map(|start| Way::from(start, steps)).collect();
     let (mut x, mut g, mut one) = (vec![[0.0; L]; dim], vec![[0.0; L]; dim], vec![0.0; dim]);
-    let mut waiting = 0..if steps > 0 { ways.len() } else { 0 };
+    let mut waiting = (0..ways.len()).take_while(|_| steps > 0);
     let mut lanes: [Option<usize>; L] = [(); L].map(|()| waiting.next());
     while let Some(first) = lanes.iter().flatten().next().copied() {
         for (l, lane) in lanes.iter().enumerate() {
@@ -139,10 +139,11 @@ pub fn climb_in_lanes<const L: usize>(
             x.iter_mut().zip(&way.at).for_each(|(row, x)| row[l] = *x);
         }
         let (values, covered) = wide.value_and_gradient(&x, &mut g);
+        let finite = finite(&g);
         for (l, lane) in lanes.iter_mut().enumerate() {
             let Some(number) = *lane else { continue };
             let way = &mut ways[number];
-            if covered[l] && values[l].is_finite() && g.iter().all(|row| row[l].is_finite()) {
+            if covered[l] && values[l].is_finite() && finite[l] {
                 way.step(values[l], g.iter().map(|row| row[l]), steps);
             } else {
                 way.step_alone(&mut *targets[number], &mut one, steps);

@@ -113,13 +113,26 @@ impl<const L: usize> Rows<'_, L> {
     }
 }
 
-/// Which lanes have only finite numbers: a sum of zeros is zero only where every term was finite.
+/// Which lanes have only finite numbers.
+pub(super) fn finite<const L: usize>(rows: &[[f64; L]]) -> [bool; L] {
+    match Vectors::here() {
+        // SAFETY: the processor has AVX-512.
+        #[cfg(target_arch = "x86_64")]
+        Vectors::Avx512 => unsafe { finite_avx512(rows) },
+        // SAFETY: the processor has AVX2.
+        #[cfg(target_arch = "x86_64")]
+        Vectors::Avx2 => unsafe { finite_avx2(rows) },
+        _ => finite_any(rows),
+    }
+}
+
+/// A sum of zeros is zero only where every term was finite.
 #[inline(always)]
-fn finite<const L: usize>(rows: &[[f64; L]]) -> [bool; L] {
+fn finite_any<const L: usize>(rows: &[[f64; L]]) -> [bool; L] {
     let mut sums = [0.0; L];
     for row in rows {
-        for (sum, slope) in sums.iter_mut().zip(row) {
-            *sum += slope * 0.0;
+        for (sum, x) in sums.iter_mut().zip(row) {
+            *sum += x * 0.0;
         }
     }
     sums.map(|sum| sum == 0.0)
@@ -128,13 +141,13 @@ fn finite<const L: usize>(rows: &[[f64; L]]) -> [bool; L] {
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
 fn finite_avx2<const L: usize>(rows: &[[f64; L]]) -> [bool; L] {
-    finite(rows)
+    finite_any(rows)
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx512bw")]
 fn finite_avx512<const L: usize>(rows: &[[f64; L]]) -> [bool; L] {
-    finite(rows)
+    finite_any(rows)
 }
 
 /// The kick and the step of each lane that still moves, `done` steps having been made; zeros for the others.
@@ -207,7 +220,7 @@ impl<const L: usize> Lanes<L> {
             } else {
                 ([0.0; L], wide.gradient(&self.x, &mut self.gradient))
             };
-            let finite = self.finite();
+            let finite = finite(&self.gradient);
             if !ends && covered == [true; L] && finite == [true; L] {
                 continue;
             }
@@ -285,19 +298,6 @@ impl<const L: usize> Lanes<L> {
             #[cfg(target_arch = "x86_64")]
             Vectors::Avx2 => unsafe { rows.drift_avx2(kick, step) },
             _ => rows.drift(kick, step),
-        }
-    }
-
-    /// Which lanes have a finite gradient.
-    fn finite(&self) -> [bool; L] {
-        match Vectors::here() {
-            // SAFETY: the processor has AVX-512.
-            #[cfg(target_arch = "x86_64")]
-            Vectors::Avx512 => unsafe { finite_avx512(&self.gradient) },
-            // SAFETY: the processor has AVX2.
-            #[cfg(target_arch = "x86_64")]
-            Vectors::Avx2 => unsafe { finite_avx2(&self.gradient) },
-            _ => finite(&self.gradient),
         }
     }
 

@@ -112,7 +112,7 @@ impl Copies {
             let [parent, child] = pair(particles, row, to);
             child.copy_from(parent, lineage, seed);
         }
-        *self = Copies::default();
+        self.clear();
     }
 
     /// The rows in batches of about `size`, for each of the `threads` those that it ran last and their copies, which
