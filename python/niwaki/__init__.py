@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from niwaki.outline import load_polygon
     from niwaki.result import Result, Sample
     from niwaki.scene import Scene
-    from niwaki.search import Progress, grow, run
+    from niwaki.search import Progress, Search, grow, run
     from niwaki.sketches import (
         Score,
         avoid,
@@ -56,7 +56,7 @@ _HOMES = {
     "niwaki.camera": ("Camera",),
     "niwaki.errors": ("InputError", "ModelError", "ModelFault", "NiwakiError"),
     "niwaki.gradient": ("LogDensity", "log_density"),
-    "niwaki.search": ("Progress", "grow", "run"),
+    "niwaki.search": ("Progress", "Search", "grow", "run"),
     "niwaki.lang.plain": ("run_python",),
     "niwaki.methods": (
         "enumerate_all",
@@ -111,6 +111,7 @@ __all__ = [  # noqa: PLE0604
     "Sample",
     "Scene",
     "Score",
+    "Search",
     "Target",
     "avoid",
     "enumerate_all",

@@ -25,6 +25,7 @@ __all__ = [
     "__version__",
     "agreement",
     "avoid",
+    "check_inside",
     "different",
     "draw",
     "draw_at",
@@ -32,6 +33,7 @@ __all__ = [
     "explain",
     "family_names",
     "fine_mesh",
+    "fingerprint",
     "floor",
     "frame_camera",
     "log_density",
@@ -107,6 +109,9 @@ class Shape:
         scale: float = 1.0,
         color: _Triple | None = None,
     ) -> Shape: ...
+    def data(self) -> str: ...
+    @staticmethod
+    def of_data(data: str) -> Shape: ...
     @property
     def kind(self) -> str: ...
     @property
@@ -246,77 +251,32 @@ class Task:
         max_steps: int = 20000000,
         max_memory: int = ...,
     ) -> Task: ...
-    def forward(self, seed: int, n: int = 1, watch: _Watch | None = None) -> list[Outcome]: ...
-    def enumerate(
-        self, max_runs: int, watch: _Watch | None = None
-    ) -> tuple[list[tuple[Any, float]], float, int]: ...
-    def rejection(
-        self, n: int, bound: float, max_tries: int, seed: int, watch: _Watch | None = None
-    ) -> tuple[list[Outcome], int, bool]: ...
-    def importance(
-        self, n: int, seed: int, threads: int | None = None, watch: _Watch | None = None
-    ) -> tuple[list[Outcome], float]: ...
-    def smc(
+    def search(
         self,
-        plan: Sequence[int],
+        method: str,
         seed: int,
         *,
-        order: str = "stochastic",
-        weights: str = "ratio",
-        temper: float = 1.0,
-        anneal: float | Sequence[float] | None = None,
-        resampling: str = "systematic",
-        ess: float | None = None,
-        rejuvenate: tuple[Any, ...] | None = None,
-        moves: int = 1,
-        at: int | str = ...,
-        walks: tuple[int, int] | None = None,
-        seconds: float | None = None,
+        functions: Sequence[Task] = ...,
+        start: Sequence[tuple[int, Any]] | None = None,
         threads: int | None = None,
         watch: _Watch | None = None,
-    ) -> dict[str, Any]: ...
-    def particle_gibbs(
-        self,
-        particles: int,
-        sweeps: int,
-        seed: int,
-        *,
-        order: str = "stochastic",
-        temper: float = 1.0,
-        anneal: float | Sequence[float] | None = None,
-        ess: float | None = None,
-        ancestors: bool = True,
-        start: Outcome | None = None,
-        threads: int | None = None,
-        watch: _Watch | None = None,
-    ) -> dict[str, Any]: ...
-    def pimh(
-        self,
-        particles: int,
-        sweeps: int,
-        seed: int,
-        *,
-        order: str = "stochastic",
-        temper: float = 1.0,
-        anneal: float | Sequence[float] | None = None,
-        resampling: str = "systematic",
-        ess: float | None = None,
-        threads: int | None = None,
-        watch: _Watch | None = None,
-    ) -> dict[str, Any]: ...
-    def infer(self, method: object, seed: int) -> Any: ...
+    ) -> tuple[list[Outcome], bool, dict[str, Any]]: ...
+    def infer(self, constant: object, seed: int) -> Any: ...
     def density(self, choices: Sequence[tuple[int, Any]]) -> Density: ...
     def trace(self, outcome: Outcome) -> Trace: ...
+    def outcome(self, data: Mapping[str, Any]) -> Outcome: ...
     def replay(self, choices: Mapping[str, Any], seed: int | None = None, partial: bool = False) -> Trace: ...
 
 def agreement(
     task: Task,
+    method: str,
     seed: int,
     steps: int,
     every: int = 20,
-    kernel: tuple[Any, ...] | None = None,
-    warmup: int = 0,
+    functions: Sequence[Task] = ...,
 ) -> tuple[str | None, int, int, int]: ...
+def fingerprint() -> str: ...
+def check_inside(method: str) -> None: ...
 def explain(task: Task, seed: int, address: str, tries: int = 1000) -> dict[str, Any]: ...
 
 @final
@@ -324,23 +284,17 @@ class Chains:
     def __new__(
         cls,
         task: Task,
+        method: str,
         seed: int,
         *,
-        chains: int = 1,
-        strategy: str = "c3",
-        warmup: int = 0,
-        thin: int = 1,
+        functions: Sequence[Task] = ...,
         room: int = ...,
-        tries: int = 1000,
         known: Mapping[int, Any] | None = None,
-        kernel: tuple[Any, ...] | None = None,
-        temperatures: Sequence[float] | None = None,
-        every: int = 100,
         threads: int | None = None,
     ) -> Chains: ...
     def advance(self, steps: int, threads: int | None = None, watch: _Watch | None = None) -> bool: ...
     def best(self) -> list[Outcome]: ...
-    def samples(self, chain: int, start: int = 0) -> list[tuple[int, Outcome]]: ...
+    def samples(self, chain: int, start: int = 0) -> list[Outcome]: ...
     def now(self) -> list[Outcome]: ...
     def thin(self) -> list[int]: ...
     def exchanges(self) -> list[tuple[int, int]]: ...
@@ -353,20 +307,9 @@ class Trajectories:
     def __new__(
         cls,
         task: Task,
+        method: str,
         seed: int,
         *,
-        chains: int,
-        draws: int,
-        warmup: int,
-        thin: int,
-        target_accept: float,
-        metric: str,
-        step_size: float | None = None,
-        steps: int = 1,
-        climb: int = 0,
-        jitter: float = 0.0,
-        max_depth: int | None = None,
-        tries: int = 1000,
         known: Mapping[int, Any] | None = None,
         threads: int | None = None,
         watch: _Watch | None = None,
@@ -420,6 +363,9 @@ class Outcome:
     def cause(self) -> str | None: ...
     @property
     def value(self) -> Any: ...
+    @property
+    def visit(self) -> int: ...
+    def data(self) -> dict[str, Any]: ...
     def choices(self) -> list[tuple[int, Any]]: ...
     def order(self) -> list[tuple[int, int]]: ...
 

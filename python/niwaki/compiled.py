@@ -1,8 +1,7 @@
-"""Models behind the engine's door: compiling, arguments, and the engine's faults as our errors."""
+"""Models on their way to the engine: compiling, arguments, and the engine's faults as our errors."""
 
 from __future__ import annotations
 
-import hashlib
 import inspect
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -24,22 +23,6 @@ def compile_core(core: Core) -> _engine.Program:
 def as_model(model: Model[..., Any] | Callable[..., Any]) -> Model[..., Any]:
     """The model itself, or a plain function of the modelling language as one."""
     return model if isinstance(model, Model) else Model(model)
-
-
-def digest(core: Core) -> str:
-    """A hash of what a model does: its core form without places in the source, and its data."""
-    state = hashlib.sha256(core.write(spans=False).encode())
-    for constant in core.constants:
-        state.update(_bytes_of(constant))
-    return state.hexdigest()
-
-
-def _bytes_of(value: Any) -> bytes:
-    if hasattr(value, "tobytes") and hasattr(value, "dtype"):
-        return f"{value.dtype}{value.shape}".encode() + bytes(value.tobytes())
-    if callable(value):
-        return getattr(value, "__qualname__", getattr(value, "name", "host")).encode()
-    return repr(value).encode()
 
 
 def task(
@@ -68,11 +51,6 @@ def task(
         raise _bad_argument(model, program, given, error) from error
 
 
-def proposal(model: Model[..., Any]) -> _engine.Task:
-    """A function that makes a distribution of a choice's value, for the engine to ask."""
-    return _engine.Task(model.program())
-
-
 def _bad_argument(
     model: Model[..., Any], program: _engine.Program, given: list[Any], error: Exception
 ) -> InputError:
@@ -87,9 +65,9 @@ def _bad_argument(
 
 def arguments(model: Model[..., Any], args: Sequence[Any], kwargs: Mapping[str, Any]) -> list[Any]:
     """The arguments by position, without the defaults that nobody changed at the end."""
-    core, signature = model.core(), inspect.signature(model.function)
+    core = model.core()
     try:
-        bound = signature.bind(*args, **kwargs)
+        bound = _signature(model, max(len(args), core.required)).bind(*args, **kwargs)
     except TypeError as error:
         least, most = core.required, len(core.parameters)
         many = f"{least} to {most}" if least < most else str(most)
@@ -105,6 +83,14 @@ def arguments(model: Model[..., Any], args: Sequence[Any], kwargs: Mapping[str, 
     bound.apply_defaults()
     last = max((n for n, name in enumerate(core.parameters, 1) if name in given), default=0)
     return [bound.arguments[name] for name in core.parameters[:last]]
+
+
+def _signature(model: Model[..., Any], given: int) -> inspect.Signature:
+    """The signature of a model; of one without its Python function, the names of its first parameters."""
+    if hasattr(model, "function"):
+        return inspect.signature(model.function)
+    kind = inspect.Parameter.POSITIONAL_ONLY
+    return inspect.Signature([inspect.Parameter(name, kind) for name in model.core().parameters[:given]])
 
 
 @contextmanager

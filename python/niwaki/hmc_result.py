@@ -22,8 +22,7 @@ from niwaki.result import Result, Sample
 if TYPE_CHECKING:
     from niwaki import _engine
     from niwaki.diagnostics import Summaries
-    from niwaki.sketches import Score
-    from niwaki.words.models import Model
+    from niwaki.search import Search
 
 Reals = NDArray[np.float64]
 
@@ -117,18 +116,16 @@ class HmcResult(Result):
 
     def __init__(
         self,
-        model: Model[..., Any],
-        made: _engine.Task,
+        search: Search,
+        method: Hmc | Nuts,
         found: _engine.Trajectories,
         seed: int,
-        method: Hmc | Nuts,
-        score: Score,
         seconds: float,
         cpu_seconds: float,
     ) -> None:
-        super().__init__(model, [], seed, method, score, interrupted=found.interrupted)
+        super().__init__(search, [], seed, interrupted=found.interrupted)
         self.seconds, self.cpu_seconds = seconds, cpu_seconds
-        self._made, self._found = made, found
+        self._method, self._found = method, found
         chains = range(method.chains)
         rows = [found.draws(chain) for chain in chains]
         counts = [found.counters(chain) for chain in chains]
@@ -162,10 +159,15 @@ class HmcResult(Result):
         first = next((fault for fault in faults if fault is not None), None)
         self.fault = as_fault(first, self.model.name, f"seed={self.seed}")
 
+    @property
+    def method(self) -> Hmc | Nuts:
+        """How its chains move."""
+        return self._method
+
     def _sample(self, chain: int, draw: int) -> Sample:
         with translated(self.model.name, f"seed={self.seed}"):
             outcome = self._found.outcome(chain, draw)
-        return Sample(outcome, self._made, self.score, self.seed, self.seconds, self.cpu_seconds)
+        return Sample(outcome, self.search, self.seed, self.seconds, self.cpu_seconds)
 
     @cached_property
     def draws(self) -> dict[str, Reals]:

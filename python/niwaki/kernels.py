@@ -53,28 +53,30 @@ _MOST = 2**32 - 1
 
 @dataclass(frozen=True)
 class Kernel:
-    """A Markov kernel: a name, its settings, and the kernels in it."""
+    """A Markov kernel: a name, its settings by name, and the kernels in it."""
 
     name: str
-    settings: tuple[Any, ...] = ()
+    settings: Mapping[str, Any] = field(default_factory=dict)
     parts: tuple[Kernel, ...] = ()
     function: Any = field(default=None, compare=False)
 
-    def form(self) -> tuple[Any, ...]:
-        """What the engine takes."""
-        inner = [part.form() for part in self.parts]
-        match self.name:
-            case "proposal":
-                from niwaki.compiled import as_model
-                from niwaki.compiled import proposal as made
+    def data(self, function: Callable[[Any], Any]) -> dict[str, Any]:
+        """The kernel as plain data; `function` writes a user's proposal."""
+        found: dict[str, Any] = {"name": self.name}
+        if self.settings:
+            found["settings"] = dict(self.settings)
+        if self.parts:
+            found["parts"] = [part.data(function) for part in self.parts]
+        if self.function is not None:
+            found["function"] = function(self.function)
+        return found
 
-                return ("proposal", made(as_model(self.function)))
-            case "cycle":
-                return ("cycle", inner)
-            case "mixture":
-                return ("mixture", list(zip(self.settings, inner, strict=True)))
-            case _:
-                return (self.name, *self.settings, *inner)
+    @classmethod
+    def of_data(cls, data: Mapping[str, Any], function: Callable[[Any], Any]) -> Kernel:
+        """The kernel of its data; `function` reads a user's proposal."""
+        parts = tuple(cls.of_data(part, function) for part in data.get("parts", ()))
+        own = function(data["function"]) if "function" in data else None
+        return cls(data["name"], dict(data.get("settings", {})), parts, own)
 
     def leaves(self) -> list[Kernel]:
         """The kernels that propose, in order, each with the restrictions that hold for it."""
@@ -83,23 +85,34 @@ class Kernel:
         inner = [leaf for part in self.parts for leaf in part.leaves()]
         return [Kernel("on", self.settings, (leaf,)) for leaf in inner] if self.name == "on" else inner
 
+    def first(self, *names: str) -> Kernel | None:
+        """The first kernel of one of these names, this one or one in it."""
+        if self.name in names:
+            return self
+        return next((found for part in self.parts if (found := part.first(*names)) is not None), None)
+
     @property
     def follows(self) -> bool:
         """Whether a leaf of it follows the gradient."""
-        return self.name in ("hmc", "nuts") or any(part.follows for part in self.parts)
+        return self.first("hmc", "nuts") is not None
 
     def __repr__(self) -> str:
+        own = self.settings
         if self.name in ("hmc", "nuts"):
-            step, length, *rest = self.settings
-            jitter = [f"jitter={rest[0]}"] if self.name == "hmc" and rest[0] else []
-            words = [str(length), f"step={step}", *jitter, f"target={rest[-1]}"]
-            return f"{self.name}({', '.join(words)})"
+            shown = [f"{key}={value}" for key, value in own.items() if key not in ("steps", "max_depth")]
+            length = str(own["steps" if self.name == "hmc" else "max_depth"])
+            return f"{self.name}({', '.join([length, *(one for one in shown if one != 'jitter=0.0')])})"
         if self.name == "on":
-            (sites, depth, by_site, _), (inner,) = self.settings, self.parts
-            if sites:
-                return f"on({sites[0]!r}, {inner!r})"
-            return f"odds({inner!r}{', depth=...' if depth else ''}{f', sites={dict(by_site)!r}' if by_site else ''})"
-        parts = [repr(one) for one in (*self.settings, *self.parts)]
+            (inner,) = self.parts
+            if own["sites"]:
+                return f"on({own['sites'][0]!r}, {inner!r})"
+            depth = ", depth=..." if own["depth"] else ""
+            sites = f", sites={dict(own['odds'])!r}" if own["odds"] else ""
+            return f"odds({inner!r}{depth}{sites})"
+        if self.name == "mixture":
+            weights = ", ".join(map(repr, own["weights"]))
+            return f"mixture({weights}, {', '.join(map(repr, self.parts))})"
+        parts = [repr(one) for one in (*own.values(), *self.parts)]
         if self.function is not None:
             parts.append(getattr(self.function, "name", getattr(self.function, "__name__", "function")))
         return f"{self.name}({', '.join(parts)})"
@@ -124,7 +137,7 @@ def drift(step: float = 0.5, target: float = 0.44) -> Kernel:
     target
         The acceptance to which the step of each site is adapted during the warm-up; it is frozen afterwards.
     """
-    return Kernel("drift", (_positive("step", step), _share("target", target)))
+    return Kernel("drift", {"step": _positive("step", step), "target": _share("target", target)})
 
 
 def neighbour(reach: int = 1) -> Kernel:
@@ -132,7 +145,7 @@ def neighbour(reach: int = 1) -> Kernel:
 
     A truth value turns, a whole number goes up or down by at most `reach`, a category becomes another.
     """
-    return Kernel("neighbour", (_whole("reach", reach, 1),))
+    return Kernel("neighbour", {"reach": _whole("reach", reach, 1)})
 
 
 def block(step: float = 0.2, share: float = 1.0, target: float = 0.234) -> Kernel:
@@ -149,12 +162,15 @@ def block(step: float = 0.2, share: float = 1.0, target: float = 0.234) -> Kerne
     """
     if not _number(share) or not 0 < share <= 1:
         raise _wrong("share", share, "a number above 0 and up to 1", "0.5")
-    return Kernel("block", (_positive("step", step), float(share), _share("target", target)))
+    return Kernel(
+        "block",
+        {"step": _positive("step", step), "share": float(share), "target": _share("target", target)},
+    )
 
 
 def regenerate(levels: int = 0) -> Kernel:
     """A call and all that it makes are drawn anew: the one that stands `levels` calls or iterations above a choice."""
-    return Kernel("regenerate", (_whole("levels", levels, 0),))
+    return Kernel("regenerate", {"levels": _whole("levels", levels, 0)})
 
 
 def hmc(steps: int = 10, step: float = 0.1, jitter: float = 0.0, target: float = 0.8) -> Kernel:
@@ -177,12 +193,12 @@ def hmc(steps: int = 10, step: float = 0.1, jitter: float = 0.0, target: float =
     """
     if not _number(jitter) or not 0 <= jitter <= 1:
         raise _wrong("jitter", jitter, "a share in [0, 1]", "0.5")
-    settings = (
-        _positive("step", step),
-        _whole("steps", steps, 1, _MOST),
-        float(jitter),
-        _share("target", target),
-    )
+    settings = {
+        "steps": _whole("steps", steps, 1, _MOST),
+        "step": _positive("step", step),
+        "jitter": float(jitter),
+        "target": _share("target", target),
+    }
     return Kernel("hmc", settings)
 
 
@@ -196,7 +212,11 @@ def nuts(max_depth: int = 8, step: float = 0.1, target: float = 0.8) -> Kernel:
     step, target
         As for `hmc`.
     """
-    settings = (_positive("step", step), _whole("max_depth", max_depth, 1, 20), _share("target", target))
+    settings = {
+        "max_depth": _whole("max_depth", max_depth, 1, 20),
+        "step": _positive("step", step),
+        "target": _share("target", target),
+    }
     return Kernel("nuts", settings)
 
 
@@ -214,7 +234,7 @@ def proposal(function: Callable[[Any], Any]) -> Kernel:
 
 def cycle(*kernels: Kernel) -> Kernel:
     """One application of each, in order."""
-    return Kernel("cycle", (), _parts("cycle", kernels))
+    return Kernel("cycle", {}, _parts("cycle", kernels))
 
 
 def mixture(*kernels: Kernel, weights: Sequence[float] | None = None) -> Kernel:
@@ -223,12 +243,12 @@ def mixture(*kernels: Kernel, weights: Sequence[float] | None = None) -> Kernel:
     given = [1.0] * len(parts) if weights is None else [_positive("weights", one) for one in weights]
     if len(given) != len(parts):
         raise _wrong("weights", weights, "one weight for each kernel", "such a list")
-    return Kernel("mixture", tuple(given), parts)
+    return Kernel("mixture", {"weights": given}, parts)
 
 
 def repeat(times: int, kernel: Kernel) -> Kernel:
     """So many applications of a kernel."""
-    return Kernel("repeat", (_whole("times", times, 1),), _parts("repeat", (kernel,)))
+    return Kernel("repeat", {"times": _whole("times", times, 1)}, _parts("repeat", (kernel,)))
 
 
 def on(sites: str | Sequence[str], kernel: Kernel) -> Kernel:
@@ -236,7 +256,7 @@ def on(sites: str | Sequence[str], kernel: Kernel) -> Kernel:
     patterns = [sites] if isinstance(sites, str) else list(sites)
     if not patterns or not all(isinstance(one, str) and one for one in patterns):
         raise _wrong("sites", sites, "a pattern over addresses, or several", '"tree/width"')
-    return Kernel("on", ([patterns], [], [], ""), _parts("on", (kernel,)))
+    return Kernel("on", _selection(sites=[patterns]), _parts("on", (kernel,)))
 
 
 def odds(
@@ -258,8 +278,8 @@ def odds(
         The name, in addresses, of the calls that count as depth; all calls when left out.
     """
     by_depth = [] if depth is None else [_weight("depth", depth(n)) for n in range(_DEEPEST)]
-    by_site = [(pattern, _weight("sites", one)) for pattern, one in (sites or {}).items()]
-    return Kernel("on", ([], by_depth, by_site, calls), _parts("odds", (kernel,)))
+    by_site = [[pattern, _weight("sites", one)] for pattern, one in (sites or {}).items()]
+    return Kernel("on", _selection(depth=by_depth, odds=by_site, calls=calls), _parts("odds", (kernel,)))
 
 
 def anneal(kernel: Kernel, steps: int, start: float = 10.0, end: float = 0.1) -> Kernel:
@@ -268,7 +288,11 @@ def anneal(kernel: Kernel, steps: int, start: float = 10.0, end: float = 0.1) ->
     The temperature goes from `start` to `end` in so many proposals, geometrically, and stays there. The prior is never
     tempered. The samples are not those of the posterior; take the best.
     """
-    settings = (_positive("start", start), _positive("end", end), _whole("steps", steps, 1))
+    settings = {
+        "start": _positive("start", start),
+        "end": _positive("end", end),
+        "steps": _whole("steps", steps, 1),
+    }
     return Kernel("anneal", settings, _parts("anneal", (kernel,)))
 
 
@@ -287,7 +311,11 @@ def temper(kernel: Kernel, temperatures: Sequence[float] = (1.0, 2.0, 4.0, 8.0),
     rising = [_positive("temperatures", one) for one in temperatures]
     if not rising or rising[0] != 1.0 or rising != sorted(rising):
         raise _wrong("temperatures", temperatures, "temperatures that rise from 1", "(1, 2, 4, 8)")
-    return Kernel("temper", (tuple(rising), _whole("every", every, 1)), _parts("temper", (kernel,)))
+    return Kernel(
+        "temper",
+        {"temperatures": rising, "every": _whole("every", every, 1)},
+        _parts("temper", (kernel,)),
+    )
 
 
 def original(sharpen: float = 16.0, nesting: str | None = None) -> Kernel:
@@ -369,6 +397,11 @@ _WRITTEN: dict[str, Callable[..., Kernel]] = {
         original,
     )
 }
+
+
+def _selection(**given: Any) -> dict[str, Any]:
+    """Which choices a kernel may change: patterns of which each list needs one, and odds by depth and by pattern."""
+    return {"sites": [], "depth": [], "odds": [], "calls": "", **given}
 
 
 def _parts(name: str, kernels: Sequence[Any]) -> tuple[Kernel, ...]:

@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 import time
 import warnings
-from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,8 +20,8 @@ from niwaki.result import Result, Sample
 if TYPE_CHECKING:
     from niwaki import _engine
     from niwaki.errors import ModelFault
-    from niwaki.sketches import Score
-    from niwaki.words.models import Model
+    from niwaki.search import Search
+    from niwaki.search.searching import EngineWatch
 
 
 @dataclass(frozen=True)
@@ -115,19 +114,22 @@ class ChainResult(Result):
 
     def __init__(
         self,
-        model: Model[..., Any],
-        made: _engine.Task,
+        search: Search,
+        method: Mh,
         chains: _engine.Chains,
         seed: int,
-        method: Mh,
-        score: Score,
-        watch: Callable[[int, int, float], None],
+        watch: EngineWatch,
         threads: int | None,
     ) -> None:
-        super().__init__(model, [], seed, method, score)
-        self._made, self._chains, self._watch, self._threads = made, chains, watch, threads
+        super().__init__(search, [], seed)
+        self._method, self._chains, self._watch, self._threads = method, chains, watch, threads
         self.draws: list[list[Sample]] = []
         self.visits: list[list[int]] = []
+
+    @property
+    def method(self) -> Mh:
+        """How its chains move: the method of the search, or that of its polishing."""
+        return self._method
 
     def more(self, steps: int) -> ChainResult:
         """Go on for `steps` proposals in each chain, from where they are; the result itself, with more in it."""
@@ -145,12 +147,12 @@ class ChainResult(Result):
 
     def _gather(self) -> None:
         kept = [self._chains.samples(chain) for chain in range(self.method.chains)]
-        self.visits = [[visit for visit, _ in rows] for rows in kept]
-        self.draws = [[self._sample(outcome) for _, outcome in rows] for rows in kept]
+        self.visits = [[outcome.visit for outcome in outcomes] for outcomes in kept]
+        self.draws = [[self._sample(outcome) for outcome in outcomes] for outcomes in kept]
         self.samples = [sample for draws in self.draws for sample in draws]
 
     def _sample(self, outcome: _engine.Outcome) -> Sample:
-        return Sample(outcome, self._made, self.score, self.seed, self.seconds, self.cpu_seconds)
+        return Sample(outcome, self.search, self.seed, self.seconds, self.cpu_seconds)
 
     @property
     def best(self) -> Sample:

@@ -18,10 +18,10 @@ from niwaki.errors import InputError
 if TYPE_CHECKING:
     from niwaki import _engine
     from niwaki.gradient import LogDensity
-    from niwaki.methods import Mh
+    from niwaki.methods import Method, Mh
     from niwaki.mh_result import ChainResult
-    from niwaki.one_search import Watch
     from niwaki.scene import Scene
+    from niwaki.search import Search, Watch
     from niwaki.sketches import Score
     from niwaki.target import Target
     from niwaki.words.models import Model
@@ -48,8 +48,10 @@ class Sample:
         Whether the run went to its end; a search that was stopped may leave others.
     cause : str or None
         What made the run impossible.
+    search : Search
+        What was asked.
     seed : int or None
-        Of the search that found it.
+        Of the run of that search.
     seconds, cpu_seconds : float
         Wall and processor time of that search.
     """
@@ -57,15 +59,14 @@ class Sample:
     def __init__(
         self,
         outcome: _engine.Outcome | _engine.Trace,
-        task: _engine.Task,
-        score: Score,
+        search: Search,
         seed: int | None = None,
         seconds: float = 0.0,
         cpu_seconds: float = 0.0,
     ) -> None:
         self._outcome = outcome
-        self._task = task
-        self._score = score
+        self._is_restored = False
+        self.search = search
         self.log_score: float = outcome.log_score
         self.log_prior: float = outcome.log_prior
         self.similarity: float | None = outcome.similarity
@@ -76,17 +77,29 @@ class Sample:
         self.seed, self.seconds, self.cpu_seconds = seed, seconds, cpu_seconds
 
     @classmethod
-    def of_trace(cls, trace: _engine.Trace, task: _engine.Task, score: Score) -> Sample:
+    def of_trace(cls, trace: _engine.Trace, search: Search) -> Sample:
         """A run whose choices were given."""
-        sample = cls(trace, task, score)
+        sample = cls(trace, search)
         sample.__dict__["_trace"] = trace
         return sample
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        from niwaki import _engine
+
+        outcome = self._outcome
+        if isinstance(outcome, _engine.Outcome):
+            data = outcome.data()
+        else:
+            names = ("log_prior", "log_score", "log_weight", "primitives", "similarity", "has_ended", "cause")
+            data = {name: getattr(self, name) for name in names}
+            data |= {"choices": [(one[1], one[3]) for one in outcome.choices], "order": [], "visit": 0}
+        return _restored, (self.search, data, self.seed, self.seconds, self.cpu_seconds)
 
     @cached_property
     def _trace(self) -> _engine.Trace:
         """The run once more, with names."""
         with translated("model"):
-            return self._task.trace(self._outcome)  # type: ignore[arg-type]
+            return self.search.task.trace(self._outcome)  # type: ignore[arg-type]
 
     def log_density(self) -> LogDensity:
         """The log density around this run over its continuous choices: see `niwaki.log_density`."""
@@ -94,7 +107,7 @@ class Sample:
 
         choices = [(address, value) for _, address, _, value, _ in self._trace.choices]
         with translated("model"):
-            return LogDensity(self._task.density(choices))
+            return LogDensity(self.search.task.density(choices))
 
     @property
     def log_joint(self) -> float:
@@ -105,14 +118,14 @@ class Sample:
     def value(self) -> Any:
         """What the model returned; None for a run that did not end."""
         try:
-            return self._outcome.value
+            return self._trace.value if self._is_restored else self._outcome.value
         except TypeError as error:
             raise InputError("value-too-deep", found=str(error)) from None
 
     @property
     def target(self) -> Target | None:
         """What the scene should fill."""
-        return self._score.target
+        return self.search.score.target
 
     @property
     def choices(self) -> dict[str, Any]:
@@ -192,11 +205,20 @@ class Sample:
         return f"<Sample: {', '.join(parts)}>"
 
 
+def _restored(search: Search, data: dict[str, Any], *rest: Any) -> Sample:
+    """The sample of its pickled data: what the model returned comes from running it once more, when it is asked for."""
+    sample = Sample(search.task.outcome(data), search, *rest)
+    sample._is_restored = True
+    return sample
+
+
 class Result(Sequence[Sample]):
     """What a search found; a sequence of its samples.
 
     Attributes
     ----------
+    search : Search
+        What was asked.
     samples : list of Sample
         Of `grow`: one for each run. Of `smc`: the particles. Else: the runs.
     seed : int
@@ -228,11 +250,9 @@ class Result(Sequence[Sample]):
 
     def __init__(
         self,
-        model: Model[..., Any],
+        search: Search,
         samples: list[Sample],
         seed: int,
-        method: Any,
-        score: Score,
         *,
         log_evidence: float | None = None,
         interrupted: bool = False,
@@ -249,7 +269,7 @@ class Result(Sequence[Sample]):
         renewed: Sequence[float] = (),
         table: list[tuple[Any, float]] | None = None,
     ) -> None:
-        self.model, self.samples, self.seed, self.method, self.score = model, samples, seed, method, score
+        self.search, self.samples, self.seed = search, samples, seed
         self.log_evidence, self.interrupted = log_evidence, interrupted
         self.barriers, self.steps = barriers, steps
         self.resampled, self.ancestors, self.tries = resampled, ancestors, tries
@@ -258,6 +278,21 @@ class Result(Sequence[Sample]):
         self._table = table
         self.seconds = sum(sample.seconds for sample in samples)
         self.cpu_seconds = sum(sample.cpu_seconds for sample in samples)
+
+    @property
+    def model(self) -> Model[..., Any]:
+        """What was run."""
+        return self.search.model
+
+    @property
+    def method(self) -> Method:
+        """How it was searched."""
+        return self.search.method
+
+    @property
+    def score(self) -> Score:
+        """What its scene should be like."""
+        return self.search.score
 
     def __len__(self) -> int:
         return len(self.samples)
@@ -298,10 +333,9 @@ class Result(Sequence[Sample]):
         ChainResult
             The chains, whose seconds are those of this search and their own.
         """
-        from niwaki.one_search import told
-        from niwaki.polish import polished
+        from niwaki.search.searching import polished, watcher
 
-        return polished(self, method, seed, threads, told(progress, 0, 1))
+        return polished(self, method, self.seed if seed is None else seed, threads, watcher(progress))
 
     @cached_property
     def unique_models(self) -> int:

@@ -1,44 +1,38 @@
 """run.json: a search as a file that can be replayed, without this session's memory.
 
-It holds the seed, the version, the model and its hash, the settings, the target and its hash, and for each run its
-scores, its choices by readable address with their families, and its order choices.
+It holds the whole search (`Search.data`: the model itself, its arguments, what was asked, the method, the seed) and its
+hash, and for each run its scores, its choices by readable address with their families, and its order choices.
 """
 
 from __future__ import annotations
 
-import hashlib
 import json
 import math
+import warnings
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from niwaki import _engine
-from niwaki.compiled import digest, task, translated
+from niwaki.compiled import translated
 from niwaki.errors import InputError
-from niwaki.finding import Found, find
+from niwaki.finding import Found
 from niwaki.result import Result, Sample
-from niwaki.sketches import Score
+from niwaki.search import Search
+from niwaki.target import TargetWarning
 
-if TYPE_CHECKING:
-    from niwaki.target import Target
-
-FORMAT = 1
+FORMAT = 2
 
 
-def written(result: Result, found: Found, settings: dict[str, Any], target: str | None) -> dict[str, Any]:
-    """A search as plain data."""
+def written(result: Result, found: Found) -> dict[str, Any]:
+    """A search and what it found as plain data."""
     return {
         "format": FORMAT,
         "niwaki": _engine.__version__,
-        "model": {
-            "reference": found.reference,
-            "name": found.model.name,
-            "hash": digest(found.model.core()),
-        },
-        "target": {"reference": target, "hash": target_hash(result.score.target)},
-        "seed": result.seed,
-        "settings": settings,
+        "model": found.reference,
+        "search": result.search.data(),
+        "hash": result.search.hash,
+        "plan": list(result.plan),
         "interrupted": result.interrupted,
         "best": result.samples.index(result.best),
         "runs": [{**numbers(sample), **_names(sample)} for sample in result],
@@ -87,13 +81,6 @@ def _chosen(value: Any) -> Any:
     return float(value) if isinstance(value, str) else value
 
 
-def target_hash(target: Target | None) -> str | None:
-    """A hash of a target's mesh."""
-    if target is None:
-        return None
-    return hashlib.sha256(target.vertices.tobytes() + target.faces.tobytes()).hexdigest()
-
-
 def save(path: str | PathLike[str], data: dict[str, Any]) -> Path:
     """Write a search, whole or not at all."""
     from niwaki.draw.picture import write_whole
@@ -114,7 +101,7 @@ def load(path: str | PathLike[str]) -> dict[str, Any]:
         run = data["runs"][data["best"]]
         for part in run["choices"]:
             part["address"], part["value"]
-        data["model"]["reference"], data["model"]["hash"], run["ended"], data["target"]["reference"]
+        run["ended"], data["search"]["model"]
     except (ValueError, OSError) as error:
         raise InputError("bad-run-file", path=place, reason=f"it is not JSON: {error}") from error
     except (KeyError, IndexError, TypeError) as error:
@@ -123,12 +110,10 @@ def load(path: str | PathLike[str]) -> dict[str, Any]:
 
 
 def replayed(data: dict[str, Any], number: int | None = None) -> Sample:
-    """One run of a search once more (the best), without its target."""
-    found = find(data["model"]["reference"])
-    now = digest(found.model.core())
-    if now != data["model"]["hash"]:
-        recorded = data["model"]["hash"][:12]
-        raise InputError("changed-model", name=found.reference, recorded=recorded, found=now[:12])
+    """One run of a search once more (the best).
+
+    Nothing but the file is needed, and the meshes that it names: no file of Python is run.
+    """
     count = len(data["runs"])
     if number is not None and not 0 <= number < count:
         raise InputError(
@@ -138,9 +123,21 @@ def replayed(data: dict[str, Any], number: int | None = None) -> Sample:
             expected=f"one of the {count} results of this search, from 0 to {count - 1}",
             suggestion=f"such a number, or leave it out for the best, {data['best']}",
         )
+    search = _searched(data["search"])
     run = data["runs"][data["best"] if number is None else number]
     choices = {part["address"]: _chosen(part["value"]) for part in run["choices"]}
-    made = task(found.model)
-    with translated(found.model.name, choices=choices):
-        trace = made.replay(choices, None, not run["ended"])
-    return Sample.of_trace(trace, made, Score())
+    with translated(search.model.name, choices=choices):
+        trace = search.task.replay(choices, None, not run["ended"])
+    return Sample.of_trace(trace, search)
+
+
+def _searched(data: dict[str, Any]) -> Search:
+    """The search; without what was asked of the scene where a mesh of that is missing or has changed."""
+    try:
+        return Search.of_data(data)
+    except InputError as error:
+        if error.code not in ("file-missing", "changed-mesh"):
+            raise
+        message = f"{str(error).splitlines()[0]}; the picture is without its target"
+        warnings.warn(message, TargetWarning, stacklevel=4)
+        return Search.of_data({**data, "score": []})

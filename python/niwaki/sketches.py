@@ -8,9 +8,9 @@ Log scores add. The order is the order of asking: cheap questions that may forbi
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from math import isfinite
 from os import PathLike
 from typing import TYPE_CHECKING, Any
@@ -79,25 +79,54 @@ class View:
 
 
 @dataclass(frozen=True)
+class Ask:
+    """One sketch: the function of this module that makes it, what that is given, and what the engine has of it."""
+
+    function: str
+    given: Mapping[str, Any]
+    spec: _engine.SketchSpec
+
+
+@dataclass(frozen=True)
 class Score:
     """A product of sketches.
 
     Attributes
     ----------
-    specs : tuple of SketchSpec
-        The engine's sketches, in the order of asking.
-    settings : dict
-        What they were made with, for the record of a run.
+    asks : tuple of Ask
+        The sketches, in the order of asking.
     target : Target or None
         What the scene should fill, for pictures.
     views : tuple of View
         Images that the scene or its shadow should match, for pictures.
     """
 
-    specs: tuple[_engine.SketchSpec, ...] = ()
-    settings: dict[str, Any] = field(default_factory=dict)
+    asks: tuple[Ask, ...] = ()
     target: Target | None = None
     views: tuple[View, ...] = ()
+
+    @property
+    def specs(self) -> list[_engine.SketchSpec]:
+        """What the engine has of the sketches."""
+        return [ask.spec for ask in self.asks]
+
+    def data(self, write: Callable[[Any], Any]) -> list[dict[str, Any]]:
+        """The sketches as plain data; `write` writes what one is given."""
+        return [
+            {"sketch": ask.function, "given": {name: write(value) for name, value in ask.given.items()}}
+            for ask in self.asks
+        ]
+
+    @classmethod
+    def of_data(cls, data: Sequence[Mapping[str, Any]], read: Callable[[Any], Any]) -> Score:
+        """The sketches of their data; `read` reads what one is given."""
+        score = cls()
+        for one in data:
+            make = SKETCHES.get(one["sketch"])
+            if make is None:
+                raise InputError("bad-run-file", path="the search", reason=f"no sketch {one['sketch']!r}")
+            score *= make(**{name: read(value) for name, value in one["given"].items()})
+        return score
 
     def __mul__(self, other: Score) -> Score:
         if not isinstance(other, Score):
@@ -107,10 +136,10 @@ class Score:
         if target is not None:
             for view in views:
                 view.check_sees(target)
-        return Score(self.specs + other.specs, {**self.settings, **other.settings}, target, views)
+        return Score(self.asks + other.asks, target, views)
 
     def __repr__(self) -> str:
-        return " * ".join(spec.name for spec in self.specs) or "no score"
+        return " * ".join(ask.spec.name for ask in self.asks) or "no score"
 
 
 def no_self_intersection(rule: str = "solid") -> Score:
@@ -130,7 +159,7 @@ def no_self_intersection(rule: str = "solid") -> Score:
             expected='"solid" or "surface"',
             suggestion='"solid"',
         )
-    return Score((_engine.no_self_intersection(rule),), {"rule": rule})
+    return _score("no_self_intersection", {"rule": rule}, _engine.no_self_intersection(rule))
 
 
 def volume_match(target: Target, voxel: float | None = None, sigma: float = 0.02) -> Score:
@@ -150,7 +179,7 @@ def volume_match(target: Target, voxel: float | None = None, sigma: float = 0.02
     with geometry_errors(target, size):
         grid = _engine.Target(target.vertices, target.faces, size)
         spec = _engine.volume_match(grid, sigma)
-    return Score((spec,), {"voxel": size, "sigma": sigma}, target)
+    return _score("volume_match", {"target": target, "voxel": size, "sigma": sigma}, spec, target)
 
 
 def match_image(
@@ -184,8 +213,8 @@ def match_image(
     with picture_errors():
         picture = _engine.Picture(seen_by.lens(), on, greys, check_not_negative("weight", weight))
         spec = _engine.match_image(picture, sigma)
-    settings = {"match_image": {"camera": seen_by.to_dict(), "sigma": sigma, "weight": weight}}
-    return Score((spec,), settings, views=(View("image", seen_by, on, picture),))
+    given = {"image": on, "camera": seen_by, "weight_image": greys, "weight": weight, "sigma": sigma}
+    return _score("match_image", given, spec, views=(View("image", seen_by, on, picture),))
 
 
 def match_shadow(
@@ -230,15 +259,17 @@ def match_shadow(
             direction,
         )
         spec = _engine.match_shadow(picture, sigma)
-    settings = {
-        "match_shadow": {
-            "camera": seen_by.to_dict(),
-            "light": list(direction),
-            "sigma": sigma,
-            "weight": weight,
-        }
+    given = {
+        "image": on,
+        "light": direction,
+        "receiver": floor,
+        "camera": seen_by,
+        "weight_image": greys,
+        "weight": weight,
+        "sigma": sigma,
     }
-    return Score((spec,), settings, views=(View("shadow", seen_by, on, picture, floor, direction),))
+    views = (View("shadow", seen_by, on, picture, floor, direction),)
+    return _score("match_shadow", given, spec, views=views)
 
 
 def avoid(obstacle: Target | Place, voxel: float | None = None) -> Score:
@@ -258,13 +289,13 @@ def avoid(obstacle: Target | Place, voxel: float | None = None) -> Score:
     size = check_positive("voxel", automatic_voxel(solid) if voxel is None else voxel)
     with geometry_errors(solid, size):
         spec = _engine.avoid(_engine.Target(solid.vertices, solid.faces, size))
-    return Score((spec,), {"avoid": {"name": solid.name, "voxel": size}})
+    return _score("avoid", {"obstacle": solid, "voxel": size}, spec)
 
 
 def floor(y: float = 0.0) -> Score:
     """Forbids scenes that reach below a height; standing on it is free."""
     height = check_finite("y", y)
-    return Score((_engine.floor(height),), {"floor": height})
+    return _score("floor", {"y": height}, _engine.floor(height))
 
 
 def overshoot(
@@ -303,7 +334,26 @@ def overshoot(
             expected="a low corner below the high one along x, y and z",
             suggestion="such a box, for instance ((-5, 0, -5), (5, 10, 5))",
         )
-    return Score((_engine.overshoot(low, high, sigma),), {"overshoot": {"sigma": sigma}})
+    given = {"domain": (low, high), "sigma": sigma}
+    return _score("overshoot", given, _engine.overshoot(low, high, sigma))
+
+
+#: The functions that make sketches, by name.
+SKETCHES: dict[str, Callable[..., Score]] = {
+    make.__name__: make
+    for make in (no_self_intersection, volume_match, match_image, match_shadow, avoid, floor, overshoot)
+}
+
+
+def _score(
+    function: str,
+    given: dict[str, Any],
+    spec: _engine.SketchSpec,
+    target: Target | None = None,
+    views: tuple[View, ...] = (),
+) -> Score:
+    """A score of one sketch."""
+    return Score((Ask(function, given, spec),), target, views)
 
 
 def _wish(image: Image, weight_image: Image | None) -> tuple[NDArray[np.bool_], NDArray[np.uint8] | None]:

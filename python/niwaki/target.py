@@ -10,7 +10,7 @@ import os
 import warnings
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -35,6 +35,19 @@ class TargetWarning(UserWarning):
     """A target can be used, but perhaps not as its author meant."""
 
 
+class _Mesh(Protocol):
+    source: str | None
+
+
+M = TypeVar("M", bound=_Mesh)
+
+
+def _from(path: str | PathLike[str], mesh: M) -> M:
+    """The mesh, with the file that it was read from."""
+    mesh.source = str(Path(path).resolve())
+    return mesh
+
+
 class Target:
     """A triangle mesh to fill.
 
@@ -51,6 +64,8 @@ class Target:
     ----------
     open_edges : int
         Edges that do not lie between exactly two triangles; 0 for a closed mesh.
+    source : str or None
+        Where it can be found again: the file that it was read from, with its whole path, or `gallery:` and a name.
 
     Examples
     --------
@@ -64,6 +79,7 @@ class Target:
         self.vertices: NDArray[np.float64] = np.array(vertices, dtype=np.float64).reshape(-1, 3)
         self.faces: NDArray[np.int64] = np.array(faces, dtype=np.int64).reshape(-1, 3)
         self.name = name
+        self.source: str | None = None
         count = len(self.faces)
         _check_memory(name, f"{count:,} triangles", count * BYTES_PER_TRIANGLE)
         _check(self.vertices, self.faces, name)
@@ -97,7 +113,19 @@ class Target:
             The mesh is not closed; counts its open edges.
         """
         vertices, faces = _load(path)
-        return cls(vertices, faces, name=str(path))
+        return _from(path, cls(vertices, faces, name=str(path)))
+
+    @classmethod
+    def find(cls, source: str) -> Target:
+        """The target of a `source`: a file, or `gallery:` and the name of a target there."""
+        from niwaki.gallery.targets import TARGETS
+
+        made = TARGETS.get(source.removeprefix("gallery:").replace("-", "_"))
+        if source.startswith("gallery:") and made is not None:
+            found = made()
+            found.source = f"gallery:{made.__name__}"
+            return found
+        return cls.load(source)
 
     def __repr__(self) -> str:
         """Name, triangles, extent."""
@@ -158,6 +186,7 @@ class Receiver:
         self.vertices: NDArray[np.float64] = np.array(vertices, dtype=np.float64).reshape(-1, 3)
         self.faces: NDArray[np.int64] = np.array(faces, dtype=np.int64).reshape(-1, 3)
         self.name = name
+        self.source: str | None = None
         _check_arrays(self.vertices, self.faces, name)
         self.vertices.setflags(write=False)
         self.faces.setflags(write=False)
@@ -166,7 +195,12 @@ class Receiver:
     def load(cls, path: str | PathLike[str]) -> Receiver:
         """Read a receiver from a mesh file; formats as for `Target.load`."""
         vertices, faces = _load(path)
-        return cls(vertices, faces, name=str(path))
+        return _from(path, cls(vertices, faces, name=str(path)))
+
+    @classmethod
+    def find(cls, source: str) -> Receiver:
+        """The receiver of a `source`, a file."""
+        return cls.load(source)
 
     @classmethod
     def floor(

@@ -54,9 +54,8 @@ def disagreement(text: str, seed: int, steps: int, tally: Tally | None = None) -
     kernel = KERNELS[seed % len(KERNELS)]
     try:
         made = task(model, (), {}, no_self_intersection().specs if seed % 3 == 0 else (), max_steps=100_000)
-        found, proposals, accepted, faults = _engine.agreement(
-            made, seed, steps, 20, kernel.form(), steps // 2
-        )
+        method, _ = nw.mh(steps + 1, kernel=kernel, warmup=steps // 2).text()
+        found, proposals, accepted, faults = _engine.agreement(made, method, seed, steps, 20)
     except (_engine.EngineFault, NiwakiError):
         # No possible first state, or a fault at once.
         return ""

@@ -1,15 +1,32 @@
 //! Triangle meshes: checked once, then shared.
 
+use serde::{Deserialize, Serialize};
 use crate::bounds::Aabb;
 use crate::error::GeomError;
 use crate::vector::Vec3;
 use std::collections::HashMap;
 
 /// Triangles over shared vertices. Every index is in range and every coordinate finite.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+#[serde(try_from = "Arrays")]
 pub struct TriMesh {
     vertices: Vec<Vec3>,
     triangles: Vec<[u32; 3]>,
+}
+
+/// A mesh before it is checked.
+#[derive(Deserialize)]
+struct Arrays {
+    vertices: Vec<Vec3>,
+    triangles: Vec<[u32; 3]>,
+}
+
+impl TryFrom<Arrays> for TriMesh {
+    type Error = GeomError;
+
+    fn try_from(arrays: Arrays) -> Result<TriMesh, GeomError> {
+        TriMesh::new(arrays.vertices, arrays.triangles)
+    }
 }
 
 impl TriMesh {

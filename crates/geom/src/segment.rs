@@ -17,13 +17,14 @@
 use crate::convex::Hull;
 use crate::topology::Topology;
 use crate::vector::Vec3;
+use serde::{Deserialize, Serialize};
 use std::sync::{Arc, OnceLock};
 
 /// Sides of a segment's rings (dissertation chapter 5's light geometry). Four into it leaves two: see `strips`.
 pub const SEGMENT_SIDES: usize = 10;
 
 /// A ring with a mark: a place, a direction, and where the first vertex lies.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 pub struct Frame {
     /// Middle of the ring, scene units.
     pub center: Vec3,
@@ -36,7 +37,7 @@ pub struct Frame {
 }
 
 /// A piece of a parent's cone, on whose bark a branch begins.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 pub struct Bark {
     /// A point of the axis, where the base begins.
     pub low: Vec3,
@@ -49,7 +50,7 @@ pub struct Bark {
 }
 
 /// The three rings, and what the base lies on.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub struct Tube {
     /// Start, split and end.
     pub frames: [Frame; 3],

@@ -11,6 +11,7 @@ use crate::light::{convex, ring};
 use crate::mesh::TriMesh;
 use crate::segment::{self, Tube};
 use crate::vector::{Mat3, Vec3, vec3};
+use serde::{Deserialize, Serialize};
 use std::sync::{Arc, OnceLock};
 
 /// Sides of a cylinder unless said otherwise (dissertation chapter 5's light geometry).
@@ -22,7 +23,7 @@ pub const LIMB_SIDES: usize = 10;
 ///
 /// The first vertex lies where the smallest turn from +y to the normal takes +z, so that a ring is a function of its
 /// centre, normal and radius, and two limbs that name the same ring share its vertices to the bit.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 pub struct Ring {
     /// Middle, scene units.
     pub center: Vec3,
@@ -41,7 +42,8 @@ impl Ring {
 }
 
 /// What a shape is made of, centred at the origin (a limb and a mesh: where their coordinates say).
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Solid {
     /// Full side lengths.
     Box {
@@ -90,7 +92,7 @@ pub enum Solid {
 }
 
 /// First turn, then move.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 pub struct Placement {
     /// A rotation.
     pub rotation: Mat3,
@@ -136,8 +138,38 @@ struct Made {
 }
 
 /// A placed solid with its look. Cloning shares it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[serde(try_from = "Plain", into = "Plain")]
 pub struct Shape(Arc<Inner>);
+
+/// What a shape is made with, as it is written down.
+#[derive(Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+struct Plain {
+    solid: Solid,
+    placement: Placement,
+    bevel: Option<f64>,
+    color: Option<[f32; 3]>,
+}
+
+impl TryFrom<Plain> for Shape {
+    type Error = GeomError;
+
+    fn try_from(plain: Plain) -> Result<Shape, GeomError> {
+        Shape::new(plain.solid, plain.placement, plain.bevel, plain.color)
+    }
+}
+
+impl From<Shape> for Plain {
+    fn from(shape: Shape) -> Plain {
+        Plain {
+            solid: shape.solid().clone(),
+            placement: *shape.placement(),
+            bevel: shape.bevel(),
+            color: shape.color(),
+        }
+    }
+}
 
 impl PartialEq for Shape {
     fn eq(&self, other: &Shape) -> bool {

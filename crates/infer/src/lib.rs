@@ -5,6 +5,7 @@
 //! * [`record`]: choices and score of one run, the same for every algorithm;
 //! * [`forward`]: draw every choice from its prior; [`replay`]: take every choice from a log, and name it;
 //! * [`enumeration`], [`rejection`], [`importance`]: exact and direct answers, the oracles for the rest;
+//! * [`method`]: a search as it is written down, and [`run`]: what it finds;
 //! * [`nested`]: inference inside a model;
 //! * [`particles`]: sequential Monte Carlo, in program order and in stochastic order;
 //! * [`chain`]: Metropolis-Hastings over kept runs, kernels as values;
@@ -21,11 +22,13 @@ pub mod gradient;
 pub mod hamiltonian;
 pub mod importance;
 pub mod log;
+pub mod method;
 pub mod nested;
 pub mod particles;
 pub mod record;
 pub mod rejection;
 pub mod replay;
+pub mod run;
 pub mod task;
 
 pub use failure::Failure;

@@ -26,8 +26,9 @@ pub struct Entry {
 const _: () = assert!(std::mem::size_of::<Entry>() == 32);
 
 impl Entry {
+    /// A choice.
     #[inline]
-    fn new(address: u128, value: Value) -> Self {
+    pub fn new(address: u128, value: Value) -> Self {
         Entry { halves: [address as u64, (address >> 64) as u64], value }
     }
 

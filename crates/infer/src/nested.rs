@@ -9,18 +9,13 @@
 use crate::Failure;
 use crate::chain;
 use crate::chain::many::Chains;
-use crate::enumeration::enumerate;
-use crate::forward::forward;
-use crate::importance::importance;
-use crate::particles::{Order, Resampling, Settings, Weights, When, smc};
-use crate::record::Record;
-use crate::rejection::rejection;
+use crate::method::{Given, Info, Method, Mh};
+use crate::run::Run;
 use crate::task::{Hosts, Task};
 use niwaki_math::Stream;
 use niwaki_vm::code::{FunctionId, Program};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Limits;
-use niwaki_vm::machine::kept::Strategy;
 use niwaki_vm::value::{Closure, Value, same};
 use std::collections::{HashMap, VecDeque};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -40,119 +35,31 @@ pub enum Keep {
     Best,
 }
 
-/// How an `infer` searches.
-#[derive(Clone, Debug)]
-pub enum Search {
-    /// Every run: gives the list of the pairs (value, probability), most probable first.
-    Enumerate {
-        /// Most runs.
-        max_runs: usize,
-    },
-    /// Rejection sampling.
-    Rejection {
-        /// How many samples.
-        n: usize,
-        /// No run scores above it, nats.
-        bound: f64,
-        /// Most runs.
-        max_tries: u64,
-    },
-    /// Likelihood weighting.
-    Importance {
-        /// How many runs.
-        n: usize,
-    },
-    /// Runs of the prior.
-    Forward {
-        /// How many runs.
-        n: u64,
-    },
-    /// Particles.
-    Smc(Settings),
-    /// Markov chains.
-    Mh {
-        /// Proposals of each.
-        steps: u64,
-        /// How many.
-        chains: usize,
-        /// Their settings.
-        settings: chain::Settings,
-    },
-}
-
 /// A method and what is kept of its result.
 #[derive(Clone, Debug)]
-pub struct Method {
+pub struct Inner {
     /// How it searches.
-    pub search: Search,
+    pub method: Method,
     /// What it gives.
     pub keep: Keep,
 }
 
-impl Method {
-    /// Reads the constant that stands for a method: `("infer", keep, name, settings ...)`, the settings in the order of
-    /// the Python class. `None` for any other constant.
-    pub fn read(constant: &Value) -> Option<Method> {
+impl Inner {
+    /// Reads the constant that stands for an inference: `("infer", keep, text of the method)`. `None` for any other
+    /// constant.
+    ///
+    /// # Errors
+    /// A text that is no method, or a setting that has no meaning inside a model.
+    pub fn read(constant: &Value) -> Option<Result<Inner, Fault>> {
         let Value::Tuple(tuple) = constant else { return None };
-        let [mark, keep, name, settings @ ..] = tuple.items() else { return None };
-        let text = |value: &Value| match value {
-            Value::Str(text) => Some(text.to_string()),
-            _ => None,
-        };
-        if text(mark)? != "infer" {
-            return None;
-        }
-        let keep = match text(keep)?.as_str() {
-            "sample" => Keep::Sample,
-            "best" => Keep::Best,
+        let [Value::Str(mark), Value::Str(keep), Value::Str(text)] = tuple.items() else { return None };
+        let keep = match (&**mark, &**keep) {
+            ("infer", "sample") => Keep::Sample,
+            ("infer", "best") => Keep::Best,
             _ => return None,
         };
-        let search = match (text(name)?.as_str(), settings) {
-            ("enumerate", [Value::Int(max_runs)]) => {
-                Search::Enumerate { max_runs: usize::try_from(*max_runs).ok()? }
-            }
-            ("rejection", [Value::Int(n), Value::Real(bound), Value::Int(max_tries)]) => Search::Rejection {
-                n: usize::try_from(*n).ok()?,
-                bound: *bound,
-                max_tries: u64::try_from(*max_tries).ok()?,
-            },
-            ("importance", [Value::Int(n)]) => Search::Importance { n: usize::try_from(*n).ok()? },
-            ("forward", [Value::Int(n)]) => Search::Forward { n: u64::try_from(*n).ok()? },
-            ("mh", [Value::Int(steps), strategy, Value::Int(chains), Value::Int(tries)]) => Search::Mh {
-                steps: u64::try_from(*steps).ok()?,
-                chains: usize::try_from(*chains).ok()?,
-                settings: chain::Settings {
-                    strategy: match text(strategy)?.as_str() {
-                        "rerun" => Strategy::Rerun,
-                        "resume" => Strategy::Resume,
-                        "cache" => Strategy::Cache,
-                        "c3" => Strategy::C3,
-                        _ => return None,
-                    },
-                    thin: 0,
-                    tries: u64::try_from(*tries).ok()?,
-                    ..chain::Settings::default()
-                },
-            },
-            ("smc", [Value::Int(particles), order, weights, Value::Real(temper), resampling, ess]) => {
-                Search::Smc(Settings {
-                    particles: usize::try_from(*particles).ok()?,
-                    order: Order::from_name(&text(order)?)?,
-                    weights: Weights::from_name(&text(weights)?)?,
-                    temper: *temper,
-                    resampling: Resampling::from_name(&text(resampling)?)?,
-                    when: match ess {
-                        Value::None => When::Always,
-                        Value::Real(share) => When::EffectiveBelow(*share),
-                        Value::Int(share) => When::EffectiveBelow(*share as f64),
-                        _ => return None,
-                    },
-                    ..Settings::default()
-                })
-            }
-            _ => return None,
-        };
-        Some(Method { search, keep })
+        let method = Method::read(text).and_then(|method| method.check_inside().map(|()| method));
+        Some(method.map(|method| Inner { method, keep }))
     }
 
     /// Runs the search of a task and gives what it keeps.
@@ -160,81 +67,58 @@ impl Method {
     /// # Errors
     /// What the search itself meets.
     pub fn value(&self, task: &Task, seed: u64) -> Result<Value, Failure> {
-        match &self.search {
-            Search::Enumerate { max_runs } => {
-                let found = enumerate(task, *max_runs, &mut |_| true)?;
-                if found.log_evidence == f64::NEG_INFINITY {
+        let given = Given { seed, ..Given::default() };
+        if let Method::Mh(mh) = &self.method {
+            return self.of_chains(task, mh, &given);
+        }
+        let found = self.method.search(task, &given, &mut |_, _, _| true)?;
+        match found.info {
+            Info::Enumeration(exact) => {
+                if exact.log_evidence == f64::NEG_INFINITY {
                     return Err(impossible());
                 }
-                let mut pairs: Vec<(Value, f64)> = found
-                    .outcomes
-                    .into_iter()
-                    .map(|(value, log)| (value, (log - found.log_evidence).exp()))
-                    .collect();
+                let probability = |(value, log): (Value, f64)| (value, (log - exact.log_evidence).exp());
+                let mut pairs: Vec<(Value, f64)> = exact.outcomes.into_iter().map(probability).collect();
                 // Stable: equally probable values keep their order of appearance.
                 pairs.sort_by(|a, b| b.1.total_cmp(&a.1));
                 let pair = |(value, p): (Value, f64)| Value::tuple(vec![value, Value::Real(p)]);
                 Ok(Value::list(pairs.into_iter().map(pair).collect()))
             }
-            Search::Forward { n } => {
-                let runs =
-                    (0..*n).map(|stream| forward(task, seed, stream, true)).collect::<Result<Vec<_>, _>>()?;
-                self.kept(seed, runs.into_iter().map(|s| (s.value, s.record, 0.0)).collect())
+            _ => self.kept(seed, found.runs),
+        }
+    }
+
+    /// The last or the best state of Markov chains. The last state of a chain is a sample; one chain is as good as another.
+    fn of_chains(&self, task: &Task, mh: &Mh, given: &Given<'_>) -> Result<Value, Failure> {
+        let settings = chain::Settings { thin: 0, ..mh.settings(given)? };
+        let mut found: Chains = Chains::start(task, &settings, mh.chains, None)?;
+        found.advance(task, mh.steps, &|_, _| true)?;
+        let score = |at: &usize| found.chains[*at].best_score();
+        match self.keep {
+            Keep::Sample => {
+                let first = found.chains.first().and_then(|chain| chain.rungs.first());
+                first.map(|rung| rung.now(&task.program).facts.value).ok_or_else(impossible)
             }
-            Search::Rejection { n, bound, max_tries } => {
-                let found = rejection(task, *n, *bound, *max_tries, seed, &mut |_| true)?;
-                self.kept(seed, found.samples.into_iter().map(|s| (s.value, s.record, 0.0)).collect())
-            }
-            Search::Importance { n } => {
-                let found = importance(task, *n, seed, &mut |_| true)?;
-                let weighted = |s: crate::forward::Sample| {
-                    let log_weight = s.record.log_score();
-                    (s.value, s.record, log_weight)
-                };
-                self.kept(seed, found.samples.into_iter().map(weighted).collect())
-            }
-            Search::Mh { steps, chains, settings } => {
-                let settings = chain::Settings { seed, ..settings.clone() };
-                let mut found: Chains = Chains::start(task, &settings, *chains, None)?;
-                found.advance(task, *steps, &|_, _| true)?;
-                let score = |at: &usize| found.chains[*at].best_score();
-                // The last state of a chain is a sample; one chain is as good as another.
-                let chain = match self.keep {
-                    Keep::Sample => found.chains.first(),
-                    Keep::Best => (0..found.chains.len())
-                        .max_by(|a, b| score(a).total_cmp(&score(b)))
-                        .map(|at| &found.chains[at]),
-                };
-                let rung = chain.and_then(|chain| match self.keep {
-                    Keep::Sample => chain.rungs.first(),
-                    Keep::Best => chain.best(),
-                });
-                let Some(rung) = rung else { return Err(impossible()) };
-                Ok(match self.keep {
-                    Keep::Sample => rung.now(&task.program).facts.value,
-                    Keep::Best => rung.best.get(&rung.state, task)?.facts.value,
-                })
-            }
-            Search::Smc(settings) => {
-                let found = smc(task, &Settings { seed, ..settings.clone() }, &mut |_| true)?;
-                let samples = found.particles.into_iter().filter(|p| p.has_ended);
-                self.kept(seed, samples.map(|p| (p.value, p.record, p.log_weight)).collect())
+            Keep::Best => {
+                let best = (0..found.chains.len()).max_by(|a, b| score(a).total_cmp(&score(b)));
+                let rung = best.and_then(|at| found.chains[at].best()).ok_or_else(impossible)?;
+                Ok(rung.best.get(&rung.state, task)?.facts.value)
             }
         }
     }
 
-    /// One of weighted samples.
-    fn kept(&self, seed: u64, mut samples: Vec<(Value, Record, f64)>) -> Result<Value, Failure> {
-        let score = |sample: &(Value, Record, f64)| sample.1.log_score();
-        let most = samples.iter().map(|s| s.2).fold(f64::NEG_INFINITY, f64::max);
+    /// One of weighted runs.
+    fn kept(&self, seed: u64, mut runs: Vec<Run>) -> Result<Value, Failure> {
+        runs.retain(|run| run.has_ended);
+        let most = runs.iter().map(|run| run.log_weight).fold(f64::NEG_INFINITY, f64::max);
         if most == f64::NEG_INFINITY {
             return Err(impossible());
         }
         let at = match self.keep {
-            Keep::Best => (0..samples.len())
-                .fold(0, |best, at| if score(&samples[at]) > score(&samples[best]) { at } else { best }),
+            Keep::Best => (0..runs.len())
+                .fold(0, |best, at| if runs[at].log_score > runs[best].log_score { at } else { best }),
             Keep::Sample => {
-                let weights: Vec<f64> = samples.iter().map(|s| (s.2 - most).exp()).collect();
+                let weights: Vec<f64> = runs.iter().map(|run| (run.log_weight - most).exp()).collect();
                 let mut left = Stream::new(seed, PICK, 0, 0).uniform() * weights.iter().sum::<f64>();
                 let passed = weights.iter().position(|w| {
                     left -= w;
@@ -244,7 +128,7 @@ impl Method {
                 passed.or_else(|| weights.iter().rposition(|w| *w > 0.0)).unwrap_or(0)
             }
         };
-        Ok(samples.swap_remove(at).0)
+        Ok(runs.swap_remove(at).value)
     }
 }
 
@@ -258,7 +142,7 @@ pub struct Inferences {
     /// The program whose functions are the inner models.
     pub program: Arc<Program>,
     /// Its methods, by the number of the constant.
-    pub methods: Arc<HashMap<u16, Method>>,
+    pub methods: Arc<HashMap<u16, Inner>>,
     /// Its other host functions.
     pub hosts: Arc<dyn Hosts>,
     /// How much one inner run may use.
@@ -324,7 +208,7 @@ impl Inferences {
     /// Whatever keeps the search from finding anything, as a fault of the run around it.
     pub fn infer(
         &self,
-        method: &Method,
+        method: &Inner,
         model: &Arc<Closure>,
         args: &[Value],
         seed: u64,
@@ -405,6 +289,7 @@ mod tests {
     //! below a tenth of one. The mutant that forgets the weights gives 0.3 and is rejected.
 
     use super::*;
+    use crate::forward::forward;
     use crate::task::NoHosts;
     use niwaki_vm::core::parse::parse;
     use niwaki_vm::passes::compile;
@@ -416,7 +301,7 @@ mod tests {
         0.3 / (0.3 + 0.7 * (-1.5f64).exp())
     }
 
-    fn inferences(search: Search) -> Inferences {
+    fn inferences(method: &str) -> Inferences {
         let text = r#"(module
             (fn "inner" (params $cost) (captures $p)
               (set $a (sample (dist bernoulli $p)))
@@ -430,12 +315,16 @@ mod tests {
         let program = Arc::new(compile(&parse(text).unwrap(), vec![]).unwrap());
         Inferences {
             program,
-            methods: Arc::new(HashMap::from([(0, Method { search, keep: Keep::Sample })])),
+            methods: Arc::new(HashMap::from([(0, inner(method).unwrap().unwrap())])),
             hosts: Arc::new(NoHosts),
             limits: Limits::default(),
             depth: 0,
             known: Arc::default(),
         }
+    }
+
+    fn inner(method: &str) -> Option<Result<Inner, Fault>> {
+        Inner::read(&Value::tuple(vec![Value::str("infer"), Value::str("sample"), Value::str(method)]))
     }
 
     /// The function values that the program returns.
@@ -445,8 +334,8 @@ mod tests {
         models.items().to_vec()
     }
 
-    fn share(search: Search) -> f64 {
-        let inferences = inferences(search);
+    fn share(method: &str) -> f64 {
+        let inferences = inferences(method);
         let inner = models(&inferences)[0].clone();
         let heads = (0..SEEDS).filter(|seed| {
             let args = [inner.clone(), Value::Real(-1.5), Value::Int(*seed as i64)];
@@ -461,25 +350,41 @@ mod tests {
     fn every_method_draws_from_the_inner_posterior() {
         let p = posterior();
         let error = 4.9 * (p * (1.0 - p) / SEEDS as f64).sqrt();
-        let chain = chain::Settings { thin: 0, ..chain::Settings::default() };
+        let smc = |more: &str| {
+            let plain = r#""populations": null, "diverse": null, "seconds": null, "moves": 2, "at": "end", "chains": 1,
+                "order": "stochastic", "weights": "ratio", "temper": 1, "resampling": "residual", "ess": 0.5"#;
+            format!(r#"{{"method": "smc", {plain}, {more}}}"#)
+        };
+        let mh = |kernel: &str, warmup: u32| {
+            let plain = r#""steps": 60, "strategy": "c3", "chains": 2, "thin": null, "keep": null, "tries": 1000"#;
+            format!(r#"{{"method": "mh", {plain}, "kernel": {kernel}, "warmup": {warmup}}}"#)
+        };
         let methods = [
-            Search::Rejection { n: 3, bound: 0.0, max_tries: 1000 },
-            Search::Importance { n: 200 },
-            Search::Smc(Settings { particles: 200, ..Settings::default() }),
-            Search::Mh { steps: 60, chains: 2, settings: chain },
+            r#"{"method": "rejection", "n": 3, "bound": 0.0, "max_tries": 1000}"#.to_string(),
+            r#"{"method": "importance", "n": 200}"#.to_string(),
+            smc(r#""particles": 200, "rejuvenate": null, "draws": null, "anneal": null"#),
+            smc(r#""particles": [150, 150], "rejuvenate": null, "draws": null, "anneal": [0.5, 1]"#),
+            smc(r#""particles": 200, "rejuvenate": {"name": "prior"}, "draws": 4, "anneal": null"#),
+            mh("null", 10),
+            mh(r#"{"name": "repeat", "settings": {"times": 2}, "parts": [{"name": "by_family"}, {"name": "prior"}]}"#, 0)
+                .replace(r#", {"name": "prior"}"#, ""),
+            r#"{"method": "pimh", "particles": 20, "sweeps": 20, "order": "stochastic", "temper": 1.0, "ess": null,
+                "anneal": null, "resampling": "systematic"}"#.to_string(),
+            r#"{"method": "particle_gibbs", "particles": 20, "sweeps": 20, "order": "depth-first", "temper": 1.0,
+                "ess": null, "anneal": null, "ancestors": true}"#.to_string(),
         ];
-        for search in methods {
-            let found = share(search.clone());
-            assert!((found - p).abs() < error, "{search:?}: {found} for {p}");
+        for method in methods {
+            let found = share(&method);
+            assert!((found - p).abs() < error, "{method}: {found} for {p}");
         }
         // The prior, which is what a draw without weights would give.
-        let prior = share(Search::Forward { n: 200 });
+        let prior = share(r#"{"method": "forward", "n": 200}"#);
         assert!((prior - 0.3).abs() < error && (prior - p).abs() > error, "{prior}");
     }
 
     #[test]
     fn enumeration_gives_every_value() {
-        let inferences = inferences(Search::Enumerate { max_runs: 10 });
+        let inferences = inferences(r#"{"method": "enumerate_all", "max_runs": 10}"#);
         let inner = models(&inferences)[0].clone();
         let found = inferences.call(0, &[inner, Value::Real(-1.5), Value::Int(0)]).unwrap();
         let Value::List(pairs) = &found else { panic!("{found:?}") };
@@ -491,7 +396,7 @@ mod tests {
 
     #[test]
     fn what_goes_wrong_inside_is_a_fault_outside() {
-        let inferences = inferences(Search::Importance { n: 5 });
+        let inferences = inferences(r#"{"method": "importance", "n": 5}"#);
         let [inner, never, broken, deep] = &models(&inferences)[..] else { panic!("four models") };
         let code = |args: &[Value]| inferences.call(0, args).unwrap_err().code;
         assert_eq!(code(&[never.clone(), Value::Int(1)]), "infer-failed");
@@ -502,5 +407,20 @@ mod tests {
         let held = Value::list(vec![Value::Future(0)]);
         assert_eq!(code(&[inner.clone(), held, Value::Int(1)]), "type-mismatch");
         assert_eq!(inferences.call(7, &[]).unwrap_err().code, "host-function");
+    }
+
+    #[test]
+    fn a_setting_that_has_no_meaning_inside_is_refused() {
+        let mh = |thin: &str, keep: &str| {
+            let plain = r#""steps": 9, "strategy": "c3", "chains": 1, "warmup": 0, "tries": 9, "kernel": null"#;
+            inner(&format!(r#"{{"method": "mh", {plain}, "thin": {thin}, "keep": {keep}}}"#)).unwrap()
+        };
+        assert!(mh("null", "null").is_ok());
+        for refused in [mh("2", "null"), mh("null", "5"), inner(r#"{"method": "walk"}"#).unwrap()] {
+            assert!(matches!(refused.unwrap_err().code, "infer-method" | "bad-setting"));
+        }
+        let more = r#"{"method": "importance", "n": 5, "m": 6}"#;
+        assert!(inner(more).unwrap().unwrap_err().message.contains("`m`"));
+        assert!(Inner::read(&Value::Int(3)).is_none());
     }
 }

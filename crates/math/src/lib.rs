@@ -8,6 +8,7 @@
 //! | [`polygon`] | simple polygons of the plane |
 //! | [`streams`] | random bits as a function of seed, stream, address and visit |
 //! | [`rounding`] | the grid on which log scores are added and taken away exactly |
+//! | [`fingerprint`] | a hash of the bits that this machine computes |
 //! | [`special`] | the few special functions that the kept crates lack |
 //! | [`distributions`] | the families a model may draw from: density, support, sampler, parameter checks |
 //!
@@ -15,6 +16,7 @@
 
 pub mod color;
 pub mod distributions;
+pub mod fingerprint;
 pub mod polygon;
 pub mod rounding;
 pub mod scalar;

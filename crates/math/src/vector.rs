@@ -2,10 +2,11 @@
 //!
 //! Right-handed, y up, `f64`, scene units; angles in radians. What a shape does with them is not here.
 
+use serde::{Deserialize, Serialize};
 use std::ops::{Add, Div, Index, Mul, Neg, Sub};
 
 /// A point or a direction.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Serialize)]
 pub struct Vec3 {
     /// Sideways.
     pub x: f64,
@@ -174,7 +175,7 @@ impl Div<f64> for Vec3 {
 }
 
 /// A 3 by 3 matrix, as its columns: the images of the x, y and z directions.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 pub struct Mat3 {
     /// Images of the coordinate directions.
     pub columns: [Vec3; 3],

@@ -1,22 +1,20 @@
 //! Markov chains behind the door: they stay alive between two calls, so that a search goes on where it stopped.
 
 use crate::faults;
-use crate::kernels;
 use crate::outcome::PyOutcome;
-use crate::search::{PyTask, detached};
-use crate::settings::unknown;
+use crate::search::{Known, PyTask, detached};
 use niwaki_infer::Failure;
 use niwaki_infer::chain::agreement::compare;
 use niwaki_infer::chain::counts::{Count, Counts};
 use niwaki_infer::chain::explain::What;
-use niwaki_infer::chain::kernel::Kernel;
 use niwaki_infer::chain::ladder::Ladder;
 use niwaki_infer::chain::many::Chains;
 use niwaki_infer::chain::trajectory::travel::Travel;
 use niwaki_infer::chain::{Chain, Settings};
 use niwaki_infer::hamiltonian::Cause;
-use niwaki_vm::machine::kept::Strategy;
-use niwaki_vm::value::Value;
+use niwaki_infer::method::{Given, Method, Mh};
+use niwaki_infer::run::Run;
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::collections::HashMap;
@@ -29,66 +27,30 @@ pub struct PyChains {
     chains: Mutex<Chains>,
 }
 
-fn strategy(py: Python<'_>, task: &PyTask, name: &str) -> PyResult<Strategy> {
-    Ok(match name {
-        "rerun" => Strategy::Rerun,
-        "resume" => Strategy::Resume,
-        "cache" => Strategy::Cache,
-        "c3" => Strategy::C3,
-        _ => {
-            let known = "\"c3\", \"rerun\", \"resume\" or \"cache\"";
-            return Err(unknown(py, &task.task.program, "strategy", name, known));
-        }
-    })
-}
-
 #[pymethods]
 impl PyChains {
-    /// Chains in their first states; ``known`` are first values by hash of the address. ``room`` is the most choices
-    /// that the samples of one chain hold together. ``kernel`` is a form of `niwaki.kernels`.
+    /// Chains in their first states, by the text of a method; ``known`` are first values by hash of the address.
+    /// ``functions`` are the users' proposals that the kernel names by number; ``room`` is the most choices that the
+    /// samples of one chain hold together.
     #[new]
-    #[pyo3(signature = (task, seed, *, chains=1, strategy="c3", warmup=0, thin=1, room=1 << 22, tries=1000,
-                        known=None, kernel=None, temperatures=None, every=100, threads=None))]
-    #[expect(clippy::too_many_arguments, reason = "the settings of the method")]
+    #[pyo3(signature = (task, method, seed, *, functions=Vec::new(), room=1 << 22, known=None, threads=None))]
+    #[expect(clippy::too_many_arguments, reason = "what chains are told")]
     fn new(
         py: Python<'_>,
         task: Py<PyTask>,
+        method: &str,
         seed: u64,
-        chains: usize,
-        strategy: &str,
-        warmup: u64,
-        thin: u64,
+        functions: Vec<Py<PyTask>>,
         room: usize,
-        tries: u64,
-        known: Option<HashMap<u128, Bound<'_, PyAny>>>,
-        kernel: Option<Bound<'_, PyAny>>,
-        temperatures: Option<Vec<f64>>,
-        every: u64,
+        known: Option<Known<'_>>,
         threads: Option<usize>,
     ) -> PyResult<PyChains> {
         let own = task.get();
-        let settings = Settings {
-            seed,
-            kernel: form(own, kernel.as_ref())?,
-            strategy: self::strategy(py, own, strategy)?,
-            warmup,
-            thin,
-            room,
-            tries,
-            temperatures: temperatures.unwrap_or_else(|| vec![1.0]),
-            every,
-        };
-        let known = match known {
-            None => None,
-            Some(given) => {
-                let value = |(address, value): (u128, Bound<'_, PyAny>)| {
-                    Ok((address, own.model.get().classes.value(&value)?))
-                };
-                Some(given.into_iter().map(value).collect::<PyResult<HashMap<u128, Value>>>()?)
-            }
-        };
+        let (method, settings) = settings(py, own, method, seed, &functions)?;
+        let settings = Settings { room, ..settings };
+        let known = own.known(known)?;
         let (made, _) = detached(py, &own.task.program, threads, None, |_| {
-            Chains::start(&own.task, &settings, chains, known.as_ref())
+            Chains::start(&own.task, &settings, method.chains, known.as_ref())
         })?;
         Ok(PyChains { task, chains: Mutex::new(made) })
     }
@@ -121,14 +83,14 @@ impl PyChains {
         Ok(best.iter().map(|snapshot| self.outcome(snapshot)).collect())
     }
 
-    /// The samples of a chain from the ``start``-th on: (number of proposals before it, outcome).
+    /// The samples of a chain from the ``start``-th on.
     #[pyo3(signature = (chain, start=0))]
-    fn samples(&self, chain: usize, start: usize) -> Vec<(u64, PyOutcome)> {
+    fn samples(&self, chain: usize, start: usize) -> Vec<PyOutcome> {
         let chains = self.lock();
         let Some(rung) = chains.chains.get(chain).and_then(|ladder| ladder.rungs.first()) else {
             return vec![];
         };
-        rung.samples.all.iter().skip(start).map(|s| (s.facts.visit, self.outcome(s))).collect()
+        rung.samples.all.iter().skip(start).map(|s| self.outcome(s)).collect()
     }
 
     /// The present state of each chain.
@@ -234,27 +196,38 @@ impl PyChains {
     }
 }
 
-/// The kernel of a form; from the prior where there is none.
-fn form(task: &PyTask, given: Option<&Bound<'_, PyAny>>) -> PyResult<Kernel> {
-    given.map_or(Ok(Kernel::Prior), |form| kernels::kernel(task, form))
+/// Metropolis-Hastings of a text, and what its chains are told.
+fn settings(
+    py: Python<'_>,
+    task: &PyTask,
+    method: &str,
+    seed: u64,
+    functions: &[Py<PyTask>],
+) -> PyResult<(Mh, Settings)> {
+    let functions = task.proposals(py, functions)?;
+    let Method::Mh(method) = task.read(py, method)? else {
+        return Err(PyTypeError::new_err("this method is not Metropolis-Hastings"));
+    };
+    let settings = method.settings(&Given { seed, functions: &functions, start: None });
+    let settings = settings.map_err(|fault| faults::setting(py, &fault))?;
+    Ok((method, settings))
 }
 
 /// Runs ``steps`` proposals under each of the four strategies and compares everything to the bit: what the first
 /// disagreement is (None: there is none), the proposals of each, those kept, and those that met a fault.
 #[pyfunction]
-#[pyo3(signature = (task, seed, steps, every=20, kernel=None, warmup=0))]
+#[pyo3(signature = (task, method, seed, steps, every=20, functions=Vec::new()))]
 fn agreement(
     py: Python<'_>,
     task: &Bound<'_, PyTask>,
+    method: &str,
     seed: u64,
     steps: u64,
     every: u64,
-    kernel: Option<Bound<'_, PyAny>>,
-    warmup: u64,
+    functions: Vec<Py<PyTask>>,
 ) -> PyResult<(Option<String>, u64, u64, u64)> {
     let own = task.get();
-    let settings =
-        Settings { seed, kernel: form(own, kernel.as_ref())?, warmup, thin: 0, ..Settings::default() };
+    let settings = Settings { thin: 0, ..settings(py, own, method, seed, &functions)?.1 };
     let ((found, seen), _) =
         detached(py, &own.task.program, None, None, |_| compare(&own.task, &settings, steps, every.max(1)))?;
     Ok((found, seen.proposals, seen.accepted, seen.faults))
@@ -290,12 +263,6 @@ fn explain<'py>(
     facts.set_item("new", own.model.get().classes.object(py, &found.new)?)?;
     let runs = PyDict::new(py);
     for run in found.runs {
-        let name = match run.strategy {
-            Strategy::Rerun => "rerun",
-            Strategy::Resume => "resume",
-            Strategy::Cache => "cache",
-            Strategy::C3 => "c3",
-        };
         let what = |what: What| match what {
             What::Made => "made",
             What::Invoked => "invoked",
@@ -304,7 +271,7 @@ fn explain<'py>(
             What::Removed => "removed",
         };
         let steps: Vec<(&str, usize)> = run.steps.iter().map(|(w, at)| (what(*w), *at)).collect();
-        runs.set_item(name, (steps, run.is_complete))?;
+        runs.set_item(run.strategy.name(), (steps, run.is_complete))?;
     }
     facts.set_item("runs", runs)?;
     Ok(facts)
@@ -316,7 +283,7 @@ impl PyChains {
     }
 
     fn outcome(&self, snapshot: &niwaki_infer::chain::snapshot::Snapshot) -> PyOutcome {
-        PyOutcome::of_snapshot(snapshot, self.task.get().model.get().classes.clone())
+        PyOutcome::new(Run::from(snapshot), self.task.get().model.get().classes.clone())
     }
 }
 

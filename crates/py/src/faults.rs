@@ -28,12 +28,7 @@ pub fn raise(py: Python<'_>, failure: &Failure, program: &Program) -> PyErr {
 
 fn build(py: Python<'_>, failure: &Failure, program: &Program) -> PyResult<PyErr> {
     let facts = PyDict::new(py);
-    let told = |fault: &Fault, kind: &str| -> PyResult<()> {
-        facts.set_item("kind", kind)?;
-        facts.set_item("code", fault.code)?;
-        facts.set_item("message", &fault.message)?;
-        facts.set_item("help", fault.help.as_deref())
-    };
+    let told = |fault: &Fault, kind: &str| note(&facts, fault, kind);
     match failure {
         Failure::Run(run) => {
             told(&run.fault, "run")?;
@@ -65,6 +60,20 @@ fn build(py: Python<'_>, failure: &Failure, program: &Program) -> PyResult<PyErr
         }
     }
     with_facts(py, failure.to_string(), &facts)
+}
+
+fn note(facts: &Bound<'_, PyDict>, fault: &Fault, kind: &str) -> PyResult<()> {
+    facts.set_item("kind", kind)?;
+    facts.set_item("code", fault.code)?;
+    facts.set_item("message", &fault.message)?;
+    facts.set_item("help", fault.help.as_deref())
+}
+
+/// The exception of a setting that makes no sense.
+pub fn setting(py: Python<'_>, fault: &Fault) -> PyErr {
+    let facts = PyDict::new(py);
+    let made = note(&facts, fault, "setting").and_then(|()| with_facts(py, fault.message.clone(), &facts));
+    made.unwrap_or_else(|other| other)
 }
 
 /// The exception of a program that the machine cannot take.

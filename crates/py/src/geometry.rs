@@ -105,6 +105,18 @@ pub struct PyShape(pub Shape);
 
 #[pymethods]
 impl PyShape {
+    /// What it is made with, as JSON.
+    fn data(&self) -> PyResult<String> {
+        serde_json::to_string(&self.0).map_err(|error| PyValueError::new_err(error.to_string()))
+    }
+
+    /// The shape of what ``data`` gave.
+    #[staticmethod]
+    fn of_data(data: &str) -> PyResult<PyShape> {
+        let read: Result<Shape, _> = serde_json::from_str(data);
+        read.map(PyShape).map_err(|error| PyValueError::new_err(error.to_string()))
+    }
+
     /// A box; ``taper`` scales the face at the + end of ``taper_axis``.
     #[staticmethod]
     #[pyo3(signature = (center, size, rotation=None, taper=1.0, taper_axis="z", bevel=None, color=None))]

@@ -3,7 +3,7 @@
 //! One file for each room behind the door; this one only registers them.
 //!
 //! * `values`: Python's objects to the machine's values, and back; `faults`: faults as data;
-//! * `model`: compiled models; `search`: algorithms; `settings`: theirs; `chains`, `kernels`: Markov chains;
+//! * `model`: compiled models; `search`: algorithms; `chains`: Markov chains;
 //!   `outcome`: what they find; `gradients`: log densities with their gradients; `trajectories`: chains that follow them;
 //! * `distributions`, `geometry`, `views`, `pictures`: the rooms below, by themselves.
 
@@ -12,12 +12,10 @@ mod distributions;
 mod faults;
 mod geometry;
 mod gradients;
-mod kernels;
 mod model;
 mod outcome;
 mod pictures;
 mod search;
-mod settings;
 mod trajectories;
 mod values;
 mod views;

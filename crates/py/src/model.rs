@@ -2,7 +2,7 @@
 
 use crate::faults;
 use crate::values::Classes;
-use niwaki_infer::nested::{Inferences, Method};
+use niwaki_infer::nested::{Inferences, Inner};
 use niwaki_infer::task::Hosts;
 use niwaki_vm::code::{Mode, SiteKind, disassemble};
 use niwaki_vm::core::parse::parse;
@@ -48,7 +48,7 @@ pub struct PyProgram {
     pub program: Arc<niwaki_vm::code::Program>,
     pub classes: Arc<Classes>,
     hosts: Arc<dyn Hosts>,
-    methods: Arc<HashMap<u16, Method>>,
+    methods: Arc<HashMap<u16, Inner>>,
     seconds: f64,
 }
 
@@ -90,8 +90,8 @@ impl PyProgram {
         for (number, constant) in constants.into_iter().enumerate() {
             let is_host = constant.is_callable();
             let value = if is_host { Value::None } else { classes.value(&constant)? };
-            if let (Some(method), Ok(number)) = (Method::read(&value), u16::try_from(number)) {
-                methods.insert(number, method);
+            if let (Some(inner), Ok(number)) = (Inner::read(&value), u16::try_from(number)) {
+                methods.insert(number, inner.map_err(|fault| faults::uncompiled(py, fault.message.clone()))?);
             }
             data.push(value);
             callables.push(is_host.then(|| constant.unbind()));

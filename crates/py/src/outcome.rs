@@ -2,11 +2,10 @@
 
 use crate::geometry::PyShape;
 use crate::values::{Classes, Opaque};
-use niwaki_infer::chain::snapshot::Snapshot;
 use niwaki_infer::log::{Entry, Log};
 use niwaki_infer::particles::distinct::Choices;
-use niwaki_infer::record::Record;
 use niwaki_infer::replay::{Trace, by_address};
+use niwaki_infer::run::Run;
 use niwaki_vm::value::Value;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -16,110 +15,152 @@ use std::sync::Arc;
 /// One finished run: scores and choices by hash.
 #[pyclass(frozen, name = "Outcome", module = "niwaki._engine")]
 pub struct PyOutcome {
-    log: Log,
-    value: Value,
+    run: Run,
     classes: Arc<Classes>,
-    /// Factors, observations and sketches, nats.
-    #[pyo3(get)]
-    log_score: f64,
-    /// Log density of the choices, nats.
-    #[pyo3(get)]
-    log_prior: f64,
-    /// Log weight in its population, nats.
-    #[pyo3(get)]
-    log_weight: f64,
-    /// Primitives of the scene.
-    #[pyo3(get)]
-    primitives: usize,
-    /// Share of cells equal in scene and target; None without a target.
-    #[pyo3(get)]
-    similarity: Option<f64>,
-    /// Whether the run went to its end.
-    #[pyo3(get)]
-    has_ended: bool,
-    /// What made it impossible.
-    #[pyo3(get)]
-    cause: Option<String>,
 }
 
 impl PyOutcome {
-    pub fn new(
-        record: Record,
-        value: Value,
-        log_weight: f64,
-        has_ended: bool,
-        classes: Arc<Classes>,
-    ) -> PyOutcome {
-        PyOutcome {
-            value,
-            classes,
-            log_score: record.log_score(),
-            log_prior: record.log_prior,
-            log_weight,
-            primitives: record.primitives,
-            similarity: similarity(&record),
-            has_ended,
-            cause: record.cause,
-            log: record.log,
-        }
-    }
-
-    /// A state of a chain.
-    pub fn of_snapshot(snapshot: &Snapshot, classes: Arc<Classes>) -> PyOutcome {
-        let (facts, mut log) = (&snapshot.facts, Log::default());
-        for entry in snapshot.log.entries() {
-            log.push(entry.address(), entry.value);
-        }
-        PyOutcome {
-            log,
-            value: facts.value.clone(),
-            classes,
-            log_score: facts.log_score,
-            log_prior: facts.log_prior,
-            log_weight: 0.0,
-            primitives: facts.primitives,
-            similarity: facts.similarity,
-            has_ended: true,
-            cause: None,
-        }
+    pub fn new(run: Run, classes: Arc<Classes>) -> PyOutcome {
+        PyOutcome { run, classes }
     }
 
     pub fn ended(&self) -> bool {
-        self.has_ended
+        self.run.has_ended
     }
 
     pub fn entries(&self) -> Vec<Entry> {
-        self.log.entries()
+        self.run.log.entries()
     }
 
     pub fn by_address(&self) -> HashMap<u128, Value> {
-        by_address(&self.log.entries())
+        by_address(&self.entries())
     }
-}
-
-fn similarity(record: &Record) -> Option<f64> {
-    let measures = record.sketches.measures();
-    measures.into_iter().find(|(name, _)| *name == "similarity").map(|(_, value)| value)
 }
 
 #[pymethods]
 impl PyOutcome {
+    /// Factors, observations and sketches, nats.
+    #[getter]
+    fn log_score(&self) -> f64 {
+        self.run.log_score
+    }
+
+    /// Log density of the choices, nats.
+    #[getter]
+    fn log_prior(&self) -> f64 {
+        self.run.log_prior
+    }
+
+    /// Log weight in its population, nats.
+    #[getter]
+    fn log_weight(&self) -> f64 {
+        self.run.log_weight
+    }
+
+    /// Primitives of the scene.
+    #[getter]
+    fn primitives(&self) -> usize {
+        self.run.primitives
+    }
+
+    /// Share of cells equal in scene and target; None without a target.
+    #[getter]
+    fn similarity(&self) -> Option<f64> {
+        self.run.similarity
+    }
+
+    /// Whether the run went to its end.
+    #[getter]
+    fn has_ended(&self) -> bool {
+        self.run.has_ended
+    }
+
+    /// What made it impossible.
+    #[getter]
+    fn cause(&self) -> Option<&str> {
+        self.run.cause.as_deref()
+    }
+
+    /// Of a chain's state: the number of proposals before it.
+    #[getter]
+    fn visit(&self) -> u64 {
+        self.run.visit
+    }
+
     /// What the model returned; None for a run that did not end.
     #[getter]
     fn value<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        self.classes.object(py, &self.value)
+        self.classes.object(py, &self.run.value)
+    }
+
+    /// All that it holds but what the model returned, which a replay gives again: for `Task.outcome`.
+    fn data<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let (run, data) = (&self.run, PyDict::new(py));
+        data.set_item("choices", self.choices(py)?)?;
+        data.set_item("order", self.order())?;
+        data.set_item("log_prior", run.log_prior)?;
+        data.set_item("log_score", run.log_score)?;
+        data.set_item("log_weight", run.log_weight)?;
+        data.set_item("primitives", run.primitives)?;
+        data.set_item("similarity", run.similarity)?;
+        data.set_item("has_ended", run.has_ended)?;
+        data.set_item("cause", run.cause.as_deref())?;
+        data.set_item("visit", run.visit)?;
+        Ok(data)
     }
 
     /// Choices in the order made: (hash of the address, value).
     fn choices<'py>(&self, py: Python<'py>) -> PyResult<Vec<(u128, Bound<'py, PyAny>)>> {
-        let entries = self.log.entries();
+        let entries = self.entries();
         let chosen = entries.iter().filter(|e| !e.is_order());
         chosen.map(|e| Ok((e.address(), self.classes.object(py, &e.value)?))).collect()
     }
 
     /// Order choices in the order made: (hash of the address of the future that ran, its place among the runnable).
     fn order(&self) -> Vec<(u128, i64)> {
-        self.log.entries().iter().filter_map(|e| Some((e.address(), e.which()? as i64))).collect()
+        self.entries().iter().filter_map(|e| Some((e.address(), e.which()? as i64))).collect()
+    }
+}
+
+/// What `PyOutcome::data` gives.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub struct OutcomeData<'py> {
+    choices: Vec<(u128, Bound<'py, PyAny>)>,
+    order: Vec<(u128, usize)>,
+    log_prior: f64,
+    log_score: f64,
+    log_weight: f64,
+    primitives: usize,
+    similarity: Option<f64>,
+    has_ended: bool,
+    cause: Option<String>,
+    visit: u64,
+}
+
+impl OutcomeData<'_> {
+    /// The outcome, without what the model returned.
+    pub fn outcome(self, classes: Arc<Classes>) -> PyResult<PyOutcome> {
+        let mut log = Log::default();
+        for (address, value) in self.choices {
+            log.push(address, classes.value(&value)?);
+        }
+        for (address, which) in self.order {
+            log.push_order(address, which);
+        }
+        let run = Run {
+            log,
+            value: Value::None,
+            log_prior: self.log_prior,
+            log_score: self.log_score,
+            log_weight: self.log_weight,
+            primitives: self.primitives,
+            similarity: self.similarity,
+            has_ended: self.has_ended,
+            cause: self.cause,
+            visit: self.visit,
+        };
+        Ok(PyOutcome { run, classes })
     }
 }
 
@@ -181,14 +222,14 @@ impl PyTrace {
             log_prior: record.log_prior,
             log_score: record.log_score(),
             primitives: record.primitives,
-            similarity: similarity(record),
+            similarity: record.sketches.similarity(),
             cause: record.cause.clone(),
         })
     }
 }
 
 fn choices_of(py: Python<'_>, outcomes: &[Py<PyOutcome>]) -> Choices {
-    py.detach(|| Choices::of(outcomes.iter().map(|outcome| &outcome.get().log)))
+    py.detach(|| Choices::of(outcomes.iter().map(|outcome| &outcome.get().run.log)))
 }
 
 /// Of how many no other has more than half of the choices.

@@ -6,23 +6,18 @@
 use crate::faults;
 use crate::geometry::PySketchSpec;
 use crate::gradients::PyDensity;
-use crate::kernels::kernel;
 use crate::model::PyProgram;
-use crate::outcome::{PyOutcome, PyTrace};
-use crate::settings::{At, Way, Words, settings, unknown};
+use crate::outcome::{OutcomeData, PyOutcome, PyTrace};
 use niwaki_infer::chain::counts::Count;
-use niwaki_infer::enumeration::enumerate;
-use niwaki_infer::forward::{Sample, forward};
+use niwaki_infer::chain::user::User;
 use niwaki_infer::gradient::live;
-use niwaki_infer::importance::importance;
-use niwaki_infer::nested::Method;
-use niwaki_infer::particles::{
-    self, Ancestors, Chain, Progress, Rejuvenation, Walks, particle_gibbs, pimh, populations, within,
-};
-use niwaki_infer::rejection::rejection;
+use niwaki_infer::log::Entry;
+use niwaki_infer::method::{self, Given, Info, Method};
+use niwaki_infer::nested::Inner;
 use niwaki_infer::replay::{Missing, Source, replay};
 use niwaki_infer::{Failure, Task};
 use niwaki_vm::code::Program;
+use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Limits;
 use niwaki_vm::value::{Closure, Value};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
@@ -117,6 +112,9 @@ pub(crate) fn detached<T: Send>(
     }
 }
 
+/// Values of choices by hash of the address, as Python gives them.
+pub(crate) type Known<'py> = HashMap<u128, Bound<'py, PyAny>>;
+
 /// A model with its arguments and the sketches that score its scene.
 #[pyclass(frozen, name = "Task", module = "niwaki._engine")]
 pub struct PyTask {
@@ -151,220 +149,58 @@ impl PyTask {
         Ok(PyTask { task, model: program.clone_ref(py) })
     }
 
-    /// ``n`` forward runs: one outcome each.
-    #[pyo3(signature = (seed, n=1, watch=None))]
-    fn forward(
+    /// Searches by a method, given as its text: the finished runs, whether the search was interrupted, and a dict of what
+    /// the method says of its search. ``functions`` are the users' proposals that kernels name by number; ``start`` is the
+    /// run that a chain of whole runs starts from, each choice as the hash of its address and its value.
+    #[pyo3(signature = (method, seed, *, functions=Vec::new(), start=None, threads=None, watch=None))]
+    #[expect(clippy::too_many_arguments, reason = "what a search is told")]
+    fn search<'py>(
         &self,
-        py: Python<'_>,
+        py: Python<'py>,
+        method: &str,
         seed: u64,
-        n: u64,
+        functions: Vec<Py<PyTask>>,
+        start: Option<Vec<(u128, Bound<'py, PyAny>)>>,
+        threads: Option<usize>,
         watch: Option<Py<PyAny>>,
-    ) -> PyResult<Vec<PyOutcome>> {
-        let run = |stream| forward(&self.task, seed, stream, true);
-        let samples = if n == 1 {
-            vec![self.at_once(py, || run(0))?]
+    ) -> PyResult<(Vec<PyOutcome>, bool, Bound<'py, PyDict>)> {
+        let method = self.read(py, method)?;
+        let functions = self.proposals(py, &functions)?;
+        let classes = &self.model.get().classes;
+        let entry =
+            |(address, value): (u128, Bound<'_, PyAny>)| Ok(Entry::new(address, classes.value(&value)?));
+        let start: Option<Vec<Entry>> =
+            start.map(|run| run.into_iter().map(entry).collect::<PyResult<_>>()).transpose()?;
+        let given = Given { seed, functions: &functions, start: start.as_deref() };
+        let find = |watch: &mut method::Watch<'_>| method.search(&self.task, &given, watch);
+        let (found, pressed) = if let Method::Forward { n: 1 } = method {
+            (self.at_once(py, || find(&mut |_, _, _| true))?, false)
         } else {
-            detached(py, &self.task.program, None, watch.as_ref(), |watch| {
-                let mut samples = Vec::new();
-                while (samples.len() as u64) < n && watch.look(samples.len() as u64, 0, f64::NEG_INFINITY) {
-                    samples.push(run(samples.len() as u64)?);
-                }
-                Ok(samples)
+            detached(py, &self.task.program, threads, watch.as_ref(), |watch| {
+                find(&mut |done, ended, best| watch.look(done, ended, best))
             })?
-            .0
         };
-        Ok(self.outcomes(samples, true, |_| 0.0))
+        let runs = found.runs.into_iter().map(|run| PyOutcome::new(run, classes.clone())).collect();
+        Ok((runs, found.interrupted || pressed, self.info(py, found.info)?))
     }
 
-    /// ``([(value, log probability)], log evidence, number of runs)``; probabilities are not normalised.
-    #[pyo3(signature = (max_runs, watch=None))]
-    fn enumerate<'py>(
-        &self,
-        py: Python<'py>,
-        max_runs: usize,
-        watch: Option<Py<PyAny>>,
-    ) -> PyResult<Bound<'py, PyTuple>> {
-        let (found, _) = detached(py, &self.task.program, None, watch.as_ref(), |watch| {
-            enumerate(&self.task, max_runs, &mut |runs| watch.look(runs as u64, 0, f64::NEG_INFINITY))
-        })?;
-        let pair = |(value, log): &(Value, f64)| Ok((self.object(py, value)?, *log));
-        let outcomes = found.outcomes.iter().map(pair).collect::<PyResult<Vec<_>>>()?;
-        (outcomes, found.log_evidence, found.runs).into_pyobject(py)
-    }
-
-    /// ``(outcomes, number of tries, whether it was interrupted)``.
-    #[pyo3(signature = (n, bound, max_tries, seed, watch=None))]
-    fn rejection(
-        &self,
-        py: Python<'_>,
-        n: usize,
-        bound: f64,
-        max_tries: u64,
-        seed: u64,
-        watch: Option<Py<PyAny>>,
-    ) -> PyResult<(Vec<PyOutcome>, u64, bool)> {
-        let (found, _) = detached(py, &self.task.program, None, watch.as_ref(), |watch| {
-            let mut look = |tries| watch.look(tries, 0, f64::NEG_INFINITY);
-            rejection(&self.task, n, bound, max_tries, seed, &mut look)
-        })?;
-        Ok((self.outcomes(found.samples, false, |_| 0.0), found.tries, found.interrupted))
-    }
-
-    /// ``(outcomes, log evidence)``; each outcome's weight is its score.
-    #[pyo3(signature = (n, seed, threads=None, watch=None))]
-    fn importance(
-        &self,
-        py: Python<'_>,
-        n: usize,
-        seed: u64,
-        threads: Option<usize>,
-        watch: Option<Py<PyAny>>,
-    ) -> PyResult<(Vec<PyOutcome>, f64)> {
-        let (found, _) = detached(py, &self.task.program, threads, watch.as_ref(), |watch| {
-            importance(&self.task, n, seed, &mut |runs| watch.look(runs as u64, 0, f64::NEG_INFINITY))
-        })?;
-        Ok((self.outcomes(found.samples, false, |s| s.record.log_score()), found.log_evidence))
-    }
-
-    /// Sequential Monte Carlo: a dict with ``particles`` (outcomes), ``log_evidence`` (None where there is none),
-    /// ``barriers``, ``steps``, ``resampled``, ``ancestors``, ``plan``, ``died``, ``temperatures``, ``interrupted``.
-    /// ``plan`` holds the sizes of the populations; with ``seconds`` the measured costs decide them. ``rejuvenate`` is the
-    /// form of a kernel, ``moves`` how many proposals each time, and ``at`` when: a number of barriers, ``"resampled"`` or
-    /// ``"end"``; proposals and those kept are told as ``moved``, of particles that ran and of those that had ended.
-    /// ``walks`` says how many chains start from the final set, and how many states of each take its place.
-    #[pyo3(signature = (plan, seed, *, order="stochastic", weights="ratio", temper=1.0, anneal=None,
-                        resampling="systematic", ess=None, rejuvenate=None, moves=1, at=At::Barriers(1), walks=None,
-                        seconds=None, threads=None, watch=None))]
-    #[expect(clippy::too_many_arguments, reason = "the settings of the method")]
-    fn smc<'py>(
-        &self,
-        py: Python<'py>,
-        plan: Vec<usize>,
-        seed: u64,
-        order: &str,
-        weights: &str,
-        temper: f64,
-        anneal: Option<Way>,
-        resampling: &str,
-        ess: Option<f64>,
-        rejuvenate: Option<Bound<'py, PyAny>>,
-        moves: u64,
-        at: At,
-        walks: Option<(usize, usize)>,
-        seconds: Option<f64>,
-        threads: Option<usize>,
-        watch: Option<Py<PyAny>>,
-    ) -> PyResult<Bound<'py, PyDict>> {
-        let program = &*self.task.program;
-        let particles = plan.first().copied().unwrap_or(1);
-        let words = Words { particles, seed, order, weights, temper, anneal, resampling, ess };
-        let mut settings = settings(py, program, words)?;
-        if let Some(form) = rejuvenate {
-            let kernel = kernel(self, &form)?;
-            let walks = walks.map(|(chains, draws)| Walks { chains, draws });
-            settings.rejuvenate = Some(Rejuvenation { kernel, moves, at: at.moment(py, program)?, walks });
-        }
-        let (found, pressed) = detached(py, program, threads, watch.as_ref(), |watch| {
-            let mut look = |p: Progress| watch.look(p.barriers as u64, p.ended, p.best);
-            match seconds {
-                Some(time) => {
-                    let time = Duration::try_from_secs_f64(time).unwrap_or(Duration::ZERO);
-                    within(&self.task, &settings, time, &mut look)
-                }
-                None => populations(&self.task, &settings, &plan, &mut look),
-            }
-        })?;
-        let facts = PyDict::new(py);
-        facts.set_item("log_evidence", found.log_evidence)?;
-        facts.set_item("barriers", found.barriers)?;
-        facts.set_item("steps", found.steps)?;
-        facts.set_item("resampled", found.resampled)?;
-        facts.set_item("ancestors", found.ancestors)?;
-        facts.set_item("plan", PyTuple::new(py, found.plan)?)?;
-        facts.set_item("died", found.died)?;
-        facts.set_item("temperatures", PyTuple::new(py, found.temperatures)?)?;
-        let pair = |count: Count| (count.proposed, count.accepted);
-        facts.set_item("moved", (pair(found.moved.running), pair(found.moved.ended)))?;
-        facts.set_item("interrupted", found.interrupted || pressed)?;
-        facts.set_item("particles", self.of_particles(found.particles))?;
-        Ok(facts)
-    }
-
-    /// The value that an ``infer`` of this task gives to the model around it: ``method`` as the front end writes it.
+    /// The value that an ``infer`` of this task gives to the model around it; ``constant`` as the front end writes it.
     fn infer<'py>(
         &self,
         py: Python<'py>,
-        method: &Bound<'py, PyAny>,
+        constant: &Bound<'py, PyAny>,
         seed: u64,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let read = self.model.get().classes.value(method)?;
         let program = &self.task.program;
-        let Some(method) = Method::read(&read) else {
-            return Err(unknown(
-                py,
-                program,
-                "method",
-                &method.repr()?.to_string(),
-                "what the front end writes",
-            ));
-        };
-        let inner = self.model.get().inferences(self.task.limits);
+        let read = Inner::read(&self.model.get().classes.value(constant)?);
+        let unknown = || Fault::new("infer-method", "this constant is no inference");
+        let inner = read
+            .unwrap_or_else(|| Err(unknown()))
+            .map_err(|fault| faults::setting(py, &fault))?;
+        let inferences = self.model.get().inferences(self.task.limits);
         let entry = Arc::new(Closure { function: program.entry.0, captures: vec![] });
-        let value = self.at_once(py, || Ok(inner.infer(&method, &entry, &self.task.args, seed)?))?;
+        let value = self.at_once(py, || Ok(inferences.infer(&inner, &entry, &self.task.args, seed)?))?;
         self.object(py, &value)
-    }
-
-    /// Particle Gibbs: a dict with ``particles`` (an outcome for each sweep), ``tries``, ``moves``, ``renewed``,
-    /// ``interrupted``. It starts from ``start``, or from a run that SMC finds.
-    #[pyo3(signature = (particles, sweeps, seed, *, order="stochastic", temper=1.0, anneal=None, ess=None,
-                        ancestors=true, start=None, threads=None, watch=None))]
-    #[expect(clippy::too_many_arguments, reason = "the settings of the method")]
-    fn particle_gibbs<'py>(
-        &self,
-        py: Python<'py>,
-        particles: usize,
-        sweeps: usize,
-        seed: u64,
-        order: &str,
-        temper: f64,
-        anneal: Option<Way>,
-        ess: Option<f64>,
-        ancestors: bool,
-        start: Option<Py<PyOutcome>>,
-        threads: Option<usize>,
-        watch: Option<Py<PyAny>>,
-    ) -> PyResult<Bound<'py, PyDict>> {
-        let (weights, resampling) = ("ratio", "multinomial");
-        let words = Words { particles, seed, order, weights, temper, anneal, resampling, ess };
-        let settings = settings(py, &self.task.program, words)?;
-        let ancestors = if ancestors { Ancestors::Sampled } else { Ancestors::Kept };
-        let from = start.map(|start| start.get().entries());
-        self.chain(py, threads, watch.as_ref(), |look| {
-            particle_gibbs(&self.task, &settings, ancestors, sweeps, from.as_deref(), look)
-        })
-    }
-
-    /// Particle independent Metropolis-Hastings: as ``particle_gibbs``, and ``log_evidence``.
-    #[pyo3(signature = (particles, sweeps, seed, *, order="stochastic", temper=1.0, anneal=None,
-                        resampling="systematic", ess=None, threads=None, watch=None))]
-    #[expect(clippy::too_many_arguments, reason = "the settings of the method")]
-    fn pimh<'py>(
-        &self,
-        py: Python<'py>,
-        particles: usize,
-        sweeps: usize,
-        seed: u64,
-        order: &str,
-        temper: f64,
-        anneal: Option<Way>,
-        resampling: &str,
-        ess: Option<f64>,
-        threads: Option<usize>,
-        watch: Option<Py<PyAny>>,
-    ) -> PyResult<Bound<'py, PyDict>> {
-        let words = Words { particles, seed, order, weights: "ratio", temper, anneal, resampling, ess };
-        let settings = settings(py, &self.task.program, words)?;
-        self.chain(py, threads, watch.as_ref(), |look| pimh(&self.task, &settings, sweeps, look))
     }
 
     /// The log density around the run with these choices, each an address with a value.
@@ -385,6 +221,11 @@ impl PyTask {
         let classes = &self.model.get().classes;
         let trace = self.at_once(py, || replay(&self.task, source, missing))?;
         PyTrace::new(py, trace, classes)
+    }
+
+    /// The outcome of what ``Outcome.data`` gave, without what the model returned.
+    fn outcome(&self, data: OutcomeData<'_>) -> PyResult<PyOutcome> {
+        data.outcome(self.model.get().classes.clone())
     }
 
     /// Runs with the choices of ``choices``, by readable address. Others are drawn from ``seed`` where there is one;
@@ -422,55 +263,81 @@ impl PyTask {
         py.detach(work).map_err(|failure| faults::raise(py, &failure, &self.task.program))
     }
 
-    /// Runs a chain of whole runs: its facts.
-    fn chain<'py>(
-        &self,
-        py: Python<'py>,
-        threads: Option<usize>,
-        callable: Option<&Py<PyAny>>,
-        work: impl FnOnce(&mut particles::Watch<'_>) -> Result<Chain, Failure> + Send,
-    ) -> PyResult<Bound<'py, PyDict>> {
-        let (found, pressed) = detached(py, &self.task.program, threads, callable, |watch| {
-            work(&mut |p: Progress| watch.look(p.barriers as u64, p.ended, p.best))
-        })?;
-        let facts = PyDict::new(py);
-        facts.set_item("tries", found.tries)?;
-        facts.set_item("moves", found.moves)?;
-        facts.set_item("renewed", found.renewed)?;
-        facts.set_item("log_evidence", found.log_evidence)?;
-        facts.set_item("interrupted", found.interrupted || pressed)?;
-        facts.set_item("particles", self.of_particles(found.states))?;
-        Ok(facts)
+    /// The method of a text.
+    pub(crate) fn read(&self, py: Python<'_>, method: &str) -> PyResult<Method> {
+        Method::read(method).map_err(|fault| faults::setting(py, &fault))
     }
 
-    fn of_particles(&self, particles: Vec<particles::Outcome>) -> Vec<PyOutcome> {
+    /// The users' proposals that are the entry functions of these tasks.
+    pub(crate) fn proposals(&self, py: Python<'_>, tasks: &[Py<PyTask>]) -> PyResult<Vec<Arc<User>>> {
+        let own = |task: &Py<PyTask>| User::new(task.get().task.clone()).map(Arc::new);
+        let made = tasks.iter().map(own).collect::<Result<_, _>>();
+        made.map_err(|fault| faults::setting(py, &fault))
+    }
+
+    /// Values by hash of the address.
+    pub(crate) fn known(&self, given: Option<Known<'_>>) -> PyResult<Option<HashMap<u128, Value>>> {
         let classes = &self.model.get().classes;
-        let made = |p: particles::Outcome| {
-            PyOutcome::new(p.record, p.value, p.log_weight, p.has_ended, classes.clone())
-        };
-        particles.into_iter().map(made).collect()
+        let value = |(address, value): (u128, Bound<'_, PyAny>)| Ok((address, classes.value(&value)?));
+        given.map(|given| given.into_iter().map(value).collect()).transpose()
+    }
+
+    /// What a method says of its search.
+    fn info<'py>(&self, py: Python<'py>, info: Info) -> PyResult<Bound<'py, PyDict>> {
+        let dict = PyDict::new(py);
+        match info {
+            Info::Forward => {}
+            Info::Importance { log_evidence } => dict.set_item("log_evidence", log_evidence)?,
+            Info::Rejection { tries } => dict.set_item("tries", tries)?,
+            Info::Enumeration(found) => {
+                let pair = |(value, log): &(Value, f64)| Ok((self.object(py, value)?, *log));
+                dict.set_item("table", found.outcomes.iter().map(pair).collect::<PyResult<Vec<_>>>()?)?;
+                dict.set_item("log_evidence", found.log_evidence)?;
+                dict.set_item("tries", found.runs)?;
+            }
+            Info::Populations(found) => {
+                dict.set_item("log_evidence", found.log_evidence)?;
+                dict.set_item("barriers", found.barriers)?;
+                dict.set_item("steps", found.steps)?;
+                dict.set_item("resampled", found.resampled)?;
+                dict.set_item("ancestors", found.ancestors)?;
+                dict.set_item("plan", PyTuple::new(py, found.plan)?)?;
+                dict.set_item("died", found.died)?;
+                dict.set_item("temperatures", PyTuple::new(py, found.temperatures)?)?;
+                let pair = |count: Count| (count.proposed, count.accepted);
+                dict.set_item("moved", (pair(found.moved.running), pair(found.moved.ended)))?;
+            }
+            Info::Chain(found) => {
+                dict.set_item("tries", found.tries)?;
+                dict.set_item("moves", found.moves)?;
+                dict.set_item("renewed", PyTuple::new(py, found.renewed)?)?;
+                dict.set_item("log_evidence", found.log_evidence)?;
+            }
+        }
+        Ok(dict)
     }
 
     fn object<'py>(&self, py: Python<'py>, value: &Value) -> PyResult<Bound<'py, PyAny>> {
         self.model.get().classes.object(py, value)
     }
+}
 
-    fn outcomes(
-        &self,
-        samples: Vec<Sample>,
-        complete: bool,
-        weight: impl Fn(&Sample) -> f64,
-    ) -> Vec<PyOutcome> {
-        let classes: &Arc<_> = &self.model.get().classes;
-        let made = |sample: Sample| {
-            let (log_weight, ended) = (weight(&sample), complete || sample.record.cause.is_none());
-            PyOutcome::new(sample.record, sample.value, log_weight, ended, classes.clone())
-        };
-        samples.into_iter().map(made).collect()
-    }
+/// Refuses a method, given as its text, that an inference inside a model cannot honour.
+#[pyfunction]
+fn check_inside(py: Python<'_>, method: &str) -> PyResult<()> {
+    let checked = Method::read(method).and_then(|method| method.check_inside());
+    checked.map_err(|fault| faults::setting(py, &fault))
+}
+
+/// A hash of the bits that this machine's elementary functions give, in hexadecimal: where it is equal, so are results.
+#[pyfunction]
+fn fingerprint() -> String {
+    format!("{:032x}", niwaki_math::fingerprint::fingerprint())
 }
 
 /// Puts this room into the module.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_function(wrap_pyfunction!(check_inside, module)?)?;
+    module.add_function(wrap_pyfunction!(fingerprint, module)?)?;
     module.add_class::<PyTask>()
 }

@@ -2,18 +2,15 @@
 
 use crate::faults;
 use crate::outcome::PyOutcome;
-use crate::search::{PyTask, detached};
-use crate::settings::unknown;
+use crate::search::{Known, PyTask, detached};
 use niwaki_infer::Failure;
 use niwaki_infer::gradient::explore::{Explored, Plan, explore};
-use niwaki_infer::hamiltonian::chains::Length;
-use niwaki_infer::hamiltonian::{Cause, Settings, Shape};
-use niwaki_vm::value::Value;
+use niwaki_infer::hamiltonian::Cause;
+use niwaki_infer::run::Run;
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
-use pyo3::exceptions::PyIndexError;
+use pyo3::exceptions::{PyIndexError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use std::collections::HashMap;
 
 type Reals<'py> = Bound<'py, PyArray1<f64>>;
 
@@ -29,68 +26,22 @@ pub struct PyTrajectories {
 
 #[pymethods]
 impl PyTrajectories {
-    /// Runs the chains. With ``max_depth`` they are NUTS, else HMC of ``steps`` and ``jitter``. Before, they
-    /// take ``climb`` steps uphill. ``known`` are first values
-    /// by hash of the address.
+    /// Runs the chains of a method, given as its text. ``known`` are first values by hash of the address.
     #[new]
-    #[pyo3(signature = (task, seed, *, chains, draws, warmup, thin, target_accept, metric, step_size=None, steps=1,
-                        climb=0, jitter=0.0, max_depth=None, tries=1000, known=None, threads=None, watch=None))]
-    #[expect(clippy::too_many_arguments, reason = "the settings of the method")]
+    #[pyo3(signature = (task, method, seed, *, known=None, threads=None, watch=None))]
     fn new(
         py: Python<'_>,
         task: Py<PyTask>,
+        method: &str,
         seed: u64,
-        chains: usize,
-        draws: u32,
-        warmup: u32,
-        thin: u32,
-        target_accept: f64,
-        metric: &str,
-        step_size: Option<f64>,
-        steps: u32,
-        climb: u32,
-        jitter: f64,
-        max_depth: Option<u32>,
-        tries: u64,
-        known: Option<HashMap<u128, Bound<'_, PyAny>>>,
+        known: Option<Known<'_>>,
         threads: Option<usize>,
         watch: Option<Py<PyAny>>,
     ) -> PyResult<PyTrajectories> {
         let own = task.get();
-        let shape = match metric {
-            "unit" => Shape::Unit,
-            "diagonal" => Shape::Diagonal,
-            "dense" => Shape::Dense,
-            "low-rank" => Shape::LowRank,
-            _ => {
-                let expected = "\"diagonal\", \"dense\", \"low-rank\" or \"unit\"";
-                return Err(unknown(py, &own.task.program, "metric", metric, expected));
-            }
-        };
-        let length = match max_depth {
-            Some(max_depth) => Length::NoUTurn { max_depth },
-            None => Length::Fixed { steps, jitter },
-        };
-        let settings = Settings {
-            length,
-            climb,
-            warmup,
-            draws,
-            thin,
-            target_accept,
-            shape,
-            step_size,
-            ..Settings::nuts()
-        };
-        let known = match known {
-            None => None,
-            Some(given) => {
-                let value = |(address, value): (u128, Bound<'_, PyAny>)| {
-                    Ok((address, own.model.get().classes.value(&value)?))
-                };
-                Some(given.into_iter().map(value).collect::<PyResult<HashMap<u128, Value>>>()?)
-            }
-        };
+        let (settings, chains, tries) = (own.read(py, method)?.trajectories())
+            .ok_or_else(|| PyTypeError::new_err("this method does not follow the gradient"))?;
+        let known = own.known(known)?;
         let plan = Plan { settings: &settings, seed, chains, tries, known: known.as_ref() };
         let (found, pressed) = detached(py, &own.task.program, threads, watch.as_ref(), |watch| {
             explore(&own.task, &plan, &|done| watch.look(done, 0, f64::NEG_INFINITY))
@@ -190,7 +141,8 @@ impl PyTrajectories {
         let run = py.detach(|| found.trace(&own.task, draw));
         let run = run.ok_or_else(|| PyIndexError::new_err("no such draw"))?;
         let trace = run.map_err(|failure| faults::raise(py, &failure, &own.task.program))?;
-        Ok(PyOutcome::new(trace.record, trace.value, 0.0, true, own.model.get().classes.clone()))
+        let run = Run::of(trace.record, trace.value, 0.0, true);
+        Ok(PyOutcome::new(run, own.model.get().classes.clone()))
     }
 }
 

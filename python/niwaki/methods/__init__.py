@@ -4,6 +4,7 @@ direct      forward runs, enumeration, rejection, likelihood weighting
 particles   sequential Monte Carlo, and the chains made of it
 chains      Metropolis-Hastings
 gradients   Hamiltonian Monte Carlo
+method      what all have in common: a method as data
 checks      what their settings are checked for
 """
 
@@ -20,6 +21,7 @@ from niwaki.methods.direct import (
     rejection,
 )
 from niwaki.methods.gradients import METRICS, Hmc, Nuts, explore, hmc, nuts
+from niwaki.methods.method import Method
 from niwaki.methods.particles import (
     ORDERS,
     RESAMPLING,
@@ -31,8 +33,6 @@ from niwaki.methods.particles import (
     pimh,
     smc,
 )
-
-Method = Smc | ParticleGibbs | Pimh | EnumerateAll | Rejection | Importance | Forward | Mh | Hmc | Nuts
 
 __all__ = [
     "METRICS",

@@ -4,46 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from niwaki.errors import InputError
 from niwaki.kernels import Kernel
-from niwaki.methods.checks import at_least_one, is_whole, one_of
+from niwaki.methods.checks import at_least_one, bad, from_zero, one_of
+from niwaki.methods.method import Method
 
 STRATEGIES = ("c3", "rerun", "resume", "cache")
 
 
 @dataclass(frozen=True)
-class Mh:
-    """Metropolis-Hastings; see `mh`."""
-
-    steps: int = 10_000
-    strategy: str = "c3"
-    kernel: Kernel | None = None
-    chains: int = 1
-    thin: int | None = None
-    keep: int = 1000
-    warmup: int = 0
-    seed: int | None = None
-    tries: int = 1000
-
-    @property
-    def spacing(self) -> int:
-        """Proposals between two samples; 0 for none."""
-        if self.keep == 0:
-            return 0
-        return self.thin if self.thin is not None else max(1, -(-(self.steps - self.warmup) // self.keep))
-
-
-def mh(
-    steps: int = 10_000,
-    strategy: str = "c3",
-    kernel: Kernel | None = None,
-    chains: int = 1,
-    thin: int | None = None,
-    keep: int = 1000,
-    warmup: int = 0,
-    seed: int | None = None,
-    tries: int = 1000,
-) -> Mh:
+class Mh(Method):
     """Markov chains: one state each, changed proposal by proposal (dissertation chapter 3).
 
     Parameters
@@ -62,42 +31,37 @@ def mh(
         Proposals between two samples; when left out as many as give `keep` samples. It doubles when samples take too
         much memory.
     keep
-        About how many samples of each chain; 0 for none (the best state is always kept).
+        About how many samples of each chain, 1000 when left out; 0 for none (the best state is always kept).
     warmup
         Proposals before the first sample; step sizes are adapted in them, and never after.
-    seed
-        As for `run`, which comes first.
     tries
         Most forward runs for a first state that is possible.
     """
-    for name, value in (("steps", steps), ("chains", chains), ("tries", tries)):
-        at_least_one(name, value)
-    if thin is not None:
-        at_least_one("thin", thin)
-    for name, value in (("keep", keep), ("warmup", warmup)):
-        if not is_whole(value) or value < 0:
-            raise InputError(
-                "bad-setting",
-                name=name,
-                found=repr(value),
-                expected="a whole number, 0 or more",
-                suggestion="0",
-            )
-    if warmup >= steps:
-        raise InputError(
-            "bad-setting",
-            name="warmup",
-            found=repr(warmup),
-            expected="fewer proposals than `steps`",
-            suggestion=repr(steps // 5),
-        )
-    one_of("strategy", strategy, STRATEGIES)
-    if kernel is not None and not isinstance(kernel, Kernel):
-        raise InputError(
-            "bad-setting",
-            name="kernel",
-            found=repr(kernel),
-            expected="a kernel",
-            suggestion="one of `niwaki.kernels`, such as `kernels.drift()`",
-        )
-    return Mh(steps, strategy, kernel, chains, thin, keep, warmup, seed, tries)
+
+    NAME = "mh"
+    steps: int = 10_000
+    strategy: str = "c3"
+    kernel: Kernel | None = None
+    chains: int = 1
+    thin: int | None = None
+    keep: int | None = None
+    warmup: int = 0
+    tries: int = 1000
+
+    def __post_init__(self) -> None:
+        """Check the settings."""
+        for name in ("steps", "chains", "tries"):
+            at_least_one(name, getattr(self, name))
+        if self.thin is not None:
+            at_least_one("thin", self.thin)
+        if self.keep is not None:
+            from_zero("keep", self.keep)
+        from_zero("warmup", self.warmup)
+        if self.warmup >= self.steps:
+            raise bad("warmup", self.warmup, "fewer proposals than `steps`", repr(self.steps // 5))
+        one_of("strategy", self.strategy, STRATEGIES)
+        if self.kernel is not None and not isinstance(self.kernel, Kernel):
+            raise bad("kernel", self.kernel, "a kernel", "one of `niwaki.kernels`, such as `kernels.drift()`")
+
+
+mh = Mh

@@ -25,24 +25,32 @@ def is_number(value: Any) -> bool:
 def at_least_one(name: str, value: int) -> int:
     """The value, where it is a whole number above zero."""
     if not is_whole(value) or value < 1:
-        raise InputError(
-            "bad-setting",
-            name=name,
-            found=repr(value),
-            expected="a whole number above 0",
-            suggestion="1 or more",
-        )
+        raise bad(name, value, "a whole number above 0", "1 or more")
     return value
+
+
+def from_zero(name: str, value: int, usual: str = "0") -> None:
+    """Refuse what is not a whole number, 0 or more."""
+    if not is_whole(value) or value < 0:
+        raise bad(name, value, "a whole number, 0 or more", usual)
 
 
 def one_of(name: str, value: str, known: tuple[str, ...]) -> None:
     """Refuse a word that is not known."""
     if value not in known:
         listed = ", ".join(f'"{one}"' for one in known)
-        raise InputError(
-            "bad-setting",
-            name=name,
-            found=repr(value),
-            expected=f"one of {listed}",
-            suggestion=f'"{known[0]}"',
-        )
+        raise bad(name, value, f"one of {listed}", f'"{known[0]}"')
+
+
+def samples(n: int) -> None:
+    """Refuse a number of samples that is none."""
+    if not is_whole(n) or n < 1:
+        raise InputError("no-samples", detail=f"n={n!r}")
+
+
+def particles(n: int, least: int = 1) -> None:
+    """Refuse a number of particles that is too small."""
+    if not is_whole(n) or n < 1:
+        raise InputError("no-particles", found=repr(n))
+    if n < least:
+        raise bad("particles", n, f"a whole number, at least {least}", "100")

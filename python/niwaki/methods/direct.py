@@ -4,41 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from niwaki.errors import InputError
-from niwaki.methods.checks import at_least_one, is_number, is_whole
+from niwaki.methods.checks import at_least_one, bad, is_number, samples
+from niwaki.methods.method import Method
 
 
 @dataclass(frozen=True)
-class EnumerateAll:
-    """Exact enumeration; see `enumerate_all`."""
-
-    max_runs: int = 1_000_000
-
-
-@dataclass(frozen=True)
-class Rejection:
-    """Rejection sampling; see `rejection`."""
-
-    n: int = 100
-    bound: float = 0.0
-    max_tries: int = 1_000_000
-
-
-@dataclass(frozen=True)
-class Importance:
-    """Likelihood weighting; see `importance`."""
-
-    n: int = 1000
-
-
-@dataclass(frozen=True)
-class Forward:
-    """Runs of the prior; see `forward`."""
-
-    n: int = 1
-
-
-def enumerate_all(max_runs: int = 1_000_000) -> EnumerateAll:
+class EnumerateAll(Method):
     """The exact distribution of a model's value, by visiting every run.
 
     Parameters
@@ -46,10 +17,17 @@ def enumerate_all(max_runs: int = 1_000_000) -> EnumerateAll:
     max_runs
         Most complete runs to visit.
     """
-    return EnumerateAll(at_least_one("max_runs", max_runs))
+
+    NAME = "enumerate_all"
+    max_runs: int = 1_000_000
+
+    def __post_init__(self) -> None:
+        """Check the settings."""
+        at_least_one("max_runs", self.max_runs)
 
 
-def rejection(n: int = 100, bound: float = 0.0, max_tries: int = 1_000_000) -> Rejection:
+@dataclass(frozen=True)
+class Rejection(Method):
     """Exact samples: forward runs, kept with probability `exp(log_score - bound)`.
 
     Parameters
@@ -61,14 +39,23 @@ def rejection(n: int = 100, bound: float = 0.0, max_tries: int = 1_000_000) -> R
     max_tries
         Most runs to try.
     """
-    if not is_number(bound) or bound != bound:
-        raise InputError(
-            "bad-setting", name="bound", found=repr(bound), expected="a number of nats", suggestion="0"
-        )
-    return Rejection(_samples(n), float(bound), at_least_one("max_tries", max_tries))
+
+    NAME = "rejection"
+    n: int = 100
+    bound: float = 0.0
+    max_tries: int = 1_000_000
+
+    def __post_init__(self) -> None:
+        """Check the settings."""
+        if not is_number(self.bound) or not abs(self.bound) < float("inf"):
+            raise bad("bound", self.bound, "a number of nats", "0")
+        samples(self.n)
+        self._set("bound", float(self.bound))
+        at_least_one("max_tries", self.max_tries)
 
 
-def importance(n: int = 1000) -> Importance:
+@dataclass(frozen=True)
+class Importance(Method):
     """Independent forward runs, each weighted by its score.
 
     Parameters
@@ -76,10 +63,17 @@ def importance(n: int = 1000) -> Importance:
     n
         How many runs.
     """
-    return Importance(_samples(n))
+
+    NAME = "importance"
+    n: int = 1000
+
+    def __post_init__(self) -> None:
+        """Check the settings."""
+        samples(self.n)
 
 
-def forward(n: int = 1) -> Forward:
+@dataclass(frozen=True)
+class Forward(Method):
     """Runs of the prior: every choice is drawn from its distribution, whatever the score.
 
     Parameters
@@ -87,10 +81,13 @@ def forward(n: int = 1) -> Forward:
     n
         How many runs.
     """
-    return Forward(_samples(n))
+
+    NAME = "forward"
+    n: int = 1
+
+    def __post_init__(self) -> None:
+        """Check the settings."""
+        samples(self.n)
 
 
-def _samples(n: int) -> int:
-    if not is_whole(n) or n < 1:
-        raise InputError("no-samples", detail=f"n={n!r}")
-    return n
+enumerate_all, rejection, importance, forward = EnumerateAll, Rejection, Importance, Forward

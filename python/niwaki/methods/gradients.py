@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
-from niwaki.errors import InputError
-from niwaki.methods.checks import at_least_one, is_number, is_whole, one_of
+from niwaki.methods.checks import at_least_one, bad, is_number, is_whole, one_of
+from niwaki.methods.method import Method
 
 #: Transitions of a chain are counted in 32 bits.
 MOST = 2**32 - 1
@@ -14,51 +13,7 @@ METRICS = ("diagonal", "dense", "low-rank", "unit")
 
 
 @dataclass(frozen=True)
-class Hmc:
-    """Hamiltonian Monte Carlo; see `hmc`."""
-
-    draws: int = 1000
-    steps: int = 100
-    jitter: float = 0.0
-    chains: int = 4
-    warmup: int = 1000
-    thin: int = 1
-    target_accept: float = 0.65
-    metric: str = "diagonal"
-    step_size: float | None = None
-    climb: int = 0
-    tries: int = 1000
-
-
-@dataclass(frozen=True)
-class Nuts:
-    """The no-U-turn sampler; see `nuts`."""
-
-    draws: int = 1000
-    max_depth: int = 10
-    chains: int = 4
-    warmup: int = 1000
-    thin: int = 1
-    target_accept: float = 0.8
-    metric: str = "diagonal"
-    step_size: float | None = None
-    climb: int = 0
-    tries: int = 1000
-
-
-def hmc(
-    draws: int = 1000,
-    steps: int = 100,
-    jitter: float = 0.0,
-    chains: int = 4,
-    warmup: int = 1000,
-    thin: int = 1,
-    target_accept: float = 0.65,
-    metric: str = "diagonal",
-    step_size: float | None = None,
-    climb: int = 0,
-    tries: int = 1000,
-) -> Hmc:
+class Hmc(Method):
     """Chains that follow the gradient for a fixed number of steps (dissertation 4.3).
 
     Parameters
@@ -89,26 +44,30 @@ def hmc(
     tries
         Most forward runs for the start of each chain.
     """
-    common = _chain_settings(draws, chains, warmup, thin, target_accept, metric, step_size, climb, tries)
-    if not is_number(jitter) or not 0 <= jitter <= 1:
-        raise InputError(
-            "bad-setting", name="jitter", found=repr(jitter), expected="a share in [0, 1]", suggestion="0.5"
-        )
-    return Hmc(steps=_count("steps", steps), jitter=float(jitter), **common)
+
+    NAME = "hmc"
+    draws: int = 1000
+    steps: int = 100
+    jitter: float = 0.0
+    chains: int = 4
+    warmup: int = 1000
+    thin: int = 1
+    target_accept: float = 0.65
+    metric: str = "diagonal"
+    step_size: float | None = None
+    climb: int = 0
+    tries: int = 1000
+
+    def __post_init__(self) -> None:
+        """Check the settings."""
+        _check(self)
+        if not is_number(self.jitter) or not 0 <= self.jitter <= 1:
+            raise bad("jitter", self.jitter, "a share in [0, 1]", "0.5")
+        _count("steps", self.steps)
 
 
-def nuts(
-    draws: int = 1000,
-    max_depth: int = 10,
-    chains: int = 4,
-    warmup: int = 1000,
-    thin: int = 1,
-    target_accept: float = 0.8,
-    metric: str = "diagonal",
-    step_size: float | None = None,
-    climb: int = 0,
-    tries: int = 1000,
-) -> Nuts:
+@dataclass(frozen=True)
+class Nuts(Method):
     """Chains that follow the gradient until they turn back (Hoffman & Gelman 2014; Betancourt 2017).
 
     Parameters
@@ -118,16 +77,27 @@ def nuts(
     draws, chains, warmup, thin, target_accept, metric, step_size, climb, tries
         As for `hmc`.
     """
-    common = _chain_settings(draws, chains, warmup, thin, target_accept, metric, step_size, climb, tries)
-    if not is_whole(max_depth) or not 1 <= max_depth <= 20:
-        raise InputError(
-            "bad-setting",
-            name="max_depth",
-            found=repr(max_depth),
-            expected="a whole number from 1 to 20",
-            suggestion="10",
-        )
-    return Nuts(max_depth=max_depth, **common)
+
+    NAME = "nuts"
+    draws: int = 1000
+    max_depth: int = 10
+    chains: int = 4
+    warmup: int = 1000
+    thin: int = 1
+    target_accept: float = 0.8
+    metric: str = "diagonal"
+    step_size: float | None = None
+    climb: int = 0
+    tries: int = 1000
+
+    def __post_init__(self) -> None:
+        """Check the settings."""
+        _check(self)
+        if not is_whole(self.max_depth) or not 1 <= self.max_depth <= 20:
+            raise bad("max_depth", self.max_depth, "a whole number from 1 to 20", "10")
+
+
+hmc, nuts = Hmc, Nuts
 
 
 def explore(draws: int = 8, chains: int = 128, warmup: int = 6, steps: int = 30, climb: int = 2000) -> Hmc:
@@ -143,68 +113,28 @@ def explore(draws: int = 8, chains: int = 128, warmup: int = 6, steps: int = 30,
     draws, chains, warmup, steps, climb
         As for `hmc`, which this is, with lengths that vary by half and no metric: few draws teach none.
     """
-    return hmc(draws, steps, jitter=0.5, chains=chains, warmup=warmup, metric="unit", climb=climb)
+    return Hmc(draws, steps, jitter=0.5, chains=chains, warmup=warmup, metric="unit", climb=climb)
 
 
-def _chain_settings(
-    draws: int,
-    chains: int,
-    warmup: int,
-    thin: int,
-    target_accept: float,
-    metric: str,
-    step_size: float | None,
-    climb: int,
-    tries: int,
-) -> dict[str, Any]:
-    """Check what all chains have in common."""
-    for name, value, usual in (("warmup", warmup, "1000"), ("climb", climb, "100")):
+def _check(method: Hmc | Nuts) -> None:
+    """Check what both have in common."""
+    for name, usual in (("warmup", "1000"), ("climb", "100")):
+        value = getattr(method, name)
         if not is_whole(value) or not 0 <= value <= MOST:
-            raise InputError(
-                "bad-setting",
-                name=name,
-                found=repr(value),
-                expected=f"a whole number from 0 to {MOST}",
-                suggestion=usual,
-            )
-    if not is_number(target_accept) or not 0 < target_accept < 1:
-        raise InputError(
-            "bad-setting",
-            name="target_accept",
-            found=repr(target_accept),
-            expected="a share between 0 and 1",
-            suggestion="0.8",
-        )
-    if step_size is not None and (not is_number(step_size) or not 0 < step_size < float("inf")):
-        raise InputError(
-            "bad-setting",
-            name="step_size",
-            found=repr(step_size),
-            expected="a number above 0",
-            suggestion="0.1, or leave it out",
-        )
-    one_of("metric", metric, METRICS)
-    return {
-        "draws": _count("draws", draws),
-        "chains": at_least_one("chains", chains),
-        "warmup": warmup,
-        "thin": _count("thin", thin),
-        "target_accept": float(target_accept),
-        "metric": metric,
-        "step_size": None if step_size is None else float(step_size),
-        "climb": climb,
-        "tries": at_least_one("tries", tries),
-    }
+            raise bad(name, value, f"a whole number from 0 to {MOST}", usual)
+    if not is_number(method.target_accept) or not 0 < method.target_accept < 1:
+        raise bad("target_accept", method.target_accept, "a share between 0 and 1", "0.8")
+    step = method.step_size
+    if step is not None and (not is_number(step) or not 0 < step < float("inf")):
+        raise bad("step_size", step, "a number above 0", "0.1, or leave it out")
+    one_of("metric", method.metric, METRICS)
+    _count("draws", method.draws)
+    _count("thin", method.thin)
+    for name in ("chains", "tries"):
+        at_least_one(name, getattr(method, name))
 
 
-def _count(name: str, value: int) -> int:
-    """A number of transitions or steps that the engine can count."""
+def _count(name: str, value: int) -> None:
+    """Refuse a number of transitions or steps that the engine cannot count."""
     if at_least_one(name, value) > MOST:
-        raise InputError(
-            "bad-setting",
-            name=name,
-            found=repr(value),
-            expected=f"at most {MOST}",
-            suggestion="1000",
-        )
-    return value
+        raise bad(name, value, f"at most {MOST}", "1000")

@@ -9,6 +9,8 @@ from typing import Any
 from niwaki.errors import InputError
 from niwaki.kernels import Kernel
 from niwaki.methods.checks import at_least_one, bad, is_number, is_whole, one_of
+from niwaki.methods.checks import particles as check_particles
+from niwaki.methods.method import Method
 
 ORDERS = ("stochastic", "depth-first")
 WEIGHTS = ("ratio", "absolute")
@@ -17,78 +19,7 @@ RESAMPLING = ("systematic", "residual", "stratified", "multinomial")
 
 
 @dataclass(frozen=True)
-class Smc:
-    """Sequential Monte Carlo; see `smc`."""
-
-    particles: int | tuple[int, ...] = 300
-    order: str = "stochastic"
-    weights: str = "ratio"
-    temper: float = 1.0
-    resampling: str = "systematic"
-    ess: float | None = None
-    anneal: float | tuple[float, ...] | None = None
-    populations: int = 1
-    diverse: int | None = None
-    seconds: float | None = None
-    rejuvenate: Kernel | None = None
-    moves: int = 1
-    at: int | str = 1
-    draws: int | None = None
-    chains: int = 1
-
-    @property
-    def plan(self) -> tuple[int, ...]:
-        """Sizes of the populations, where no time decides them."""
-        if isinstance(self.particles, tuple):
-            return self.particles
-        return (self.particles,) * self.populations
-
-
-@dataclass(frozen=True)
-class ParticleGibbs:
-    """Particle Gibbs; see `particle_gibbs`."""
-
-    particles: int = 100
-    sweeps: int = 100
-    order: str = "stochastic"
-    temper: float = 1.0
-    ess: float | None = None
-    anneal: tuple[float, ...] | None = None
-    ancestors: bool = True
-    start: Any = None
-
-
-@dataclass(frozen=True)
-class Pimh:
-    """Particle independent Metropolis-Hastings; see `pimh`."""
-
-    particles: int = 100
-    sweeps: int = 100
-    order: str = "stochastic"
-    temper: float = 1.0
-    resampling: str = "systematic"
-    ess: float | None = None
-    anneal: tuple[float, ...] | None = None
-
-
-def smc(
-    particles: int | Sequence[int] = 300,
-    order: str = "stochastic",
-    weights: str = "ratio",
-    temper: float = 1.0,
-    resampling: str = "systematic",
-    ess: float | None = None,
-    *,
-    anneal: float | Sequence[float] | None = None,
-    populations: int | None = None,
-    diverse: int | None = None,
-    seconds: float | None = None,
-    rejuvenate: Kernel | None = None,
-    moves: int = 1,
-    at: int | str = 1,
-    draws: int | None = None,
-    chains: int = 1,
-) -> Smc:
+class Smc(Method):
     """Particles that are scored and resampled while they grow.
 
     Parameters
@@ -138,59 +69,85 @@ def smc(
         chain, `moves` proposals apart, are the final set. Much cheaper than as many moves of every particle, as a run
         is built once for a chain, and they go further.
     """
-    if seconds is not None:
-        if not is_number(seconds) or not 0 < seconds < float("inf"):
-            raise bad("seconds", seconds, "a number of seconds above 0", "10")
-        if populations is not None or not is_whole(particles):
-            other = "populations" if populations is not None else "particles"
-            raise bad(other, populations or particles, "no number of populations beside `seconds`", "None")
-    sizes = particles if isinstance(particles, int) else tuple(particles)
-    for size in (sizes,) if isinstance(sizes, int) else sizes or (0,):
-        if not is_whole(size) or size < 1:
-            raise InputError("no-particles", found=repr(size))
-    one_of("order", order, ORDERS)
-    one_of("weights", weights, WEIGHTS)
-    one_of("resampling", resampling, RESAMPLING)
-    _check_temper(temper)
-    _check_ess(ess)
-    if diverse is not None:
-        at_least_one("diverse", diverse)
-    if populations is not None:
-        at_least_one("populations", populations)
-        if not isinstance(sizes, int):
-            raise bad("populations", populations, "nothing beside a list of sizes", "None")
-    _check_moves(rejuvenate, moves, at, weights)
-    _check_walks(rejuvenate, draws, chains)
-    return Smc(
-        sizes,
-        order,
-        weights,
-        float(temper),
-        resampling,
-        ess,
-        _way(anneal, weights),
-        populations or (diverse if draws is None else None) or 1,
-        diverse,
-        None if seconds is None else float(seconds),
-        rejuvenate,
-        moves,
-        at,
-        draws,
-        chains,
-    )
+
+    NAME = "smc"
+    particles: int | Sequence[int] = 300
+    order: str = "stochastic"
+    weights: str = "ratio"
+    temper: float = 1.0
+    resampling: str = "systematic"
+    ess: float | None = None
+    anneal: float | Sequence[float] | None = None
+    populations: int | None = None
+    diverse: int | None = None
+    seconds: float | None = None
+    rejuvenate: Kernel | None = None
+    moves: int = 1
+    at: int | str = 1
+    draws: int | None = None
+    chains: int = 1
+
+    def __post_init__(self) -> None:
+        """Check the settings."""
+        if self.seconds is not None:
+            if not is_number(self.seconds) or not 0 < self.seconds < float("inf"):
+                raise bad("seconds", self.seconds, "a number of seconds above 0", "10")
+            for name in ("populations", "particles"):
+                given = getattr(self, name)
+                if given is not None and not (name == "particles" and is_whole(given)):
+                    raise bad(name, given, "no number of populations beside `seconds`", "None")
+            self._set("seconds", float(self.seconds))
+        if not isinstance(self.particles, int):
+            self._set("particles", tuple(self.particles))
+        sizes = self.particles if isinstance(self.particles, tuple) else (self.particles,)
+        for size in sizes or (0,):
+            check_particles(size)
+        one_of("order", self.order, ORDERS)
+        one_of("weights", self.weights, WEIGHTS)
+        one_of("resampling", self.resampling, RESAMPLING)
+        _check_temper(self)
+        if self.diverse is not None:
+            at_least_one("diverse", self.diverse)
+        if self.populations is not None:
+            at_least_one("populations", self.populations)
+            if not isinstance(self.particles, int):
+                raise bad("populations", self.populations, "nothing beside a list of sizes", "None")
+        self._check_moves()
+        self._set("anneal", _powers(self.anneal, self.weights))
+
+    def _check_moves(self) -> None:
+        at_least_one("moves", self.moves)
+        if self.at not in MOMENTS and (not is_whole(self.at) or int(self.at) < 1):
+            raise bad("at", self.at, 'a number of barriers, "resampled" or "end"', "1")
+        at_least_one("chains", self.chains)
+        if self.draws is not None:
+            at_least_one("draws", self.draws)
+            if self.rejuvenate is None:
+                raise bad(
+                    "draws", self.draws, "nothing without `rejuvenate`, which says how chains move", "None"
+                )
+        elif self.chains != 1:
+            expected = "nothing without `draws`, which says how many states of each"
+            raise bad("chains", self.chains, expected, "1")
+        if self.rejuvenate is None:
+            return
+        kernel: Any = self.rejuvenate
+        if not isinstance(kernel, Kernel):
+            suggestion = "one of `niwaki.kernels`, such as `kernels.mh()`"
+            raise bad("rejuvenate", self.rejuvenate, "a kernel", suggestion)
+        if self.weights == "absolute":
+            expected = "nothing beside absolute weights, which have no law to keep"
+            raise bad("rejuvenate", self.rejuvenate, expected, 'None, or `weights` to "ratio"')
+        changing = self.rejuvenate.first("anneal", "temper")
+        if changing is not None:
+            expected = "a kernel that keeps the particles' law, which annealing and tempering do not"
+            raise bad(
+                "rejuvenate", self.rejuvenate, expected, f"{changing.parts[0]!r}, and `anneal=` of `smc`"
+            )
 
 
-def particle_gibbs(
-    particles: int = 100,
-    sweeps: int = 100,
-    order: str = "stochastic",
-    temper: float = 1.0,
-    ess: float | None = None,
-    *,
-    anneal: Sequence[float] | None = None,
-    ancestors: bool = True,
-    start: Any = None,
-) -> ParticleGibbs:
+@dataclass(frozen=True)
+class ParticleGibbs(Method):
     """A chain of whole runs: each sweep is a population that holds the last run, and one of it is the next.
 
     Right for any number of particles above 1 (Andrieu, Doucet & Holenstein 2010); with ancestor sampling (Lindsten,
@@ -207,30 +164,29 @@ def particle_gibbs(
         The power at each barrier, as for `smc`.
     ancestors
         Whether the past of the held run is drawn anew at each resampling.
-    start
-        A sample of the same model to start from; a run that `smc` finds when left out.
     """
-    if not is_whole(particles) or particles < 2:
-        raise bad("particles", particles, "a whole number above 1", "100")
-    at_least_one("sweeps", sweeps)
-    one_of("order", order, ORDERS)
-    _check_temper(temper)
-    _check_ess(ess)
-    if start is not None and not hasattr(start, "_outcome"):
-        raise bad("start", start, "a sample of a search", "result.best")
-    return ParticleGibbs(particles, sweeps, order, float(temper), ess, _fixed(anneal), bool(ancestors), start)
+
+    NAME = "particle_gibbs"
+    particles: int = 100
+    sweeps: int = 100
+    order: str = "stochastic"
+    temper: float = 1.0
+    ess: float | None = None
+    anneal: Sequence[float] | None = None
+    ancestors: bool = True
+
+    def __post_init__(self) -> None:
+        """Check the settings."""
+        check_particles(self.particles, 2)
+        at_least_one("sweeps", self.sweeps)
+        one_of("order", self.order, ORDERS)
+        _check_temper(self)
+        self._set("anneal", _fixed(self.anneal))
+        self._set("ancestors", bool(self.ancestors))
 
 
-def pimh(
-    particles: int = 100,
-    sweeps: int = 100,
-    order: str = "stochastic",
-    temper: float = 1.0,
-    resampling: str = "systematic",
-    ess: float | None = None,
-    *,
-    anneal: Sequence[float] | None = None,
-) -> Pimh:
+@dataclass(frozen=True)
+class Pimh(Method):
     """A chain whose proposals are whole populations, accepted by the ratio of their evidence.
 
     Right for any number of particles (Andrieu, Doucet & Holenstein 2010, section 2.4.2). `Result.moves` of
@@ -245,66 +201,40 @@ def pimh(
     anneal
         The power at each barrier, as for `smc`.
     """
-    if not is_whole(particles) or particles < 1:
-        raise InputError("no-particles", found=repr(particles))
-    at_least_one("sweeps", sweeps)
-    one_of("order", order, ORDERS)
-    one_of("resampling", resampling, RESAMPLING)
-    _check_temper(temper)
-    _check_ess(ess)
-    return Pimh(particles, sweeps, order, float(temper), resampling, ess, _fixed(anneal))
+
+    NAME = "pimh"
+    particles: int = 100
+    sweeps: int = 100
+    order: str = "stochastic"
+    temper: float = 1.0
+    resampling: str = "systematic"
+    ess: float | None = None
+    anneal: Sequence[float] | None = None
+
+    def __post_init__(self) -> None:
+        """Check the settings."""
+        check_particles(self.particles)
+        at_least_one("sweeps", self.sweeps)
+        one_of("order", self.order, ORDERS)
+        one_of("resampling", self.resampling, RESAMPLING)
+        _check_temper(self)
+        self._set("anneal", _fixed(self.anneal))
 
 
-def _check_moves(rejuvenate: Any, moves: int, at: Any, weights: str) -> None:
-    at_least_one("moves", moves)
-    if at not in MOMENTS and (not is_whole(at) or at < 1):
-        raise bad("at", at, 'a number of barriers, "resampled" or "end"', "1")
-    if rejuvenate is None:
-        return
-    if not isinstance(rejuvenate, Kernel):
-        raise bad("rejuvenate", rejuvenate, "a kernel", "one of `niwaki.kernels`, such as `kernels.mh()`")
-    if weights == "absolute":
-        raise bad(
-            "rejuvenate",
-            rejuvenate,
-            "nothing beside absolute weights, which have no law to keep",
-            'None, or `weights` to "ratio"',
-        )
-    changing = _first(rejuvenate, ("anneal", "temper"))
-    if changing is not None:
-        expected = "a kernel that keeps the particles' law, which annealing and tempering do not"
-        raise bad("rejuvenate", rejuvenate, expected, f"{changing.parts[0]!r}, and `anneal=` of `smc`")
+smc, particle_gibbs, pimh = Smc, ParticleGibbs, Pimh
 
 
-def _check_walks(rejuvenate: Kernel | None, draws: int | None, chains: int) -> None:
-    at_least_one("chains", chains)
-    if draws is None:
-        if chains != 1:
-            raise bad("chains", chains, "nothing without `draws`, which says how many states of each", "1")
-        return
-    at_least_one("draws", draws)
-    if rejuvenate is None:
-        raise bad("draws", draws, "nothing without `rejuvenate`, which says how chains move", "None")
+def _check_temper(method: Smc | ParticleGibbs | Pimh) -> None:
+    """Check the temperature, and when to resample."""
+    if not is_number(method.temper) or not 0 < method.temper < float("inf"):
+        raise InputError("bad-temper", found=repr(method.temper))
+    method._set("temper", float(method.temper))
+    if method.ess is not None and (not is_number(method.ess) or not 0 <= method.ess <= 1):
+        raise InputError("bad-threshold", found=repr(method.ess))
 
 
-def _first(kernel: Kernel, names: tuple[str, ...]) -> Kernel | None:
-    if kernel.name in names:
-        return kernel
-    return next((found for part in kernel.parts if (found := _first(part, names)) is not None), None)
-
-
-def _check_temper(temper: float) -> None:
-    if not is_number(temper) or not 0 < temper < float("inf"):
-        raise InputError("bad-temper", found=repr(temper))
-
-
-def _check_ess(ess: float | None) -> None:
-    if ess is not None and (not is_number(ess) or not 0 <= ess <= 1):
-        raise InputError("bad-threshold", found=repr(ess))
-
-
-def _way(anneal: Any, weights: str) -> float | tuple[float, ...] | None:
-    """The way of the temperature, where it makes sense."""
+def _powers(anneal: Any, weights: str) -> float | tuple[float, ...] | None:
+    """The power on the way to `temper`, where it makes sense."""
     if anneal is None:
         return None
     if weights == "absolute":
@@ -325,11 +255,11 @@ def _way(anneal: Any, weights: str) -> float | tuple[float, ...] | None:
 
 def _fixed(anneal: Any) -> tuple[float, ...] | None:
     """The same for a chain, whose sweeps must all go the same way."""
-    way = _way(anneal, "ratio")
-    if isinstance(way, float):
+    powers = _powers(anneal, "ratio")
+    if isinstance(powers, float):
         raise InputError(
             "bad-anneal",
             found=repr(anneal),
             reason="every sweep of a chain goes the same way, so it is a list",
         )
-    return way
+    return powers

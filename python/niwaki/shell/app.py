@@ -43,7 +43,7 @@ def made_folder(place: Path) -> Path:
 
 
 @contextmanager
-def progress_line(name: str, particles: int) -> Iterator[Callable[[Progress], None]]:
+def progress_line(name: str) -> Iterator[Callable[[Progress], None]]:
     """A line on stderr that tells how far the search is; nothing where stderr is not a terminal."""
     from rich.console import Console
 
@@ -57,7 +57,7 @@ def progress_line(name: str, particles: int) -> Iterator[Callable[[Progress], No
             best = f"{now.best:.2f}" if math.isfinite(now.best) else "-"
             status.update(
                 f"growing {name}: run {now.run + 1} of {now.runs}, barrier {now.done}, "
-                f"{now.ended} of {particles} ended, best {best}   (Ctrl-C keeps the best so far)"
+                f"{now.ended} ended, best {best}   (Ctrl-C keeps the best so far)"
             )
 
         yield show

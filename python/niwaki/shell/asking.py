@@ -9,8 +9,7 @@ Flags that contradict one another, or lack a companion, are refused before any f
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
-from pathlib import Path
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -50,17 +49,6 @@ Voxel = Annotated[
     typer.Option("--voxel", metavar="SIZE", help="Cell size; default: what suits model or target."),
 ]
 Sigma = Annotated[float, typer.Option("--sigma", help="Strictness of the match; smaller is stricter.")]
-
-
-def solid(reference: str) -> tuple[Target, str]:
-    """A volume to fill and how to find it again: a mesh file, or `gallery:` and the name of a target there."""
-    from niwaki.gallery.targets import TARGETS
-    from niwaki.target import Target
-
-    made = TARGETS.get(reference.removeprefix("gallery:").replace("-", "_"))
-    if reference.startswith("gallery:") and made is not None:
-        return made(), f"gallery:{made.__name__}"
-    return Target.load(reference), str(Path(reference).resolve())
 
 
 @dataclass(frozen=True)
@@ -139,18 +127,17 @@ class Asked:
             if given and not there:
                 raise InputError("flag-alone", flag=flag, other=other, reason=reason)
 
-    def aim(self, found: Found) -> tuple[Target | None, str | None]:
-        """The volume to fill and how to find it again.
+    def aim(self, found: Found) -> Target | None:
+        """The volume to fill: the one named; else the model's own, unless a picture is asked for."""
+        from niwaki.target import Target
 
-        It is the one named; else the model's own, unless a picture is asked for.
-        """
         if self.target is not None:
-            return solid(self.target)
+            return Target.find(self.target)
         if self.match_image is not None or self.match_shadow is not None:
-            return None, None
+            return None
         if found.entry is None or found.entry.target_name is None:
             raise InputError("no-target", name=found.reference)
-        return found.entry.target(), f"gallery:{found.entry.target_name}"
+        return Target.find(f"gallery:{found.entry.target_name}")
 
     def controls(self, voxel: float | None, sigma: float) -> Score:
         """Everything but the volume: what forbids comes before what scores."""
@@ -181,18 +168,6 @@ class Asked:
         if self.within is not None:
             score *= sketches.overshoot(_box("--within", self.within), sigma)
         return score
-
-    def record(self) -> dict[str, Any]:
-        """What was asked for, for the record of a run: files by their full paths."""
-        paths = {"target", "match_image", "camera", "match_shadow", "weight_image", "receiver"}
-        found: dict[str, Any] = {}
-        for one in fields(self):
-            value = getattr(self, one.name)
-            if one.name == "avoid" and value:
-                found["avoid"] = [str(Path(place).resolve()) for place in value]
-            elif one.name != "avoid" and value is not None:
-                found[one.name] = str(Path(value).resolve()) if one.name in paths else value
-        return found
 
 
 def numbers(flag: str, text: str, count: int) -> tuple[float, ...]:

@@ -45,11 +45,11 @@ def color(
     from niwaki.color.files import write
     from niwaki.color.search import rules_of
     from niwaki.methods import at_least_one
-    from niwaki.search import check_seed
+    from niwaki.search.asking import fresh
 
     for flag, value in (("--count", count), ("--size", size), ("--measure", measure)):
         at_least_one(flag, value)
-    seed = check_seed(seed)
+    seed = fresh(seed)
     read = Drawing.load(drawing, measure)
     asked = Rules.load(rules) if rules is not None else rules_of(drawing)
     _before(read, asked)

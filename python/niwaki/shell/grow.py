@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from niwaki.shell import asking, searching, writing
+from niwaki.shell import asking, settings, writing
 from niwaki.shell.app import Folder, ModelName, app, made_folder, progress_line
 
 if TYPE_CHECKING:
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 
 @app.command()
+@settings.with_settings(*settings.METHODS.values())
 def grow(
     model: ModelName,
     target: asking.TargetFile = None,
@@ -34,26 +35,9 @@ def grow(
     voxel: asking.Voxel = None,
     sigma: asking.Sigma = 0.02,
     rule: Annotated[str, typer.Option(help="What intersects: solid or surface.")] = "solid",
-    particles: searching.Particles = None,
-    method: searching.MethodName = "smc",
-    order: searching.Order = "stochastic",
-    weights: searching.Weights = None,
-    temper: searching.Temper = None,
-    anneal: searching.Anneal = None,
-    resampling: searching.Resampling = None,
-    ess: searching.Ess = None,
-    populations: searching.Populations = None,
-    diverse: searching.Diverse = None,
-    seconds: searching.Seconds = None,
-    sweeps: searching.Sweeps = None,
-    rejuvenate: searching.Rejuvenate = None,
-    moves: searching.Moves = None,
-    at: searching.At = None,
-    draws: searching.Draws = None,
-    chains: searching.Chains = None,
-    ancestors: searching.Ancestors = None,
-    polish: searching.Polish = None,
-    polish_kernel: searching.PolishKernel = None,
+    method: settings.MethodName = "smc",
+    polish: settings.Polish = None,
+    polish_kernel: settings.PolishKernel = None,
     runs: Annotated[int, typer.Option(help="How many results, with seeds SEED, SEED + 1, ...")] = 1,
     seed: Annotated[int | None, typer.Option(help="Default: a fresh one, which is written down.")] = None,
     threads: Annotated[
@@ -72,6 +56,7 @@ def grow(
     picture: Annotated[
         bool, typer.Option("--picture/--no-picture", help="Draw best.png, sheet.png and what was matched.")
     ] = True,
+    **given: Any,
 ) -> None:
     """Grow MODEL into what is asked for; writes best.glb, best.png, sheet.png and run.json."""
     from niwaki import search as searches
@@ -91,63 +76,32 @@ def grow(
         light,
         receiver,
     )
-    search = searching.Search(
-        method,
-        particles,
-        order,
-        weights,
-        temper,
-        anneal,
-        resampling,
-        ess,
-        populations,
-        diverse,
-        seconds,
-        sweeps,
-        rejuvenate,
-        moves,
-        at,
-        draws,
-        chains,
-        ancestors,
-    )
-    onward = searching.polish(polish, polish_kernel)
+    onward = settings.polish(polish, polish_kernel)
     files = writing.Files.asked(formats, scale, fuse, frames, size)
     found = find(model)
-    aim, reference = asked.aim(found)
+    aim = asked.aim(found)
     controls = asked.controls(voxel, sigma)
     if voxel is None and target is None and aim is not None and found.entry is not None:
         voxel = found.entry.voxel
-    settings = search.settings(found.entry.particles if found.entry is not None else PARTICLES)
-    chosen = searching.method(settings)
-    rest: dict[str, Any] = {
-        "voxel": voxel,
-        "sigma": sigma,
-        "rule": rule,
-        "runs": runs,
-        "max_steps": max_steps,
-    }
-    with progress_line(found.reference, settings["particles"]) as progress:
+    usual = found.entry.particles if found.entry is not None else PARTICLES
+    with progress_line(found.reference) as progress:
         result = searches.grow(
             found.model,
             aim,
             score=controls,
-            method=chosen,
+            method=settings.method(method, given, usual),
             polish=onward,
             seed=seed,
             threads=threads,
             progress=progress,
-            **rest,
+            voxel=voxel,
+            sigma=sigma,
+            rule=rule,
+            runs=runs,
+            max_steps=max_steps,
         )
-    settings |= rest | {
-        "polish": polish,
-        "polish_kernel": polish_kernel,
-        "plan": list(result.plan),
-        "voxel": result.score.settings.get("voxel"),
-        "asked": asked.record(),
-    }
     if output is not None or not as_json:
-        _write(output or Path("out"), result, found, settings, reference, files, picture)
+        _write(output or Path("out"), result, found, files, picture)
     if as_json:
         from niwaki.run_files import numbers
 
@@ -162,8 +116,6 @@ def _write(
     output: Path,
     result: Result,
     found: Found,
-    settings: dict[str, Any],
-    target: str | None,
     files: writing.Files,
     picture: bool,
 ) -> None:
@@ -171,7 +123,7 @@ def _write(
     from niwaki import run_files
 
     folder = made_folder(output)
-    run_files.save(folder / "run.json", run_files.written(result, found, settings, target))
+    run_files.save(folder / "run.json", run_files.written(result, found))
     best: Sample = result.best
     if best.primitives == 0:
         print("warning: the best run emitted nothing, so there is no mesh and no picture", file=sys.stderr)

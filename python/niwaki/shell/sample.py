@@ -14,7 +14,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from niwaki.shell import asking
+from niwaki import kernels
+from niwaki.methods import Mh
+from niwaki.shell import settings
 from niwaki.shell.app import Folder, ModelName, app, made_folder
 
 if TYPE_CHECKING:
@@ -24,18 +26,9 @@ if TYPE_CHECKING:
 
 
 @app.command()
+@settings.with_settings(Mh)
 def sample(
     model: ModelName,
-    kernel: Annotated[
-        str, typer.Option(help="How it proposes, e.g. \"cycle(on('z', mh()), drift())\".")
-    ] = "mh()",
-    steps: Annotated[int, typer.Option(help="Proposals of each chain.")] = 10_000,
-    chains: Annotated[int, typer.Option(help="How many chains, side by side.")] = 4,
-    warmup: Annotated[
-        int | None, typer.Option(help="Proposals before the first sample; default: a fifth of all.")
-    ] = None,
-    keep: Annotated[int, typer.Option(help="About how many samples of each chain are written.")] = 100,
-    strategy: Annotated[str, typer.Option(help="c3, resume, cache or rerun.")] = "c3",
     target: Annotated[
         str | None,
         typer.Option(
@@ -55,33 +48,29 @@ def sample(
     picture: Annotated[
         bool, typer.Option("--picture/--no-picture", help="Draw best.png and sheet.png.")
     ] = True,
+    **given: Any,
 ) -> None:
     """Sample MODEL by Markov chains; writes samples.csv and run.json, and best.glb, best.png, sheet.png of scenes."""
-    from niwaki import kernels, methods, search
+    from niwaki import search
     from niwaki.finding import find
     from niwaki.mh_result import ChainResult
     from niwaki.sketches import Score, no_self_intersection, volume_match
+    from niwaki.target import Target
 
     found = find(model)
-    score, reference = Score(), ""
+    score = Score()
     if target is not None:
-        wanted, reference = asking.solid(target)
-        score = no_self_intersection() * volume_match(wanted, voxel, sigma)
-    settings: dict[str, Any] = {
-        "steps": steps,
-        "chains": chains,
-        "warmup": steps // 5 if warmup is None else warmup,
-        "keep": keep,
-        "strategy": strategy,
-    }
-    method = methods.mh(kernel=kernels.parse(kernel), **settings)
-    with _shown(found.reference, steps * chains) as progress:
+        score = no_self_intersection() * volume_match(Target.find(target), voxel, sigma)
+    given = settings.typed(given)
+    steps = given.get("steps", Mh.steps)
+    method = Mh(**{"kernel": kernels.mh(), "chains": 4, "warmup": steps // 5, "keep": 100, **given})
+    with _shown(found.reference, method.steps * method.chains) as progress:
         result = search.run(
             found.model, method=method, score=score, seed=seed, threads=threads, progress=progress
         )
     assert isinstance(result, ChainResult)
     if output is not None or not as_json:
-        _write(output or Path("out"), result, found, {"kernel": kernel, **settings}, reference, picture)
+        _write(output or Path("out"), result, found, picture)
     if as_json:
         from niwaki.run_files import numbers
 
@@ -92,18 +81,15 @@ def sample(
         raise typer.Exit(130)
 
 
-def _write(
-    output: Path, result: ChainResult, found: Found, settings: dict[str, Any], target: str, picture: bool
-) -> None:
+def _write(output: Path, result: ChainResult, found: Found, picture: bool) -> None:
     from niwaki import run_files
     from niwaki.draw.picture import save_image, write_whole
     from niwaki.result import Result
 
     folder = made_folder(output)
     # The best of each chain is what can be replayed.
-    bests = Result(result.model, result.bests, result.seed, result.method, result.score)
-    bests.interrupted = result.interrupted
-    run_files.save(folder / "run.json", run_files.written(bests, found, settings, target))
+    bests = Result(result.search, result.bests, result.seed, interrupted=result.interrupted)
+    run_files.save(folder / "run.json", run_files.written(bests, found))
     write_whole(folder / "samples.csv", _table(result).encode())
     best = bests.best
     if best.primitives == 0:

@@ -171,6 +171,11 @@ impl Sketches {
         self.iter().flat_map(|s| s.measures()).collect()
     }
 
+    /// Share of cells that are equal in the scene and its target, where a sketch has one.
+    pub fn similarity(&self) -> Option<f64> {
+        self.measures().into_iter().find(|(name, _)| *name == "similarity").map(|(_, share)| share)
+    }
+
     /// Shows each sketch what waits for it, up to the first that forbids the scene.
     fn catch_up(&mut self) {
         for member in &mut self.members {

@@ -1,7 +1,7 @@
 //! Markov chains over kept runs: Metropolis-Hastings with kernels as values (dissertation chapter 3).
 //!
 //! * [`state`]: where a chain is; [`streams`]: its random numbers;
-//! * [`kernel`]: kernels as values; `plan`: which leaf is next; `select`, [`glob`], [`odds`]: which choice it changes;
+//! * [`kernel`]: kernels as values, and [`form`] as data; `plan`: which leaf is next; `select`, [`glob`], [`odds`]: which choice it changes;
 //! * `single`: proposals that change one choice: from the prior, [`drift`], [`neighbour`], `by_family`, by the [`user`]'s function;
 //!   [`block`], `regenerate`: proposals that change many;
 //! * [`trajectory`]: the continuous choices move together along their gradient;
@@ -21,6 +21,7 @@ pub mod counts;
 pub(crate) mod decide;
 pub mod drift;
 pub mod explain;
+pub mod form;
 pub mod glob;
 pub mod kernel;
 pub mod ladder;

@@ -46,17 +46,12 @@ impl Facts {
 
     /// All but what the program returned, which takes the length of a list that it returned.
     pub(super) fn of_scores(state: &State, visit: u64) -> Facts {
-        let similarity = if state.sketches.is_empty() {
-            None
-        } else {
-            state.sketches.measures().into_iter().find(|(name, _)| *name == "similarity").map(|(_, x)| x)
-        };
         Facts {
             value: Value::default(),
             log_prior: state.trace.totals().log_prior,
             log_score: state.log_score(),
             primitives: state.primitives,
-            similarity,
+            similarity: state.sketches.similarity(),
             visit,
         }
     }

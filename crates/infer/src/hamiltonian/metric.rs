@@ -5,9 +5,11 @@
 
 use super::leapfrog::{add, dot};
 use niwaki_math::Stream;
+use serde::Deserialize;
 
 /// What shape of metric a warm-up fits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "kebab-case")]
 pub enum Shape {
     /// The identity: no coordinate is scaled (the dissertation's setting).
     Unit,

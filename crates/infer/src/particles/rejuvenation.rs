@@ -25,6 +25,7 @@ use crate::{Failure, Task};
 use niwaki_math::{Stream, StreamKey};
 use niwaki_vm::fault::Fault;
 use rayon::prelude::*;
+use serde::Deserialize;
 use std::collections::HashMap;
 
 /// Streams of the draws between moves, and of the first runs that spreads are read from: no lineage has these numbers.
@@ -35,7 +36,8 @@ const SPREADS: u64 = u64::MAX - 7;
 const FIRST_RUNS: u64 = 4;
 
 /// When to move.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(from = "At")]
 pub enum Moment {
     /// At every so-many-th barrier, and once when all have ended.
     Every(usize),
@@ -43,6 +45,31 @@ pub enum Moment {
     Resampled,
     /// Once, when all have ended.
     End,
+}
+
+/// The same as people write it: a number of barriers, or a word.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum At {
+    Every(usize),
+    Named(Named),
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Named {
+    Resampled,
+    End,
+}
+
+impl From<At> for Moment {
+    fn from(at: At) -> Moment {
+        match at {
+            At::Every(barriers) => Moment::Every(barriers),
+            At::Named(Named::Resampled) => Moment::Resampled,
+            At::Named(Named::End) => Moment::End,
+        }
+    }
 }
 
 /// How particles are moved.

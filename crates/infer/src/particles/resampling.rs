@@ -2,9 +2,11 @@
 //! particle `i` is `N w_i / sum w` (Douc and Cappe 2005).
 
 use niwaki_math::Stream;
+use serde::Deserialize;
 
 /// A resampling method.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Hash)]
+#[serde(rename_all = "kebab-case")]
 pub enum Resampling {
     /// One uniform draw, `N` points at equal distances: particle `k` gets
     /// `floor(N C_k + u) - floor(N C_{k-1} + u)` copies, `C` the cumulative normalised weights.
@@ -21,17 +23,6 @@ impl Resampling {
     /// All of them.
     pub const ALL: [Resampling; 4] =
         [Resampling::Systematic, Resampling::Residual, Resampling::Stratified, Resampling::Multinomial];
-
-    /// The method of a name: `systematic`, `residual`, `stratified`, `multinomial`.
-    pub fn from_name(name: &str) -> Option<Resampling> {
-        match name {
-            "systematic" => Some(Resampling::Systematic),
-            "residual" => Some(Resampling::Residual),
-            "stratified" => Some(Resampling::Stratified),
-            "multinomial" => Some(Resampling::Multinomial),
-            _ => None,
-        }
-    }
 
     /// How many copies each particle gets; they add up to the number of particles. `weights` are not negative
     /// and not all zero.

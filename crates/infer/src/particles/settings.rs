@@ -3,10 +3,12 @@
 use super::Resampling;
 use super::rejuvenation::Rejuvenation;
 use niwaki_vm::fault::Fault;
+use serde::{Deserialize, Deserializer};
 use std::sync::Arc;
 
 /// Which future runs next.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "kebab-case")]
 pub enum Order {
     /// Futures run where they are created: ordinary SMC.
     DepthFirst,
@@ -14,35 +16,14 @@ pub enum Order {
     Stochastic,
 }
 
-impl Order {
-    /// The policy of a name: `depth-first`, `stochastic`.
-    pub fn from_name(name: &str) -> Option<Order> {
-        match name {
-            "depth-first" => Some(Order::DepthFirst),
-            "stochastic" => Some(Order::Stochastic),
-            _ => None,
-        }
-    }
-}
-
 /// How scores become weights.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "kebab-case")]
 pub enum Weights {
     /// The ratio of successive scores: the final law is the posterior.
     Ratio,
     /// The whole score at every step, resampled at every step: what the original did. No evidence.
     Absolute,
-}
-
-impl Weights {
-    /// The weighting of a name: `ratio`, `absolute`.
-    pub fn from_name(name: &str) -> Option<Weights> {
-        match name {
-            "ratio" => Some(Weights::Ratio),
-            "absolute" => Some(Weights::Absolute),
-            _ => None,
-        }
-    }
 }
 
 /// When to resample.
@@ -56,7 +37,8 @@ pub enum When {
 
 /// The way of the temperature from barrier to barrier. Whatever it is, the final law is that of the declared
 /// temperature: what a barrier's temperature over- or understates, the weights take back.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(from = "Powers")]
 pub enum Anneal {
     /// The declared temperature at every barrier.
     Constant,
@@ -67,10 +49,36 @@ pub enum Anneal {
     Adaptive(f64),
 }
 
+/// The same as people write it: nothing, a share, or one power for each barrier.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Powers {
+    Constant(()),
+    Share(f64),
+    Schedule(Vec<f64>),
+}
+
+impl From<Powers> for Anneal {
+    fn from(powers: Powers) -> Anneal {
+        match powers {
+            Powers::Constant(()) => Anneal::Constant,
+            Powers::Share(share) => Anneal::Adaptive(share),
+            Powers::Schedule(schedule) => Anneal::Schedule(schedule.into()),
+        }
+    }
+}
+
+/// Reads the share of effective particles below which to resample; nothing for always.
+fn when<'de, D: Deserializer<'de>>(from: D) -> Result<When, D::Error> {
+    Ok(Option::deserialize(from)?.map_or(When::Always, When::EffectiveBelow))
+}
+
 /// What can be set.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Deserialize)]
+#[serde(default)]
 pub struct Settings {
     /// How many particles.
+    #[serde(skip)]
     pub particles: usize,
     /// Order policy.
     pub order: Order,
@@ -83,13 +91,17 @@ pub struct Settings {
     /// Resampling method.
     pub resampling: Resampling,
     /// When to resample.
+    #[serde(rename = "ess", deserialize_with = "when")]
     pub when: When,
     /// How particles are moved within the law that they follow.
+    #[serde(skip)]
     pub rejuvenate: Option<Rejuvenation>,
     /// Seed.
+    #[serde(skip)]
     pub seed: u64,
     /// Deliberate errors that the statistical tests must reject.
     #[cfg(test)]
+    #[serde(skip)]
     pub mutant: Option<super::tests::Mutant>,
 }
 

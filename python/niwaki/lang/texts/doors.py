@@ -70,12 +70,21 @@ DOORS = (
         cure="niwaki replay out/run.json",
     ),
     Message(
-        "changed-model",
-        "the model `{name}` has changed since this run",
-        why="the choices of the run belong to another version: it was {recorded}, it is {found}",
-        help="check out the version that made the run, or grow again with the same seed",
-        example="niwaki replay out/run.json after an edit of the model",
-        cure="niwaki grow MODEL --seed SEED with the seed of the run",
+        "changed-mesh",
+        "the mesh `{path}` has changed since this search was written down",
+        why="a search is the same only with the same target, so the mesh is known by a hash of its triangles",
+        help="put the old file back, or search again with the new one",
+        example="niwaki.Search.of_json(text) after an edit of the target",
+        cure="the file as it was",
+    ),
+    Message(
+        "untrusted-function",
+        "the model calls a Python function that is not trusted: `{name}`",
+        why="{reason}",
+        help='name its module when the search is read, such as `Search.of_json(text, trust=("my_module",))`, if you '
+        "trust what it does",
+        example="niwaki.Search.of_json(text)",
+        cure='niwaki.Search.of_json(text, trust=("my_module",))',
     ),
     Message(
         "flag-alone",

@@ -69,6 +69,24 @@ pub enum Strategy {
 }
 
 impl Strategy {
+    /// All of them, with their names.
+    pub const NAMED: [(&str, Strategy); 4] = [
+        ("rerun", Strategy::Rerun),
+        ("resume", Strategy::Resume),
+        ("cache", Strategy::Cache),
+        ("c3", Strategy::C3),
+    ];
+
+    /// The strategy of a name.
+    pub fn from_name(name: &str) -> Option<Strategy> {
+        Strategy::NAMED.into_iter().find(|(own, _)| *own == name).map(|(_, strategy)| strategy)
+    }
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        Strategy::NAMED.into_iter().find(|(_, own)| *own == self).map_or("", |(name, _)| name)
+    }
+
     /// Whether a run starts at the changed choice.
     pub fn starts_at_choice(self) -> bool {
         matches!(self, Strategy::Resume | Strategy::C3)

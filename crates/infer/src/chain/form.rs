@@ -1,0 +1,148 @@
+//! Kernels as data, the form in which they are written down and sent: a name, its settings, and the kernels in it.
+//!
+//! ```text
+//! {"name": "on", "settings": {"sites": [["z"]]}, "parts": [{"name": "drift", "settings": {"step": 0.5, "target": 0.44}}]}
+//! ```
+
+use super::kernel::{Kernel, Selection};
+use super::user::User;
+use crate::hamiltonian::chains::Length;
+use niwaki_vm::fault::Fault;
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+use serde_json::{Map, Value};
+use std::sync::Arc;
+
+/// A kernel as data.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Form {
+    name: String,
+    #[serde(default)]
+    settings: Map<String, Value>,
+    #[serde(default)]
+    parts: Vec<Form>,
+    /// Of a user's proposal: which of the functions that travel beside the form.
+    #[serde(default)]
+    function: Option<usize>,
+}
+
+/// A chain's kernel with what stands around it: temperatures, and the proposals between two exchanges.
+pub(crate) struct Tempered {
+    pub kernel: Kernel,
+    pub temperatures: Vec<f64>,
+    pub every: u64,
+}
+
+impl Form {
+    /// The kernel, and the temperatures of `temper` where that is outermost.
+    ///
+    /// # Errors
+    /// As for [`Form::kernel`].
+    pub(crate) fn tempered(&self, functions: &[Arc<User>]) -> Result<Tempered, Fault> {
+        if self.name != "temper" {
+            return Ok(Tempered { kernel: self.kernel(functions)?, temperatures: vec![1.0], every: 100 });
+        }
+        let mut own = self.own();
+        let (temperatures, every) = (own.take("temperatures")?, own.take("every")?);
+        let kernel = own.part(functions)?;
+        own.end(Tempered { kernel, temperatures, every })
+    }
+
+    /// The kernel; `functions` are the users' proposals, by number.
+    ///
+    /// # Errors
+    /// A name, a setting or a function that there is not.
+    pub fn kernel(&self, functions: &[Arc<User>]) -> Result<Kernel, Fault> {
+        let mut own = self.own();
+        let kernel = match self.name.as_str() {
+            "prior" => Kernel::Prior,
+            "by_family" => Kernel::ByFamily,
+            "drift" => Kernel::Drift { step: own.take("step")?, target: own.take("target")? },
+            "neighbour" => Kernel::Neighbour { reach: own.take("reach")? },
+            "block" => Kernel::Block {
+                step: own.take("step")?,
+                share: own.take("share")?,
+                target: own.take("target")?,
+            },
+            "regenerate" => Kernel::Regenerate { levels: own.take("levels")? },
+            "hmc" => {
+                let length = Length::Fixed { steps: own.take("steps")?, jitter: own.take("jitter")? };
+                Kernel::Trajectory { length, step: own.take("step")?, target: own.take("target")? }
+            }
+            "nuts" => {
+                let length = Length::NoUTurn { max_depth: own.take("max_depth")? };
+                Kernel::Trajectory { length, step: own.take("step")?, target: own.take("target")? }
+            }
+            "proposal" => {
+                let function = self.function.and_then(|number| functions.get(number));
+                Kernel::User(function.cloned().ok_or_else(|| own.wrong("has no function here"))?)
+            }
+            "cycle" => Kernel::Cycle(own.parts(functions)?),
+            "mixture" => {
+                let (weights, parts) = (own.take::<Vec<f64>>("weights")?, own.parts(functions)?);
+                if weights.len() != parts.len() {
+                    return Err(own.wrong("needs a weight for each part"));
+                }
+                Kernel::Mixture(weights.into_iter().zip(parts).collect())
+            }
+            "repeat" => Kernel::Repeat(own.take("times")?, Box::new(own.part(functions)?)),
+            "on" => {
+                let selection = Selection {
+                    sites: own.take("sites")?,
+                    depth: own.take("depth")?,
+                    odds: own.take("odds")?,
+                    calls: own.take("calls")?,
+                };
+                Kernel::On(selection, Box::new(own.part(functions)?))
+            }
+            "anneal" => Kernel::Anneal {
+                hot: own.take("start")?,
+                cold: own.take("end")?,
+                steps: own.take("steps")?,
+                kernel: Box::new(own.part(functions)?),
+            },
+            "temper" => return Err(own.wrong("can only be outermost")),
+            _ => return Err(own.wrong("is no kernel")),
+        };
+        own.end(kernel)
+    }
+
+    fn own(&self) -> Own<'_> {
+        Own { form: self, left: self.settings.clone() }
+    }
+}
+
+/// What of a form has not been read.
+struct Own<'a> {
+    form: &'a Form,
+    left: Map<String, Value>,
+}
+
+impl Own<'_> {
+    fn wrong(&self, what: &str) -> Fault {
+        Fault::new("bad-kernel", format!("the kernel `{}` {what}", self.form.name))
+            .with_help("see `niwaki.kernels`")
+    }
+
+    fn take<T: DeserializeOwned>(&mut self, name: &str) -> Result<T, Fault> {
+        let value = self.left.remove(name).ok_or_else(|| self.wrong(&format!("needs `{name}`")))?;
+        T::deserialize(value).map_err(|error| self.wrong(&format!("cannot have this `{name}`: {error}")))
+    }
+
+    fn parts(&self, functions: &[Arc<User>]) -> Result<Vec<Kernel>, Fault> {
+        self.form.parts.iter().map(|part| part.kernel(functions)).collect()
+    }
+
+    fn part(&self, functions: &[Arc<User>]) -> Result<Kernel, Fault> {
+        let [part] = &self.form.parts[..] else { return Err(self.wrong("has one part")) };
+        part.kernel(functions)
+    }
+
+    fn end<T>(self, made: T) -> Result<T, Fault> {
+        match self.left.keys().next() {
+            None => Ok(made),
+            Some(name) => Err(self.wrong(&format!("has no setting `{name}`"))),
+        }
+    }
+}

@@ -1,0 +1,424 @@
+//! Methods as data: how a search is written down, read by the callers of a task and by `infer` inside a model alike.
+//!
+//! The fields are those of Python's classes of the same names, which describe them.
+
+use crate::chain::form::Form;
+use crate::chain::user::User;
+use crate::enumeration::enumerate;
+use crate::forward::forward;
+use crate::hamiltonian::chains::Length;
+use crate::hamiltonian::{self, Shape};
+use crate::importance::importance;
+use crate::log::Entry;
+use crate::particles::{
+    self, Ancestors, Moment, Progress, Rejuvenation, Resampling, Settings, Walks, particle_gibbs, pimh, populations,
+    within,
+};
+use crate::rejection::rejection;
+use crate::run::Run;
+use crate::{Failure, Task, chain};
+use niwaki_vm::fault::Fault;
+use niwaki_vm::machine::kept::Strategy;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::time::Duration;
+
+/// About how many samples of a chain are kept where nothing is said.
+const KEPT: u64 = 1000;
+
+/// How a task is searched.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(tag = "method", rename_all = "snake_case", deny_unknown_fields)]
+#[expect(missing_docs, reason = "the settings are described where people read them: in Python's classes")]
+pub enum Method {
+    Forward { n: u64 },
+    EnumerateAll { max_runs: usize },
+    Rejection { n: usize, bound: f64, max_tries: u64 },
+    Importance { n: usize },
+    Smc(Smc),
+    ParticleGibbs(ParticleGibbs),
+    Pimh(Pimh),
+    Mh(Mh),
+    Hmc(Hmc),
+    Nuts(Nuts),
+}
+
+/// Settings that a method does not have.
+type Rest = BTreeMap<String, serde_json::Value>;
+
+/// Sequential Monte Carlo.
+#[derive(Clone, Debug, Deserialize)]
+pub struct Smc {
+    particles: Sizes,
+    populations: Option<usize>,
+    diverse: Option<usize>,
+    seconds: Option<f64>,
+    rejuvenate: Option<Form>,
+    moves: u64,
+    at: Moment,
+    draws: Option<usize>,
+    chains: usize,
+    #[serde(flatten)]
+    settings: Settings,
+    #[serde(flatten)]
+    rest: Rest,
+}
+
+/// Sizes of populations.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(untagged)]
+enum Sizes {
+    Each(usize),
+    Own(Vec<usize>),
+}
+
+/// Particle Gibbs.
+#[derive(Clone, Debug, Deserialize)]
+pub struct ParticleGibbs {
+    particles: usize,
+    sweeps: usize,
+    ancestors: bool,
+    #[serde(flatten)]
+    settings: Settings,
+    #[serde(flatten)]
+    rest: Rest,
+}
+
+/// Particle independent Metropolis-Hastings.
+#[derive(Clone, Debug, Deserialize)]
+pub struct Pimh {
+    particles: usize,
+    sweeps: usize,
+    #[serde(flatten)]
+    settings: Settings,
+    #[serde(flatten)]
+    rest: Rest,
+}
+
+/// Metropolis-Hastings.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Mh {
+    /// Proposals of each chain.
+    pub steps: u64,
+    #[serde(deserialize_with = "strategy")]
+    strategy: Strategy,
+    kernel: Option<Form>,
+    /// How many chains.
+    pub chains: usize,
+    thin: Option<u64>,
+    keep: Option<u64>,
+    warmup: u64,
+    tries: u64,
+}
+
+/// Hamiltonian Monte Carlo.
+#[derive(Clone, Debug, Deserialize)]
+pub struct Hmc {
+    steps: u32,
+    jitter: f64,
+    #[serde(flatten)]
+    common: Trajectories,
+    #[serde(flatten)]
+    rest: Rest,
+}
+
+/// The no-U-turn sampler.
+#[derive(Clone, Debug, Deserialize)]
+pub struct Nuts {
+    max_depth: u32,
+    #[serde(flatten)]
+    common: Trajectories,
+    #[serde(flatten)]
+    rest: Rest,
+}
+
+/// What both have.
+#[derive(Clone, Debug, Deserialize)]
+struct Trajectories {
+    draws: u32,
+    chains: usize,
+    warmup: u32,
+    thin: u32,
+    target_accept: f64,
+    metric: Shape,
+    step_size: Option<f64>,
+    climb: u32,
+    tries: u64,
+}
+
+/// Reads the name of a strategy.
+fn strategy<'de, D: serde::Deserializer<'de>>(from: D) -> Result<Strategy, D::Error> {
+    let name = String::deserialize(from)?;
+    Strategy::from_name(&name).ok_or_else(|| serde::de::Error::custom(format!("no strategy `{name}`")))
+}
+
+/// What a search is told beside its method.
+#[derive(Clone, Copy, Default)]
+pub struct Given<'a> {
+    /// Decides every random number.
+    pub seed: u64,
+    /// The users' proposals that the method's kernels name by number.
+    pub functions: &'a [Arc<User>],
+    /// The run that a chain of whole runs starts from.
+    pub start: Option<&'a [Entry]>,
+}
+
+/// What a search found.
+pub struct Found {
+    /// Finished runs.
+    pub runs: Vec<Run>,
+    /// Whether it was stopped before its end.
+    pub interrupted: bool,
+    /// What else the method says of its search.
+    pub info: Info,
+}
+
+/// What a method says of its search.
+pub enum Info {
+    /// Of forward runs.
+    Forward,
+    /// Of likelihood weighting.
+    Importance {
+        /// Log of the mean weight, nats.
+        log_evidence: f64,
+    },
+    /// Of rejection sampling.
+    Rejection {
+        /// Runs that it took.
+        tries: u64,
+    },
+    /// Of enumeration, whose runs are not kept.
+    Enumeration(crate::enumeration::Enumerated),
+    /// Of populations; its particles are the runs.
+    Populations(particles::Result),
+    /// Of a chain of whole runs; its states are the runs.
+    Chain(particles::Chain),
+}
+
+/// Whoever watches a search: done, ended, best log score; whether to go on.
+pub type Watch<'a> = dyn FnMut(u64, usize, f64) -> bool + Send + 'a;
+
+impl Method {
+    /// Reads a method from its text.
+    ///
+    /// # Errors
+    /// A text that is no method, or a setting that the method does not have.
+    pub fn read(text: &str) -> Result<Method, Fault> {
+        let method: Method =
+            serde_json::from_str(text).map_err(|error| bad(format!("the method {text}: {error}")))?;
+        let rest = match &method {
+            Method::Smc(own) => own.rest.keys().next(),
+            Method::ParticleGibbs(own) => own.rest.keys().next(),
+            Method::Pimh(own) => own.rest.keys().next(),
+            Method::Hmc(own) => own.rest.keys().next(),
+            Method::Nuts(own) => own.rest.keys().next(),
+            _ => None,
+        };
+        match rest {
+            Some(name) => Err(bad(format!("the method {text} has no setting `{name}`"))),
+            None => Ok(method),
+        }
+    }
+
+    /// Searches a task, by any method but those whose chains go on afterwards: see
+    /// [`Mh::settings`] and [`Method::trajectories`].
+    ///
+    /// # Errors
+    /// What the method meets.
+    pub fn search(&self, task: &Task, given: &Given<'_>, watch: &mut Watch<'_>) -> Result<Found, Failure> {
+        let seed = given.seed;
+        let bare = |runs, interrupted, info| Found { runs, interrupted, info };
+        let none = f64::NEG_INFINITY;
+        match self {
+            Method::Forward { n } => {
+                let mut runs = Vec::new();
+                while (runs.len() as u64) < *n && watch(runs.len() as u64, 0, none) {
+                    let sample = forward(task, seed, runs.len() as u64, true)?;
+                    runs.push(Run::of_sample(sample, true, 0.0));
+                }
+                let interrupted = (runs.len() as u64) < *n;
+                Ok(bare(runs, interrupted, Info::Forward))
+            }
+            Method::Importance { n } => {
+                let found = importance(task, *n, seed, &mut |runs| watch(runs as u64, 0, none))?;
+                let weighted = |sample: crate::forward::Sample| {
+                    let log_weight = sample.record.log_score();
+                    Run::of_sample(sample, false, log_weight)
+                };
+                let runs: Vec<Run> = found.samples.into_iter().map(weighted).collect();
+                let interrupted = runs.len() < *n;
+                Ok(bare(runs, interrupted, Info::Importance { log_evidence: found.log_evidence }))
+            }
+            Method::Rejection { n, bound, max_tries } => {
+                let found =
+                    rejection(task, *n, *bound, *max_tries, seed, &mut |tries| watch(tries, 0, none))?;
+                let runs = found.samples.into_iter().map(|sample| Run::of_sample(sample, false, 0.0));
+                Ok(bare(runs.collect(), found.interrupted, Info::Rejection { tries: found.tries }))
+            }
+            Method::EnumerateAll { max_runs } => {
+                let found = enumerate(task, *max_runs, &mut |runs| watch(runs as u64, 0, none))?;
+                Ok(bare(vec![], false, Info::Enumeration(found)))
+            }
+            Method::Smc(own) => {
+                let settings = own.settings(given)?;
+                let mut look = |p: Progress| watch(p.barriers as u64, p.ended, p.best);
+                let mut found = match own.seconds {
+                    Some(time) => {
+                        let time = Duration::try_from_secs_f64(time).unwrap_or(Duration::ZERO);
+                        within(task, &settings, time, &mut look)?
+                    }
+                    None => populations(task, &settings, &own.plan(), &mut look)?,
+                };
+                let runs = std::mem::take(&mut found.particles).into_iter().map(Run::from);
+                Ok(bare(runs.collect(), found.interrupted, Info::Populations(found)))
+            }
+            Method::ParticleGibbs(own) => {
+                // The one whose conditional form is simple: see `particle_gibbs`.
+                let resampling = Resampling::Multinomial;
+                let settings =
+                    Settings { particles: own.particles, seed, resampling, ..own.settings.clone() };
+                let ancestors = if own.ancestors { Ancestors::Sampled } else { Ancestors::Kept };
+                let mut look = |p: Progress| watch(p.barriers as u64, p.ended, p.best);
+                let found = particle_gibbs(task, &settings, ancestors, own.sweeps, given.start, &mut look)?;
+                Ok(of_chain(found))
+            }
+            Method::Pimh(own) => {
+                let settings = Settings { particles: own.particles, seed, ..own.settings.clone() };
+                let mut look = |p: Progress| watch(p.barriers as u64, p.ended, p.best);
+                Ok(of_chain(pimh(task, &settings, own.sweeps, &mut look)?))
+            }
+            Method::Mh(_) | Method::Hmc(_) | Method::Nuts(_) => {
+                Err(bad("a method whose chains go on is started, not searched".into()).into())
+            }
+        }
+    }
+
+    /// Of a method that follows the gradient: how its chains move, how many they are, and the most forward runs for
+    /// the start of each. `None` for any other method.
+    pub fn trajectories(&self) -> Option<(hamiltonian::Settings, usize, u64)> {
+        let (length, own) = match self {
+            Method::Hmc(own) => (Length::Fixed { steps: own.steps, jitter: own.jitter }, &own.common),
+            Method::Nuts(own) => (Length::NoUTurn { max_depth: own.max_depth }, &own.common),
+            _ => return None,
+        };
+        let settings = hamiltonian::Settings {
+            length,
+            climb: own.climb,
+            warmup: own.warmup,
+            draws: own.draws,
+            thin: own.thin,
+            target_accept: own.target_accept,
+            shape: own.metric,
+            step_size: own.step_size,
+            ..hamiltonian::Settings::nuts()
+        };
+        Some((settings, own.chains, own.tries))
+    }
+
+    /// Refuses what an inference inside a model cannot honour: it gives one value, the same for the same seed.
+    ///
+    /// # Errors
+    /// Such a setting, by name, or a method whose result is not a sample.
+    pub fn check_inside(&self) -> Result<(), Fault> {
+        let refused = |name: &str, why: &str| {
+            Err(Fault::new("infer-method", format!("inside a model {why}, so `{name}` has no meaning there")))
+        };
+        match self {
+            Method::Smc(own) if own.seconds.is_some() => refused("seconds", "a clock may not decide a value"),
+            Method::Smc(own) if own.diverse.is_some() => refused("diverse", "`infer` gives one value"),
+            Method::Mh(own) if own.thin.is_some() => refused("thin", "the samples of a chain are not kept"),
+            Method::Mh(own) if own.keep.is_some() => refused("keep", "the samples of a chain are not kept"),
+            Method::Hmc(_) => refused("hmc", "chains cannot start along a gradient"),
+            Method::Nuts(_) => refused("nuts", "chains cannot start along a gradient"),
+            Method::Smc(own) => own.settings(&Given::default()).map(|_| ()),
+            Method::Mh(own) => own.settings(&Given::default()).map(|_| ()),
+            _ => Ok(()),
+        }
+    }
+}
+
+impl Smc {
+    /// The settings of its populations.
+    fn settings(&self, given: &Given<'_>) -> Result<Settings, Fault> {
+        let rejuvenate = match &self.rejuvenate {
+            None => None,
+            Some(form) => Some(Rejuvenation {
+                kernel: form.kernel(given.functions)?,
+                moves: self.moves,
+                at: self.at,
+                walks: self.draws.map(|draws| Walks { chains: self.chains, draws }),
+            }),
+        };
+        let particles = self.plan().first().copied().unwrap_or(0);
+        Ok(Settings { particles, seed: given.seed, rejuvenate, ..self.settings.clone() })
+    }
+
+    /// Sizes of its populations where no time decides them: results that differ need as many, unless chains find them.
+    fn plan(&self) -> Vec<usize> {
+        match &self.particles {
+            Sizes::Own(sizes) => sizes.clone(),
+            Sizes::Each(size) => {
+                let different = self.diverse.filter(|_| self.draws.is_none());
+                vec![*size; self.populations.or(different).unwrap_or(1)]
+            }
+        }
+    }
+
+    /// How many results that differ are asked for.
+    pub fn diverse(&self) -> Option<usize> {
+        self.diverse
+    }
+
+    /// Whether a clock decides how long it searches.
+    pub fn is_timed(&self) -> bool {
+        self.seconds.is_some()
+    }
+}
+
+impl Mh {
+    /// What its chains are told.
+    ///
+    /// # Errors
+    /// A kernel that there is not.
+    pub fn settings(&self, given: &Given<'_>) -> Result<chain::Settings, Fault> {
+        let plain = chain::Settings::default();
+        let own = self.kernel.as_ref().map(|form| form.tempered(given.functions)).transpose()?;
+        let settings = chain::Settings {
+            seed: given.seed,
+            strategy: self.strategy,
+            warmup: self.warmup,
+            thin: self.spacing(),
+            tries: self.tries,
+            ..plain
+        };
+        Ok(match own {
+            None => settings,
+            Some(own) => chain::Settings {
+                kernel: own.kernel,
+                temperatures: own.temperatures,
+                every: own.every,
+                ..settings
+            },
+        })
+    }
+
+    /// Proposals between two samples; 0 for none.
+    fn spacing(&self) -> u64 {
+        match (self.keep.unwrap_or(KEPT), self.thin) {
+            (0, _) => 0,
+            (_, Some(thin)) => thin,
+            (keep, None) => self.steps.saturating_sub(self.warmup).div_ceil(keep).max(1),
+        }
+    }
+}
+
+fn of_chain(mut found: particles::Chain) -> Found {
+    let runs = std::mem::take(&mut found.states).into_iter().map(Run::from).collect();
+    Found { runs, interrupted: found.interrupted, info: Info::Chain(found) }
+}
+
+fn bad(message: String) -> Fault {
+    Fault::new("bad-setting", message).with_help("methods are made by the functions of `niwaki.methods`")
+}

@@ -1,0 +1,101 @@
+"""A method as a value and as data: its class is the one description of its settings.
+
+The fields of the class are the settings, their defaults the defaults, its docstring what is said of them; the shell's
+flags, the engine's reader and the record of a search follow from the fields.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from dataclasses import dataclass, fields
+from typing import Any, ClassVar, Self
+
+from niwaki.errors import InputError
+from niwaki.kernels import Kernel
+
+
+@dataclass(frozen=True)
+class Method:
+    """How a model is searched.
+
+    Attributes
+    ----------
+    NAME : str
+        What the method is called where it is written down.
+    """
+
+    NAME: ClassVar[str] = ""
+    #: The classes of all methods, by name.
+    KNOWN: ClassVar[dict[str, type[Method]]] = {}
+
+    def __init_subclass__(cls, **kwargs: Any) -> None:
+        """Note a method's name."""
+        super().__init_subclass__(**kwargs)
+        if cls.NAME:
+            Method.KNOWN[cls.NAME] = cls
+
+    def data(self, function: Callable[[Any], Any]) -> dict[str, Any]:
+        """The method as plain data.
+
+        Parameters
+        ----------
+        function
+            Writes a user's proposal, the one setting that is no plain value.
+        """
+        found: dict[str, Any] = {"method": self.NAME}
+        for field in fields(self):
+            value = getattr(self, field.name)
+            if isinstance(value, Kernel):
+                value = value.data(function)
+            found[field.name] = list(value) if isinstance(value, tuple) else value
+        return found
+
+    def text(self) -> tuple[str, list[Any]]:
+        """What the engine reads, and the users' proposals that it names by number."""
+        functions: list[Any] = []
+
+        def number(function: Any) -> int:
+            functions.append(function)
+            return len(functions) - 1
+
+        return json.dumps(self.data(number), allow_nan=False), functions
+
+    @classmethod
+    def of_data(cls, data: dict[str, Any], function: Callable[[Any], Any]) -> Self:
+        """The method of its data; `function` reads a user's proposal.
+
+        Raises
+        ------
+        InputError
+            A method or a setting that there is not.
+        """
+        given = dict(data)
+        own = Method.KNOWN.get(given.pop("method", ""))
+        if own is None or not issubclass(own, cls):
+            raise InputError(
+                "bad-setting",
+                name="method",
+                found=repr(data.get("method")),
+                expected=f"one of {', '.join(Method.KNOWN)}",
+                suggestion='"smc"',
+            )
+        for name, value in given.items():
+            if isinstance(value, dict):
+                given[name] = Kernel.of_data(value, function)
+            elif isinstance(value, list):
+                given[name] = tuple(value)
+        try:
+            return own(**given)
+        except TypeError as error:
+            raise InputError(
+                "bad-setting",
+                name=own.NAME,
+                found=str(error).partition(") ")[2] or str(error),
+                expected=f"the settings {', '.join(field.name for field in fields(own))}",
+                suggestion="those alone",
+            ) from None
+
+    def _set(self, name: str, value: Any) -> None:
+        """Keep a setting as it is meant: a whole number that means a real one, a list that means a tuple."""
+        object.__setattr__(self, name, value)

@@ -1,0 +1,228 @@
+"""The short ways to a search: `run` a model by any method, and `grow` one into a target.
+
+Seeds are 64-bit numbers; where none is given a fresh one is drawn and kept in the result. The same seed gives the same
+result on any number of threads. Ctrl-C stops a search, which then gives what it has (`Result.interrupted`).
+"""
+
+from __future__ import annotations
+
+import secrets
+from collections.abc import Callable, Mapping
+from dataclasses import fields
+from os import PathLike
+from typing import TYPE_CHECKING, Any
+
+from niwaki import _engine
+from niwaki.compiled import arguments, as_model, task, translated
+from niwaki.errors import InputError
+from niwaki.methods import Forward, Method, Smc
+from niwaki.search.request import Search, check_seed
+from niwaki.search.searching import given, starts
+from niwaki.sketches import Score, no_self_intersection, volume_match
+from niwaki.words.models import Model
+
+if TYPE_CHECKING:
+    from niwaki.methods import Mh
+    from niwaki.result import Result
+    from niwaki.search.searching import Watch
+    from niwaki.target import Target
+
+#: The settings of `smc`, which `grow` takes by name.
+SETTINGS = {field.name: field.default for field in fields(Smc)}
+
+
+def run(
+    model: Model[..., Any] | Callable[..., Any],
+    *args: Any,
+    method: Method | None = None,
+    score: Score | None = None,
+    seed: int | None = None,
+    choices: Mapping[str, Any] | None = None,
+    max_steps: int = 20_000_000,
+    max_memory: int = 1 << 30,
+    threads: int | None = None,
+    progress: Watch | None = None,
+    **kwargs: Any,
+) -> Result:
+    """Run a model on the engine.
+
+    Parameters
+    ----------
+    model
+        A model, or a function of the modelling language.
+    args, kwargs
+        Its arguments.
+    method
+        `smc(...)`, `particle_gibbs(...)`, `pimh(...)`, `mh(...)`, `enumerate_all(...)`, `rejection(...)`,
+        `importance(...)`, `hmc(...)`, `nuts(...)` or `forward(...)`, which is also what happens when it is left out.
+        It may also stand right after the model.
+    score
+        What its scene should be like.
+    seed
+        Decides every random choice; fresh when left out.
+    choices
+        Values of choices by address, for one run with those: others are drawn from `seed` where it is given, and
+        missing ones are an error where it is not. With `mh`, `hmc`, `nuts` and `particle_gibbs`, the chains start from
+        them.
+    max_steps
+        Most calls and loop steps of one run.
+    max_memory
+        Most bytes of a run or a population.
+    threads
+        How many to use; all of the machine's when left out. The result does not depend on it.
+    progress
+        Called now and then with a `Progress`; what it raises ends the search.
+
+    Returns
+    -------
+    Result
+        The samples, with weights; for enumeration the exact distribution.
+    """
+    model = as_model(model)
+    if method is None and args and isinstance(args[0], Method):
+        method, args = args[0], args[1:]
+    search = Search(
+        model,
+        tuple(arguments(model, args, kwargs)),
+        score=Score() if score is None else score,
+        method=Forward() if method is None else method,
+        seed=fresh(seed),
+        choices=choices,
+        max_steps=max_steps,
+        max_memory=max_memory,
+    )
+    if choices is not None and seed is not None and not starts(search.method):
+        return given(search, search.seed)
+    return search.run(threads=threads, progress=progress)
+
+
+def grow(
+    model: Model[..., Any] | Callable[..., Any],
+    target: Target | str | PathLike[str] | None = None,
+    *args: Any,
+    score: Score | None = None,
+    method: Method | None = None,
+    voxel: float | None = None,
+    sigma: float = 0.02,
+    rule: str = "solid",
+    polish: Mh | None = None,
+    runs: int = 1,
+    seed: int | None = None,
+    max_steps: int = 20_000_000,
+    max_memory: int = 1 << 30,
+    threads: int | None = None,
+    progress: Watch | None = None,
+    **kwargs: Any,
+) -> Result:
+    """Grow a model into a target, or into anything else that can be asked for: the best of a population, `runs` times.
+
+    Parameters
+    ----------
+    model
+        A model that emits shapes.
+    target
+        What to fill: a `Target`, or a file; may be left out where `score` says what to match.
+    args, kwargs
+        The model's arguments. What `kwargs` has of the settings of `smc` (particles, order, temper, diverse, ...)
+        is how to search, with a `temper` of 16 for ratio weights when left out.
+    score
+        What else is asked for, such as `floor(0) * match_image("skyline.png", "cam.json")`; it multiplies
+        `no_self_intersection(rule)` and, where there is a target, `volume_match(target, voxel, sigma)`.
+    method
+        Another search than `smc` with those settings.
+    voxel, sigma
+        As for `volume_match`.
+    rule
+        As for `no_self_intersection`.
+    polish
+        How to go on from the best of each run, `mh(...)`: the best state of its chains takes its place
+        (`Result.polish`).
+    runs
+        How many results, with seeds `seed`, `seed + 1`, ...
+    seed, max_steps, max_memory, threads, progress
+        As for `run`.
+
+    Returns
+    -------
+    Result
+        One sample for each run, the best of its population, or as many as are `diverse`; runs in which every particle
+        became impossible are left out with a warning, and are an error when there is no other.
+    """
+    from niwaki.target import Target
+
+    model = as_model(model)
+    settings = {name: kwargs.pop(name) for name in SETTINGS if name in kwargs}
+    if method is not None and settings:
+        raise InputError(
+            "bad-setting",
+            name=next(iter(settings)),
+            found=repr(next(iter(settings.values()))),
+            expected="nothing beside `method`, which has settings of its own",
+            suggestion=f"`method` left out, or the setting in `{method.NAME}(...)`",
+        )
+    asked = no_self_intersection(rule) * (Score() if score is None else score)
+    if target is not None:
+        aim = target if isinstance(target, Target) else Target.load(target)
+        asked *= volume_match(aim, voxel, sigma)
+    elif len(asked.asks) == 1:
+        raise InputError("no-target", name=model.name)
+    search = Search(
+        model,
+        tuple(arguments(model, args, kwargs)),
+        score=asked,
+        method=sharpened(settings) if method is None else method,
+        seed=fresh(seed),
+        runs=runs,
+        keep="best",
+        polish=polish,
+        max_steps=max_steps,
+        max_memory=max_memory,
+    )
+    return search.run(threads=threads, progress=progress)
+
+
+def sharpened(settings: Mapping[str, Any]) -> Smc:
+    """The population of a search for the best: where `temper` is left out, 16 with ratio weights."""
+    given_temper = settings.get("temper")
+    usual = 16.0 if settings.get("weights", "ratio") == "ratio" else 1.0
+    return Smc(**{**settings, "temper": usual if given_temper is None else given_temper})
+
+
+def explain(
+    model: Model[..., Any] | Callable[..., Any],
+    choice: str,
+    *args: Any,
+    seed: int = 0,
+    max_steps: int = 20_000_000,
+    **kwargs: Any,
+) -> dict[str, Any]:
+    """What each strategy does for one proposal from the prior, in the first state of a seed.
+
+    Parameters
+    ----------
+    model
+        A model.
+    choice
+        The address of the choice that is changed, or a pattern: the first that matches.
+    args, kwargs
+        The model's arguments.
+    seed, max_steps
+        As for `run`.
+
+    Returns
+    -------
+    dict
+        `activations`: the calls and loop iterations, each before those it makes, as (label, function, depth, number of
+        the caller); `home`: which of them holds the choice; `path`, `old` and `new`; `runs`: by strategy what happened
+        ("invoked", "unwound", "skipped", "made" or "removed", and the number of the activation), and whether the run
+        came to its end. `niwaki.draw.reuse.draw` draws it.
+    """
+    model = as_model(model)
+    made = task(model, args, kwargs, (), max_steps)
+    with translated(model.name, f"seed={seed}"):
+        return _engine.explain(made, check_seed(seed), choice)
+
+
+def fresh(seed: int | None) -> int:
+    """The seed, or a fresh one."""
+    return secrets.randbits(32) if seed is None else check_seed(seed)

@@ -1,0 +1,274 @@
+"""Values as plain data, and back: what a search is written down with, in JSON that another process can read.
+
+Numbers, texts, truth values and None stand for themselves; everything else is a dict with one key that names its kind.
+No reader of data imports a module or runs a stored program: a host function is found again only in modules that
+whoever reads was told to trust.
+"""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import inspect
+import math
+import sys
+import zlib
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, is_dataclass, make_dataclass
+from importlib import import_module
+from typing import Any, NamedTuple, cast
+
+import numpy as np
+
+from niwaki import _engine
+from niwaki.camera import Camera
+from niwaki.errors import InputError
+from niwaki.lang.names import is_named_tuple, record_fields
+from niwaki.target import Receiver, Target
+from niwaki.words import distributions
+from niwaki.words.models import Host, Model
+from niwaki.words.vectors import Rotation, Vec
+
+
+def text_hash(text: str) -> str:
+    """SHA-256 of a text, in hexadecimal."""
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def mesh_hash(mesh: Target | Receiver) -> str:
+    """SHA-256 of a mesh's arrays, in hexadecimal."""
+    return hashlib.sha256(mesh.vertices.tobytes() + mesh.faces.tobytes()).hexdigest()
+
+
+@dataclass(frozen=True)
+class Writer:
+    """Writes values.
+
+    Attributes
+    ----------
+    files : str
+        How a mesh that was read from a file is written: "named" (the file and the hash of what was read), "inside" (the
+        arrays), or "hashed" (the hash alone: what the hash of a search is made of).
+    """
+
+    files: str = "named"
+
+    def __call__(self, value: Any) -> Any:
+        """Write a value as plain data."""
+        if value is None or isinstance(value, (bool, str)):
+            return value
+        if isinstance(value, np.generic):
+            return self(value.item())
+        if isinstance(value, int):
+            return int(value)
+        if isinstance(value, float):
+            return float(value) if math.isfinite(value) else {"real": repr(float(value))}
+        for kind, write in _WRITERS.items():
+            if isinstance(value, kind):
+                return write(self, value)
+        if type(value).__module__ == distributions.__name__:
+            return {"dist": type(value).__name__, "parameters": self.each(value.parameters)}
+        if is_dataclass(value) or is_named_tuple(type(value)):
+            names = record_fields(type(value))
+            fields = {name: self(getattr(value, name)) for name in names}
+            return {"record": record_class(type(value)), "fields": fields}
+        if isinstance(value, tuple):
+            return {"tuple": self.each(value)}
+        if isinstance(value, list):
+            return {"list": self.each(value)}
+        if isinstance(value, dict):
+            return {"dict": [[self(key), self(one)] for key, one in value.items()]}
+        if isinstance(value, range):
+            return {"range": [value.start, value.stop, value.step]}
+        if callable(value):
+            return {"host": host_reference(value)}
+        raise InputError("argument-value", number="?", name="a search", found=f"a {type(value).__name__}")
+
+    def each(self, values: Any) -> list[Any]:
+        """Write several values."""
+        return [self(value) for value in values]
+
+    def array(self, value: np.ndarray[Any, Any]) -> dict[str, Any]:
+        """Write an array: its type, its shape, and its bytes."""
+        bytes_ = np.ascontiguousarray(value).tobytes()
+        if self.files == "hashed":
+            packed = hashlib.sha256(bytes_).hexdigest()
+        else:
+            packed = base64.b85encode(zlib.compress(bytes_)).decode()
+        return {"array": value.dtype.str, "shape": list(value.shape), "bytes": packed}
+
+    def mesh(self, kind: str, value: Target | Receiver) -> dict[str, Any]:
+        """Write a mesh."""
+        hashed = mesh_hash(value)
+        if self.files == "hashed":
+            return {kind: hashed}
+        if self.files == "named" and value.source is not None:
+            return {kind: hashed, "file": value.source}
+        arrays = {"vertices": self.array(value.vertices), "faces": self.array(value.faces)}
+        return {kind: hashed, "name": value.name, **arrays}
+
+    def shape(self, value: _engine.Shape) -> dict[str, Any]:
+        """Write a shape, by what the engine knows of it."""
+        return {"shape": value.data()}
+
+
+_WRITERS: dict[Any, Callable[[Writer, Any], Any]] = {
+    np.ndarray: Writer.array,
+    Target: lambda writer, value: writer.mesh("target", value),
+    Receiver: lambda writer, value: writer.mesh("receiver", value),
+    Camera: lambda writer, value: {"camera": value.to_dict()},
+    _engine.Shape: Writer.shape,
+    Vec: lambda writer, value: {"vec": list(value.parts)},
+    Rotation: lambda writer, value: {"rotation": [list(part) for part in value]},
+}
+
+
+def record_class(kind: type) -> dict[str, Any]:
+    """Write a class of records: its name, its fields, and how it is made."""
+    made = "namedtuple" if is_named_tuple(kind) else "dataclass"
+    return {"name": kind.__name__, "fields": list(record_fields(kind)), "kind": made}
+
+
+def of_record_class(data: Mapping[str, Any]) -> type:
+    """Make a class of records with those fields."""
+    fields = [(str(name), Any) for name in data["fields"]]
+    if data["kind"] == "namedtuple":
+        return cast(type, NamedTuple(data["name"], fields))
+    return make_dataclass(data["name"], fields, frozen=True)
+
+
+def host_reference(function: Any) -> dict[str, str]:
+    """Write a host function: where it is found, and the hash of its source."""
+    plain = inspect.unwrap(function.function if isinstance(function, Host) else function)
+    name = getattr(plain, "__qualname__", type(plain).__qualname__)
+    return {"module": getattr(plain, "__module__", ""), "name": name, "sha256": source_hash(plain)}
+
+
+def source_hash(function: Any) -> str:
+    """SHA-256 of what a function does: its syntax tree without places and comments; its name where that is all."""
+    import ast
+    import textwrap
+
+    try:
+        return text_hash(ast.dump(ast.parse(textwrap.dedent(inspect.getsource(function)))))
+    except (OSError, TypeError, SyntaxError):
+        return text_hash(getattr(function, "__qualname__", repr(type(function))))
+
+
+@dataclass(frozen=True)
+class Reader:
+    """Reads values.
+
+    Attributes
+    ----------
+    trust : tuple of str
+        Modules whose host functions may be called.
+    """
+
+    trust: tuple[str, ...] = ()
+
+    def __call__(self, data: Any) -> Any:
+        """Read a value from plain data."""
+        if not isinstance(data, dict):
+            if isinstance(data, (str, int, float, bool)) or data is None:
+                return data
+            raise InputError("bad-run-file", path="the data", reason=f"a value is a {type(data).__name__}")
+        kind = next(iter(data), "")
+        read = _READERS.get(kind)
+        if read is None:
+            raise InputError("bad-run-file", path="the data", reason=f"there is no kind of value {kind!r}")
+        return read(self, data)
+
+    def each(self, data: Any) -> list[Any]:
+        """Read several values."""
+        return [self(one) for one in data]
+
+    def record(self, data: Mapping[str, Any]) -> Any:
+        """Read a record, as one of a class of its own."""
+        made = of_record_class(data["record"])
+        return made(**{name: self(value) for name, value in data["fields"].items()})
+
+    def mesh(self, kind: type[Target] | type[Receiver], data: Mapping[str, Any]) -> Any:
+        """Read a mesh: of its file, or of its arrays.
+
+        Raises
+        ------
+        InputError
+            The file is missing, or it holds another mesh than when it was written down.
+        """
+        wanted = data[kind.__name__.lower()]
+        if "file" in data:
+            name = data["file"]
+            found = kind.find(name)
+            if mesh_hash(found) != wanted:
+                raise InputError("changed-mesh", path=name)
+            return found
+        return kind(self(data["vertices"]), self(data["faces"]), data["name"])
+
+    def host(self, data: Mapping[str, Any]) -> Any:
+        """Find a host function again.
+
+        Raises
+        ------
+        InputError
+            Its module is not trusted, or the function is not a host function, or another than it was.
+        """
+        reference = data["host"]
+        module, name = reference["module"], reference["name"]
+        if module not in self.trust:
+            reason = f"it calls the Python function `{module}.{name}`, and `{module}` is not among the trusted modules"
+            raise InputError("untrusted-function", name=f"{module}.{name}", reason=reason)
+        found: Any = sys.modules.get(module) or import_module(module)
+        for part in name.split("."):
+            found = getattr(found, part, None)
+        if not isinstance(found, Host) or source_hash(inspect.unwrap(found.function)) != reference["sha256"]:
+            reason = "it is no host function there, or another than it was"
+            raise InputError("untrusted-function", name=f"{module}.{name}", reason=reason)
+        return found.function
+
+
+def _array(reader: Reader, data: Mapping[str, Any]) -> Any:
+    raw = zlib.decompress(base64.b85decode(data["bytes"]))
+    dtype = np.dtype(data["array"])
+    if dtype.hasobject:
+        raise InputError("bad-run-file", path="the data", reason="an array of objects")
+    return np.frombuffer(raw, dtype=dtype).reshape(data["shape"])
+
+
+def _distribution(reader: Reader, data: Mapping[str, Any]) -> Any:
+    made = getattr(distributions, data["dist"], None)
+    if not (isinstance(made, type) and issubclass(made, distributions.Distribution)):
+        raise InputError("bad-run-file", path="the data", reason=f"no distribution {data['dist']!r}")
+    return made(*reader.each(data["parameters"]))
+
+
+_READERS: dict[str, Callable[[Reader, Any], Any]] = {
+    "real": lambda reader, data: float(data["real"]),
+    "tuple": lambda reader, data: tuple(reader.each(data["tuple"])),
+    "list": lambda reader, data: reader.each(data["list"]),
+    "dict": lambda reader, data: {reader(key): reader(one) for key, one in data["dict"]},
+    "range": lambda reader, data: range(*data["range"]),
+    "vec": lambda reader, data: Vec(tuple(data["vec"])),
+    "rotation": lambda reader, data: Rotation(tuple(part) for part in data["rotation"]),
+    "shape": lambda reader, data: _engine.Shape.of_data(data["shape"]),
+    "camera": lambda reader, data: Camera.from_dict(data["camera"]),
+    "array": _array,
+    "dist": _distribution,
+    "record": Reader.record,
+    "target": lambda reader, data: reader.mesh(Target, data),
+    "receiver": lambda reader, data: reader.mesh(Receiver, data),
+    "host": Reader.host,
+}
+
+
+def model_data(model: Model[..., Any], write: Writer) -> dict[str, Any]:
+    """Write a model: its core form, and what travels beside it."""
+    core = model.core()
+    return {
+        "name": model.name,
+        "core": core.text,
+        "constants": write.each(core.constants),
+        "classes": [record_class(kind) for kind in core.classes],
+        "parameters": list(core.parameters),
+        "required": core.required,
+    }

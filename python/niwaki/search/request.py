@@ -1,0 +1,322 @@
+"""A search as a value: all that decides what is found, and nothing that does not.
+
+`niwaki.grow` and `niwaki.run` are short ways to make one and run it. It can be written to JSON and read again, sent to
+another process, and its hash says whether two searches are the same.
+
+>>> import niwaki as nw
+>>> @nw.model
+... def coin():
+...     return nw.flip(0.5)
+>>> search = nw.Search(coin, method=nw.enumerate_all(), seed=1)
+>>> nw.Search.of_json(search.json()).run().distribution() == search.run().distribution()
+True
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cache, cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from niwaki import _engine
+from niwaki.compiled import as_model, task
+from niwaki.errors import InputError
+from niwaki.lang.core import Core
+from niwaki.methods import Forward, Method, Mh
+from niwaki.search.data import Reader, Writer, model_data, of_record_class, text_hash
+from niwaki.sketches import Score
+from niwaki.words.models import Model
+
+if TYPE_CHECKING:
+    from niwaki.result import Result
+    from niwaki.search.searching import Watch
+
+#: The version of what a search is written down as.
+FORMAT = 1
+
+#: What is kept of each run: every sample, or the best alone.
+KEEP = ("all", "best")
+
+#: Places and names of files in core form, and texts, which stay as they are.
+_PLACES = re.compile(r'\(file \d+ "(?:[^"\\]|\\.)*"\)|("(?:[^"\\]|\\.)*")| @\d+:\d+-\d+:\d+')
+
+
+class StoredModel(Model[..., Any]):
+    """A model that was read from data: its core form, without the Python function that it came from."""
+
+    def __init__(self, core: Core, name: str) -> None:
+        self.name, self._core, self._program = name, core, None
+        self.__name__ = name
+
+    def __call__(self, *args: Any, **kwargs: Any) -> Any:
+        """Run the model once with a fresh seed, and keep only its value."""
+        from niwaki.search.asking import run
+
+        return run(self, *args, **kwargs).value
+
+
+@dataclass(frozen=True, eq=False)
+class Search:
+    """What is asked of a model, and how it is searched.
+
+    Parameters
+    ----------
+    model
+        A model, or a function of the modelling language.
+    args
+        Its arguments, by position.
+    score
+        What its scene should be like.
+    method
+        How it is searched, such as `smc(...)`; one run of the prior when left out.
+    seed
+        Decides every random choice, 0 to 2^64 - 1.
+    choices
+        Values of choices by address: where chains start, or for any other method the choices of the one run.
+    runs
+        How many searches, with seeds `seed`, `seed + 1`, ...
+    keep
+        "all" samples of the search, or the "best" of each.
+    polish
+        How to go on from the best of each run, `mh(...)`.
+    max_steps
+        Most calls and loop steps of one run.
+    max_memory
+        Most bytes of a run or a population.
+    """
+
+    model: Model[..., Any]
+    args: tuple[Any, ...] = ()
+    score: Score = field(default_factory=Score)
+    method: Method = Forward()  # noqa: RUF009
+    seed: int = 0
+    choices: Mapping[str, Any] | None = None
+    runs: int = 1
+    keep: str = "all"
+    polish: Mh | None = None
+    max_steps: int = 20_000_000
+    max_memory: int = 1 << 30
+
+    def __post_init__(self) -> None:
+        """Check what it is made of."""
+        object.__setattr__(self, "model", as_model(self.model))
+        object.__setattr__(self, "args", tuple(self.args))
+        check_seed(self.seed)
+        for name, kind, suggestion in (
+            ("method", Method, "`smc(particles=300)`"),
+            ("score", Score, "`no_self_intersection() * match_volume(target)`"),
+        ):
+            if not isinstance(getattr(self, name), kind):
+                raise _wrong(name, getattr(self, name), f"a {kind.__name__.lower()}", suggestion)
+        if not isinstance(self.runs, int) or isinstance(self.runs, bool) or self.runs < 1:
+            raise _wrong("runs", self.runs, "a whole number above 0", "1 or more")
+        if self.keep not in KEEP:
+            raise _wrong("keep", self.keep, '"all" or "best"', '"all"')
+        polish: Any = self.polish
+        if polish is not None and not isinstance(polish, Mh):
+            suggestion = "`mh(20_000)`, or with a kernel `mh(20_000, kernel=kernels.drift())`"
+            raise _wrong("polish", self.polish, "Metropolis-Hastings", suggestion)
+        if self.polish is not None and getattr(self.method, "diverse", None) is not None:
+            suggestion = "None, and `Result.polish` for one of the results"
+            raise _wrong("polish", "mh(...)", "nothing beside `diverse`, as chains may meet", suggestion)
+
+    @cached_property
+    def task(self) -> _engine.Task:
+        """The model with its arguments and sketches, ready to be searched."""
+        return task(self.model, self.args, None, self.score.specs, self.max_steps, self.max_memory)
+
+    def run(self, *, threads: int | None = None, progress: Watch | None = None) -> Result:
+        """Carry it out.
+
+        Parameters
+        ----------
+        threads
+            How many to use; all of the machine's when left out. The result does not depend on it.
+        progress
+            Called now and then with a `Progress`; what it raises ends the search.
+        """
+        from niwaki.search.searching import carried_out
+
+        return carried_out(self, check_threads(threads), progress)
+
+    def data(self, files: str = "named") -> dict[str, Any]:
+        """The search as plain data.
+
+        Parameters
+        ----------
+        files
+            How meshes that were read from files are written: "named" (by the file and a hash of what was read) or
+            "inside", for a machine that has not got the files.
+        """
+        write = Writer(files)
+        function = _function_writer(write)
+        return {
+            "format": FORMAT,
+            "model": model_data(self.model, write),
+            "args": write.each(self.args),
+            "score": self.score.data(write),
+            "method": self.method.data(function),
+            "seed": self.seed,
+            "choices": None if self.choices is None else write(dict(self.choices)),
+            "runs": self.runs,
+            "keep": self.keep,
+            "polish": None if self.polish is None else self.polish.data(function),
+            "max_steps": self.max_steps,
+            "max_memory": self.max_memory,
+        }
+
+    def json(self, files: str = "named") -> str:
+        """The search as JSON; `files` as for `data`."""
+        return json.dumps(self.data(files), allow_nan=False)
+
+    @classmethod
+    def of_data(cls, data: Mapping[str, Any], trust: tuple[str, ...] = ()) -> Search:
+        """Read a search from plain data.
+
+        No file of Python is run: the model is in the data. Meshes are read from the files that the data names.
+
+        Parameters
+        ----------
+        data
+            What `Search.data` gives.
+        trust
+            Names of modules whose host functions the model may call; importing a module runs it.
+
+        Raises
+        ------
+        InputError
+            What is written there is no search, names a mesh that has changed, or calls a function that is not trusted.
+        """
+        read = Reader(tuple(trust))
+
+        def function(given: Any) -> Model[..., Any]:
+            return _stored(given, read)
+
+        try:
+            if data["format"] != FORMAT:
+                reason = f"it has format {data['format']!r}, this version reads {FORMAT}"
+                raise InputError("bad-run-file", path="the search", reason=reason)
+            polish = data["polish"]
+            return cls(
+                model=_stored(data["model"], read),
+                args=tuple(read.each(data["args"])),
+                score=Score.of_data(data["score"], read),
+                method=Method.of_data(data["method"], function),
+                seed=data["seed"],
+                choices=None if data["choices"] is None else read(data["choices"]),
+                runs=data["runs"],
+                keep=data["keep"],
+                polish=None if polish is None else Mh.of_data(polish, function),
+                max_steps=data["max_steps"],
+                max_memory=data["max_memory"],
+            )
+        except (KeyError, TypeError, ValueError, AttributeError, IndexError) as error:
+            reason = f"{type(error).__name__}: {error}"
+            raise InputError("bad-run-file", path="the search", reason=reason) from error
+
+    @classmethod
+    def of_json(cls, text: str, trust: tuple[str, ...] = ()) -> Search:
+        """Read a search from JSON; as for `of_data`."""
+        try:
+            data = json.loads(text)
+        except ValueError as error:
+            raise InputError("bad-run-file", path="the search", reason=f"it is not JSON: {error}") from error
+        if not isinstance(data, dict):
+            raise InputError("bad-run-file", path="the search", reason="it is no table of names and values")
+        return cls.of_data(data, trust)
+
+    @cached_property
+    def hash(self) -> str:
+        """SHA-256 of what decides the result, in hexadecimal.
+
+        It changes with the model's source, an argument, the bytes of a target, an image or a mesh, and any setting; not
+        with a comment, a line's place, or where a file lies.
+        """
+        data = self.data("hashed")
+        data["model"] = model_hash(self.model)
+        return text_hash(json.dumps(data, sort_keys=True))
+
+    @cached_property
+    def key(self) -> str:
+        """SHA-256 of the search, the engine and the bits that this machine computes: the name of a stored result."""
+        return text_hash(f"{self.hash} {engine_hash()} {_engine.fingerprint()}")
+
+    def __eq__(self, other: object) -> bool:
+        return self.hash == other.hash if isinstance(other, Search) else NotImplemented
+
+    def __hash__(self) -> int:
+        return int(self.hash[:15], 16)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        trust = tuple(sorted({one.__module__ for one in self.model.core().constants if callable(one)}))
+        return Search.of_json, (self.json("inside"), trust)
+
+
+@cache
+def engine_hash() -> str:
+    """SHA-256 of the compiled engine, in hexadecimal."""
+    return hashlib.sha256(Path(_engine.__file__).read_bytes()).hexdigest()
+
+
+def model_hash(model: Model[..., Any]) -> str:
+    """SHA-256 of what a model does: its core form without places, its constants, the sources of its host functions."""
+    core = model.core()
+
+    def kept(found: re.Match[str]) -> str:
+        return found.group(1) or ""
+
+    data = model_data(model, Writer("hashed"))
+    return text_hash(json.dumps(data | {"core": _PLACES.sub(kept, core.text)}, sort_keys=True))
+
+
+def _stored(data: Mapping[str, Any], read: Reader) -> StoredModel:
+    """The model of its data."""
+    core = Core(
+        text=data["core"],
+        constants=read.each(data["constants"]),
+        classes=[of_record_class(one) for one in data["classes"]],
+        files=[],
+        entry=data["name"],
+        parameters=tuple(data["parameters"]),
+        required=data["required"],
+    )
+    return StoredModel(core, data["name"])
+
+
+def _function_writer(write: Writer) -> Any:
+    """Writes a user's proposal: a model, or for the hash of a search the hash of one."""
+
+    def function(given: Any) -> Any:
+        own = as_model(given)
+        return model_hash(own) if write.files == "hashed" else model_data(own, write)
+
+    return function
+
+
+def check_seed(seed: int) -> int:
+    """The seed, where it makes sense."""
+    if not isinstance(seed, int) or isinstance(seed, bool) or not 0 <= seed < 2**64:
+        raise _wrong("seed", seed, "a whole number from 0 to 2**64 - 1", "such a number, or leave it out")
+    return seed
+
+
+def check_threads(threads: int | None) -> int | None:
+    """The number of threads, where it makes sense."""
+    if threads is not None and (not isinstance(threads, int) or not 1 <= threads <= 1024):
+        raise _wrong(
+            "threads",
+            threads,
+            "a whole number from 1 to 1024",
+            "such a number, or leave it out for all cores",
+        )
+    return threads
+
+
+def _wrong(name: str, found: Any, expected: str, suggestion: str) -> InputError:
+    shown = found if isinstance(found, str) and name == "polish" else repr(found)
+    return InputError("bad-setting", name=name, found=shown, expected=expected, suggestion=suggestion)

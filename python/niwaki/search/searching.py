@@ -1,0 +1,264 @@
+"""Carrying a search out on the engine, timed: one run after the other, each by its method."""
+
+from __future__ import annotations
+
+import time
+import warnings
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from niwaki import _engine
+from niwaki.compiled import as_model, translated
+from niwaki.errors import InputError
+from niwaki.methods import Hmc, Mh, Nuts, ParticleGibbs, Smc
+from niwaki.result import Result, Sample
+
+if TYPE_CHECKING:
+    from niwaki.methods import Method
+    from niwaki.mh_result import ChainResult
+    from niwaki.search.request import Search
+
+
+class SearchWarning(UserWarning):
+    """A search gave a result, but less than was asked for."""
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How far a search is; given to `progress` now and then.
+
+    Attributes
+    ----------
+    run, runs : int
+        Which of how many runs, from 0.
+    done : int
+        Barriers of a population, runs of the other methods.
+    ended : int
+        Particles that have ended.
+    best : float
+        Best log score of the population so far, nats.
+    """
+
+    run: int
+    runs: int
+    done: int
+    ended: int
+    best: float
+
+
+Watch = Callable[[Progress], None]
+#: What the engine calls: done, ended, best log score.
+EngineWatch = Callable[[int, int, float], None]
+
+
+def watcher(progress: Watch | None, number: int = 0, runs: int = 1) -> EngineWatch:
+    """What the engine calls, for a person's `progress`."""
+
+    def watch(done: int, ended: int, best: float) -> None:
+        if progress is not None:
+            progress(Progress(number, runs, done, ended, best))
+
+    return watch
+
+
+def carried_out(search: Search, threads: int | None, progress: Watch | None) -> Result:
+    """Carry a search out, run by run.
+
+    Runs in which every particle became impossible are left out with a warning, and are an error when there is no other.
+    """
+    if search.choices is not None and not starts(search.method):
+        return given(search)
+    if search.runs == 1 and search.keep == "all" and search.polish is None:
+        return once(search, search.seed, threads, watcher(progress))
+    found: list[Sample] = []
+    failed: list[InputError] = []
+    spent, interrupted = 0.0, False
+    plan: tuple[int, ...] = ()
+    for number in range(search.runs):
+        watch = watcher(progress, number, search.runs)
+        try:
+            one = once(search, (search.seed + number) % 2**64, threads, watch)
+        except InputError as error:
+            if error.code != "everything-impossible":
+                raise
+            failed.append(error)
+            continue
+        except KeyboardInterrupt:
+            # Pressed between two looks of the engine.
+            if not found:
+                raise
+            interrupted = True
+            break
+        plan, interrupted = one.plan, one.interrupted
+        if interrupted and found and not any(sample.has_ended for sample in one):
+            spent += one.seconds
+            break
+        if search.polish is not None and not interrupted:
+            one = polished(one, search.polish, one.seed, threads, watch)
+            interrupted = one.interrupted
+        spent += one.seconds
+        is_diverse = isinstance(search.method, Smc) and search.method.diverse is not None
+        found.extend(one.samples if is_diverse or search.keep == "all" else [one.best])
+        if interrupted:
+            break
+    if failed and not found:
+        raise failed[0]
+    if failed:
+        warnings.warn(
+            f"{len(failed)} of {search.runs} runs became impossible and are left out; use more particles",
+            SearchWarning,
+            stacklevel=4,
+        )
+    result = Result(search, found, search.seed, interrupted=interrupted, plan=plan)
+    result.seconds = spent
+    return result
+
+
+def starts(method: Method) -> bool:
+    """Whether a method goes on from a run whose choices are given."""
+    return isinstance(method, Mh | Hmc | Nuts | ParticleGibbs)
+
+
+def given(search: Search, seed: int | None = None) -> Result:
+    """The one run whose choices are given; those that are missing are drawn where there is a seed."""
+    with translated(search.model.name, choices=search.choices):
+        trace = search.task.replay(dict(search.choices or {}), seed)
+    return Result(search, [Sample.of_trace(trace, search)], search.seed)
+
+
+def _start(search: Search, seed: int) -> list[tuple[int, Any]] | None:
+    """The run that chains start from, each choice as the hash of its address and its value."""
+    if search.choices is None:
+        return None
+    with translated(search.model.name, choices=search.choices):
+        first = search.task.replay(dict(search.choices), seed)
+    return [(choice[1], choice[3]) for choice in first.choices]
+
+
+def once(search: Search, seed: int, threads: int | None, watch: EngineWatch) -> Result:
+    """One run of a search, with one seed."""
+    start = _start(search, seed)
+    if isinstance(search.method, Mh):
+        return chains_of(search, search.method, seed, threads, watch, start)
+    if isinstance(search.method, Hmc | Nuts):
+        return trajectories(search, search.method, seed, threads, watch, start)
+    method, functions = _written(search.method)
+    clock = Clock()
+    with translated(search.model.name, f"seed={seed}"):
+        outcomes, interrupted, info = search.task.search(
+            method, seed, functions=functions, start=start, threads=threads, watch=watch
+        )
+    diverse = getattr(search.method, "diverse", None)
+    if diverse is not None:
+        outcomes = _different(outcomes, diverse, len(info["plan"]))
+    seconds, cpu_seconds = clock.read()
+    samples = [Sample(outcome, search, seed, seconds, cpu_seconds) for outcome in outcomes]
+    result = Result(search, samples, seed, interrupted=interrupted, **info)
+    result.seconds, result.cpu_seconds = seconds, cpu_seconds
+    return result
+
+
+def _written(method: Method) -> tuple[str, list[_engine.Task]]:
+    """A method as the engine reads it, and the users' proposals that it names."""
+    text, functions = method.text()
+    return text, [_engine.Task(as_model(function).program()) for function in functions]
+
+
+class Clock:
+    """Wall and processor time since it was made."""
+
+    def __init__(self) -> None:
+        self._wall, self._cpu = time.perf_counter(), time.process_time()
+
+    def read(self) -> tuple[float, float]:
+        """Seconds so far, of the wall and of the processor."""
+        return time.perf_counter() - self._wall, time.process_time() - self._cpu
+
+
+def _different(outcomes: list[_engine.Outcome], wanted: int, populations: int) -> list[_engine.Outcome]:
+    """The best of those that differ; runs that did not end or are impossible are none."""
+    ended = [one for one in outcomes if one.has_ended and one.cause is None]
+    ranked = sorted(ended, key=lambda one: -one.log_score)
+    chosen = [ranked[place] for place in _engine.different(ranked, wanted)]
+    if len(chosen) < wanted:
+        warnings.warn(
+            f"{len(chosen)} of {wanted} results that differ were found in {populations} "
+            f"population{'' if populations == 1 else 's'}; give more `populations`",
+            SearchWarning,
+            stacklevel=6,
+        )
+    return chosen
+
+
+def chains_of(
+    search: Search,
+    method: Mh,
+    seed: int,
+    threads: int | None,
+    watch: EngineWatch,
+    start: list[tuple[int, Any]] | None,
+) -> ChainResult:
+    """Chains in their first states, and their first proposals."""
+    from niwaki.mh_result import ChainResult
+
+    text, functions = _written(method)
+    with translated(search.model.name, f"seed={seed}"):
+        chains = _engine.Chains(
+            search.task,
+            text,
+            seed,
+            functions=functions,
+            known=None if start is None else dict(start),
+            threads=threads,
+        )
+    return ChainResult(search, method, chains, seed, watch, threads).more(method.steps)
+
+
+def trajectories(
+    search: Search,
+    method: Hmc | Nuts,
+    seed: int,
+    threads: int | None,
+    watch: EngineWatch,
+    start: list[tuple[int, Any]] | None,
+) -> Result:
+    """Chains that follow the gradient."""
+    from niwaki.hmc_result import HmcResult
+
+    clock = Clock()
+    with translated(search.model.name, f"seed={seed}"):
+        found = _engine.Trajectories(
+            search.task,
+            method.text()[0],
+            seed,
+            known=None if start is None else dict(start),
+            threads=threads,
+            watch=watch,
+        )
+    result = HmcResult(search, method, found, seed, *clock.read())
+    result.warn()
+    return result
+
+
+def polished(result: Result, method: Mh, seed: int, threads: int | None, watch: EngineWatch) -> ChainResult:
+    """Chains from the best sample of a result; their time is added to that of the search.
+
+    A population is wide and short: it finds where to look, and each of its particles is built once. A chain is narrow
+    and long: each of its proposals changes one thing, and costs only what that touches. So one is good at starting
+    where the other ends.
+    """
+    best = result.best
+    if not best.has_ended:
+        raise InputError(
+            "bad-setting",
+            name="polish",
+            found=repr(best),
+            expected="a search with a run that has ended, for the chain to start from",
+            suggestion="more time or particles",
+        )
+    start = [(choice[1], choice[3]) for choice in best._trace.choices]
+    chains = chains_of(result.search, method, seed, threads, watch, start)
+    chains.seconds += result.seconds
+    chains.cpu_seconds += result.cpu_seconds
+    return chains

@@ -1,0 +1,193 @@
+"""The settings of methods as flags, read from the methods' classes: their fields, and what is said of them.
+
+A setting that the chosen method does not have is refused, not forgotten.
+"""
+
+from __future__ import annotations
+
+import inspect
+import re
+from collections.abc import Callable
+from dataclasses import fields
+from typing import Annotated, Any, get_type_hints
+
+import typer
+
+from niwaki import kernels
+from niwaki.errors import InputError
+from niwaki.methods import Method, Mh, ParticleGibbs, Pimh, Smc
+
+#: The methods of `niwaki grow`, by the name that is typed.
+METHODS: dict[str, type[Method]] = {"smc": Smc, "particle-gibbs": ParticleGibbs, "pimh": Pimh}
+
+MethodName = Annotated[
+    str, typer.Option("--method", metavar="NAME", help=f"{', '.join(METHODS)}.", show_default=True)
+]
+Polish = Annotated[
+    int | None,
+    typer.Option("--polish", metavar="STEPS", help="Go on from the best: so many proposals of a chain."),
+]
+PolishKernel = Annotated[
+    str | None,
+    typer.Option("--polish-kernel", metavar="KERNEL", help='With --polish: how it moves; default: "mh()".'),
+]
+
+#: Short names.
+_SHORT = {"particles": "-n"}
+#: Kinds of values that are typed as they are; everything else is typed as text and read by `_read`.
+_PLAIN = (int, float, str, bool)
+
+
+def with_settings(*methods: type[Method]) -> Callable[[Callable[..., None]], Callable[..., None]]:
+    """Give a command an option for each setting of these methods, in place of its `**settings`.
+
+    What was not typed is None.
+    """
+
+    def decorated(command: Callable[..., None]) -> Callable[..., None]:
+        hints = get_type_hints(command, include_extras=True)
+        own = [
+            one for one in inspect.signature(command).parameters.values() if one.kind is not one.VAR_KEYWORD
+        ]
+        plain = [one.replace(annotation=hints[one.name]) for one in own]
+        taken = {one.name for one in plain}
+        more = [_option(name, methods) for name in _names(methods) if name not in taken]
+        keyword = [one.replace(kind=one.KEYWORD_ONLY) for one in more]
+        command.__signature__ = inspect.Signature([*plain, *keyword])  # type: ignore[attr-defined]
+        command.__annotations__ = {one.name: one.annotation for one in (*plain, *keyword)}
+        return command
+
+    return decorated
+
+
+def _names(methods: tuple[type[Method], ...]) -> list[str]:
+    return list(dict.fromkeys(field.name for method in methods for field in fields(method)))
+
+
+def _option(name: str, methods: tuple[type[Method], ...]) -> inspect.Parameter:
+    """The option of one setting."""
+    owners = [method for method in methods if name in {field.name for field in fields(method)}]
+    kind = get_type_hints(owners[0])[name]
+    plain = [one for one in _PLAIN if kind in (one, one | None)]
+    typed = plain[0] if plain else str
+    whose = (
+        ""
+        if len(owners) == len(methods)
+        else f"{', '.join(method.NAME.replace('_', '-') for method in owners)}: "
+    )
+    default = {field.name: field.default for field in fields(owners[0])}[name]
+    usual = "" if default is None or typed is bool else f" Default: {default}."
+    flag = f"--{name.replace('_', '-')}"
+    names = [f"{flag}/--no-{name.replace('_', '-')}"] if typed is bool else [*_short(name), flag]
+    option = typer.Option(*names, help=f"{whose}{described(owners[0]).get(name, '')}{usual}")
+    annotation = Annotated[typed | None, option]  # type: ignore[valid-type]
+    return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=annotation)
+
+
+def _short(name: str) -> list[str]:
+    return [_SHORT[name]] if name in _SHORT else []
+
+
+def described(method: type[Method]) -> dict[str, str]:
+    """The first sentence of what a method's docstring says of each setting."""
+    found: dict[str, str] = {}
+    body = inspect.cleandoc(method.__doc__ or "").partition("Parameters\n----------\n")[2]
+    for names, text in re.findall(r"^(\w[\w, ]*)\n((?:    .*\n?|\n)+)", body + "\n", re.MULTILINE):
+        sentence = re.split(r"(?<=[.;:]) ", " ".join(text.split()).replace("`", ""), maxsplit=1)[0]
+        found |= {name.strip(): sentence.rstrip(".;:") + "." for name in names.split(",")}
+    if method is not Smc:
+        found |= {
+            name: said
+            for name, said in described(Smc).items()
+            if found.get(name, "As for").startswith("As for")
+        }
+    return found
+
+
+def method(name: str, given: dict[str, Any], usual: int) -> Method:
+    """The method that was typed.
+
+    Parameters
+    ----------
+    name
+        One of `METHODS`.
+    given
+        Its settings; None for those that were not typed.
+    usual
+        The number of particles that suits the model.
+    """
+    from niwaki.search.asking import sharpened
+
+    chosen = METHODS.get(name)
+    if chosen is None:
+        raise InputError(
+            "bad-setting",
+            name="--method",
+            found=repr(name),
+            expected=f"one of {', '.join(METHODS)}",
+            suggestion="smc",
+        )
+    said = typed(given)
+    for key in said:
+        if key not in {field.name for field in fields(chosen)}:
+            owners = [own for own, kind in METHODS.items() if key in {field.name for field in fields(kind)}]
+            other = " or ".join(f"`--method {own}`" for own in owners)
+            reason = f"`--method {name}` has no such setting"
+            raise InputError("flag-alone", flag=f"--{key}", other=other, reason=reason)
+    if "seconds" in said:
+        for key, flag in (("particles", "-n"), ("populations", "--populations")):
+            if key in said:
+                raise InputError(
+                    "flags-exclude",
+                    flag="--seconds",
+                    other=flag,
+                    reason="a time to spend decides how many particles there are, in how many populations",
+                    cure=f"give the one or the other; run.json keeps what {said['seconds']:g} s came to",
+                )
+    said = {"particles": usual, **said}
+    return sharpened(said) if chosen is Smc else chosen(**{"temper": 16.0, **said})
+
+
+def typed(given: dict[str, Any]) -> dict[str, Any]:
+    """The settings that were typed, read."""
+    return {name: _read(name, value) for name, value in given.items() if value is not None}
+
+
+def polish(steps: int | None, kernel: str | None) -> Mh | None:
+    """The chain that goes on from the best, if there is to be one."""
+    if steps is None:
+        if kernel is None:
+            return None
+        reason = "it says how the chain moves"
+        raise InputError("flag-alone", flag="--polish-kernel", other="`--polish`", reason=reason)
+    return Mh(steps, kernel=None if kernel is None else kernels.parse(kernel), keep=0)
+
+
+def _read(name: str, value: Any) -> Any:
+    """A setting that was typed as text, where it is more than text."""
+    if name in ("rejuvenate", "kernel"):
+        return kernels.parse(value)
+    if name == "at":
+        return int(value) if value.isdecimal() else value
+    if name == "particles":
+        sizes = _numbers(name, value, int)
+        return sizes[0] if len(sizes) == 1 else sizes
+    if name == "anneal":
+        powers = _numbers(name, value, float)
+        return powers[0] if len(powers) == 1 else powers
+    return value
+
+
+def _numbers(name: str, text: str, kind: Callable[[str], Any]) -> list[Any]:
+    """Numbers with commas between them."""
+    try:
+        return [kind(part) for part in text.split(",")]
+    except ValueError:
+        what = "whole numbers" if kind is int else "numbers"
+        raise InputError(
+            "bad-setting",
+            name=f"--{name}",
+            found=repr(text),
+            expected=f"one number, or {what} with commas between them",
+            suggestion="such numbers, for instance 1,2,4,8,16",
+        ) from None
