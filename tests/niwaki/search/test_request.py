@@ -17,6 +17,7 @@ import pytest
 from niwaki import box, emit, flip, gaussian, host, kernels, model, uniform
 from niwaki.finding import find
 from niwaki.gallery.targets import ship
+from niwaki.methods import Method
 
 MODEL = """
     from niwaki import *
@@ -193,7 +194,7 @@ def test_every_method_and_sketch_goes_through_json():
         nw.importance(5),
         nw.forward(2),
     ]
-    assert {type(one).NAME for one in methods} == set(nw.Method.KNOWN)
+    assert {type(one).NAME for one in methods} == set(Method.KNOWN)
     for method in methods:
         polish = nw.mh(20) if getattr(method, "diverse", None) is None else None
         search = nw.Search(PILE, (0.5,), score, method, seed=2, polish=polish)
