@@ -57,3 +57,9 @@ pub fn log_mean_exp(logs: impl Iterator<Item = f64> + Clone) -> f64 {
     let sum: f64 = logs.map(|x| (x - max).exp()).sum();
     max + (sum / n as f64).ln()
 }
+
+/// The log of the sum of exponentials, added up in order.
+pub fn log_sum_exp(logs: impl Iterator<Item = f64> + Clone) -> f64 {
+    let n = logs.clone().count();
+    log_mean_exp(logs) + (n.max(1) as f64).ln()
+}
