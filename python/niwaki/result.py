@@ -214,7 +214,7 @@ class Result(Sequence[Sample]):
     plan : tuple of int
         Sizes of the populations; `smc(particles=plan)` with the same seed repeats a search by `seconds`.
     died : int
-        Populations in which every particle became impossible.
+        Populations in which every particle became impossible, of `smc` and `pimh`; the evidence counts them as zero.
     temperatures : tuple of float
         The power at each barrier where it is not constant, of the first population.
     moves : int or None
@@ -223,7 +223,7 @@ class Result(Sequence[Sample]):
         Proposals of rejuvenation and how many of them were kept: of particles that still ran, and of those that had
         ended.
     renewed : tuple of float
-        The share of choices that each sweep of a chain made new.
+        The share of choices that each sweep of a chain made new, from the first that found a possible run.
     """
 
     def __init__(

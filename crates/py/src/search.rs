@@ -344,7 +344,7 @@ impl PyTask {
         })
     }
 
-    /// Particle independent Metropolis-Hastings: as ``particle_gibbs``, and ``log_evidence``.
+    /// Particle independent Metropolis-Hastings: as ``particle_gibbs``, and ``log_evidence`` and ``died``.
     #[pyo3(signature = (particles, sweeps, seed, *, order="stochastic", temper=1.0, anneal=None,
                         resampling="systematic", ess=None, threads=None, watch=None))]
     #[expect(clippy::too_many_arguments, reason = "the settings of the method")]
@@ -438,6 +438,7 @@ impl PyTask {
         facts.set_item("moves", found.moves)?;
         facts.set_item("renewed", found.renewed)?;
         facts.set_item("log_evidence", found.log_evidence)?;
+        facts.set_item("died", found.died)?;
         facts.set_item("interrupted", found.interrupted || pressed)?;
         facts.set_item("particles", self.of_particles(found.states))?;
         Ok(facts)

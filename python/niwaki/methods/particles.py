@@ -234,14 +234,15 @@ def pimh(
     """A chain whose proposals are whole populations, accepted by the ratio of their evidence.
 
     Right for any number of particles (Andrieu, Doucet & Holenstein 2010, section 2.4.2). `Result.moves` of
-    `Result.tries` proposals were accepted; the evidence is the mean of all populations' estimates.
+    `Result.tries` proposals were accepted. The evidence is the mean of the estimates of all `sweeps + 1` populations,
+    in which the `Result.died` that became impossible count as zero; where all did, it is an error.
 
     Parameters
     ----------
     particles, order, temper, resampling, ess
         As for `smc`.
     sweeps
-        How many; one sample each.
+        How many, after a first population; one sample each, from the first population in which a particle lived.
     anneal
         The power at each barrier, as for `smc`.
     """

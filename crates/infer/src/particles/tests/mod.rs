@@ -59,6 +59,8 @@ pub enum Mutant {
     StateStays,
     /// A particle that has ended is moved at every barrier that there still is, among runs with as many barriers as it has.
     MovesOn,
+    /// The estimate is the mean of the populations that lived.
+    DeadLeftOut,
     /// Walks start from the best particles, and not from particles drawn by weight.
     StartsAtBest,
 }
@@ -85,6 +87,13 @@ pub(super) fn corrupt_draw(population: &mut super::population::Population<'_>, h
     let others = population.weights.relative.iter().enumerate().any(|(i, w)| i != held && *w > 0.0);
     if population.settings.is(Mutant::HeldNotDrawn) && others {
         population.weights.relative[held] = 0.0;
+    }
+}
+
+/// What a mutant does to the populations' estimates (logs).
+pub(super) fn forget_deaths(settings: &Settings, estimates: &mut Vec<f64>) {
+    if settings.is(Mutant::DeadLeftOut) {
+        estimates.retain(|log| *log > f64::NEG_INFINITY);
     }
 }
 
