@@ -60,7 +60,7 @@ def test_each_follows_the_exact_answer(method: Any) -> None:
 
 def test_a_search_by_time_is_repeated_by_its_plan() -> None:
     timed = nw.run(WALL, method=nw.smc(seconds=0.3), seed=4)
-    assert len(timed) == sum(timed.plan) and len(timed.plan) > 1
+    assert len(timed) == sum(timed.plan) and len(set(timed.plan)) == 1
     assert timed.seconds < 1.0
     again = nw.run(WALL, method=nw.smc(particles=timed.plan), seed=4)
     assert timed.log_evidence == again.log_evidence

@@ -228,7 +228,7 @@ impl PyTask {
 
     /// Sequential Monte Carlo: a dict with ``particles`` (outcomes), ``log_evidence`` (None where there is none),
     /// ``barriers``, ``steps``, ``resampled``, ``ancestors``, ``plan``, ``died``, ``temperatures``, ``interrupted``.
-    /// ``plan`` holds the sizes of the populations; with ``seconds`` the measured costs decide them. ``rejuvenate`` is the
+    /// ``plan`` holds the sizes of the populations; with ``seconds`` the cost of a pilot decides their one size. ``rejuvenate`` is the
     /// form of a kernel, ``moves`` how many proposals each time, and ``at`` when: a number of barriers, ``"resampled"`` or
     /// ``"end"``; proposals and those kept are told as ``moved``, of particles that ran and of those that had ended.
     /// ``walks`` says how many chains start from the final set, and how many states of each take its place.

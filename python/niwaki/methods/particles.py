@@ -121,8 +121,11 @@ def smc(
         population ends as many copies of few runs, so this needs several, or `draws`. Where fewer are found, fewer are
         given, with a warning.
     seconds
-        Instead of a number of particles: populations one after the other until this time is spent, their sizes planned
-        from measured costs and told by `Result.plan`.
+        Instead of a number of particles: a pilot, which is thrown away, measures what a particle costs; then
+        populations of one size run one after the other. Those that are complete when this time is spent count, the one
+        that still runs is dropped; where none is complete the first is finished, and takes longer. So the evidence is
+        unbiased though costly populations are often the good ones. `Result.plan` says how many there were and how
+        large.
     rejuvenate
         A kernel of `niwaki.kernels` that moves each particle without changing the law that all follow, so that copies
         become different again (Gilks & Berzuini 2001). A particle that still runs keeps its skeleton: which parts,
