@@ -158,7 +158,8 @@ def once(
                 facts = {"tries": tries, "interrupted": stopped}
             case Importance():
                 outcomes, log_evidence = made.importance(method.n, seed, threads, watch)
-                facts = {"log_evidence": log_evidence, "interrupted": len(outcomes) < method.n}
+                stopped = len(outcomes) < method.n
+                facts = {"log_evidence": None if stopped else log_evidence, "interrupted": stopped}
             case Forward():
                 outcomes = made.forward(seed, method.n, watch)
                 facts = {"interrupted": len(outcomes) < method.n}

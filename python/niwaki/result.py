@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from functools import cached_property
 from os import PathLike
@@ -202,7 +203,10 @@ class Result(Sequence[Sample]):
     seed : int
         Of the (first) search.
     log_evidence : float or None
-        Log of the model's total probability, nats; estimated by particles and importance, exact by enumeration.
+        Log of the model's total probability, nats; estimated by particles and importance, exact by enumeration. The
+        estimates are unbiased as numbers, not as logs, where a search that failed because everything is impossible
+        counts as zero; with `anneal` by a share they are only consistent. None where scores were sharpened (`temper`)
+        and where the search was stopped, as that may depend on what it had found.
     interrupted : bool
         Whether it was stopped before its end.
     seconds, cpu_seconds : float
@@ -323,10 +327,14 @@ class Result(Sequence[Sample]):
 
     @property
     def weights(self) -> NDArray[np.float64]:
-        """The samples' weights, (n,), summing to one."""
+        """The samples' weights, (n,), summing to one; an error where every sample is impossible."""
         logs = np.array([sample.log_weight for sample in self.samples], dtype=np.float64)
-        if len(logs) == 0 or logs.max() == -math.inf:
-            return np.full(len(logs), 1.0 / max(len(logs), 1))
+        if len(logs) == 0:
+            return logs
+        if logs.max() == -math.inf:
+            causes = Counter(sample.cause or "weights" for sample in self.samples)
+            listed = ", ".join(f"{cause} ({count})" for cause, count in causes.most_common())
+            raise InputError("everything-impossible", barrier="the end", count=len(logs), constraint=listed)
         raw = np.exp(logs - logs.max())
         return np.asarray(raw / raw.sum())
 
@@ -339,7 +347,8 @@ class Result(Sequence[Sample]):
             total = self.log_evidence if self.log_evidence is not None else 0.0
             rows = [(value, math.exp(log - total)) for value, log in self._table]
         else:
-            rows = [(s.value, float(w)) for s, w in zip(self.samples, self.weights, strict=True)]
+            # A run that is impossible stopped on its way and has no value.
+            rows = [(s.value, float(w)) for s, w in zip(self.samples, self.weights, strict=True) if w > 0.0]
         found: dict[Any, float] = {}
         for value, share in rows:
             key = value if _can_be_key(value) else repr(value)

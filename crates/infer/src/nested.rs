@@ -163,9 +163,6 @@ impl Method {
         match &self.search {
             Search::Enumerate { max_runs } => {
                 let found = enumerate(task, *max_runs, &mut |_| true)?;
-                if found.log_evidence == f64::NEG_INFINITY {
-                    return Err(impossible());
-                }
                 let mut pairs: Vec<(Value, f64)> = found
                     .outcomes
                     .into_iter()

@@ -176,7 +176,8 @@ impl PyTask {
         Ok(self.outcomes(samples, true, |_| 0.0))
     }
 
-    /// ``([(value, log probability)], log evidence, number of runs)``; probabilities are not normalised.
+    /// ``([(value, log probability)], log evidence, number of runs)``; probabilities are not normalised. A fault where no run
+    /// is possible.
     #[pyo3(signature = (max_runs, watch=None))]
     fn enumerate<'py>(
         &self,
@@ -210,7 +211,7 @@ impl PyTask {
         Ok((self.outcomes(found.samples, false, |_| 0.0), found.tries, found.interrupted))
     }
 
-    /// ``(outcomes, log evidence)``; each outcome's weight is its score.
+    /// ``(outcomes, log evidence)``; each outcome's weight is its score. A fault where none is possible.
     #[pyo3(signature = (n, seed, threads=None, watch=None))]
     fn importance(
         &self,
@@ -437,8 +438,8 @@ impl PyTask {
         facts.set_item("tries", found.tries)?;
         facts.set_item("moves", found.moves)?;
         facts.set_item("renewed", found.renewed)?;
-        facts.set_item("log_evidence", found.log_evidence)?;
         facts.set_item("died", found.died)?;
+        facts.set_item("log_evidence", found.log_evidence)?;
         facts.set_item("interrupted", found.interrupted || pressed)?;
         facts.set_item("particles", self.of_particles(found.states))?;
         Ok(facts)

@@ -39,7 +39,7 @@ class Forward:
 
 
 def enumerate_all(max_runs: int = 1_000_000) -> EnumerateAll:
-    """The exact distribution of a model's value, by visiting every run.
+    """The exact distribution of a model's value, by visiting every run; an error where none is possible.
 
     Parameters
     ----------
@@ -69,7 +69,7 @@ def rejection(n: int = 100, bound: float = 0.0, max_tries: int = 1_000_000) -> R
 
 
 def importance(n: int = 1000) -> Importance:
-    """Independent forward runs, each weighted by its score.
+    """Independent forward runs, each weighted by its score; an error where all are impossible.
 
     Parameters
     ----------
