@@ -139,7 +139,6 @@ def _error(fault: Any, name: str, replay: str, choices: Mapping[str, Any]) -> Ex
         if fault.barrier == 1 and all(cause == "avoid" for cause, _ in fault.causes):
             return InputError("obstacle-at-start", count=total)
         causes = ", ".join(f"{cause} ({count})" for cause, count in fault.causes)
-        return InputError(
-            "everything-impossible", barrier=f"barrier {fault.barrier}", count=total, constraint=causes
-        )
+        place = f"barrier {fault.barrier}" if fault.barrier else "the end"
+        return InputError("everything-impossible", barrier=place, count=total, constraint=causes)
     return InputError(fault.code, name=name, found=fault.message, detail=fault.message)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from functools import cached_property
 from os import PathLike
@@ -224,7 +225,10 @@ class Result(Sequence[Sample]):
     seed : int
         Of the (first) search.
     log_evidence : float or None
-        Log of the model's total probability, nats; estimated by particles and importance, exact by enumeration.
+        Log of the model's total probability, nats; estimated by particles and importance, exact by enumeration. The
+        estimates are unbiased as numbers, not as logs, where a search that failed because everything is impossible
+        counts as zero; with `anneal` by a share they are only consistent. None where scores were sharpened (`temper`)
+        and where the search was stopped, as that may depend on what it had found.
     interrupted : bool
         Whether it was stopped before its end.
     seconds, cpu_seconds : float
@@ -236,7 +240,7 @@ class Result(Sequence[Sample]):
     plan : tuple of int
         Sizes of the populations; `smc(particles=plan)` with the same seed repeats a search by `seconds`.
     died : int
-        Populations in which every particle became impossible.
+        Populations in which every particle became impossible, of `smc` and `pimh`; the evidence counts them as zero.
     temperatures : tuple of float
         The power at each barrier where it is not constant, of the first population.
     moves : int or None
@@ -245,7 +249,7 @@ class Result(Sequence[Sample]):
         Proposals of rejuvenation and how many of them were kept: of particles that still ran, and of those that had
         ended.
     renewed : tuple of float
-        The share of choices that each sweep of a chain made new.
+        The share of choices that each sweep of a chain made new, from the first that found a possible run.
     """
 
     def __init__(
@@ -357,10 +361,14 @@ class Result(Sequence[Sample]):
 
     @property
     def weights(self) -> NDArray[np.float64]:
-        """The samples' weights, (n,), summing to one."""
+        """The samples' weights, (n,), summing to one; an error where every sample is impossible."""
         logs = np.array([sample.log_weight for sample in self.samples], dtype=np.float64)
-        if len(logs) == 0 or logs.max() == -math.inf:
-            return np.full(len(logs), 1.0 / max(len(logs), 1))
+        if len(logs) == 0:
+            return logs
+        if logs.max() == -math.inf:
+            causes = Counter(sample.cause or "weights" for sample in self.samples)
+            listed = ", ".join(f"{cause} ({count})" for cause, count in causes.most_common())
+            raise InputError("everything-impossible", barrier="the end", count=len(logs), constraint=listed)
         raw = np.exp(logs - logs.max())
         return np.asarray(raw / raw.sum())
 
@@ -373,7 +381,8 @@ class Result(Sequence[Sample]):
             total = self.log_evidence if self.log_evidence is not None else 0.0
             rows = [(value, math.exp(log - total)) for value, log in self._table]
         else:
-            rows = [(s.value, float(w)) for s, w in zip(self.samples, self.weights, strict=True)]
+            # A run that is impossible stopped on its way and has no value.
+            rows = [(s.value, float(w)) for s, w in zip(self.samples, self.weights, strict=True) if w > 0.0]
         found: dict[Any, float] = {}
         for value, share in rows:
             key = value if _can_be_key(value) else repr(value)

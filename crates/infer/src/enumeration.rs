@@ -4,6 +4,7 @@
 
 use crate::Failure;
 use crate::forward::factor_name;
+use crate::importance::log_sum_exp;
 use crate::record::{Record, check_factor};
 use crate::task::{Hosts, Task};
 use niwaki_geom::Shape;
@@ -84,7 +85,7 @@ impl Answers<f64> for Ask<'_> {
 /// when it answers false, the search is given up.
 ///
 /// # Errors
-/// A choice that cannot be enumerated, more runs than allowed, or a fault of the program.
+/// A choice that cannot be enumerated, more runs than allowed, runs that are all impossible, or a fault of the program.
 pub fn enumerate(
     task: &Task,
     max_runs: usize,
@@ -96,6 +97,7 @@ pub fn enumerate(
     let mut outcomes: Vec<(Value, Vec<f64>)> = Vec::new();
     let mut index: HashMap<String, usize> = HashMap::new();
     let mut runs = 0;
+    let mut causes: HashMap<String, usize> = HashMap::new();
     while let Some(mut branch) = open.pop() {
         let hosts = &*task.hosts;
         let mut ask = Ask { record: &mut branch.record, hosts, next: branch.next.take(), open: Vec::new() };
@@ -106,7 +108,8 @@ pub fn enumerate(
             machine.resume(&mut branch.state, future, &mut ask)?;
         }
         let values = std::mem::take(&mut ask.open);
-        if branch.record.cause.is_some() {
+        if let Some(cause) = branch.record.cause {
+            *causes.entry(cause).or_insert(0) += 1;
             continue;
         }
         // Reversed, so that outcomes appear in the order of the values.
@@ -136,11 +139,43 @@ pub fn enumerate(
             outcomes[at].1.push(log_joint);
         }
     }
-    let outcomes: Vec<(Value, f64)> = outcomes.into_iter().map(|(v, logs)| (v, log_sum_exp(&logs))).collect();
-    let log_evidence = log_sum_exp(&outcomes.iter().map(|o| o.1).collect::<Vec<_>>());
+    let outcomes: Vec<(Value, f64)> =
+        outcomes.into_iter().map(|(v, logs)| (v, log_sum_exp(logs.into_iter()))).collect();
+    if outcomes.is_empty() {
+        return Err(Failure::impossible(0, causes.iter().map(|(cause, n)| (cause.as_str(), *n))));
+    }
+    let log_evidence = log_sum_exp(outcomes.iter().map(|o| o.1));
     Ok(Enumerated { outcomes, log_evidence, runs })
 }
 
-fn log_sum_exp(logs: &[f64]) -> f64 {
-    crate::importance::log_mean_exp(logs.iter().copied()) + (logs.len() as f64).ln()
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::importance::importance;
+    use niwaki_vm::core::parse::parse;
+    use niwaki_vm::passes::compile;
+    use std::sync::Arc;
+
+    /// The claim: a program whose every run is impossible has no distribution and no weighted runs. It is a failure that
+    /// counts what made them impossible.
+    #[test]
+    fn runs_that_are_all_impossible_are_a_failure() {
+        let text = r#"(module (fn "m" (params) (set $x (sample (dist discrete_uniform 0 9)))
+            (do (condition (lt $x 3))) (do (condition (lt $x 0))) (return $x)) (entry "m"))"#;
+        let task = Task::new(Arc::new(compile(&parse(text).unwrap(), vec![]).unwrap()));
+        let causes = |failure: Option<Failure>| match failure {
+            Some(Failure::Impossible { barrier: 0, causes }) => {
+                causes.into_iter().map(|(_, n)| n).collect::<Vec<_>>()
+            }
+            other => panic!("{other:?}"),
+        };
+        // Both conditions stand in line 0.
+        assert_eq!(causes(enumerate(&task, 100, &mut |_| true).err()), [10]);
+        assert_eq!(causes(importance(&task, 300, 1, &mut |_| true).err()), [300]);
+        let possible = text.replace("(lt $x 0)", "(lt $x 1)");
+        let task = Task::new(Arc::new(compile(&parse(&possible).unwrap(), vec![]).unwrap()));
+        let found = enumerate(&task, 100, &mut |_| true).unwrap();
+        assert!(found.runs == 1 && (found.log_evidence - 0.1f64.ln()).abs() < 1e-9);
+        assert_eq!(importance(&task, 300, 1, &mut |_| true).unwrap().samples.len(), 300);
+    }
 }

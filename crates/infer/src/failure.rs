@@ -2,6 +2,7 @@
 
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::stack::RunFault;
+use std::collections::HashMap;
 
 /// Why a search gives no result.
 #[derive(Clone, Debug)]
@@ -10,11 +11,11 @@ pub enum Failure {
     Run(Box<RunFault>),
     /// A setting makes no sense, or the question suits the algorithm badly.
     Setting(Fault),
-    /// Every particle is impossible.
+    /// Every particle, or every run, is impossible.
     Impossible {
-        /// The barrier at which the last one died, from 1.
+        /// The barrier at which the last particle died, from 1; 0 for runs, which have none.
         barrier: usize,
-        /// What killed particles there: constraint and count, most frequent first.
+        /// What killed them: constraint and count, most frequent first.
         causes: Vec<(String, usize)>,
     },
     /// A chain found no state to start from.
@@ -26,6 +27,17 @@ pub enum Failure {
     },
 }
 
+impl Failure {
+    /// Every particle is impossible at this barrier (0: every run is), so many because of each of these.
+    pub(crate) fn impossible<'a>(barrier: usize, causes: impl Iterator<Item = (&'a str, usize)>) -> Failure {
+        let mut counts: HashMap<&str, usize> = HashMap::new();
+        causes.for_each(|(cause, n)| *counts.entry(cause).or_insert(0) += n);
+        let mut causes: Vec<(String, usize)> = counts.into_iter().map(|(c, n)| (c.to_string(), n)).collect();
+        causes.sort_by(|a, b| b.1.cmp(&a.1).then_with(|| a.0.cmp(&b.0)));
+        Failure::Impossible { barrier, causes }
+    }
+}
+
 fn listed(causes: &[(String, usize)]) -> String {
     causes.iter().map(|(name, n)| format!("{name} ({n})")).collect::<Vec<_>>().join(", ")
 }
@@ -35,6 +47,9 @@ impl std::fmt::Display for Failure {
         match self {
             Failure::Run(fault) => write!(f, "{fault}"),
             Failure::Setting(fault) => write!(f, "{}", fault.message),
+            Failure::Impossible { barrier: 0, causes } => {
+                write!(f, "every run is impossible: {}", listed(causes))
+            }
             Failure::Impossible { barrier, causes } => {
                 write!(f, "every particle is impossible at barrier {barrier}: {}", listed(causes))
             }

@@ -14,7 +14,8 @@ const BLOCK: u64 = 256;
 pub struct Weighted {
     /// The runs; the weight of each is its `log_score`.
     pub samples: Vec<Sample>,
-    /// Log of the mean weight, nats: an unbiased estimate of the evidence (not of its log).
+    /// Log of the mean weight, nats: an unbiased estimate of the evidence (not of its log), unless `watch` stopped
+    /// the runs for what they were.
     pub log_evidence: f64,
 }
 
@@ -22,7 +23,7 @@ pub struct Weighted {
 /// given.
 ///
 /// # Errors
-/// A fault of the program; no runs asked for.
+/// A fault of the program; no runs asked for; runs that are all impossible.
 pub fn importance(
     task: &Task,
     n: usize,
@@ -45,6 +46,10 @@ pub fn importance(
         }
     }
     let log_evidence = log_mean_exp(samples.iter().map(|s| s.record.log_score()));
+    if log_evidence == f64::NEG_INFINITY {
+        let causes = samples.iter().filter_map(|s| s.record.cause.as_deref());
+        return Err(Failure::impossible(0, causes.map(|cause| (cause, 1))));
+    }
     Ok(Weighted { samples, log_evidence })
 }
 
@@ -56,4 +61,10 @@ pub fn log_mean_exp(logs: impl Iterator<Item = f64> + Clone) -> f64 {
     }
     let sum: f64 = logs.map(|x| (x - max).exp()).sum();
     max + (sum / n as f64).ln()
+}
+
+/// The log of the sum of exponentials, added up in order.
+pub fn log_sum_exp(logs: impl Iterator<Item = f64> + Clone) -> f64 {
+    let n = logs.clone().count();
+    log_mean_exp(logs) + (n.max(1) as f64).ln()
 }

@@ -181,8 +181,8 @@ pub enum Info {
     Forward,
     /// Of likelihood weighting.
     Importance {
-        /// Log of the mean weight, nats.
-        log_evidence: f64,
+        /// Log of the mean weight, nats; `None` where the runs were stopped.
+        log_evidence: Option<f64>,
     },
     /// Of rejection sampling.
     Rejection {
@@ -249,7 +249,8 @@ impl Method {
                 };
                 let runs: Vec<Run> = found.samples.into_iter().map(weighted).collect();
                 let interrupted = runs.len() < *n;
-                Ok(bare(runs, interrupted, Info::Importance { log_evidence: found.log_evidence }))
+                let log_evidence = (!interrupted).then_some(found.log_evidence);
+                Ok(bare(runs, interrupted, Info::Importance { log_evidence }))
             }
             Method::Rejection { n, bound, max_tries } => {
                 let found =

@@ -74,9 +74,6 @@ impl Inner {
         let found = self.method.search(task, &given, &mut |_, _, _| true)?;
         match found.info {
             Info::Enumeration(exact) => {
-                if exact.log_evidence == f64::NEG_INFINITY {
-                    return Err(impossible());
-                }
                 let probability = |(value, log): (Value, f64)| (value, (log - exact.log_evidence).exp());
                 let mut pairs: Vec<(Value, f64)> = exact.outcomes.into_iter().map(probability).collect();
                 // Stable: equally probable values keep their order of appearance.

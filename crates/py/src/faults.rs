@@ -1,7 +1,7 @@
 //! Faults as data: one exception that carries what the engine knows. Python draws the carets.
 //!
 //! `kind` is "run" (the model failed: message, help, stack), "setting" (the question makes no sense), "impossible"
-//! (every particle is: barrier and causes), "no-start" (every first state of a chain is: their number in `barrier`, and
+//! (every particle is, or at barrier 0 every run: barrier and causes), "no-start" (every first state of a chain is: their number in `barrier`, and
 //! causes) or "compile" (a defect of the text or a limit of the machine).
 
 use niwaki_infer::Failure;

@@ -311,6 +311,7 @@ impl PyTask {
                 dict.set_item("tries", found.tries)?;
                 dict.set_item("moves", found.moves)?;
                 dict.set_item("renewed", PyTuple::new(py, found.renewed)?)?;
+                dict.set_item("died", found.died)?;
                 dict.set_item("log_evidence", found.log_evidence)?;
             }
         }

@@ -10,7 +10,7 @@ from niwaki.methods.method import Method
 
 @dataclass(frozen=True)
 class EnumerateAll(Method):
-    """The exact distribution of a model's value, by visiting every run.
+    """The exact distribution of a model's value, by visiting every run; an error where none is possible.
 
     Parameters
     ----------
@@ -56,7 +56,7 @@ class Rejection(Method):
 
 @dataclass(frozen=True)
 class Importance(Method):
-    """Independent forward runs, each weighted by its score.
+    """Independent forward runs, each weighted by its score; an error where all are impossible.
 
     Parameters
     ----------

@@ -52,8 +52,11 @@ class Smc(Method):
         population ends as many copies of few runs, so this needs several, or `draws`. Where fewer are found, fewer are
         given, with a warning.
     seconds
-        Instead of a number of particles: populations one after the other until this time is spent, their sizes planned
-        from measured costs and told by `Result.plan`.
+        Instead of a number of particles: a pilot, which is thrown away, measures what a particle costs; then
+        populations of one size run one after the other. Those that are complete when this time is spent count, the one
+        that still runs is dropped; where none is complete the first is finished, and takes longer. So the evidence is
+        unbiased though costly populations are often the good ones. `Result.plan` says how many there were and how
+        large.
     rejuvenate
         A kernel of `niwaki.kernels` that moves each particle without changing the law that all follow, so that copies
         become different again (Gilks & Berzuini 2001). A particle that still runs keeps its skeleton: which parts,
@@ -190,14 +193,15 @@ class Pimh(Method):
     """A chain whose proposals are whole populations, accepted by the ratio of their evidence.
 
     Right for any number of particles (Andrieu, Doucet & Holenstein 2010, section 2.4.2). `Result.moves` of
-    `Result.tries` proposals were accepted; the evidence is the mean of all populations' estimates.
+    `Result.tries` proposals were accepted. The evidence is the mean of the estimates of all `sweeps + 1` populations,
+    in which the `Result.died` that became impossible count as zero; where all did, it is an error.
 
     Parameters
     ----------
     particles, order, temper, resampling, ess
         As for `smc`.
     sweeps
-        How many; one sample each.
+        How many, after a first population; one sample each, from the first population in which a particle lived.
     anneal
         The power at each barrier, as for `smc`.
     """

@@ -35,17 +35,20 @@ const ANCESTORS: u64 = u64::MAX - 3;
 const ORDERS: u64 = u64::MAX - 4;
 
 /// The runs that a chain of whole runs went through.
+#[derive(Default)]
 pub struct Chain {
-    /// Where it was after each sweep; weights are equal.
+    /// Where it was after each sweep, from the first one that found a possible run; weights are equal.
     pub states: Vec<Outcome>,
     /// How often it could have moved: ancestors drawn for the held run; proposals.
     pub tries: usize,
     /// How often it did: ancestors that were another row; proposals accepted.
     pub moves: usize,
-    /// The share of choices that each sweep made new.
+    /// The share of choices that each of these sweeps made new.
     pub renewed: Vec<f64>,
-    /// Log of the mean of the populations' estimates of the evidence, nats; where they are independent of the chain
-    /// and at temperature 1.
+    /// Populations in which every particle became impossible; their estimate is zero, and counts.
+    pub died: usize,
+    /// Log of the mean of the populations' estimates of the evidence, nats; where they are independent of the chain,
+    /// at temperature 1 and not stopped.
     pub log_evidence: Option<f64>,
     /// Whether it was stopped before all sweeps were made.
     pub interrupted: bool,
@@ -111,14 +114,7 @@ pub fn particle_gibbs(
         .with_help("use at least two")
         .into());
     }
-    let mut chain = Chain {
-        states: Vec::new(),
-        tries: 0,
-        moves: 0,
-        renewed: Vec::new(),
-        log_evidence: None,
-        interrupted: false,
-    };
+    let mut chain = Chain::default();
     let mut orders = Stream::new(settings.seed, ORDERS, 0, 0);
     let mut path = match from {
         Some(entries) => Path::of(task, settings, entries, &mut orders)?,

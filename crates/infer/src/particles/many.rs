@@ -7,11 +7,42 @@
 //! such constant; there a particle weighs what it weighs in its population.
 //!
 //! The sizes are the plan: with the seed it gives the same result again, however many threads there are and however
-//! long it takes. Where a time was given, measured costs decide the sizes; scores have no say in them.
+//! long it takes.
+//!
+//! # A search by time
+//!
+//! A population that is costly is often one with a high `Z_m` (particles that go on, and do not die). Whatever lets cost
+//! decide which populations count, or how much, therefore makes `Z` wrong, unless it treats those that count alike. The
+//! rule of [`within`]:
+//!
+//! 1. Pilot populations measure what a particle costs. They decide the size and are thrown away.
+//! 2. Populations of that one size run one after the other, from the end of the pilots to the deadline.
+//! 3. Those that are complete at the deadline count, the dead ones as zero; the one that runs is dropped.
+//! 4. Where none is complete, the first is finished and counts alone.
+//!
+//! Given the pilots, let the pairs `(C_m, Z_m)` of cost and estimate be independent and of one law, `E Z_m = Z`, and let
+//! `t` be the time left. The number that is complete, `N = max { n: C_1 + ... + C_n <= t }`, is decided for each `n` by
+//! `C_1 + ... + C_n <= t < C_1 + ... + C_n + C_(n+1)`, in which the first `n` pairs may be exchanged. So each of
+//! them has the same mean on the event `N = n`, and
+//!
+//! ```text
+//! E[(Z_1 + ... + Z_n) / n; N = n] = E[Z_1; N = n]    for n >= 1
+//! E[estimate] = E[Z_1; N = 0] + sum over n >= 1 of E[Z_1; N = n] = E[Z_1] = Z
+//! ```
+//!
+//! exactly, however short the time is (Glynn & Heidelberger 1990, "Bias properties of budget constrained simulations"). The
+//! same holds for the weighted sum of any function of the particles. What it does not allow: to finish the one that runs at
+//! the deadline and count it where others are complete, to leave `N = 0` out or count it as zero, to let the measured
+//! cost of one population decide the size of the next, or to count those that are complete of several that run at once.
+//! What it assumes of the machine is that no population is slower because of its place in the sequence.
+//!
+//! A search that is stopped from outside keeps what it has, that population too which is not complete, and so has no
+//! evidence.
 
 use super::rejuvenation::Moved;
 use super::settings::Settings;
 use super::smc::{Outcome, Progress, Result, run};
+use crate::importance::log_sum_exp;
 use crate::{Failure, Task};
 use niwaki_math::Stream;
 use niwaki_math::streams::RngCore;
@@ -21,19 +52,22 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-/// The stream from which the seeds of further populations come: no lineage has this number.
+/// The streams from which the seeds of further populations and of pilots come: no lineage has these numbers.
 const POPULATIONS: u64 = u64::MAX - 1;
+const PILOTS: u64 = u64::MAX - 10;
 
-/// Particles of the first population of a search by time: enough to tell what one costs.
+/// Particles of the first pilot.
 const PILOT: usize = 32;
-/// How much larger the next population may be than the last: what a particle costs is known for sizes like that.
-const GROWTH: usize = 8;
-/// Share of the time left that the next population is planned to take.
-const SHARE: f64 = 0.9;
+/// How much larger a pilot may be than the one before it: what a particle costs is known for sizes like that.
+const GROWTH: f64 = 8.0;
+/// Share of the time that the last pilot is planned to take.
+const PILOT_SHARE: f64 = 0.1;
+/// Share of the time after which a pilot is given up: it then costs at least so much.
+const PILOT_LIMIT: f64 = 0.25;
+/// Share of the time left that one population is planned to take: three are then complete though they cost a tenth more.
+const SHARE: f64 = 0.3;
 /// Fewer particles than this are not worth a population.
 const LEAST: usize = 16;
-/// How much of the time may be spent before a population that is not needed is given up.
-const PATIENCE: f64 = 1.1;
 
 /// The seed of the `number`-th population; of the first, the seed itself.
 fn population_seed(seed: u64, number: usize) -> u64 {
@@ -79,7 +113,8 @@ pub fn populations(
     combine(plan, found, stopped)
 }
 
-/// Populations one after the other until `time` is spent; the result's plan says how large they were.
+/// Populations of one size, one after the other until `time` is spent: the rule of the module's page. The result's plan
+/// says how many there were and how large they are.
 ///
 /// # Errors
 /// As for [`populations`]; no time.
@@ -89,40 +124,89 @@ pub fn within(
     time: Duration,
     watch: &mut Watch<'_>,
 ) -> std::result::Result<Result, Failure> {
+    let began = Instant::now();
+    by_clock(task, settings, time, &|| began.elapsed(), watch)
+}
+
+/// The same by any clock, which tells the time since the search began.
+pub(super) fn by_clock(
+    task: &Task,
+    settings: &Settings,
+    time: Duration,
+    clock: &dyn Fn() -> Duration,
+    watch: &mut Watch<'_>,
+) -> std::result::Result<Result, Failure> {
     if time.is_zero() {
         return Err(Fault::new("no-time", "no time was given to the search")
             .with_help("give it a number of seconds above 0")
             .into());
     }
-    let began = Instant::now();
-    let (mut plan, mut found) = (Vec::new(), Vec::new());
-    let (mut size, mut stopped) = (PILOT, false);
-    loop {
-        let own = Settings {
-            particles: size,
-            seed: population_seed(settings.seed, plan.len()),
-            ..settings.clone()
-        };
-        let (start, mut late) = (Instant::now(), false);
-        let one = run(task, &own, false, &mut |progress| {
+    let mut stopped = false;
+    // A population that is given up at the first barrier after `end`; and whether the whole search was stopped.
+    let mut one = |particles: usize, seed: u64, end: Duration| {
+        let own = Settings { particles, seed, ..settings.clone() };
+        let found = run(task, &own, false, &mut |progress| {
             stopped |= !watch(progress);
-            late = !plan.is_empty() && began.elapsed() > time.mul_f64(PATIENCE);
-            !stopped && !late
+            !stopped && clock() <= end
         });
-        if late && !stopped {
+        (found, stopped)
+    };
+
+    let (mut size, limit) = (PILOT, time.mul_f64(PILOT_LIMIT));
+    let mut number = 0;
+    let cost = loop {
+        let start = clock();
+        let seed = Stream::new(settings.seed, PILOTS, number, 0).next_u64();
+        match one(size, seed, limit) {
+            (Ok(_) | Err(Failure::Impossible { .. }), false) => {}
+            (found, _) => return found.map(without_evidence),
+        }
+        let now = clock();
+        let cost = now.saturating_sub(start).as_secs_f64() / size as f64;
+        let next = (PILOT_SHARE * time.as_secs_f64() / cost).min(GROWTH * size as f64) as usize;
+        // One that is hardly larger would say nothing new.
+        if now > limit || next < 2 * size {
+            break cost;
+        }
+        (size, number) = (next, number + 1);
+    };
+    let began = clock();
+    let affordable = SHARE * time.saturating_sub(began).as_secs_f64() / cost;
+    let size = (affordable.min(GROWTH * size as f64) as usize).max(LEAST);
+
+    let (mut plan, mut found) = (Vec::new(), Vec::new());
+    loop {
+        let is_first = plan.is_empty();
+        #[cfg(test)]
+        let (is_first, size) = super::tests::corrupt_plan(
+            settings,
+            is_first,
+            &plan,
+            size,
+            clock() - began,
+            time.saturating_sub(clock()),
+        );
+        let end = if is_first { Duration::MAX } else { time };
+        let (population, stopped) = one(size, population_seed(settings.seed, plan.len()), end);
+        let is_late = clock() > time;
+        if is_late && !is_first && !stopped {
             break;
         }
-        let cost = start.elapsed().as_secs_f64() / size as f64;
         plan.push(size);
-        found.push(one);
-        let left = time.saturating_sub(began.elapsed()).as_secs_f64();
-        let affordable = (SHARE * left / cost) as usize;
-        if stopped || affordable < LEAST {
+        found.push(population);
+        if stopped {
+            return combine(&plan, found, true).map(without_evidence);
+        }
+        if is_late {
             break;
         }
-        size = affordable.min(GROWTH * size);
     }
-    combine(&plan, found, stopped)
+    combine(&plan, found, false)
+}
+
+/// A search that was stopped: which populations are complete was not decided by a deadline.
+fn without_evidence(found: Result) -> Result {
+    Result { log_normaliser: None, log_evidence: None, ..found }
 }
 
 /// The populations as one.
@@ -155,7 +239,7 @@ fn combine(
         .iter()
         .map(|(n, one)| one.log_normaliser.map(|z| z + (n / total).ln()))
         .collect::<Option<Vec<f64>>>()
-        .map(|logs| log_sum_exp(&logs));
+        .map(|logs| log_sum_exp(logs.into_iter()));
     let mut whole = Result {
         particles: Vec::new(),
         log_normaliser,
@@ -172,7 +256,7 @@ fn combine(
     };
     for (n, mut one) in lived {
         if let (Some(own), Some(all)) = (one.log_normaliser, log_normaliser) {
-            let sum = log_sum_exp(&one.particles.iter().map(|p| p.log_weight).collect::<Vec<_>>());
+            let sum = log_sum_exp(one.particles.iter().map(|p| p.log_weight));
             let scale = own - all + n.ln() - sum;
             one.particles.iter_mut().for_each(|p: &mut Outcome| p.log_weight += scale);
         }
@@ -184,8 +268,4 @@ fn combine(
         whole.moved += one.moved;
     }
     Ok(whole)
-}
-
-fn log_sum_exp(logs: &[f64]) -> f64 {
-    crate::importance::log_mean_exp(logs.iter().copied()) + (logs.len() as f64).ln()
 }

@@ -4,6 +4,13 @@
 //! Each sweep runs a population of its own, draws a run from its final set by weight, and accepts it with probability
 //! `min(1, Z' / Z)`, the ratio of the two populations' evidence estimates. The chain follows the posterior for any number
 //! of particles; more of them make `Z'` and `Z` alike, and acceptance frequent.
+//!
+//! A population that died has `Z' = 0` and is never accepted. Before the first one that lived the chain is nowhere, which
+//! counts as `Z = 0`: whatever lives is accepted, and there are fewer states than sweeps.
+//!
+//! The evidence is the mean of `Z'` over all `sweeps + 1` populations, those that died as zero. Their number is fixed
+//! beforehand and they do not depend on the chain, so the mean is unbiased, where a call in which all died counts as zero.
+//! To go on until one lives and then make all sweeps would not be: the number of populations would depend on them.
 
 use super::gibbs::{Chain, check_chain, draw_row, sweep_seed};
 use super::many::Watch;
@@ -17,11 +24,11 @@ use niwaki_math::Stream;
 /// The stream of the acceptance draws: no lineage has this number.
 const ACCEPTANCE: u64 = u64::MAX - 5;
 
-/// `sweeps` sweeps. `watch` is told after each barrier; when it answers false, the sweeps so far are given.
+/// `sweeps` sweeps after a first population. `watch` is told after each barrier; when it answers false, the sweeps so far
+/// are given.
 ///
 /// # Errors
-/// Settings that a chain cannot have, a fault of the program, or a first population that died; a later one that
-/// died is a proposal that was rejected.
+/// Settings that a chain cannot have, a fault of the program, or populations that all died.
 pub fn pimh(
     task: &Task,
     settings: &Settings,
@@ -29,15 +36,9 @@ pub fn pimh(
     watch: &mut Watch<'_>,
 ) -> Result<Chain, Failure> {
     check_chain(settings, sweeps)?;
-    let mut chain = Chain {
-        states: Vec::new(),
-        tries: 0,
-        moves: 0,
-        renewed: Vec::new(),
-        log_evidence: None,
-        interrupted: false,
-    };
+    let mut chain = Chain::default();
     let mut estimates = Vec::new();
+    let mut first_death = None;
     let mut now: Option<(f64, Outcome)> = None;
     for sweep in 0..=sweeps {
         let own = Settings { seed: sweep_seed(settings.seed, sweep), ..settings.clone() };
@@ -54,25 +55,37 @@ pub fn pimh(
                 one.log_weight = 0.0;
                 Some((log, one))
             }
-            Err(Failure::Impossible { .. }) if now.is_some() => None,
+            Err(failure @ Failure::Impossible { .. }) => {
+                chain.died += 1;
+                first_death.get_or_insert(failure);
+                None
+            }
             Err(other) => return Err(other),
         };
         estimates.push(proposed.as_ref().map_or(f64::NEG_INFINITY, |p| p.0));
-        let Some((log_now, at)) = &mut now else {
+        if sweep == 0 {
             now = proposed;
             continue;
-        };
+        }
         chain.tries += 1;
         let u = Stream::new(settings.seed, ACCEPTANCE, sweep as u128, 0).uniform();
-        let accepted = proposed.filter(|(log, _)| accepts(settings, u, log - *log_now));
-        chain.renewed.push(f64::from(u8::from(accepted.is_some())));
-        if let Some((log, one)) = accepted {
-            chain.moves += 1;
-            (*log_now, *at) = (log, one);
+        let log_now = now.as_ref().map_or(f64::NEG_INFINITY, |at| at.0);
+        let accepted = proposed.filter(|(log, _)| accepts(settings, u, log - log_now));
+        chain.moves += usize::from(accepted.is_some());
+        let renewed = f64::from(u8::from(accepted.is_some()));
+        now = accepted.or(now);
+        if let Some((_, at)) = &mut now {
+            chain.renewed.push(renewed);
+            chain.states.push(at.copy());
         }
-        chain.states.push(at.copy());
     }
-    if settings.temper == 1.0 && !estimates.is_empty() {
+    #[cfg(test)]
+    super::tests::forget_deaths(settings, &mut estimates);
+    if let (Some(death), None, false) = (first_death, &now, chain.interrupted) {
+        return Err(death);
+    }
+    // When a search is stopped may depend on what it found so far.
+    if settings.temper == 1.0 && !chain.interrupted {
         chain.log_evidence = Some(log_mean_exp(estimates.into_iter()));
     }
     Ok(chain)

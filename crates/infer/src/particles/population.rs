@@ -11,7 +11,6 @@ use crate::record::Record;
 use crate::{Failure, Task};
 use niwaki_math::{Stream, StreamKey};
 use niwaki_vm::machine::Limits;
-use std::collections::HashMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -328,11 +327,6 @@ fn share_memory(task: &Task, n: usize) -> Task {
 }
 
 fn impossible(particles: &[Particle], barrier: usize) -> Failure {
-    let mut counts: HashMap<&str, usize> = HashMap::new();
-    for p in particles {
-        *counts.entry(p.record.cause.as_deref().unwrap_or("weights")).or_insert(0) += 1;
-    }
-    let mut causes: Vec<(String, usize)> = counts.into_iter().map(|(c, n)| (c.to_string(), n)).collect();
-    causes.sort_by(|a, b| b.1.cmp(&a.1).then_with(|| a.0.cmp(&b.0)));
-    Failure::Impossible { barrier, causes }
+    let causes = particles.iter().map(|p| (p.record.cause.as_deref().unwrap_or("weights"), 1));
+    Failure::impossible(barrier, causes)
 }

@@ -1,6 +1,8 @@
 //! Log weights: normalising, means, effective sample size. Sums run in the order of the rows, so that they are
 //! the same for any number of threads.
 
+use crate::importance::log_sum_exp;
+
 /// Weights relative to the largest, with the log of their mean and the effective sample size.
 #[derive(Default)]
 pub(super) struct Normalised {
@@ -47,22 +49,19 @@ impl Normalised {
 
 /// The conditional effective sample size, as a share of the particles, of a step from weights `old` (logs) by
 /// increments `step` (logs): `(sum W u)^2 / sum W u^2` with `W` normalised (Zhou, Johansen & Aston 2016, eq. 13).
+///
+/// Weights that were not reset for long differ by thousands of nats, and the particle with the largest `W` need not be
+/// the one with the largest `u`: each of the three sums is relative to its own largest term.
 pub(super) fn conditional_share(
-    old: impl Iterator<Item = f64>,
+    old: impl Iterator<Item = f64> + Clone,
     step: impl Iterator<Item = f64> + Clone,
 ) -> f64 {
-    let top = step.clone().fold(f64::NEG_INFINITY, f64::max);
-    if top == f64::NEG_INFINITY {
+    let both = old.clone().zip(step);
+    let sum = log_sum_exp(both.clone().map(|(w, u)| w + u));
+    if sum == f64::NEG_INFINITY {
         return 0.0;
     }
-    let (mut total, mut sum, mut squares) = (0.0, 0.0, 0.0);
-    for (w, u) in old.zip(step) {
-        let (w, u) = (w.exp(), (u - top).exp());
-        total += w;
-        sum += w * u;
-        squares += w * u * u;
-    }
-    sum * sum / (squares * total)
+    (2.0 * sum - log_sum_exp(both.map(|(w, u)| w + 2.0 * u)) - log_sum_exp(old)).exp()
 }
 
 #[cfg(test)]
@@ -76,6 +75,25 @@ mod tests {
         let half = [0.0, f64::NEG_INFINITY, f64::NEG_INFINITY, 0.0];
         let equal = || [0.0; 4].into_iter();
         assert!((conditional_share(equal(), half.into_iter()) - 0.5).abs() < 1e-12);
+        // No particle with a weight survives the step.
+        let others = [f64::NEG_INFINITY, 0.0, 0.0, f64::NEG_INFINITY];
+        assert_eq!(conditional_share(half.into_iter(), others.into_iter()), 0.0);
+    }
+
+    /// A constant in all weights or in all steps changes nothing; by hand, for weights 1 and 3 and steps 1 and 1/3:
+    /// `(1/4 + 3/4 1/3)^2 / (1/4 + 3/4 1/9) = 3/4`.
+    #[test]
+    fn the_conditional_share_is_the_same_at_any_size_of_the_weights() {
+        let (w, u) = ([0.0, 3.0f64.ln()], [0.0, -(3.0f64.ln())]);
+        for by in [0.0, -1e5, 1e5] {
+            for up in [0.0, -1e5, 1e5] {
+                let found = conditional_share(w.map(|w| w + by).into_iter(), u.map(|u| u + up).into_iter());
+                assert!((found - 0.75).abs() < 1e-9, "{by}, {up}: {found}");
+            }
+        }
+        // All of the weight on one particle: whatever the steps are, it stays effective.
+        let found = conditional_share([1e5, -1e5].into_iter(), [-1e4, 0.0].into_iter());
+        assert!((found - 1.0).abs() < 1e-9, "{found}");
     }
 
     #[test]

@@ -100,9 +100,9 @@ INPUTS = (
     ),
     Message(
         "everything-impossible",
-        "every particle is impossible",
-        why="at {barrier}, all {count} particles had a score of minus infinity because of {constraint}",
-        help="loosen the constraint, use more particles, or start the model where the constraint holds",
+        "every run is impossible",
+        why="at {barrier}, all {count} runs had a score of minus infinity because of {constraint}",
+        help="loosen the constraint, use more particles or runs, or start the model where the constraint holds",
         example="a ship that starts inside of the obstacle",
         cure="a ship that starts beside it",
     ),

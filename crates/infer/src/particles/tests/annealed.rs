@@ -51,6 +51,33 @@ fn an_adapted_way_ends_at_the_declared_temperature() {
     }
 }
 
+/// A constant in the score changes no posterior, so it must not change the temperatures, however large the weights become
+/// where resampling is rare.
+#[test]
+fn an_adapted_way_does_not_depend_on_a_constant_of_the_score() {
+    let way = |constant: f64| {
+        let text = format!(
+            r#"(module (fn "m" (params) (for $i (range 4) (body
+            (set $x (sample (dist discrete_uniform 0 9)))
+            (do (factor (sub {constant:?} (mul 2.0 $x)))))) (return 0)) (entry "m"))"#
+        );
+        let own = Settings {
+            particles: 200,
+            anneal: Anneal::Adaptive(0.5),
+            when: When::EffectiveBelow(0.0),
+            ..Settings::default()
+        };
+        smc(&task(&text), &own, &mut |_| true).unwrap().temperatures
+    };
+    let plain = way(0.0);
+    assert!(plain[0] < 1.0 && plain[3] > plain[0], "{plain:?}");
+    for constant in [-1e5, 1e5] {
+        let shifted = way(constant);
+        let apart = plain.iter().zip(&shifted).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(apart < 1e-4, "{constant}: {shifted:?} for {plain:?}");
+    }
+}
+
 /// A power other than one: the final law is `prior x score^T`, and its constant is reported beside the evidence.
 #[test]
 fn a_declared_temperature_is_the_power_of_the_final_law() {

@@ -152,6 +152,68 @@ fn pimh_that_accepts_everything_is_rejected() {
     assert!(PROGRAMS.iter().any(|(_, text)| worst(&pimh_scores(text, Some(Mutant::AcceptsAll))) > LIMIT));
 }
 
+/// The mean over 6,000 calls of the evidence estimate, relative to the truth, as a z-score; a call in which every
+/// population died is an estimate of zero.
+fn pimh_evidence(text: &str, particles: usize, mutant: Option<Mutant>) -> f64 {
+    let task = task(text);
+    let exact = enumerate(&task, 100_000, &mut |_| true).unwrap().log_evidence;
+    let (mut sum, mut squares, n) = (0.0, 0.0, 6000.0);
+    for seed in 0..6000 {
+        let own = Settings { seed, mutant, ..small(particles, Order::Stochastic) };
+        let estimate = match pimh(&task, &own, 3, &mut |_| true) {
+            Ok(chain) => (chain.log_evidence.unwrap() - exact).exp(),
+            Err(crate::Failure::Impossible { .. }) => 0.0,
+            Err(other) => panic!("{other}"),
+        };
+        (sum, squares) = (sum + estimate, squares + estimate * estimate);
+    }
+    let mean: f64 = sum / n;
+    (mean - 1.0) / ((squares / n - mean * mean) / n).sqrt()
+}
+
+/// Populations die here now and then (0.9 to the power of their size).
+const RARE: &str = r#"(module (fn "m" (params) (set $x (sample (dist bernoulli 0.1))) (do (condition $x))
+    (set $y (sample (dist bernoulli 0.5))) (do (factor (cond $y 0.0 -1.0))) (return $y)) (entry "m"))"#;
+
+#[test]
+fn the_evidence_of_pimh_is_unbiased_over_all_calls() {
+    for text in PROGRAMS.map(|(_, text)| text).into_iter().chain([RARE]) {
+        for particles in [1, 4] {
+            let z = pimh_evidence(text, particles, None);
+            assert!(z.abs() < LIMIT, "{particles} particles: {z}: {text}");
+        }
+    }
+}
+
+#[test]
+fn the_evidence_without_the_dead_is_rejected() {
+    for particles in [1, 4] {
+        let z = pimh_evidence(RARE, particles, Some(Mutant::DeadLeftOut));
+        assert!(z > LIMIT, "{particles} particles: {z}");
+    }
+}
+
+/// It has no state before the first population that lives, and fails where none does.
+#[test]
+fn pimh_waits_for_a_population_that_lives() {
+    let (mut late, mut failed) = (0, 0);
+    for seed in 0..300 {
+        let own = Settings { seed, ..small(1, Order::Stochastic) };
+        match pimh(&task(RARE), &own, 9, &mut |_| true) {
+            Ok(chain) => {
+                assert!(chain.died < 10 && chain.tries == 9 && chain.moves <= chain.states.len());
+                assert!(chain.states.iter().all(|s| s.has_ended && s.record.cause.is_none()));
+                assert_eq!(chain.states.len(), chain.renewed.len());
+                late += usize::from(chain.states.len() < 9);
+            }
+            Err(crate::Failure::Impossible { barrier: 1, .. }) => failed += 1,
+            Err(other) => panic!("{other}"),
+        }
+    }
+    // Of 300 expected: 139 and 105 (0.9 to the power of 2, less that of 10; of 10).
+    assert!((90..190).contains(&late) && (60..150).contains(&failed), "{late} and {failed}");
+}
+
 #[test]
 fn a_chain_is_the_same_on_any_number_of_threads() {
     let run = |threads: usize| {

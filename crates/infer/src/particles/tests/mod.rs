@@ -17,6 +17,7 @@ use niwaki_vm::passes::compile;
 use niwaki_vm::value::repr;
 use std::collections::HashMap;
 use std::sync::Arc;
+use std::time::Duration;
 
 mod annealed;
 mod chains;
@@ -59,6 +60,12 @@ pub enum Mutant {
     StateStays,
     /// A particle that has ended is moved at every barrier that there still is, among runs with as many barriers as it has.
     MovesOn,
+    /// The population that runs at the deadline is finished and counts.
+    CountsLate,
+    /// What the populations cost so far decides the size of the next.
+    SizesFollowCost,
+    /// The estimate is the mean of the populations that lived.
+    DeadLeftOut,
     /// Walks start from the best particles, and not from particles drawn by weight.
     StartsAtBest,
 }
@@ -85,6 +92,29 @@ pub(super) fn corrupt_draw(population: &mut super::population::Population<'_>, h
     let others = population.weights.relative.iter().enumerate().any(|(i, w)| i != held && *w > 0.0);
     if population.settings.is(Mutant::HeldNotDrawn) && others {
         population.weights.relative[held] = 0.0;
+    }
+}
+
+/// What a mutant does to the next population of a search by time: whether it is finished whenever that is, and its size.
+pub(super) fn corrupt_plan(
+    settings: &Settings,
+    is_first: bool,
+    plan: &[usize],
+    size: usize,
+    spent: Duration,
+    left: Duration,
+) -> (bool, usize) {
+    if settings.is(Mutant::SizesFollowCost) && !is_first {
+        let cost = spent.as_secs_f64() / plan.iter().sum::<usize>() as f64;
+        return (is_first, ((0.9 * left.as_secs_f64() / cost) as usize).max(1));
+    }
+    (is_first || settings.is(Mutant::CountsLate), size)
+}
+
+/// What a mutant does to the populations' estimates (logs).
+pub(super) fn forget_deaths(settings: &Settings, estimates: &mut Vec<f64>) {
+    if settings.is(Mutant::DeadLeftOut) {
+        estimates.retain(|log| *log > f64::NEG_INFINITY);
     }
 }
 

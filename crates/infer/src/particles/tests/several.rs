@@ -1,8 +1,9 @@
 //! The claim: several populations are one estimate, unbiased and of the right posterior, with sizes that differ and
 //! with populations that die; the plan repeats them; threads change nothing.
 
+use super::super::many::by_clock;
 use super::*;
-use std::time::Duration;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Z-scores as in the parent module, over 2,000 searches of three small populations each.
 #[test]
@@ -70,14 +71,65 @@ fn threads_change_nothing_in_populations() {
     }
 }
 
+/// A run that is worth much takes ten barriers, any other two; a barrier of a population is a second.
+const COSTLY: &str = r#"(module (fn "m" (params) (set $x (sample (dist bernoulli 0.005)))
+    (do (factor (cond $x 6.0 0.0)))
+    (if $x (then (for $i (range 8) (body (do (factor 0.0)))))) (return $x)) (entry "m"))"#;
+
+fn by_barriers(text: &str, settings: &Settings, seconds: u64) -> std::result::Result<Result, crate::Failure> {
+    let barriers = AtomicU64::new(0);
+    let clock = || Duration::from_secs(barriers.load(Ordering::Relaxed));
+    let mut watch = |_: Progress| {
+        barriers.fetch_add(1, Ordering::Relaxed);
+        true
+    };
+    by_clock(&task(text), settings, Duration::from_secs(seconds), &clock, &mut watch)
+}
+
+fn timed_scores(mutant: Option<Mutant>, seconds: u64) -> Vec<(String, f64)> {
+    let own = Settings { mutant, ..settings(Order::Stochastic, Resampling::Systematic) };
+    let search = |seed| by_barriers(COSTLY, &Settings { seed, ..own.clone() }, seconds);
+    z_scores_of(&task(COSTLY), &search, 0..6000)
+}
+
+/// Z-scores as in the parent module, over 6,000 searches each. In eight seconds one to three populations count, some of them
+/// alone and late; in twenty-five two to a dozen do.
+#[test]
+fn a_search_by_time_is_unbiased_though_what_is_worth_much_costs_much() {
+    for seconds in [8, 15, 25] {
+        let scores = timed_scores(None, seconds);
+        assert!(worst(&scores) < LIMIT, "{seconds}: {scores:?}");
+    }
+}
+
+/// These give about 1.2 and 1.3 of the evidence, a z of about 20.
+#[test]
+fn a_search_by_time_that_counts_late_ones_or_follows_costs_is_rejected() {
+    for mutant in [Mutant::CountsLate, Mutant::SizesFollowCost] {
+        let caught = worst(&timed_scores(Some(mutant), 15));
+        assert!(caught > LIMIT, "{mutant:?}: {caught}");
+    }
+}
+
 #[test]
 fn a_search_by_time_is_repeated_by_its_plan() {
-    let task = task(PROGRAMS[5].1);
     let own = Settings { seed: 11, ..Settings::default() };
-    let timed = within(&task, &own, Duration::from_millis(50), &mut |_| true).unwrap();
+    let text = PROGRAMS[5].1;
+    let timed = by_barriers(text, &own, 30).unwrap();
     assert!(timed.plan.len() > 1 && timed.plan.iter().sum::<usize>() == timed.particles.len());
-    let again = populations(&task, &own, &timed.plan, &mut |_| true).unwrap();
+    assert!(timed.plan.iter().all(|size| *size == timed.plan[0]), "{:?}", timed.plan);
+    let again = populations(&task(text), &own, &timed.plan, &mut |_| true).unwrap();
     assert_eq!(timed.log_evidence.unwrap().to_bits(), again.log_evidence.unwrap().to_bits());
     let weights = |r: &Result| r.particles.iter().map(|p| p.log_weight.to_bits()).collect::<Vec<_>>();
     assert_eq!(weights(&timed), weights(&again));
+}
+
+/// By the machine's clock, however slow it is.
+#[test]
+fn a_search_by_time_ends() {
+    let own = Settings { seed: 11, ..Settings::default() };
+    let timed = within(&task(PROGRAMS[5].1), &own, Duration::from_millis(50), &mut |_| true).unwrap();
+    assert!(!timed.interrupted && timed.log_evidence.is_some() && timed.plan[0] >= 16);
+    let stopped = within(&task(PROGRAMS[5].1), &own, Duration::from_secs(60), &mut |_| false).unwrap();
+    assert!(stopped.interrupted && stopped.log_evidence.is_none());
 }
