@@ -9,7 +9,7 @@
 #   make figures-hmc  the figures and the tables of chapter 4, into out/figures-hmc (QUICK=1: a smoke run)
 #   make bench-c3 proposals of Markov chains beside WebPPL and the limit, with figures (15 minutes; QUICK=1: two)
 #   make bench-hmc gradients and effective samples beside JAX, NumPyro, nutpie and the limit (4 minutes; QUICK=1: one)
-#   make soak     the long tests, with fresh printed seeds
+#   make soak     the long tests, with fresh printed seeds (NIWAKI_FUZZ_SECONDS: how long finite programs are tried)
 #   make docs     the manual, into docs/_build/html, and the engine's pages, into target/doc
 #   make format   rewrite the sources in the house's style
 #   make locks    pin the newest versions of what pyproject.toml asks for

@@ -121,10 +121,25 @@ class Maker:
             options += [
                 lambda: f"h{self.random.randrange(len(self.helpers))}({r()}, {self.random.randint(0, 3)})"
             ] * 3
-            options.append(lambda: f"force(future(h{self.random.randrange(len(self.helpers))}, {r()}, 1))")
+            options += [lambda: self.forced(depth)] * 2
         if self.locals:
             options += [lambda: f"{self.random.choice(self.locals)}({r()})"] * 2
         return self.random.choice(options)()
+
+    def forced(self, depth: int) -> str:
+        """The value of a future, wherever that lies."""
+        r, q = (lambda: self.real(depth - 1)), self.fresh("q")
+        f = lambda: f"future(h{self.random.randrange(len(self.helpers))}, {r()}, 1)"  # noqa: E731
+        return self.pick(
+            f"force({f()})",
+            f"force({f()} if {self.boolean(depth - 1)} else {r()})",
+            f"(force({f()}) - force({f()}))",
+            f"force([{f()}, {f()}][n % 2])",
+            f"force({{'a': {f()}, 'b': 1.5}}['a'])",
+            f"sum([force({q}) for {q} in ({f()}, {r()})])",
+            f"(lambda {q}: force({q}) + force({q}))({f()})",
+            f"force(future(lambda {q}: force({q}), {f()}))",
+        )
 
     def boolean(self, depth: int) -> str:
         """A truth value."""

@@ -238,3 +238,59 @@ fn futures_wait_for_each_other_and_a_cycle_is_a_fault() {
         .is_err()
     );
 }
+
+#[test]
+fn a_force_that_waits_reads_its_future_again_wherever_that_lies() {
+    // Which future runs next: the first that can, the last, or each in turn. Every one stops at a factor, so that
+    // those who force it wait, and others run in between.
+    let helpers = r#"(fn "leaf" (params $k) (do (factor 0.0)) (return (mul $k 10)))
+        (fn "pair" (params $k) (return (tuple (future "leaf" $k) (future "leaf" (add $k 1)))))
+        (fn "late" (params $f) (do (factor 0.0)) (return (add 1 (force $f))))
+        (fn "get" (params) (captures $fs) (return (force (index $fs 1))))
+        (fn "nested" (params $k) (return (future "leaf" $k)))"#;
+    let bodies = [
+        // Chosen by a branch.
+        ("(set $f (cond (eq 1 1) (future \"leaf\" 7) none)) (return (force $f))", "70"),
+        ("(set $f none) (if (eq 1 1) (then (set $f (future \"leaf\" 7)))) (return (force $f))", "70"),
+        // Unpacked, and two in one expression.
+        ("(unpack ($a $b) (call \"pair\" 1)) (return (sub (force $a) (force $b)))", "-10"),
+        ("(return (sub (force (future \"leaf\" 3)) (force (future \"leaf\" 1))))", "20"),
+        // In a list, a tuple, a dictionary.
+        (
+            "(set $fs (list (future \"leaf\" 1) (future \"leaf\" 2))) (set $s 0) (for $i (range 2) (body (set $s (add (mul 100 $s) (force (index $fs $i)))))) (return $s)",
+            "1020",
+        ),
+        (
+            "(set $fs (call \"pair\" 4)) (return (tuple (force (index $fs 1)) (force (index $fs 0)) (force (index $fs 1))))",
+            "(50, 40, 50)",
+        ),
+        (
+            "(set $d (dict (\"a\" \"b\") (future \"leaf\" 1) (future \"leaf\" 2))) (return (add (force (index $d \"b\")) (force (index $d \"a\"))))",
+            "30",
+        ),
+        // Handed to a call, to another future, and captured.
+        (
+            "(set $f (future \"late\" (future \"leaf\" 5))) (return (add (force $f) (call \"late\" (future \"leaf\" 6))))",
+            "112",
+        ),
+        ("(set $g (closure \"get\" (call \"pair\" 8))) (return (apply $g))", "90"),
+        // A future that returns one.
+        ("(return (force (force (future \"nested\" 3))))", "30"),
+    ];
+    for (body, expected) in bodies {
+        let program = program(&format!("(module {helpers} (fn \"m\" (params) {body}) (entry \"m\"))"));
+        for order in 0..3 {
+            let mut machine = Machine::new(&program, Limits::default());
+            let mut state = machine.start(&[], false).expect("a start");
+            let mut script = Script { pause: true, ..Script::default() };
+            let mut turn = 0;
+            while !state.has_ended() {
+                let can = state.runnable().to_vec();
+                turn += 1;
+                let next = [0, can.len() - 1, turn % can.len()][order];
+                machine.resume(&mut state, can[next], &mut script).unwrap_or_else(|f| panic!("{body}: {f}"));
+            }
+            assert_eq!(repr(&state.result()).expect("short"), expected, "order {order}: {body}");
+        }
+    }
+}

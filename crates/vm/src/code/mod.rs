@@ -300,6 +300,41 @@ pub enum SiteKind {
     Read,
 }
 
+impl SiteKind {
+    /// Whether a run that stops at such a site goes on *at* it, and not after it: a choice is asked once more, and a
+    /// force looks once more whether its future has returned. The machine goes on where this says.
+    #[inline]
+    pub fn is_met_again(&self) -> bool {
+        match self {
+            SiteKind::Sample { .. } | SiteKind::SampleDist | SiteKind::SampleIndexed | SiteKind::Force => {
+                true
+            }
+            SiteKind::Call { .. }
+            | SiteKind::Apply
+            | SiteKind::Loop(_)
+            | SiteKind::Observe { .. }
+            | SiteKind::ObserveDist
+            | SiteKind::ObserveIndexed
+            | SiteKind::Factor
+            | SiteKind::Condition
+            | SiteKind::Query
+            | SiteKind::Emit
+            | SiteKind::Future { .. }
+            | SiteKind::FutureApply { .. }
+            | SiteKind::Cell { .. }
+            | SiteKind::Append { .. }
+            | SiteKind::Read => false,
+        }
+    }
+
+    /// Whether the arguments are read once more when other activations have run, so that they must outlive the site.
+    /// Those of a site that is met again are; a proposal draws and scores from the node and the site alone; a query
+    /// table is read in the same way; an append knows its list by where it lies, so it must live.
+    pub fn is_read_again(&self) -> bool {
+        self.is_met_again() || matches!(self, SiteKind::Query | SiteKind::Append { .. })
+    }
+}
+
 /// A lifted loop: its iterations are activations of their own.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Loop {
@@ -341,6 +376,14 @@ pub struct Site {
     pub next: u32,
     /// Where a run goes on when nothing but its results has changed: a slice, or the instruction after it.
     pub again: u32,
+}
+
+impl Site {
+    /// The instruction at which a run goes on that stops at the site, which stands at `pc`.
+    #[inline]
+    pub fn resumes_at(&self, pc: usize) -> usize {
+        if self.kind.is_met_again() { pc } else { pc + 1 }
+    }
 }
 
 /// How activations of a function live.

@@ -1,10 +1,11 @@
 //! The verifier: what the machine relies on, checked once for each program.
 //!
 //! Every operand lies within its function's registers, constants or captures; every jump within the code;
-//! instructions end in a return; sites belong to functions that may suspend; each site stands at one place.
+//! instructions end in a return; sites belong to functions that may suspend; each site stands at one place; and what
+//! other activations may have overwritten is never read.
 
 use super::{Function, Mode, Op, Operand, Place, Program, SiteKind};
-use crate::passes::reads_and_writes;
+use crate::passes::{live_before, reads_and_writes};
 use niwaki_math::Scalar;
 
 /// A program that the machine must not run.
@@ -79,11 +80,11 @@ fn function<S: Scalar>(program: &Program<S>, f: &Function<S>, outer: usize) -> R
             if f.sites[site.0 as usize].next as usize != at + 1 {
                 return fail(at, "a site that returns elsewhere");
             }
-            if f.sites[site.0 as usize].to.place() != Place::Node {
-                return fail(at, "a site's result must live in the node");
-            }
         }
         let (reads, writes) = reads_and_writes(f, op);
+        if matches!(op, Op::Site { .. }) && !writes.iter().all(|o| o.place() == Place::Node) {
+            return fail(at, "a site's results must live in the node");
+        }
         if !reads.iter().chain(&writes).all(|o| fits(*o)) {
             return fail(at, "an operand out of range");
         }
@@ -126,6 +127,11 @@ fn function<S: Scalar>(program: &Program<S>, f: &Function<S>, outer: usize) -> R
     if starts.into_iter().any(|start| start as usize >= f.code.len()) {
         return fail(f.code.len(), "no such slice");
     }
+    if f.mode != Mode::Pure
+        && let Some(at) = reads_what_is_gone(f)
+    {
+        return fail(at, "scratch registers do not live from one run of an activation to the next");
+    }
     // Slices end as the code does, or by being done.
     match (f.code.get((f.body as usize).wrapping_sub(1)), f.code.last()) {
         (
@@ -133,5 +139,125 @@ fn function<S: Scalar>(program: &Program<S>, f: &Function<S>, outer: usize) -> R
             Some(Op::Return { .. } | Op::ReturnIteration { .. } | Op::Jump { .. } | Op::Done),
         ) => Ok(()),
         _ => fail(f.code.len(), "control can run off the end"),
+    }
+}
+
+/// An instruction at which an activation can be entered while a scratch register is live, or a site with a scratch
+/// argument that is read when its activation does not run.
+///
+/// The machine enters an activation at its start and after each site (there a call returns to, a pause goes on, and a
+/// changed choice is followed from), or in the slices that stand for these; at the sites that are met again; and after
+/// a call that is passed. Whatever ran before has used the same scratch registers.
+fn reads_what_is_gone<S: Scalar>(f: &Function<S>) -> Option<usize> {
+    let live = live_before(f, Place::Scratch, f.scratch_registers as usize);
+    let entries = [0].into_iter().chain(f.sites.iter().flat_map(|site| [site.next, site.again]));
+    let mut entries: Vec<usize> =
+        entries.chain(f.inputs.iter().chain(&f.outers).copied()).map(|at| at as usize).collect();
+    for (at, op) in f.code.iter().enumerate() {
+        match *op {
+            Op::Site { site } => {
+                let site = &f.sites[site.0 as usize];
+                let args = &f.operands[site.args.range()];
+                if site.kind.is_read_again() && args.iter().any(|o| o.place() == Place::Scratch) {
+                    return Some(at);
+                }
+                entries.extend([at + 1, site.resumes_at(at)]);
+            }
+            Op::Pass { .. } => entries.push(at + 1),
+            _ => {}
+        }
+    }
+    entries.into_iter().find(|at| !live[*at].is_empty())
+}
+
+#[cfg(test)]
+mod tests {
+    //! The claim: a value in scratch that the machine reads when it is gone is refused, whoever reads it.
+    use super::*;
+    use crate::core::parse::parse;
+    use crate::passes::{compile, rewrite};
+
+    /// Every kind of site.
+    const TEXT: &str = r#"(module (const 0 (list (dist bernoulli 0.4) (dist bernoulli 0.6)))
+      (fn "leaf" (params $k) (do (factor (mul -0.1 $k))) (return $k))
+      (fn "arm" (params $x) (captures $s) (return (add $x (sample (dist gaussian $s 1.0)))))
+      (fn "m" (params $n)
+        (set $a (sample (dist gaussian (mul $n 0.5) (add $n 1.0))))
+        (set $d (cond (gt $a 0.0) (dist gaussian $a 1.0) (dist uniform 0.0 2.0)))
+        (set $b (sample $d))
+        (set $c (sample (index (data 0) (mod $n 2))))
+        (do (observe (dist gaussian $b 1.0) (mul $a 0.1)))
+        (do (observe $d (add $b 0.0)))
+        (do (observe (index (data 0) (mod $n 2)) $c))
+        (do (condition (gt (add $a 9.0) 0.0)))
+        (do (query (add $n 1) (mul $b 2.0)))
+        (do (emit (box (tuple 0.0 $a 0.0) (tuple 1.0 1.0 1.0))))
+        (set $f (closure "arm" (mul $b 3.0)))
+        (set $e (apply $f (add $b 1.0)))
+        (set $g (cond $c (future "leaf" (add $n 2)) none))
+        (set $h (future_apply $f (add $n 3)))
+        (set $xs (list (mul $e 2.0) 0.5))
+        (for $i (range (add $n 3)) (body
+          (set $y (sample (dist gaussian (index $xs -1) 1.0)))
+          (if (gt $y 9.0) (then (return none)))
+          (set $e (add $e $y))
+          (set $xs (append $xs (mul $y 0.5)))))
+        (set $k (add (force $g) (force (index (tuple $h $e) 0))))
+        (do (call "leaf" (mul $k 0.1)))
+        (return (tuple $e $xs $k)))
+      (entry "m"))"#;
+
+    #[test]
+    fn a_force_of_what_lies_in_scratch_is_refused() {
+        let mut program = compile::<f64>(&parse(TEXT).unwrap(), vec![]).unwrap();
+        let f = &mut program.functions[2];
+        let forces = f.sites.iter().filter(|site| site.kind == SiteKind::Force);
+        let forced: Vec<Operand> = forces.map(|site| f.operands[site.args.range()][0]).collect();
+        assert_eq!(forced.len(), 2);
+        assert_eq!(verify(&program), Ok(()));
+        for operand in forced {
+            assert!(refused(&program, 2, operand));
+        }
+    }
+
+    /// Whether a program is refused when a register of the node is one of the machine instead.
+    fn refused(program: &Program, number: usize, register: Operand) -> bool {
+        let mut moved = program.clone();
+        let f = &mut moved.functions[number];
+        let to = Operand::new(Place::Scratch, f.scratch_registers as usize);
+        f.scratch_registers += 1;
+        rewrite(f, |o| if o == register { to } else { o });
+        verify(&moved).is_err()
+    }
+
+    #[test]
+    fn no_register_of_a_node_can_be_one_of_the_machine() {
+        let program = compile::<f64>(&parse(TEXT).unwrap(), vec![]).unwrap();
+        let mut kinds = std::collections::HashSet::new();
+        for (number, f) in program.functions.iter().enumerate() {
+            if matches!(f.mode, Mode::Pure | Mode::Loop) {
+                continue;
+            }
+            kinds.extend(f.sites.iter().map(|site| std::mem::discriminant(&site.kind)));
+            // What a loop runs over is in the node for speed.
+            let over: Vec<Operand> = f
+                .sites
+                .iter()
+                .filter_map(|site| match &site.kind {
+                    SiteKind::Loop(l) => l.over,
+                    _ => None,
+                })
+                .collect();
+            for i in usize::from(f.params + f.captures)..usize::from(f.node_registers) {
+                let register = Operand::new(Place::Node, i);
+                assert!(
+                    over.contains(&register) || refused(&program, number, register),
+                    "{} {register:?}\n{}",
+                    f.name,
+                    crate::code::disassemble(&program)
+                );
+            }
+        }
+        assert_eq!(kinds.len(), 19, "every kind of site");
     }
 }

@@ -89,12 +89,12 @@ impl<S: Scalar> Machine<'_, S> {
                 r!().gather(state, &self.scratch, $args, &mut self.buffer)
             };
         }
-        // A question was not answered by a value; paused, the run goes on at that instruction.
+        // A question was not answered by a value.
         macro_rules! stop {
-            ($halt:expr, $pc:expr) => {
+            ($halt:expr, $site:expr) => {
                 match $halt {
                     Halt::Paused => {
-                        state.pause(future, node, $pc);
+                        state.pause(future, node, $site.resumes_at(pc));
                         return Ok(Stop::Paused);
                     }
                     Halt::Impossible => {
@@ -243,7 +243,7 @@ impl<S: Scalar> Machine<'_, S> {
                         }
                         Ok(After::Pure { function, to, .. }) => call_pure!(function, to, false),
                         Ok(After::Stop(stop)) => return Ok(stop),
-                        Err(halt) => stop!(halt, pc),
+                        Err(halt) => stop!(halt, f.sites[number.0 as usize]),
                     }
                 }
                 Op::Site { site: number } => {
@@ -252,7 +252,7 @@ impl<S: Scalar> Machine<'_, S> {
                         SiteKind::Sample { .. } | SiteKind::SampleDist | SiteKind::SampleIndexed => {
                             match self.choose(state, answers, r!(), node, site) {
                                 Ok(()) => {}
-                                Err(halt) => stop!(halt, pc),
+                                Err(halt) => stop!(halt, site),
                             }
                         }
                         SiteKind::Observe { .. }
@@ -261,7 +261,7 @@ impl<S: Scalar> Machine<'_, S> {
                         | SiteKind::Factor
                         | SiteKind::Condition => match self.factor(state, answers, r!(), node, site) {
                             Ok(()) => {}
-                            Err(halt) => stop!(halt, pc + 1),
+                            Err(halt) => stop!(halt, site),
                         },
                         SiteKind::Call { function } => {
                             let inner = check!(self.call_known(state, r!(), node, number, site, function));

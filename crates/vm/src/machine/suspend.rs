@@ -69,7 +69,7 @@ impl<S: Scalar> Machine<'_, S> {
                 match answers.emit(&at!(), &self.shapes)? {
                     Answer::Go(()) => Ok(After::Next),
                     Answer::Pause => {
-                        state.pause(future, node, pc + 1);
+                        state.pause(future, node, site.resumes_at(pc));
                         Ok(After::Stop(Stop::Paused))
                     }
                 }
@@ -109,7 +109,7 @@ impl<S: Scalar> Machine<'_, S> {
                     return Ok(After::Next);
                 }
                 state.futures[wanted as usize].has_waiters = true;
-                state.nodes[node.0 as usize].pc = pc as u32;
+                state.nodes[node.0 as usize].pc = site.resumes_at(pc) as u32;
                 state.futures[future.0 as usize].status = Status::Waiting(node, FutureId(wanted));
                 state.runnable.retain(|f| *f != future);
                 Ok(After::Stop(Stop::Waiting))

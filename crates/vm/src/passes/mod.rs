@@ -14,7 +14,9 @@ mod emit;
 mod expressions;
 pub mod liveness;
 mod place;
-pub(crate) use place::reads_and_writes;
+#[cfg(test)]
+pub(crate) use place::rewrite;
+pub(crate) use place::{live_before, reads_and_writes};
 mod sites;
 mod slices;
 mod statements;

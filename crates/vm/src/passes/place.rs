@@ -7,29 +7,35 @@
 use crate::code::{Args, Function, Mode, Op, Operand, Place, SiteKind};
 use niwaki_math::Scalar;
 
-/// A set of virtual registers.
+/// A set of registers of one class.
 #[derive(Clone, PartialEq)]
-struct Bits(Vec<u64>);
+pub(crate) struct Bits {
+    of: Place,
+    words: Vec<u64>,
+}
 
 impl Bits {
-    fn empty(n: usize) -> Self {
-        Bits(vec![0; n.div_ceil(64)])
+    fn empty(of: Place, n: usize) -> Self {
+        Bits { of, words: vec![0; n.div_ceil(64)] }
     }
     fn set(&mut self, o: Operand) {
-        if o.place() == Place::Node {
-            self.0[o.index() / 64] |= 1 << (o.index() % 64);
+        if o.place() == self.of {
+            self.words[o.index() / 64] |= 1 << (o.index() % 64);
         }
     }
     fn clear(&mut self, o: Operand) {
-        if o.place() == Place::Node {
-            self.0[o.index() / 64] &= !(1 << (o.index() % 64));
+        if o.place() == self.of {
+            self.words[o.index() / 64] &= !(1 << (o.index() % 64));
         }
     }
     fn has(&self, o: Operand) -> bool {
-        o.place() == Place::Node && self.0[o.index() / 64] >> (o.index() % 64) & 1 == 1
+        o.place() == self.of && self.words[o.index() / 64] >> (o.index() % 64) & 1 == 1
     }
     fn join(&mut self, other: &Bits) {
-        self.0.iter_mut().zip(&other.0).for_each(|(a, b)| *a |= b);
+        self.words.iter_mut().zip(&other.words).for_each(|(a, b)| *a |= b);
+    }
+    pub(crate) fn is_empty(&self) -> bool {
+        self.words.iter().all(|word| *word == 0)
     }
 }
 
@@ -90,36 +96,42 @@ fn successors(op: &Op, at: usize) -> (Option<usize>, Option<usize>) {
         | Op::JumpUnless { target, .. }
         | Op::JumpUnlessCompare { target, .. }
         | Op::Next { target, .. } => (Some(at + 1), Some(target as usize)),
-        Op::Return { .. } | Op::ReturnIteration { .. } => (None, None),
+        Op::Return { .. } | Op::ReturnIteration { .. } | Op::Done => (None, None),
         _ => (Some(at + 1), None),
     }
 }
 
-/// What is live after each instruction.
-fn live_after<S: Scalar>(f: &Function<S>, registers: usize) -> Vec<Bits> {
-    let n = f.code.len();
+/// Which of the `registers` registers of one class are live before each instruction, and before the end.
+pub(crate) fn live_before<S: Scalar>(f: &Function<S>, of: Place, registers: usize) -> Vec<Bits> {
     let effects: Vec<_> = f.code.iter().map(|op| reads_and_writes(f, op)).collect();
-    let mut before = vec![Bits::empty(registers); n + 1];
-    let mut after = vec![Bits::empty(registers); n];
+    let mut before = vec![Bits::empty(of, registers); f.code.len() + 1];
     loop {
         let mut changed = false;
-        for at in (0..n).rev() {
-            let (one, two) = successors(&f.code[at], at);
-            let mut out = Bits::empty(registers);
-            for next in one.into_iter().chain(two) {
-                out.join(&before[next]);
-            }
-            let mut live = out.clone();
+        for at in (0..f.code.len()).rev() {
+            let mut live = after(f, &before, at);
             effects[at].1.iter().for_each(|w| live.clear(*w));
             effects[at].0.iter().for_each(|r| live.set(*r));
             changed |= live != before[at];
             before[at] = live;
-            after[at] = out;
         }
         if !changed {
-            return after;
+            return before;
         }
     }
+}
+
+/// What is live after an instruction.
+fn after<S: Scalar>(f: &Function<S>, before: &[Bits], at: usize) -> Bits {
+    let mut live = Bits { of: before[at].of, words: vec![0; before[at].words.len()] };
+    let (one, two) = successors(&f.code[at], at);
+    one.into_iter().chain(two).for_each(|next| live.join(&before[next]));
+    live
+}
+
+/// What is live after each instruction, of virtual registers.
+fn live_after<S: Scalar>(f: &Function<S>, registers: usize) -> Vec<Bits> {
+    let before = live_before(f, Place::Node, registers);
+    (0..f.code.len()).map(|at| after(f, &before, at)).collect()
 }
 
 /// Chooses places for the `registers` virtual registers of a function.
@@ -127,7 +139,7 @@ pub(crate) fn place<S: Scalar>(f: &mut Function<S>, registers: usize) {
     drop_dead(f, registers);
     let inputs = f.params as usize + f.captures as usize;
     let pure = f.mode == Mode::Pure;
-    let mut node = Bits::empty(registers);
+    let mut node = Bits::empty(Place::Node, registers);
     if !pure {
         (0..inputs).for_each(|i| node.set(Operand::new(Place::Node, i)));
         let after = live_after(f, registers);
@@ -136,17 +148,7 @@ pub(crate) fn place<S: Scalar>(f: &mut Function<S>, registers: usize) {
             node.join(&after[at]);
             let s = f.sites[site.0 as usize].clone();
             reads_and_writes(f, op).1.into_iter().for_each(|w| node.set(w));
-            // A proposal draws and scores from the node and the site alone; a query table is read in the same way; an
-            // append knows its list by where it lies, so it must live.
-            let read_again = matches!(
-                s.kind,
-                SiteKind::Sample { .. }
-                    | SiteKind::SampleDist
-                    | SiteKind::SampleIndexed
-                    | SiteKind::Query
-                    | SiteKind::Append { .. }
-            );
-            if read_again {
+            if s.kind.is_read_again() {
                 f.operands[s.args.range()].iter().for_each(|o| node.set(*o));
             }
             // What a loop runs over is kept, so that it need not be made again to see that it is the same.
@@ -221,7 +223,8 @@ fn drop_dead<S: Scalar>(f: &mut Function<S>, registers: usize) {
     }
 }
 
-fn rewrite<S: Scalar>(f: &mut Function<S>, map: impl Fn(Operand) -> Operand) {
+/// Puts every register elsewhere.
+pub(crate) fn rewrite<S: Scalar>(f: &mut Function<S>, map: impl Fn(Operand) -> Operand) {
     f.operands.iter_mut().for_each(|o| *o = map(*o));
     for o in &mut f.defaults {
         // Defaults name captured inputs, which keep their numbers in either place.

@@ -125,6 +125,25 @@ pub const PROGRAMS: &[(&str, &str)] = &[
           (fn "m" (params) (set $t (call "grow" 0.0 0)) (do (factor (neg $t))) (return $t)) (entry "m"))"#,
     ),
     (
+        "futures that are chosen, unpacked, listed and captured",
+        r#"(module
+          (fn "leaf" (params $x) (set $y (sample (dist gaussian $x 1.0))) (do (factor (mul -0.1 $y))) (return $y))
+          (fn "pair" (params $x) (return (tuple (future "leaf" $x) (future "leaf" (mul $x 2.0)))))
+          (fn "get" (params $k) (captures $fs) (return (force (index $fs $k))))
+          (fn "m" (params)
+            (set $c (sample (dist bernoulli 0.5)))
+            (set $f (cond $c (future "leaf" 1.0) 0.5))
+            (unpack ($a $b) (call "pair" (force $f)))
+            (set $fs (list $a $b $f))
+            (set $g (closure "get" $fs))
+            (set $s 0.0)
+            (for $i (range (add 1 (sample (dist discrete_uniform 0 2)))) (body
+              (set $s (add $s (sub (force (index $fs $i)) (force $f))))
+              (do (observe (dist gaussian (apply $g $i) 1.0) 0.5))))
+            (set $h (future_apply $g 2))
+            (return (tuple (force $h) $s (force $a) $b))) (entry "m"))"#,
+    ),
+    (
         "conditions with effects",
         r#"(module (fn "coin" (params $p) (return (sample (dist bernoulli $p))))
           (fn "m" (params)

@@ -123,7 +123,7 @@ fn task(text: &str) -> Task {
 }
 
 /// Programs whose answer enumeration knows.
-const PROGRAMS: [(&str, &str); 8] = [
+const PROGRAMS: [(&str, &str); 9] = [
     (
         "two coins and a condition on each",
         r#"(module (fn "m" (params)
@@ -207,6 +207,16 @@ const PROGRAMS: [(&str, &str); 8] = [
               (do (factor (cond $v -0.2 0.0))) (return $v))
             (fn "m" (params) (set $c (sample (dist bernoulli 0.5))) (set $h (future "early" $c))
               (set $u (future "user" $h $c)) (return $c)) (entry "m"))"#,
+    ),
+    (
+        "futures that a branch, a list and an expression hold",
+        r#"(module (fn "leaf" (params $p) (do (factor -0.1)) (set $v (sample (dist bernoulli $p)))
+              (do (factor (cond $v 0.3 -0.3))) (return $v))
+            (fn "m" (params) (set $f (cond (sample (dist bernoulli 0.5)) (future "leaf" 0.4) none))
+              (set $fs (list (future "leaf" 0.7) $f)) (set $v (force $f)) (do (factor (cond (eq $v none) 0.0 1.0)))
+              (set $n 0) (for $i (range 2) (body (set $w (force (index $fs $i)))
+                (set $n (add (mul 2 $n) (cond $w 1 0))) (do (factor (cond $w 0.2 0.0)))))
+              (return (tuple $v $n))) (entry "m"))"#,
     ),
 ];
 
