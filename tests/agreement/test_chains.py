@@ -105,7 +105,7 @@ def test_a_state_is_the_same_when_it_is_run_again() -> None:
     for seed in range(40):
         try:
             model = load(program(seed).text)
-            result = nw.run(model, nw.mh(steps=300, thin=60, seed=seed, kernel=KERNELS[seed % 4]))
+            result = nw.run(model, nw.mh(steps=300, thin=60, kernel=KERNELS[seed % 4]), seed=seed)
         except NiwakiError:
             continue
         for sample in [*result, result.best]:

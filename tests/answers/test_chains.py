@@ -103,7 +103,7 @@ KERNELS = {
 def t_values(model: Any, kernel: k.Kernel, seed: int = 5, **settings: Any) -> float:
     """The largest |t| over the values of a model."""
     exact = nw.run(model, method=nw.enumerate_all()).distribution()
-    result = nw.run(model, nw.mh(steps=42_000, warmup=2_000, thin=2, kernel=kernel, seed=seed, **settings))
+    result = nw.run(model, nw.mh(steps=42_000, warmup=2_000, thin=2, kernel=kernel, **settings), seed=seed)
     values = [sample.value for sample in result]
     stretches = np.array_split(np.arange(len(values)), 40)
     largest = 0.0
@@ -141,13 +141,13 @@ def test_a_proposal_of_ones_own_answers_as_enumeration_does() -> None:
 
 
 def test_selections_leave_the_rest_alone() -> None:
-    result = nw.run(MODELS["coins"], nw.mh(steps=500, kernel=k.on("a", k.mh()), seed=1))
+    result = nw.run(MODELS["coins"], nw.mh(steps=500, kernel=k.on("a", k.mh())), seed=1)
     assert len({sample.value[1] for sample in result}) == 1
     assert len({sample.value[0] for sample in result}) == 2
 
 
 def test_annealing_finds_the_mode_and_the_prior_is_not_tempered() -> None:
-    result = nw.run(MODELS["depth"], nw.mh(steps=2000, kernel=k.anneal(k.mh(), 1500, 5.0, 0.05), seed=2))
+    result = nw.run(MODELS["depth"], nw.mh(steps=2000, kernel=k.anneal(k.mh(), 1500, 5.0, 0.05)), seed=2)
     assert result.best.value == 4
     assert result.last[0].value == 4
 

@@ -114,12 +114,12 @@ def test_more_goes_on_where_it_stopped() -> None:
 
 
 def test_the_best_is_kept_whether_it_was_sampled_or_not() -> None:
-    result = nw.run(GARDEN, nw.mh(steps=20_000, keep=0, seed=1))
+    result = nw.run(GARDEN, nw.mh(steps=20_000, keep=0), seed=1)
     assert len(result) == 0
     best = result.best
     # Run once more, it scores what it scored.
     assert best._trace.log_score == best.log_score
-    every = nw.run(GARDEN, nw.mh(steps=20_000, thin=1, seed=1))
+    every = nw.run(GARDEN, nw.mh(steps=20_000, thin=1), seed=1)
     assert max(sample.log_score for sample in [*every, every.bests[0]]) == best.log_score
     assert max(every.trace[0]) == best.log_score
 
@@ -130,7 +130,7 @@ def test_sketches_follow_the_chain(kernel: k.Kernel) -> None:
     score = nw.no_self_intersection()
     if target is not None:
         score = score * nw.volume_match(target)
-    result = nw.run(TOWER, nw.mh(steps=2000, keep=50, seed=2, kernel=kernel), score=score)
+    result = nw.run(TOWER, nw.mh(steps=2000, keep=50, kernel=kernel), seed=2, score=score)
     for sample in [*result, result.best]:
         assert sample._trace.log_score == sample.log_score
         assert sample._trace.primitives == sample.primitives == len(list(sample.scene))
@@ -138,7 +138,7 @@ def test_sketches_follow_the_chain(kernel: k.Kernel) -> None:
 
 
 def test_acceptance_is_told_by_site() -> None:
-    result = nw.run(GARDEN, nw.mh(steps=4000, seed=2, warmup=1000, kernel=k.drift(step=30.0)))
+    result = nw.run(GARDEN, nw.mh(steps=4000, warmup=1000, kernel=k.drift(step=30.0)), seed=2)
     rows = result.acceptance
     assert set(rows) == {"garden/mean", "garden/width", "garden/i#0/x"} or len(rows) == 3
     assert sum(row.proposed for row in rows.values()) == 4000
@@ -147,13 +147,13 @@ def test_acceptance_is_told_by_site() -> None:
 
 
 def test_steps_are_frozen_after_the_warmup() -> None:
-    result = nw.run(GARDEN, nw.mh(steps=3000, seed=2, warmup=0, kernel=k.drift(step=30.0)))
+    result = nw.run(GARDEN, nw.mh(steps=3000, warmup=0, kernel=k.drift(step=30.0)), seed=2)
     assert all(row.rate < 0.15 for row in result.acceptance.values())
 
 
 def test_chains_start_from_given_choices() -> None:
     first = nw.run(GARDEN, seed=9).best.choices
-    result = nw.run(GARDEN, nw.mh(steps=1, thin=1, seed=1), choices=first)
+    result = nw.run(GARDEN, nw.mh(steps=1, thin=1), seed=1, choices=first)
     changed = [address for address, value in result.last[0].choices.items() if first[address] != value]
     assert len(changed) <= 1
 
@@ -170,7 +170,7 @@ def test_samples_are_bounded() -> None:
 def test_ctrl_c_gives_what_there_is() -> None:
     timer = threading.Timer(0.4, lambda: os.kill(os.getpid(), signal.SIGINT))
     timer.start()
-    result = nw.run(GARDEN, nw.mh(steps=10**12, thin=10**6, seed=1, chains=2))
+    result = nw.run(GARDEN, nw.mh(steps=10**12, thin=10**6, chains=2), seed=1)
     assert result.interrupted
     assert 0 < result.counters["proposals"] < 10**12
     assert result.best.log_score > -1e9
@@ -181,7 +181,7 @@ def test_ctrl_c_gives_what_there_is() -> None:
 def test_a_selection_may_wait_for_a_site_that_is_not_there_yet() -> None:
     kernel = k.cycle(k.on("y", k.drift()), k.mh())
     for seed in range(20):
-        result = nw.run(MODELS["late"], nw.mh(steps=50, seed=seed, kernel=kernel))
+        result = nw.run(MODELS["late"], nw.mh(steps=50, kernel=kernel), seed=seed)
         assert result.counters["proposals"] == 50
 
 
@@ -192,7 +192,7 @@ def failing() -> dict[str, Callable[[], Any]]:
         "no first state: a condition": lambda: run(MODELS["impossible"], nw.mh(steps=10, tries=50), seed=1),
         "no first state: an observation": lambda: run(MODELS["never"], nw.mh(steps=10, tries=50), seed=1),
         "no first state: a sketch": lambda: run(
-            MODELS["tower"], nw.mh(steps=10, tries=5, seed=1), score=_never()
+            MODELS["tower"], nw.mh(steps=10, tries=5), seed=1, score=_never()
         ),
         "a score that is not a number": lambda: run(MODELS["not_a_number"], nw.mh(steps=10), seed=1),
         "a query written twice": lambda: run(MODELS["twice"], nw.mh(steps=10), seed=1).best.queries,
@@ -231,7 +231,7 @@ def test_errors_are_as_reviewed(reviewed) -> None:
 
 def test_a_proposal_outside_the_support_is_rejected_and_counted() -> None:
     far = k.on("width", k.proposal(lambda old: Gaussian(-100.0, 1.0)))
-    result = nw.run(GARDEN, nw.mh(steps=200, kernel=far, seed=1))
+    result = nw.run(GARDEN, nw.mh(steps=200, kernel=far), seed=1)
     (row,) = result.acceptance.values()
     assert (row.proposed, row.accepted, row.outside) == (200, 0, 200)
 

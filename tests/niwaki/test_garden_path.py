@@ -65,8 +65,8 @@ def test_judging_late_and_revising_help(program: Any, target: nw.Target) -> None
         assert first is not None
         with warnings.catch_warnings():
             warnings.simplefilter("error")
-            method = nw.particle_gibbs(particles=10, sweeps=10, temper=16.0, start=first.best)
-            chain = nw.run(program, method=method, score=score, seed=seed)
+            method = nw.particle_gibbs(particles=10, sweeps=10, temper=16.0)
+            chain = nw.run(program, method=method, score=score, seed=seed, choices=first.best.choices)
         late.append(first.best.log_score)
         revised.append(chain.best.log_score)
     assert statistics.fmean(revised) > statistics.fmean(late) + 2.0

@@ -171,7 +171,8 @@ def test_a_chain_says_how_it_moved_and_starts_where_it_is_told() -> None:
     kept = nw.run(WALL, method=nw.particle_gibbs(particles=6, sweeps=5, ancestors=False), seed=3)
     assert (kept.tries, kept.moves) == (0, 0)
     start = nw.run(WALL, seed=8).best
-    near = nw.run(WALL, method=nw.particle_gibbs(particles=2, sweeps=1, ancestors=False, start=start), seed=1)
+    method = nw.particle_gibbs(particles=2, sweeps=1, ancestors=False)
+    near = nw.run(WALL, method=method, choices=start.choices, seed=1)
     assert Counter(near.best.choices) and any(near.best.choices[k] == v for k, v in start.choices.items())
     again = nw.run(WALL, method=nw.particle_gibbs(particles=6, sweeps=20), seed=3)
     assert [s.choices for s in again] == [s.choices for s in found]
@@ -200,12 +201,8 @@ def test_messages_of_populations(golden: Any) -> None:
         "a chain that adapts": lambda: nw.pimh(anneal=0.5),
         "alone": lambda: nw.particle_gibbs(particles=1),
         "sweeps": lambda: nw.particle_gibbs(sweeps=0),
-        "start": lambda: nw.particle_gibbs(start={"a": True}),
         "a start that is impossible": lambda: nw.run(
-            COINS, method=nw.particle_gibbs(start=nw.run(COINS, seed=NEITHER).best), seed=1
-        ),
-        "a start of another model": lambda: nw.run(
-            COINS, method=nw.particle_gibbs(start=nw.run(WALL, seed=1).best), seed=1
+            COINS, method=nw.particle_gibbs(), choices=nw.run(COINS, seed=NEITHER).best.choices, seed=1
         ),
     }
     found = [f"## {name}\n\n{refused(ask)}\n" for name, ask in asked.items()]

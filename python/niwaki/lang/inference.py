@@ -125,7 +125,7 @@ def _seed(body: Body, node: ast.Call) -> Expr:
 
 def _method(body: Body, node: ast.expr) -> Method:
     """The method that an argument means when the model is compiled."""
-    found = _constant(body, node, node)
+    found = _constant(body, node)
     if not isinstance(found, Method):
         body.refuse("infer-method", node, found=body.span(node).text)
     if wrong := wrong_inside(found):
@@ -133,14 +133,14 @@ def _method(body: Body, node: ast.expr) -> Method:
     return found
 
 
-def _constant(body: Body, node: ast.expr, whole: ast.expr) -> Any:
+def _constant(body: Body, node: ast.expr) -> Any:
     """A method, a kernel or a setting: made here, a literal, or a constant of the module."""
     if isinstance(node, ast.Call):
         maker = static(body, node.func)
         if str(getattr(maker, "__module__", "")).startswith(("niwaki.methods", "niwaki.kernels")):
-            args = [_constant(body, arg, whole) for arg in node.args]
+            args = [_constant(body, arg) for arg in node.args]
             keywords = {
-                keyword.arg: _constant(body, keyword.value, whole) for keyword in node.keywords if keyword.arg
+                keyword.arg: _constant(body, keyword.value) for keyword in node.keywords if keyword.arg
             }
             try:
                 return maker(*args, **keywords)
@@ -153,4 +153,4 @@ def _constant(body: Body, node: ast.expr, whole: ast.expr) -> Any:
     try:
         return ast.literal_eval(node)
     except (ValueError, SyntaxError, TypeError):
-        body.refuse("infer-method", whole, found=body.span(node).text)
+        body.refuse("infer-method", node, found=body.span(node).text)
