@@ -1,7 +1,7 @@
 //! Where each register lives, by liveness on bytecode.
 //!
-//! Only what is needed after a suspension site goes into the node, with the results of sites and the
-//! parameters of choices (a proposal draws and scores from node and site alone). Everything else is scratch.
+//! Only what is needed after a suspension site goes into the node, with the results of sites and the arguments that
+//! are read again ([`SiteKind::is_read_again`]). Everything else is scratch.
 //! Instructions without effect are dropped, and futures whose handle nobody reads are marked.
 
 use crate::code::{Args, Function, Mode, Op, Operand, Place, SiteKind};
