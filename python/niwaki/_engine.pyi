@@ -212,6 +212,7 @@ class EngineFault(RuntimeError):
     stack: list[tuple[str, str, tuple[int, int, int, int]]]
     omitted: int
     path: str
+    invalid: bool
     barrier: int
     causes: list[tuple[str, int]]
 
@@ -246,6 +247,8 @@ class Task:
         max_steps: int = 20000000,
         max_memory: int = ...,
     ) -> Task: ...
+    def uncounted(self) -> Task: ...
+    def invalid(self) -> dict[str, int]: ...
     def forward(self, seed: int, n: int = 1, watch: _Watch | None = None) -> list[Outcome]: ...
     def enumerate(
         self, max_runs: int, watch: _Watch | None = None

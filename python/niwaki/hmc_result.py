@@ -126,7 +126,9 @@ class HmcResult(Result):
         seconds: float,
         cpu_seconds: float,
     ) -> None:
-        super().__init__(model, [], seed, method, score, interrupted=found.interrupted)
+        super().__init__(
+            model, [], seed, method, score, interrupted=found.interrupted, invalid=made.invalid()
+        )
         self.seconds, self.cpu_seconds = seconds, cpu_seconds
         self._made, self._found = made, found
         chains = range(method.chains)
@@ -270,6 +272,7 @@ class HmcResult(Result):
         if self.divergences.total:
             parts.append(f"{self.divergences.total} divergences")
         parts += [f"seed {self.seed}", f"{self.seconds:.2f} s"]
+        parts += self._outside()
         if self.interrupted:
             parts.append("interrupted")
         return f"<HmcResult of {self.model.name}: {', '.join(parts)}>"

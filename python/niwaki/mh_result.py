@@ -144,6 +144,7 @@ class ChainResult(Result):
         return self
 
     def _gather(self) -> None:
+        self.invalid = self._made.invalid()
         kept = [self._chains.samples(chain) for chain in range(self.method.chains)]
         self.visits = [[visit for visit, _ in rows] for rows in kept]
         self.draws = [[self._sample(outcome) for _, outcome in rows] for rows in kept]

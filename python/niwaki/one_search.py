@@ -94,7 +94,7 @@ def once(
         return chains_of(model, made, method, score, seed, threads, watch)
     if isinstance(method, Hmc | Nuts):
         return trajectories(model, made, method, score, seed, threads, watch)
-    facts: dict[str, Any] = {}
+    made, facts = made.uncounted(), {}
     wall, cpu = time.perf_counter(), time.process_time()
     with translated(model.name, f"seed={seed}"):
         match method:
@@ -172,7 +172,7 @@ def once(
                 )
     seconds, cpu_seconds = time.perf_counter() - wall, time.process_time() - cpu
     samples = [Sample(outcome, made, score, seed, seconds, cpu_seconds) for outcome in outcomes]
-    result = Result(model, samples, seed, method, score, **facts)
+    result = Result(model, samples, seed, method, score, invalid=made.invalid(), **facts)
     result.seconds, result.cpu_seconds = seconds, cpu_seconds
     return result
 
@@ -200,6 +200,7 @@ def chains_of(
     """Chains in their first states, and their first proposals."""
     from niwaki.mh_result import ChainResult
 
+    made = made.uncounted()
     kernel, temperatures, every = method.kernel, None, 1
     if kernel is not None and kernel.name == "temper":
         (temperatures, every), (kernel,) = kernel.settings, kernel.parts
@@ -239,6 +240,7 @@ def trajectories(
         if isinstance(method, Nuts)
         else {"steps": method.steps, "jitter": method.jitter}
     )
+    made = made.uncounted()
     wall, cpu = time.perf_counter(), time.process_time()
     with translated(model.name, f"seed={seed}"):
         found = _engine.Trajectories(

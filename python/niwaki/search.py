@@ -8,13 +8,14 @@ from __future__ import annotations
 
 import secrets
 import warnings
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 from niwaki import _engine
 from niwaki.compiled import as_model, task, translated
-from niwaki.errors import InputError
+from niwaki.errors import InputError, ModelFault
 from niwaki.methods import Forward, Hmc, Method, Mh, Nuts, Smc, smc
 from niwaki.one_search import Progress, SearchWarning, Watch, chains_of, once, told, trajectories
 from niwaki.polish import polished
@@ -214,14 +215,15 @@ def grow(
         raise InputError("no-target", name=model.name)
     made = task(model, args, kwargs, score.specs, max_steps, max_memory)
     found: list[Sample] = []
-    failed: list[InputError] = []
+    failed: list[InputError | ModelFault] = []
+    invalid: Counter[str] = Counter()
     spent, interrupted = 0.0, False
     plan: tuple[int, ...] = ()
     for number in range(runs):
         try:
             one = once(model, made, chosen, score, (first + number) % 2**64, threads, progress, number, runs)
-        except InputError as error:
-            if error.code != "everything-impossible":
+        except (InputError, ModelFault) as error:
+            if error.code != "everything-impossible" and not error.values.get("invalid"):
                 raise
             failed.append(error)
             continue
@@ -232,11 +234,13 @@ def grow(
             interrupted = True
             break
         plan, interrupted = one.plan, one.interrupted
+        invalid.update(one.invalid)
         if interrupted and found and not any(sample.has_ended for sample in one):
             spent += one.seconds
             break
         if polish is not None and not interrupted:
             one = polished(one, polish, None, threads, told(progress, number, runs))
+            invalid.update(one.invalid)
             interrupted = one.interrupted
         spent += one.seconds
         found.extend(one.samples if _is_diverse(chosen) else [one.best])
@@ -250,7 +254,7 @@ def grow(
             SearchWarning,
             stacklevel=2,
         )
-    result = Result(model, found, first, chosen, score, interrupted=interrupted, plan=plan)
+    result = Result(model, found, first, chosen, score, interrupted=interrupted, plan=plan, invalid=invalid)
     result.seconds = spent
     return result
 

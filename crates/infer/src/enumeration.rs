@@ -4,7 +4,7 @@
 
 use crate::Failure;
 use crate::forward::factor_name;
-use crate::record::{Record, check_factor};
+use crate::record::{AllInvalid, Record, check_factor};
 use crate::task::{Hosts, Task};
 use niwaki_geom::Shape;
 use niwaki_math::Dist;
@@ -84,7 +84,8 @@ impl Answers<f64> for Ask<'_> {
 /// when it answers false, the search is given up.
 ///
 /// # Errors
-/// A choice that cannot be enumerated, more runs than allowed, or a fault of the program.
+/// A choice that cannot be enumerated, more runs than allowed, or a fault of the program: also of distributions, where they
+/// are invalid in every run.
 pub fn enumerate(
     task: &Task,
     max_runs: usize,
@@ -95,7 +96,7 @@ pub fn enumerate(
     let mut open = vec![Branch { state: first, record: Record::start(&task.sketches), next: None }];
     let mut outcomes: Vec<(Value, Vec<f64>)> = Vec::new();
     let mut index: HashMap<String, usize> = HashMap::new();
-    let mut runs = 0;
+    let (mut runs, mut all) = (0, AllInvalid::default());
     while let Some(mut branch) = open.pop() {
         let hosts = &*task.hosts;
         let mut ask = Ask { record: &mut branch.record, hosts, next: branch.next.take(), open: Vec::new() };
@@ -103,10 +104,13 @@ pub fn enumerate(
             let Some(future) = branch.state.runnable().first().copied() else {
                 return Err(Box::new(machine.waiting_cycle(&branch.state)).into());
             };
-            machine.resume(&mut branch.state, future, &mut ask)?;
+            if let Err(met) = machine.resume(&mut branch.state, future, &mut ask) {
+                ask.record.forgive(task, met)?;
+            }
         }
         let values = std::mem::take(&mut ask.open);
         if branch.record.cause.is_some() {
+            all.note(branch.record.invalid.as_ref());
             continue;
         }
         // Reversed, so that outcomes appear in the order of the values.
@@ -115,6 +119,7 @@ pub fn enumerate(
         }
         if branch.state.has_ended() {
             runs += 1;
+            all.note(None);
             if runs > max_runs {
                 return Err(Fault::new(
                     "too-many-runs",
@@ -136,6 +141,7 @@ pub fn enumerate(
             outcomes[at].1.push(log_joint);
         }
     }
+    all.check()?;
     let outcomes: Vec<(Value, f64)> = outcomes.into_iter().map(|(v, logs)| (v, log_sum_exp(&logs))).collect();
     let log_evidence = log_sum_exp(&outcomes.iter().map(|o| o.1).collect::<Vec<_>>());
     Ok(Enumerated { outcomes, log_evidence, runs })

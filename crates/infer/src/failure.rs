@@ -26,6 +26,17 @@ pub enum Failure {
     },
 }
 
+impl Failure {
+    /// Whether all that was tried was impossible, be it by its scores or because distributions were invalid.
+    pub fn is_impossible(&self) -> bool {
+        match self {
+            Failure::Run(met) => met.fault.out_of_range.is_some(),
+            Failure::Impossible { .. } => true,
+            Failure::Setting(_) | Failure::NoStart { .. } => false,
+        }
+    }
+}
+
 fn listed(causes: &[(String, usize)]) -> String {
     causes.iter().map(|(name, n)| format!("{name} ({n})")).collect::<Vec<_>>().join(", ")
 }

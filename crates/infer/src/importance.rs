@@ -3,6 +3,7 @@
 //! `p(value | score) ~ sum of exp(log_score_i) [value_i = value]`; the evidence is the mean weight.
 
 use crate::forward::{Sample, forward};
+use crate::record::AllInvalid;
 use crate::{Failure, Task};
 use niwaki_vm::fault::Fault;
 use rayon::prelude::*;
@@ -22,7 +23,7 @@ pub struct Weighted {
 /// given.
 ///
 /// # Errors
-/// A fault of the program; no runs asked for.
+/// A fault of the program, or distributions that are invalid in every run; no runs asked for.
 pub fn importance(
     task: &Task,
     n: usize,
@@ -44,6 +45,7 @@ pub fn importance(
             break;
         }
     }
+    AllInvalid::check_all(samples.iter().map(|s| &s.record))?;
     let log_evidence = log_mean_exp(samples.iter().map(|s| s.record.log_score()));
     Ok(Weighted { samples, log_evidence })
 }

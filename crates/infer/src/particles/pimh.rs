@@ -54,7 +54,7 @@ pub fn pimh(
                 one.log_weight = 0.0;
                 Some((log, one))
             }
-            Err(Failure::Impossible { .. }) if now.is_some() => None,
+            Err(failure) if failure.is_impossible() && now.is_some() => None,
             Err(other) => return Err(other),
         };
         estimates.push(proposed.as_ref().map_or(f64::NEG_INFINITY, |p| p.0));
