@@ -41,6 +41,30 @@ const COUNTS: &str = r#"(module
     (do (observe (dist gaussian 0.0 (sub (add $b 1) (div $n 3.0))) 0.5))
     (return (tuple $n $a $b))) (entry "m"))"#;
 
+/// An element that is read below, where the run goes on with the value that was read before: a run in program order has
+/// both values, and is valid where they agree.
+const ELEMENTS: &str = r#"(module
+  (fn "seen" (params $xs) (do (factor (mul -0.1 (index $xs 0)))) (return (index $xs 0)))
+  (fn "m" (params)
+    (set $xs (list)) (set $a (sample (dist discrete_uniform 0 3)))
+    (set $xs (append $xs $a))
+    (set $r (call "seen" $xs))
+    (set $d (sample (dist binomial (sub (add $a 2) $r) 0.5)))
+    (do (observe (dist gaussian 0.0 (sub 1.5 (sub $r $a))) 0.3))
+    (set $c (sample (dist bernoulli (div $a 2.0))))
+    (return (tuple $a $c $d))) (entry "m"))"#;
+
+/// The same with a condition.
+const CONDITION: &str = r#"(module
+  (fn "seen" (params $xs) (do (factor (mul -0.1 (index $xs 0)))) (return (index $xs 0)))
+  (fn "m" (params)
+    (set $xs (list)) (set $a (sample (dist discrete_uniform 0 3)))
+    (set $xs (append $xs $a))
+    (set $r (call "seen" $xs))
+    (do (condition (eq $r $a)))
+    (set $c (sample (dist bernoulli (div $a 2.0))))
+    (return (tuple $a $c))) (entry "m"))"#;
+
 /// Where a parameter is a number that an element of a list is, two sites may be invalid in one run.
 const READERS: &str = r#"(module
   (fn "one" (params $xs $i) (return (sample (dist bernoulli (div (index $xs $i) 3.0)))))
@@ -52,7 +76,8 @@ const READERS: &str = r#"(module
     (set $m (sample (dist discrete_uniform (index $xs 0) (add (index $xs 2) 1))))
     (return (tuple $n $m))) (entry "m"))"#;
 
-const DISCRETE: [(&str, &str); 2] = [("counts", COUNTS), ("readers", READERS)];
+const DISCRETE: [(&str, &str); 4] =
+    [("counts", COUNTS), ("elements", ELEMENTS), ("condition", CONDITION), ("readers", READERS)];
 
 fn proposals<R: Rules>(task: &Task, settings: &Settings, known: &HashMap<u128, Value>, n: u64) -> Value {
     let mut chain = Chain::<R>::start(task, settings, 0, Some(known)).expect("a chain");
