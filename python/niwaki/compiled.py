@@ -118,7 +118,7 @@ def _error(fault: Any, name: str, replay: str, choices: Mapping[str, Any]) -> Ex
         return InputError("missing-choice", address=address, nearest=nearest)
     if fault.kind == "run":
         error = ModelFault.from_engine(fault.code, fault.message, fault.help, fault.stack, replay)
-        error.values["omitted"] = fault.omitted
+        error.values |= {"omitted": fault.omitted, "invalid": fault.invalid}
         return error
     if fault.kind == "compile":
         return InputError("machine-limit", found=fault.message)

@@ -118,12 +118,13 @@ class HmcResult(Result):
         self,
         search: Search,
         method: Hmc | Nuts,
+        counted: _engine.Task,
         found: _engine.Trajectories,
         seed: int,
         seconds: float,
         cpu_seconds: float,
     ) -> None:
-        super().__init__(search, [], seed, interrupted=found.interrupted)
+        super().__init__(search, [], seed, interrupted=found.interrupted, invalid=counted.invalid())
         self.seconds, self.cpu_seconds = seconds, cpu_seconds
         self._method, self._found = method, found
         chains = range(method.chains)
@@ -272,6 +273,7 @@ class HmcResult(Result):
         if self.divergences.total:
             parts.append(f"{self.divergences.total} divergences")
         parts += [f"seed {self.seed}", f"{self.seconds:.2f} s"]
+        parts += self._outside()
         if self.interrupted:
             parts.append("interrupted")
         return f"<HmcResult of {self.model.name}: {', '.join(parts)}>"

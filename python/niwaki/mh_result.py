@@ -116,13 +116,15 @@ class ChainResult(Result):
         self,
         search: Search,
         method: Mh,
+        counted: _engine.Task,
         chains: _engine.Chains,
         seed: int,
         watch: EngineWatch,
         threads: int | None,
     ) -> None:
         super().__init__(search, [], seed)
-        self._method, self._chains, self._watch, self._threads = method, chains, watch, threads
+        self._method, self._counted, self._chains = method, counted, chains
+        self._watch, self._threads = watch, threads
         self.draws: list[list[Sample]] = []
         self.visits: list[list[int]] = []
 
@@ -146,6 +148,7 @@ class ChainResult(Result):
         return self
 
     def _gather(self) -> None:
+        self.invalid = self._counted.invalid()
         kept = [self._chains.samples(chain) for chain in range(self.method.chains)]
         self.visits = [[outcome.visit for outcome in outcomes] for outcomes in kept]
         self.draws = [[self._sample(outcome) for outcome in outcomes] for outcomes in kept]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
@@ -250,6 +250,10 @@ class Result(Sequence[Sample]):
         ended.
     renewed : tuple of float
         The share of choices that each sweep of a chain made new, from the first that found a possible run.
+    invalid : dict of str to int
+        How many runs, proposals and points of trajectories were outside of the model's support because the numbers given
+        to a distribution were out of its range: by that distribution and its line, such as "`uniform` at line 12". A run
+        counts where it met the first of them.
     """
 
     def __init__(
@@ -271,6 +275,7 @@ class Result(Sequence[Sample]):
         moves: int | None = None,
         moved: tuple[tuple[int, int], tuple[int, int]] | None = None,
         renewed: Sequence[float] = (),
+        invalid: Mapping[str, int] | None = None,
         table: list[tuple[Any, float]] | None = None,
     ) -> None:
         self.search, self.samples, self.seed = search, samples, seed
@@ -279,6 +284,7 @@ class Result(Sequence[Sample]):
         self.resampled, self.ancestors, self.tries = resampled, ancestors, tries
         self.plan, self.died, self.temperatures = tuple(plan), died, tuple(temperatures)
         self.moves, self.moved, self.renewed = moves, moved, tuple(renewed)
+        self.invalid: dict[str, int] = dict(invalid or {})
         self._table = table
         self.seconds = sum(sample.seconds for sample in samples)
         self.cpu_seconds = sum(sample.cpu_seconds for sample in samples)
@@ -410,6 +416,10 @@ class Result(Sequence[Sample]):
     def _repr_png_(self) -> bytes | None:
         return self.best._repr_png_() if self.samples else None
 
+    def _outside(self) -> list[str]:
+        """What is said of runs in which a distribution was invalid."""
+        return [f"{sum(self.invalid.values())} invalid"] if self.invalid else []
+
     def __repr__(self) -> str:
         parts = [f"{len(self)} sample{'' if len(self) == 1 else 's'}"]
         if self._table is not None:
@@ -422,6 +432,7 @@ class Result(Sequence[Sample]):
             parts.append(f"log evidence {self.log_evidence:.4g}")
         parts.append(f"seed {self.seed}")
         parts.append(f"{self.seconds:.2f} s")
+        parts += self._outside()
         if self.interrupted:
             parts.append("interrupted")
         return f"<Result of {self.model.name}: {', '.join(parts)}>"

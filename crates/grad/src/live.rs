@@ -10,6 +10,7 @@ use crate::scalar::Var;
 use niwaki_vm::code::Program;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Limits;
+use niwaki_vm::machine::invalid::Invalid;
 use niwaki_vm::machine::stack::RunFault;
 use niwaki_vm::value::Value;
 use std::collections::HashMap;
@@ -31,6 +32,8 @@ pub struct Model {
     pub host: Host,
     /// What moves.
     pub scope: Scope,
+    /// Counts the points that are refused because a distribution is invalid there.
+    pub invalid: Arc<Invalid>,
 }
 
 impl Model {
@@ -213,7 +216,10 @@ impl Live {
             let recorded = match self.model.record(&at.values(x)) {
                 Ok(recorded) => recorded,
                 Err(fault) if fault.fault.code == "missing-choice" => return Err(Refused::Structure),
-                Err(fault) => return Err(Refused::Fault(fault)),
+                Err(fault) => {
+                    self.model.invalid.count(&fault);
+                    return Err(Refused::Fault(fault));
+                }
             };
             if recorded.structure != at.structure {
                 return Err(Refused::Structure);

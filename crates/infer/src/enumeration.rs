@@ -5,7 +5,7 @@
 use crate::Failure;
 use crate::forward::factor_name;
 use crate::importance::log_sum_exp;
-use crate::record::{Record, check_factor};
+use crate::record::{AllInvalid, Record, check_factor};
 use crate::task::{Hosts, Task};
 use niwaki_geom::Shape;
 use niwaki_math::Dist;
@@ -85,7 +85,8 @@ impl Answers<f64> for Ask<'_> {
 /// when it answers false, the search is given up.
 ///
 /// # Errors
-/// A choice that cannot be enumerated, more runs than allowed, runs that are all impossible, or a fault of the program.
+/// A choice that cannot be enumerated, more runs than allowed, runs that are all impossible, or a fault of the program: also
+/// of distributions, where they are invalid in every run.
 pub fn enumerate(
     task: &Task,
     max_runs: usize,
@@ -96,7 +97,7 @@ pub fn enumerate(
     let mut open = vec![Branch { state: first, record: Record::start(&task.sketches), next: None }];
     let mut outcomes: Vec<(Value, Vec<f64>)> = Vec::new();
     let mut index: HashMap<String, usize> = HashMap::new();
-    let mut runs = 0;
+    let (mut runs, mut all) = (0, AllInvalid::default());
     let mut causes: HashMap<String, usize> = HashMap::new();
     while let Some(mut branch) = open.pop() {
         let hosts = &*task.hosts;
@@ -105,10 +106,13 @@ pub fn enumerate(
             let Some(future) = branch.state.runnable().first().copied() else {
                 return Err(Box::new(machine.waiting_cycle(&branch.state)).into());
             };
-            machine.resume(&mut branch.state, future, &mut ask)?;
+            if let Err(met) = machine.resume(&mut branch.state, future, &mut ask) {
+                ask.record.forgive(task, met)?;
+            }
         }
         let values = std::mem::take(&mut ask.open);
         if let Some(cause) = branch.record.cause {
+            all.note(branch.record.invalid.as_ref());
             *causes.entry(cause).or_insert(0) += 1;
             continue;
         }
@@ -118,6 +122,7 @@ pub fn enumerate(
         }
         if branch.state.has_ended() {
             runs += 1;
+            all.note(None);
             if runs > max_runs {
                 return Err(Fault::new(
                     "too-many-runs",
@@ -142,6 +147,7 @@ pub fn enumerate(
     let outcomes: Vec<(Value, f64)> =
         outcomes.into_iter().map(|(v, logs)| (v, log_sum_exp(logs.into_iter()))).collect();
     if outcomes.is_empty() {
+        all.check()?;
         return Err(Failure::impossible(0, causes.iter().map(|(cause, n)| (cause.as_str(), *n))));
     }
     let log_evidence = log_sum_exp(outcomes.iter().map(|o| o.1));

@@ -36,6 +36,15 @@ impl Failure {
         causes.sort_by(|a, b| b.1.cmp(&a.1).then_with(|| a.0.cmp(&b.0)));
         Failure::Impossible { barrier, causes }
     }
+
+    /// Whether all that was tried was impossible, be it by its scores or because distributions were invalid.
+    pub fn is_impossible(&self) -> bool {
+        match self {
+            Failure::Run(met) => met.fault.out_of_range.is_some(),
+            Failure::Impossible { .. } => true,
+            Failure::Setting(_) | Failure::NoStart { .. } => false,
+        }
+    }
 }
 
 fn listed(causes: &[(String, usize)]) -> String {

@@ -88,7 +88,8 @@ pub struct Sample {
     pub value: Value,
 }
 
-/// One forward run, depth first; unless it is to be `complete`, it stops when its score becomes minus infinity.
+/// One forward run, depth first; unless it is to be `complete`, it stops when its score becomes minus infinity, or where a
+/// distribution is invalid.
 ///
 /// # Errors
 /// A fault of the program.
@@ -103,7 +104,11 @@ pub fn forward(task: &Task, seed: u64, stream: u64, complete: bool) -> Result<Sa
             return Err(Box::new(machine.waiting_cycle(&state)).into());
         };
         let mut answers = Forward { record: &mut record, stream, hosts, barriers: false, complete };
-        machine.resume(&mut state, next, &mut answers)?;
+        match machine.resume(&mut state, next, &mut answers) {
+            Ok(_) => {}
+            Err(met) if complete => return Err(met.into()),
+            Err(met) => record.forgive(task, met)?,
+        }
     }
     let value = if state.has_ended() { state.result() } else { Value::None };
     Ok(Sample { record, value })

@@ -3,6 +3,7 @@
 //! `p(value | score) ~ sum of exp(log_score_i) [value_i = value]`; the evidence is the mean weight.
 
 use crate::forward::{Sample, forward};
+use crate::record::AllInvalid;
 use crate::{Failure, Task};
 use niwaki_vm::fault::Fault;
 use rayon::prelude::*;
@@ -23,7 +24,7 @@ pub struct Weighted {
 /// given.
 ///
 /// # Errors
-/// A fault of the program; no runs asked for; runs that are all impossible.
+/// A fault of the program, or distributions that are invalid in every run; no runs asked for; runs that are all impossible.
 pub fn importance(
     task: &Task,
     n: usize,
@@ -45,6 +46,7 @@ pub fn importance(
             break;
         }
     }
+    AllInvalid::check_all(samples.iter().map(|s| &s.record))?;
     let log_evidence = log_mean_exp(samples.iter().map(|s| s.record.log_score()));
     if log_evidence == f64::NEG_INFINITY {
         let causes = samples.iter().filter_map(|s| s.record.cause.as_deref());

@@ -227,6 +227,7 @@ impl Inferences {
             sketches: vec![],
             hosts: Arc::new(Inferences { depth: self.depth + 1, known: Arc::default(), ..self.clone() }),
             limits: self.limits,
+            invalid: Arc::default(),
         };
         let name = &self.program.function(FunctionId(model.function)).name;
         method.value(&task, seed).map_err(|failure| told(name, failure))

@@ -4,12 +4,14 @@
 //! sketches; each term is rounded to a multiple of 2^-32, so that sums are exact and free of order.
 
 use crate::log::Log;
+use crate::{Failure, Task};
 use niwaki_geom::sketch::SketchSpec;
 use niwaki_geom::sketch::product::Sketches;
 use niwaki_geom::{Primitive, Shape};
 use niwaki_math::{Dist, grid};
 use niwaki_vm::builtins::value_to_draw;
 use niwaki_vm::fault::Fault;
+use niwaki_vm::machine::stack::RunFault;
 use niwaki_vm::value::Value;
 use std::sync::Arc;
 
@@ -30,6 +32,8 @@ pub struct Record {
     pub primitives: usize,
     /// What made the run impossible.
     pub cause: Option<String>,
+    /// The fault of the distribution that did, where it was one with invalid parameters.
+    pub invalid: Option<Arc<RunFault>>,
 }
 
 impl Record {
@@ -49,6 +53,7 @@ impl Record {
             log_sketches: self.log_sketches,
             primitives: self.primitives,
             cause: self.cause.clone(),
+            invalid: self.invalid.clone(),
         }
     }
 
@@ -61,6 +66,7 @@ impl Record {
         self.log_sketches = other.log_sketches;
         self.primitives = other.primitives;
         self.cause.clone_from(&other.cause);
+        self.invalid.clone_from(&other.invalid);
     }
 
     /// Factors, observations and sketches: nats, minus infinity when impossible.
@@ -85,6 +91,19 @@ impl Record {
         }
     }
 
+    /// The run met a fault. Where a distribution cannot have its parameters, the run is outside of the model's support: its
+    /// score is minus infinity, and it is counted.
+    ///
+    /// # Errors
+    /// Any other fault.
+    #[cold]
+    pub fn forgive(&mut self, task: &Task, met: Box<RunFault>) -> Result<(), Failure> {
+        let Some(site) = task.invalid.count(&met) else { return Err(met.into()) };
+        self.factor(f64::NEG_INFINITY, || site);
+        self.invalid = Some(Arc::new(*met));
+        Ok(())
+    }
+
     /// Adds a primitive to the scene. Once the score is minus infinity, the sketches behind are not asked.
     pub fn emit(&mut self, shapes: &[Shape]) {
         self.primitives += 1;
@@ -97,6 +116,45 @@ impl Record {
         } else {
             self.log_sketches = self.sketches.log_score();
         }
+    }
+}
+
+/// What a search says whose runs were all invalid: the first one's fault, as it stands in the model. A fault that every
+/// run meets is the model's.
+#[derive(Default)]
+pub(crate) struct AllInvalid {
+    first: Option<Arc<RunFault>>,
+    others: bool,
+}
+
+impl AllInvalid {
+    /// Takes note of a run: what made it invalid, if anything did.
+    pub fn note(&mut self, invalid: Option<&Arc<RunFault>>) {
+        match invalid {
+            Some(met) => {
+                self.first.get_or_insert_with(|| met.clone());
+            }
+            None => self.others = true,
+        }
+    }
+
+    /// # Errors
+    /// There were runs, and all of them were invalid.
+    pub fn check(self) -> Result<(), Failure> {
+        match self.first {
+            Some(met) if !self.others => Err(Failure::Run(Box::new((*met).clone()))),
+            _ => Ok(()),
+        }
+    }
+
+    /// [`AllInvalid::check`] of these runs.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn check_all<'a>(records: impl Iterator<Item = &'a Record>) -> Result<(), Failure> {
+        let mut all = AllInvalid::default();
+        records.for_each(|record| all.note(record.invalid.as_ref()));
+        all.check()
     }
 }
 

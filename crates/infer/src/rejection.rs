@@ -1,6 +1,7 @@
 //! Rejection sampling: forward runs, kept with probability `exp(log_score - bound)`.
 
 use crate::forward::{Sample, forward};
+use crate::record::AllInvalid;
 use crate::{Failure, Task};
 use niwaki_math::Stream;
 use niwaki_vm::fault::Fault;
@@ -22,7 +23,8 @@ pub struct Accepted {
 /// `max_tries` runs. `watch` is told the number of runs after each; when it answers false, what was found is given.
 ///
 /// # Errors
-/// A run that scores above the bound, too many tries, or a fault of the program.
+/// A run that scores above the bound, too many tries, or a fault of the program: also of distributions, where they were
+/// invalid in every run.
 pub fn rejection(
     task: &Task,
     n: usize,
@@ -32,9 +34,10 @@ pub fn rejection(
     watch: &mut dyn FnMut(u64) -> bool,
 ) -> Result<Accepted, Failure> {
     let mut samples = Vec::new();
-    let mut tries = 0;
+    let (mut tries, mut all) = (0, AllInvalid::default());
     while samples.len() < n {
         if tries == max_tries {
+            all.check()?;
             let found = samples.len();
             return Err(Fault::new(
                 "rejection-budget",
@@ -44,6 +47,7 @@ pub fn rejection(
             .into());
         }
         let sample = forward(task, seed, tries, false)?;
+        all.note(sample.record.invalid.as_ref());
         let log_accept = sample.record.log_score() - bound;
         if log_accept > 1e-9 {
             return Err(Fault::new(

@@ -4,6 +4,7 @@ use niwaki_geom::sketch::SketchSpec;
 use niwaki_vm::code::Program;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::Answers;
+use niwaki_vm::machine::invalid::Invalid;
 use niwaki_vm::machine::kept::{Change, Trace};
 use niwaki_vm::machine::stack::RunFault;
 use niwaki_vm::machine::state::State;
@@ -44,6 +45,8 @@ pub struct Task {
     pub hosts: Arc<dyn Hosts>,
     /// How much one run may use.
     pub limits: Limits,
+    /// Counts the runs of its searches in which a distribution is invalid; clones count together.
+    pub invalid: Arc<Invalid>,
 }
 
 impl Task {
@@ -56,7 +59,13 @@ impl Task {
             sketches: vec![],
             hosts: Arc::new(NoHosts),
             limits: Limits::default(),
+            invalid: Arc::default(),
         }
+    }
+
+    /// The same task, with no run counted yet.
+    pub fn uncounted(&self) -> Task {
+        Task { invalid: Arc::default(), ..self.clone() }
     }
 
     /// A machine for its program.

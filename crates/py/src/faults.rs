@@ -18,7 +18,7 @@ pyo3::create_exception!(
     PyRuntimeError,
     "A fault as data.\n\n\
      Attributes: `kind`, `code`, `message`, `help`, and by kind: `stack` (function, path, (line, column, end line, \
-     end column)), `omitted`, `path`; `barrier`, `causes`."
+     end column)), `omitted`, `path`, `invalid` (a distribution's parameters were out of range); `barrier`, `causes`."
 );
 
 /// The exception for why a search gave no result.
@@ -40,6 +40,7 @@ fn build(py: Python<'_>, failure: &Failure, program: &Program) -> PyResult<PyErr
             facts.set_item("stack", run.stack.iter().map(place).collect::<Vec<_>>())?;
             facts.set_item("omitted", run.omitted)?;
             facts.set_item("path", &run.path)?;
+            facts.set_item("invalid", failure.is_impossible())?;
         }
         Failure::Setting(fault) => told(fault, "setting")?,
         Failure::Impossible { barrier, causes } => {

@@ -23,7 +23,7 @@ use niwaki_vm::value::{Closure, Value};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -145,8 +145,19 @@ impl PyTask {
             sketches: sketches.into_iter().map(|s| s.0).collect(),
             hosts: own.hosts(limits),
             limits,
+            invalid: Arc::default(),
         };
         Ok(PyTask { task, model: program.clone_ref(py) })
+    }
+
+    /// The same task, with no run counted yet.
+    fn uncounted(&self, py: Python<'_>) -> PyTask {
+        PyTask { task: self.task.uncounted(), model: self.model.clone_ref(py) }
+    }
+
+    /// Runs of its searches in which a distribution was invalid, by the distribution and its line.
+    fn invalid(&self) -> BTreeMap<String, u64> {
+        self.task.invalid.counts().into_iter().collect()
     }
 
     /// Searches by a method, given as its text: the finished runs, whether the search was interrupted, and a dict of what

@@ -7,6 +7,7 @@
 //! A fault is one pointer wide, so that `Result<Value, Fault>` is no larger than a value: every arithmetic
 //! instruction returns one.
 
+use niwaki_math::Family;
 use std::fmt;
 use std::ops::Deref;
 
@@ -23,6 +24,9 @@ pub struct Details {
     pub message: String,
     /// The cure, where there is one that fits.
     pub help: Option<String>,
+    /// The family of a distribution whose parameters are numbers out of its range: a run that meets one is outside of the
+    /// model's support.
+    pub out_of_range: Option<Family>,
 }
 
 impl Deref for Fault {
@@ -106,7 +110,7 @@ impl Fault {
     /// A fault of any kind.
     #[cold]
     pub fn new(code: &'static str, message: impl Into<String>) -> Fault {
-        Fault(Box::new(Details { code, message: message.into(), help: None }))
+        Fault(Box::new(Details { code, message: message.into(), help: None, out_of_range: None }))
     }
 
     /// An operation without a derivative met a number that varies with the continuous choices.
@@ -119,6 +123,13 @@ impl Fault {
         .with_help(
             "keep it out of what the score depends on, or use `mh()` or particles, which need no derivative",
         )
+    }
+
+    /// The same fault of a distribution whose parameters are of the right kinds and shapes, but out of range.
+    #[cold]
+    pub fn of_range(mut self, family: Family) -> Fault {
+        self.0.out_of_range = Some(family);
+        self
     }
 
     /// The same fault with a cure.

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import time
 import warnings
+from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from niwaki import _engine
 from niwaki.compiled import as_model, translated
-from niwaki.errors import InputError
+from niwaki.errors import InputError, ModelFault
 from niwaki.methods import Hmc, Mh, Nuts, ParticleGibbs, Smc
 from niwaki.result import Result, Sample
 
@@ -72,15 +73,16 @@ def carried_out(search: Search, threads: int | None, progress: Watch | None) -> 
     if search.runs == 1 and search.keep == "all" and search.polish is None:
         return once(search, search.seed, threads, watcher(progress))
     found: list[Sample] = []
-    failed: list[InputError] = []
+    failed: list[InputError | ModelFault] = []
+    invalid: Counter[str] = Counter()
     spent, interrupted = 0.0, False
     plan: tuple[int, ...] = ()
     for number in range(search.runs):
         watch = watcher(progress, number, search.runs)
         try:
             one = once(search, (search.seed + number) % 2**64, threads, watch)
-        except InputError as error:
-            if error.code != "everything-impossible":
+        except (InputError, ModelFault) as error:
+            if error.code != "everything-impossible" and not error.values.get("invalid"):
                 raise
             failed.append(error)
             continue
@@ -91,11 +93,13 @@ def carried_out(search: Search, threads: int | None, progress: Watch | None) -> 
             interrupted = True
             break
         plan, interrupted = one.plan, one.interrupted
+        invalid.update(one.invalid)
         if interrupted and found and not any(sample.has_ended for sample in one):
             spent += one.seconds
             break
         if search.polish is not None and not interrupted:
             one = polished(one, search.polish, one.seed, threads, watch)
+            invalid.update(one.invalid)
             interrupted = one.interrupted
         spent += one.seconds
         is_diverse = isinstance(search.method, Smc) and search.method.diverse is not None
@@ -110,7 +114,7 @@ def carried_out(search: Search, threads: int | None, progress: Watch | None) -> 
             SearchWarning,
             stacklevel=4,
         )
-    result = Result(search, found, search.seed, interrupted=interrupted, plan=plan)
+    result = Result(search, found, search.seed, interrupted=interrupted, plan=plan, invalid=invalid)
     result.seconds = spent
     return result
 
@@ -144,9 +148,9 @@ def once(search: Search, seed: int, threads: int | None, watch: EngineWatch) -> 
     if isinstance(search.method, Hmc | Nuts):
         return trajectories(search, search.method, seed, threads, watch, start)
     method, functions = _written(search.method)
-    clock = Clock()
+    counted, clock = search.task.uncounted(), Clock()
     with translated(search.model.name, f"seed={seed}"):
-        outcomes, interrupted, info = search.task.search(
+        outcomes, interrupted, info = counted.search(
             method, seed, functions=functions, start=start, threads=threads, watch=watch
         )
     diverse = getattr(search.method, "diverse", None)
@@ -154,7 +158,7 @@ def once(search: Search, seed: int, threads: int | None, watch: EngineWatch) -> 
         outcomes = _different(outcomes, diverse, len(info["plan"]))
     seconds, cpu_seconds = clock.read()
     samples = [Sample(outcome, search, seed, seconds, cpu_seconds) for outcome in outcomes]
-    result = Result(search, samples, seed, interrupted=interrupted, **info)
+    result = Result(search, samples, seed, interrupted=interrupted, invalid=counted.invalid(), **info)
     result.seconds, result.cpu_seconds = seconds, cpu_seconds
     return result
 
@@ -203,16 +207,17 @@ def chains_of(
     from niwaki.mh_result import ChainResult
 
     text, functions = _written(method)
+    counted = search.task.uncounted()
     with translated(search.model.name, f"seed={seed}"):
         chains = _engine.Chains(
-            search.task,
+            counted,
             text,
             seed,
             functions=functions,
             known=None if start is None else dict(start),
             threads=threads,
         )
-    return ChainResult(search, method, chains, seed, watch, threads).more(method.steps)
+    return ChainResult(search, method, counted, chains, seed, watch, threads).more(method.steps)
 
 
 def trajectories(
@@ -226,17 +231,17 @@ def trajectories(
     """Chains that follow the gradient."""
     from niwaki.hmc_result import HmcResult
 
-    clock = Clock()
+    counted, clock = search.task.uncounted(), Clock()
     with translated(search.model.name, f"seed={seed}"):
         found = _engine.Trajectories(
-            search.task,
+            counted,
             method.text()[0],
             seed,
             known=None if start is None else dict(start),
             threads=threads,
             watch=watch,
         )
-    result = HmcResult(search, method, found, seed, *clock.read())
+    result = HmcResult(search, method, counted, found, seed, *clock.read())
     result.warn()
     return result
 

@@ -27,6 +27,8 @@ pub struct Seen {
     pub faults: u64,
     /// Exchanges of states between rungs that were made.
     pub exchanges: u64,
+    /// Proposals with invalid distributions, those of first states included.
+    pub invalid: u64,
 }
 
 /// Everything that a state holds, as text.
@@ -62,19 +64,22 @@ pub fn disagreement<R: Rules>(
 ) -> Result<Option<String>, Failure> {
     let program = &*task.program;
     let mut ladders = Vec::new();
-    for strategy in STRATEGIES {
+    let tasks = STRATEGIES.map(|_| task.uncounted());
+    for (strategy, task) in STRATEGIES.into_iter().zip(&tasks) {
         ladders.push(Ladder::<R>::start(task, &Settings { strategy, ..settings.clone() }, 0, None)?);
     }
     let mut machine = task.machine();
     for step in 0..steps {
         let mut outcomes: Vec<Vec<String>> = Vec::new();
-        for ladder in &mut ladders {
+        for (ladder, task) in ladders.iter_mut().zip(&tasks) {
             let propose = |rung: &mut Chain<R>| match rung.propose(task, &mut machine, step + 1) {
                 Ok(()) => format!("{:?} {:?}", rung.last, rung.state.trace.totals()),
                 Err(Failure::Run(run)) => format!("fault {} {}", run.fault.code, run.fault.message),
                 Err(other) => format!("fault {other}"),
             };
-            outcomes.push(ladder.rungs.iter_mut().map(propose).collect());
+            let mut outcome: Vec<String> = ladder.rungs.iter_mut().map(propose).collect();
+            outcome.push(format!("invalid: {:?}", task.invalid.counts()));
+            outcomes.push(outcome);
             ladder.exchange_if_due();
         }
         for ((strategy, ladder), outcome) in STRATEGIES.iter().zip(&ladders).zip(&outcomes) {
@@ -85,12 +90,14 @@ pub fn disagreement<R: Rules>(
                 )));
             }
         }
-        seen.proposals += outcomes[0].len() as u64;
+        let rungs = ladders[0].rungs.len();
+        seen.proposals += rungs as u64;
         seen.accepted += ladders[0].rungs.iter().map(|rung| u64::from(rung.last.accepted)).sum::<u64>();
         seen.faults += outcomes[0].iter().map(|told| u64::from(told.starts_with("fault"))).sum::<u64>();
+        seen.invalid = tasks[0].invalid.counts().iter().map(|site| site.1).sum();
         seen.exchanges = ladders[0].exchanges.iter().map(|pair| pair.1).sum();
         if (step + 1) % every == 0 {
-            for rung in 0..outcomes[0].len() {
+            for rung in 0..rungs {
                 let mut chains: Vec<_> = ladders.iter_mut().map(|ladder| &mut ladder.rungs[rung]).collect();
                 if let Some(found) = look_closer(task, program, &mut machine, &mut chains, step) {
                     return Ok(Some(found));

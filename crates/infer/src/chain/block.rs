@@ -102,7 +102,7 @@ impl<R: Rules> Chain<R> {
         let change =
             match machine.change(&mut self.state.trace, changes, self.settings.strategy, &mut answers) {
                 Ok(change) => change,
-                Err(fault) => return Err(self.give_up(task, fault.into())),
+                Err(met) => self.give_up(task, met)?,
             };
         let decision = self.decide(task, change, beta, &mut rng, |_, _| 0.0, |_| moved)?;
         self.count_many(decision);

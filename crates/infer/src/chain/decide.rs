@@ -5,6 +5,7 @@ use super::accept::{Rules, Terms};
 use crate::{Failure, Task};
 use niwaki_math::{RngCore, Stream, streams::open_unit};
 use niwaki_vm::machine::kept::{Change, Trace};
+use niwaki_vm::machine::stack::RunFault;
 use niwaki_vm::value::Value;
 
 /// What became of a proposal.
@@ -88,11 +89,17 @@ impl<R: Rules> Chain<R> {
         Ok(self.last)
     }
 
-    /// A run met a fault: the chain goes back to its last state.
+    /// A proposal met a fault. Where a distribution is invalid, the proposal is impossible, and counted.
+    ///
+    /// # Errors
+    /// Any other fault; the chain is back in its last state.
     #[cold]
-    pub(super) fn give_up(&mut self, task: &Task, failure: Failure) -> Failure {
+    pub(super) fn give_up(&mut self, task: &Task, met: Box<RunFault>) -> Result<Change, Failure> {
+        if task.invalid.count(&met).is_some() {
+            return Ok(Change::Impossible);
+        }
         self.state.trace.rollback(&task.program);
-        failure
+        Err(met.into())
     }
 }
 

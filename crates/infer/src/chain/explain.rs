@@ -117,9 +117,10 @@ pub fn explain(task: &Task, seed: u64, tries: u64, address: &str) -> Result<Expl
             let noted = state.trace.take_steps();
             let change = match change {
                 Ok(change) => change,
-                Err(fault) => {
+                Err(met) if met.fault.out_of_range.is_some() => Change::Impossible,
+                Err(met) => {
                     state.trace.rollback(program);
-                    return Err(fault.into());
+                    return Err(met.into());
                 }
             };
             if change != Change::Same {

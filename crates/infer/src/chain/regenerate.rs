@@ -43,7 +43,7 @@ impl<R: Rules> Chain<R> {
         let change =
             match machine.redraw(&mut self.state.trace, &choices, self.settings.strategy, &mut answers) {
                 Ok(change) => change,
-                Err(fault) => return Err(self.give_up(task, fault.into())),
+                Err(met) => self.give_up(task, met)?,
             };
         let decision = self.decide(
             task,

@@ -137,11 +137,12 @@ impl<R: Rules> Chain<R> {
         let mut asked = Asked { way, site, key: self.streams.moves(visit), noting, old: None };
         let mut answers =
             Fresh { key: self.streams.fresh(visit), known: None, hosts: &*task.hosts, spreads: None };
-        let trace = &mut self.state.trace;
-        let change = match machine.propose(trace, choice, self.settings.strategy, &mut asked, &mut answers) {
+        let (trace, strategy) = (&mut self.state.trace, self.settings.strategy);
+        let change = match machine.propose(trace, choice, strategy, &mut asked, &mut answers) {
             Ok(change) => change,
-            Err(fault) => return Err(self.give_up(task, fault.into())),
+            Err(met) => self.give_up(task, met)?,
         };
+        let trace = &mut self.state.trace;
         if table.is_none() {
             trace.approach_closer(&task.program, next);
         }

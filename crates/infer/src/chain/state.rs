@@ -2,6 +2,7 @@
 
 use super::drift::plain_spread;
 use super::streams::Streams;
+use crate::record::AllInvalid;
 use crate::task::{Hosts, Task};
 use crate::{Failure, forward};
 use niwaki_geom::Shape;
@@ -15,6 +16,7 @@ use niwaki_vm::machine::kept::inspect::Item;
 use niwaki_vm::machine::kept::{Change, Trace};
 use niwaki_vm::value::Value;
 use std::collections::HashMap;
+use std::sync::Arc;
 
 /// Draws what a run has no value for from its distribution.
 pub struct Fresh<'a> {
@@ -88,7 +90,8 @@ impl State {
     /// With `known`, choices have those values.
     ///
     /// # Errors
-    /// No run was possible ([`Failure::NoStart`]), or a fault of the program.
+    /// No run was possible ([`Failure::NoStart`]), or a fault of the program: also of distributions, where they were
+    /// invalid in every run.
     pub fn start(
         task: &Task,
         streams: Streams,
@@ -96,13 +99,22 @@ impl State {
         known: Option<&HashMap<u128, Value>>,
     ) -> Result<(State, HashMap<u128, f64>), Failure> {
         let mut machine = task.machine();
-        let mut causes: HashMap<String, usize> = HashMap::new();
+        let (mut causes, mut all): (HashMap<String, usize>, _) = (HashMap::new(), AllInvalid::default());
         let tries = tries.max(1);
         for attempt in 0..tries {
             // The last visits, so that no proposal has their numbers.
             let (key, mut spreads) = (streams.fresh(u64::MAX - attempt), HashMap::new());
             let mut answers = Fresh { key, known, hosts: &*task.hosts, spreads: Some(&mut spreads) };
-            let (trace, change) = task.begin(&mut machine, &mut answers)?;
+            let (trace, change) = match task.begin(&mut machine, &mut answers) {
+                Ok(begun) => begun,
+                Err(met) => {
+                    let Some(site) = task.invalid.count(&met) else { return Err(met.into()) };
+                    *causes.entry(site).or_default() += 1;
+                    all.note(Some(&Arc::new(*met)));
+                    continue;
+                }
+            };
+            all.note(None);
             let mut state = State {
                 trace,
                 sketches: Sketches::start(&task.sketches),
@@ -126,6 +138,7 @@ impl State {
                 Some(cause) => *causes.entry(cause).or_default() += 1,
             }
         }
+        all.check()?;
         let mut causes: Vec<_> = causes.into_iter().collect();
         causes.sort_by(|a, b| b.1.cmp(&a.1).then_with(|| a.0.cmp(&b.0)));
         Err(Failure::NoStart { tries, causes })

@@ -41,7 +41,9 @@ impl<const L: usize> lanes::Wide<L> for Wide<L> {
 fn cause(refused: &Refused) -> Cause {
     match refused {
         Refused::Structure | Refused::Rounding => Cause::Guard,
-        Refused::Fault(fault) if fault.fault.code == "impossible-trace" => Cause::Impossible,
+        Refused::Fault(met) if met.fault.code == "impossible-trace" || met.fault.out_of_range.is_some() => {
+            Cause::Impossible
+        }
         Refused::Fault(_) => Cause::NotFinite,
     }
 }

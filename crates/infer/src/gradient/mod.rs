@@ -39,6 +39,7 @@ pub fn model(task: &Task) -> Result<Model, Failure> {
         limits: task.limits,
         host: Arc::new(move |constant, args: &[Value]| hosts.call(constant, args)),
         scope: Scope::default(),
+        invalid: task.invalid.clone(),
     })
 }
 

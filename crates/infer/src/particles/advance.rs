@@ -70,8 +70,14 @@ impl Particle {
                 barriers: true,
                 complete: false,
             };
-            if machine.resume(&mut self.state, future, &mut answers)? == Stop::Paused {
-                return Ok(());
+            match machine.resume(&mut self.state, future, &mut answers) {
+                Ok(Stop::Paused) => return Ok(()),
+                Ok(_) => {}
+                #[cfg(test)]
+                Err(met) if settings.is(super::tests::Mutant::KeepsInvalid) => {
+                    self.record.cause = met.invalid_site();
+                }
+                Err(met) => self.record.forgive(task, met)?,
             }
         }
         Ok(())

@@ -300,7 +300,9 @@ impl Course {
                     runnable[which]
                 }
             };
-            machine.resume(&mut state, future, &mut walk)?;
+            if let Err(met) = machine.resume(&mut state, future, &mut walk) {
+                return if with.task.invalid.count(&met).is_some() { Ok(None) } else { Err(met.into()) };
+            }
             if walk.lost {
                 return Ok(None);
             }

@@ -222,7 +222,7 @@ fn combine(
         match one {
             Ok(result) => lived.push((*size as f64, result)),
             // The first death is told when all died.
-            Err(failure @ Failure::Impossible { .. }) => {
+            Err(failure) if failure.is_impossible() => {
                 deaths += 1;
                 died.get_or_insert(failure);
             }

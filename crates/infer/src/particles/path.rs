@@ -188,7 +188,13 @@ impl Particle {
             }
             let way = Way::Follow { events: segment, next: next + 1, lost: false };
             let mut answers = Walk { record: &mut self.record, hosts: &*task.hosts, way };
-            let stop = machine.resume(&mut self.state, future, &mut answers)?;
+            let stop = match machine.resume(&mut self.state, future, &mut answers) {
+                Ok(stop) => stop,
+                Err(met) => {
+                    self.record.forgive(task, met)?;
+                    return Ok(None);
+                }
+            };
             let Way::Follow { next: at, lost, .. } = answers.way else { unreachable!("it follows") };
             if lost {
                 return Ok(None);

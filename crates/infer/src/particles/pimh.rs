@@ -55,7 +55,7 @@ pub fn pimh(
                 one.log_weight = 0.0;
                 Some((log, one))
             }
-            Err(failure @ Failure::Impossible { .. }) => {
+            Err(failure) if failure.is_impossible() => {
                 chain.died += 1;
                 first_death.get_or_insert(failure);
                 None

@@ -7,7 +7,7 @@ use super::rejuvenation::{Moved, Mover};
 use super::settings::{Anneal, Order, Settings, Weights, When};
 use super::shared::share;
 use super::weights::{Normalised, conditional_share};
-use crate::record::Record;
+use crate::record::{AllInvalid, Record};
 use crate::{Failure, Task};
 use niwaki_math::{Stream, StreamKey};
 use niwaki_vm::machine::Limits;
@@ -208,6 +208,7 @@ impl<'a> Population<'a> {
             self.temperatures.push(next);
         }
         if !self.weights.read(self.logs.iter().copied()) {
+            AllInvalid::check_all(self.particles.iter().map(|p| &p.record))?;
             return Err(impossible(&self.particles, self.barriers));
         }
         Ok(Seen { best, ended })

@@ -175,7 +175,12 @@ impl Mover {
             let key = StreamKey::new(settings.seed, SPREADS, run);
             let mut answers = Fresh { key, known: None, hosts: &*task.hosts, spreads: Some(&mut spreads) };
             let mut machine = task.machine();
-            task.begin(&mut machine, &mut answers)?;
+            // Of an invalid run, what it has met.
+            if let Err(met) = task.begin(&mut machine, &mut answers)
+                && met.fault.out_of_range.is_none()
+            {
+                return Err(met.into());
+            }
         }
         Ok(Some(Mover { plan, spreads, numbers, choosy, rounds: 0 }))
     }

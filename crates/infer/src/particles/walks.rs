@@ -118,6 +118,7 @@ fn state_of(chain: &mut Chain, program: &niwaki_vm::code::Program, lineage: u64)
             primitives: state.primitives,
             sketches: state.sketches.fork(),
             cause: None,
+            invalid: None,
         },
         value: state.trace.result(),
         log_weight: 0.0,

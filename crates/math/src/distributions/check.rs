@@ -17,11 +17,13 @@ pub struct BadParameter {
     pub found: String,
     /// What would have been right.
     pub expected: &'static str,
+    /// Whether its kind and shape are right and only its numbers are not.
+    pub out_of_range: bool,
 }
 
 impl fmt::Display for BadParameter {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let BadParameter { family, parameter, found, expected } = self;
+        let BadParameter { family, parameter, found, expected, .. } = self;
         write!(f, "`{parameter}` of {family} is {found}, expected {expected}")
     }
 }
@@ -43,21 +45,28 @@ impl<'a, S: Scalar> Reader<'a, S> {
         let names = family.parameters();
         if let Some(parameter) = names.get(params.len()) {
             let (found, expected) = ("missing".to_string(), "a value");
-            return Err(BadParameter { family, parameter, found, expected });
+            return Err(BadParameter { family, parameter, found, expected, out_of_range: false });
         }
         if params.len() > names.len() {
             let found = format!("followed by {} more", params.len() - names.len());
-            let expected = "no more parameters";
-            return Err(BadParameter { family, parameter: names[names.len() - 1], found, expected });
+            let (parameter, expected) = (names[names.len() - 1], "no more parameters");
+            return Err(BadParameter { family, parameter, found, expected, out_of_range: false });
         }
         Ok(Reader { family, params })
     }
 
-    /// The complaint about parameter `k`.
+    /// The complaint about parameter `k`, whose kind and shape are right and whose numbers are not.
     #[cold]
     pub fn refuse<T>(&self, k: usize, expected: &'static str) -> Checked<T> {
-        let parameter = self.family.parameters()[k];
-        Err(BadParameter { family: self.family, parameter, found: self.params[k].to_string(), expected })
+        let (family, parameter) = (self.family, self.family.parameters()[k]);
+        let found = self.params[k].to_string();
+        Err(BadParameter { family, parameter, found, expected, out_of_range: true })
+    }
+
+    /// The complaint about parameter `k`, which has another kind or shape: no number would do in its place.
+    #[cold]
+    pub fn refuse_kind<T>(&self, k: usize, expected: &'static str) -> Checked<T> {
+        self.refuse(k, expected).map_err(|bad| BadParameter { out_of_range: false, ..bad })
     }
 
     #[inline]
@@ -76,7 +85,8 @@ impl<'a, S: Scalar> Reader<'a, S> {
     pub fn real_where(&self, k: usize, expected: &'static str, accept: impl Fn(S) -> bool) -> Checked<S> {
         match self.number(k) {
             Some(x) if accept(x) => Ok(x),
-            _ => self.refuse(k, expected),
+            Some(_) => self.refuse(k, expected),
+            None => self.refuse_kind(k, expected),
         }
     }
 
@@ -105,7 +115,7 @@ impl<'a, S: Scalar> Reader<'a, S> {
             Param::Int(i) => Ok(*i),
             Param::Bool(b) => Ok(i64::from(*b)),
             Param::Draw(Draw::Int(i)) => Ok(*i),
-            _ => self.refuse(k, "a whole number"),
+            _ => self.refuse_kind(k, "a whole number"),
         }
     }
 
@@ -119,22 +129,23 @@ impl<'a, S: Scalar> Reader<'a, S> {
         let numbers: &[S] = match &self.params[k] {
             Param::Vector(v) => v,
             Param::Draw(Draw::Vector(v)) => v,
-            _ => return self.refuse(k, expected),
+            _ => return self.refuse_kind(k, expected),
         };
-        let fine = !numbers.is_empty() && numbers.iter().all(|x| x.is_finite() && accept(*x));
+        if numbers.is_empty() {
+            return self.refuse_kind(k, expected);
+        }
+        let fine = numbers.iter().all(|x| x.is_finite() && accept(*x));
         if fine { Ok(numbers) } else { self.refuse(k, expected) }
     }
 
     /// A square matrix of finite numbers with `n` rows.
     pub fn square(&self, k: usize, n: usize, expected: &'static str) -> Checked<&'a [Vec<S>]> {
         match &self.params[k] {
-            Param::Matrix(rows)
-                if rows.len() == n
-                    && rows.iter().all(|r| r.len() == n && r.iter().all(|x| x.is_finite())) =>
-            {
-                Ok(rows)
+            Param::Matrix(rows) if rows.len() == n && rows.iter().all(|r| r.len() == n) => {
+                let fine = rows.iter().flatten().all(|x| x.is_finite());
+                if fine { Ok(rows) } else { self.refuse(k, expected) }
             }
-            _ => self.refuse(k, expected),
+            _ => self.refuse_kind(k, expected),
         }
     }
 
@@ -142,7 +153,7 @@ impl<'a, S: Scalar> Reader<'a, S> {
     pub fn dists(&self, k: usize, expected: &'static str) -> Checked<&'a [Dist<S>]> {
         match &self.params[k] {
             Param::Dists(dists) => Ok(dists),
-            _ => self.refuse(k, expected),
+            _ => self.refuse_kind(k, expected),
         }
     }
 
@@ -154,7 +165,7 @@ impl<'a, S: Scalar> Reader<'a, S> {
             Param::Real(x) => Draw::Real(*x),
             Param::Vector(v) => Draw::Vector(v.as_slice().into()),
             Param::Draw(d) => d.clone(),
-            _ => return self.refuse(k, "a truth value, a number or a vector"),
+            _ => return self.refuse_kind(k, "a truth value, a number or a vector"),
         };
         let finite = match &value {
             Draw::Real(x) => x.is_finite(),

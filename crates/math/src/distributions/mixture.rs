@@ -30,11 +30,11 @@ impl<S: Scalar> Mixture<S> {
         let weights = Weights::read(reader, 0)?;
         let components = reader.dists(1, EXPECTED)?;
         if components.len() != weights.len() {
-            return reader.refuse(1, EXPECTED);
+            return reader.refuse_kind(1, EXPECTED);
         }
         let measure = components[0].measure();
         if components.iter().any(|c| c.measure() != measure) {
-            return reader.refuse(1, "distributions over values of one kind");
+            return reader.refuse_kind(1, "distributions over values of one kind");
         }
         Ok(Mixture { weights, components: components.to_vec() })
     }

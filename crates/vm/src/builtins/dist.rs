@@ -21,7 +21,10 @@ pub fn make_dist<S: Scalar>(family: Family, args: &[Value<S>]) -> Result<Dist<S>
         (_, 2) => Dist::new(family, &[param(0)?, param(1)?]),
         (_, count) => Dist::new(family, &(0..count).map(param).collect::<Result<Vec<_>, _>>()?),
     };
-    made.map_err(|bad| Fault::bad_parameter(bad.to_string()))
+    made.map_err(|bad| {
+        let fault = Fault::bad_parameter(bad.to_string());
+        if bad.out_of_range { fault.of_range(family) } else { fault }
+    })
 }
 
 /// The distribution of two numbers in order, for the families that a run makes most often. `None` for any other

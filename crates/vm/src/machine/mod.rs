@@ -11,13 +11,15 @@
 //! * `known`: distributions of weights that were made before;
 //! * `operate`: operations of two operands; `construct`: instructions that make or take apart an aggregate;
 //! * `question`: choices and factors; `suspend`: what happens at any other site; `loops`: lifted loops;
-//! * [`stack`]: the model's own call stack, for messages.
+//! * [`stack`]: the model's own call stack, for messages; [`invalid`]: faults that only say that a run is outside of the
+//!   model's support.
 
 pub mod address;
 pub mod answers;
 mod begin;
 mod construct;
 mod interpret;
+pub mod invalid;
 mod keep;
 pub mod kept;
 mod known;

@@ -176,6 +176,8 @@ FAULTS = (
         "bad-parameter",
         "a distribution's parameter is out of range",
         "no such distribution",
+        why="a search takes a run with such numbers for one of probability zero; a run of its own, and what every run "
+        "meets, is an error",
         help="keep the parameter in the range that the page of the distribution gives",
         example="gaussian(0, -1)",
         cure="gaussian(0, abs(s) + 1e-6)",

@@ -195,7 +195,7 @@ impl<R: Rules> Chain<R> {
         let change =
             match machine.change(&mut self.state.trace, changes, self.settings.strategy, &mut answers) {
                 Ok(change) => change,
-                Err(fault) => return Err(self.give_up(task, fault.into())),
+                Err(met) => self.give_up(task, met)?,
             };
         let odds = |_: &Self, trace: &Trace| {
             // What was drawn on the way is no part of the density: the way back would not lead here.

@@ -131,7 +131,7 @@ fn pimh_scores(text: &str, mutant: Option<Mutant>) -> Vec<(String, f64)> {
             let own = Settings { seed, mutant, ..small(3, Order::Stochastic) };
             match pimh(&task, &own, 40, &mut |_| true) {
                 Ok(chain) => Some(repr(&chain.states.last().unwrap().value).unwrap()),
-                Err(crate::Failure::Impossible { .. }) => None,
+                Err(failure) if failure.is_impossible() => None,
                 Err(other) => panic!("{other}"),
             }
         })

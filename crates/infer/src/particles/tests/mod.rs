@@ -68,6 +68,8 @@ pub enum Mutant {
     DeadLeftOut,
     /// Walks start from the best particles, and not from particles drawn by weight.
     StartsAtBest,
+    /// A run with an invalid distribution keeps the weight that it had.
+    KeepsInvalid,
 }
 
 /// What a mutant does to a particle after resampling.
@@ -123,7 +125,7 @@ fn task(text: &str) -> Task {
 }
 
 /// Programs whose answer enumeration knows.
-const PROGRAMS: [(&str, &str); 9] = [
+const PROGRAMS: [(&str, &str); 10] = [
     (
         "two coins and a condition on each",
         r#"(module (fn "m" (params)
@@ -218,6 +220,19 @@ const PROGRAMS: [(&str, &str); 9] = [
                 (set $n (add (mul 2 $n) (cond $w 1 0))) (do (factor (cond $w 0.2 0.0)))))
               (return (tuple $v $n))) (entry "m"))"#,
     ),
+    (
+        "distributions that are invalid in a call, in a future and at an observation",
+        r#"(module (fn "leaf" (params $k) (set $x (sample (dist binomial (sub $k 1) 0.5)))
+              (do (factor (mul 0.2 $x))) (return $x))
+            (fn "m" (params)
+            (set $n (sample (dist discrete_uniform 0 3)))
+            (do (factor (mul -0.3 $n)))
+            (set $h (future "leaf" $n))
+            (set $a (sample (dist bernoulli (div (sub 5 $n) 4.0))))
+            (if $a (then (set $b (call "leaf" (sub $n 1)))) (else (set $b 0)))
+            (do (observe (dist gaussian 0.0 (sub $n (cond $a 2.0 0.5))) 0.5))
+            (return (tuple $n $a $b (force $h)))) (entry "m"))"#,
+    ),
 ];
 
 /// Mean and standard error of the evidence, relative to the truth, and of each outcome's share of it.
@@ -242,7 +257,7 @@ fn z_scores_of(
         let run = match search(seed) {
             Ok(run) => run,
             // All impossible: an estimate of zero.
-            Err(crate::Failure::Impossible { .. }) => continue,
+            Err(failure) if failure.is_impossible() => continue,
             Err(other) => panic!("{other}"),
         };
         let evidence = (run.log_evidence.unwrap() - z).exp();
@@ -309,9 +324,13 @@ fn adaptive_resampling_is_right_too() {
 /// Some program must catch each mutant.
 #[test]
 fn mutants_are_rejected() {
-    for mutant in
-        [Mutant::WeightsNotReset, Mutant::StreamByRow, Mutant::WeightedOrder, Mutant::ForgetsOldScore]
-    {
+    for mutant in [
+        Mutant::WeightsNotReset,
+        Mutant::StreamByRow,
+        Mutant::WeightedOrder,
+        Mutant::ForgetsOldScore,
+        Mutant::KeepsInvalid,
+    ] {
         let caught = PROGRAMS.iter().any(|(_, text)| {
             let settings =
                 Settings { mutant: Some(mutant), ..settings(Order::Stochastic, Resampling::Systematic) };

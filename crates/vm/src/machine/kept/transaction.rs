@@ -284,10 +284,8 @@ impl<S: Scalar> Machine<'_, S> {
                 if let Some(change) = self.take_up_readers(trace, answers)? {
                     return Ok(change);
                 }
-            } else if !trace.kept.tangled {
-                return change;
             }
-            // Once more, in program order.
+            // Once more, in program order: met before its readers, a fault or a score of minus infinity may be none.
             trace.undo(program);
             trace.kept.prepare(Strategy::Cache);
             trace.kept.slots[at].mark |= Slot::CHANGED;
