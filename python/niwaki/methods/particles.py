@@ -133,6 +133,10 @@ class Smc(Method):
             expected = "nothing without `draws`, which says how many states of each"
             raise bad("chains", self.chains, expected, "1")
         if self.rejuvenate is None:
+            for name in ("moves", "at"):
+                if getattr(self, name) != 1:
+                    expected = "nothing without `rejuvenate`, which says how particles are moved"
+                    raise bad(name, getattr(self, name), expected, "1, or give `rejuvenate`")
             return
         kernel: Any = self.rejuvenate
         if not isinstance(kernel, Kernel):

@@ -73,9 +73,10 @@ def grown(*words: str) -> dict[str, Any]:
 
 def test_an_image_is_matched_beside_a_wall_on_a_floor(place: Path) -> None:
     data = grown(*IMAGE, "--avoid", "wall.obj", "--floor", "0", "--within", "-5,0,-5,5,6,5", "--no-picture")
-    asked = data["settings"]["asked"]
-    assert asked["avoid"] == [str(place / "wall.obj")] and asked["floor"] == 0.0
-    assert asked["camera"] == str(place / "cam.json") and data["target"]["reference"] is None
+    asked = {one["sketch"]: one["given"] for one in data["search"]["score"]}
+    assert list(asked) == ["no_self_intersection", "floor", "avoid", "match_image", "overshoot"]
+    assert asked["avoid"]["obstacle"]["file"] == str(place / "wall.obj") and asked["floor"]["y"] == 0.0
+    assert asked["match_image"]["camera"]["camera"]["height"] == 6.0
     low, high = trimesh.load_scene("out/best.glb").bounds
     assert low[1] >= -1e-6
     # The wall stands from x = 2.5 on.
@@ -95,7 +96,8 @@ def test_pictures_from_the_view_of_the_wish_and_from_another(place: Path) -> Non
 
 def test_a_shadow_is_matched(place: Path) -> None:
     data = grown(*SHADOW, "--sigma", "0.01")
-    assert data["settings"]["sigma"] == 0.01 and data["settings"]["asked"]["light"] == "-1,-1,0"
+    given = data["search"]["score"][-1]["given"]
+    assert given["sigma"] == 0.01 and given["light"] == {"tuple": [-1.0, -1.0, 0.0]}
     assert Path("out/shadow.png").is_file()
 
 
@@ -115,7 +117,7 @@ def test_a_shadow_is_matched(place: Path) -> None:
 )
 def test_every_search_runs_and_can_be_replayed(place: Path, words: list[str]) -> None:
     data = grown(*IMAGE, *words, "--no-picture")
-    assert data["settings"]["method"] == (words[1] if words[0] == "--method" else "smc")
+    assert data["search"]["method"]["method"] == (words[1].replace("-", "_") if words[0] == "--method" else "smc")
     first = Path("out/best.glb").read_bytes()
     assert run("replay", "out/run.json", "-o", "again", "--no-picture").exit_code == 0
     assert Path("again/best.glb").read_bytes() == first
@@ -125,9 +127,9 @@ def test_a_chain_goes_on_from_the_best(place: Path) -> None:
     plain = grown(*IMAGE, "--no-picture")
     data = grown(*IMAGE, "--polish", "300", "--polish-kernel", "mixture(mh(), drift(0.1))", "--no-picture")
     assert data["runs"][0]["log_score"] > plain["runs"][0]["log_score"]
-    assert data["settings"]["polish"] == 300
-    assert data["settings"]["polish_kernel"] == "mixture(mh(), drift(0.1))"
-    assert data["settings"]["plan"] == plain["settings"]["plan"] == [60]
+    polish = data["search"]["polish"]
+    assert polish["steps"] == 300 and [part["name"] for part in polish["kernel"]["parts"]] == ["prior", "drift"]
+    assert data["plan"] == plain["plan"] == [60] and plain["search"]["polish"] is None
 
 
 def test_results_that_differ(place: Path) -> None:
@@ -142,15 +144,15 @@ def test_results_that_differ(place: Path) -> None:
 def test_states_of_chains_that_differ(place: Path) -> None:
     moves = ["--rejuvenate", "cycle(repeat(4, mh()), block(0.01))", "--moves", "5", "--at", "end"]
     data = grown(*IMAGE, *moves, "--draws", "12", "--diverse", "3", "--no-picture")
-    assert len(data["runs"]) == 3 and len(data["settings"]["plan"]) == 1
-    assert data["settings"]["rejuvenate"] == moves[1] and data["settings"]["draws"] == 12
+    assert len(data["runs"]) == 3 and len(data["plan"]) == 1
+    assert data["search"]["method"]["rejuvenate"]["name"] == "cycle" and data["search"]["method"]["draws"] == 12
 
 
 def test_a_time_instead_of_particles(place: Path) -> None:
     words = ["grow", "garden.py:towers", "--seed", "1", "-o", "out", "--no-picture"]
     assert run(*words, *IMAGE, "--seconds", "0.3").exit_code == 0
-    settings = json.loads(Path("out/run.json").read_text())["settings"]
-    assert settings["seconds"] == 0.3 and len(settings["plan"]) >= 1
+    data = json.loads(Path("out/run.json").read_text())
+    assert data["search"]["method"]["seconds"] == 0.3 and len(data["plan"]) >= 1
 
 
 @pytest.mark.filterwarnings("ignore::niwaki.draw.solid.PrintWarning")  # towers stand apart
