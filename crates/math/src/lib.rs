@@ -8,6 +8,7 @@
 //! | [`polygon`] | simple polygons of the plane |
 //! | [`streams`] | random bits as a function of seed, stream, address and visit |
 //! | [`rounding`] | the grid on which log scores are added and taken away exactly |
+//! | [`total`] | their sums: exact, whatever their sizes |
 //! | [`special`] | the few special functions that the kept crates lack |
 //! | [`distributions`] | the families a model may draw from: density, support, sampler, parameter checks |
 //!
@@ -20,10 +21,12 @@ pub mod rounding;
 pub mod scalar;
 pub mod special;
 pub mod streams;
+pub mod total;
 pub mod vector;
 
 pub use distributions::{BadParameter, Dist, Draw, Family, Param, Support};
 pub use rounding::grid;
 pub use scalar::{LastLog, Scalar};
 pub use streams::{RngCore, Stream, StreamKey};
+pub use total::Total;
 pub use vector::{Mat3, Vec3, vec3};

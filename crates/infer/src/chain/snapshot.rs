@@ -53,7 +53,7 @@ impl Facts {
         };
         Facts {
             value: Value::default(),
-            log_prior: state.trace.totals().log_prior,
+            log_prior: state.trace.totals().log_prior.value(),
             log_score: state.log_score(),
             primitives: state.primitives,
             similarity,
