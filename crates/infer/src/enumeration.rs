@@ -135,7 +135,7 @@ pub fn enumerate(
                 return Err(Fault::new("interrupted", format!("stopped after {runs} runs")).into());
             }
             let value = branch.state.result();
-            let log_joint = branch.record.log_prior + branch.record.log_score();
+            let log_joint = branch.record.log_prior.plus(&branch.record.score()).value();
             let key = repr(&value)?;
             let at = *index.entry(key).or_insert_with(|| {
                 outcomes.push((value, Vec::new()));

@@ -1,14 +1,14 @@
 //! What a run has chosen and scored so far, the same for every algorithm.
 //!
 //! `log_prior` is the sum of the log densities of its choices, `log_score` that of factors, observations and
-//! sketches; each term is rounded to a multiple of 2^-32, so that sums are exact and free of order.
+//! sketches. The sums are exact and free of order.
 
 use crate::log::Log;
 use crate::{Failure, Task};
 use niwaki_geom::sketch::SketchSpec;
 use niwaki_geom::sketch::product::Sketches;
 use niwaki_geom::{Primitive, Shape};
-use niwaki_math::{Dist, grid};
+use niwaki_math::{Dist, Total};
 use niwaki_vm::builtins::value_to_draw;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::stack::RunFault;
@@ -21,13 +21,13 @@ pub struct Record {
     /// The choices.
     pub log: Log,
     /// Sum of the log densities of the choices, nats.
-    pub log_prior: f64,
+    pub log_prior: Total,
     /// Sum of factors and observations, nats.
-    pub log_factors: f64,
+    pub log_factors: Total,
     /// The sketches of the scene.
     pub sketches: Sketches,
     /// Sum of the sketches' log scores, nats.
-    pub log_sketches: f64,
+    pub log_sketches: Total,
     /// How many primitives the scene has.
     pub primitives: usize,
     /// What made the run impossible.
@@ -40,17 +40,17 @@ impl Record {
     /// The record of a run that has not begun: it has the score of the empty scene.
     pub fn start(specs: &[Arc<dyn SketchSpec>]) -> Self {
         let sketches = Sketches::start(specs);
-        Record { log_sketches: sketches.log_score(), sketches, ..Record::default() }
+        Record { log_sketches: sketches.total(), sketches, ..Record::default() }
     }
 
     /// A copy; both share what neither changes.
     pub fn fork(&mut self) -> Record {
         Record {
             log: self.log.fork(),
-            log_prior: self.log_prior,
-            log_factors: self.log_factors,
+            log_prior: self.log_prior.clone(),
+            log_factors: self.log_factors.clone(),
             sketches: self.sketches.fork(),
-            log_sketches: self.log_sketches,
+            log_sketches: self.log_sketches.clone(),
             primitives: self.primitives,
             cause: self.cause.clone(),
             invalid: self.invalid.clone(),
@@ -60,10 +60,10 @@ impl Record {
     /// Becomes a copy of `other`; both share what neither changes.
     pub fn become_copy(&mut self, other: &mut Record) {
         self.log.become_copy(&mut other.log);
-        self.log_prior = other.log_prior;
-        self.log_factors = other.log_factors;
+        self.log_prior.clone_from(&other.log_prior);
+        self.log_factors.clone_from(&other.log_factors);
         self.sketches.become_copy(&other.sketches);
-        self.log_sketches = other.log_sketches;
+        self.log_sketches.clone_from(&other.log_sketches);
         self.primitives = other.primitives;
         self.cause.clone_from(&other.cause);
         self.invalid.clone_from(&other.invalid);
@@ -72,20 +72,26 @@ impl Record {
     /// Factors, observations and sketches: nats, minus infinity when impossible.
     #[inline]
     pub fn log_score(&self) -> f64 {
-        self.log_factors + self.log_sketches
+        self.score().value()
+    }
+
+    /// The same, exactly.
+    #[inline]
+    pub fn score(&self) -> Total {
+        self.log_factors.plus(&self.log_sketches)
     }
 
     /// Adds a choice and its log density.
     #[inline]
     pub fn choose(&mut self, address: u128, value: &Value, log_density: f64) {
-        self.log_prior += grid(log_density);
+        self.log_prior.add(log_density);
         self.log.push(address, value.clone());
     }
 
     /// Adds a factor; `name` is asked what a person calls it only where it makes the run impossible.
     #[inline]
     pub fn factor(&mut self, log: f64, name: impl FnOnce() -> String) {
-        self.log_factors += grid(log);
+        self.log_factors.add(log);
         if log == f64::NEG_INFINITY {
             self.cause.get_or_insert_with(name);
         }
@@ -111,11 +117,9 @@ impl Record {
             return;
         }
         if let Some(name) = self.sketches.add(&Primitive::new(shapes)) {
-            self.log_sketches = f64::NEG_INFINITY;
             self.cause.get_or_insert_with(|| name.to_string());
-        } else {
-            self.log_sketches = self.sketches.log_score();
         }
+        self.log_sketches = self.sketches.total();
     }
 }
 

@@ -37,7 +37,7 @@ impl Run {
     pub fn of(record: Record, value: Value, log_weight: f64, has_ended: bool) -> Run {
         Run {
             value,
-            log_prior: record.log_prior,
+            log_prior: record.log_prior.value(),
             log_score: record.log_score(),
             log_weight,
             primitives: record.primitives,

@@ -25,7 +25,7 @@ fn choices(task: &Task, seed: u64) -> HashMap<u128, Value> {
 /// Log joint of the program itself (each term on the grid of 2^-32).
 fn log_joint(task: &Task, choices: HashMap<u128, Value>) -> f64 {
     let trace = replay(task, Source::Addresses(choices), Missing::Refuse).expect("a run");
-    trace.record.log_prior + trace.record.log_factors
+    trace.record.log_prior.plus(&trace.record.log_factors).value()
 }
 
 /// The real numbers of a choice's value, all but the last share of a simplex.

@@ -9,6 +9,7 @@
 //! | [`streams`] | random bits as a function of seed, stream, address and visit |
 //! | [`rounding`] | the grid on which log scores are added and taken away exactly |
 //! | [`fingerprint`] | a hash of the bits that this machine computes |
+//! | [`total`] | their sums: exact, whatever their sizes |
 //! | [`special`] | the few special functions that the kept crates lack |
 //! | [`distributions`] | the families a model may draw from: density, support, sampler, parameter checks |
 //!
@@ -22,10 +23,12 @@ pub mod rounding;
 pub mod scalar;
 pub mod special;
 pub mod streams;
+pub mod total;
 pub mod vector;
 
 pub use distributions::{BadParameter, Dist, Draw, Family, Param, Support};
 pub use rounding::grid;
 pub use scalar::{LastLog, Scalar};
 pub use streams::{RngCore, Stream, StreamKey};
+pub use total::Total;
 pub use vector::{Mat3, Vec3, vec3};

@@ -219,7 +219,7 @@ impl PyTrace {
             parts,
             queries: queries.unbind(),
             value,
-            log_prior: record.log_prior,
+            log_prior: record.log_prior.value(),
             log_score: record.log_score(),
             primitives: record.primitives,
             similarity: record.sketches.similarity(),

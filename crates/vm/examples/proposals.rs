@@ -8,7 +8,7 @@ use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::core::parse::parse;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
-use niwaki_vm::machine::kept::{Change, Propose, Proposed, Strategy};
+use niwaki_vm::machine::kept::{Change, Propose, Proposed, Strategy, Totals};
 use niwaki_vm::machine::{Limits, Machine};
 use niwaki_vm::passes::compile;
 use niwaki_vm::value::Value;
@@ -168,11 +168,9 @@ fn main() {
             let (before, after) = (trace.before(), trace.totals());
             let (fresh, stale) = trace.fresh_and_stale();
             let (forward, backward) = trace.forward_and_backward();
-            let ratio = (after.log_prior + after.log_factors) - (before.log_prior + before.log_factors)
-                + stale
-                + backward
-                - fresh
-                - forward;
+            let log_joint = |of: &Totals| of.log_prior.value() + of.log_factors.value();
+            let ratio =
+                log_joint(after) - log_joint(before) + stale.value() + backward - fresh.value() - forward;
             if change == Change::Same
                 || (change == Change::Done && (ratio >= 0.0 || pick.uniform().ln() < ratio))
             {

@@ -4,20 +4,23 @@ from __future__ import annotations
 
 import hashlib
 import importlib
+import math
+from collections.abc import Iterable
 from typing import Any
 
 from niwaki.words.distributions import Distribution
 
-#: Adding and taking these away leaves 32 and 12 binary places; the engine does the same (crates/math/src/rounding.rs).
-NEAR, FAR = 1.5 * 2.0**20, 1.5 * 2.0**40
 
 
 def grid(log_score: float) -> float:
-    """Give the nearest multiple of 2^-32, or of 2^-12 beyond half a million nats, so that sums have no order."""
-    size = abs(log_score)
-    if size < 2.0**19:
-        return (log_score + NEAR) - NEAR
-    return (log_score + FAR) - FAR if size < 2.0**39 else log_score
+    """Give the nearest multiple of 2^-32 nats, as the engine does (crates/math/src/rounding.rs)."""
+    return round(log_score * 2.0**32) * 2.0**-32 if abs(log_score) < 2.0**20 else log_score
+
+
+def total(terms: Iterable[float]) -> float:
+    """Give the exact sum of log scores, rounded once, as the engine does (crates/math/src/total.rs)."""
+    # Scaled, so that no partial sum overflows; multiples of 2^-32 lose nothing.
+    return math.fsum(term * 2.0**-64 for term in terms) * 2.0**64
 
 
 def hashed(address: str) -> int:

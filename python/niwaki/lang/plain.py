@@ -117,9 +117,8 @@ def run(
         raise state.fault(error) from error
     finally:
         current.reset(token)
-    return Run(
-        value, state.made, state.log_prior, state.log_score, state.scene, state.answers, state.constraints
-    )
+    log_prior, log_score = densities.total(state.priors), densities.total(state.scores)
+    return Run(value, state.made, log_prior, log_score, state.scene, state.answers, state.constraints)
 
 
 class PlainRun:
@@ -132,8 +131,8 @@ class PlainRun:
         self.loops: list[int] = []
         self.pending = ""
         self.made: dict[str, Any] = {}
-        self.log_prior = 0.0
-        self.log_score = 0.0
+        self.priors: list[float] = []
+        self.scores: list[float] = []
         self.scene: list[tuple[str, list[Any]]] = []
         self.answers: dict[str, Any] = {}
         self.answered: dict[str, str] = {}
@@ -264,7 +263,7 @@ class PlainRun:
                 value = densities.draw(dist, self.seed, address)
             except (ValueError, TypeError) as error:
                 raise ModelFault("bad-parameter", str(error), stack=self.stack()) from error
-        self.log_prior += self.density(dist, value)
+        self.priors.append(self.density(dist, value))
         self.made[address] = value
         return value
 
@@ -272,7 +271,7 @@ class PlainRun:
         """Score a seen value."""
         self.address("observe")
         self.check(dist)
-        self.log_score += self.density(dist, value)
+        self.scores.append(self.density(dist, value))
         return value
 
     def check(self, dist: Any) -> None:
@@ -298,13 +297,13 @@ class PlainRun:
         self.address("factor")
         if math.isnan(log_score) or log_score == math.inf:
             raise ModelFault("non-finite-score", f"a factor is {log_score}", stack=self.stack())
-        self.log_score += densities.grid(float(log_score))
+        self.scores.append(densities.grid(float(log_score)))
 
     def condition(self, holds: Any) -> None:
         """Forbid the run unless `holds`."""
         self.address("condition")
         if not holds:
-            self.log_score = -math.inf
+            self.scores.append(-math.inf)
 
     def query(self, key: Any, value: Any) -> None:
         """Record an answer."""

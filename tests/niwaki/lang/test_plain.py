@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from niwaki import words
 from niwaki.errors import InputError, ModelFault
-from niwaki.lang.densities import grid
+from niwaki.lang.densities import grid, total
 from niwaki.lang.plain import run_python
 from specification import load
 
@@ -103,6 +103,15 @@ def test_endless_recursion_is_a_fault() -> None:
 def test_scores_are_on_the_grid() -> None:
     assert grid(0.1) * 2.0**32 == round(0.1 * 2.0**32)
     assert grid(-float("inf")) == -float("inf")
+    assert grid(-(2.0**19) - 0.3) == -(2.0**19) - round(0.3 * 2.0**32) * 2.0**-32
+    assert grid(1e300) == 1e300
+
+
+def test_sums_are_exact_whatever_their_terms() -> None:
+    assert total([1e18, 0.25, 1e300, -1e18, -1e300]) == 0.25
+    assert total([1e308] * 3 + [-1e308] * 2) == 1e308
+    assert total([1e308, 1e308]) == float("inf")
+    assert total([0.5, -float("inf")]) == -float("inf")
 
 
 def test_the_users_module_is_not_touched(model) -> None:

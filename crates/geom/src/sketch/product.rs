@@ -6,7 +6,7 @@
 
 use super::{Sketch, SketchSpec};
 use crate::primitive::Primitive;
-use niwaki_math::grid;
+use niwaki_math::Total;
 use std::sync::Arc;
 
 /// An ordered list of sketches, scored together.
@@ -141,16 +141,21 @@ impl Sketches {
         self.members.iter().find(|m| m.is_forbidden()).map(|m| m.sketch.name())
     }
 
-    /// Sum of the log scores, each rounded to a multiple of 2^-32, so that the sum is exact in any order.
-    pub fn log_score(&self) -> f64 {
-        let mut sum = 0.0;
+    /// Sum of the log scores, nats; of those up to the first that forbids the scene.
+    pub fn total(&self) -> Total {
+        let mut sum = Total::default();
         for member in &self.members {
+            sum.add(member.log_score);
             if member.is_forbidden() {
-                return f64::NEG_INFINITY;
+                break;
             }
-            sum += grid(member.log_score);
         }
         sum
+    }
+
+    /// [`Sketches::total`] as a number.
+    pub fn log_score(&self) -> f64 {
+        self.total().value()
     }
 
     /// A copy that shares what neither changes.

@@ -7,31 +7,50 @@
 //!         + log odds' - log odds   log probability that this move is chosen, back and there
 //! ```
 //!
-//! Each log density is a multiple of 2^-32, so that the first two lines are exact. Dissertation 3.2, with the odds of
-//! a choice in place of the ratio of the numbers of choices.
+//! Differences are exact before they are rounded, so that a ratio is right however large the terms are that cancel in it.
+//! Dissertation 3.2, with the odds of a choice in place of the ratio of the numbers of choices.
 
 use crate::hamiltonian::{Kernel, Metric, Phase, Potential, Transition};
-use niwaki_math::Stream;
+use niwaki_math::{Stream, Total};
 use niwaki_vm::code::Program;
 use niwaki_vm::machine::kept::Trace;
 
 /// What decides over a proposal, nats.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Terms {
+#[derive(Clone, Copy, Debug)]
+pub struct Terms<'a> {
     /// Change of the log density of the choices.
-    pub prior: f64,
-    /// Change of factors, observations and sketches, times the inverse temperature.
-    pub score: f64,
+    pub prior: &'a Total,
+    /// Change of factors, observations and sketches.
+    pub score: &'a Total,
+    /// The inverse temperature: the power of the score.
+    pub beta: f64,
     /// Log densities of the choices that went, or were drawn anew.
-    pub stale: f64,
+    pub stale: &'a Total,
     /// Log densities of the choices that came, or were drawn anew.
-    pub fresh: f64,
+    pub fresh: &'a Total,
     /// Log density of proposing the old values from the new ones.
     pub backward: f64,
     /// Log density of proposing the new values from the old ones.
     pub forward: f64,
     /// Log probability of choosing this move, afterwards less before.
     pub odds: f64,
+}
+
+impl Terms<'_> {
+    /// Log of the acceptance ratio, where a sum is too large to be exact as an `f64`: what may cancel is added first.
+    #[cold]
+    #[inline(never)]
+    fn wide_log_ratio(&self) -> f64 {
+        let mut sum = self.prior.less(self.fresh);
+        sum.add_total(self.stale);
+        sum.add(self.backward);
+        sum.remove(self.forward);
+        if self.beta == 1.0 {
+            sum.add_total(self.score);
+            return sum.value() + self.odds;
+        }
+        sum.value() + self.beta * self.score.value() + self.odds
+    }
 }
 
 /// How a chain decides. Searches use [`MetropolisHastings`]; the tests also hold mutants of it, which must be found out.
@@ -41,15 +60,20 @@ pub trait Rules: Send {
 
     /// Log of the acceptance ratio; NaN where two infinities meet, which counts as impossible.
     #[inline(always)]
-    fn log_ratio(t: &Terms) -> f64 {
-        (t.prior + t.score) + (t.stale - t.fresh) + (t.backward - t.forward) + t.odds
+    fn log_ratio(t: &Terms<'_>) -> f64 {
+        match (t.prior.small(), t.score.small(), t.stale.small(), t.fresh.small()) {
+            (Some(prior), Some(score), Some(stale), Some(fresh)) => {
+                (prior + t.beta * score) + (stale - fresh) + (t.backward - t.forward) + t.odds
+            }
+            _ => t.wide_log_ratio(),
+        }
     }
 
-    /// Log of the probability with which chains that follow these powers of the score exchange their states, which have
-    /// these log scores, nats: the colder one's first.
+    /// Log of the probability with which chains that follow these powers of the score, the colder one's first, exchange
+    /// their states; the hotter one's log score is larger by `gain` nats.
     #[inline]
-    fn log_exchange(powers: (f64, f64), scores: (f64, f64)) -> f64 {
-        (powers.0 - powers.1) * (scores.1 - scores.0)
+    fn log_exchange(powers: (f64, f64), gain: f64) -> f64 {
+        (powers.0 - powers.1) * gain
     }
 
     /// One transition along the gradient.

@@ -142,8 +142,8 @@ fn look_closer<R: Rules>(
     let known: HashMap<_, _> = present(&chains[0].state, program).collect();
     match State::start(task, super::streams::Streams::new(0, 0), 1, Some(&known)) {
         Ok((fresh, _)) => {
-            let (fresh, kept) = ((fresh.trace.totals(), fresh.log_score()), &chains[3].state);
-            if fresh != (kept.trace.totals(), kept.log_score()) {
+            let (fresh, kept) = ((fresh.trace.totals(), fresh.score()), &chains[3].state);
+            if fresh != (kept.trace.totals(), kept.score()) {
                 return Some(format!(
                     "after proposal {step} a fresh run has {fresh:?}, the chain {:?}",
                     kept.trace.totals()
@@ -155,12 +155,12 @@ fn look_closer<R: Rules>(
     match replay(task, Source::Addresses(known), Missing::Refuse) {
         Ok(fresh) => {
             let (record, kept) = (&fresh.record, &chains[3].state);
-            let sums = (kept.trace.totals().log_prior, kept.log_score());
-            if (record.log_prior, record.log_score()) != sums {
+            let sums = (&kept.trace.totals().log_prior, kept.score());
+            if (&record.log_prior, record.score()) != sums {
                 return Some(format!(
-                    "after proposal {step} a replay has {} and {}, the chain {sums:?}",
+                    "after proposal {step} a replay has {:?} and {:?}, the chain {sums:?}",
                     record.log_prior,
-                    record.log_score()
+                    record.score()
                 ));
             }
         }

@@ -1,14 +1,15 @@
 //! The best state that a chain came through.
 //!
 //! It is not copied at each record, which would cost the length of the trace at each step uphill: it is the present state
-//! with a list of changes undone. Only when that list has become as long as the trace is a copy made. For the same reason
-//! what the program returned there is not kept: a run with its choices tells.
+//! with a list of changes undone. Only when that list has become as long as the trace is a copy made. What is reported of it
+//! is that of a run with its choices.
 
 use super::snapshot::{Facts, Snapshot, logged, present};
-use super::state::{Fresh, State};
+use super::state::State;
+use super::streams::Streams;
 use crate::log::Log;
+use crate::replay::by_address;
 use crate::{Failure, Task};
-use niwaki_math::StreamKey;
 use niwaki_vm::code::Program;
 use niwaki_vm::value::Value;
 use std::collections::HashMap;
@@ -92,26 +93,16 @@ impl Best {
         logged(choices)
     }
 
-    /// A copy of it.
+    /// A copy of it: a run from the start with its choices, so that its scores are those of its values.
     ///
     /// # Errors
-    /// A fault of the program in the run that tells its value: a host function that does not answer as before.
+    /// A fault of that run, or that it is impossible: a host function that does not answer as before.
     pub fn get(&self, state: &State, task: &Task) -> Result<Snapshot, Failure> {
         let log = match &self.copied {
             Some(log) => logged(log.entries().into_iter().map(|e| (e.address(), e.value))),
             None => self.way_back(state, &task.program),
         };
-        let is_present = self.copied.is_none() && self.since.is_empty();
-        let value = if is_present { state.trace.result() } else { told(&log, task)? };
-        Ok(Snapshot { log, facts: Facts { value, ..self.facts.clone() } })
+        let (fresh, _) = State::start(task, Streams::new(0, 0), 1, Some(&by_address(&log.entries())))?;
+        Ok(Snapshot { log, facts: Facts::of(&fresh, self.facts.visit) })
     }
-}
-
-/// What the program returns with those choices.
-fn told(log: &Log, task: &Task) -> Result<Value, Failure> {
-    let known: HashMap<u128, Value> = log.entries().into_iter().map(|e| (e.address(), e.value)).collect();
-    let key = StreamKey::new(0, 0, 0);
-    let mut answers = Fresh { key, known: Some(&known), hosts: &*task.hosts, spreads: None };
-    let (trace, _) = task.begin(&mut task.machine(), &mut answers)?;
-    Ok(trace.result())
 }

@@ -56,10 +56,13 @@ impl<R: Rules> Chain<R> {
         let (before, after) = (trace.before(), trace.totals());
         let (fresh, stale) = trace.fresh_and_stale();
         let (forward, backward) = trace.forward_and_backward();
-        let score = (after.log_factors - before.log_factors) + self.state.sketch_change();
+        let prior = after.log_prior.less(&before.log_prior);
+        let mut score = after.log_factors.less(&before.log_factors);
+        self.state.add_sketch_change(&mut score);
         let terms = Terms {
-            prior: after.log_prior - before.log_prior,
-            score: beta * score,
+            prior: &prior,
+            score: &score,
+            beta,
             stale,
             fresh,
             backward,
@@ -70,7 +73,7 @@ impl<R: Rules> Chain<R> {
         let u = open_unit(rng);
         let fits = self.barriers.is_none_or(|n| self.state.primitives + after.factors == n);
         let accepted =
-            fits && after.impossible == 0 && (log_ratio >= 0.0 || u.ln() < log_ratio) && !self.undoing;
+            fits && !after.is_impossible() && (log_ratio >= 0.0 || u.ln() < log_ratio) && !self.undoing;
         if accepted {
             if self.best.is_noting() {
                 let moved = moved(&self.state.trace);

@@ -102,8 +102,8 @@ impl<R: Rules> Ladder<R> {
         for low in ((round % 2) as usize..self.exchanges.len()).step_by(2) {
             let (below, above) = self.rungs.split_at_mut(low + 1);
             let (cold, hot) = (&mut below[low], &mut above[0]);
-            let scores = (cold.state.log_score(), hot.state.log_score());
-            let log_ratio = R::log_exchange((cold.beta, hot.beta), scores);
+            let gain = hot.state.score().less(&cold.state.score()).value();
+            let log_ratio = R::log_exchange((cold.beta, hot.beta), gain);
             self.exchanges[low].0 += 1;
             if rng.uniform().ln() < log_ratio {
                 self.exchanges[low].1 += 1;

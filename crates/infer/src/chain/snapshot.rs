@@ -48,7 +48,7 @@ impl Facts {
     pub(super) fn of_scores(state: &State, visit: u64) -> Facts {
         Facts {
             value: Value::default(),
-            log_prior: state.trace.totals().log_prior,
+            log_prior: state.trace.totals().log_prior.value(),
             log_score: state.log_score(),
             primitives: state.primitives,
             similarity: state.sketches.similarity(),

@@ -7,7 +7,7 @@ use crate::task::{Hosts, Task};
 use crate::{Failure, forward};
 use niwaki_geom::Shape;
 use niwaki_geom::sketch::product::Sketches;
-use niwaki_math::{Dist, StreamKey};
+use niwaki_math::{Dist, StreamKey, Total};
 use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::code::{Program, SiteKind};
 use niwaki_vm::fault::Fault;
@@ -67,8 +67,8 @@ pub struct State {
     pub trace: Trace,
     /// The sketches of its scene.
     pub sketches: Sketches,
-    /// Their log score, nats, exact; minus infinity when they forbid the scene.
-    pub log_sketches: f64,
+    /// Their log score, nats; minus infinity when they forbid the scene.
+    pub log_sketches: Total,
     /// How many primitives the scene has.
     pub primitives: usize,
     /// How many shapes proposals have taken out of the scene or put into it.
@@ -81,7 +81,7 @@ pub struct State {
 struct Before {
     /// The sketches, where the transaction changed the scene: a copy that shares with them what did not change.
     sketches: Option<Sketches>,
-    log_sketches: f64,
+    log_sketches: Total,
     primitives: usize,
 }
 
@@ -118,7 +118,7 @@ impl State {
             let mut state = State {
                 trace,
                 sketches: Sketches::start(&task.sketches),
-                log_sketches: 0.0,
+                log_sketches: Total::default(),
                 primitives: 0,
                 moved: 0,
                 before: Before::default(),
@@ -163,14 +163,20 @@ impl State {
         }
         trace.commit(&task.program);
         sketches.expect_removals();
-        let log_sketches = sketches.log_score();
+        let log_sketches = sketches.total();
         Ok(State { trace, sketches, log_sketches, primitives, moved: 0, before: Before::default() })
     }
 
     /// Factors, observations and sketches, nats.
     #[inline]
     pub fn log_score(&self) -> f64 {
-        self.trace.totals().log_factors + self.log_sketches
+        self.score().value()
+    }
+
+    /// The same, exactly.
+    #[inline]
+    pub fn score(&self) -> Total {
+        self.trace.totals().log_factors.plus(&self.log_sketches)
     }
 
     /// Shows the sketches what the open transaction did to the scene, once.
@@ -179,7 +185,7 @@ impl State {
     /// A sketch scores NaN.
     #[inline]
     pub fn look(&mut self) -> Result<(), Failure> {
-        let (log_sketches, primitives) = (self.log_sketches, self.primitives);
+        let (log_sketches, primitives) = (self.log_sketches.clone(), self.primitives);
         self.before = Before { sketches: None, log_sketches, primitives };
         let (gone, come) = (self.trace.retracted().count(), self.trace.emitted().count());
         if gone + come == 0 && self.primitives > 0 {
@@ -193,8 +199,8 @@ impl State {
         self.before.sketches = Some(self.sketches.fork());
         let kept = self.sketches.exchange(self.trace.retracted(), self.trace.emitted());
         debug_assert!(kept, "the sketches and the trace hold the same scene");
-        self.log_sketches = self.sketches.log_score();
-        if self.log_sketches.is_nan() {
+        self.log_sketches = self.sketches.total();
+        if self.log_sketches.value().is_nan() {
             return Err(self.nan().into());
         }
         Ok(())
@@ -208,10 +214,13 @@ impl State {
             .with_help("look for shapes whose measures are not numbers")
     }
 
-    /// Change of the sketches' log score in the open transaction, nats.
+    /// Adds the change of the sketches' log score in the open transaction.
     #[inline]
-    pub fn sketch_change(&self) -> f64 {
-        self.log_sketches - self.before.log_sketches
+    pub fn add_sketch_change(&self, score: &mut Total) {
+        if self.before.sketches.is_some() {
+            score.add_total(&self.log_sketches);
+            score.remove_total(&self.before.log_sketches);
+        }
     }
 
     /// Undoes what [`State::look`] did; the trace is still to be rolled back.
@@ -220,7 +229,8 @@ impl State {
         if let Some(before) = self.before.sketches.take() {
             self.sketches = before;
         }
-        (self.log_sketches, self.primitives) = (self.before.log_sketches, self.before.primitives);
+        self.log_sketches.clone_from(&self.before.log_sketches);
+        self.primitives = self.before.primitives;
     }
 }
 

@@ -57,7 +57,7 @@ impl Explored {
     pub fn scores(&self, task: &Task) -> Result<Vec<(f64, f64)>, Failure> {
         let score = |draw| {
             let trace = self.trace(task, draw).unwrap_or_else(|| unreachable!("a draw of this chain"))?;
-            Ok((trace.record.log_prior, trace.record.log_score()))
+            Ok((trace.record.log_prior.value(), trace.record.log_score()))
         };
         (0..self.draws.len()).into_par_iter().map(score).collect()
     }

@@ -5,7 +5,7 @@ use crate::Failure;
 use crate::forward::Forward;
 use crate::record::Record;
 use crate::task::Task;
-use niwaki_math::{Stream, StreamKey};
+use niwaki_math::{Stream, StreamKey, Total};
 use niwaki_vm::machine::state::State;
 use niwaki_vm::machine::{Machine, Stop};
 
@@ -25,7 +25,7 @@ pub(super) struct Particle {
     /// Whether it had ended before the last barrier.
     pub was_ended: bool,
     /// The score that its weight already counts.
-    pub weighed: f64,
+    pub weighed: Total,
     /// Log weight since the last resampling.
     pub log_weight: f64,
     /// The thread that ran it last.
@@ -99,7 +99,7 @@ impl Particle {
             stream: self.stream,
             picks: self.picks,
             was_ended: self.was_ended,
-            weighed: self.weighed,
+            weighed: self.weighed.clone(),
             log_weight: self.log_weight,
             home: self.home,
         }
@@ -113,7 +113,7 @@ impl Particle {
         self.stream = StreamKey::new(seed, lineage, 0);
         self.picks = parent.picks;
         self.was_ended = parent.was_ended;
-        self.weighed = parent.weighed;
+        self.weighed.clone_from(&parent.weighed);
         self.home = parent.home;
     }
 }

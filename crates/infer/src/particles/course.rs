@@ -10,7 +10,7 @@ use crate::log::{Entry, Log};
 use crate::record::{check_factor, log_density};
 use crate::task::{Hosts, Task};
 use niwaki_geom::{Primitive, Shape};
-use niwaki_math::{Dist, Family, StreamKey, grid};
+use niwaki_math::{Dist, Family, StreamKey, Total, grid};
 use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Machine;
@@ -57,8 +57,8 @@ pub(super) struct Course {
     steps: Vec<Step>,
     barriers: usize,
     choices: usize,
-    pub log_prior: f64,
-    pub log_factors: f64,
+    pub log_prior: Total,
+    pub log_factors: Total,
     /// Where it has led.
     pub state: State,
 }
@@ -70,10 +70,10 @@ pub(super) type Weigh<'a> = dyn Fn(&At<'_, f64>) -> Box<[u64]> + 'a;
 pub(super) type Ask<'a> = dyn FnMut(usize, &Choice, &Dist) -> Result<Option<Proposed<f64>>, Fault> + 'a;
 
 /// Log densities that a move counts, nats.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Densities {
-    pub fresh: f64,
-    pub stale: f64,
+    pub fresh: Total,
+    pub stale: Total,
     pub forward: f64,
     pub backward: f64,
 }
@@ -99,7 +99,7 @@ struct Walk<'a> {
     made: Course,
     densities: Densities,
     /// Old log densities of the choices that were met again.
-    met: f64,
+    met: Total,
     /// Whether the skeleton changed, or the run became impossible.
     lost: bool,
     /// Whether any skeleton will do: an error, for the tests.
@@ -158,7 +158,7 @@ impl Answers<f64> for Walk<'_> {
                 let usable = known.filter(|(_, c)| c.family == dist.family() && fits(dist, &c.value));
                 match usable {
                     Some((n, choice)) => {
-                        self.met += choice.log;
+                        self.met.add(choice.log);
                         let value = match ask(n, choice, dist)? {
                             None => choice.value.clone(),
                             Some(proposed) => {
@@ -172,7 +172,7 @@ impl Answers<f64> for Walk<'_> {
                     }
                     None => {
                         let (draw, log) = dist.sample_and_score(&mut fresh.at(address));
-                        self.densities.fresh += grid(log);
+                        self.densities.fresh.add(log);
                         (draw_to_value(draw), log)
                     }
                 }
@@ -193,12 +193,12 @@ impl Answers<f64> for Walk<'_> {
             weights,
         }));
         self.made.choices += 1;
-        self.made.log_prior += log;
+        self.made.log_prior.add(log);
         Ok(Answer::Go(value))
     }
 
     fn score(&mut self, at: &At<'_, f64>, _: Factor, log: f64) -> Result<Answer<()>, Fault> {
-        self.made.log_factors += grid(check_factor(log)?);
+        self.made.log_factors.add(check_factor(log)?);
         self.lost |= log == f64::NEG_INFINITY;
         Ok(self.barrier(at.address(), None))
     }
@@ -258,7 +258,7 @@ impl Course {
         if made.state.stands() != self.state.stands() && !with.careless {
             return Ok(None);
         }
-        densities.stale += self.log_prior;
+        densities.stale.add_total(&self.log_prior);
         Ok(Some((made, densities)))
     }
 
@@ -273,15 +273,15 @@ impl Course {
             state.remember_origins();
         }
         let empty = State::of_result(Value::None);
-        let made =
-            Course { steps: vec![], barriers: 0, choices: 0, log_prior: 0.0, log_factors: 0.0, state: empty };
+        let (log_prior, log_factors) = (Total::default(), Total::default());
+        let made = Course { steps: vec![], barriers: 0, choices: 0, log_prior, log_factors, state: empty };
         let mut walk = Walk {
             source,
             hosts: &*with.task.hosts,
             weigh: with.weigh,
             made,
             densities: Densities::default(),
-            met: 0.0,
+            met: Total::default(),
             lost: false,
             careless: with.careless,
         };
@@ -308,7 +308,7 @@ impl Course {
             }
         }
         let mut densities = walk.densities;
-        densities.stale -= walk.met;
+        densities.stale.remove_total(&walk.met);
         walk.made.state = state;
         Ok(Some((walk.made, densities)))
     }

@@ -216,7 +216,7 @@ fn sample_ancestor(
         if rest.is_empty() || p.state.has_ended() {
             let both = rest.is_empty() && p.state.has_ended();
             // Nothing follows: what the declared temperature adds is all.
-            let change = (settings.temper - temper) * p.weighed;
+            let change = (settings.temper - temper) * p.weighed.value();
             return Ok(if both { p.log_weight + change } else { f64::NEG_INFINITY });
         }
         let mut machine = task.machine();
@@ -236,8 +236,13 @@ fn sample_ancestor(
         if settings.is(super::tests::Mutant::OrderFreeAncestors) {
             log_order = 0.0;
         }
-        let log_prior = trial.record.log_prior - p.record.log_prior;
-        let log_scores = settings.temper * trial.record.log_score() - temper * p.weighed;
+        let log_prior = trial.record.log_prior.less(&p.record.log_prior).value();
+        let score = trial.record.score();
+        let log_scores = if (settings.temper, temper) == (1.0, 1.0) {
+            score.less(&p.weighed).value()
+        } else {
+            settings.temper * score.value() - temper * p.weighed.value()
+        };
         Ok(p.log_weight + log_prior + log_order + log_scores)
     };
     let logs: Vec<f64> = if population.parallel {

@@ -18,7 +18,7 @@ use crate::chain::user::Asking;
 use crate::chain::{Chain, Settings as ChainSettings, block};
 use crate::replay::by_address;
 use niwaki_math::streams::{RngCore, open_unit};
-use niwaki_math::{Dist, Stream, StreamKey};
+use niwaki_math::{Dist, Stream, StreamKey, Total};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Machine;
 use niwaki_vm::machine::answers::At;
@@ -73,7 +73,7 @@ pub(super) fn move_running(
         p.record.log = now.log();
         p.record.log_prior = now.log_prior;
         p.record.log_factors = now.log_factors;
-        p.weighed = p.record.log_score();
+        p.weighed = p.record.score();
         #[cfg(test)]
         if round.settings.is(super::tests::Mutant::StateStays) {
             return Ok(count);
@@ -189,7 +189,7 @@ fn decide(
     rng: &mut Stream,
 ) -> Result<bool, Failure> {
     let record = &mut p.record;
-    let before = record.log_sketches;
+    let before = record.log_sketches.clone();
     let (gone, come) = next.exchanged(now);
     let mut undone = None;
     if !record.sketches.is_empty() && gone.len() + come.len() > 0 {
@@ -197,26 +197,30 @@ fn decide(
         undone = Some(record.sketches.fork());
         let kept = record.sketches.exchange(gone.iter().copied(), come.iter().copied());
         debug_assert!(kept, "the sketches and the way hold the same scene");
-        record.log_sketches = record.sketches.log_score();
+        record.log_sketches = record.sketches.total();
     }
-    if record.log_sketches.is_nan() {
+    if record.log_sketches.value().is_nan() {
         return Err(Fault::new("non-finite-score", "a sketch scores nan")
             .with_help("look for shapes whose measures are not numbers")
             .into());
     }
-    let mut terms = Terms {
-        prior: next.log_prior - now.log_prior,
-        score: (next.log_factors - now.log_factors) + (record.log_sketches - before),
-        stale: densities.stale,
-        fresh: densities.fresh,
+    let mut score = next.log_factors.less(&now.log_factors);
+    score.add_total(&record.log_sketches);
+    score.remove_total(&before);
+    let mut densities = densities;
+    corrupt(&mut densities, &mut score, now, next, round, machine, p.stream);
+    let terms = Terms {
+        prior: &next.log_prior.less(&now.log_prior),
+        score: &score,
+        beta: round.temper,
+        stale: &densities.stale,
+        fresh: &densities.fresh,
         backward: densities.backward,
         forward: densities.forward,
         odds,
     };
-    corrupt(&mut terms, now, next, round, machine, p.stream);
     // A temperature of zero sees no score, but for the impossible.
-    let possible = record.log_sketches > f64::NEG_INFINITY;
-    terms.score *= if round.temper == 0.0 { 0.0 } else { round.temper };
+    let possible = !record.log_sketches.is_impossible();
     let u = open_unit(rng);
     let log_ratio = MetropolisHastings::log_ratio(&terms);
     let accepted = possible && (log_ratio >= 0.0 || u.ln() < log_ratio);
@@ -231,7 +235,8 @@ fn decide(
 
 #[cfg(test)]
 fn corrupt(
-    terms: &mut Terms,
+    densities: &mut Densities,
+    score: &mut Total,
     now: &Course,
     next: &Course,
     round: &Round<'_>,
@@ -240,16 +245,25 @@ fn corrupt(
 ) {
     use super::tests::{Mutant, complete_score};
     if round.settings.is(Mutant::StaleFree) {
-        (terms.stale, terms.fresh) = (0.0, 0.0);
+        (densities.stale, densities.fresh) = Default::default();
     }
     if round.settings.is(Mutant::WholeScore) {
         let mut of = |course: &Course| complete_score(round.task, machine, &course.state, stream);
-        terms.score += of(next) - of(now);
+        score.add(of(next) - of(now));
     }
 }
 
 #[cfg(not(test))]
-fn corrupt(_: &mut Terms, _: &Course, _: &Course, _: &Round<'_>, _: &mut Machine<'_>, _: StreamKey) {}
+fn corrupt(
+    _: &mut Densities,
+    _: &mut Total,
+    _: &Course,
+    _: &Course,
+    _: &Round<'_>,
+    _: &mut Machine<'_>,
+    _: StreamKey,
+) {
+}
 
 /// Moves a particle that has ended, by a chain that keeps its run.
 pub(super) fn move_ended(p: &mut Particle, round: &Round<'_>) -> Result<Count, Failure> {
@@ -276,12 +290,13 @@ pub(super) fn move_ended(p: &mut Particle, round: &Round<'_>) -> Result<Count, F
     if count.accepted > 0 {
         let totals = state.trace.totals();
         p.record.log = logged(present(&state, &task.program));
-        (p.record.log_prior, p.record.log_factors) = (totals.log_prior, totals.log_factors);
+        p.record.log_prior.clone_from(&totals.log_prior);
+        p.record.log_factors.clone_from(&totals.log_factors);
         p.record.primitives = state.primitives;
         p.state = State::of_result(state.trace.result());
     }
     p.record.log_sketches = state.log_sketches;
     p.record.sketches = state.sketches;
-    p.weighed = p.record.log_score();
+    p.weighed = p.record.score();
     Ok(count)
 }

@@ -9,7 +9,7 @@ use super::shared::share;
 use super::weights::{Normalised, conditional_share};
 use crate::record::{AllInvalid, Record};
 use crate::{Failure, Task};
-use niwaki_math::{Stream, StreamKey};
+use niwaki_math::{Stream, StreamKey, Total};
 use niwaki_vm::machine::Limits;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -55,7 +55,7 @@ pub(super) struct Population<'a> {
     /// Copies that the last resampling asked for.
     copies: Copies,
     // Kept from barrier to barrier, so that none allocates.
-    scores: Vec<f64>,
+    scores: Vec<Total>,
     logs: Vec<f64>,
 }
 
@@ -74,7 +74,7 @@ impl<'a> Population<'a> {
         let machine = task.machine();
         let first = task.start(&machine, settings.order == Order::DepthFirst)?;
         let mut empty = Record::start(&task.sketches);
-        let empty_score = empty.log_score();
+        let empty_score = empty.score();
         let particles: Vec<Particle> = (0..n as u64)
             .map(|lineage| Particle {
                 state: first.clone(),
@@ -83,7 +83,7 @@ impl<'a> Population<'a> {
                 stream: StreamKey::new(settings.seed, lineage, 0),
                 picks: 0,
                 was_ended: false,
-                weighed: empty_score,
+                weighed: empty_score.clone(),
                 log_weight: 0.0,
                 home: lineage as usize % rayon::current_num_threads(),
             })
@@ -103,7 +103,7 @@ impl<'a> Population<'a> {
             barriers: 0,
             steps: 0,
             resampled: 0,
-            log_normaliser: temper * empty_score,
+            log_normaliser: temper * empty_score.value(),
             temper,
             temperatures: Vec::new(),
             weights: Normalised::default(),
@@ -183,23 +183,23 @@ impl<'a> Population<'a> {
         let (mut best, mut ended) = (f64::NEG_INFINITY, 0);
         self.scores.clear();
         for p in &self.particles {
-            let score = p.record.log_score();
+            let score = p.record.score();
+            best = best.max(score.value());
             self.scores.push(score);
-            best = best.max(score);
             ended += usize::from(p.state.has_ended());
         }
         let next = self.next_temper();
         self.logs.clear();
-        for (p, &score) in self.particles.iter_mut().zip(&self.scores) {
+        for (p, score) in self.particles.iter_mut().zip(&self.scores) {
             match self.settings.weights {
-                Weights::Ratio if score == f64::NEG_INFINITY => p.log_weight = f64::NEG_INFINITY,
-                Weights::Ratio => p.log_weight += step(next, score, self.temper, p.weighed),
-                Weights::Absolute => p.log_weight = self.settings.temper * score,
+                Weights::Ratio if score.is_impossible() => p.log_weight = f64::NEG_INFINITY,
+                Weights::Ratio => p.log_weight += step(next, score, self.temper, &p.weighed),
+                Weights::Absolute => p.log_weight = self.settings.temper * score.value(),
             }
-            p.weighed = score;
+            p.weighed.clone_from(score);
             #[cfg(test)]
             if self.settings.is(super::tests::Mutant::ForgetsOldScore) {
-                p.weighed = 0.0;
+                p.weighed = Total::default();
             }
             self.logs.push(p.log_weight);
         }
@@ -229,7 +229,7 @@ impl<'a> Population<'a> {
         let keeps = |next: f64| {
             let old = self.particles.iter().map(|p| p.log_weight);
             let steps = self.particles.iter().zip(&self.scores);
-            let steps = steps.map(|(p, score)| step(next, *score, self.temper, p.weighed));
+            let steps = steps.map(|(p, score)| step(next, score, self.temper, &p.weighed));
             conditional_share(old, steps) >= share
         };
         let (mut low, mut high) = (self.temper, self.settings.temper);
@@ -278,8 +278,8 @@ impl<'a> Population<'a> {
         if self.temper != self.settings.temper && !self.keeps_last_temper() {
             let change = self.settings.temper - self.temper;
             for p in &mut self.particles {
-                if p.weighed > f64::NEG_INFINITY {
-                    p.log_weight += change * p.weighed;
+                if !p.weighed.is_impossible() {
+                    p.log_weight += change * p.weighed.value();
                 }
             }
             self.temper = self.settings.temper;
@@ -313,12 +313,16 @@ impl<'a> Population<'a> {
 /// The log weight of a step to a score at a temperature. At zero it does not look at the score, unless the run is
 /// impossible.
 #[inline]
-fn step(next: f64, score: f64, temper: f64, weighed: f64) -> f64 {
-    if score == f64::NEG_INFINITY {
-        return score;
+fn step(next: f64, score: &Total, temper: f64, weighed: &Total) -> f64 {
+    if score.is_impossible() {
+        return f64::NEG_INFINITY;
     }
     // Equal temperatures by one product: the difference of scores is exact.
-    if next == temper { next * (score - weighed) } else { next * score - temper * weighed }
+    if next == temper {
+        next * score.less(weighed).value()
+    } else {
+        next * score.value() - temper * weighed.value()
+    }
 }
 
 /// The memory budget of a task is that of its whole population.

@@ -230,8 +230,7 @@ impl Population<'_> {
         };
         let batch = |particles: &mut [super::advance::Particle]| {
             let (mut machine, mut moved) = (round.task.machine(), Moved::default());
-            for p in particles.iter_mut().filter(|p| p.weighed > f64::NEG_INFINITY && (last || !p.was_ended))
-            {
+            for p in particles.iter_mut().filter(|p| !p.weighed.is_impossible() && (last || !p.was_ended)) {
                 if p.state.has_ended() {
                     moved.ended += move_ended(p, &round)?;
                 } else {

@@ -112,9 +112,9 @@ fn state_of(chain: &mut Chain, program: &niwaki_vm::code::Program, lineage: u64)
     Outcome {
         record: Record {
             log: logged(present(state, program)),
-            log_prior: totals.log_prior,
-            log_factors: totals.log_factors,
-            log_sketches: state.log_sketches,
+            log_prior: totals.log_prior.clone(),
+            log_factors: totals.log_factors.clone(),
+            log_sketches: state.log_sketches.clone(),
             primitives: state.primitives,
             sketches: state.sketches.fork(),
             cause: None,

@@ -14,6 +14,7 @@ use niwaki_infer::chain::kernel::{Kernel, Selection};
 use niwaki_infer::chain::ladder::Ladder;
 use niwaki_infer::chain::user::User;
 use niwaki_infer::enumeration::enumerate;
+use niwaki_math::Total;
 use niwaki_vm::machine::kept::Trace;
 use niwaki_vm::value::repr;
 use std::collections::HashMap;
@@ -199,7 +200,7 @@ fn every_kernel_gives_the_exact_answer() {
 /// Leaves out how likely the move was chosen, before and after.
 pub struct NoCountRatio;
 impl Rules for NoCountRatio {
-    fn log_ratio(t: &Terms) -> f64 {
+    fn log_ratio(t: &Terms<'_>) -> f64 {
         MetropolisHastings::log_ratio(&Terms { odds: 0.0, ..*t })
     }
 }
@@ -207,15 +208,15 @@ impl Rules for NoCountRatio {
 /// Forgets the choices that went.
 pub struct StaleForgotten;
 impl Rules for StaleForgotten {
-    fn log_ratio(t: &Terms) -> f64 {
-        MetropolisHastings::log_ratio(&Terms { stale: 0.0, ..*t })
+    fn log_ratio(t: &Terms<'_>) -> f64 {
+        MetropolisHastings::log_ratio(&Terms { stale: &Total::default(), ..*t })
     }
 }
 
 /// Leaves out the density of proposing the old value from the new one.
 pub struct NoReverse;
 impl Rules for NoReverse {
-    fn log_ratio(t: &Terms) -> f64 {
+    fn log_ratio(t: &Terms<'_>) -> f64 {
         MetropolisHastings::log_ratio(&Terms { backward: t.forward, ..*t })
     }
 }
@@ -223,7 +224,7 @@ impl Rules for NoReverse {
 /// Exchanges states of two temperatures whatever their scores.
 pub struct ExchangesAnyway;
 impl Rules for ExchangesAnyway {
-    fn log_exchange(_: (f64, f64), _: (f64, f64)) -> f64 {
+    fn log_exchange(_: (f64, f64), _: f64) -> f64 {
         0.0
     }
 }

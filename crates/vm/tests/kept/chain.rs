@@ -84,15 +84,17 @@ impl<'p> Chain<'p> {
     }
 
     fn decide(&mut self, step: u64, change: Change) -> String {
-        let (before, after) = (self.trace.before(), self.trace.totals());
+        let (before, after) = (self.trace.before(), self.trace.totals().clone());
         let (fresh, stale) = self.trace.fresh_and_stale();
         let (forward, backward) = self.trace.forward_and_backward();
-        let log_ratio = (after.log_prior + after.log_factors) - (before.log_prior + before.log_factors)
-            + (stale + backward)
-            - (fresh + forward)
-            + (before.choices as f64 / after.choices as f64).ln();
+        let mut sum = after.log_prior.less(&before.log_prior).plus(&after.log_factors);
+        sum.remove_total(&before.log_factors);
+        sum.add_total(stale);
+        sum.remove_total(fresh);
+        let log_ratio =
+            sum.value() + (backward - forward) + (before.choices as f64 / after.choices as f64).ln();
         let accept = change == Change::Same
-            || (change == Change::Done && self.pick(step, 2).ln() < log_ratio && after.impossible == 0);
+            || (change == Change::Done && self.pick(step, 2).ln() < log_ratio && !after.is_impossible());
         if accept {
             self.trace.commit(self.program);
             self.accepted += 1;
@@ -177,5 +179,5 @@ pub fn fresh_totals(program: &Program, chain: &Chain) -> Totals {
     let mut draws = Draws { seed: 0, visit: 0, known };
     let (trace, change) = machine.begin(&[], &mut draws).expect("a run");
     assert_eq!(change, Change::Done);
-    trace.totals()
+    trace.totals().clone()
 }

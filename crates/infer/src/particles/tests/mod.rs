@@ -80,7 +80,7 @@ pub(super) fn corrupt(population: &mut super::population::Population<'_>, copies
     }
     for (row, p) in population.particles.iter_mut().enumerate() {
         if settings.is(Mutant::WeightsNotReset) && copies[row] > 0 {
-            p.log_weight = settings.temper * p.weighed.max(-50.0);
+            p.log_weight = settings.temper * p.weighed.value().max(-50.0);
         }
         if settings.is(Mutant::StreamByRow) {
             p.lineage = row as u64;

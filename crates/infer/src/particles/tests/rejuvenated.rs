@@ -123,9 +123,9 @@ fn moved_draws(task: &Task, settings: &Settings, barriers: usize) -> (f64, usize
     // The log of the order choices' probability is in the weight.
     let (mut law, mut whole, mut mass) = (HashMap::new(), HashMap::new(), 0.0);
     for p in &mut population.particles {
-        let log_run = p.record.log_prior + p.log_weight;
+        let log_run = p.record.log_prior.value() + p.log_weight;
         let log_law = log_run + settings.temper * p.record.log_score();
-        p.weighed = p.record.log_score();
+        p.weighed = p.record.score();
         p.log_weight = f64::NEG_INFINITY;
         let entries = p.record.log.entries();
         let own: Vec<_> = entries.iter().map(|e| (e.address(), repr(&e.value).unwrap())).collect();

@@ -50,7 +50,7 @@ use adapt::Sites;
 use cells::{Reader, Readers};
 use journal::Journal;
 use niwaki_geom::Primitive;
-use niwaki_math::Scalar;
+use niwaki_math::{Scalar, Total};
 use part::Entry;
 use slot::Slot;
 
@@ -141,19 +141,24 @@ struct Active {
     over: bool,
 }
 
-/// Sums over a trace, exact on their grid.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+/// Sums over a trace, exact.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Totals {
     /// Log densities of the choices, nats.
-    pub log_prior: f64,
-    /// Factors and observations, nats; those of minus infinity apart.
-    pub log_factors: f64,
-    /// How many choices and factors are minus infinity.
-    pub impossible: u32,
+    pub log_prior: Total,
+    /// Factors and observations, nats.
+    pub log_factors: Total,
     /// How many choices there are.
     pub choices: usize,
     /// How many factors and observations there are.
     pub factors: usize,
+}
+
+impl Totals {
+    /// Whether a choice or a factor is minus infinity.
+    pub fn is_impossible(&self) -> bool {
+        self.log_prior.is_impossible() || self.log_factors.is_impossible()
+    }
 }
 
 /// The kept part of a trace.
@@ -179,8 +184,8 @@ pub(crate) struct Kept<S: Scalar> {
     pub before: Totals,
     pub result_before: Option<Value<S>>,
     /// Log densities of choices that were drawn, and of those that went.
-    pub fresh: f64,
-    pub stale: f64,
+    pub fresh: Total,
+    pub stale: Total,
     /// The changed choice was to have a value that it cannot have.
     pub outside: bool,
     /// The changed choices: slot, and the log densities of changing it there and back.
@@ -235,8 +240,8 @@ impl<S: Scalar> Kept<S> {
             open: false,
             before: Totals::default(),
             result_before: None,
-            fresh: 0.0,
-            stale: 0.0,
+            fresh: Total::default(),
+            stale: Total::default(),
             outside: false,
             changed: vec![],
             now: 0,
@@ -455,8 +460,8 @@ impl<S: Scalar> Keep<S> for Kept<S> {
 
 impl<S: Scalar> Trace<S> {
     /// Sums over the trace.
-    pub fn totals(&self) -> Totals {
-        self.kept.totals
+    pub fn totals(&self) -> &Totals {
+        &self.kept.totals
     }
 
     /// Work done since the trace began.

@@ -78,21 +78,9 @@ impl<S: Scalar> Kept<S> {
             self.journal.slots.push((at as u32, old));
         }
         self.slots[at].log = log;
-        self.add(prior, -old.log);
-        self.add(prior, log);
-    }
-
-    /// Adds a log, or (its sign changed) takes it away.
-    #[inline]
-    fn add(&mut self, prior: bool, log: f64) {
         let total = if prior { &mut self.totals.log_prior } else { &mut self.totals.log_factors };
-        if log == f64::NEG_INFINITY {
-            self.totals.impossible += 1;
-        } else if log == f64::INFINITY {
-            self.totals.impossible -= 1;
-        } else {
-            *total += log;
-        }
+        total.remove(old.log);
+        total.add(log);
     }
 
     /// Carries out a site.
@@ -215,9 +203,9 @@ impl<S: Scalar> Kept<S> {
         let log = check(log_density(dist, &value)?.value(), "a log density")?;
         let held = if slot.is_filled() {
             // Drawn anew: the old value goes, as if it had died and been born again at the same place in the table.
-            self.stale += slot.log;
+            self.stale.add(slot.log);
             self.forget_change(at);
-            self.add(true, -slot.log);
+            self.totals.log_prior.remove(slot.log);
             self.journal.anew.push((address, state.registers[place].clone()));
             slot.held
         } else {
@@ -225,8 +213,8 @@ impl<S: Scalar> Kept<S> {
             self.totals.choices += 1;
             Slot::BORN | (self.journal.births.len() as u32 - 1)
         };
-        self.fresh += log;
-        self.add(true, log);
+        self.fresh.add(log);
+        self.totals.log_prior.add(log);
         self.write_slot(self.quiet, at, Slot { held, mark: family, log });
         self.write_to(state, self.quiet, place, value);
         if log == f64::NEG_INFINITY { Err(Halt::Impossible) } else { Ok(true) }
@@ -273,7 +261,7 @@ impl<S: Scalar> Kept<S> {
         let slot = self.slots[at];
         if !slot.is_filled() {
             self.totals.factors += 1;
-            self.add(false, log);
+            self.totals.log_factors.add(log);
             self.write_slot(self.quiet, at, Slot { held: 0, mark: 0, log });
         } else if log.to_bits() != slot.log.to_bits() {
             self.set_log(self.quiet, at, log, false);
@@ -327,9 +315,9 @@ impl<S: Scalar> Kept<S> {
         match kind {
             SiteKind::Sample { .. } | SiteKind::SampleDist | SiteKind::SampleIndexed => {
                 debug_assert!(slot.held & Slot::BORN == 0, "a site is met once in a transaction");
-                self.stale += slot.log;
+                self.stale.add(slot.log);
                 self.forget_change(at);
-                self.add(true, -slot.log);
+                self.totals.log_prior.remove(slot.log);
                 self.totals.choices -= 1;
                 self.journal.deaths.push(slot.held);
             }
@@ -339,7 +327,7 @@ impl<S: Scalar> Kept<S> {
             | SiteKind::Factor
             | SiteKind::Condition => {
                 self.totals.factors -= 1;
-                self.add(false, -slot.log);
+                self.totals.log_factors.remove(slot.log);
             }
             SiteKind::Emit => self.journal.retracted.push(slot.held),
             SiteKind::Cell { .. } | SiteKind::Append { .. } => self.journal.dead_cells.push(slot.held),

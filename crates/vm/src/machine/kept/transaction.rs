@@ -10,7 +10,7 @@ use crate::code::Program;
 use crate::fault::Fault;
 use crate::value::{Value, same};
 use niwaki_geom::Primitive;
-use niwaki_math::{Dist, Scalar, grid};
+use niwaki_math::{Dist, Scalar, Total, grid};
 
 /// What became of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,8 +67,8 @@ impl<S: Scalar> Kept<S> {
         debug_assert!(!self.open, "one transaction at a time");
         self.open = true;
         self.now = self.now.wrapping_add(1);
-        self.before = self.totals;
-        (self.fresh, self.stale) = (0.0, 0.0);
+        self.before.clone_from(&self.totals);
+        (self.fresh, self.stale) = (Total::default(), Total::default());
         self.outside = false;
     }
 
@@ -104,13 +104,13 @@ impl<S: Scalar> Kept<S> {
 
 impl<S: Scalar> Trace<S> {
     /// Sums over the trace before the open transaction.
-    pub fn before(&self) -> Totals {
-        self.kept.before
+    pub fn before(&self) -> &Totals {
+        &self.kept.before
     }
 
     /// Log densities of the choices that the open transaction drew, and of those that it took away, nats.
-    pub fn fresh_and_stale(&self) -> (f64, f64) {
-        (self.kept.fresh, self.kept.stale)
+    pub fn fresh_and_stale(&self) -> (&Total, &Total) {
+        (&self.kept.fresh, &self.kept.stale)
     }
 
     /// Log densities of proposing what the open transaction changed, there and back, nats.
@@ -207,8 +207,8 @@ impl<S: Scalar> Trace<S> {
         while let Some(id) = kept.journal.cells.pop() {
             kept.free_readers.push(id);
         }
-        kept.totals = kept.before;
-        (kept.fresh, kept.stale) = (0.0, 0.0);
+        kept.totals.clone_from(&kept.before);
+        (kept.fresh, kept.stale) = (Total::default(), Total::default());
         if let Some(result) = kept.result_before.take() {
             kept.result = result;
         }
