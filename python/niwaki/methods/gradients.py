@@ -61,6 +61,9 @@ def hmc(
 ) -> Hmc:
     """Chains that follow the gradient for a fixed number of steps (dissertation 4.3).
 
+    They keep the structure of their start and the values of its discrete choices, with a warning; where those should
+    vary use `mh(kernel=kernels.cycle(kernels.mh(), kernels.hmc()))`.
+
     Parameters
     ----------
     draws
@@ -110,6 +113,8 @@ def nuts(
     tries: int = 1000,
 ) -> Nuts:
     """Chains that follow the gradient until they turn back (Hoffman & Gelman 2014; Betancourt 2017).
+
+    Structure and discrete choices are kept, as by `hmc`.
 
     Parameters
     ----------
