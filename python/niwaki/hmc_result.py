@@ -5,6 +5,7 @@ Draws are kept as numbers; a draw becomes a `Sample`, with scene and choices, wh
 
 from __future__ import annotations
 
+import sys
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
@@ -37,8 +38,11 @@ class GradientWarning(UserWarning):
 
 
 def say(text: str) -> None:
-    """Warn whoever called `run`."""
-    warnings.warn(text, GradientWarning, stacklevel=6)
+    """Warn whoever asked for the draws, at the line of their own code."""
+    depth, frame = 1, sys._getframe()
+    while frame.f_back is not None and frame.f_globals["__name__"].startswith("niwaki."):
+        depth, frame = depth + 1, frame.f_back
+    warnings.warn(text, GradientWarning, stacklevel=depth)
 
 
 def refused(count: int, trajectories: int, name: str) -> str:
@@ -60,8 +64,14 @@ def diverged(count: int, trajectories: int, name: str, smaller: str) -> str:
 
 def without_slope(count: int, name: str, fault: ModelFault | None) -> str:
     """Where a gradient was no number; without a fault the coordinates were none either."""
-    why = f"the first:\n{fault.render()}" if fault else "they left the range of numbers: give the values other units"
-    return f"{count} trajectories of `{name}` came to points without a finite gradient and were rejected; {why}"
+    why = (
+        f"the first:\n{fault.render()}"
+        if fault
+        else "they left the range of numbers: give the values other units"
+    )
+    return (
+        f"{count} trajectories of `{name}` came to points without a finite gradient and were rejected; {why}"
+    )
 
 
 class Drawn(Sequence[Sample]):
@@ -260,14 +270,15 @@ class HmcResult(Result):
                 f"use `mh()` where {'they' if many else 'it'} should vary"
             )
         trajectories = len(self) * self.method.thin
-        if broke.structure:
+        figures = isinstance(self.method, Nuts) or not self.method.designs
+        if broke.structure and figures:
             kernel = "nuts" if isinstance(self.method, Nuts) else "hmc"
             say(
                 f"{refused(broke.structure, trajectories, name)}; each chain keeps the structure of its start, so the "
                 f"draws are given that structure and are not those of the whole model; use instead "
                 f"`mh(kernel=kernels.cycle(kernels.mh(), kernels.{kernel}()))`, with `from niwaki import kernels`"
             )
-        if broke.energy:
+        if broke.energy and figures:
             smaller = (
                 f"raise `target_accept`, which is {self.method.target_accept:g}"
                 if self.method.step_size is None

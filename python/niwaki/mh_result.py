@@ -217,14 +217,18 @@ class ChainResult(Result):
         for one in self.trajectories:
             broke = one.divergences
             if broke.structure and (unmoved := self._unmoved()):
-                shown = ", ".join(f"`{choice}`" for choice in unmoved[:5]) + (", ..." if len(unmoved) > 5 else "")
+                shown = ", ".join(f"`{choice}`" for choice in unmoved[:5]) + (
+                    ", ..." if len(unmoved) > 5 else ""
+                )
                 say(
                     f"{refused(broke.structure, one.settled, name)}; no other kernel of the chain moves {shown}, so "
                     f"the samples may be given the structure of its start; put `kernels.mh()` beside: "
                     f"`kernels.cycle(kernels.mh(), ...)`"
                 )
             if broke.energy:
-                smaller = "raise its `target`" if self.method.warmup else "give it a smaller `step`, or a `warmup`"
+                smaller = (
+                    "raise its `target`" if self.method.warmup else "give it a smaller `step`, or a `warmup`"
+                )
                 say(diverged(broke.energy, one.settled, name, f"{smaller} (`{one.kernel!r}`)"))
             if broke.not_finite > SOME * one.made:
                 say(without_slope(broke.not_finite, name, one.fault))

@@ -22,7 +22,7 @@ from niwaki.hmc_result import GradientWarning
 from niwaki.words import Bernoulli, Gaussian
 
 METHODS = {
-    "hmc": nw.hmc(draws=1500, steps=12, jitter=0.5, warmup=600, chains=4),
+    "hmc": nw.hmc(draws=1500, steps=12, jitter=0.5, warmup=600, chains=4, target_accept=0.85),
     "nuts": nw.nuts(draws=1500, warmup=600, chains=4),
     "dense": nw.nuts(draws=1500, warmup=600, chains=2, metric="dense"),
 }
@@ -74,7 +74,7 @@ def groups(data):
     spread = nw.gamma(3.0, 0.5)
     mean = nw.gaussian(0.0, 2.0)
     for i in range(len(data)):
-        group = nw.gaussian(mean, spread)
+        group = mean + spread * nw.gaussian(0.0, 1.0)
         nw.observe(Gaussian(group, 0.8), data[i])
     return mean
 
@@ -254,7 +254,9 @@ def test_a_scale_of_the_model_is_no_matter(method: str, scale: float) -> None:
         draws = {path: np.array([[s.choices[path] for s in one] for one in samples]) for path in paths}
     else:
         many = nw.hmc(draws=100, steps=8, jitter=0.5, warmup=200, chains=24)
-        result = nw.run(seen_at, METHODS.get(method, many), scale, seed=5, threads=1 if method == "lanes" else None)
+        result = nw.run(
+            seen_at, METHODS.get(method, many), scale, seed=5, threads=1 if method == "lanes" else None
+        )
         draws = result.draws
         assert result.divergences.total == 0
     assert len(draws) == 2

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from niwaki.errors import InputError
@@ -15,7 +15,10 @@ METRICS = ("diagonal", "dense", "low-rank", "unit")
 
 @dataclass(frozen=True)
 class Hmc:
-    """Hamiltonian Monte Carlo; see `hmc`."""
+    """Hamiltonian Monte Carlo; see `hmc`.
+
+    Of `designs`, not of figures, trajectories that broke off are counted and not warned of; see `explore`.
+    """
 
     draws: int = 1000
     steps: int = 100
@@ -28,6 +31,7 @@ class Hmc:
     step_size: float | None = None
     climb: int = 0
     tries: int = 1000
+    designs: bool = False
 
 
 @dataclass(frozen=True)
@@ -141,14 +145,16 @@ def explore(draws: int = 8, chains: int = 128, warmup: int = 6, steps: int = 30,
     Tight constraints leave narrow ground in separate places, which one chain crosses slowly or never leaves. Chains
     from many places see more of it with as many gradients. How much each place weighs is then left to where they come
     from, and some chains are still on their way up to what is typical: take `nuts` with a long warm-up, and look at
-    `rhat`, where that matters.
+    `rhat`, where that matters. For the same reason trajectories that diverged or were refused for structure are
+    counted, and no warning is given.
 
     Parameters
     ----------
     draws, chains, warmup, steps, climb
         As for `hmc`, which this is, with lengths that vary by half and no metric: few draws teach none.
     """
-    return hmc(draws, steps, jitter=0.5, chains=chains, warmup=warmup, metric="unit", climb=climb)
+    short = hmc(draws, steps, jitter=0.5, chains=chains, warmup=warmup, metric="unit", climb=climb)
+    return replace(short, designs=True)
 
 
 def _chain_settings(

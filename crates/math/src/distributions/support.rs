@@ -86,7 +86,9 @@ impl<S: Scalar> Dist<S> {
     pub fn scale(&self) -> Option<S> {
         match self {
             Dist::Gaussian { sd, .. } => Some(*sd),
-            Dist::Laplace { scale, .. } | Dist::Cauchy { scale, .. } | Dist::StudentT { scale, .. } => Some(*scale),
+            Dist::Laplace { scale, .. } | Dist::Cauchy { scale, .. } | Dist::StudentT { scale, .. } => {
+                Some(*scale)
+            }
             Dist::Mixture(m) => m.components.first()?.scale(),
             _ => None,
         }
