@@ -228,8 +228,50 @@ class Summary:
     rhat: float
 
 
+@dataclass(frozen=True)
+class Divergences:
+    """Trajectories that broke off after the warm-up, by the reason; each was rejected.
+
+    Attributes
+    ----------
+    energy : int
+        Diverged: the energy drifted, because the step is too large for how sharply the density bends there.
+    structure : int
+        Refused for structure: the run would make other choices there.
+    impossible : int
+        The density is zero there.
+    not_finite : int
+        The density or its gradient is no number there; see `HmcResult.fault`.
+    """
+
+    energy: int = 0
+    structure: int = 0
+    impossible: int = 0
+    not_finite: int = 0
+
+    @property
+    def total(self) -> int:
+        """All of them."""
+        return self.energy + self.structure + self.impossible + self.not_finite
+
+    @property
+    def named(self) -> list[str]:
+        """Each count above 0 with its name, as results print them."""
+        names = ("diverged", "refused for structure", "impossible", "not finite")
+        counts = (self.energy, self.structure, self.impossible, self.not_finite)
+        return [f"{count} {name}" for count, name in zip(counts, names, strict=True) if count]
+
+
 class Summaries(tuple[Summary, ...]):
-    """Summaries of several quantities; printed, they are a table."""
+    """Summaries of several quantities; printed, they are a table.
+
+    Attributes
+    ----------
+    divergences : Divergences
+        Trajectories that broke off, of chains that follow the gradient; printed under the table.
+    """
+
+    divergences: Divergences = Divergences()
 
     def __repr__(self) -> str:
         heads = ("", "mean", "sd", "mcse", "ess bulk", "ess tail", "r-hat")
@@ -244,16 +286,20 @@ class Summaries(tuple[Summary, ...]):
             )
             for row in rows
         ]
+        if self.divergences.total:
+            lines.append(f"trajectories: {', '.join(self.divergences.named)}")
         return "\n".join(line.rstrip() for line in lines)
 
 
-def summarise(draws: Mapping[str, ArrayLike]) -> Summaries:
+def summarise(draws: Mapping[str, ArrayLike], divergences: Divergences | None = None) -> Summaries:
     """Mean, deviation, standard error, effective sizes and R-hat of each quantity.
 
     Parameters
     ----------
     draws
         Arrays (chains, draws, ...) by name; the elements of a vector are summarised one by one.
+    divergences
+        Trajectories that broke off, of chains that follow the gradient.
     """
     found = []
     for name, values in draws.items():
@@ -263,7 +309,10 @@ def summarise(draws: Mapping[str, ArrayLike]) -> Summaries:
             label = f"{name}[{', '.join(map(str, place))}]" if place else name
             mean, sd = float(one.mean()), float(one.std(ddof=1)) if one.size > 1 else math.nan
             found.append(Summary(label, mean, sd, mcse_mean(one), ess_bulk(one), ess_tail(one), rhat(one)))
-    return Summaries(found)
+    summaries = Summaries(found)
+    if divergences is not None:
+        summaries.divergences = divergences
+    return summaries
 
 
 def to_arviz(draws: Mapping[str, ArrayLike], stats: Mapping[str, ArrayLike] | None = None) -> Any:
@@ -275,7 +324,7 @@ def to_arviz(draws: Mapping[str, ArrayLike], stats: Mapping[str, ArrayLike] | No
         Arrays (chains, draws, ...) by name.
     stats
         Arrays (chains, draws) by the names that ArviZ knows: `energy`, `diverging`, `acceptance_rate`, `n_steps`,
-        `tree_depth`, `step_size`, `lp`.
+        `tree_depth`, `step_size`, `lp`; others are kept under their own names.
 
     Raises
     ------

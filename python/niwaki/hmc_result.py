@@ -5,9 +5,9 @@ Draws are kept as numbers; a draw becomes a `Sample`, with scene and choices, wh
 
 from __future__ import annotations
 
+import sys
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from niwaki.compiled import as_fault, translated
+from niwaki.diagnostics import Divergences
 from niwaki.errors import InputError
 from niwaki.methods import Hmc, Nuts
 from niwaki.result import Result, Sample
@@ -22,6 +23,7 @@ from niwaki.result import Result, Sample
 if TYPE_CHECKING:
     from niwaki import _engine
     from niwaki.diagnostics import Summaries
+    from niwaki.errors import ModelFault
     from niwaki.search import Search
 
 Reals = NDArray[np.float64]
@@ -34,31 +36,41 @@ class GradientWarning(UserWarning):
     """Chains that follow a gradient gave draws, but not of all that was asked for."""
 
 
-@dataclass(frozen=True)
-class Divergences:
-    """Trajectories that broke off after the warm-up, by the reason; each was rejected.
+def say(text: str) -> None:
+    """Warn whoever asked for the draws, at the line of their own code."""
+    depth, frame = 1, sys._getframe()
+    while frame.f_back is not None and frame.f_globals["__name__"].startswith("niwaki."):
+        depth, frame = depth + 1, frame.f_back
+    warnings.warn(text, GradientWarning, stacklevel=depth)
 
-    Attributes
-    ----------
-    energy : int
-        The energy drifted: the step is too large for how sharply the density bends there.
-    structure : int
-        The run would make other choices there.
-    impossible : int
-        The density is zero there.
-    not_finite : int
-        The density or its gradient is no number there; see `HmcResult.fault`.
-    """
 
-    energy: int = 0
-    structure: int = 0
-    impossible: int = 0
-    not_finite: int = 0
+def refused(count: int, trajectories: int, name: str) -> str:
+    """What being refused for structure is."""
+    return (
+        f"{count} of {trajectories} trajectories of `{name}` after the warm-up were refused for structure: "
+        f"the model makes other choices where they came to, and a gradient does not lead there"
+    )
 
-    @property
-    def total(self) -> int:
-        """All of them."""
-        return self.energy + self.structure + self.impossible + self.not_finite
+
+def diverged(count: int, trajectories: int, name: str, smaller: str) -> str:
+    """What a divergence is, and what helps; `smaller` says how to get a smaller step."""
+    return (
+        f"{count} of {trajectories} trajectories of `{name}` after the warm-up diverged: the step is too large where "
+        f"the density bends sharply, and the draws may miss such places; {smaller}, or reparametrise: instead of "
+        f"`gaussian(mean, spread)` with a `spread` that is a choice itself, say `mean + spread * gaussian(0, 1)`"
+    )
+
+
+def without_slope(count: int, name: str, fault: ModelFault | None) -> str:
+    """Where a gradient was no number; without a fault the coordinates were none either."""
+    why = (
+        f"the first:\n{fault.render()}"
+        if fault
+        else "they left the range of numbers: give the values other units"
+    )
+    return (
+        f"{count} trajectories of `{name}` came to points without a finite gradient and were rejected; {why}"
+    )
 
 
 class Drawn(Sequence[Sample]):
@@ -101,11 +113,14 @@ class HmcResult(Result):
     log_prior, log_score : array of shape (chains, draws)
         Of choices, and of factors and observations, nats, as for any sample; found when they are asked for.
     stats : dict of str to array
-        Of each draw, (chains, draws): `energy` (nats), `acceptance_rate`, `n_steps`, `tree_depth`, `diverging`.
+        Of each draw, (chains, draws): `energy` (nats), `acceptance_rate`, `n_steps`, `tree_depth`, and
+        whether a trajectory on the way to it was refused for structure (`refused_for_structure`) or broke off for
+        another reason (`diverging`).
     step_size : array of shape (chains,)
         The step sizes that the warm-up ended with.
     divergences : Divergences
-        Trajectories that broke off after the warm-up, all chains together.
+        Trajectories that broke off after the warm-up, by the reason, all chains together: `structure` counts those
+        that were refused for structure, `energy` those that diverged.
     gradients : int
         Gradients taken, warm-up included.
     fixed : list of dict
@@ -144,6 +159,7 @@ class HmcResult(Result):
             "n_steps": together("steps"),
             "tree_depth": together("depth"),
             "diverging": together("diverging"),
+            "refused_for_structure": together("off_structure"),
         }
         self.step_size: Reals = np.array([count["step_size"] for count in counts])
         self.gradients: int = sum(count["gradients"] + count["warmup_gradients"] for count in counts)
@@ -226,7 +242,7 @@ class HmcResult(Result):
         """Mean, deviation, standard error, effective sizes and R-hat of every number, and of the log density."""
         from niwaki.diagnostics import summarise
 
-        return summarise({**self.draws, "log density": self.log_density})
+        return summarise({**self.draws, "log density": self.log_density}, self.divergences)
 
     def to_arviz(self) -> Any:
         """The draws for ArviZ: a `DataTree` with 1.x, an `InferenceData` before.
@@ -243,35 +259,44 @@ class HmcResult(Result):
 
     def warn(self) -> None:
         """Say what a person must know before using the draws: what was held fixed, what broke off."""
+        name, broke = self.model.name, self.divergences
         held = sorted({path for fixed in self.fixed for path in fixed})
         if held:
             shown = ", ".join(f"`{path}`" for path in held[:5]) + (
                 f" and {len(held) - 5} more" if len(held) > 5 else ""
             )
             many = len(held) > 1
-            warnings.warn(
-                f"{len(held)} discrete choice{'s' if many else ''} of `{self.model.name}` kept the value of each "
+            say(
+                f"{len(held)} discrete choice{'s' if many else ''} of `{name}` kept the value of each "
                 f"chain's start, because a gradient does not move {'them' if many else 'it'}: {shown}; "
                 f"draws are given {'those values' if many else 'that value'}; "
-                f"use `mh()` where {'they' if many else 'it'} should vary",
-                GradientWarning,
-                stacklevel=5,
+                f"use `mh()` where {'they' if many else 'it'} should vary"
             )
+        trajectories = len(self) * self.method.thin
+        figures = isinstance(self.method, Nuts) or not self.method.designs
+        if broke.structure and figures:
+            kernel = "nuts" if isinstance(self.method, Nuts) else "hmc"
+            say(
+                f"{refused(broke.structure, trajectories, name)}; each chain keeps the structure of its start, so the "
+                f"draws are given that structure and are not those of the whole model; use instead "
+                f"`mh(kernel=kernels.cycle(kernels.mh(), kernels.{kernel}()))`, with `from niwaki import kernels`"
+            )
+        if broke.energy and figures:
+            smaller = (
+                f"raise `target_accept`, which is {self.method.target_accept:g}"
+                if self.method.step_size is None
+                else f"take a smaller `step_size` than {self.method.step_size:g}"
+            )
+            say(diverged(broke.energy, trajectories, name, smaller))
         # A few trajectories that overshoot into overflow are of no consequence: they are rejected.
-        if self.fault is not None and self.divergences.not_finite > SOME * len(self) * self.method.thin:
-            warnings.warn(
-                f"{self.divergences.not_finite} trajectories of `{self.model.name}` came to points without a finite "
-                f"gradient and were rejected; the first:\n{self.fault.render()}",
-                GradientWarning,
-                stacklevel=5,
-            )
+        if broke.not_finite > SOME * trajectories:
+            say(without_slope(broke.not_finite, name, self.fault))
 
     def __repr__(self) -> str:
         chains = self.method.chains
         parts = [f"{chains} chain{'s' if chains > 1 else ''}", f"{len(self)} draws"]
         parts.append(f"{self.gradients} gradients")
-        if self.divergences.total:
-            parts.append(f"{self.divergences.total} divergences")
+        parts += self.divergences.named
         parts += [f"seed {self.seed}", f"{self.seconds:.2f} s"]
         parts += self._outside()
         if self.interrupted:

@@ -177,7 +177,8 @@ def hmc(steps: int = 10, step: float = 0.1, jitter: float = 0.0, target: float =
     """All continuous choices move together along their gradient, for a fixed number of steps (dissertation 4.3, 7.1).
 
     Discrete choices keep their values, and with them the structure of the run: other kernels of the same chain move
-    those. A trajectory that reaches another structure is rejected. Under `on` only the choices that match move.
+    those. A trajectory that reaches another structure is rejected, so put a kernel beside that moves continuous choices
+    too, such as `mh()`, where they decide the structure. Under `on` only the choices that match move.
 
     Parameters
     ----------

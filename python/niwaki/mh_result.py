@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import time
-import warnings
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -12,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from niwaki.compiled import as_fault, translated
-from niwaki.hmc_result import SOME, Divergences, GradientWarning
+from niwaki.diagnostics import Divergences
+from niwaki.hmc_result import SOME, diverged, refused, say, without_slope
 from niwaki.kernels import Kernel
 from niwaki.methods import Mh, at_least_one
 from niwaki.result import Result, Sample
@@ -63,6 +63,8 @@ class Trajectories:
         The leaf, with the restrictions that hold for it.
     made, moved : int
         Transitions, those of the warm-up included, and how many of them moved the chain.
+    settled : int
+        Transitions after the warm-up.
     acceptance : float
         Mean acceptance of the trajectories' points after the warm-up: what the step was adapted to.
     divergences : Divergences
@@ -85,6 +87,7 @@ class Trajectories:
     kernel: Kernel
     made: int
     moved: int
+    settled: int
     acceptance: float
     divergences: Divergences
     warmup_divergences: int
@@ -199,6 +202,7 @@ class ChainResult(Result):
                     kernel=leaf,
                     made=row["made"],
                     moved=row["moved"],
+                    settled=row["settled"],
                     acceptance=row["accept"] / row["settled"] if row["settled"] else math.nan,
                     divergences=broke,
                     warmup_divergences=row["warmup_divergences"],
@@ -213,15 +217,40 @@ class ChainResult(Result):
         return found
 
     def _warn(self) -> None:
-        """Say where many trajectories came to points without a finite gradient."""
+        """Say what a person must know of the trajectories before using the samples."""
+        name = self.model.name
         for one in self.trajectories:
-            if one.fault is not None and one.divergences.not_finite > SOME * one.made:
-                warnings.warn(
-                    f"{one.divergences.not_finite} trajectories of `{self.model.name}` came to points without a finite "
-                    f"gradient and were rejected; the first:\n{one.fault.render()}",
-                    GradientWarning,
-                    stacklevel=5,
+            broke = one.divergences
+            if broke.structure and (unmoved := self._unmoved()):
+                shown = ", ".join(f"`{choice}`" for choice in unmoved[:5]) + (
+                    ", ..." if len(unmoved) > 5 else ""
                 )
+                say(
+                    f"{refused(broke.structure, one.settled, name)}; no other kernel of the chain moves {shown}, so "
+                    f"the samples may be given the structure of its start; put `kernels.mh()` beside: "
+                    f"`kernels.cycle(kernels.mh(), ...)`"
+                )
+            if broke.energy:
+                smaller = (
+                    "raise its `target`" if self.method.warmup else "give it a smaller `step`, or a `warmup`"
+                )
+                say(diverged(broke.energy, one.settled, name, f"{smaller} (`{one.kernel!r}`)"))
+            if broke.not_finite > SOME * one.made:
+                say(without_slope(broke.not_finite, name, one.fault))
+
+    def _unmoved(self) -> list[str]:
+        """The continuous choices of the present states, by site, that no kernel without a gradient has moved."""
+        leaves = [] if self.method.kernel is None else self.method.kernel.leaves()
+        if any(not leaf.follows and leaf.name != "on" for leaf in leaves):
+            return []
+        proposed = {row.site for row in self.acceptance.values()}
+        sites = {
+            path.rsplit("/", 1)[-1]
+            for sample in self.last
+            for path, value in sample.choices.items()
+            if not isinstance(value, (bool, int))
+        }
+        return sorted(sites - proposed)
 
     @property
     def counters(self) -> dict[str, int]:

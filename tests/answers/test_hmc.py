@@ -16,12 +16,13 @@ from typing import Any
 import niwaki as nw
 import numpy as np
 import pytest
-from niwaki import diagnostics, model
+from niwaki import diagnostics, kernels, model
 from niwaki.gallery.point import point
+from niwaki.hmc_result import GradientWarning
 from niwaki.words import Bernoulli, Gaussian
 
 METHODS = {
-    "hmc": nw.hmc(draws=1500, steps=12, jitter=0.5, warmup=600, chains=4),
+    "hmc": nw.hmc(draws=1500, steps=12, jitter=0.5, warmup=600, chains=4, target_accept=0.85),
     "nuts": nw.nuts(draws=1500, warmup=600, chains=4),
     "dense": nw.nuts(draws=1500, warmup=600, chains=2, metric="dense"),
 }
@@ -73,7 +74,7 @@ def groups(data):
     spread = nw.gamma(3.0, 0.5)
     mean = nw.gaussian(0.0, 2.0)
     for i in range(len(data)):
-        group = nw.gaussian(mean, spread)
+        group = mean + spread * nw.gaussian(0.0, 1.0)
         nw.observe(Gaussian(group, 0.8), data[i])
     return mean
 
@@ -191,6 +192,79 @@ def test_means_are_those_of_the_model(case: str, method: str) -> None:
     assert max(off.values()) < 4.5, off
     assert len(result) == 1500 * METHODS[method].chains
     assert max(s.rhat for s in result.summary()) < 1.1, result.summary()
+
+
+@model
+def halves():
+    x = nw.gaussian(0.0, 1.0)
+    if x > 0:
+        z = nw.gaussian(1.0, 1.0)
+        nw.factor(0.7 * z)
+    return x > 0
+
+
+def above(result: Any) -> tuple[float, float]:
+    """The share of draws with x above zero, and how many standard errors it is off."""
+    share = np.array([[sample.value for sample in draws] for draws in result.draws], dtype=float)
+    # E[exp(0.7 z)] of a normal with mean 1 and deviation 1, beside 1.
+    weight = math.exp(0.7 + 0.5 * 0.49)
+    error = share.mean() - weight / (1.0 + weight)
+    return share.mean(), abs(error) / diagnostics.mcse_mean(share)
+
+
+@pytest.mark.parametrize("kernel", [kernels.nuts(), kernels.hmc()], ids=repr)
+def test_a_structure_is_sampled_where_mh_stands_beside_the_gradient(kernel: kernels.Kernel) -> None:
+    """What the warning advises gives the share 0.720; the gradient alone, its mutant, keeps to one side."""
+    method = nw.mh(steps=12_000, warmup=2000, chains=4, thin=4, kernel=kernels.cycle(kernels.mh(), kernel))
+    assert above(nw.run(halves, method, seed=3))[1] < 4.5
+    with pytest.warns(GradientWarning, match="refused for structure"):
+        mutant = nw.run(halves, nw.mh(steps=3000, warmup=500, chains=4, thin=4, kernel=kernel), seed=3)
+    assert all(len({sample.value for sample in draws}) == 1 for draws in mutant.draws)
+
+
+@model
+def seen_at(scale):
+    x = nw.gaussian(0.0, scale)
+    y = nw.gaussian(x, scale)
+    nw.observe(Gaussian(y, scale), scale)
+    return x
+
+
+SCALES = (1e-300, 1e-160, 1e-30, 1e-12, 1.0, 1e12, 1e30, 1e160, 1e300)
+
+
+def off_scale(x: np.ndarray, mean: float, variance: float) -> float:
+    """How many standard errors mean and square of draws (chains, draws) are off, in units of the model's scale."""
+    means = ((x, mean), (x**2, mean**2 + variance))
+    return max(abs(values.mean() - one) / diagnostics.mcse_mean(values) for values, one in means)
+
+
+@pytest.mark.parametrize("scale", SCALES)
+@pytest.mark.parametrize("method", [*METHODS, "lanes", "kernel"])
+def test_a_scale_of_the_model_is_no_matter(method: str, scale: float) -> None:
+    """x has mean 1/3 and variance 2/3, y twice the mean and the same variance, of a scale that computers hold.
+
+    Four numbers in each case: a false alarm in 37,000 sets of seeds. Draws that are too narrow by a fifth, the mutant,
+    are found out.
+    """
+    if method == "kernel":
+        chain = nw.mh(steps=3000, warmup=1000, chains=4, thin=1, kernel=kernels.nuts())
+        samples = nw.run(seen_at, chain, scale, seed=5).draws
+        paths = samples[0][0].choices
+        draws = {path: np.array([[s.choices[path] for s in one] for one in samples]) for path in paths}
+    else:
+        many = nw.hmc(draws=100, steps=8, jitter=0.5, warmup=200, chains=24)
+        result = nw.run(
+            seen_at, METHODS.get(method, many), scale, seed=5, threads=1 if method == "lanes" else None
+        )
+        draws = result.draws
+        assert result.divergences.total == 0
+    assert len(draws) == 2
+    for (path, values), mean in zip(draws.items(), (1 / 3, 2 / 3), strict=True):
+        x = values / scale
+        assert off_scale(x, mean, 2 / 3) < 4.5, path
+        assert off_scale(0.8 * (x - x.mean()) + x.mean(), mean, 2 / 3) > 4.5, path
+        assert diagnostics.rhat(x) < 1.05
 
 
 def test_a_density_without_its_jacobian_is_found_out() -> None:

@@ -18,6 +18,7 @@ import niwaki as nw
 import numpy as np
 import pytest
 from niwaki import diagnostics, model
+from niwaki.hmc_result import GradientWarning
 from niwaki.words import Gaussian
 
 FOUND = importlib.util.find_spec("inference_gym")
@@ -151,7 +152,7 @@ def nuts(**more: Any) -> Any:
 
 
 def test_eight_schools() -> None:
-    result = nw.run(eight_schools, nuts(), EFFECTS, DEVIATIONS, seed=1)
+    result = nw.run(eight_schools, nuts(target_accept=0.98), EFFECTS, DEVIATIONS, seed=1)
     names = ("AVG_EFFECT", "LOG_STDDEV", "SCHOOL_EFFECTS")
     assert errors(result, "eight_schools", names).max() < 4
 
@@ -231,6 +232,8 @@ def test_stochastic_volatility(scale: str) -> None:
     returns = np.diff(np.log(prices) if scale else prices)[-100:]
     # Heavy tails of the prior: a run of it lies where a warm-up finds only tiny steps.
     method = nuts(target_accept=0.95, climb=2000)
-    result = nw.run(volatility, method, list(returns - returns.mean()), seed=5)
+    # Far out in those tails a few trajectories diverge even so; the means are right all the same.
+    with pytest.warns(GradientWarning, match="diverged"):
+        result = nw.run(volatility, method, list(returns - returns.mean()), seed=5)
     names = ("PERSISTENCE_OF_VOLATILITY", "MEAN_LOG_VOLATILITY", "WHITE_NOISE_SHOCK_SCALE", "LOG_VOLATILITY")
     assert errors(result, f"stochastic_volatility_{scale}sp500_small", names, volatilities).max() < 4

@@ -50,5 +50,5 @@ def test_settings_of_one_method_are_checked(make: Any, name: str) -> None:
 def test_defaults_are_what_the_functions_say() -> None:
     assert hmc() == Hmc() and nuts() == Nuts()
     assert hmc(500, steps=1000, metric="unit") == Hmc(draws=500, steps=1000, metric="unit")
-    short = Hmc(8, 30, 0.5, chains=128, warmup=6, target_accept=0.65, metric="unit", climb=2000)
+    short = Hmc(8, 30, 0.5, chains=128, warmup=6, target_accept=0.65, metric="unit", climb=2000, designs=True)
     assert explore() == short and explore(3, 5) == replace(short, draws=3, chains=5)

@@ -4,6 +4,7 @@ is counted, errors say what to use. That the draws are the model's own is `tests
 from __future__ import annotations
 
 import linecache
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -71,6 +72,14 @@ def needle():
     side = gaussian(0.0, 1.0)
     factor(softeq(side * side, 1.0, 0.01))
     return side > 0
+
+@model
+def halves():
+    x = gaussian(0, 1)
+    if x > 0:
+        z = gaussian(1, 1)
+        factor(0.7 * z)
+    return x > 0
 """
 
 
@@ -162,11 +171,65 @@ def test_a_comparison_with_nan_is_a_fault_with_its_place_and_no_path() -> None:
     assert max(sample.value for sample in result) <= 1.0
 
 
+def chain(
+    kernel: k.Kernel, model: str = "halves", warmup: int = 500, **settings: Any
+) -> tuple[Any, list[str]]:
+    """A chain, and what it said; each said where it was asked for."""
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        method = nw.mh(**{"steps": 3000, "kernel": kernel, "warmup": warmup} | settings)
+        result = nw.run(MODELS[model], method, seed=2)
+    assert all(one.category is GradientWarning and one.filename == __file__ for one in said)
+    return result, [str(one.message) for one in said]
+
+
+@pytest.mark.parametrize(
+    ("kernel", "unmoved"),
+    [
+        (k.nuts(), "`x`"),
+        (k.temper(k.hmc(), (1, 4), every=10), "`x`"),
+        (k.cycle(k.on("z", k.mh()), k.hmc()), "`x`"),
+        (k.cycle(k.mh(), k.nuts()), None),
+        (k.mixture(k.regenerate(), k.hmc()), None),
+        (k.cycle(k.on("x", k.mh()), k.on("z", k.mh()), k.nuts()), None),
+    ],
+    ids=repr,
+)
+def test_what_is_refused_for_structure_is_said_where_no_other_kernel_moves_there(
+    kernel: k.Kernel, unmoved: str | None
+) -> None:
+    """Each chain has trajectories that are refused; where something else changes the structure that is no matter."""
+    result, said = chain(kernel)
+    (one,) = result.trajectories
+    assert one.divergences.structure > 50
+    values = {sample.value for sample in result}
+    if unmoved is None:
+        assert said == [] and values == {True, False}
+        return
+    (text,) = said
+    assert text.startswith(
+        f"{one.divergences.structure} of {one.settled} trajectories of `halves` after the warm-up were refused"
+    )
+    assert f"no other kernel of the chain moves {unmoved}" in text
+    # Under tempering chains that keep their structures exchange them.
+    assert len(values) == 1 or kernel.name == "temper"
+
+
+def test_what_diverged_is_said_with_its_count() -> None:
+    result, said = chain(k.cycle(k.mh(), k.hmc(steps=3, step=50.0)), model="needle", warmup=0)
+    (one,) = result.trajectories
+    assert one.divergences.energy > 0
+    assert said[0].startswith(
+        f"{one.divergences.energy} of {one.settled} trajectories of `needle` after the warm-up diverged"
+    )
+    assert "give it a smaller `step`, or a `warmup`" in said[0] and one.settled == one.made
+
+
 def test_tempering_reaches_the_other_side_of_a_tight_constraint() -> None:
-    alone = nw.run(MODELS["needle"], nw.mh(steps=4000, warmup=1000, kernel=k.nuts()), seed=1)
+    alone = nw.run(MODELS["needle"], nw.mh(steps=4000, warmup=1000, kernel=k.nuts(target=0.95)), seed=1)
     assert len({sample.value for sample in alone}) == 1
     widths = (1, 16, 256, 4096)
-    kernel = k.temper(k.nuts(), widths, every=2)
+    kernel = k.temper(k.nuts(target=0.95), widths, every=2)
     result = nw.run(MODELS["needle"], nw.mh(steps=12_000, warmup=2000, thin=10, kernel=kernel), seed=1)
     share = np.array([sample.value for sample in result], dtype=float)
     assert abs(share.mean() - 0.5) < 0.15

@@ -4,7 +4,7 @@
 //!
 //! | support | value | log Jacobian |
 //! | --- | --- | --- |
-//! | line | `v` | 0 |
+//! | line | `u v`; the unit `u` is 1 (see [`unit`]) | `ln u` |
 //! | above `lo` | `lo + exp(v)` | `v` |
 //! | `lo` to `hi` | `lo + (hi - lo) s(v)` | `ln(hi - lo) + 2 ln s(v) - v` |
 //! | circle (von Mises) | `v` less whole turns, within half a turn of zero | 0: the line winds around the circle |
@@ -70,6 +70,8 @@ pub struct Continuous {
     pub first: usize,
     /// How many coordinates it has.
     pub coordinates: usize,
+    /// What one is in its coordinate on the line, in the units of its value; 1 of other transforms.
+    pub unit: f64,
     /// Whether it keeps its value: its coordinates are its value, and do not move.
     pub is_held: bool,
     /// Nodes of its value: one, or one for each entry of a vector.
@@ -109,11 +111,12 @@ pub(crate) struct Placed {
     /// The part of that which is the log Jacobian.
     pub slope: Var,
     pub bounds: [Option<Var>; 2],
+    pub unit: f64,
 }
 
 impl Placed {
     fn plain(transform: Transform, values: Vec<Var>, log: Var) -> Placed {
-        Placed { transform, values, log, slope: Var::from_f64(0.0), bounds: [None, None] }
+        Placed { transform, values, log, slope: Var::from_f64(0.0), bounds: [None, None], unit: 1.0 }
     }
 }
 
@@ -153,6 +156,28 @@ pub(crate) fn bounds(dist: &Dist<Var>) -> Option<(Option<Var>, Option<Var>)> {
         }
         _ => return None,
     })
+}
+
+/// Scales between these and their inverses are coordinates as they are: whoever follows the gradient finds them.
+const NEAR: f64 = 1e18;
+/// Squares of scales between these and their inverses are normal numbers.
+const FAR: f64 = 1e140;
+
+/// The unit of a choice on the line: a power of two near its scale where that is so far from 1 that squares of it, and
+/// the steps to it, leave the range of numbers.
+///
+/// # Errors
+/// Such a scale that depends on other choices: a unit is a number.
+fn unit(dist: &Dist<Var>) -> Result<f64, Fault> {
+    let Some(scale) = dist.scale() else { return Ok(1.0) };
+    let beyond = |most: f64| !(1.0 / most..=most).contains(&scale.value());
+    if scale.varies() && beyond(FAR) {
+        let name = dist.family().name();
+        let what = format!("a `{name}` of scale {:e}, which depends on other choices", scale.value());
+        return Err(Fault::new("extreme-scale", what)
+            .with_help("draw from a scale of 1, and multiply: `mean + spread * gaussian(0, 1)`"));
+    }
+    Ok(if !scale.varies() && beyond(NEAR) { scale.value().log2().round().exp2() } else { 1.0 })
 }
 
 /// Coordinates beyond lose the digits of the bound that they approach.
@@ -221,11 +246,18 @@ impl Recorder<'_> {
             log,
             slope,
             bounds: [lo, hi],
+            unit: 1.0,
         };
         Ok(match (lo, hi) {
             (None, None) => {
-                let v = self.coordinate(x);
-                Placed::plain(Transform::Line, vec![v], at(v))
+                let unit = unit(dist)?;
+                if unit == 1.0 {
+                    let v = self.coordinate(x);
+                    return Ok(Placed::plain(Transform::Line, vec![v], at(v)));
+                }
+                let value = (self.coordinate(x / unit) * Var::from_f64(unit)).at(x);
+                let slope = Var::from_f64(unit.ln());
+                Placed { unit, ..placed(Transform::Line, value, at(value) + slope, slope) }
             }
             (Some(lo), None) => {
                 let v = self.coordinate(log_above(x - lo.value()));
@@ -347,7 +379,7 @@ impl Recorded {
                         return None;
                     }
                     x[choice.first] = match (lo, hi) {
-                        (None, None) => value,
+                        (None, None) => value / choice.unit,
                         (Some(lo), None) => log_above(value - lo),
                         (None, Some(hi)) => log_above(hi - value),
                         (Some(lo), Some(hi)) => log_odds((value - lo) / (hi - lo)),

@@ -311,6 +311,13 @@ impl Graph {
         }
     }
 
+    /// The same, of a factor that may be multiplied by others like it: squares of an extreme one are zero or infinite,
+    /// where those of the product are not.
+    fn scaled_mildly(&self, id: Id) -> Option<(f64, Id)> {
+        const MOST: f64 = 1e60;
+        self.scaled(id).filter(|(c, _)| (1.0 / MOST..=MOST).contains(&c.abs()))
+    }
+
     /// `a * b`. Zero times anything is zero, as derivatives want it.
     pub fn mul(&mut self, a: Id, b: Id) -> Id {
         let (ca, cb) = (self.constant_of(a), self.constant_of(b));
@@ -323,7 +330,7 @@ impl Graph {
             (Some(x), None) => {
                 // A constant times a scaled value is a value scaled once.
                 if let Some((y, rest)) = self.scaled(b)
-                    && (x * y).is_finite()
+                    && (x * y).is_normal()
                 {
                     let c = self.constant(x * y);
                     return self.mul(c, rest);
@@ -333,11 +340,11 @@ impl Graph {
             (None, None) => {}
         }
         // Constants move out: (c z) w = c (z w), and so (c z) z holds a square.
-        if let Some((c, rest)) = self.scaled(a) {
+        if let Some((c, rest)) = self.scaled_mildly(a) {
             let (c, product) = (self.constant(c), self.mul(rest, b));
             return self.mul(c, product);
         }
-        if let Some((c, rest)) = self.scaled(b) {
+        if let Some((c, rest)) = self.scaled_mildly(b) {
             let (c, product) = (self.constant(c), self.mul(a, rest));
             return self.mul(c, product);
         }
@@ -369,13 +376,11 @@ impl Graph {
             }
             _ => {}
         }
-        if let Some((c, rest)) = self.scaled(a) {
+        if let Some((c, rest)) = self.scaled_mildly(a) {
             let (c, quotient) = (self.constant(c), self.div(rest, b));
             return self.mul(c, quotient);
         }
-        if let Some((c, rest)) = self.scaled(b)
-            && (1.0 / c).is_normal()
-        {
+        if let Some((c, rest)) = self.scaled_mildly(b) {
             let (c, quotient) = (self.constant(1.0 / c), self.div(a, rest));
             return self.mul(c, quotient);
         }

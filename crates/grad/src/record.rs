@@ -200,9 +200,9 @@ impl Answers<Var> for Recorder<'_> {
             Transform::Simplex | Transform::Vector => Draw::Vector(placed.values.clone().into()),
             _ => Draw::Real(placed.values[0]),
         };
-        let (path, values, edges) = (at.path(), vec![], [Edge::Open; 2]);
+        let (path, unit, values, edges) = (at.path(), placed.unit, vec![], [Edge::Open; 2]);
         let choice =
-            Continuous { address, path, family, transform, first, coordinates, is_held, values, edges };
+            Continuous { address, path, family, transform, first, coordinates, unit, is_held, values, edges };
         self.continuous.push((choice, placed));
         Ok(Answer::Go(draw_to_value(draw)))
     }

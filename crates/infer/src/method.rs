@@ -118,6 +118,9 @@ pub struct Mh {
 pub struct Hmc {
     steps: u32,
     jitter: f64,
+    /// Decides what a person is warned of, and nothing here.
+    #[serde(rename = "designs")]
+    _designs: bool,
     #[serde(flatten)]
     common: Trajectories,
     #[serde(flatten)]

@@ -88,7 +88,7 @@ impl PyTrajectories {
     }
 
     /// Of each draw of a chain: ``log_density`` (over coordinates), ``energy`` (nats), ``accept``, ``steps``, ``depth``,
-    /// ``diverging``.
+    /// ``diverging``, ``off_structure``.
     fn draws<'py>(&self, py: Python<'py>, chain: usize) -> PyResult<Bound<'py, PyDict>> {
         let (chain, facts) = (self.chain(chain)?, PyDict::new(py));
         let draws = &chain.draws;
@@ -98,6 +98,7 @@ impl PyTrajectories {
         facts.set_item("steps", PyArray1::from_slice(py, &draws.steps))?;
         facts.set_item("depth", PyArray1::from_slice(py, &draws.depth))?;
         facts.set_item("diverging", PyArray1::from_slice(py, &draws.diverging))?;
+        facts.set_item("off_structure", PyArray1::from_slice(py, &draws.off_structure))?;
         Ok(facts)
     }
 

@@ -16,6 +16,9 @@ METRICS = ("diagonal", "dense", "low-rank", "unit")
 class Hmc(Method):
     """Chains that follow the gradient for a fixed number of steps (dissertation 4.3).
 
+    They keep the structure of their start and the values of its discrete choices, with a warning; where those should
+    vary use `mh(kernel=kernels.cycle(kernels.mh(), kernels.hmc()))`.
+
     Parameters
     ----------
     draws
@@ -43,6 +46,9 @@ class Hmc(Method):
         waver. 0, the default, for none; `explore` takes up to 2000.
     tries
         Most forward runs for the start of each chain.
+    designs
+        The draws are for designs and not for figures, as those of `explore`: trajectories that diverged or were refused
+        are counted, and no warning is given.
     """
 
     NAME = "hmc"
@@ -57,6 +63,7 @@ class Hmc(Method):
     step_size: float | None = None
     climb: int = 0
     tries: int = 1000
+    designs: bool = False
 
     def __post_init__(self) -> None:
         """Check the settings."""
@@ -69,6 +76,8 @@ class Hmc(Method):
 @dataclass(frozen=True)
 class Nuts(Method):
     """Chains that follow the gradient until they turn back (Hoffman & Gelman 2014; Betancourt 2017).
+
+    Structure and discrete choices are kept, as by `hmc`.
 
     Parameters
     ----------
@@ -106,14 +115,17 @@ def explore(draws: int = 8, chains: int = 128, warmup: int = 6, steps: int = 30,
     Tight constraints leave narrow ground in separate places, which one chain crosses slowly or never leaves. Chains
     from many places see more of it with as many gradients. How much each place weighs is then left to where they come
     from, and some chains are still on their way up to what is typical: take `nuts` with a long warm-up, and look at
-    `rhat`, where that matters.
+    `rhat`, where that matters. For the same reason trajectories that diverged or were refused for structure are
+    counted, and no warning is given.
 
     Parameters
     ----------
     draws, chains, warmup, steps, climb
         As for `hmc`, which this is, with lengths that vary by half and no metric: few draws teach none.
     """
-    return Hmc(draws, steps, jitter=0.5, chains=chains, warmup=warmup, metric="unit", climb=climb)
+    return Hmc(
+        draws, steps, jitter=0.5, chains=chains, warmup=warmup, metric="unit", climb=climb, designs=True
+    )
 
 
 def _check(method: Hmc | Nuts) -> None:

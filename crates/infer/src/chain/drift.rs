@@ -158,13 +158,12 @@ pub(super) fn normal(rng: &mut Stream) -> f64 {
 /// About how far a distribution's values lie from each other, in the coordinate in which they drift.
 pub(super) fn spread(dist: &Dist) -> f64 {
     match dist {
-        Dist::Gaussian { sd, .. } => *sd,
-        Dist::Laplace { scale, .. } | Dist::Cauchy { scale, .. } | Dist::StudentT { scale, .. } => *scale,
         Dist::MultivariateGaussian(g) => {
             let n = g.covariance.len();
             ((0..n).map(|i| g.covariance[i][i]).sum::<f64>() / n as f64).sqrt()
         }
-        _ => 1.0,
+        Dist::Mixture(_) => 1.0,
+        _ => dist.scale().unwrap_or(1.0),
     }
 }
 

@@ -208,8 +208,10 @@ pub struct Draws {
     pub steps: Vec<u32>,
     /// Doublings for each draw.
     pub depth: Vec<u32>,
-    /// Whether a trajectory on the way to each draw broke off.
+    /// Whether a trajectory on the way to each draw broke off for another reason than structure.
     pub diverging: Vec<bool>,
+    /// Whether a trajectory on the way to each draw was refused for structure ([`Cause::Guard`]).
+    pub off_structure: Vec<bool>,
     /// The trajectories that broke off after warm-up.
     pub divergences: Vec<Divergence>,
     /// How many of those the target refused, by [`Cause`]; the rest drifted in energy.
@@ -250,27 +252,36 @@ impl Draws {
         self.warmup_divergences += u64::from(made.divergence.is_some());
     }
 
-    /// Counts a transition after warm-up; whether it diverged.
-    pub(super) fn count(&mut self, made: &Transition) -> bool {
+    /// Counts a transition after warm-up; how it broke off.
+    pub(super) fn count(&mut self, made: &Transition) -> BrokeOff {
         self.gradients += u64::from(made.steps);
-        let Some(divergence) = &made.divergence else { return false };
+        let Some(divergence) = &made.divergence else { return BrokeOff::default() };
         if let Some(stop) = divergence.stop {
             self.refused[stop.cause as usize] += 1;
         }
         self.divergences.push(divergence.clone());
-        true
+        let off_structure = divergence.stop.is_some_and(|stop| stop.cause == Cause::Guard);
+        BrokeOff { diverging: !off_structure, off_structure }
     }
 
     /// Adds where a chain stands.
-    pub(super) fn push(&mut self, phase: &Phase, made: &Transition, diverging: bool) {
+    pub(super) fn push(&mut self, phase: &Phase, made: &Transition, broke_off: BrokeOff) {
         self.x.extend_from_slice(&phase.x);
         self.log_density.push(phase.log_density);
         self.energy.push(made.energy);
         self.accept.push(made.accept);
         self.steps.push(made.steps);
         self.depth.push(made.depth);
-        self.diverging.push(diverging);
+        self.diverging.push(broke_off.diverging);
+        self.off_structure.push(broke_off.off_structure);
     }
+}
+
+/// How trajectories on the way to one draw broke off, if they did.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct BrokeOff {
+    diverging: bool,
+    off_structure: bool,
 }
 
 /// A chain could not start.
@@ -331,8 +342,8 @@ pub(super) struct Course<'a, P> {
     warmed: u32,
     /// Transitions still to make for the next draw.
     left: u32,
-    /// Whether one of those already made broke off.
-    diverging: bool,
+    /// How those already made broke off.
+    broke_off: BrokeOff,
 }
 
 impl<'a, P: Potential> Course<'a, P> {
@@ -341,7 +352,7 @@ impl<'a, P: Potential> Course<'a, P> {
         let dim = chain.phase.x.len();
         let draws = Draws { dim, warmup_gradients: u64::from(chain.climbed), ..Draws::default() };
         let left = settings.thin.max(1);
-        Course { chain, settings, adaptation, draws, warmed: 0, left, diverging: false }
+        Course { chain, settings, adaptation, draws, warmed: 0, left, broke_off: BrokeOff::default() }
     }
 
     pub(super) fn is_over(&self) -> bool {
@@ -357,11 +368,13 @@ impl<'a, P: Potential> Course<'a, P> {
             self.adaptation.learn(&mut self.chain, made);
             return;
         }
-        self.diverging |= self.draws.count(made);
+        let now = self.draws.count(made);
+        self.broke_off.diverging |= now.diverging;
+        self.broke_off.off_structure |= now.off_structure;
         self.left -= 1;
         if self.left == 0 {
-            self.draws.push(&self.chain.phase, made, self.diverging);
-            (self.left, self.diverging) = (self.settings.thin.max(1), false);
+            self.draws.push(&self.chain.phase, made, self.broke_off);
+            (self.left, self.broke_off) = (self.settings.thin.max(1), BrokeOff::default());
         }
     }
 

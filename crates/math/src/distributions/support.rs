@@ -82,6 +82,18 @@ impl<S: Scalar> Dist<S> {
         }
     }
 
+    /// The scale of a family with a location and a scale on the whole line; the first of a mixture of such.
+    pub fn scale(&self) -> Option<S> {
+        match self {
+            Dist::Gaussian { sd, .. } => Some(*sd),
+            Dist::Laplace { scale, .. } | Dist::Cauchy { scale, .. } | Dist::StudentT { scale, .. } => {
+                Some(*scale)
+            }
+            Dist::Mixture(m) => m.components.first()?.scale(),
+            _ => None,
+        }
+    }
+
     /// Where the values lie.
     pub fn support(&self) -> Support {
         let reals = |lo, hi| Support::Reals { lo, hi };

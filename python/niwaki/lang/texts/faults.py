@@ -294,6 +294,15 @@ FAULTS = (
         cure="factor(-math.sqrt(x * x + 1e-6))",
     ),
     Message(
+        "extreme-scale",
+        "the scale of this choice is too far from 1 to follow a gradient",
+        "its scale depends on other choices",
+        why="a chain learns the square of each scale, which is no number beyond about 1e150 either way",
+        help="draw from a scale of 1, and multiply",
+        example="gaussian(0, 1e300 * gamma(2, 1))",
+        cure="1e300 * gamma(2, 1) * gaussian(0, 1)",
+    ),
+    Message(
         "impossible-trace",
         "this run is impossible",
         "the score is minus infinity here",

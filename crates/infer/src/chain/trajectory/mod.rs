@@ -31,7 +31,7 @@ use crate::hamiltonian::nuts::Nuts;
 use crate::hamiltonian::step_size::first_guess;
 use crate::hamiltonian::{Cause, Kernel};
 use crate::{Failure, Task, gradient};
-use niwaki_grad::{Model, Scope, Transform};
+use niwaki_grad::{Continuous, Model, Scope, Transform};
 use niwaki_vm::machine::Machine;
 use niwaki_vm::machine::kept::{Changed, Proposed, Trace};
 use scales::Scales;
@@ -133,10 +133,11 @@ impl<R: Rules> Chain<R> {
         // The structure, its graph, and where the trace stands in its coordinates.
         let (trace, tables) = (&self.state.trace, &self.tables);
         let moves = |choice: usize| table.is_none_or(|t| tables[t].weight(choice) > 0);
-        let mut label = |choice: usize, transform: Transform, place: usize| {
-            let site = self.counts.number(trace.site_of(choice));
-            let is_plain = matches!(transform, Transform::Line | Transform::Vector);
-            own.scales.label(site as u32, place as u32, if is_plain { self.spreads[site] } else { 1.0 })
+        let mut label = |number: usize, choice: &Continuous, place: usize| {
+            let site = self.counts.number(trace.site_of(number));
+            let is_plain = matches!(choice.transform, Transform::Line | Transform::Vector);
+            let scale = if is_plain { self.spreads[site] / choice.unit } else { 1.0 };
+            own.scales.label(site as u32, place as u32, scale)
         };
         own.structures.find(model, trace, program, beta, &moves, &mut label)?;
         let Some(Moving { target, labels, numbers }) = own.structures.present() else { return Ok(()) };

@@ -9,7 +9,7 @@ use super::scales::LabelId;
 use crate::Failure;
 use crate::hamiltonian::potential::evaluate;
 use crate::hamiltonian::{Phase, Potential, Stop};
-use niwaki_grad::{Live, Model, Rolling, Scope, Transform};
+use niwaki_grad::{Continuous, Live, Model, Rolling, Scope};
 use niwaki_math::{Draw, Family};
 use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::code::Program;
@@ -94,7 +94,7 @@ impl Structures {
         program: &Program,
         beta: f64,
         moves: &dyn Fn(usize) -> bool,
-        label: &mut dyn FnMut(usize, Transform, usize) -> LabelId,
+        label: &mut dyn FnMut(usize, &Continuous, usize) -> LabelId,
     ) -> Result<(), Failure> {
         let mut key = u128::from(beta != 1.0);
         for choice in trace.numbers() {
@@ -155,7 +155,7 @@ impl Structure {
         program: &Program,
         beta: f64,
         moves: &dyn Fn(usize) -> bool,
-        label: &mut dyn FnMut(usize, Transform, usize) -> LabelId,
+        label: &mut dyn FnMut(usize, &Continuous, usize) -> LabelId,
     ) -> Result<Structure, Failure> {
         let (mut held, mut numbers) = (HashSet::new(), HashMap::new());
         for choice in trace.numbers() {
@@ -181,7 +181,7 @@ impl Structure {
             .collect();
         let mut labels = Vec::with_capacity(recorded.dim());
         for (choice, number) in recorded.choices.iter().zip(&numbers).filter(|(choice, _)| !choice.is_held) {
-            labels.extend((0..choice.coordinates).map(|k| label(*number, choice.transform, k)));
+            labels.extend((0..choice.coordinates).map(|k| label(*number, choice, k)));
         }
         let dim = recorded.dim();
         let target = Target {
@@ -196,7 +196,7 @@ impl Structure {
     /// Brings the numbers of the choices up to date: births and deaths elsewhere may have changed them, there and back.
     fn follow(&mut self, trace: &Trace, program: &Program) {
         let recorded = self.target.live.recorded();
-        let is_right = |(choice, number): (&niwaki_grad::Continuous, &usize)| {
+        let is_right = |(choice, number): (&Continuous, &usize)| {
             *number < trace.len() && trace.address(program, *number) == choice.address
         };
         if recorded.choices.iter().zip(&self.numbers).all(is_right) {
