@@ -251,9 +251,9 @@ class Result(Sequence[Sample]):
     renewed : tuple of float
         The share of choices that each sweep of a chain made new, from the first that found a possible run.
     invalid : dict of str to int
-        How many runs, proposals and points of trajectories were outside of the model's support because the numbers given
-        to a distribution were out of its range: by that distribution and its line, such as "`uniform` at line 12". A run
-        counts where it met the first of them.
+        How many runs, proposals and points of trajectories were outside of the model's support because the numbers
+        given to a distribution were out of its range: by that distribution and its line, such as
+        "`uniform` at line 12". A run counts where it met the first of them.
     """
 
     def __init__(

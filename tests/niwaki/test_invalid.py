@@ -1,7 +1,8 @@
 """Claim: runs whose distributions have parameters out of range have probability zero in every search and are counted by
 site in the result; alone, and where every run meets it, such a run is an error with its line.
 
-Shares are over 4,000 independent runs or more and within 5 standard errors of enumeration: one false alarm in 1.7 million.
+Shares are over 4,000 independent runs or more and within 5 standard errors of enumeration: one false alarm in 1.7
+million.
 """
 
 from __future__ import annotations
@@ -66,7 +67,9 @@ def test_shares_are_those_of_enumeration() -> None:
         assert abs(shares.get(value, 0.0) - p) < 5 * math.sqrt(p * (1 - p) / 4000)
 
 
-@pytest.mark.parametrize("method", [nw.nuts(draws=300, chains=2), nw.hmc(draws=300, chains=2)], ids=["nuts", "hmc"])
+@pytest.mark.parametrize(
+    "method", [nw.nuts(draws=300, chains=2), nw.hmc(draws=300, chains=2)], ids=["nuts", "hmc"]
+)
 def test_trajectories_end_at_the_border(method: Any) -> None:
     result = nw.run(border, method=method, seed=1)
     assert list(result.invalid) == [f"`uniform` at line {border.function.__code__.co_firstlineno + 3}"]

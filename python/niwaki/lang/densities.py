@@ -11,7 +11,6 @@ from typing import Any
 from niwaki.words.distributions import Distribution
 
 
-
 def grid(log_score: float) -> float:
     """Give the nearest multiple of 2^-32 nats, as the engine does (crates/math/src/rounding.rs)."""
     return round(log_score * 2.0**32) * 2.0**-32 if abs(log_score) < 2.0**20 else log_score

@@ -117,7 +117,9 @@ def test_a_shadow_is_matched(place: Path) -> None:
 )
 def test_every_search_runs_and_can_be_replayed(place: Path, words: list[str]) -> None:
     data = grown(*IMAGE, *words, "--no-picture")
-    assert data["search"]["method"]["method"] == (words[1].replace("-", "_") if words[0] == "--method" else "smc")
+    assert data["search"]["method"]["method"] == (
+        words[1].replace("-", "_") if words[0] == "--method" else "smc"
+    )
     first = Path("out/best.glb").read_bytes()
     assert run("replay", "out/run.json", "-o", "again", "--no-picture").exit_code == 0
     assert Path("again/best.glb").read_bytes() == first
@@ -128,7 +130,10 @@ def test_a_chain_goes_on_from_the_best(place: Path) -> None:
     data = grown(*IMAGE, "--polish", "300", "--polish-kernel", "mixture(mh(), drift(0.1))", "--no-picture")
     assert data["runs"][0]["log_score"] > plain["runs"][0]["log_score"]
     polish = data["search"]["polish"]
-    assert polish["steps"] == 300 and [part["name"] for part in polish["kernel"]["parts"]] == ["prior", "drift"]
+    assert polish["steps"] == 300 and [part["name"] for part in polish["kernel"]["parts"]] == [
+        "prior",
+        "drift",
+    ]
     assert data["plan"] == plain["plan"] == [60] and plain["search"]["polish"] is None
 
 
@@ -145,7 +150,9 @@ def test_states_of_chains_that_differ(place: Path) -> None:
     moves = ["--rejuvenate", "cycle(repeat(4, mh()), block(0.01))", "--moves", "5", "--at", "end"]
     data = grown(*IMAGE, *moves, "--draws", "12", "--diverse", "3", "--no-picture")
     assert len(data["runs"]) == 3 and len(data["plan"]) == 1
-    assert data["search"]["method"]["rejuvenate"]["name"] == "cycle" and data["search"]["method"]["draws"] == 12
+    assert (
+        data["search"]["method"]["rejuvenate"]["name"] == "cycle" and data["search"]["method"]["draws"] == 12
+    )
 
 
 def test_a_time_instead_of_particles(place: Path) -> None:
