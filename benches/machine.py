@@ -123,7 +123,7 @@ def niwaki_rate(program: str, particles: int, seconds: float, seed: int) -> Meas
     steps, cpu, evidence = 0, 0.0, []
     while cpu < seconds:
         result = niwaki.run(model, method=method, seed=seed + len(evidence), threads=1)
-        steps, cpu = steps + result.steps, cpu + result.cpu_seconds
+        steps, cpu = steps + result.info.steps, cpu + result.cpu_seconds
         evidence.append(result.log_evidence)
     return Measurement("niwaki", program, particles, seed, steps, cpu, evidence)
 

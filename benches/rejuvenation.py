@@ -112,7 +112,10 @@ def searched(name: str, score: Any, seed: int, looks_apart: bool) -> dict[str, A
         return None
     row: dict[str, Any] = {"cpu": time.process_time() - began, "best": result.best.log_score}
     result.samples = result.samples[:N]
-    row |= {"distinct": result.unique_models or 0, "moved": result.moved}
+    row |= {
+        "distinct": result.unique_models or 0,
+        "moved": (result.info.moved_running, result.info.moved_ended),
+    }
     return row | ({"apart": apart(result)} if looks_apart else {})
 
 

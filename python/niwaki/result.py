@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from niwaki.compiled import translated
 from niwaki.errors import InputError
+from niwaki.info import EnumerationInfo, Info
 
 if TYPE_CHECKING:
     from niwaki import _engine
@@ -224,32 +225,12 @@ class Result(Sequence[Sample]):
         Of `grow`: one for each run. Of `smc`: the particles. Else: the runs.
     seed : int
         Of the (first) search.
-    log_evidence : float or None
-        Log of the model's total probability, nats; estimated by particles and importance, exact by enumeration. The
-        estimates are unbiased as numbers, not as logs, where a search that failed because everything is impossible
-        counts as zero; with `anneal` by a share they are only consistent. None where scores were sharpened (`temper`)
-        and where the search was stopped, as that may depend on what it had found.
+    info : Info
+        What the method says of its search: see `niwaki.info`.
     interrupted : bool
         Whether it was stopped before its end.
     seconds, cpu_seconds : float
         Wall and processor time of the search alone.
-    barriers, steps, resampled, ancestors, tries : int or None
-        Barriers of a population, how often a particle ran to one, at how many it was resampled, ancestors left (rows
-        of the first barrier that the final set descends from); runs that rejection or enumeration took, chances that
-        a chain had to move.
-    plan : tuple of int
-        Sizes of the populations; `smc(particles=plan)` with the same seed repeats a search by `seconds`.
-    died : int
-        Populations in which every particle became impossible, of `smc` and `pimh`; the evidence counts them as zero.
-    temperatures : tuple of float
-        The power at each barrier where it is not constant, of the first population.
-    moves : int or None
-        How often a chain took its chance to move.
-    moved : tuple of two pairs, or None
-        Proposals of rejuvenation and how many of them were kept: of particles that still ran, and of those that had
-        ended.
-    renewed : tuple of float
-        The share of choices that each sweep of a chain made new, from the first that found a possible run.
     invalid : dict of str to int
         How many runs, proposals and points of trajectories were outside of the model's support because the numbers
         given to a distribution were out of its range: by that distribution and its line, such as
@@ -262,30 +243,13 @@ class Result(Sequence[Sample]):
         samples: list[Sample],
         seed: int,
         *,
-        log_evidence: float | None = None,
+        info: Info = Info(),  # noqa: B008
         interrupted: bool = False,
-        barriers: int | None = None,
-        steps: int | None = None,
-        resampled: int | None = None,
-        ancestors: int | None = None,
-        tries: int | None = None,
-        plan: Sequence[int] = (),
-        died: int = 0,
-        temperatures: Sequence[float] = (),
-        moves: int | None = None,
-        moved: tuple[tuple[int, int], tuple[int, int]] | None = None,
-        renewed: Sequence[float] = (),
         invalid: Mapping[str, int] | None = None,
-        table: list[tuple[Any, float]] | None = None,
     ) -> None:
-        self.search, self.samples, self.seed = search, samples, seed
-        self.log_evidence, self.interrupted = log_evidence, interrupted
-        self.barriers, self.steps = barriers, steps
-        self.resampled, self.ancestors, self.tries = resampled, ancestors, tries
-        self.plan, self.died, self.temperatures = tuple(plan), died, tuple(temperatures)
-        self.moves, self.moved, self.renewed = moves, moved, tuple(renewed)
+        self.search, self.samples, self.seed, self.info = search, samples, seed, info
+        self.interrupted = interrupted
         self.invalid: dict[str, int] = dict(invalid or {})
-        self._table = table
         self.seconds = sum(sample.seconds for sample in samples)
         self.cpu_seconds = sum(sample.cpu_seconds for sample in samples)
 
@@ -303,6 +267,11 @@ class Result(Sequence[Sample]):
     def score(self) -> Score:
         """What its scene should be like."""
         return self.search.score
+
+    @property
+    def log_evidence(self) -> float | None:
+        """Log of the model's total probability, nats, where the method gives it."""
+        return self.info.log_evidence
 
     def __len__(self) -> int:
         return len(self.samples)
@@ -383,9 +352,9 @@ class Result(Sequence[Sample]):
 
         Values that cannot be keys of a dict stand under their `repr`.
         """
-        if self._table is not None:
-            total = self.log_evidence if self.log_evidence is not None else 0.0
-            rows = [(value, math.exp(log - total)) for value, log in self._table]
+        if isinstance(self.info, EnumerationInfo):
+            total = self.log_evidence or 0.0
+            rows = [(value, math.exp(log - total)) for value, log in self.info.table]
         else:
             # A run that is impossible stopped on its way and has no value.
             rows = [(s.value, float(w)) for s, w in zip(self.samples, self.weights, strict=True) if w > 0.0]
@@ -422,8 +391,8 @@ class Result(Sequence[Sample]):
 
     def __repr__(self) -> str:
         parts = [f"{len(self)} sample{'' if len(self) == 1 else 's'}"]
-        if self._table is not None:
-            parts = [f"{len(self._table)} values, {self.tries} runs"]
+        if isinstance(self.info, EnumerationInfo):
+            parts = [f"{len(self.info.table)} values, {self.info.runs} runs"]
         elif self.samples:
             parts.append(f"best log score {self.best.log_score:.2f}")
             if self.best.similarity is not None:

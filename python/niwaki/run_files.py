@@ -32,7 +32,7 @@ def written(result: Result, found: Found) -> dict[str, Any]:
         "model": found.reference,
         "search": result.search.data(),
         "hash": result.search.hash,
-        "plan": list(result.plan),
+        "plan": list(getattr(result.info, "plan", ())),
         "interrupted": result.interrupted,
         "best": result.samples.index(result.best),
         "runs": [{**numbers(sample), **_names(sample)} for sample in result],

@@ -133,8 +133,8 @@ class Exact:
 
     def of_populations(self, found: Any, count: int) -> list[float]:
         """Evidence, and evidence in each value, relative to the truth: of each population, none of those that died."""
-        size = len(found) // (count - found.died)
-        scale = math.exp(found.log_evidence - self.log_evidence) / found.plan[0]
+        size = len(found) // (count - found.info.died)
+        scale = math.exp(found.log_evidence - self.log_evidence) / found.info.plan[0]
         rows = np.zeros((count, 1 + len(self.counted)))
         for i, sample in enumerate(found):
             weight = math.exp(sample.log_weight) * scale

@@ -83,9 +83,9 @@ def test_each_follows_the_exact_answer(method: Any) -> None:
 
 def test_a_search_by_time_is_repeated_by_its_plan() -> None:
     timed = nw.run(WALL, method=nw.smc(seconds=0.3), seed=4)
-    assert len(timed) == sum(timed.plan) and len(set(timed.plan)) == 1
+    assert len(timed) == sum(timed.info.plan) and len(set(timed.info.plan)) == 1
     assert timed.seconds < 1.0
-    again = nw.run(WALL, method=nw.smc(particles=timed.plan), seed=4)
+    again = nw.run(WALL, method=nw.smc(particles=timed.info.plan), seed=4)
     assert timed.log_evidence == again.log_evidence
     assert [s.log_weight for s in timed] == [s.log_weight for s in again]
 
@@ -97,7 +97,7 @@ def shared(a: nw.Sample, b: nw.Sample) -> float:
 
 def test_results_that_differ_share_at_most_half() -> None:
     found = nw.run(WALL, method=nw.smc(particles=60, diverse=4), seed=2)
-    assert len(found) == 4 and found.plan == (60,) * 4
+    assert len(found) == 4 and found.info.plan == (60,) * 4
     assert all(shared(a, b) <= 0.5 for a in found for b in found if a is not b)
     assert found.unique_models == 4
     scores = [sample.log_score for sample in found]
@@ -109,8 +109,8 @@ def test_results_that_differ_share_at_most_half() -> None:
 def test_a_chain_of_populations_counts_those_that_died() -> None:
     """Of 40 populations of one particle 9 in 10 die; of all seeds 2e-5 have fewer than 27, and 0.015 have 40."""
     found = nw.run(RARE, method=nw.pimh(particles=1, sweeps=39), seed=3)
-    assert 27 <= found.died < 40 and found.tries == 39 and len(found) <= 39
-    assert found.log_evidence == pytest.approx(math.log((40 - found.died) / 40))
+    assert 27 <= found.info.died < 40 and found.info.tries == 39 and len(found) <= 39
+    assert found.log_evidence == pytest.approx(math.log((40 - found.info.died) / 40))
     with pytest.raises(InputError, match="everything-impossible"):
         nw.run(NEVER, method=nw.pimh(particles=3, sweeps=5), seed=3)
 
@@ -146,7 +146,7 @@ def test_unique_models_agree_with_a_count_by_readable_addresses() -> None:
         alone = [a for a in found if all(shared(a, b) <= 0.5 for b in found if a is not b)]
         assert found.unique_models == len(alone)
     assert nw.run(WALL, method=nw.forward(5), seed=1).unique_models == 5
-    assert found.ancestors is not None and 1 <= found.ancestors <= 30
+    assert found.info.ancestors is not None and 1 <= found.info.ancestors <= 30
 
 
 def test_grow_gives_what_differs() -> None:
@@ -160,16 +160,20 @@ def test_grow_gives_what_differs() -> None:
         found = nw.grow(ship.model, target, particles=60, diverse=3, **asked)
     assert len(found) == found.unique_models == 3
     timed = nw.grow(ship.model, target, seconds=0.3, **asked)
-    again = nw.grow(ship.model, target, particles=timed.plan, **asked)
+    again = nw.grow(ship.model, target, particles=timed.info.plan, **asked)
     assert timed.best.log_score == again.best.log_score
 
 
 def test_a_chain_says_how_it_moved_and_starts_where_it_is_told() -> None:
     found = nw.run(WALL, method=nw.particle_gibbs(particles=6, sweeps=20), seed=3)
-    assert len(found) == len(found.renewed) == 20
-    assert found.tries is not None and found.moves is not None and 0 < found.moves <= found.tries
+    assert len(found) == len(found.info.renewed) == 20
+    assert (
+        found.info.tries is not None
+        and found.info.moves is not None
+        and 0 < found.info.moves <= found.info.tries
+    )
     kept = nw.run(WALL, method=nw.particle_gibbs(particles=6, sweeps=5, ancestors=False), seed=3)
-    assert (kept.tries, kept.moves) == (0, 0)
+    assert (kept.info.tries, kept.info.moves) == (0, 0)
     start = nw.run(WALL, seed=8).best
     method = nw.particle_gibbs(particles=2, sweeps=1, ancestors=False)
     near = nw.run(WALL, method=method, choices=start.choices, seed=1)
@@ -180,9 +184,9 @@ def test_a_chain_says_how_it_moved_and_starts_where_it_is_told() -> None:
 
 def test_temperatures_are_told() -> None:
     found = nw.run(WALL, method=nw.smc(particles=50, temper=4.0, anneal=0.5), seed=1)
-    assert len(found.temperatures) == found.barriers
-    assert list(found.temperatures) == sorted(found.temperatures)
-    held = nw.run(WALL, method=nw.smc(particles=50, temper=4.0, anneal=found.temperatures), seed=1)
+    assert len(found.info.temperatures) == found.info.barriers
+    assert list(found.info.temperatures) == sorted(found.info.temperatures)
+    held = nw.run(WALL, method=nw.smc(particles=50, temper=4.0, anneal=found.info.temperatures), seed=1)
     assert held.best.log_score == found.best.log_score
 
 

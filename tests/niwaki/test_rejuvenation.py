@@ -24,7 +24,7 @@ def score():
 def test_moved_particles_are_what_their_choices_say(score, at):
     method = niwaki.smc(12, rejuvenate=KERNEL, moves=3, at=at)
     result = niwaki.run(gnarly_tree, method=method, score=score, seed=3, threads=1)
-    (running, running_kept), (ended, ended_kept) = result.moved
+    (running, running_kept), (ended, ended_kept) = result.info.moved_running, result.info.moved_ended
     assert 0 < ended_kept <= ended
     assert (0 < running_kept <= running) == (at != "end")
     for sample in result:
@@ -40,7 +40,7 @@ def test_the_same_seed_gives_the_same_result_on_any_number_of_threads(score):
         niwaki.run(gnarly_tree, method=method, score=score, seed=5, threads=threads) for threads in (1, 2)
     )
     assert [s.log_score for s in one] == [s.log_score for s in two]
-    assert one.moved == two.moved
+    assert one.info == two.info
 
 
 def test_moves_make_copies_different(score):
@@ -58,7 +58,9 @@ def test_walks_take_the_place_of_the_final_set(score):
     method = niwaki.smc(20, temper=4.0, rejuvenate=kernel, moves=5, at="end", draws=20, chains=2)
     result = niwaki.run(gnarly_tree, method=method, score=score, seed=2, threads=1)
     plain = niwaki.run(gnarly_tree, method=niwaki.smc(20, temper=4.0), score=score, seed=2, threads=1)
-    assert len(result) == 40 and result.moved[0] == (0, 0) and result.moved[1][0] == 200
+    assert (
+        len(result) == 40 and result.info.moved_running == (0, 0) and result.info.moved_ended.proposed == 200
+    )
     assert result.unique_models > 20
     assert result.best.log_score >= plain.best.log_score
     for sample in [result[0], result[19], result[-1]]:

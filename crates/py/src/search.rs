@@ -302,9 +302,10 @@ impl PyTask {
             Info::Rejection { tries } => dict.set_item("tries", tries)?,
             Info::Enumeration(found) => {
                 let pair = |(value, log): &(Value, f64)| Ok((self.object(py, value)?, *log));
-                dict.set_item("table", found.outcomes.iter().map(pair).collect::<PyResult<Vec<_>>>()?)?;
+                let table = found.outcomes.iter().map(pair).collect::<PyResult<Vec<_>>>()?;
+                dict.set_item("table", PyTuple::new(py, table)?)?;
                 dict.set_item("log_evidence", found.log_evidence)?;
-                dict.set_item("tries", found.runs)?;
+                dict.set_item("runs", found.runs)?;
             }
             Info::Populations(found) => {
                 dict.set_item("log_evidence", found.log_evidence)?;
@@ -316,7 +317,8 @@ impl PyTask {
                 dict.set_item("died", found.died)?;
                 dict.set_item("temperatures", PyTuple::new(py, found.temperatures)?)?;
                 let pair = |count: Count| (count.proposed, count.accepted);
-                dict.set_item("moved", (pair(found.moved.running), pair(found.moved.ended)))?;
+                dict.set_item("moved_running", pair(found.moved.running))?;
+                dict.set_item("moved_ended", pair(found.moved.ended))?;
             }
             Info::Chain(found) => {
                 dict.set_item("tries", found.tries)?;

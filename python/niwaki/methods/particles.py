@@ -25,7 +25,8 @@ class Smc(Method):
     Parameters
     ----------
     particles
-        How many; at least 1. Several numbers are several populations of those sizes: `Result.plan` repeats a search.
+        How many; at least 1. Several numbers are several populations of those sizes: `Result.info.plan` repeats a
+        search.
     order
         "stochastic": after each barrier a uniform draw among the futures that can run; "depth-first": futures run
         where they are created.
@@ -55,7 +56,7 @@ class Smc(Method):
         Instead of a number of particles: a pilot, which is thrown away, measures what a particle costs; then
         populations of one size run one after the other. Those that are complete when this time is spent count, the one
         that still runs is dropped; where none is complete the first is finished, and takes longer. So the evidence is
-        unbiased though costly populations are often the good ones. `Result.plan` says how many there were and how
+        unbiased though costly populations are often the good ones. `Result.info.plan` says how many there were and how
         large.
     rejuvenate
         A kernel of `niwaki.kernels` that moves each particle without changing the law that all follow, so that copies
@@ -63,7 +64,7 @@ class Smc(Method):
         which futures, where each call waits; one that has ended may change its structure. Not with absolute weights,
         no kernel that anneals or tempers, and `hmc` and `nuts` only at the end.
     moves
-        Proposals for each particle, each time; `Result.moved` says how many were made and kept.
+        Proposals for each particle, each time; `Result.info` says how many were made and kept.
     at
         When: once all have ended ("end"); and before that at every so-many-th barrier, or after each resampling
         ("resampled").
@@ -158,8 +159,8 @@ class ParticleGibbs(Method):
     """A chain of whole runs: each sweep is a population that holds the last run, and one of it is the next.
 
     Right for any number of particles above 1 (Andrieu, Doucet & Holenstein 2010); with ancestor sampling (Lindsten,
-    Jordan & Schon 2014) the held run's past changes too. `Result.moves` of `Result.tries` ancestors were another's,
-    `Result.renewed` is the share of choices that each sweep made new.
+    Jordan & Schon 2014) the held run's past changes too. `Result.info` says how many ancestors were another's, and the
+    share of choices that each sweep made new.
 
     Parameters
     ----------
@@ -196,9 +197,9 @@ class ParticleGibbs(Method):
 class Pimh(Method):
     """A chain whose proposals are whole populations, accepted by the ratio of their evidence.
 
-    Right for any number of particles (Andrieu, Doucet & Holenstein 2010, section 2.4.2). `Result.moves` of
-    `Result.tries` proposals were accepted. The evidence is the mean of the estimates of all `sweeps + 1` populations,
-    in which the `Result.died` that became impossible count as zero; where all did, it is an error.
+    Right for any number of particles (Andrieu, Doucet & Holenstein 2010, section 2.4.2). `Result.info` says how many
+    proposals were accepted. The evidence is the mean of the estimates of all `sweeps + 1` populations, in which those
+    that became impossible count as zero; where all did, it is an error.
 
     Parameters
     ----------

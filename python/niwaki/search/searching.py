@@ -6,12 +6,13 @@ import time
 import warnings
 from collections import Counter
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from niwaki import _engine
 from niwaki.compiled import as_model, translated
 from niwaki.errors import InputError, ModelFault
+from niwaki.info import INFOS, Info, PopulationInfo
 from niwaki.methods import Hmc, Mh, Nuts, ParticleGibbs, Smc
 from niwaki.result import Result, Sample
 
@@ -76,7 +77,7 @@ def carried_out(search: Search, threads: int | None, progress: Watch | None) -> 
     failed: list[InputError | ModelFault] = []
     invalid: Counter[str] = Counter()
     spent, interrupted = 0.0, False
-    plan: tuple[int, ...] = ()
+    info = Info()
     for number in range(search.runs):
         watch = watcher(progress, number, search.runs)
         try:
@@ -92,7 +93,8 @@ def carried_out(search: Search, threads: int | None, progress: Watch | None) -> 
                 raise
             interrupted = True
             break
-        plan, interrupted = one.plan, one.interrupted
+        # Of several runs there is one record, that of the last, and no evidence.
+        info, interrupted = replace(one.info, log_evidence=None), one.interrupted
         invalid.update(one.invalid)
         if interrupted and found and not any(sample.has_ended for sample in one):
             spent += one.seconds
@@ -114,7 +116,7 @@ def carried_out(search: Search, threads: int | None, progress: Watch | None) -> 
             SearchWarning,
             stacklevel=4,
         )
-    result = Result(search, found, search.seed, interrupted=interrupted, plan=plan, invalid=invalid)
+    result = Result(search, found, search.seed, info=info, interrupted=interrupted, invalid=invalid)
     result.seconds = spent
     return result
 
@@ -150,15 +152,16 @@ def once(search: Search, seed: int, threads: int | None, watch: EngineWatch) -> 
     method, functions = _written(search.method)
     counted, clock = search.task.uncounted(), Clock()
     with translated(search.model.name, f"seed={seed}"):
-        outcomes, interrupted, info = counted.search(
+        outcomes, interrupted, said = counted.search(
             method, seed, functions=functions, start=start, threads=threads, watch=watch
         )
+    info = INFOS.get(search.method.NAME, Info)(**said)
     diverse = getattr(search.method, "diverse", None)
-    if diverse is not None:
-        outcomes = _different(outcomes, diverse, len(info["plan"]))
+    if diverse is not None and isinstance(info, PopulationInfo):
+        outcomes = _different(outcomes, diverse, len(info.plan))
     seconds, cpu_seconds = clock.read()
     samples = [Sample(outcome, search, seed, seconds, cpu_seconds) for outcome in outcomes]
-    result = Result(search, samples, seed, interrupted=interrupted, invalid=counted.invalid(), **info)
+    result = Result(search, samples, seed, info=info, interrupted=interrupted, invalid=counted.invalid())
     result.seconds, result.cpu_seconds = seconds, cpu_seconds
     return result
 

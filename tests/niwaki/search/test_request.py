@@ -264,7 +264,7 @@ def test_a_pickled_result_saves_the_same_file(tmp_path):
     result = search.run()
     (tmp_path / "here" / "pile.py").unlink()
     again = pickle.loads(pickle.dumps(result))
-    assert found(again) == found(result) and again.plan == result.plan
+    assert found(again) == found(result) and again.info.plan == result.info.plan
     assert again.log_evidence == result.log_evidence
     for one, other in zip(result, again, strict=True):
         assert other.value == one.value and other.choices == one.choices
