@@ -45,7 +45,7 @@ def small():
 def marginals(proposals: int, strategy: str = "c3") -> np.ndarray:
     """Shares of the states, (chains, steps, states)."""
     method = mh(steps=proposals, strategy=strategy, chains=CHAINS, warmup=500, thin=25)
-    draws = run(small, method=method, seed=7, threads=1).draws
+    draws = run(small, method=method, seed=7, threads=1).by_chain
     shares = np.zeros((CHAINS, 6, 3))
     for chain, samples in enumerate(draws):
         values = np.array([list(one.value) for one in samples])
@@ -105,7 +105,7 @@ def regression(limit: list[float], quick: bool) -> float:
     program = PROGRAMS["hlr"]
     steps = 40_000 if quick else 120_000
     method = mh(steps=steps, warmup=steps // 5, thin=200, chains=20, kernel=program.kernel(20))
-    draws = run(program.model, 20, method=method, seed=9, threads=1).draws
+    draws = run(program.model, 20, method=method, seed=9, threads=1).by_chain
     means = np.array([np.mean([one.value[0] for one in samples], axis=0) for samples in draws])
     error = means.std(axis=0, ddof=1) / np.sqrt(len(means))
     return float(np.abs((means.mean(axis=0) - np.array(limit)) / error).max())

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import sys
 import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -146,7 +146,7 @@ class HmcResult(Result):
         rows = [found.draws(chain) for chain in chains]
         counts = [found.counters(chain) for chain in chains]
         sizes = [len(row["energy"]) for row in rows]
-        self._least = min(sizes)
+        self._sizes, self._least = sizes, min(sizes)
         self.samples = Drawn(sizes, self._sample)  # type: ignore[assignment]
 
         def together(name: str) -> NDArray[Any]:
@@ -181,22 +181,50 @@ class HmcResult(Result):
         """How its chains move."""
         return self._method
 
+    @property
+    def by_chain(self) -> list[Sequence[Sample]]:
+        """The draws of each chain as samples."""
+        ends = np.cumsum([0, *self._sizes])
+        return [self.samples[int(a) : int(b)] for a, b in zip(ends, ends[1:], strict=False)]
+
+    def __getstate__(self) -> dict[str, Any]:
+        """All numbers of the draws; a draw becomes a sample again by a run with its choices."""
+        for name in ("draws", "_scores", "positions", "_values"):
+            getattr(self, name)
+        kept = {name: value for name, value in self.__dict__.items() if name != "samples"}
+        return {**kept, "_found": None}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        self.samples = Drawn(self._sizes, self._sample)  # type: ignore[assignment]
+
+    @cached_property
+    def _values(self) -> list[dict[str, Reals]]:
+        """Of each chain the values of its continuous choices by address: (draws,) or (draws, n)."""
+        by_chain: list[dict[str, Reals]] = []
+        for chain in range(self.method.chains):
+            values, found, at = self._found.values(chain), {}, 0
+            for path, _, _, _, _, width, is_vector in self._found.choices(chain):
+                part = values[:, at : at + width]
+                found[path] = part if is_vector else part[:, 0]
+                at += width
+            by_chain.append(found)
+        return by_chain
+
     def _sample(self, chain: int, draw: int) -> Sample:
-        with translated(self.model.name, f"seed={self.seed}"):
-            outcome = self._found.outcome(chain, draw)
-        return Sample(outcome, self.search, self.seed, self.seconds, self.cpu_seconds)
+        values = {path: part[draw] for path, part in self._values[chain].items()}
+        numbers = {path: tuple(x) if isinstance(x, np.ndarray) else x.item() for path, x in values.items()}
+        choices = {**self.fixed[chain], **numbers}
+        with translated(self.model.name, f"seed={self.seed}", choices):
+            trace = self.search.task.replay(choices)
+        sample = Sample.of_trace(trace, self.search)
+        sample.seed, sample.seconds, sample.cpu_seconds = self.seed, self.seconds, self.cpu_seconds
+        return sample
 
     @cached_property
     def draws(self) -> dict[str, Reals]:
         """Values of the continuous choices by address, of those that all chains have."""
-        by_chain: list[Mapping[str, Reals]] = []
-        for chain in range(self.method.chains):
-            values, found, at = self._found.values(chain), {}, 0
-            for path, _, _, _, _, width, is_vector in self._found.choices(chain):
-                part = values[: self._least, at : at + width]
-                found[path] = part if is_vector else part[:, 0]
-                at += width
-            by_chain.append(found)
+        by_chain = [{path: values[: self._least] for path, values in chain.items()} for chain in self._values]
         first = by_chain[0]
         common = [
             path
@@ -244,18 +272,9 @@ class HmcResult(Result):
 
         return summarise({**self.draws, "log density": self.log_density}, self.divergences)
 
-    def to_arviz(self) -> Any:
-        """The draws for ArviZ: a `DataTree` with 1.x, an `InferenceData` before.
-
-        Raises
-        ------
-        InputError
-            ArviZ is not installed.
-        """
-        from niwaki.diagnostics import to_arviz
-
+    def _statistics(self) -> dict[str, NDArray[Any]]:
         step = np.broadcast_to(self.step_size[:, None], self.log_density.shape)
-        return to_arviz(self.draws, {**self.stats, "lp": self.log_density, "step_size": step})
+        return {**self.stats, "lp": self.log_density, "step_size": step}
 
     def warn(self) -> None:
         """Say what a person must know before using the draws: what was held fixed, what broke off."""

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import math
 import time
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from niwaki.compiled import as_fault, translated
 from niwaki.diagnostics import Divergences
+from niwaki.errors import InputError
 from niwaki.hmc_result import SOME, diverged, refused, say, without_slope
 from niwaki.kernels import Kernel
 from niwaki.methods import Mh, at_least_one
@@ -106,8 +108,6 @@ class ChainResult(Result):
     ----------
     samples : list of Sample
         Thinned states after the warm-up, those of the first chain first. All weigh the same.
-    draws : list of list of Sample
-        The same, by chain.
     visits : list of list of int
         The numbers of proposals before them.
     counters : dict of str to int
@@ -126,9 +126,11 @@ class ChainResult(Result):
         threads: int | None,
     ) -> None:
         super().__init__(search, [], seed)
-        self._method, self._counted, self._chains = method, counted, chains
+        self._method, self._counted = method, counted
+        self._chains: _engine.Chains | None = chains
+        self._looks: dict[str, Any] = {}
         self._watch, self._threads = watch, threads
-        self.draws: list[list[Sample]] = []
+        self._by_chain: list[list[Sample]] = []
         self.visits: list[list[int]] = []
 
     @property
@@ -136,13 +138,19 @@ class ChainResult(Result):
         """How its chains move: the method of the search, or that of its polishing."""
         return self._method
 
+    @property
+    def by_chain(self) -> list[Sequence[Sample]]:
+        """The samples of each chain."""
+        return list(self._by_chain)
+
     def more(self, steps: int) -> ChainResult:
         """Go on for `steps` proposals in each chain, from where they are; the result itself, with more in it."""
         at_least_one("steps", steps)
+        self._looks = {}
         wall, cpu = time.perf_counter(), time.process_time()
         try:
             with translated(self.model.name, f"seed={self.seed}"):
-                self.interrupted = self._chains.advance(steps, self._threads, self._watch)
+                self.interrupted = self._engine.advance(steps, self._threads, self._watch)
             self._warn()
         finally:
             self.seconds += time.perf_counter() - wall
@@ -151,34 +159,63 @@ class ChainResult(Result):
         return self
 
     def _gather(self) -> None:
+        self._looks = {}
         self.invalid = self._counted.invalid()
-        kept = [self._chains.samples(chain) for chain in range(self.method.chains)]
+        kept = [self._engine.samples(chain) for chain in range(self.method.chains)]
         self.visits = [[outcome.visit for outcome in outcomes] for outcomes in kept]
-        self.draws = [[self._sample(outcome) for outcome in outcomes] for outcomes in kept]
-        self.samples = [sample for draws in self.draws for sample in draws]
+        self._by_chain = [[self._sample(outcome) for outcome in outcomes] for outcomes in kept]
+        self.samples = [sample for chain in self._by_chain for sample in chain]
 
     def _sample(self, outcome: _engine.Outcome) -> Sample:
         return Sample(outcome, self.search, self.seed, self.seconds, self.cpu_seconds)
 
+    def _seen(self, name: str, look: Callable[[], Any]) -> Any:
+        """What the chains say of themselves, looked at once between two calls of `more`."""
+        if name not in self._looks:
+            self._looks[name] = look()
+        return self._looks[name]
+
+    def __getstate__(self) -> dict[str, Any]:
+        """All that can be asked of the result; the chains themselves stay where they are."""
+        for name in ("bests", "last", "acceptance", "trajectories", "counters"):
+            getattr(self, name)
+        return {**self.__dict__, "_chains": None, "_counted": None, "_watch": None}
+
     @property
     def best(self) -> Sample:
         """The state of the best log score that any chain came through, whether it was sampled or not."""
-        return max((self._sample(one) for one in self._chains.best()), key=lambda sample: sample.log_score)
+        return max(self.bests, key=lambda sample: sample.log_score)
 
     @property
     def bests(self) -> list[Sample]:
         """The best state of each chain."""
-        return [self._sample(one) for one in self._chains.best()]
+        return list(self._seen("bests", lambda: [self._sample(one) for one in self._engine.best()]))
 
     @property
     def last(self) -> list[Sample]:
         """The present state of each chain."""
-        return [self._sample(one) for one in self._chains.now()]
+        return list(self._seen("last", lambda: [self._sample(one) for one in self._engine.now()]))
+
+    @property
+    def _engine(self) -> _engine.Chains:
+        """The chains on the engine.
+
+        Raises
+        ------
+        InputError
+            The result was pickled, and its chains stayed behind.
+        """
+        if self._chains is None:
+            raise InputError("chains-gone", name=self.model.name)
+        return self._chains
 
     @property
     def acceptance(self) -> dict[str, Acceptance]:
         """Proposals by site (`function/site`), all chains together; most proposed first."""
-        rows = [Acceptance(*row) for row in self._chains.sites()]
+        return dict(self._seen("acceptance", self._acceptance))
+
+    def _acceptance(self) -> dict[str, Acceptance]:
+        rows = [Acceptance(*row) for row in self._engine.sites()]
         rows.sort(key=lambda row: -row.proposed)
         names = [f"{row.function}/{row.site}" for row in rows]
         return {
@@ -189,9 +226,12 @@ class ChainResult(Result):
     @property
     def trajectories(self) -> list[Trajectories]:
         """What became of the trajectories of each `hmc` and `nuts` of the kernel, in its order."""
+        return list(self._seen("trajectories", self._trajectories))
+
+    def _trajectories(self) -> list[Trajectories]:
         leaves = [] if self.method.kernel is None else self.method.kernel.leaves()
         found = []
-        rows = iter(self._chains.trajectories())
+        rows = iter(self._engine.trajectories())
         for leaf in leaves:
             if not leaf.follows:
                 continue
@@ -255,13 +295,15 @@ class ChainResult(Result):
     @property
     def counters(self) -> dict[str, int]:
         """Work done, and the size of the present states, all chains together."""
-        return self._chains.counters()
+        return dict(self._seen("counters", lambda: self._engine.counters()))
 
     @property
     def trace(self) -> NDArray[np.float64]:
         """Log scores of the samples, (chains, samples of the shortest chain), nats."""
-        least = min((len(draws) for draws in self.draws), default=0)
-        return np.array([[one.log_score for one in draws[:least]] for draws in self.draws], dtype=np.float64)
+        least = min((len(chain) for chain in self.by_chain), default=0)
+        return np.array(
+            [[one.log_score for one in chain[:least]] for chain in self.by_chain], dtype=np.float64
+        )
 
     def __repr__(self) -> str:
         proposals = self.counters["proposals"]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
@@ -278,6 +279,51 @@ class Result(Sequence[Sample]):
 
     def __iter__(self) -> Iterator[Sample]:
         return iter(self.samples)
+
+    @property
+    def by_chain(self) -> list[Sequence[Sample]]:
+        """The samples of each chain; all in one where there are no chains."""
+        return [self.samples]
+
+    @property
+    def draws(self) -> dict[str, NDArray[Any]]:
+        """Values of choices by address, (chains, draws) or (chains, draws, n) for lists of n numbers.
+
+        Of the choices that every sample has, with values that are numbers; of as many samples as the shortest chain
+        has. Where samples have weights, they are not among these: see `weights`.
+        """
+        least = min((len(chain) for chain in self.by_chain), default=0)
+        rows = [[sample.choices for sample in chain[:least]] for chain in self.by_chain]
+        found: dict[str, NDArray[Any]] = {}
+        for address in rows[0][0] if least else ():
+            if all(address in choices for row in rows for choices in row):
+                values = [[choices[address] for choices in row] for row in rows]
+                with suppress(ValueError, TypeError):
+                    array = np.array(values)
+                    if array.dtype.kind in "biuf":
+                        found[address] = array
+        return found
+
+    def to_arviz(self) -> Any:
+        """The draws for ArviZ, with the samples' statistics: a `DataTree` with 1.x, an `InferenceData` before.
+
+        Raises
+        ------
+        InputError
+            ArviZ is not installed.
+        """
+        from niwaki.diagnostics import to_arviz
+
+        return to_arviz(self.draws, self._statistics())
+
+    def _statistics(self) -> dict[str, NDArray[Any]]:
+        """Numbers of each draw for ArviZ, (chains, draws)."""
+        least = min((len(chain) for chain in self.by_chain), default=0)
+        rows = [chain[:least] for chain in self.by_chain]
+        return {
+            "lp": np.array([[one.log_joint for one in row] for row in rows]),
+            "log_weight": np.array([[one.log_weight for one in row] for row in rows]),
+        }
 
     def __getitem__(self, index: Any) -> Any:
         return self.samples[index]

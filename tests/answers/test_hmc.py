@@ -205,7 +205,7 @@ def halves():
 
 def above(result: Any) -> tuple[float, float]:
     """The share of draws with x above zero, and how many standard errors it is off."""
-    share = np.array([[sample.value for sample in draws] for draws in result.draws], dtype=float)
+    share = np.array([[sample.value for sample in draws] for draws in result.by_chain], dtype=float)
     # E[exp(0.7 z)] of a normal with mean 1 and deviation 1, beside 1.
     weight = math.exp(0.7 + 0.5 * 0.49)
     error = share.mean() - weight / (1.0 + weight)
@@ -219,7 +219,7 @@ def test_a_structure_is_sampled_where_mh_stands_beside_the_gradient(kernel: kern
     assert above(nw.run(halves, method, seed=3))[1] < 4.5
     with pytest.warns(GradientWarning, match="refused for structure"):
         mutant = nw.run(halves, nw.mh(steps=3000, warmup=500, chains=4, thin=4, kernel=kernel), seed=3)
-    assert all(len({sample.value for sample in draws}) == 1 for draws in mutant.draws)
+    assert all(len({sample.value for sample in draws}) == 1 for draws in mutant.by_chain)
 
 
 @model
@@ -249,9 +249,7 @@ def test_a_scale_of_the_model_is_no_matter(method: str, scale: float) -> None:
     """
     if method == "kernel":
         chain = nw.mh(steps=3000, warmup=1000, chains=4, thin=1, kernel=kernels.nuts())
-        samples = nw.run(seen_at, chain, scale, seed=5).draws
-        paths = samples[0][0].choices
-        draws = {path: np.array([[s.choices[path] for s in one] for one in samples]) for path in paths}
+        draws = nw.run(seen_at, chain, scale, seed=5).draws
     else:
         many = nw.hmc(draws=100, steps=8, jitter=0.5, warmup=200, chains=24)
         result = nw.run(

@@ -1,12 +1,10 @@
 //! Chains that follow the gradient, behind the door.
 
 use crate::faults;
-use crate::outcome::PyOutcome;
 use crate::search::{Known, PyTask, detached};
 use niwaki_infer::Failure;
 use niwaki_infer::gradient::explore::{Explored, Plan, explore};
 use niwaki_infer::hamiltonian::Cause;
-use niwaki_infer::run::Run;
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::{PyIndexError, PyTypeError};
 use pyo3::prelude::*;
@@ -25,6 +23,118 @@ pub struct PyTrajectories {
 }
 
 #[pymethods]
+impl PyTrajectories {
+    /// Runs the chains of a method, given as its text. ``known`` are first values by hash of the address.
+    #[new]
+    #[pyo3(signature = (task, method, seed, *, known=None, threads=None, watch=None))]
+    fn new(
+        py: Python<'_>,
+        task: Py<PyTask>,
+        method: &str,
+        seed: u64,
+        known: Option<Known<'_>>,
+        threads: Option<usize>,
+        watch: Option<Py<PyAny>>,
+    ) -> PyResult<PyTrajectories> {
+        let own = task.get();
+        let (settings, chains, tries) = (own.read(py, method)?.trajectories())
+            .ok_or_else(|| PyTypeError::new_err("this method does not follow the gradient"))?;
+        let known = own.known(known)?;
+        let plan = Plan { settings: &settings, seed, chains, tries, known: known.as_ref() };
+        let (found, pressed) = detached(py, &own.task.program, threads, watch.as_ref(), |watch| {
+            explore(&own.task, &plan, &|done| watch.look(done, 0, f64::NEG_INFINITY))
+        })?;
+        let interrupted = pressed || found.iter().any(|chain| chain.draws.interrupted);
+        Ok(PyTrajectories { task, chains: found, interrupted })
+    }
+
+    /// Continuous choices of a chain: (path, family, transform, first coordinate, coordinates, numbers of its value, whether
+    /// that is a list).
+    #[expect(clippy::type_complexity, reason = "a row of a table")]
+    fn choices(
+        &self,
+        chain: usize,
+    ) -> PyResult<Vec<(String, &'static str, &'static str, usize, usize, usize, bool)>> {
+        let row = |c: &niwaki_grad::Continuous| {
+            let (path, family, transform) = (c.path.clone(), c.family.name(), c.transform.name());
+            (path, family, transform, c.first, c.coordinates, c.width(), c.is_vector())
+        };
+        Ok(self.chain(chain)?.choices().iter().map(row).collect())
+    }
+
+    /// Choices that a chain held fixed: (path, family, value).
+    fn fixed<'py>(
+        &self,
+        py: Python<'py>,
+        chain: usize,
+    ) -> PyResult<Vec<(String, &'static str, Bound<'py, PyAny>)>> {
+        let classes = &self.task.get().model.get().classes;
+        let fixed = &self.chain(chain)?.fixed;
+        fixed.iter().map(|c| Ok((c.path.clone(), c.family, classes.object(py, &c.value)?))).collect()
+    }
+
+    /// Values of the continuous choices of a chain, (draws, numbers).
+    fn values<'py>(&self, py: Python<'py>, chain: usize) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let chain = self.chain(chain)?;
+        PyArray1::from_slice(py, &chain.numbers).reshape([chain.draws.len(), chain.width()])
+    }
+
+    /// Coordinates of the draws of a chain, (draws, dim).
+    fn positions<'py>(&self, py: Python<'py>, chain: usize) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let draws = &self.chain(chain)?.draws;
+        PyArray1::from_slice(py, &draws.x).reshape([draws.len(), draws.dim])
+    }
+
+    /// Of each draw of a chain: ``log_density`` (over coordinates), ``energy`` (nats), ``accept``, ``steps``, ``depth``,
+    /// ``diverging``, ``off_structure``.
+    fn draws<'py>(&self, py: Python<'py>, chain: usize) -> PyResult<Bound<'py, PyDict>> {
+        let (chain, facts) = (self.chain(chain)?, PyDict::new(py));
+        let draws = &chain.draws;
+        facts.set_item("log_density", PyArray1::from_slice(py, &draws.log_density))?;
+        facts.set_item("energy", PyArray1::from_slice(py, &draws.energy))?;
+        facts.set_item("accept", PyArray1::from_slice(py, &draws.accept))?;
+        facts.set_item("steps", PyArray1::from_slice(py, &draws.steps))?;
+        facts.set_item("depth", PyArray1::from_slice(py, &draws.depth))?;
+        facts.set_item("diverging", PyArray1::from_slice(py, &draws.diverging))?;
+        facts.set_item("off_structure", PyArray1::from_slice(py, &draws.off_structure))?;
+        Ok(facts)
+    }
+
+    /// Of each draw of a chain, by running it: log densities of the choices, and of factors and observations, nats.
+    fn scores<'py>(&self, py: Python<'py>, chain: usize) -> PyResult<(Reals<'py>, Reals<'py>)> {
+        let (own, found) = (self.task.get(), self.chain(chain)?);
+        let scores = py.detach(|| found.scores(&own.task));
+        let scores = scores.map_err(|failure| faults::raise(py, &failure, &own.task.program))?;
+        let (prior, score): (Vec<f64>, Vec<f64>) = scores.into_iter().unzip();
+        Ok((PyArray1::from_vec(py, prior), PyArray1::from_vec(py, score)))
+    }
+
+    /// Of a chain: ``step_size``, ``gradients``, ``warmup_gradients``, ``warmup_divergences``, ``recordings``, and by
+    /// reason how many trajectories broke off: ``energy``, ``guard``, ``impossible``, ``not_finite``.
+    fn counters<'py>(&self, py: Python<'py>, chain: usize) -> PyResult<Bound<'py, PyDict>> {
+        let (chain, facts) = (self.chain(chain)?, PyDict::new(py));
+        let draws = &chain.draws;
+        facts.set_item("step_size", draws.step_size)?;
+        facts.set_item("gradients", draws.gradients)?;
+        facts.set_item("warmup_gradients", draws.warmup_gradients)?;
+        facts.set_item("warmup_divergences", draws.warmup_divergences)?;
+        facts.set_item("recordings", chain.recordings)?;
+        let refused = draws.refused.iter().sum::<u64>();
+        facts.set_item("energy", draws.divergences.len() as u64 - refused)?;
+        facts.set_item("guard", draws.refused[Cause::Guard as usize])?;
+        facts.set_item("impossible", draws.refused[Cause::Impossible as usize])?;
+        facts.set_item("not_finite", draws.refused[Cause::NotFinite as usize])?;
+        Ok(facts)
+    }
+
+    /// What the first trajectory of a chain met that came to a point without a finite gradient: an exception, or None.
+    fn fault(&self, py: Python<'_>, chain: usize) -> PyResult<Option<PyErr>> {
+        let program = &self.task.get().task.program;
+        let fault = self.chain(chain)?.fault.clone();
+        Ok(fault.map(|fault| faults::raise(py, &Failure::Run(fault), program)))
+    }
+}
+
 impl PyTrajectories {
     /// Runs the chains of a method, given as its text. ``known`` are first values by hash of the address.
     #[new]

@@ -105,7 +105,7 @@ def _table(result: ChainResult) -> str:
     text = io.StringIO()
     rows = csv.writer(text, lineterminator="\n")
     rows.writerow(["chain", "proposal", "log_score", "log_prior", "value"])
-    for number, draws in enumerate(result.draws):
+    for number, draws in enumerate(result.by_chain):
         for visit, one in zip(result.visits[number], draws, strict=True):
             rows.writerow([number, visit, one.log_score, one.log_prior, repr(one.value)])
     return text.getvalue()

@@ -70,6 +70,14 @@ DOORS = (
         cure="niwaki replay out/run.json",
     ),
     Message(
+        "chains-gone",
+        "the chains of this result of `{name}` cannot go on",
+        why="a pickled result holds what its chains found, and not the chains",
+        help="start chains again from its best: `niwaki.run(model, method, choices=result.best.choices)`",
+        example="pickle.loads(pickle.dumps(result)).more(1000)",
+        cure="result.more(1000)",
+    ),
+    Message(
         "changed-mesh",
         "the mesh `{path}` has changed since this search was written down",
         why="a search is the same only with the same target, so the mesh is known by a hash of its triangles",
