@@ -76,17 +76,12 @@ def populations(count: int, seed: int) -> dict[str, nw.methods.Smc]:
     }
 
 
-def gibbs(seed: int) -> dict[str, dict[str, Any]]:
+def gibbs(seed: int) -> dict[str, nw.methods.ParticleGibbs]:
     """Particle Gibbs, from a start that follows the posterior: so does what it comes to."""
     order = ("stochastic", "depth-first")[seed % 2]
     return {
-        "particle Gibbs": {"particles": 2 + seed % 3, "sweeps": 2},
-        "particle Gibbs that keeps ancestors": {
-            "particles": 3,
-            "sweeps": 2,
-            "order": order,
-            "ancestors": False,
-        },
+        "particle Gibbs": nw.particle_gibbs(2 + seed % 3, 2),
+        "particle Gibbs that keeps ancestors": nw.particle_gibbs(3, 2, order, ancestors=False),
     }
 
 
@@ -178,7 +173,7 @@ def looked_at(model: Any, exact: Exact, name: str, times: int, seed: int, tally:
     if name in gibbs(0):
         starts = exact_draws(model, STARTS * times, seed)
         runs = [
-            nw.run(model, nw.particle_gibbs(**gibbs(seed)[name], start=start), seed=seed + i, threads=1)
+            nw.run(model, gibbs(seed)[name], choices=start.choices, seed=seed + i, threads=1)
             for i, start in enumerate(starts)
         ]
         found = [run[-1] for run in runs]
