@@ -29,6 +29,9 @@ use std::collections::HashMap;
 
 const LIMIT: f64 = 5.0;
 
+/// A function of two choices.
+type Function = fn(f64, f64) -> f64;
+
 /// Invalid at four sites: in a call that comes and goes, in one that has no choices, in a branch, at an observation.
 const COUNTS: &str = r#"(module
   (fn "leaf" (params $k) (set $x (sample (dist binomial (sub $k 2) 0.5))) (do (factor (mul 0.3 $x))) (return $x))
@@ -219,10 +222,10 @@ fn normal(d: f64, sd: f64) -> f64 {
 }
 
 /// What is compared: means of x, y and their product.
-const MEANS: [fn(f64, f64) -> f64; 3] = [|x, _| x, |_, y| y, |x, y| x * y];
+const MEANS: [Function; 3] = [|x, _| x, |_, y| y, |x, y| x * y];
 
 /// Means and deviations by quadrature, under a density of the score: over `(y - 0.5) / (x - 0.5)` that of the choices is flat.
-fn quadrature(score: fn(f64, f64) -> f64) -> [(f64, f64); 3] {
+fn quadrature(score: Function) -> [(f64, f64); 3] {
     let (n, mut total, mut sums) = (2000, 0.0, [(0.0, 0.0); 3]);
     for i in 0..n {
         for j in 0..n {
@@ -239,9 +242,9 @@ fn quadrature(score: fn(f64, f64) -> f64) -> [(f64, f64); 3] {
 }
 
 /// The worst z-score of the means of independent draws.
-fn worst(draws: &[(f64, f64)], score: fn(f64, f64) -> f64) -> f64 {
+fn worst(draws: &[(f64, f64)], score: Function) -> f64 {
     let n = draws.len() as f64;
-    let z = |(f, (mean, sd)): (fn(f64, f64) -> f64, (f64, f64))| {
+    let z = |(f, (mean, sd)): (Function, (f64, f64))| {
         let found = draws.iter().map(|(x, y)| f(*x, *y)).sum::<f64>() / n;
         ((found - mean) / (sd / n.sqrt())).abs()
     };
@@ -263,7 +266,7 @@ fn trajectory(length: Length) -> Kernel {
 
 #[test]
 fn trajectories_in_a_chain_end_where_a_distribution_is_invalid() {
-    for (text, score) in [(BORDER, border as fn(f64, f64) -> f64), (COMING, coming)] {
+    for (text, score) in [(BORDER, border as Function), (COMING, coming)] {
         let task = task(text);
         for length in [FIXED, TURNING] {
             let kernel = Kernel::Cycle(vec![Kernel::Prior, Kernel::Repeat(3, Box::new(trajectory(length)))]);

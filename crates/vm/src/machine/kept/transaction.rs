@@ -280,10 +280,10 @@ impl<S: Scalar> Machine<'_, S> {
             if trace.kept.woken.is_empty() {
                 return change;
             }
-            if let (Ok(Change::Done), false) = (&change, trace.kept.tangled) {
-                if let Some(change) = self.take_up_readers(trace, answers)? {
-                    return Ok(change);
-                }
+            if let (Ok(Change::Done), false) = (&change, trace.kept.tangled)
+                && let Some(change) = self.take_up_readers(trace, answers)?
+            {
+                return Ok(change);
             }
             // Once more, in program order: met before its readers, a fault or a score of minus infinity may be none.
             trace.undo(program);
