@@ -73,7 +73,7 @@ def ess_mean(draws: ArrayLike) -> float:
         (chains, draws), at least 4 draws.
     """
     x = _split(_chains(draws))
-    return _ess(x) if _usable(x) else _worthless(x)
+    return _ess(x / _unit(x)) if _usable(x) else _worthless(x)
 
 
 def ess_quantile(draws: ArrayLike, share: float) -> float:
@@ -102,7 +102,7 @@ def mcse_mean(draws: ArrayLike) -> float:
         (chains, draws), at least 4 draws.
     """
     x = _chains(draws)
-    return float(np.std(x, ddof=1)) / math.sqrt(ess_mean(x))
+    return _deviation(x) / math.sqrt(ess_mean(x))
 
 
 def mcse_quantile(draws: ArrayLike, share: float) -> float:
@@ -307,7 +307,7 @@ def summarise(draws: Mapping[str, ArrayLike], divergences: Divergences | None = 
         for place in np.ndindex(*x.shape[2:]):
             one = x[(slice(None), slice(None), *place)]
             label = f"{name}[{', '.join(map(str, place))}]" if place else name
-            mean, sd = float(one.mean()), float(one.std(ddof=1)) if one.size > 1 else math.nan
+            mean, sd = float(one.mean()), _deviation(one) if one.size > 1 else math.nan
             found.append(Summary(label, mean, sd, mcse_mean(one), ess_bulk(one), ess_tail(one), rhat(one)))
     summaries = Summaries(found)
     if divergences is not None:
@@ -355,6 +355,18 @@ def _chains(draws: ArrayLike) -> Reals:
     """(chains, draws) float64; a single chain may come as (draws,)."""
     x = np.asarray(draws, dtype=np.float64)
     return x[None, :] if x.ndim == 1 else x
+
+
+def _unit(x: Reals) -> float:
+    """A power of two near the largest number where squares of that may leave the range of numbers; else 1."""
+    most = float(np.abs(x).max(initial=0.0))
+    return 2.0 ** (math.frexp(most)[1] - 1) if 0.0 < most < math.inf and not 1e-100 < most < 1e100 else 1.0
+
+
+def _deviation(x: Reals) -> float:
+    """Standard deviation of all draws."""
+    unit = _unit(x)
+    return float(np.std(x / unit, ddof=1)) * unit
 
 
 def _split(x: Reals) -> Reals:

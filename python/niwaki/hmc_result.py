@@ -44,6 +44,24 @@ def say(text: str) -> None:
     warnings.warn(text, GradientWarning, stacklevel=depth)
 
 
+def listed(paths: Sequence[str]) -> str:
+    """The first few of some choices."""
+    return ", ".join(f"`{path}`" for path in paths[:5]) + (
+        f" and {len(paths) - 5} more" if len(paths) > 5 else ""
+    )
+
+
+def kept(paths: Sequence[str], name: str) -> str:
+    """What becomes of discrete choices where all follows the gradient."""
+    many = len(paths) > 1
+    return (
+        f"{len(paths)} discrete choice{'s' if many else ''} of `{name}` kept the value of each "
+        f"chain's start, because a gradient does not move {'them' if many else 'it'}: {listed(paths)}; "
+        f"draws are given {'those values' if many else 'that value'}; "
+        f"use `mh()` where {'they' if many else 'it'} should vary"
+    )
+
+
 def refused(count: int, trajectories: int, name: str) -> str:
     """What being refused for structure is."""
     return (
@@ -281,16 +299,7 @@ class HmcResult(Result):
         name, broke = self.model.name, self.divergences
         held = sorted({path for fixed in self.fixed for path in fixed})
         if held:
-            shown = ", ".join(f"`{path}`" for path in held[:5]) + (
-                f" and {len(held) - 5} more" if len(held) > 5 else ""
-            )
-            many = len(held) > 1
-            say(
-                f"{len(held)} discrete choice{'s' if many else ''} of `{name}` kept the value of each "
-                f"chain's start, because a gradient does not move {'them' if many else 'it'}: {shown}; "
-                f"draws are given {'those values' if many else 'that value'}; "
-                f"use `mh()` where {'they' if many else 'it'} should vary"
-            )
+            say(kept(held, name))
         trajectories = len(self) * self.method.thin
         figures = isinstance(self.method, Nuts) or not self.method.designs
         if broke.structure and figures:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from niwaki.compiled import as_fault, translated
 from niwaki.diagnostics import Divergences
 from niwaki.errors import InputError
-from niwaki.hmc_result import SOME, diverged, refused, say, without_slope
+from niwaki.hmc_result import SOME, diverged, kept, listed, refused, say, without_slope
 from niwaki.kernels import Kernel
 from niwaki.methods import Mh, at_least_one
 from niwaki.result import Result, Sample
@@ -259,16 +259,18 @@ class ChainResult(Result):
     def _warn(self) -> None:
         """Say what a person must know of the trajectories before using the samples."""
         name = self.model.name
+        leaves = [] if self.method.kernel is None else self.method.kernel.leaves()
+        if leaves and all(leaf.name in ("hmc", "nuts") for leaf in leaves):
+            values = (item for sample in self.last for item in sample.choices.items())
+            if held := sorted({path for path, value in values if isinstance(value, (bool, int))}):
+                say(kept(held, name))
         for one in self.trajectories:
             broke = one.divergences
             if broke.structure and (unmoved := self._unmoved()):
-                shown = ", ".join(f"`{choice}`" for choice in unmoved[:5]) + (
-                    ", ..." if len(unmoved) > 5 else ""
-                )
                 say(
-                    f"{refused(broke.structure, one.settled, name)}; no other kernel of the chain moves {shown}, so "
-                    f"the samples may be given the structure of its start; put `kernels.mh()` beside: "
-                    f"`kernels.cycle(kernels.mh(), ...)`"
+                    f"{refused(broke.structure, one.settled, name)}; no other kernel of the chain moves "
+                    f"{listed(unmoved)}, so the samples may be given the structure of its start; put `kernels.mh()` "
+                    f"beside: `kernels.cycle(kernels.mh(), ...)`"
                 )
             if broke.energy:
                 smaller = (

@@ -257,6 +257,10 @@ def test_a_scale_of_the_model_is_no_matter(method: str, scale: float) -> None:
         )
         draws = result.draws
         assert result.divergences.total == 0
+        for one, (path, values) in zip(result.summary(), draws.items(), strict=False):
+            sure = diagnostics.mcse_mean(values / scale)
+            assert one.name == path and one.sd / scale == pytest.approx((values / scale).std(ddof=1))
+            assert one.mcse / scale == pytest.approx(sure, rel=1e-6)
     assert len(draws) == 2
     for (path, values), mean in zip(draws.items(), (1 / 3, 2 / 3), strict=True):
         x = values / scale

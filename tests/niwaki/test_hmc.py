@@ -94,6 +94,11 @@ def scaled(spread):
     return gaussian(0.0, spread * gamma(2.0, 1.0))
 
 @model
+def vectors(spread):
+    c = spread * spread
+    return multivariate_gaussian([0.0, 0.0], [[c, 0.0], [0.0, c]])
+
+@model
 def overflow():
     x = gaussian(0, 1)
     factor(inf - inf if x > 1.0 else 0.0)
@@ -261,11 +266,11 @@ def test_what_is_no_number_is_said_with_its_count() -> None:
 
 
 def test_an_extreme_scale_that_is_a_choice_is_an_error() -> None:
-    """A scale of 1e120 is learnt; the square of 1e300 is no number."""
+    """It has to be learnt, and its square is no number."""
     for method in (few(), nw.mh(steps=50, kernel=nw.kernels.hmc())):
-        for spread in (1e300, 1e-300):
+        for name, spread in (("scaled", 1e300), ("scaled", 1e-300), ("vectors", 1e150), ("vectors", 1e-150)):
             with pytest.raises(NiwakiError, match="extreme-scale"):
-                nw.run(MODELS["scaled"], method, spread, seed=1)
+                nw.run(MODELS[name], method, spread, seed=1)
 
 
 def test_chains_start_where_they_are_told() -> None:

@@ -167,17 +167,25 @@ const FAR: f64 = 1e140;
 /// the steps to it, leave the range of numbers.
 ///
 /// # Errors
-/// Such a scale that depends on other choices: a unit is a number.
+/// Such a scale that depends on other choices, where it is too far from 1 to be learnt: a unit is a number.
 fn unit(dist: &Dist<Var>) -> Result<f64, Fault> {
     let Some(scale) = dist.scale() else { return Ok(1.0) };
-    let beyond = |most: f64| !(1.0 / most..=most).contains(&scale.value());
-    if scale.varies() && beyond(FAR) {
-        let name = dist.family().name();
-        let what = format!("a `{name}` of scale {:e}, which depends on other choices", scale.value());
-        return Err(Fault::new("extreme-scale", what)
-            .with_help("draw from a scale of 1, and multiply: `mean + spread * gaussian(0, 1)`"));
+    if scale.varies() {
+        return learnt(dist, scale.value());
     }
-    Ok(if !scale.varies() && beyond(NEAR) { scale.value().log2().round().exp2() } else { 1.0 })
+    let near = (1.0 / NEAR..=NEAR).contains(&scale.value());
+    Ok(if near { 1.0 } else { scale.value().log2().round().exp2() })
+}
+
+/// Refuses a scale that has to be learnt and cannot be.
+fn learnt(dist: &Dist<Var>, scale: f64) -> Result<f64, Fault> {
+    if (1.0 / FAR..=FAR).contains(&scale) {
+        return Ok(1.0);
+    }
+    let what =
+        format!("a choice from a `{}` of scale {scale:.0e}, which has to be learnt", dist.family().name());
+    Err(Fault::new("extreme-scale", what)
+        .with_help("draw from a scale of 1, and multiply: `mean + spread * gaussian(0, 1)`"))
 }
 
 /// Coordinates beyond lose the digits of the bound that they approach.
@@ -208,6 +216,11 @@ impl Recorder<'_> {
         Ok(Some(match (dist, draw) {
             (Dist::Dirichlet(a), Draw::Vector(x)) if a.len() == x.len() && !held => self.simplex(a, x),
             (Dist::Dirichlet(_) | Dist::MultivariateGaussian(_), Draw::Vector(x)) => {
+                if let Dist::MultivariateGaussian(g) = dist {
+                    for (i, row) in g.covariance.iter().enumerate() {
+                        learnt(dist, row[i].value().sqrt())?;
+                    }
+                }
                 let values: Vec<Var> = x.iter().map(|x| self.coordinate(*x)).collect();
                 let log = dist.log_density(&Draw::Vector(values.clone().into()));
                 Placed::plain(Transform::Vector, values, log)

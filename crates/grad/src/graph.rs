@@ -531,6 +531,22 @@ mod tests {
     }
 
     #[test]
+    fn extreme_factors_stay_with_what_they_scale() {
+        for c in [-997.0_f64, 997.0].map(f64::exp2) {
+            let mut g = Graph::new();
+            let (x, scale) = (g.input(), g.constant(c));
+            let small = g.mul(scale, x);
+            // Moved out, the factor would be squared: zero, or infinite.
+            let square = g.mul(small, small);
+            let expected = g.intern(Op::Mul, [small.0, small.0, 0]);
+            assert_eq!(square, expected);
+            // What scales it back is one factor with it.
+            let back = g.div(small, scale);
+            assert_eq!(back, x);
+        }
+    }
+
+    #[test]
     fn the_square_of_a_norm_loses_its_root() {
         let mut g = Graph::new();
         let (x, y, s) = (g.input(), g.input(), g.input());

@@ -296,7 +296,7 @@ FAULTS = (
     Message(
         "extreme-scale",
         "the scale of this choice is too far from 1 to follow a gradient",
-        "its scale depends on other choices",
+        "its square is no number",
         why="a chain learns the square of each scale, which is no number beyond about 1e150 either way",
         help="draw from a scale of 1, and multiply",
         example="gaussian(0, 1e300 * gamma(2, 1))",
