@@ -66,7 +66,17 @@ class Judge:
     def command(self) -> list[str]:
         config = [word for line in QUICK for word in ("--config", line)]
         target = ["--lib"] if self.target == "lib" else ["--test", self.target]
-        return ["cargo", "test", "--release", "--locked", "--quiet", *config, "-p", f"niwaki-{self.crate}", *target]
+        return [
+            "cargo",
+            "test",
+            "--release",
+            "--locked",
+            "--quiet",
+            *config,
+            "-p",
+            f"niwaki-{self.crate}",
+            *target,
+        ]
 
 
 @dataclass(frozen=True)
@@ -84,7 +94,9 @@ class Mutant:
     def applied(self, text: str) -> str:
         """The file's text with the error."""
         if text.count(self.old) != 1:
-            raise ValueError(f"{self.name}: its text stands {text.count(self.old)} times in {self.file}, expected once")
+            raise ValueError(
+                f"{self.name}: its text stands {text.count(self.old)} times in {self.file}, expected once"
+            )
         return text.replace(self.old, self.new)
 
 
@@ -96,13 +108,15 @@ def entries() -> list[Mutant]:
         if extra := set(entry) - known:
             raise ValueError(f"{entry.get('name')}: unknown keys {sorted(extra)}")
     return [
-        Mutant(e["name"], e["breaks"], e["file"], e["from"], e["to"], Judge.read(e["judge"]), e.get("survives"))
+        Mutant(
+            e["name"], e["breaks"], e["file"], e["from"], e["to"], Judge.read(e["judge"]), e.get("survives")
+        )
         for e in read
     ]
 
 
 def copy_sources() -> None:
-    """Makes the scratch tree equal to the working tree's sources; equal files keep their time, so nothing is rebuilt."""
+    """Makes the scratch tree equal to the sources; equal files keep their time, so nothing is rebuilt."""
     command = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
     listed = subprocess.run([*command, *SOURCES], cwd=ROOT, check=True, capture_output=True, text=True).stdout
     names = {name for name in listed.split("\0") if name and (ROOT / name).is_file()}
@@ -121,7 +135,13 @@ def run(command: list[str], limit: float) -> tuple[int | None, str, float]:
     env = {**os.environ, "CARGO_TARGET_DIR": str(SCRATCH / "build")}
     start = time.monotonic()
     with subprocess.Popen(
-        command, cwd=TREE, env=env, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True
+        command,
+        cwd=TREE,
+        env=env,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        start_new_session=True,
     ) as process:
         try:
             said, _ = process.communicate(timeout=limit)
@@ -216,7 +236,10 @@ def main(arguments: list[str]) -> int:
     usual: dict[Judge, float] = {}
     for judge in dict.fromkeys(m.judge for m in chosen):
         found = judged(judge, BUILD_LIMIT)
-        print(f"{found.what:9} {judge}, as it is: built in {found.build:.0f} s, ran {found.took:.1f} s", flush=True)
+        print(
+            f"{found.what:9} {judge}, as it is: built in {found.build:.0f} s, ran {found.took:.1f} s",
+            flush=True,
+        )
         if found.what != "passed":
             print(found.said[-4000:], file=sys.stderr)
             print(f"`{judge}` must pass before it can judge ({found.what} {found.failed})", file=sys.stderr)
@@ -244,7 +267,10 @@ def main(arguments: list[str]) -> int:
         )
     caught = sum("| caught |" in row for row in rows)
     REPORT.parent.mkdir(exist_ok=True)
-    head = ["| mutant | what is broken | outcome | tests that failed | build, s | judge, s |", "| --- " * 6 + "|"]
+    head = [
+        "| mutant | what is broken | outcome | tests that failed | build, s | judge, s |",
+        "| --- " * 6 + "|",
+    ]
     REPORT.write_text("\n".join([f"{caught} of {len(rows)} caught.", "", *head, *rows, ""]), encoding="utf-8")
     print(f"{caught} of {len(rows)} caught; {REPORT.relative_to(ROOT)} has the table")
     if bad:

@@ -1,7 +1,7 @@
-"""The list of deliberate errors fits the sources: each text is where it is said to be, and the manual shows all of them."""
+"""The list of deliberate errors fits the sources, and the manual shows all of them."""
 
-import pytest
 import mutants
+import pytest
 
 MUTANTS = mutants.entries()
 
@@ -12,7 +12,12 @@ def test_an_error_changes_one_place_and_its_judge_has_tests(mutant):
     assert mutant.applied(text) != text
     crate = mutants.ROOT / "crates" / mutant.judge.crate
     folder = crate / ("src" if mutant.judge.target == "lib" else "tests")
-    names = {line.split("(")[0].split("fn ")[-1] for file in folder.rglob("*.rs") for line in file.read_text().splitlines() if "fn " in line}
+    names = {
+        line.split("(")[0].split("fn ")[-1]
+        for file in folder.rglob("*.rs")
+        for line in file.read_text().splitlines()
+        if "fn " in line
+    }
     for pattern in mutant.judge.patterns:
         own = pattern.rsplit("::", 1)[-1]
         assert not own or any(own in name for name in names), f"no test is named like `{pattern}`"
