@@ -123,7 +123,11 @@ fn rows() -> Vec<Row> {
             "repeat",
             Kernel::Repeat(3, Box::new(Kernel::Cycle(vec![prior(), Kernel::Neighbour { reach: 1 }]))),
         ),
-        row("odds by depth", Kernel::On(deep, Box::new(prior()))),
+        row("odds by depth", Kernel::On(deep.clone(), Box::new(prior()))),
+        Row {
+            temperatures: vec![1.0, 2.0, 5.0],
+            ..row("temper, odds by depth", Kernel::On(deep, Box::new(prior())))
+        },
         Row {
             only: "a coin that decides how many more",
             ..row("odds by site", Kernel::On(sites, Box::new(prior())))
@@ -207,7 +211,7 @@ fn a_step_that_is_not_adapted_finds_both_peaks() {
     const BELOW: f64 = 0.5 + 0.5 * 0.022_750_131_948_179_2;
     let two = task(
         r#"(module (fn "m" (params)
-            (set $x (sample (dist mixture (list 0.5 0.5) (list (dist gaussian 0.0 0.2) (dist gaussian 4.0 1.5)))))
+            (set $x (sample (dist mixture (list 0.5 0.5) (list (dist gaussian 0.0 0.01) (dist gaussian 4.0 1.5)))))
             (return (lt $x 1.0))) (entry "m"))"#,
     );
     let exact = [("True".to_string(), BELOW), ("False".to_string(), 1.0 - BELOW)];
