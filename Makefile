@@ -10,6 +10,7 @@
 #   make bench-c3 proposals of Markov chains beside WebPPL and the limit, with figures (15 minutes; QUICK=1: two)
 #   make bench-hmc gradients and effective samples beside JAX, NumPyro, nutpie and the limit (4 minutes; QUICK=1: one)
 #   make soak     the long tests, with fresh printed seeds (NIWAKI_FUZZ_SECONDS: how long finite programs are tried)
+#   make mutants  deliberate errors in the engine, which the tests must reject (ONLY=name: those); out/mutants.md
 #   make docs     the manual, into docs/_build/html, and the engine's pages, into target/doc
 #   make format   rewrite the sources in the house's style
 #   make locks    pin the newest versions of what pyproject.toml asks for
@@ -38,7 +39,7 @@ PYTHON_SOURCES := python tests benches docs/conf.py
 
 PARTS :=
 
-.PHONY: all demo test lint bench bench-c3 bench-hmc figures-sosmc figures-hmc soak docs format locks clean
+.PHONY: all demo test lint bench bench-c3 bench-hmc figures-sosmc figures-hmc soak mutants docs format locks clean
 all: $(STAMPS)/engine
 
 # ---- set-up: one stamp for each thing that is made, older than what depends on it
@@ -99,6 +100,9 @@ bench-hmc: $(STAMPS)/engine $(STAMPS)/bench-hmc $(STAMPS)/test
 soak: $(STAMPS)/engine $(STAMPS)/test
 	cargo test $(CARGO_FLAGS) --workspace -- --ignored
 	$(PY) -m pytest -m soak || { status=$$?; [ $$status -eq 5 ] && echo "no long test yet" || exit $$status; }
+
+mutants: $(STAMPS)/venv
+	$(PY) tests/mutants/mutants.py $(ONLY)
 
 docs: $(STAMPS)/engine $(STAMPS)/docs
 	$(VENV)/bin/sphinx-build -W --keep-going -q -b html docs docs/_build/html

@@ -1,9 +1,9 @@
 //! Triangle meshes: checked once, then shared.
 
-use serde::{Deserialize, Serialize};
 use crate::bounds::Aabb;
 use crate::error::GeomError;
 use crate::vector::Vec3;
+use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 
 /// Triangles over shared vertices. Every index is in range and every coordinate finite.

@@ -70,3 +70,26 @@ pub fn log_sum_exp(logs: impl Iterator<Item = f64> + Clone) -> f64 {
     let n = logs.clone().count();
     log_mean_exp(logs) + (n.max(1) as f64).ln()
 }
+
+#[cfg(test)]
+mod tests {
+    //! The claim: the mean weight is the evidence, with runs that are impossible.
+    use super::*;
+    use niwaki_vm::core::parse::parse;
+    use niwaki_vm::passes::compile;
+    use std::sync::Arc;
+
+    #[test]
+    fn the_mean_weight_is_the_evidence() {
+        // Weights 0, 1 and exp(0.5) with probability 0.5, 0.3, 0.2. Beyond five standard errors once in 1.7 million.
+        let text = r#"(module (fn "m" (params) (set $x (sample (dist categorical (list 0.5 0.3 0.2))))
+            (do (condition (gt $x 0))) (do (factor (cond (eq $x 2) 0.5 0.0))) (return $x)) (entry "m"))"#;
+        let task = Task::new(Arc::new(compile(&parse(text).unwrap(), vec![]).unwrap()));
+        let n = 20_000;
+        let found = importance(&task, n, 1, &mut |_| true).unwrap();
+        let (mean, square) = (0.3 + 0.2 * 0.5f64.exp(), 0.3 + 0.2 * 1.0f64.exp());
+        let error = ((square - mean * mean) / n as f64).sqrt();
+        let z = (found.log_evidence.exp() - mean) / error;
+        assert!(found.samples.len() == n && z.abs() < 5.0, "{z}");
+    }
+}

@@ -11,8 +11,8 @@ use crate::hamiltonian::{self, Shape};
 use crate::importance::importance;
 use crate::log::Entry;
 use crate::particles::{
-    self, Ancestors, Moment, Progress, Rejuvenation, Resampling, Settings, Walks, particle_gibbs, pimh, populations,
-    within,
+    self, Ancestors, Moment, Progress, Rejuvenation, Resampling, Settings, Walks, particle_gibbs, pimh,
+    populations, within,
 };
 use crate::rejection::rejection;
 use crate::run::Run;

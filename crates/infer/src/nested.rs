@@ -354,7 +354,8 @@ mod tests {
             format!(r#"{{"method": "smc", {plain}, {more}}}"#)
         };
         let mh = |kernel: &str, warmup: u32| {
-            let plain = r#""steps": 60, "strategy": "c3", "chains": 2, "thin": null, "keep": null, "tries": 1000"#;
+            let plain =
+                r#""steps": 60, "strategy": "c3", "chains": 2, "thin": null, "keep": null, "tries": 1000"#;
             format!(r#"{{"method": "mh", {plain}, "kernel": {kernel}, "warmup": {warmup}}}"#)
         };
         let methods = [
@@ -410,7 +411,8 @@ mod tests {
     #[test]
     fn a_setting_that_has_no_meaning_inside_is_refused() {
         let mh = |thin: &str, keep: &str| {
-            let plain = r#""steps": 9, "strategy": "c3", "chains": 1, "warmup": 0, "tries": 9, "kernel": null"#;
+            let plain =
+                r#""steps": 9, "strategy": "c3", "chains": 1, "warmup": 0, "tries": 9, "kernel": null"#;
             inner(&format!(r#"{{"method": "mh", {plain}, "thin": {thin}, "keep": {keep}}}"#)).unwrap()
         };
         assert!(mh("null", "null").is_ok());

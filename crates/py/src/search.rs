@@ -205,9 +205,7 @@ impl PyTask {
         let program = &self.task.program;
         let read = Inner::read(&self.model.get().classes.value(constant)?);
         let unknown = || Fault::new("infer-method", "this constant is no inference");
-        let inner = read
-            .unwrap_or_else(|| Err(unknown()))
-            .map_err(|fault| faults::setting(py, &fault))?;
+        let inner = read.unwrap_or_else(|| Err(unknown())).map_err(|fault| faults::setting(py, &fault))?;
         let inferences = self.model.get().inferences(self.task.limits);
         let entry = Arc::new(Closure { function: program.entry.0, captures: vec![] });
         let value = self.at_once(py, || Ok(inferences.infer(&inner, &entry, &self.task.args, seed)?))?;

@@ -121,6 +121,11 @@ fn merges_loops_and_exits_are_the_same_with_and_without_effects() {
             "(set $n 0) (while true (body EFFECT (set $n (add $n 1)) (if (gt $n 6) (then (break)) (else (continue))))) (return $n)",
             "7",
         ),
+        // What only the test reads is handed on.
+        (
+            "(set $more true) (set $n 0) (while $more (body EFFECT (set $more (lt $n 3)) (set $n (add $n 1)))) (return $n)",
+            "4",
+        ),
         (
             "(set $xs (list)) (for $i (range 3) (body EFFECT (set $xs (append $xs (mul $i $i))))) (return $xs)",
             "[0, 1, 4]",

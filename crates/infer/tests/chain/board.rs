@@ -124,7 +124,11 @@ fn rows() -> Vec<Row> {
             "repeat",
             Kernel::Repeat(3, Box::new(Kernel::Cycle(vec![prior(), Kernel::Neighbour { reach: 1 }]))),
         ),
-        row("odds by depth", Kernel::On(deep, Box::new(prior()))),
+        row("odds by depth", Kernel::On(deep.clone(), Box::new(prior()))),
+        Row {
+            temperatures: vec![1.0, 2.0, 5.0],
+            ..row("temper, odds by depth", Kernel::On(deep, Box::new(prior())))
+        },
         Row {
             only: "a coin that decides how many more",
             ..row("odds by site", Kernel::On(sites, Box::new(prior())))
@@ -147,11 +151,17 @@ fn rows() -> Vec<Row> {
 
 /// The largest |z| over the values of a program.
 fn worst<R: Rules>(text: &str, row: &Row, seed: u64) -> f64 {
+    let exact = enumerate(&program(text, row.power), 100_000, &mut |_| true).expect("few runs");
+    let shares = exact.outcomes.iter().map(|(value, log)| {
+        let value = repr(value).expect("a value");
+        (value, (log - exact.log_evidence).exp())
+    });
+    worst_of::<R>(&program(text, "1.0"), &shares.collect::<Vec<_>>(), row, seed)
+}
+
+/// The same, of a program whose values have these probabilities.
+fn worst_of<R: Rules>(task: &Task, exact: &[(String, f64)], row: &Row, seed: u64) -> f64 {
     const STRETCHES: usize = 60;
-    let (task, exact) = (
-        program(text, "1.0"),
-        enumerate(&program(text, row.power), 100_000, &mut |_| true).expect("few runs"),
-    );
     let settings = Settings {
         seed,
         kernel: row.kernel.clone(),
@@ -160,21 +170,19 @@ fn worst<R: Rules>(text: &str, row: &Row, seed: u64) -> f64 {
         every: 5,
         ..Settings::default()
     };
-    let mut chain = Ladder::<R>::start(&task, &settings, 0, None).expect("a chain");
-    chain.advance(&task, 500, &mut |_, _| true).expect("a run");
+    let mut chain = Ladder::<R>::start(task, &settings, 0, None).expect("a chain");
+    chain.advance(task, 500, &mut |_, _| true).expect("a run");
     let mut shares: Vec<HashMap<String, f64>> = vec![HashMap::new(); STRETCHES];
     for share in &mut shares {
         for _ in 0..1000 {
-            chain.advance(&task, 1, &mut |_, _| true).expect("a run");
+            chain.advance(task, 1, &mut |_, _| true).expect("a run");
             let value = repr(&chain.rungs[0].state.trace.result()).expect("a value");
             *share.entry(value).or_default() += 0.001;
         }
     }
     let mut largest: f64 = 0.0;
-    for (value, log) in &exact.outcomes {
-        let value = repr(value).expect("a value");
-        let probability = (log - exact.log_evidence).exp();
-        let found: Vec<f64> = shares.iter().map(|share| share.get(&value).copied().unwrap_or(0.0)).collect();
+    for (value, probability) in exact {
+        let found: Vec<f64> = shares.iter().map(|share| share.get(value).copied().unwrap_or(0.0)).collect();
         let n = STRETCHES as f64;
         let mean = found.iter().sum::<f64>() / n;
         let variance = found.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (n - 1.0);
@@ -195,6 +203,27 @@ fn every_kernel_gives_the_exact_answer() {
         }
     }
     assert!(wrong.is_empty(), "\n{wrong}");
+}
+
+/// A narrow peak and a wide one: a step that goes on adapting shrinks on the narrow one until it no longer leads away.
+/// The value says on which side of 1 it is; of the wide peak's mass Phi(-2) is below.
+#[test]
+fn a_step_that_is_not_adapted_finds_both_peaks() {
+    const BELOW: f64 = 0.5 + 0.5 * 0.022_750_131_948_179_2;
+    let two = task(
+        r#"(module (fn "m" (params)
+            (set $x (sample (dist mixture (list 0.5 0.5) (list (dist gaussian 0.0 0.01) (dist gaussian 4.0 1.5)))))
+            (return (lt $x 1.0))) (entry "m"))"#,
+    );
+    let exact = [("True".to_string(), BELOW), ("False".to_string(), 1.0 - BELOW)];
+    for (name, kernel) in [
+        ("drift", Kernel::Drift { step: 3.0, target: 0.44 }),
+        ("block", Kernel::Block { step: 3.0, share: 1.0, target: 0.44 }),
+    ] {
+        let row = Row { name, kernel, temperatures: vec![1.0], power: "1.0", only: "" };
+        let z = worst_of::<MetropolisHastings>(&two, &exact, &row, 11);
+        assert!(z < 6.0, "{name}: z = {z}");
+    }
 }
 
 /// Leaves out how likely the move was chosen, before and after.

@@ -162,14 +162,15 @@ pub fn distance<R: Rules>(text: &str, kernel: &Kernel) -> f64 {
 
 /// The same, of so many replicates.
 pub fn distance_of<R: Rules>(text: &str, kernel: &Kernel, replicates: u64) -> f64 {
-    distance_at::<R>(text, kernel, replicates, 1.0, &[1.0])
+    distance_at::<R>(text, kernel, replicates, PROPOSALS, 1.0, &[1.0])
 }
 
-/// The same, of a kernel that holds the score at one temperature, or of chains at several.
+/// The same, of chains of so many proposals, of a kernel that holds the score at one temperature, or of chains at several.
 fn distance_at<R: Rules>(
     text: &str,
     kernel: &Kernel,
     replicates: u64,
+    proposals: u64,
     held: f64,
     temperatures: &[f64],
 ) -> f64 {
@@ -197,7 +198,7 @@ fn distance_at<R: Rules>(
             .expect("the states that were drawn");
         let started = numbers(&ladder.rungs[0].state.trace.result());
         assert_eq!(started[..started.len().min(2)], values[..started.len().min(2)], "the chain starts there");
-        ladder.advance(&given, PROPOSALS, &mut |_, _| true).expect("proposals");
+        ladder.advance(&given, proposals, &mut |_, _| true).expect("proposals");
         kept.push(numbers(&ladder.rungs[0].state.trace.result()));
     }
     let scale = (replicates as f64 / 2.0).sqrt();
@@ -283,7 +284,7 @@ fn a_proposal_of_ones_own_leaves_the_posterior_as_it_is() {
 fn a_kernel_at_one_temperature_leaves_its_posterior_as_it_is() {
     let held = |hot| Kernel::Anneal { hot, cold: hot, steps: 9, kernel: Box::new(mixture()) };
     for (name, text) in &PROGRAMS[1..] {
-        let d = distance_at::<MetropolisHastings>(text, &held(2.0), REPLICATES, 2.0, &[1.0]);
+        let d = distance_at::<MetropolisHastings>(text, &held(2.0), REPLICATES, PROPOSALS, 2.0, &[1.0]);
         assert!(d < LIMIT, "{name}: {d}");
     }
     // A hot kernel, given data as if the temperature were 1.
@@ -295,11 +296,19 @@ fn a_kernel_at_one_temperature_leaves_its_posterior_as_it_is() {
 fn tempering_leaves_the_posterior_as_it_is() {
     let temperatures = [1.0, 2.0, f64::INFINITY];
     for (name, text) in &PROGRAMS[1..] {
-        let d = distance_at::<MetropolisHastings>(text, &mixture(), REPLICATES, 1.0, &temperatures);
+        let d =
+            distance_at::<MetropolisHastings>(text, &mixture(), REPLICATES, PROPOSALS, 1.0, &temperatures);
         assert!(d < LIMIT, "{name}: {d}");
     }
     for at in [3, 5] {
-        let d = distance_at::<ExchangesAnyway>(PROGRAMS[at].1, &mixture(), REPLICATES, 1.0, &temperatures);
+        let d = distance_at::<ExchangesAnyway>(
+            PROGRAMS[at].1,
+            &mixture(),
+            REPLICATES,
+            PROPOSALS,
+            1.0,
+            &temperatures,
+        );
         assert!(d > 1.5 * LIMIT, "{}: exchanged anyway: {d} only", PROGRAMS[at].0);
     }
 }
@@ -324,6 +333,22 @@ fn regeneration_and_mixtures_that_forget_a_term_are_found_out() {
 /// The largest distance over some of the programs.
 fn furthest<R: Rules>(programs: &[usize], kernel: &Kernel) -> f64 {
     programs.iter().map(|at| distance::<R>(PROGRAMS[*at].1, kernel)).fold(0.0, f64::max)
+}
+
+/// Outside of a warm-up nothing is adapted: a step that shrinks on the narrow peak would no longer lead away from it.
+/// Forty proposals, so that it has time to.
+#[test]
+fn a_step_that_is_not_adapted_leaves_the_posterior_as_it_is() {
+    let two = r#"
+        (set $x (sample (dist mixture (list 0.5 0.5) (list (dist gaussian 0.0 0.2) (dist gaussian 4.0 1.5)))))
+        DATA(gaussian $x 3.0)
+        (return (tuple $x (mul $x $y)))"#;
+    for kernel in
+        [Kernel::Drift { step: 3.0, target: 0.44 }, Kernel::Block { step: 3.0, share: 1.0, target: 0.44 }]
+    {
+        let d = distance_at::<MetropolisHastings>(two, &kernel, REPLICATES, 40, 1.0, &[1.0]);
+        assert!(d < LIMIT, "{kernel:?}: {d}");
+    }
 }
 
 #[test]

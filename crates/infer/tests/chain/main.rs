@@ -7,6 +7,7 @@ mod invalid;
 mod mixed;
 mod programs;
 
+use niwaki_geom::{Aabb, no_overshoot, vec3};
 use niwaki_infer::Task;
 use niwaki_infer::chain::accept::{MetropolisHastings, Rules};
 use niwaki_infer::chain::agreement::{Seen, compare, disagreement};
@@ -116,6 +117,21 @@ fn four_strategies_make_the_same_ladder() {
         }
     }
     assert!(exchanges > 1000, "{exchanges} exchanges only");
+}
+
+/// A scene is scored as it is: the sketches follow what is kept and what is undone, with every kernel.
+#[test]
+fn four_strategies_score_the_same_scene() {
+    let (_, text) = PROGRAMS.iter().find(|(name, _)| *name == "futures and shapes").expect("a program");
+    let domain = Aabb { low: vec3(-0.3, -0.5, -0.3), high: vec3(0.3, 0.5, 0.3) };
+    let sketches = vec![no_overshoot(domain, 2.0).expect("a sketch")];
+    let task = Task { sketches, ..task(text) };
+    for (kind, kernel) in kernels(&task) {
+        let settings = Settings { kernel, ..settings() };
+        let (found, seen) = compare(&task, &settings, 300, 30).expect("a chain");
+        assert!(found.is_none(), "{kind}: {}", found.unwrap_or_default());
+        assert!(0 < seen.accepted && seen.accepted < 300, "{kind}: {seen:?}");
+    }
 }
 
 fn settings() -> Settings {

@@ -148,6 +148,15 @@ impl<'p> Chain<'p> {
         self.decide(step, change)
     }
 
+    /// Log densities of proposing these changes, there and back, when they have run; they are undone.
+    pub fn forward_and_backward(&mut self, changes: Vec<Changed<f64>>) -> (f64, f64) {
+        let mut draws = Draws { seed: self.seed, visit: 1, known: HashMap::new() };
+        self.machine.change(&mut self.trace, changes, self.strategy, &mut draws).expect("a run");
+        let both = self.trace.forward_and_backward();
+        self.trace.rollback(self.program);
+        both
+    }
+
     /// Everything that the trace holds, as text.
     pub fn dump(&self) -> String {
         let mut text = format!("{:?} {:?}\n", self.trace.result(), self.trace.totals());

@@ -6,7 +6,8 @@ mod programs;
 
 use chain::{Chain, fresh_totals};
 use niwaki_vm::code::Op;
-use niwaki_vm::machine::kept::Strategy;
+use niwaki_vm::machine::kept::{Changed, Proposed, Strategy};
+use niwaki_vm::value::Value;
 use programs::{PROGRAMS, compiled};
 
 const STRATEGIES: [Strategy; 4] = [Strategy::Rerun, Strategy::Resume, Strategy::Cache, Strategy::C3];
@@ -50,6 +51,31 @@ fn a_block_of_changes_agrees_with_a_rerun() {
             assert_eq!(a.dump(), b.dump(), "{name}, seed {seed}");
             assert_eq!(&fresh_totals(&program, &a), b.trace.totals(), "{name}, seed {seed}: sums");
         }
+    }
+}
+
+/// A changed choice that the run meets no more has no part in how likely the move was; one that it meets has.
+#[test]
+fn what_is_not_met_again_was_not_proposed() {
+    let program = compiled(
+        r#"(module (fn "m" (params) (set $b (sample (dist bernoulli 0.5)))
+            (if $b (then (set $x (sample (dist gaussian 0.0 1.0))) (do (factor $x)))) (return $b)) (entry "m"))"#,
+    );
+    for strategy in STRATEGIES {
+        let with_x = |seed: &u64| Chain::start(&program, strategy, *seed).trace.len() == 2;
+        let mut chain = Chain::start(&program, strategy, (0..).find(with_x).expect("a seed"));
+        let (b, x) = match chain.trace.choice(&program, 0).0 {
+            Value::Bool(_) => (0, 1),
+            _ => (1, 0),
+        };
+        let change = |choice, value, forward, backward| Changed {
+            choice,
+            proposed: Proposed { value, forward, backward },
+        };
+        let moved = || change(x, Value::Real(0.25), -1.0, -2.0);
+        assert_eq!(chain.forward_and_backward(vec![moved()]), (-1.0, -2.0));
+        let gone = vec![change(b, Value::Bool(false), -0.5, -0.25), moved()];
+        assert_eq!(chain.forward_and_backward(gone), (-0.5, -0.25));
     }
 }
 
