@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from niwaki import words
+from niwaki.lang import densities
 from niwaki.lang.core import Core
 from niwaki.lang.plain import PlainRun, Run
 from niwaki.words.distributions import FAMILIES
@@ -296,4 +297,5 @@ def read(core: Core, args: list[Any], seed: int | None = None, choices: dict[str
     state = PlainRun(seed, choices)
     reader = Reader(core, state)
     value = reader.call(reader.entry, args, None)
-    return Run(value, state.made, state.log_prior, state.log_score, state.scene, state.answers)
+    log_prior, log_score = densities.total(state.priors), densities.total(state.scores)
+    return Run(value, state.made, log_prior, log_score, state.scene, state.answers)
