@@ -1,12 +1,13 @@
 //! The verifier: what the machine relies on, checked once for each program.
 //!
 //! Every operand lies within its function's registers, constants or captures; every jump within the code;
-//! instructions end in a return; sites belong to functions that may suspend; each site stands at one place; and what
-//! other activations may have overwritten is never read.
+//! instructions end in a return; sites belong to functions that may suspend; each site stands at one place; what
+//! other activations may have overwritten is never read; and what an activation has read it does not overwrite.
 
 use super::{Function, Mode, Op, Operand, Place, Program, SiteKind};
-use crate::passes::{live_before, reads_and_writes};
+use crate::passes::{live_before, reads_and_writes, successors};
 use niwaki_math::Scalar;
+use std::collections::HashSet;
 
 /// A program that the machine must not run.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -132,6 +133,11 @@ fn function<S: Scalar>(program: &Program<S>, f: &Function<S>, outer: usize) -> R
     {
         return fail(at, "scratch registers do not live from one run of an activation to the next");
     }
+    if f.mode != Mode::Pure
+        && let Some(at) = reads_what_will_be_overwritten(f)
+    {
+        return fail(at, "a register of the node is read and assigned again");
+    }
     // Slices end as the code does, or by being done.
     match (f.code.get((f.body as usize).wrapping_sub(1)), f.code.last()) {
         (
@@ -168,6 +174,29 @@ fn reads_what_is_gone<S: Scalar>(f: &Function<S>) -> Option<usize> {
         }
     }
     entries.into_iter().find(|at| !live[*at].is_empty())
+}
+
+/// An instruction that reads a register of the node to which that instruction or a later one writes.
+///
+/// An activation that is entered again finds in its registers what was written there last: where a slice leaves out the
+/// first of two assignments, an instruction between them would read the second.
+fn reads_what_will_be_overwritten<S: Scalar>(f: &Function<S>) -> Option<usize> {
+    let body = f.body as usize;
+    let mut written: Vec<HashSet<Operand>> = vec![HashSet::new(); body + 1];
+    for at in (0..body).rev() {
+        let (reads, writes) = reads_and_writes(f, &f.code[at]);
+        let (one, two) = successors(&f.code[at], at);
+        // Loops that are no sites have no registers in the node, so that there is no need to go back.
+        let mut later: HashSet<Operand> = writes.into_iter().filter(|o| o.is_node()).collect();
+        for next in one.into_iter().chain(two).filter(|next| *next > at) {
+            later.extend(&written[next]);
+        }
+        if reads.iter().any(|o| later.contains(o)) {
+            return Some(at);
+        }
+        written[at] = later;
+    }
+    None
 }
 
 #[cfg(test)]
@@ -259,5 +288,22 @@ mod tests {
             }
         }
         assert_eq!(kinds.len(), 19, "every kind of site");
+    }
+
+    #[test]
+    fn a_test_of_what_is_overwritten_is_refused() {
+        let text = r#"(module (fn "m" (params)
+            (set $b (sample (dist bernoulli 0.6)))
+            (set $c (or (sample (dist bernoulli 0.3)) $b))
+            (do (factor -0.1)) (return $c)) (entry "m"))"#;
+        let mut program = compile::<f64>(&parse(text).unwrap(), vec![]).unwrap();
+        assert_eq!(verify(&program), Ok(()));
+        let code = &mut program.functions[0].code;
+        let at = code.iter().position(|op| matches!(op, Op::JumpIf { .. })).unwrap();
+        let Op::Move { to, .. } = code[at - 1] else { panic!("the first operand is moved") };
+        let Op::JumpIf { a, .. } = &mut code[at] else { unreachable!() };
+        assert_ne!(*a, to);
+        *a = to;
+        assert!(verify(&program).is_err_and(|error| error.message.contains("assigned again")));
     }
 }

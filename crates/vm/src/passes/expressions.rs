@@ -225,7 +225,8 @@ impl<S: Scalar> Builder<'_, '_, S> {
                 let decided = self.label();
                 deciding.push((decided, self.sites.len()));
                 let target = Self::jump_target(decided);
-                self.op(if is_and { Op::JumpUnless { a: to, target } } else { Op::JumpIf { a: to, target } });
+                // Not `to`, which a later operand may overwrite.
+                self.op(if is_and { Op::JumpUnless { a, target } } else { Op::JumpIf { a, target } });
             }
         }
         // Checks that ran in a later operand do not hold when an earlier one decided.

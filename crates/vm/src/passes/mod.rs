@@ -16,7 +16,7 @@ pub mod liveness;
 mod place;
 #[cfg(test)]
 pub(crate) use place::rewrite;
-pub(crate) use place::{live_before, reads_and_writes};
+pub(crate) use place::{live_before, reads_and_writes, successors};
 mod sites;
 mod slices;
 mod statements;

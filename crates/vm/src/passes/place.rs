@@ -89,7 +89,8 @@ pub(crate) fn reads_and_writes<S: Scalar>(f: &Function<S>, op: &Op) -> (Vec<Oper
     }
 }
 
-fn successors(op: &Op, at: usize) -> (Option<usize>, Option<usize>) {
+/// The instructions that may follow the one at `at`.
+pub(crate) fn successors(op: &Op, at: usize) -> (Option<usize>, Option<usize>) {
     match *op {
         Op::Jump { target } => (Some(target as usize), None),
         Op::JumpIf { target, .. }

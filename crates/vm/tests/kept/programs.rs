@@ -153,6 +153,17 @@ pub const PROGRAMS: &[(&str, &str)] = &[
             (do (factor (cond $b $x 0.1))) (return (tuple $a $b $x))) (entry "m"))"#,
     ),
     (
+        "conditions over what is known, kept past a site",
+        r#"(module (fn "m" (params)
+            (set $a (sample (dist bernoulli 0.6)))
+            (set $b (or (sample (dist bernoulli 0.3)) $a))
+            (set $c (and $a (sample (dist bernoulli 0.5)) $b))
+            (set $d (or $c (sample (dist bernoulli 0.2)) $a))
+            (do (factor -0.1))
+            (set $x (sample (dist gaussian (cond $b 1.0 0.0) 1.0)))
+            (return (tuple $b $c $d $x))) (entry "m"))"#,
+    ),
+    (
         "a list of components, read by points",
         r#"(module (fn "m" (params)
             (set $k (add 2 (sample (dist categorical (list 0.5 0.5)))))
