@@ -208,7 +208,6 @@ impl<S: Scalar> Trace<S> {
             kept.free_readers.push(id);
         }
         kept.totals.clone_from(&kept.before);
-        (kept.fresh, kept.stale) = (Total::default(), Total::default());
         if let Some(result) = kept.result_before.take() {
             kept.result = result;
         }
@@ -290,6 +289,7 @@ impl<S: Scalar> Machine<'_, S> {
             // Once more, in program order.
             trace.undo(program);
             trace.kept.prepare(Strategy::Cache);
+            (trace.kept.fresh, trace.kept.stale) = (Total::default(), Total::default());
             trace.kept.slots[at].mark |= Slot::CHANGED;
             trace.kept.write_to(&mut trace.state, false, place, value);
         }
