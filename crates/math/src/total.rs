@@ -75,6 +75,26 @@ impl Total {
         }
     }
 
+    /// Takes a term away and adds another.
+    #[inline(always)]
+    pub fn replace(&mut self, old: f64, new: f64) {
+        if old.abs() < QUICK && new.abs() < QUICK {
+            self.add_steps(quick_steps(new) - quick_steps(old));
+        } else {
+            self.remove(old);
+            self.add(new);
+        }
+    }
+
+    /// Takes every term away.
+    #[inline(always)]
+    pub fn clear(&mut self) {
+        self.near = 0;
+        if self.rest.is_some() {
+            self.copy_rest(&Total::default());
+        }
+    }
+
     #[inline(always)]
     fn add_steps(&mut self, steps: i64) {
         match self.near.checked_add(steps) {
@@ -437,6 +457,21 @@ mod tests {
                     found == right || found.is_nan() && right.is_nan(),
                     "{found} is not {right}: {terms:?}"
                 );
+            }
+            // One term for another, and back.
+            if let Some(old) = terms.first() {
+                let (mut other, new) = (total.clone(), term(&mut random));
+                other.replace(*old, new);
+                exact.add(*old, -1);
+                exact.add(new, 1);
+                let (found, right) = (other.value(), exact.value());
+                assert!(found == right || found.is_nan() && right.is_nan());
+                exact.add(new, -1);
+                exact.add(*old, 1);
+                other.replace(new, *old);
+                assert_eq!(other, total);
+                other.clear();
+                assert!(other == Total::default() && other.rest.is_none());
             }
             // The same terms in another order, and their difference from others.
             let (mut other, mut rest) = (Total::default(), exact.clone());

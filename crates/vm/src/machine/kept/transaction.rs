@@ -68,7 +68,8 @@ impl<S: Scalar> Kept<S> {
         self.open = true;
         self.now = self.now.wrapping_add(1);
         self.before.clone_from(&self.totals);
-        (self.fresh, self.stale) = (Total::default(), Total::default());
+        self.fresh.clear();
+        self.stale.clear();
         self.outside = false;
     }
 
@@ -289,7 +290,8 @@ impl<S: Scalar> Machine<'_, S> {
             // Once more, in program order.
             trace.undo(program);
             trace.kept.prepare(Strategy::Cache);
-            (trace.kept.fresh, trace.kept.stale) = (Total::default(), Total::default());
+            trace.kept.fresh.clear();
+            trace.kept.stale.clear();
             trace.kept.slots[at].mark |= Slot::CHANGED;
             trace.kept.write_to(&mut trace.state, false, place, value);
         }
