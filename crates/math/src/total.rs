@@ -4,11 +4,11 @@
 //! runs that made the same choices in another order must agree in the last bit. With `f64` that holds only while every
 //! sum fits into 53 bits. A [`Total`] holds each term on the [`grid`](crate::grid) of 2^-32 nats without loss:
 //!
-//! | terms | where | cost |
-//! | --- | --- | --- |
-//! | below 2^62 nats | one integer of 128 bits, in steps of 2^-32 nats; room for 2^33 such terms | an addition |
-//! | larger, finite | an expansion: `f64` parts that do not overlap (Shewchuk 1997, theorem 10), on the heap while it is not zero | rare |
-//! | infinite | counted by sign; NaN is counted as one of each, and comes back as NaN | rare |
+//! | terms | where |
+//! | --- | --- |
+//! | below 2^30 nats | one integer, in steps of 2^-32 nats, as long as it has room for their sum |
+//! | larger, finite; sums without room | an expansion: `f64` parts that do not overlap (Shewchuk 1997, theorem 10), on the heap while it is needed |
+//! | infinite | counted by sign, beside the expansion; NaN is counted as one of each, and comes back as NaN |
 
 use std::fmt;
 
@@ -17,13 +17,15 @@ const SHIFT: f64 = 1.5 * (1u64 << 20) as f64;
 /// Terms below this size have the quick addition, nats.
 const QUICK: f64 = (1u64 << 19) as f64;
 /// Terms below this size go into the integer, nats.
-const NEAR: f64 = (1u64 << 62) as f64;
+const NEAR: f64 = (1u64 << 30) as f64;
 /// Steps in a nat.
 const STEPS: f64 = (1u64 << 32) as f64;
+/// A step, nats.
+const STEP: f64 = 1.0 / STEPS;
 /// Far terms are held times 2^-64, so that no partial sum overflows. All stay far above subnormal numbers.
-const SCALE: f64 = 1.0 / (STEPS * STEPS);
+const SCALE: f64 = STEP * STEP;
 /// 2^20 nats in steps.
-const SMALL: u64 = 1 << 52;
+const SMALL: i64 = 1 << 52;
 
 /// An exact sum of terms, nats: finite terms of any size, and infinities. Each term is first rounded to the nearest
 /// multiple of 2^-32.
@@ -35,16 +37,21 @@ const SMALL: u64 = 1 << 52;
 /// [f64::NEG_INFINITY, 1e300, -1e17].map(|term| total.remove(term));
 /// assert_eq!(total.value(), 0.25);
 /// ```
-#[derive(Clone, Default)]
+#[derive(Default)]
 pub struct Total {
     /// Sum of the near terms, steps of 2^-32 nats.
-    near: i128,
-    /// Sum of the far terms.
-    far: Option<Box<Expansion>>,
-    /// How many terms are minus infinity; below zero, where more of them were taken away.
-    lowest: i32,
-    /// The same of plus infinity.
-    highest: i32,
+    near: i64,
+    /// What is not in `near`, if anything.
+    rest: Option<Box<Rest>>,
+}
+
+/// Terms that are not near.
+#[derive(Clone, Default, PartialEq)]
+struct Rest {
+    /// Sum of the finite ones, times [`SCALE`].
+    far: Expansion,
+    /// How many terms are minus infinity, and plus infinity; below zero, where more of them were taken away.
+    infinite: [i32; 2],
 }
 
 impl Total {
@@ -52,7 +59,7 @@ impl Total {
     #[inline(always)]
     pub fn add(&mut self, term: f64) {
         if term.abs() < QUICK {
-            self.near += i128::from(quick_steps(term));
+            self.add_steps(quick_steps(term));
         } else {
             self.add_large(term, 1);
         }
@@ -62,57 +69,112 @@ impl Total {
     #[inline(always)]
     pub fn remove(&mut self, term: f64) {
         if term.abs() < QUICK {
-            self.near -= i128::from(quick_steps(term));
+            self.remove_steps(quick_steps(term));
         } else {
             self.add_large(term, -1);
         }
     }
 
-    #[cold]
-    #[inline(never)]
-    fn add_large(&mut self, term: f64, sign: i32) {
-        if term.is_finite() {
-            let term = f64::from(sign) * term;
-            if term.abs() < NEAR {
-                self.near += (term * STEPS).round_ties_even() as i128;
-            } else {
-                self.grow([term * SCALE]);
-            }
+    /// Takes a term away and adds another.
+    #[inline(always)]
+    pub fn replace(&mut self, old: f64, new: f64) {
+        if old.abs() < QUICK && new.abs() < QUICK {
+            self.add_steps(quick_steps(new) - quick_steps(old));
         } else {
-            self.lowest += sign * i32::from(term != f64::INFINITY);
-            self.highest += sign * i32::from(term != f64::NEG_INFINITY);
+            self.remove(old);
+            self.add(new);
         }
     }
 
-    /// Adds far parts.
-    fn grow(&mut self, parts: impl IntoIterator<Item = f64>) {
-        let mut far = self.far.take().unwrap_or_default();
-        parts.into_iter().for_each(|part| far.grow(part));
-        self.far = (!far.is_zero()).then_some(far);
+    /// Takes every term away.
+    #[inline(always)]
+    pub fn clear(&mut self) {
+        self.near = 0;
+        if self.rest.is_some() {
+            self.copy_rest(&Total::default());
+        }
+    }
+
+    #[inline(always)]
+    fn add_steps(&mut self, steps: i64) {
+        match self.near.checked_add(steps) {
+            Some(near) => self.near = near,
+            None => self.make_room(steps, 1.0),
+        }
+    }
+
+    #[inline(always)]
+    fn remove_steps(&mut self, steps: i64) {
+        match self.near.checked_sub(steps) {
+            Some(near) => self.near = near,
+            None => self.make_room(steps, -1.0),
+        }
+    }
+
+    /// Moves the near sum, and steps for which it has no room, to the far one.
+    #[cold]
+    #[inline(never)]
+    fn make_room(&mut self, steps: i64, sign: f64) {
+        let near = std::mem::take(&mut self.near);
+        self.change_rest(|rest| {
+            parts(near).into_iter().for_each(|part| rest.far.grow(part));
+            parts(steps).into_iter().for_each(|part| rest.far.grow(sign * part));
+        });
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn add_large(&mut self, term: f64, sign: i32) {
+        let signed = f64::from(sign) * term;
+        if term.abs() < NEAR {
+            self.add_steps((signed * STEPS).round_ties_even() as i64);
+        } else if term.is_finite() {
+            self.change_rest(|rest| rest.far.grow(signed * SCALE));
+        } else {
+            let is = [term != f64::INFINITY, term != f64::NEG_INFINITY];
+            self.change_rest(|rest| (0..2).for_each(|end| rest.infinite[end] += sign * i32::from(is[end])));
+        }
+    }
+
+    /// Changes what is not near. What has become small is moved to the near sum, and nothing is held where nothing is left.
+    fn change_rest(&mut self, change: impl FnOnce(&mut Rest)) {
+        let mut rest = self.rest.take().unwrap_or_default();
+        change(&mut rest);
+        if let Some(near) = rest.far.steps().and_then(|steps| self.near.checked_add(steps)) {
+            (self.near, rest.far) = (near, Expansion::default());
+        }
+        self.rest = (*rest != Rest::default()).then_some(rest);
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn add_rest(&mut self, other: &Rest, sign: i32) {
+        self.change_rest(|rest| {
+            other.far.0.iter().for_each(|part| rest.far.grow(f64::from(sign) * part));
+            (0..2).for_each(|end| rest.infinite[end] += sign * other.infinite[end]);
+        });
     }
 
     /// Adds every term of another sum.
-    #[inline]
+    #[inline(always)]
     pub fn add_total(&mut self, other: &Total) {
-        self.near += other.near;
-        (self.lowest, self.highest) = (self.lowest + other.lowest, self.highest + other.highest);
-        if let Some(far) = &other.far {
-            self.grow(far.0.iter().copied());
+        self.add_steps(other.near);
+        if let Some(rest) = &other.rest {
+            self.add_rest(rest, 1);
         }
     }
 
     /// Takes every term of another sum away.
-    #[inline]
+    #[inline(always)]
     pub fn remove_total(&mut self, other: &Total) {
-        self.near -= other.near;
-        (self.lowest, self.highest) = (self.lowest - other.lowest, self.highest - other.highest);
-        if let Some(far) = &other.far {
-            self.grow(far.0.iter().map(|part| -part));
+        self.remove_steps(other.near);
+        if let Some(rest) = &other.rest {
+            self.add_rest(rest, -1);
         }
     }
 
     /// The sum of both.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn plus(&self, other: &Total) -> Total {
         let mut sum = self.clone();
@@ -121,7 +183,7 @@ impl Total {
     }
 
     /// This sum less another, exactly.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn less(&self, other: &Total) -> Total {
         let mut difference = self.clone();
@@ -132,44 +194,66 @@ impl Total {
     /// Whether the sum is minus infinity, as a term is.
     #[inline]
     pub fn is_impossible(&self) -> bool {
-        self.lowest > 0 && self.highest == 0
+        self.rest.as_ref().is_some_and(|rest| rest.infinite[0] > 0 && rest.infinite[1] == 0)
     }
 
     /// The sum, where it is below 2^20 nats: it is then exact as an `f64`, and so is the sum of two such.
     #[inline(always)]
     pub fn small(&self) -> Option<f64> {
-        let near = self.near as i64;
-        let fits = i128::from(near) == self.near && near.unsigned_abs() < SMALL;
-        (fits && self.far.is_none() && (self.lowest | self.highest) == 0).then(|| near as f64 / STEPS)
+        let fits = (self.near.wrapping_add(SMALL) as u64) < 2 * SMALL as u64;
+        (fits && self.rest.is_none()).then(|| self.near as f64 * STEP)
     }
 
     /// The nearest `f64`, ties to even. A term of minus infinity makes it minus infinity, and a term of each sign NaN.
-    #[inline]
+    #[inline(always)]
     pub fn value(&self) -> f64 {
-        self.small().unwrap_or_else(|| self.large_value())
+        match &self.rest {
+            None => self.near as f64 * STEP,
+            Some(rest) => self.large_value(rest),
+        }
     }
 
     #[cold]
     #[inline(never)]
-    fn large_value(&self) -> f64 {
+    fn large_value(&self, rest: &Rest) -> f64 {
+        let [lowest, highest] = rest.infinite;
         // A term that was only taken away is one of the other sign.
-        let up = self.highest > 0 || self.lowest < 0;
-        let down = self.lowest > 0 || self.highest < 0;
-        match (up, down, &self.far) {
-            (true, true, _) => f64::NAN,
-            (true, false, _) => f64::INFINITY,
-            (false, true, _) => f64::NEG_INFINITY,
-            (false, false, None) => self.near as f64 / STEPS,
-            (false, false, Some(far)) => {
-                let (mut sum, mut near) = (far.clone(), self.near);
-                while near != 0 {
-                    let part = near as f64;
-                    sum.grow(part / STEPS * SCALE);
-                    near -= part as i128;
-                }
-                sum.rounded() / SCALE
-            }
+        match (highest > 0 || lowest < 0, lowest > 0 || highest < 0) {
+            (true, true) => return f64::NAN,
+            (true, false) => return f64::INFINITY,
+            (false, true) => return f64::NEG_INFINITY,
+            (false, false) => {}
         }
+        let mut sum = rest.far.clone();
+        parts(self.near).into_iter().for_each(|part| sum.grow(part));
+        sum.rounded() / SCALE
+    }
+}
+
+impl Clone for Total {
+    #[inline(always)]
+    fn clone(&self) -> Total {
+        let mut copy = Total { near: self.near, rest: None };
+        if self.rest.is_some() {
+            copy.copy_rest(self);
+        }
+        copy
+    }
+
+    #[inline(always)]
+    fn clone_from(&mut self, other: &Total) {
+        self.near = other.near;
+        if self.rest.is_some() || other.rest.is_some() {
+            self.copy_rest(other);
+        }
+    }
+}
+
+impl Total {
+    #[cold]
+    #[inline(never)]
+    fn copy_rest(&mut self, other: &Total) {
+        self.rest.clone_from(&other.rest);
     }
 }
 
@@ -179,18 +263,18 @@ fn quick_steps(term: f64) -> i64 {
     (term + SHIFT).to_bits() as i64 - SHIFT.to_bits() as i64
 }
 
+/// Steps as nats times [`SCALE`], exactly.
+fn parts(steps: i64) -> [f64; 2] {
+    [(steps >> 32) as f64 * SCALE, (steps & 0xFFFF_FFFF) as f64 * STEP * SCALE]
+}
+
 impl PartialEq for Total {
     /// Whether the exact sums are equal, whatever terms they were made of.
     fn eq(&self, other: &Total) -> bool {
-        if (self.lowest, self.highest) != (other.lowest, other.highest) {
-            return false;
-        }
-        match (&self.far, &other.far) {
+        let infinite = |of: &Total| of.rest.as_ref().map_or([0; 2], |rest| rest.infinite);
+        match (&self.rest, &other.rest) {
             (None, None) => self.near == other.near,
-            _ => {
-                let difference = self.less(other);
-                difference.value() == 0.0
-            }
+            _ => infinite(self) == infinite(other) && self.less(other).value() == 0.0,
         }
     }
 }
@@ -213,14 +297,10 @@ impl fmt::Debug for Total {
 }
 
 /// A number as the sum of parts that do not overlap, none zero, smallest first.
-#[derive(Clone, Default)]
+#[derive(Clone, Default, PartialEq)]
 struct Expansion(Vec<f64>);
 
 impl Expansion {
-    fn is_zero(&self) -> bool {
-        self.0.is_empty()
-    }
-
     /// Adds a number exactly.
     fn grow(&mut self, mut carried: f64) {
         self.0.retain_mut(|part| {
@@ -231,6 +311,12 @@ impl Expansion {
         if carried != 0.0 {
             self.0.push(carried);
         }
+    }
+
+    /// As steps, where it is small enough for the near sum.
+    fn steps(&self) -> Option<i64> {
+        let is_near = self.rounded().abs() < NEAR * SCALE;
+        is_near.then(|| self.0.iter().map(|part| (part / SCALE * STEPS) as i64).sum())
     }
 
     /// The nearest `f64`, ties to even.
@@ -372,6 +458,21 @@ mod tests {
                     "{found} is not {right}: {terms:?}"
                 );
             }
+            // One term for another, and back.
+            if let Some(old) = terms.first() {
+                let (mut other, new) = (total.clone(), term(&mut random));
+                other.replace(*old, new);
+                exact.add(*old, -1);
+                exact.add(new, 1);
+                let (found, right) = (other.value(), exact.value());
+                assert!(found == right || found.is_nan() && right.is_nan());
+                exact.add(new, -1);
+                exact.add(*old, 1);
+                other.replace(new, *old);
+                assert_eq!(other, total);
+                other.clear();
+                assert!(other == Total::default() && other.rest.is_none());
+            }
             // The same terms in another order, and their difference from others.
             let (mut other, mut rest) = (Total::default(), exact.clone());
             terms.iter().rev().for_each(|term| other.add(*term));
@@ -384,12 +485,12 @@ mod tests {
             let (found, right) = (total.less(&part).value(), rest.value());
             assert!(found == right || found.is_nan() && right.is_nan());
             assert_eq!(total.less(&part).plus(&part), total);
-            assert!(terms.is_empty() || total != total.plus(&Total { near: 1, ..Total::default() }));
+            assert!(terms.is_empty() || total != total.plus(&Total { near: 1, rest: None }));
             // A mutant: a sum of `f64` on the grid.
             plain_fails += u64::from(plain != exact.value());
             // With everything gone, nothing is left.
             terms.iter().for_each(|term| total.remove(*term));
-            assert!(total == Total::default() && total.far.is_none());
+            assert!(total == Total::default() && total.rest.is_none());
         }
         assert!(plain_fails > chains / 2, "a plain sum was right {} times", chains - plain_fails);
     }
@@ -413,6 +514,25 @@ mod tests {
                 terms.iter().for_each(|term| total.add(sign * term));
                 assert_eq!(total.value(), sign * right, "{terms:?}");
             }
+        }
+    }
+
+    #[test]
+    fn sums_without_room_in_the_integer_are_exact_and_come_back() {
+        for sign in [1.0, -1.0] {
+            let (term, count) = (sign * 500_000.25, 20_000);
+            let mut total = Total::default();
+            (0..count).for_each(|_| total.add(term));
+            assert_eq!(total.value(), term * f64::from(count));
+            assert!(total.rest.is_some());
+            let mut twice = total.plus(&total);
+            assert_eq!(twice.value(), 2.0 * total.value());
+            twice.remove_total(&total);
+            assert_eq!(twice, total);
+            (0..count).for_each(|_| total.remove(term));
+            assert_eq!(total.value(), 0.0);
+            let most = Total { near: i64::MIN, rest: None };
+            assert_eq!(Total::default().less(&most).value(), 2f64.powi(31));
         }
     }
 

@@ -8,7 +8,7 @@ use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::core::parse::parse;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
-use niwaki_vm::machine::kept::{Change, Propose, Proposed, Strategy, Totals};
+use niwaki_vm::machine::kept::{Change, Propose, Proposed, Strategy};
 use niwaki_vm::machine::{Limits, Machine};
 use niwaki_vm::passes::compile;
 use niwaki_vm::value::Value;
@@ -168,9 +168,11 @@ fn main() {
             let (before, after) = (trace.before(), trace.totals());
             let (fresh, stale) = trace.fresh_and_stale();
             let (forward, backward) = trace.forward_and_backward();
-            let log_joint = |of: &Totals| of.log_prior.value() + of.log_factors.value();
-            let ratio =
-                log_joint(after) - log_joint(before) + stale.value() + backward - fresh.value() - forward;
+            let mut sum = after.log_prior.less(&before.log_prior);
+            sum.add_total(&after.log_factors.less(&before.log_factors));
+            sum.add_total(stale);
+            sum.remove_total(fresh);
+            let ratio = sum.value() + (backward - forward);
             if change == Change::Same
                 || (change == Change::Done && (ratio >= 0.0 || pick.uniform().ln() < ratio))
             {

@@ -142,7 +142,7 @@ struct Active {
 }
 
 /// Sums over a trace, exact.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Debug, Default, PartialEq)]
 pub struct Totals {
     /// Log densities of the choices, nats.
     pub log_prior: Total,
@@ -152,6 +152,21 @@ pub struct Totals {
     pub choices: usize,
     /// How many factors and observations there are.
     pub factors: usize,
+}
+
+impl Clone for Totals {
+    fn clone(&self) -> Totals {
+        let (log_prior, log_factors) = (self.log_prior.clone(), self.log_factors.clone());
+        Totals { log_prior, log_factors, choices: self.choices, factors: self.factors }
+    }
+
+    /// As for each proposal: nothing is made or dropped.
+    #[inline(always)]
+    fn clone_from(&mut self, other: &Totals) {
+        self.log_prior.clone_from(&other.log_prior);
+        self.log_factors.clone_from(&other.log_factors);
+        (self.choices, self.factors) = (other.choices, other.factors);
+    }
 }
 
 impl Totals {

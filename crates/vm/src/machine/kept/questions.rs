@@ -79,8 +79,7 @@ impl<S: Scalar> Kept<S> {
         }
         self.slots[at].log = log;
         let total = if prior { &mut self.totals.log_prior } else { &mut self.totals.log_factors };
-        total.remove(old.log);
-        total.add(log);
+        total.replace(old.log, log);
     }
 
     /// Carries out a site.

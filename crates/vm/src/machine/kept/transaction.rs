@@ -68,7 +68,8 @@ impl<S: Scalar> Kept<S> {
         self.open = true;
         self.now = self.now.wrapping_add(1);
         self.before.clone_from(&self.totals);
-        (self.fresh, self.stale) = (Total::default(), Total::default());
+        self.fresh.clear();
+        self.stale.clear();
         self.outside = false;
     }
 
@@ -208,7 +209,6 @@ impl<S: Scalar> Trace<S> {
             kept.free_readers.push(id);
         }
         kept.totals.clone_from(&kept.before);
-        (kept.fresh, kept.stale) = (Total::default(), Total::default());
         if let Some(result) = kept.result_before.take() {
             kept.result = result;
         }
@@ -288,6 +288,8 @@ impl<S: Scalar> Machine<'_, S> {
             // Once more, in program order: met before its readers, a fault or a score of minus infinity may be none.
             trace.undo(program);
             trace.kept.prepare(Strategy::Cache);
+            trace.kept.fresh.clear();
+            trace.kept.stale.clear();
             trace.kept.slots[at].mark |= Slot::CHANGED;
             trace.kept.write_to(&mut trace.state, false, place, value);
         }
