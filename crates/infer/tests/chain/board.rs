@@ -84,7 +84,7 @@ fn program(text: &str, power: &str) -> Task {
 
 /// The user's own: a distribution over whole numbers near the old one, skewed, so that its reverse matters.
 fn skewed() -> Kernel {
-    let text = r#"(module (fn "near" (params $k) (return (dist binomial 3 (cond (eq $k 0) 0.2 0.6)))) (entry "near"))"#;
+    let text = r#"(module (fn "near" (params $old) (return (dist binomial 3 (cond (eq $old 0) 0.2 0.6)))) (entry "near"))"#;
     Kernel::User(Arc::new(User::new(task(text)).expect("a proposal")))
 }
 
@@ -147,11 +147,6 @@ fn rows() -> Vec<Row> {
 
 /// The largest |z| over the values of a program.
 fn worst<R: Rules>(text: &str, row: &Row, seed: u64) -> f64 {
-    const STRETCHES: usize = 60;
-    let (task, exact) = (
-        program(text, "1.0"),
-        enumerate(&program(text, row.power), 100_000, &mut |_| true).expect("few runs"),
-    );
     let settings = Settings {
         seed,
         kernel: row.kernel.clone(),
@@ -160,12 +155,19 @@ fn worst<R: Rules>(text: &str, row: &Row, seed: u64) -> f64 {
         every: 5,
         ..Settings::default()
     };
-    let mut chain = Ladder::<R>::start(&task, &settings, 0, None).expect("a chain");
-    chain.advance(&task, 500, &mut |_, _| true).expect("a run");
+    furthest::<R>(&program(text, "1.0"), &program(text, row.power), &settings)
+}
+
+/// The largest |z| over the values of a task whose chain follows the posterior of `followed`.
+pub fn furthest<R: Rules>(task: &Task, followed: &Task, settings: &Settings) -> f64 {
+    const STRETCHES: usize = 60;
+    let exact = enumerate(followed, 100_000, &mut |_| true).expect("few runs");
+    let mut chain = Ladder::<R>::start(task, settings, 0, None).expect("a chain");
+    chain.advance(task, 500, &mut |_, _| true).expect("a run");
     let mut shares: Vec<HashMap<String, f64>> = vec![HashMap::new(); STRETCHES];
     for share in &mut shares {
         for _ in 0..1000 {
-            chain.advance(&task, 1, &mut |_, _| true).expect("a run");
+            chain.advance(task, 1, &mut |_, _| true).expect("a run");
             let value = repr(&chain.rungs[0].state.trace.result()).expect("a value");
             *share.entry(value).or_default() += 0.001;
         }
