@@ -221,14 +221,17 @@ def nuts(max_depth: int = 8, step: float = 0.1, target: float = 0.8) -> Kernel:
     return Kernel("nuts", settings)
 
 
-def proposal(function: Callable[[Any], Any]) -> Kernel:
-    """One choice, from a distribution of your own.
+def proposal(function: Callable[..., Any]) -> Kernel:
+    """One choice, from a distribution of your own, for chains, particles and importance sampling alike.
 
     Parameters
     ----------
     function
-        A function of the modelling language that takes the old value and gives a distribution over new ones, such as
-        `lambda old: Gaussian(old, 0.1)`. It makes no choice itself. Use it under `on`, for sites whose values it takes.
+        A function of the modelling language that gives a distribution over new values, such as
+        `lambda old: Gaussian(old, 0.1)` or `lambda x: Gaussian(0.9 * x, 0.3)`. It makes no choice itself. Its
+        parameters are names: `old` is the value before, which only a chain has; any other one is a variable of the
+        model that is in scope at the choice and holds a number or a truth value. Use it under `on`, for sites whose
+        values it proposes.
     """
     return Kernel("proposal", function=function)
 

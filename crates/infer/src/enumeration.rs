@@ -177,11 +177,11 @@ mod tests {
         };
         // Both conditions stand in line 0.
         assert_eq!(causes(enumerate(&task, 100, &mut |_| true).err()), [10]);
-        assert_eq!(causes(importance(&task, 300, 1, &mut |_| true).err()), [300]);
+        assert_eq!(causes(importance(&task, None, 300, 1, &mut |_| true).err()), [300]);
         let possible = text.replace("(lt $x 0)", "(lt $x 1)");
         let task = Task::new(Arc::new(compile(&parse(&possible).unwrap(), vec![]).unwrap()));
         let found = enumerate(&task, 100, &mut |_| true).unwrap();
         assert!(found.runs == 1 && (found.log_evidence - 0.1f64.ln()).abs() < 1e-9);
-        assert_eq!(importance(&task, 300, 1, &mut |_| true).unwrap().samples.len(), 300);
+        assert_eq!(importance(&task, None, 300, 1, &mut |_| true).unwrap().samples.len(), 300);
     }
 }

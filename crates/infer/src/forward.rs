@@ -1,21 +1,23 @@
-//! Forward runs: every choice is drawn from its prior, from the random stream at its address.
+//! Forward runs: every choice gets its value from a chooser; as a rule from its prior, by the random stream at its address.
 
 use crate::Failure;
+use crate::chooser::{Chooser, Prior};
 use crate::record::{Record, check_factor};
 use crate::task::{Hosts, Task};
 use niwaki_geom::Shape;
 use niwaki_math::{Dist, StreamKey};
-use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
 use niwaki_vm::value::Value;
 
-/// Draws choices from their priors and keeps the record.
-pub struct Forward<'a> {
+/// Asks for choices and keeps the record.
+pub struct Forward<'a, C> {
     /// The record so far.
     pub record: &'a mut Record,
-    /// Random stream of the run: of a particle's lineage, of a sample's number.
-    pub stream: StreamKey,
+    /// Who gives choices their values.
+    pub chooser: C,
+    /// Log of prior over proposal, `log p - log q`, of the choices so far, nats; zero where all are from their priors.
+    pub log_ratio: f64,
     /// Host functions.
     pub hosts: &'a dyn Hosts,
     /// Whether emits, factors and observations pause the run.
@@ -24,7 +26,7 @@ pub struct Forward<'a> {
     pub complete: bool,
 }
 
-impl Forward<'_> {
+impl<C: Chooser> Forward<'_, C> {
     #[inline(always)]
     fn barrier(&self) -> Answer<()> {
         if self.barriers || (self.record.cause.is_some() && !self.complete) {
@@ -40,6 +42,12 @@ pub(crate) fn factor_name(at: &At<'_, f64>, factor: Factor) -> String {
     named(factor, at.site.span.line)
 }
 
+/// What a person calls a value of a choice that its distribution cannot draw.
+#[cold]
+fn outside(at: &At<'_, f64>) -> String {
+    format!("the choice `{}` at line {}: a proposal outside of its support", at.path(), at.site.span.line)
+}
+
 /// What a person calls a factor of that kind at that line.
 pub(crate) fn named(factor: Factor, line: u32) -> String {
     let what = match factor {
@@ -50,14 +58,19 @@ pub(crate) fn named(factor: Factor, line: u32) -> String {
     format!("`{what}` at line {line}")
 }
 
-impl Answers<f64> for Forward<'_> {
+impl<C: Chooser> Answers<f64> for Forward<'_, C> {
     #[inline(always)]
     fn choice(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Answer<Value>, Fault> {
-        let address = at.address();
-        let (draw, log_density) = dist.sample_and_score(&mut self.stream.at(address));
-        let value = draw_to_value(draw);
-        self.record.choose(address, &value, log_density);
-        Ok(Answer::Go(value))
+        let chosen = self.chooser.choose(at, dist)?;
+        if !C::IS_PRIOR {
+            if chosen.log_prior == f64::NEG_INFINITY {
+                self.record.factor(f64::NEG_INFINITY, || outside(at));
+                return Ok(Answer::Pause);
+            }
+            self.log_ratio += chosen.log_prior - chosen.log_drawn;
+        }
+        self.record.choose(at.address(), &chosen.value, chosen.log_prior);
+        Ok(Answer::Go(chosen.value))
     }
 
     #[inline(always)]
@@ -86,30 +99,50 @@ pub struct Sample {
     pub record: Record,
     /// What the program returned (`None` when impossible).
     pub value: Value,
+    /// Log weight, nats: its score, and prior over proposal of its choices.
+    pub log_weight: f64,
 }
 
-/// One forward run, depth first; unless it is to be `complete`, it stops when its score becomes minus infinity, or where a
+/// One forward run from the prior, depth first; unless it is to be `complete`, it stops when its score becomes minus infinity, or where a
 /// distribution is invalid.
 ///
 /// # Errors
 /// A fault of the program.
 pub fn forward(task: &Task, seed: u64, stream: u64, complete: bool) -> Result<Sample, Failure> {
+    forward_by(task, Prior(StreamKey::new(seed, stream, 0)), complete)
+}
+
+/// One forward run by a chooser, as [`forward`].
+///
+/// # Errors
+/// A fault of the program, or of the chooser.
+pub fn forward_by(task: &Task, chooser: impl Chooser, complete: bool) -> Result<Sample, Failure> {
     let mut machine = task.machine();
     let mut state = task.start(&machine, true)?;
     let mut record = Record::start(&task.sketches);
-    let stream = StreamKey::new(seed, stream, 0);
     let hosts = &*task.hosts;
+    let (mut chooser, mut log_ratio) = (chooser, 0.0);
     while !state.has_ended() && (complete || record.cause.is_none()) {
         let Some(next) = state.runnable().first().copied() else {
             return Err(Box::new(machine.waiting_cycle(&state)).into());
         };
-        let mut answers = Forward { record: &mut record, stream, hosts, barriers: false, complete };
-        match machine.resume(&mut state, next, &mut answers) {
+        let mut answers = Forward {
+            record: &mut record,
+            chooser: &mut chooser,
+            log_ratio,
+            hosts,
+            barriers: false,
+            complete,
+        };
+        let stop = machine.resume(&mut state, next, &mut answers);
+        log_ratio = answers.log_ratio;
+        match stop {
             Ok(_) => {}
             Err(met) if complete => return Err(met.into()),
             Err(met) => record.forgive(task, met)?,
         }
     }
     let value = if state.has_ended() { state.result() } else { Value::None };
-    Ok(Sample { record, value })
+    let log_weight = record.log_score() + log_ratio;
+    Ok(Sample { record, value, log_weight })
 }

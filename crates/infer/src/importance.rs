@@ -1,10 +1,13 @@
-//! Likelihood weighting: independent forward runs, each weighted by its score.
+//! Importance sampling: independent forward runs, each weighted by its score and, where a proposal draws choices, by
+//! prior over proposal. Without one it is likelihood weighting.
 //!
-//! `p(value | score) ~ sum of exp(log_score_i) [value_i = value]`; the evidence is the mean weight.
+//! `w_i = s(x_i) p(x_i) / q(x_i)`, `p(value | score) ~ sum of w_i [value_i = value]`; the evidence is the mean weight.
 
-use crate::forward::{Sample, forward};
+use crate::chooser::{Guided, Prior, Proposal};
+use crate::forward::{Sample, forward_by};
 use crate::record::AllInvalid;
 use crate::{Failure, Task};
+use niwaki_math::StreamKey;
 use niwaki_vm::fault::Fault;
 use rayon::prelude::*;
 
@@ -13,20 +16,21 @@ const BLOCK: u64 = 256;
 
 /// Independent weighted runs.
 pub struct Weighted {
-    /// The runs; the weight of each is its `log_score`.
+    /// The runs, with their weights.
     pub samples: Vec<Sample>,
     /// Log of the mean weight, nats: an unbiased estimate of the evidence (not of its log), unless `watch` stopped
     /// the runs for what they were.
     pub log_evidence: f64,
 }
 
-/// `n` forward runs in parallel. `watch` is told now and then how many there are; when it answers false, those are
+/// `n` forward runs in parallel, some of their choices drawn by a `proposal` where there is one. `watch` is told now and then how many there are; when it answers false, those are
 /// given.
 ///
 /// # Errors
 /// A fault of the program, or distributions that are invalid in every run; no runs asked for; runs that are all impossible.
 pub fn importance(
     task: &Task,
+    proposal: Option<&Proposal>,
     n: usize,
     seed: u64,
     watch: &mut dyn FnMut(usize) -> bool,
@@ -36,18 +40,28 @@ pub fn importance(
             .with_help("ask for at least one")
             .into());
     }
+    if let Some(proposal) = proposal {
+        proposal.check(&task.program)?;
+    }
+    let one = |i: u64| {
+        let stream = StreamKey::new(seed, i, 0);
+        match proposal {
+            None => forward_by(task, Prior(stream), false),
+            Some(proposal) => forward_by(task, Guided { proposal, stream, otherwise: Prior(stream) }, false),
+        }
+    };
     let n = n as u64;
     let mut samples = Vec::new();
     while (samples.len() as u64) < n {
         let from = samples.len() as u64;
-        let runs = (from..n.min(from + BLOCK)).into_par_iter().map(|i| forward(task, seed, i, false));
+        let runs = (from..n.min(from + BLOCK)).into_par_iter().map(one);
         samples.extend(runs.collect::<Result<Vec<_>, _>>()?);
         if !watch(samples.len()) {
             break;
         }
     }
     AllInvalid::check_all(samples.iter().map(|s| &s.record))?;
-    let log_evidence = log_mean_exp(samples.iter().map(|s| s.record.log_score()));
+    let log_evidence = log_mean_exp(samples.iter().map(|s| s.log_weight));
     if log_evidence == f64::NEG_INFINITY {
         let causes = samples.iter().filter_map(|s| s.record.cause.as_deref());
         return Err(Failure::impossible(0, causes.map(|cause| (cause, 1))));

@@ -3,7 +3,8 @@
 //! * [`task`]: what is asked for: a program, its arguments, the sketches that score its scene;
 //! * [`log`]: the choices of a run, shared between copies of a particle;
 //! * [`record`]: choices and score of one run, the same for every algorithm;
-//! * [`forward`]: draw every choice from its prior; [`replay`]: take every choice from a log, and name it;
+//! * [`chooser`]: where a choice gets its value;
+//! * [`forward`]: a run of new choices; [`replay`]: take every choice from a log, and name it;
 //! * [`enumeration`], [`rejection`], [`importance`]: exact and direct answers, the oracles for the rest;
 //! * [`method`]: a search as it is written down, and [`run`]: what it finds;
 //! * [`nested`]: inference inside a model;
@@ -15,6 +16,7 @@
 //! Not here: opcodes, shapes, Python.
 
 pub mod chain;
+pub mod chooser;
 pub mod enumeration;
 pub mod failure;
 pub mod forward;

@@ -4,6 +4,7 @@
 
 use crate::chain::form::Form;
 use crate::chain::user::User;
+use crate::chooser::Proposal;
 use crate::enumeration::enumerate;
 use crate::forward::forward;
 use crate::hamiltonian::chains::Length;
@@ -35,7 +36,7 @@ pub enum Method {
     Forward { n: u64 },
     EnumerateAll { max_runs: usize },
     Rejection { n: usize, bound: f64, max_tries: u64 },
-    Importance { n: usize },
+    Importance { n: usize, proposal: Option<Form> },
     Smc(Smc),
     ParticleGibbs(ParticleGibbs),
     Pimh(Pimh),
@@ -54,6 +55,7 @@ pub struct Smc {
     populations: Option<usize>,
     diverse: Option<usize>,
     seconds: Option<f64>,
+    proposal: Option<Form>,
     rejuvenate: Option<Form>,
     moves: u64,
     at: Moment,
@@ -79,6 +81,7 @@ pub struct ParticleGibbs {
     particles: usize,
     sweeps: usize,
     ancestors: bool,
+    proposal: Option<Form>,
     #[serde(flatten)]
     settings: Settings,
     #[serde(flatten)]
@@ -90,6 +93,7 @@ pub struct ParticleGibbs {
 pub struct Pimh {
     particles: usize,
     sweeps: usize,
+    proposal: Option<Form>,
     #[serde(flatten)]
     settings: Settings,
     #[serde(flatten)]
@@ -244,10 +248,12 @@ impl Method {
                 let interrupted = (runs.len() as u64) < *n;
                 Ok(bare(runs, interrupted, Info::Forward))
             }
-            Method::Importance { n } => {
-                let found = importance(task, *n, seed, &mut |runs| watch(runs as u64, 0, none))?;
+            Method::Importance { n, proposal } => {
+                let proposal = proposed(proposal.as_ref(), given)?;
+                let found =
+                    importance(task, proposal.as_deref(), *n, seed, &mut |runs| watch(runs as u64, 0, none))?;
                 let weighted = |sample: crate::forward::Sample| {
-                    let log_weight = sample.record.log_score();
+                    let log_weight = sample.log_weight;
                     Run::of_sample(sample, false, log_weight)
                 };
                 let runs: Vec<Run> = found.samples.into_iter().map(weighted).collect();
@@ -279,17 +285,14 @@ impl Method {
                 Ok(bare(runs.collect(), found.interrupted, Info::Populations(found)))
             }
             Method::ParticleGibbs(own) => {
-                // The one whose conditional form is simple: see `particle_gibbs`.
-                let resampling = Resampling::Multinomial;
-                let settings =
-                    Settings { particles: own.particles, seed, resampling, ..own.settings.clone() };
+                let settings = own.settings(given)?;
                 let ancestors = if own.ancestors { Ancestors::Sampled } else { Ancestors::Kept };
                 let mut look = |p: Progress| watch(p.barriers as u64, p.ended, p.best);
                 let found = particle_gibbs(task, &settings, ancestors, own.sweeps, given.start, &mut look)?;
                 Ok(of_chain(found))
             }
             Method::Pimh(own) => {
-                let settings = Settings { particles: own.particles, seed, ..own.settings.clone() };
+                let settings = own.settings(given)?;
                 let mut look = |p: Progress| watch(p.barriers as u64, p.ended, p.best);
                 Ok(of_chain(pimh(task, &settings, own.sweeps, &mut look)?))
             }
@@ -336,7 +339,10 @@ impl Method {
             Method::Mh(own) if own.keep.is_some() => refused("keep", "the samples of a chain are not kept"),
             Method::Hmc(_) => refused("hmc", "chains cannot start along a gradient"),
             Method::Nuts(_) => refused("nuts", "chains cannot start along a gradient"),
+            Method::Importance { proposal, .. } => proposed(proposal.as_ref(), &Given::default()).map(|_| ()),
             Method::Smc(own) => own.settings(&Given::default()).map(|_| ()),
+            Method::ParticleGibbs(own) => own.settings(&Given::default()).map(|_| ()),
+            Method::Pimh(own) => own.settings(&Given::default()).map(|_| ()),
             Method::Mh(own) => own.settings(&Given::default()).map(|_| ()),
             _ => Ok(()),
         }
@@ -356,7 +362,8 @@ impl Smc {
             }),
         };
         let particles = self.plan().first().copied().unwrap_or(0);
-        Ok(Settings { particles, seed: given.seed, rejuvenate, ..self.settings.clone() })
+        let proposal = proposed(self.proposal.as_ref(), given)?;
+        Ok(Settings { particles, seed: given.seed, rejuvenate, proposal, ..self.settings.clone() })
     }
 
     /// Sizes of its populations where no time decides them: results that differ need as many, unless chains find them.
@@ -378,6 +385,26 @@ impl Smc {
     /// Whether a clock decides how long it searches.
     pub fn is_timed(&self) -> bool {
         self.seconds.is_some()
+    }
+}
+
+impl ParticleGibbs {
+    fn settings(&self, given: &Given<'_>) -> Result<Settings, Fault> {
+        Ok(Settings {
+            particles: self.particles,
+            seed: given.seed,
+            // The one whose conditional form is simple: see `particle_gibbs`.
+            resampling: Resampling::Multinomial,
+            proposal: proposed(self.proposal.as_ref(), given)?,
+            ..self.settings.clone()
+        })
+    }
+}
+
+impl Pimh {
+    fn settings(&self, given: &Given<'_>) -> Result<Settings, Fault> {
+        let proposal = proposed(self.proposal.as_ref(), given)?;
+        Ok(Settings { particles: self.particles, seed: given.seed, proposal, ..self.settings.clone() })
     }
 }
 
@@ -416,6 +443,12 @@ impl Mh {
             (keep, None) => self.steps.saturating_sub(self.warmup).div_ceil(keep).max(1),
         }
     }
+}
+
+/// The proposal for the choices of new runs.
+fn proposed(form: Option<&Form>, given: &Given<'_>) -> Result<Option<Arc<Proposal>>, Fault> {
+    let Some(form) = form else { return Ok(None) };
+    Ok(Some(Arc::new(Proposal::of(&form.kernel(given.functions)?)?)))
 }
 
 fn of_chain(mut found: particles::Chain) -> Found {

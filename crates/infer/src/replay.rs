@@ -3,12 +3,13 @@
 //! that was stopped is followed future by future, each as far as its choices go.
 
 use crate::Failure;
+use crate::chooser::{Chooser, Prior};
 use crate::forward::factor_name;
 use crate::log::Entry;
 use crate::record::{Record, check_factor, log_density};
 use crate::task::Task;
 use niwaki_geom::Shape;
-use niwaki_math::{Dist, Stream};
+use niwaki_math::{Dist, StreamKey};
 use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Stop;
@@ -90,7 +91,7 @@ impl Answers<f64> for Replay<'_> {
             // It has one value, which a density leaves out.
             (None, _) if let Dist::Delta(value) = dist => draw_to_value(value.clone()),
             (None, Missing::Draw { seed, stream }) => {
-                draw_to_value(dist.sample(&mut Stream::new(seed, stream, at.address(), 0)))
+                Prior(StreamKey::new(seed, stream, 0)).draw(at, dist)?
             }
             (None, Missing::Stop) => return Ok(Answer::Pause),
             (None, Missing::Refuse) => {

@@ -3,7 +3,6 @@
 use crate::faults;
 use crate::outcome::PyOutcome;
 use crate::search::{Known, PyTask, detached};
-use niwaki_infer::Failure;
 use niwaki_infer::chain::agreement::compare;
 use niwaki_infer::chain::counts::{Count, Counts};
 use niwaki_infer::chain::explain::What;
@@ -14,6 +13,7 @@ use niwaki_infer::chain::{Chain, Settings};
 use niwaki_infer::hamiltonian::Cause;
 use niwaki_infer::method::{Given, Method, Mh};
 use niwaki_infer::run::Run;
+use niwaki_infer::{Failure, Task};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -46,12 +46,13 @@ impl PyChains {
         threads: Option<usize>,
     ) -> PyResult<PyChains> {
         let own = task.get();
-        let (method, settings) = settings(py, own, method, seed, &functions)?;
+        let (method, settings, kept) = settings(py, own, method, seed, &functions)?;
         let settings = Settings { room, ..settings };
         let known = own.known(known)?;
-        let (made, _) = detached(py, &own.task.program, threads, None, |_| {
-            Chains::start(&own.task, &settings, method.chains, known.as_ref())
+        let (made, _) = detached(py, &kept.program, threads, None, |_| {
+            Chains::start(&kept, &settings, method.chains, known.as_ref())
         })?;
+        let task = Py::new(py, PyTask { task: kept, model: own.model.clone_ref(py) })?;
         Ok(PyChains { task, chains: Mutex::new(made) })
     }
 
@@ -196,21 +197,21 @@ impl PyChains {
     }
 }
 
-/// Metropolis-Hastings of a text, and what its chains are told.
+/// Metropolis-Hastings of a text, what its chains are told, and the task that keeps what their proposals ask for.
 fn settings(
     py: Python<'_>,
     task: &PyTask,
     method: &str,
     seed: u64,
     functions: &[Py<PyTask>],
-) -> PyResult<(Mh, Settings)> {
+) -> PyResult<(Mh, Settings, Task)> {
     let functions = task.proposals(py, functions)?;
     let Method::Mh(method) = task.read(py, method)? else {
         return Err(PyTypeError::new_err("this method is not Metropolis-Hastings"));
     };
     let settings = method.settings(&Given { seed, functions: &functions, start: None });
     let settings = settings.map_err(|fault| faults::setting(py, &fault))?;
-    Ok((method, settings))
+    Ok((method, settings, task.keeping(py, &functions)?))
 }
 
 /// Runs ``steps`` proposals under each of the four strategies and compares everything to the bit: what the first
@@ -227,9 +228,10 @@ fn agreement(
     functions: Vec<Py<PyTask>>,
 ) -> PyResult<(Option<String>, u64, u64, u64)> {
     let own = task.get();
-    let settings = Settings { thin: 0, ..settings(py, own, method, seed, &functions)?.1 };
+    let (_, settings, kept) = settings(py, own, method, seed, &functions)?;
+    let settings = Settings { thin: 0, ..settings };
     let ((found, seen), _) =
-        detached(py, &own.task.program, None, None, |_| compare(&own.task, &settings, steps, every.max(1)))?;
+        detached(py, &kept.program, None, None, |_| compare(&kept, &settings, steps, every.max(1)))?;
     Ok((found, seen.proposals, seen.accepted, seen.faults))
 }
 

@@ -4,11 +4,12 @@ use crate::faults;
 use crate::values::Classes;
 use niwaki_infer::nested::{Inferences, Inner};
 use niwaki_infer::task::Hosts;
-use niwaki_vm::code::{Mode, SiteKind, disassemble};
+use niwaki_vm::code::{Mode, Program, SiteKind, disassemble};
 use niwaki_vm::core::parse::parse;
+use niwaki_vm::core::{Module, Name};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Limits;
-use niwaki_vm::passes::compile;
+use niwaki_vm::passes::{compile, compile_keeping};
 use niwaki_vm::value::Value;
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
@@ -45,17 +46,26 @@ fn failed(py: Python<'_>, callable: &Py<PyAny>, error: &PyErr) -> Fault {
 /// A compiled model; never changes, and serves any number of searches at once.
 #[pyclass(frozen, name = "Program", module = "niwaki._engine")]
 pub struct PyProgram {
-    pub program: Arc<niwaki_vm::code::Program>,
+    pub program: Arc<Program>,
     pub classes: Arc<Classes>,
     hosts: Arc<dyn Hosts>,
     methods: Arc<HashMap<u16, Inner>>,
     seconds: f64,
+    /// What it was compiled from.
+    module: Module,
+    data: Vec<Value>,
 }
 
 impl PyProgram {
     /// Its host functions; inner runs are limited as the outer ones.
     pub fn hosts(&self, limits: Limits) -> Arc<dyn Hosts> {
         if self.methods.is_empty() { self.hosts.clone() } else { Arc::new(self.inferences(limits)) }
+    }
+
+    /// The program compiled so that these variables can be read at choices; what it does is the same.
+    pub fn keeping(&self, py: Python<'_>, names: &[Name]) -> PyResult<Arc<Program>> {
+        let made = compile_keeping(&self.module, self.data.clone(), names);
+        made.map(Arc::new).map_err(|e| faults::uncompiled(py, e.to_string()))
     }
 
     /// What carries out every `infer` of the program.
@@ -96,13 +106,15 @@ impl PyProgram {
             data.push(value);
             callables.push(is_host.then(|| constant.unbind()));
         }
-        let program = compile(&module, data).map_err(|e| faults::uncompiled(py, e.to_string()))?;
+        let program = compile(&module, data.clone()).map_err(|e| faults::uncompiled(py, e.to_string()))?;
         Ok(PyProgram {
             program: Arc::new(program),
             hosts: Arc::new(PyHosts { callables, classes: classes.clone() }),
             methods: Arc::new(methods),
             classes,
             seconds: start.elapsed().as_secs_f64(),
+            module,
+            data,
         })
     }
 

@@ -17,6 +17,7 @@ use niwaki_infer::nested::Inner;
 use niwaki_infer::replay::{Missing, Source, replay};
 use niwaki_infer::{Failure, Task};
 use niwaki_vm::code::Program;
+use niwaki_vm::core::Name;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Limits;
 use niwaki_vm::value::{Closure, Value};
@@ -183,11 +184,12 @@ impl PyTask {
         let start: Option<Vec<Entry>> =
             start.map(|run| run.into_iter().map(entry).collect::<PyResult<_>>()).transpose()?;
         let given = Given { seed, functions: &functions, start: start.as_deref() };
-        let find = |watch: &mut method::Watch<'_>| method.search(&self.task, &given, watch);
+        let task = self.keeping(py, &functions)?;
+        let find = |watch: &mut method::Watch<'_>| method.search(&task, &given, watch);
         let (found, pressed) = if let Method::Forward { n: 1 } = method {
             (self.at_once(py, || find(&mut |_, _, _| true))?, false)
         } else {
-            detached(py, &self.task.program, threads, watch.as_ref(), |watch| {
+            detached(py, &task.program, threads, watch.as_ref(), |watch| {
                 find(&mut |done, ended, best| watch.look(done, ended, best))
             })?
         };
@@ -282,6 +284,17 @@ impl PyTask {
         let own = |task: &Py<PyTask>| User::new(task.get().task.clone()).map(Arc::new);
         let made = tasks.iter().map(own).collect::<Result<_, _>>();
         made.map_err(|fault| faults::setting(py, &fault))
+    }
+
+    /// The task, its program compiled to keep the variables that these proposals ask for.
+    pub(crate) fn keeping(&self, py: Python<'_>, functions: &[Arc<User>]) -> PyResult<Task> {
+        let mut names: Vec<Name> = functions.iter().flat_map(|own| own.variables().cloned()).collect();
+        names.sort();
+        names.dedup();
+        if names.is_empty() {
+            return Ok(self.task.clone());
+        }
+        Ok(Task { program: self.model.get().keeping(py, &names)?, ..self.task.clone() })
     }
 
     /// Values by hash of the address.

@@ -17,7 +17,7 @@ KINDS = (
     (FAULTS, "Found while a model runs; the message shows the model's own calls, outermost first."),
     (INPUTS, "Found when a setting or an argument is looked at."),
     (FILES, "Found when a file is read or written."),
-    (CHAINS, "Found when a Markov chain starts or runs."),
+    (CHAINS, "Found when a Markov chain, or a search with a proposal, starts or runs."),
     (DOORS, "Found when a setting, a model's name or a run's file is looked at."),
     (ADVICE, "Advice of `niwaki check`: the model is right, and a search of it could be better."),
 )

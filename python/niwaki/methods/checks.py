@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from niwaki.errors import InputError
+from niwaki.kernels import Kernel
 
 
 def bad(name: str, found: Any, expected: str, suggestion: str) -> InputError:
@@ -33,6 +34,20 @@ def from_zero(name: str, value: int, usual: str = "0") -> None:
     """Refuse what is not a whole number, 0 or more."""
     if not is_whole(value) or value < 0:
         raise bad(name, value, "a whole number, 0 or more", usual)
+
+
+def proposal(kernel: Any) -> None:
+    """Refuse what cannot draw the choices of a new run."""
+    if kernel is None:
+        return
+    usual = 'kernels.on("x", kernels.proposal(function))'
+    if not isinstance(kernel, Kernel):
+        raise bad("proposal", kernel, "a kernel made by `kernels.proposal`", usual)
+    odds = kernel.name == "on" and not kernel.settings["sites"]
+    if kernel.name not in ("proposal", "on", "cycle") or odds:
+        raise bad("proposal", kernel, "`proposal`, `on` around it, or a `cycle` of those", usual)
+    for part in kernel.parts:
+        proposal(part)
 
 
 def one_of(name: str, value: str, known: tuple[str, ...]) -> None:

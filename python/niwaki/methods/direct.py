@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from niwaki.kernels import Kernel
 from niwaki.methods.checks import at_least_one, bad, is_number, samples
+from niwaki.methods.checks import proposal as check_proposal
 from niwaki.methods.method import Method
 
 
@@ -62,14 +64,20 @@ class Importance(Method):
     ----------
     n
         How many runs.
+    proposal
+        Who draws the choices that the prior does not: `kernels.on(pattern, kernels.proposal(function))`, or a `cycle`
+        of several, of which the first whose pattern matches a choice holds. The weights take back what it does, so the
+        law and the evidence stay as they are.
     """
 
     NAME = "importance"
     n: int = 1000
+    proposal: Kernel | None = None
 
     def __post_init__(self) -> None:
         """Check the settings."""
         samples(self.n)
+        check_proposal(self.proposal)
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ from niwaki.errors import InputError
 from niwaki.kernels import Kernel
 from niwaki.methods.checks import at_least_one, bad, is_number, is_whole, one_of
 from niwaki.methods.checks import particles as check_particles
+from niwaki.methods.checks import proposal as check_proposal
 from niwaki.methods.method import Method
 
 ORDERS = ("stochastic", "depth-first")
@@ -58,6 +59,8 @@ class Smc(Method):
         that still runs is dropped; where none is complete the first is finished, and takes longer. So the evidence is
         unbiased though costly populations are often the good ones. `Result.info.plan` says how many there were and how
         large.
+    proposal
+        Who draws the choices that the prior does not, as for `importance`. Not with absolute weights.
     rejuvenate
         A kernel of `niwaki.kernels` that moves each particle without changing the law that all follow, so that copies
         become different again (Gilks & Berzuini 2001). A particle that still runs keeps its skeleton: which parts,
@@ -85,6 +88,7 @@ class Smc(Method):
     populations: int | None = None
     diverse: int | None = None
     seconds: float | None = None
+    proposal: Kernel | None = None
     rejuvenate: Kernel | None = None
     moves: int = 1
     at: int | str = 1
@@ -116,6 +120,10 @@ class Smc(Method):
             at_least_one("populations", self.populations)
             if not isinstance(self.particles, int):
                 raise bad("populations", self.populations, "nothing beside a list of sizes", "None")
+        check_proposal(self.proposal)
+        if self.proposal is not None and self.weights == "absolute":
+            expected = "nothing beside absolute weights, which do not count what it draws"
+            raise bad("proposal", self.proposal, expected, 'None, or `weights` to "ratio"')
         self._check_moves()
         self._set("anneal", _powers(self.anneal, self.weights))
 
@@ -172,6 +180,8 @@ class ParticleGibbs(Method):
         The power at each barrier, as for `smc`.
     ancestors
         Whether the past of the held run is drawn anew at each resampling.
+    proposal
+        Who draws the choices that the prior does not, as for `importance`.
     """
 
     NAME = "particle_gibbs"
@@ -182,6 +192,7 @@ class ParticleGibbs(Method):
     ess: float | None = None
     anneal: Sequence[float] | None = None
     ancestors: bool = True
+    proposal: Kernel | None = None
 
     def __post_init__(self) -> None:
         """Check the settings."""
@@ -191,6 +202,7 @@ class ParticleGibbs(Method):
         _check_temper(self)
         self._set("anneal", _fixed(self.anneal))
         self._set("ancestors", bool(self.ancestors))
+        check_proposal(self.proposal)
 
 
 @dataclass(frozen=True)
@@ -209,6 +221,8 @@ class Pimh(Method):
         How many, after a first population; one sample each, from the first population in which a particle lived.
     anneal
         The power at each barrier, as for `smc`.
+    proposal
+        Who draws the choices that the prior does not, as for `importance`.
     """
 
     NAME = "pimh"
@@ -219,6 +233,7 @@ class Pimh(Method):
     resampling: str = "systematic"
     ess: float | None = None
     anneal: Sequence[float] | None = None
+    proposal: Kernel | None = None
 
     def __post_init__(self) -> None:
         """Check the settings."""
@@ -228,6 +243,7 @@ class Pimh(Method):
         one_of("resampling", self.resampling, RESAMPLING)
         _check_temper(self)
         self._set("anneal", _fixed(self.anneal))
+        check_proposal(self.proposal)
 
 
 smc, particle_gibbs, pimh = Smc, ParticleGibbs, Pimh

@@ -34,6 +34,8 @@ PolishKernel = Annotated[
 
 #: Short names.
 _SHORT = {"particles": "-n"}
+#: Settings that hold a function, which cannot be typed.
+_FUNCTIONS = ("proposal",)
 #: Kinds of values that are typed as they are; everything else is typed as text and read by `_read`.
 _PLAIN = (int, float, str, bool)
 
@@ -61,7 +63,8 @@ def with_settings(*methods: type[Method]) -> Callable[[Callable[..., None]], Cal
 
 
 def _names(methods: tuple[type[Method], ...]) -> list[str]:
-    return list(dict.fromkeys(field.name for method in methods for field in fields(method)))
+    names = (field.name for method in methods for field in fields(method))
+    return [name for name in dict.fromkeys(names) if name not in _FUNCTIONS]
 
 
 def _option(name: str, methods: tuple[type[Method], ...]) -> inspect.Parameter:

@@ -97,8 +97,7 @@ impl<R: Rules> Chain<R> {
                 changes.push(Changed { choice, proposed });
             }
         }
-        let mut answers =
-            Fresh { key: self.streams.fresh(visit), known: None, hosts: &*task.hosts, spreads: None };
+        let mut answers = Fresh::plain(self.streams.fresh(visit), &*task.hosts);
         let change =
             match machine.change(&mut self.state.trace, changes, self.settings.strategy, &mut answers) {
                 Ok(change) => change,

@@ -6,6 +6,7 @@ use super::drift::normal;
 use super::single::{FromPrior, Move};
 use niwaki_math::{Dist, Stream};
 use niwaki_vm::fault::Fault;
+use niwaki_vm::machine::answers::At;
 use niwaki_vm::machine::kept::Proposed;
 use niwaki_vm::value::Value;
 
@@ -15,6 +16,7 @@ pub(crate) struct ByFamily;
 impl Move for ByFamily {
     fn propose(
         &mut self,
+        at: &At<'_, f64>,
         site: usize,
         dist: &Dist,
         old: &Value,
@@ -24,7 +26,7 @@ impl Move for ByFamily {
         let value = match (dist, old) {
             (Dist::Bernoulli { .. }, Value::Bool(b)) => Value::Bool(!b),
             (Dist::Gaussian { sd, .. }, Value::Real(x)) => Value::Real(x + sd * normal(rng)),
-            _ => return FromPrior.propose(site, dist, old, log_density, rng),
+            _ => return FromPrior.propose(at, site, dist, old, log_density, rng),
         };
         Ok(Proposed { value, forward: 0.0, backward: 0.0 })
     }

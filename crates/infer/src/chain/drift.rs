@@ -16,6 +16,7 @@ use super::single::{FromPrior, Move};
 use niwaki_math::{Dist, Draw, Stream, Support};
 use niwaki_vm::builtins::{draw_to_value, value_to_draw};
 use niwaki_vm::fault::Fault;
+use niwaki_vm::machine::answers::At;
 use niwaki_vm::machine::kept::Proposed;
 use niwaki_vm::value::Value;
 use std::f64::consts::PI;
@@ -61,6 +62,7 @@ pub(super) fn adapt(log_step: &mut f64, n: &mut u32, decision: Decision, target:
 impl Move for Drift {
     fn propose(
         &mut self,
+        at: &At<'_, f64>,
         site: usize,
         dist: &Dist,
         old: &Value,
@@ -71,7 +73,7 @@ impl Move for Drift {
         self.drifted = moved.is_some();
         match moved {
             Some((draw, forward, backward)) => Ok(Proposed { value: draw_to_value(draw), forward, backward }),
-            None => FromPrior.propose(site, dist, old, log_density, rng),
+            None => FromPrior.propose(at, site, dist, old, log_density, rng),
         }
     }
 

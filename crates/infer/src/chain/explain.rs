@@ -111,7 +111,7 @@ pub fn explain(task: &Task, seed: u64, tries: u64, address: &str) -> Result<Expl
         for visit in 0..DRAWS {
             let mut draws = Draws { key: streams.moves(visit), drawn: None };
             let (key, hosts) = (streams.fresh(visit), &*task.hosts);
-            let mut answers = Fresh { key, known: None, hosts, spreads: None };
+            let mut answers = Fresh::plain(key, hosts);
             state.trace.note_steps();
             let change = machine.propose(&mut state.trace, choice, strategy, &mut draws, &mut answers);
             let noted = state.trace.take_steps();

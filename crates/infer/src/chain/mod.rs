@@ -31,7 +31,7 @@ pub mod odds;
 pub(crate) mod plan;
 mod regenerate;
 pub mod samples;
-mod select;
+pub(crate) mod select;
 pub(crate) mod single;
 pub mod snapshot;
 pub mod state;

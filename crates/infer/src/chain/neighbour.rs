@@ -5,6 +5,7 @@
 use super::single::{FromPrior, Move};
 use niwaki_math::{Dist, Stream};
 use niwaki_vm::fault::Fault;
+use niwaki_vm::machine::answers::At;
 use niwaki_vm::machine::kept::Proposed;
 use niwaki_vm::value::Value;
 
@@ -18,6 +19,7 @@ pub struct Neighbour {
 impl Move for Neighbour {
     fn propose(
         &mut self,
+        at: &At<'_, f64>,
         site: usize,
         dist: &Dist,
         old: &Value,
@@ -37,7 +39,7 @@ impl Move for Neighbour {
         };
         match value {
             Some(value) => Ok(Proposed { value, forward: 0.0, backward: 0.0 }),
-            None => FromPrior.propose(site, dist, old, log_density, rng),
+            None => FromPrior.propose(at, site, dist, old, log_density, rng),
         }
     }
 }

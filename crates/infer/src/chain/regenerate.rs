@@ -38,8 +38,7 @@ impl<R: Rules> Chain<R> {
         trace.below(program, activation, |_, number, _| choices.extend(number));
         let old = |n: &usize| (trace.address(program, *n), trace.choice(program, *n).0.clone());
         let moved: Vec<_> = if self.best.is_noting() { choices.iter().map(old).collect() } else { vec![] };
-        let mut answers =
-            Fresh { key: self.streams.fresh(visit), known: None, hosts: &*task.hosts, spreads: None };
+        let mut answers = Fresh::plain(self.streams.fresh(visit), &*task.hosts);
         let change =
             match machine.redraw(&mut self.state.trace, &choices, self.settings.strategy, &mut answers) {
                 Ok(change) => change,

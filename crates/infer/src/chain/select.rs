@@ -13,7 +13,7 @@ use std::collections::HashMap;
 
 impl Selection {
     /// Both selections at once.
-    pub(super) fn and(&self, other: &Selection) -> Selection {
+    pub(crate) fn and(&self, other: &Selection) -> Selection {
         let mut both = self.clone();
         both.sites.extend(other.sites.iter().cloned());
         if !other.depth.is_empty() {
@@ -22,6 +22,11 @@ impl Selection {
         }
         both.odds.splice(0..0, other.odds.iter().cloned());
         both
+    }
+
+    /// Whether it has patterns alone, and no odds.
+    pub(crate) fn is_by_pattern(&self) -> bool {
+        *self == Selection { sites: self.sites.clone(), ..Selection::default() }
     }
 
     /// Whether every choice is chosen with the same odds.
@@ -101,7 +106,7 @@ fn trace_has(known: &[String], pattern: &str) -> bool {
 }
 
 /// The readable components of the program's choices.
-fn labels(program: &Program) -> Vec<String> {
+pub(crate) fn labels(program: &Program) -> Vec<String> {
     let mut found: Vec<String> = Vec::new();
     for site in program.functions.iter().flat_map(|f| &f.sites) {
         use SiteKind::{Sample, SampleDist, SampleIndexed};

@@ -22,6 +22,7 @@ pub(crate) trait Move {
     /// A new value for a choice at the site of that number, its random bits from `rng`.
     fn propose(
         &mut self,
+        at: &At<'_, f64>,
         site: usize,
         dist: &Dist,
         old: &Value,
@@ -43,6 +44,7 @@ impl Move for FromPrior {
     #[inline(always)]
     fn propose(
         &mut self,
+        _: &At<'_, f64>,
         _: usize,
         dist: &Dist,
         _: &Value,
@@ -79,7 +81,7 @@ impl<M: Move> Propose<f64> for Asked<'_, M> {
         if self.noting {
             self.old = Some((address, old.clone()));
         }
-        self.way.propose(self.site, dist, old, log_density, &mut self.key.at(address))
+        self.way.propose(at, self.site, dist, old, log_density, &mut self.key.at(address))
     }
 }
 
@@ -135,8 +137,7 @@ impl<R: Rules> Chain<R> {
         let site = self.counts.number(self.state.trace.site_of(choice));
         let noting = self.best.is_noting();
         let mut asked = Asked { way, site, key: self.streams.moves(visit), noting, old: None };
-        let mut answers =
-            Fresh { key: self.streams.fresh(visit), known: None, hosts: &*task.hosts, spreads: None };
+        let mut answers = Fresh::plain(self.streams.fresh(visit), &*task.hosts);
         let (trace, strategy) = (&mut self.state.trace, self.settings.strategy);
         let change = match machine.propose(trace, choice, strategy, &mut asked, &mut answers) {
             Ok(change) => change,

@@ -2,13 +2,13 @@
 
 use super::drift::plain_spread;
 use super::streams::Streams;
+use crate::chooser::{Chooser, Known, Prior};
 use crate::record::AllInvalid;
 use crate::task::{Hosts, Task};
 use crate::{Failure, forward};
 use niwaki_geom::Shape;
 use niwaki_geom::sketch::product::Sketches;
 use niwaki_math::{Dist, StreamKey, Total};
-use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::code::{Program, SiteKind};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
@@ -18,29 +18,35 @@ use niwaki_vm::value::Value;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// Draws what a run has no value for from its distribution.
+/// Gives what a kept run has no value for: a known one, else one from its distribution.
 pub struct Fresh<'a> {
-    /// The stream of new choices, at this visit.
-    pub key: StreamKey,
-    /// Values by address, where some are known.
-    pub known: Option<&'a HashMap<u128, Value>>,
+    /// Who gives choices their values; new ones at this visit.
+    pub chooser: Known<'a, Prior>,
     /// Host functions.
     pub hosts: &'a dyn Hosts,
     /// Where to note the spread of each site's distribution, by the site's key.
     pub spreads: Option<&'a mut HashMap<u128, f64>>,
 }
 
+impl<'a> Fresh<'a> {
+    /// New choices from that stream, and nothing noted.
+    pub fn plain(key: StreamKey, hosts: &'a dyn Hosts) -> Fresh<'a> {
+        Fresh::of(key, None, hosts)
+    }
+
+    /// The same, where some choices are known.
+    pub fn of(key: StreamKey, known: Option<&'a HashMap<u128, Value>>, hosts: &'a dyn Hosts) -> Fresh<'a> {
+        Fresh { chooser: Known { values: known, otherwise: Prior(key) }, hosts, spreads: None }
+    }
+}
+
 impl Answers<f64> for Fresh<'_> {
     #[inline]
     fn choice(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Answer<Value>, Fault> {
-        let address = at.address();
         if let Some(spreads) = &mut self.spreads {
             spreads.entry(at.site.key).or_insert_with(|| plain_spread(dist));
         }
-        if let Some(value) = self.known.and_then(|known| known.get(&address)) {
-            return Ok(Answer::Go(value.clone()));
-        }
-        Ok(Answer::Go(draw_to_value(dist.sample(&mut self.key.at(address)))))
+        Ok(Answer::Go(self.chooser.draw(at, dist)?))
     }
 
     // A kept run holds its own scores, scene and queries.
@@ -104,7 +110,7 @@ impl State {
         for attempt in 0..tries {
             // The last visits, so that no proposal has their numbers.
             let (key, mut spreads) = (streams.fresh(u64::MAX - attempt), HashMap::new());
-            let mut answers = Fresh { key, known, hosts: &*task.hosts, spreads: Some(&mut spreads) };
+            let mut answers = Fresh { spreads: Some(&mut spreads), ..Fresh::of(key, known, &*task.hosts) };
             let (trace, change) = match task.begin(&mut machine, &mut answers) {
                 Ok(begun) => begun,
                 Err(met) => {
@@ -155,7 +161,7 @@ impl State {
         primitives: usize,
     ) -> Result<State, Failure> {
         let key = StreamKey::new(0, 0, 0);
-        let mut answers = Fresh { key, known: Some(known), hosts: &*task.hosts, spreads: None };
+        let mut answers = Fresh::of(key, Some(known), &*task.hosts);
         let (mut trace, change) = task.begin(&mut task.machine(), &mut answers)?;
         if change == Change::Impossible {
             let cause = impossible(&trace, &task.program);

@@ -1,7 +1,10 @@
 //! A proposal of the user's own: a model function that makes a distribution of a choice's value.
 //!
+//! Its parameters are names: `old` is the value before, any other one a variable in scope where the choice stands. With
+//! `s` for those variables, which a change of the choice itself does not touch,
+//!
 //! ```text
-//! x' ~ f(x)        forward = log f(x)(x')        backward = log f(x')(x)
+//! x' ~ f(x, s)        forward = log f(x, s)(x')        backward = log f(x', s)(x)
 //! ```
 
 use super::single::Move;
@@ -10,15 +13,22 @@ use crate::Task;
 use niwaki_math::{Dist, Stream, StreamKey, grid};
 use niwaki_vm::builtins::{draw_to_value, value_to_draw};
 use niwaki_vm::code::Mode;
+use niwaki_vm::core::Name;
 use niwaki_vm::fault::Fault;
+use niwaki_vm::machine::answers::At;
 use niwaki_vm::machine::kept::Proposed;
 use niwaki_vm::value::Value;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
-/// A function of one value that gives a distribution, and its name.
+/// The parameter that is the value before.
+const OLD: &str = "old";
+
+/// A function that gives a distribution, and its name.
 pub struct User {
     task: Task,
     name: String,
+    /// What it gives, where it takes nothing.
+    constant: OnceLock<Arc<Dist>>,
 }
 
 impl std::fmt::Debug for User {
@@ -42,23 +52,84 @@ impl User {
             )
             .with_help("give back the distribution instead of drawing from it"));
         }
-        Ok(User { task, name })
+        Ok(User { task, name, constant: OnceLock::new() })
     }
 
-    fn dist(&self, value: &Value) -> Result<Arc<Dist>, Fault> {
+    /// What it is called.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn parameters(&self) -> &[Name] {
+        &self.task.program.function(self.task.program.entry).parameters
+    }
+
+    /// Whether it asks for the value before.
+    pub fn asks_old(&self) -> bool {
+        self.parameters().iter().any(|name| &**name == OLD)
+    }
+
+    /// The variables that it asks for. A program must be compiled to keep them
+    /// ([`compile_keeping`](niwaki_vm::passes::compile_keeping)).
+    pub fn variables(&self) -> impl Iterator<Item = &Name> {
+        self.parameters().iter().filter(|name| &***name != OLD)
+    }
+
+    /// The distribution for a choice, given its value before where there is one.
+    ///
+    /// # Errors
+    /// A variable that is not in scope there, or is no number and no truth value; a function that fails or gives
+    /// something else.
+    pub fn dist(&self, at: &At<'_, f64>, old: Option<&Value>) -> Result<Arc<Dist>, Fault> {
+        if self.parameters().is_empty() {
+            if let Some(known) = self.constant.get() {
+                return Ok(known.clone());
+            }
+            let made = Arc::new(self.given(&[])?);
+            return Ok(self.constant.get_or_init(|| made).clone());
+        }
+        let value = |name: &Name| match (&**name, old) {
+            (OLD, Some(old)) => Ok(old.clone()),
+            _ => self.variable(name, at),
+        };
+        let args = self.parameters().iter().map(value).collect::<Result<Vec<_>, _>>()?;
+        Ok(Arc::new(self.given(&args)?))
+    }
+
+    /// A variable in scope at a choice.
+    fn variable(&self, name: &Name, at: &At<'_, f64>) -> Result<Value, Fault> {
         let wrong = |found: String| {
-            Fault::new("bad-proposal", format!("the proposal `{}` {found}", self.name))
-                .with_help("a proposal takes the old value and gives a distribution over new ones")
+            Fault::new(
+                "proposal-scope",
+                format!("the proposal `{}` asks for `{name}` at the choice `{}`, {found}", self.name, at.path()),
+            )
+            .with_help(
+                "name variables of the function in which the choice stands that are assigned before it on every path and \
+                 hold a number or a truth value; `old` is the value before",
+            )
+        };
+        match at.scope(name) {
+            Some(value @ (Value::Real(_) | Value::Int(_) | Value::Bool(_))) => Ok(value),
+            Some(other) => Err(wrong(format!("where it is {}", other.described()))),
+            None => Err(wrong("where it is not in scope".into())),
+        }
+    }
+
+    /// What the function gives for these arguments.
+    fn given(&self, args: &[Value]) -> Result<Dist, Fault> {
+        let wrong = |found: String| {
+            Fault::new("bad-proposal", format!("the proposal `{}` {found}", self.name)).with_help(
+                "a proposal takes `old` or variables in scope, and gives a distribution over new values",
+            )
         };
         let mut machine = self.task.machine();
-        let mut state = machine.start(std::slice::from_ref(value), true)?;
-        let mut answers =
-            Fresh { key: StreamKey::new(0, 0, 0), known: None, hosts: &*self.task.hosts, spreads: None };
+        let mut state = machine.start(args, true)?;
+        let mut answers = Fresh::plain(StreamKey::new(0, 0, 0), &*self.task.hosts);
         machine
             .finish(&mut state, &mut answers)
             .map_err(|run| wrong(format!("failed: {}", run.fault.message)))?;
         match state.result() {
-            Value::Dist(dist) => Ok(Arc::new((*dist).clone())),
+            Value::Dist(dist) => Ok((*dist).clone()),
             other => Err(wrong(format!("gave {}, not a distribution", other.described()))),
         }
     }
@@ -70,13 +141,14 @@ pub(crate) struct Asking<'a>(pub &'a User);
 impl Move for Asking<'_> {
     fn propose(
         &mut self,
+        at: &At<'_, f64>,
         _: usize,
         dist: &Dist,
         old: &Value,
         _: f64,
         rng: &mut Stream,
     ) -> Result<Proposed<f64>, Fault> {
-        let there = self.0.dist(old)?;
+        let there = self.0.dist(at, Some(old))?;
         let draw = there.sample(rng);
         let value = draw_to_value(draw.clone());
         if value.kind() != old.kind() {
@@ -89,7 +161,8 @@ impl Move for Asking<'_> {
             return Err(Fault::new("proposal-kind", found)
                 .with_help("propose values of the kind that the choice's own distribution draws"));
         }
-        let back = self.0.dist(&value)?;
+        // One that does not ask for the value before is the same there and back.
+        let back = if self.0.asks_old() { self.0.dist(at, Some(&value))? } else { there.clone() };
         let backward = value_to_draw(old).map_or(f64::NEG_INFINITY, |old| back.log_density(&old));
         Ok(Proposed { value, forward: grid(there.log_density(&draw)), backward: grid(backward) })
     }

@@ -2,11 +2,13 @@
 
 use super::settings::{Order, Settings};
 use crate::Failure;
+use crate::chooser::{Chooser, Guided, Prior};
 use crate::forward::Forward;
 use crate::record::Record;
 use crate::task::Task;
 use niwaki_math::{Stream, StreamKey, Total};
-use niwaki_vm::machine::state::State;
+use niwaki_vm::machine::stack::RunFault;
+use niwaki_vm::machine::state::{FutureId, State};
 use niwaki_vm::machine::{Machine, Stop};
 
 /// Order choices have streams of their own: this visit of the particle's stream.
@@ -28,6 +30,8 @@ pub(super) struct Particle {
     pub weighed: Total,
     /// Log weight since the last resampling.
     pub log_weight: f64,
+    /// Log of prior over proposal of the choices since the last barrier: what its weight does not yet count.
+    pub pending: f64,
     /// The thread that ran it last.
     pub home: usize,
 }
@@ -63,14 +67,15 @@ impl Particle {
                     future
                 }
             };
-            let mut answers = Forward {
-                record: &mut self.record,
-                stream: self.stream,
-                hosts: &*task.hosts,
-                barriers: true,
-                complete: false,
+            let prior = Prior(self.stream);
+            let stop = match settings.proposal.as_deref() {
+                None => self.run(machine, task, future, prior),
+                Some(proposal) => {
+                    let own = Guided { proposal, stream: self.stream, otherwise: prior };
+                    self.run(machine, task, future, own)
+                }
             };
-            match machine.resume(&mut self.state, future, &mut answers) {
+            match stop {
                 Ok(Stop::Paused) => return Ok(()),
                 Ok(_) => {}
                 #[cfg(test)]
@@ -81,6 +86,23 @@ impl Particle {
             }
         }
         Ok(())
+    }
+
+    /// Runs a future, its new choices by a chooser.
+    #[inline(always)]
+    fn run(
+        &mut self,
+        machine: &mut Machine<'_>,
+        task: &Task,
+        future: FutureId,
+        chooser: impl Chooser,
+    ) -> Result<Stop, Box<RunFault>> {
+        let (record, hosts) = (&mut self.record, &*task.hosts);
+        let mut answers =
+            Forward { record, chooser, log_ratio: self.pending, hosts, barriers: true, complete: false };
+        let stop = machine.resume(&mut self.state, future, &mut answers);
+        self.pending = answers.log_ratio;
+        stop
     }
 
     /// A uniform draw among the runnable futures.
@@ -101,6 +123,7 @@ impl Particle {
             was_ended: self.was_ended,
             weighed: self.weighed.clone(),
             log_weight: self.log_weight,
+            pending: self.pending,
             home: self.home,
         }
     }
@@ -114,6 +137,7 @@ impl Particle {
         self.picks = parent.picks;
         self.was_ended = parent.was_ended;
         self.weighed.clone_from(&parent.weighed);
+        self.pending = parent.pending;
         self.home = parent.home;
     }
 }

@@ -6,12 +6,12 @@
 //! probability (one over the number of futures that can run, pick by pick), so it cancels in a ratio.
 
 use crate::Failure;
+use crate::chooser::{Chooser, Prior};
 use crate::log::{Entry, Log};
 use crate::record::{check_factor, log_density};
 use crate::task::{Hosts, Task};
 use niwaki_geom::{Primitive, Shape};
 use niwaki_math::{Dist, Family, StreamKey, Total, grid};
-use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Machine;
 use niwaki_vm::machine::address::join;
@@ -66,8 +66,9 @@ pub(super) struct Course {
 /// Weighs a choice that is new, for each leaf that asks.
 pub(super) type Weigh<'a> = dyn Fn(&At<'_, f64>) -> Box<[u64]> + 'a;
 
-/// Proposes a value for a choice, or leaves it: its number on the way before, the choice, its distribution now.
-pub(super) type Ask<'a> = dyn FnMut(usize, &Choice, &Dist) -> Result<Option<Proposed<f64>>, Fault> + 'a;
+/// Proposes a value for a choice, or leaves it: where it stands, its number on the way before, the choice, its distribution now.
+pub(super) type Ask<'a> =
+    dyn FnMut(&At<'_, f64>, usize, &Choice, &Dist) -> Result<Option<Proposed<f64>>, Fault> + 'a;
 
 /// Log densities that a move counts, nats.
 #[derive(Clone, Debug, Default)]
@@ -82,14 +83,7 @@ enum Source<'a> {
     /// The particle's own log; the next entry.
     Log(&'a [Entry], usize),
     /// The way before, with changes.
-    Before {
-        course: &'a Course,
-        at: usize,
-        mark: usize,
-        number: usize,
-        ask: &'a mut Ask<'a>,
-        fresh: StreamKey,
-    },
+    Before { course: &'a Course, at: usize, mark: usize, number: usize, ask: &'a mut Ask<'a>, fresh: Prior },
 }
 
 struct Walk<'a> {
@@ -153,13 +147,13 @@ impl Answers<f64> for Walk<'_> {
                 *next += 1;
                 (entry.value.clone(), log_density(dist, &entry.value)?)
             }
-            Source::Before { course, at, number, ask, fresh, .. } => {
-                known = course.find(address, at, number);
+            Source::Before { course, at: place, number, ask, fresh, .. } => {
+                known = course.find(address, place, number);
                 let usable = known.filter(|(_, c)| c.family == dist.family() && fits(dist, &c.value));
                 match usable {
                     Some((n, choice)) => {
                         self.met.add(choice.log);
-                        let value = match ask(n, choice, dist)? {
+                        let value = match ask(at, n, choice, dist)? {
                             None => choice.value.clone(),
                             Some(proposed) => {
                                 self.densities.forward += proposed.forward;
@@ -171,9 +165,9 @@ impl Answers<f64> for Walk<'_> {
                         (value, log)
                     }
                     None => {
-                        let (draw, log) = dist.sample_and_score(&mut fresh.at(address));
-                        self.densities.fresh.add(log);
-                        (draw_to_value(draw), log)
+                        let chosen = fresh.choose(at, dist)?;
+                        self.densities.fresh.add(chosen.log_prior);
+                        (chosen.value, chosen.log_prior)
                     }
                 }
             }
@@ -251,7 +245,7 @@ impl Course {
         ask: &'a mut Ask<'a>,
         fresh: StreamKey,
     ) -> Result<Option<(Course, Densities)>, Failure> {
-        let source = Source::Before { course: self, at: 0, mark: 0, number: 0, ask, fresh };
+        let source = Source::Before { course: self, at: 0, mark: 0, number: 0, ask, fresh: Prior(fresh) };
         let Some((made, mut densities)) = Course::walk(with, machine, source, self.barriers)? else {
             return Ok(None);
         };

@@ -11,7 +11,13 @@
 //! w_i  p(x', order | prefix i)  s(prefix i, x')^T / s(prefix i)^(T_n)
 //! ```
 //!
-//! which is zero where the prefix leads to other addresses, other barriers or another family at an address. Only
+//! in which a proposal for the choices has no part: the law that the sweep holds is that of the choices, `p s^T`, and the rest
+//! is not drawn but held, so its density under the prior stands (Lindsten et al., eq. 15: the target of the whole over that
+//! of the prefix). What the proposal drew of the prefix is in `w_i`. The held run's own weight counts `log p - log q` of its
+//! choices like any other row's, though nobody drew them: it is found anew as the run is followed, and so by the prefix
+//! that it has after its ancestor was drawn.
+//!
+//! The weight above is zero where the prefix leads to other addresses, other barriers or another family at an address. Only
 //! multinomial resampling has this simple conditional form, so that is what it uses.
 
 use super::many::Watch;
@@ -157,6 +163,7 @@ fn conditional(
     let task = population.task.clone();
     let mut machine = task.machine();
     let segments = &path.segments;
+    let proposal = settings.proposal.as_deref();
     // The row of the held run.
     let mut held = 0;
     while population.count().0 > 0 {
@@ -164,7 +171,9 @@ fn conditional(
         if let Some(segment) = segments.get(population.barriers) {
             let last = population.barriers + 1 == segments.len();
             let row = &mut population.particles[held];
-            if row.follow(&mut machine, &task, segment, last)?.is_none() {
+            #[cfg(test)]
+            let proposal = proposal.filter(|_| !settings.is(super::tests::Mutant::HeldByPrior));
+            if row.follow(&mut machine, &task, segment, last, proposal)?.is_none() {
                 // Nothing was tried: the run was given.
                 return Err(Failure::NoStart { tries: 0, causes: vec![] });
             }
@@ -223,7 +232,7 @@ fn sample_ancestor(
         let mut trial = p.fork();
         let mut log_order = 0.0;
         for (number, segment) in rest.iter().enumerate() {
-            match trial.follow(&mut machine, task, segment, number + 1 == rest.len())? {
+            match trial.follow(&mut machine, task, segment, number + 1 == rest.len(), None)? {
                 Some(log) => log_order += log,
                 None => return Ok(f64::NEG_INFINITY),
             }

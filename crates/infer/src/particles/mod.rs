@@ -5,7 +5,9 @@
 //!
 //! 1. *Advance*: each particle that has not ended runs to its next barrier (`advance`). After each barrier
 //!    and whenever a future returns, the order policy picks the future that runs next.
-//! 2. *Weigh* (`weights`): `w *= (s(r_n) / s(r_{n-1}))^T`. One that has ended carries its last score.
+//! 2. *Weigh* (`weights`): `w *= (s(r_n) / s(r_{n-1}))^T`. One that has ended carries its last score. Of choices that a
+//!    proposal drew since the last barrier ([`Proposal`](crate::chooser::Proposal)) `p(x) / q(x)` counts too, which is not
+//!    tempered.
 //! 3. *Resample* ([`resampling`]): at every barrier, or when the effective sample size is low; weights are reset. Copies
 //!    (`copies`) are made when the particles run again, by the thread that ran their parent (`shared`).
 //! 4. *Rejuvenate*, where asked for ([`rejuvenation`]): each particle is moved by a Markov kernel that keeps `F_n`; of one

@@ -45,7 +45,8 @@ pub(super) fn move_running(
     let with = With {
         task: round.task,
         depth_first: round.settings.order == Order::DepthFirst,
-        origins: !mover.choosy.is_empty(),
+        origins: !mover.choosy.is_empty()
+            || round.settings.proposal.as_ref().is_some_and(|own| own.needs_origins()),
         weigh: &weigh,
         careless: careless(round),
     };
@@ -94,7 +95,7 @@ fn careless(_: &Round<'_>) -> bool {
 }
 
 /// A way to move one choice, under its distribution now.
-type Single<'a> = dyn FnMut(&Choice, &Dist, &mut Stream) -> Result<Proposed<f64>, Fault> + 'a;
+type Single<'a> = dyn FnMut(&At<'_, f64>, &Choice, &Dist, &mut Stream) -> Result<Proposed<f64>, Fault> + 'a;
 
 /// A proposal; nothing was found where it leads to another skeleton or is impossible.
 struct Proposal {
@@ -131,31 +132,33 @@ fn propose(
             left = left.saturating_sub(own);
             here < own
         });
-        let mut ask = |n: usize, choice: &Choice, dist: &Dist| {
+        let mut ask = |at: &At<'_, f64>, n: usize, choice: &Choice, dist: &Dist| {
             if Some(n) != picked {
                 return Ok(None);
             }
-            way(choice, dist, &mut values.at(choice.address)).map(Some)
+            way(at, choice, dist, &mut values.at(choice.address)).map(Some)
         };
         now.again(with, machine, &mut ask, fresh)
     };
     let number = |choice: &Choice| mover.numbers.get(&choice.site).copied().unwrap_or(0);
     let mut moved = |way: &mut Single<'_>| single(way, machine, rng);
     let found = match &own.way {
-        Way::Prior => moved(&mut |c, dist, rng| FromPrior.propose(0, dist, &c.value, c.log, rng))?,
+        Way::Prior => moved(&mut |at, c, dist, rng| FromPrior.propose(at, 0, dist, &c.value, c.log, rng))?,
         Way::Drift(drift) => {
             let mut drift = (**drift).clone();
-            moved(&mut |c, dist, rng| drift.propose(number(c), dist, &c.value, c.log, rng))?
+            moved(&mut |at, c, dist, rng| drift.propose(at, number(c), dist, &c.value, c.log, rng))?
         }
         Way::Neighbour(neighbour) => {
             let mut neighbour = *neighbour;
-            moved(&mut |c, dist, rng| neighbour.propose(0, dist, &c.value, c.log, rng))?
+            moved(&mut |at, c, dist, rng| neighbour.propose(at, 0, dist, &c.value, c.log, rng))?
         }
-        Way::ByFamily => moved(&mut |c, dist, rng| ByFamily.propose(0, dist, &c.value, c.log, rng))?,
-        Way::User(user) => moved(&mut |c, dist, rng| Asking(user).propose(0, dist, &c.value, c.log, rng))?,
+        Way::ByFamily => moved(&mut |at, c, dist, rng| ByFamily.propose(at, 0, dist, &c.value, c.log, rng))?,
+        Way::User(user) => {
+            moved(&mut |at, c, dist, rng| Asking(user).propose(at, 0, dist, &c.value, c.log, rng))?
+        }
         Way::Block(block) => {
             let size = block.log_step.exp();
-            let mut ask = |_: usize, choice: &Choice, _: &Dist| {
+            let mut ask = |_: &At<'_, f64>, _: usize, choice: &Choice, _: &Dist| {
                 let mut own = values.at(choice.address);
                 if weight(choice) == 0 || own.uniform() >= block.share {
                     return Ok(None);

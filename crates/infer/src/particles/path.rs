@@ -4,6 +4,7 @@
 use super::advance::Particle;
 use super::settings::{Order, Settings};
 use crate::Failure;
+use crate::chooser::Proposal;
 use crate::forward::factor_name;
 use crate::log::Entry;
 use crate::record::{Record, check_factor, log_density};
@@ -39,6 +40,10 @@ struct Walk<'a> {
     record: &'a mut Record,
     hosts: &'a dyn Hosts,
     way: Way<'a>,
+    /// Who would have drawn the choices, where their weights count.
+    proposal: Option<&'a Proposal>,
+    /// Log of prior over proposal of the choices, nats.
+    log_ratio: f64,
 }
 
 enum Way<'a> {
@@ -77,6 +82,9 @@ impl Answers<f64> for Walk<'_> {
                 (value.clone(), log)
             }
         };
+        if let Some(proposal) = self.proposal {
+            self.log_ratio += proposal.log_drawn(at, dist, &value)?.map_or(0.0, |drawn| log - drawn);
+        }
         self.record.choose(asked, &value, log);
         Ok(Answer::Go(value))
     }
@@ -132,7 +140,8 @@ impl Path {
             let Some(events) = segments.last_mut() else { unreachable!("there is a first segment") };
             events.push(Event::Ran(path));
             let way = Way::Note { values: &values, events };
-            let mut answers = Walk { record: &mut record, hosts: &*task.hosts, way };
+            let hosts = &*task.hosts;
+            let mut answers = Walk { record: &mut record, hosts, way, proposal: None, log_ratio: 0.0 };
             if machine.resume(&mut state, future, &mut answers)? == Stop::Paused {
                 segments.push(Vec::new());
             }
@@ -167,13 +176,14 @@ fn find(state: &niwaki_vm::machine::state::State, path: u128) -> Option<niwaki_v
 impl Particle {
     /// Takes the way of a segment, from wherever it is: to its next barrier, or to the end where the segment is the
     /// path's `last`. The log probability of its order choices; `None` where it cannot go that way, or not with
-    /// density above zero (it is then of no further use).
+    /// density above zero (it is then of no further use). With a `proposal` its choices count as drawn by it.
     pub fn follow(
         &mut self,
         machine: &mut Machine<'_>,
         task: &Task,
         segment: &[Event],
         last: bool,
+        proposal: Option<&Proposal>,
     ) -> Result<Option<f64>, Failure> {
         let (mut next, mut log_order) = (0, 0.0);
         while self.is_running() {
@@ -187,8 +197,11 @@ impl Particle {
                 log_order -= (n as f64).ln();
             }
             let way = Way::Follow { events: segment, next: next + 1, lost: false };
-            let mut answers = Walk { record: &mut self.record, hosts: &*task.hosts, way };
-            let stop = match machine.resume(&mut self.state, future, &mut answers) {
+            let (record, hosts) = (&mut self.record, &*task.hosts);
+            let mut answers = Walk { record, hosts, way, proposal, log_ratio: self.pending };
+            let stop = machine.resume(&mut self.state, future, &mut answers);
+            self.pending = answers.log_ratio;
+            let stop = match stop {
                 Ok(stop) => stop,
                 Err(met) => {
                     self.record.forgive(task, met)?;

@@ -72,7 +72,13 @@ impl<'a> Population<'a> {
         let n = settings.particles;
         let task = share_memory(task, n);
         let machine = task.machine();
-        let first = task.start(&machine, settings.order == Order::DepthFirst)?;
+        let mut first = task.start(&machine, settings.order == Order::DepthFirst)?;
+        if let Some(proposal) = &settings.proposal {
+            proposal.check(&task.program)?;
+            if proposal.needs_origins() {
+                first.remember_origins();
+            }
+        }
         let mut empty = Record::start(&task.sketches);
         let empty_score = empty.score();
         let particles: Vec<Particle> = (0..n as u64)
@@ -85,6 +91,7 @@ impl<'a> Population<'a> {
                 was_ended: false,
                 weighed: empty_score.clone(),
                 log_weight: 0.0,
+                pending: 0.0,
                 home: lineage as usize % rayon::current_num_threads(),
             })
             .collect();
@@ -188,6 +195,7 @@ impl<'a> Population<'a> {
             self.scores.push(score);
             ended += usize::from(p.state.has_ended());
         }
+        self.count_proposals();
         let next = self.next_temper();
         self.logs.clear();
         for (p, score) in self.particles.iter_mut().zip(&self.scores) {
@@ -212,6 +220,22 @@ impl<'a> Population<'a> {
             return Err(impossible(&self.particles, self.barriers));
         }
         Ok(Seen { best, ended })
+    }
+
+    /// Counts in the weights what the proposal drew since the last barrier. The prior is not tempered, so neither is this;
+    /// the temperature is chosen by what the scores then add.
+    fn count_proposals(&mut self) {
+        if self.settings.proposal.is_none() {
+            return;
+        }
+        for p in &mut self.particles {
+            let pending = std::mem::take(&mut p.pending);
+            #[cfg(test)]
+            if self.settings.is(super::tests::Mutant::ForgetsProposal) {
+                continue;
+            }
+            p.log_weight += pending;
+        }
     }
 
     /// The temperature at this barrier.

@@ -173,7 +173,7 @@ impl Mover {
         let mut spreads = HashMap::new();
         for run in 0..FIRST_RUNS {
             let key = StreamKey::new(settings.seed, SPREADS, run);
-            let mut answers = Fresh { key, known: None, hosts: &*task.hosts, spreads: Some(&mut spreads) };
+            let mut answers = Fresh { spreads: Some(&mut spreads), ..Fresh::plain(key, &*task.hosts) };
             let mut machine = task.machine();
             // Of an invalid run, what it has met.
             if let Err(met) = task.begin(&mut machine, &mut answers)

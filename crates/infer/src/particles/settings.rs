@@ -2,6 +2,7 @@
 
 use super::Resampling;
 use super::rejuvenation::Rejuvenation;
+use crate::chooser::Proposal;
 use niwaki_vm::fault::Fault;
 use serde::{Deserialize, Deserializer};
 use std::sync::Arc;
@@ -96,6 +97,9 @@ pub struct Settings {
     /// How particles are moved within the law that they follow.
     #[serde(skip)]
     pub rejuvenate: Option<Rejuvenation>,
+    /// Who draws the choices that the prior does not.
+    #[serde(skip)]
+    pub proposal: Option<Arc<Proposal>>,
     /// Seed.
     #[serde(skip)]
     pub seed: u64,
@@ -116,6 +120,7 @@ impl Default for Settings {
             resampling: Resampling::Systematic,
             when: When::Always,
             rejuvenate: None,
+            proposal: None,
             seed: 0,
             #[cfg(test)]
             mutant: None,
@@ -144,6 +149,10 @@ impl Settings {
         {
             return Err(Fault::new("bad-threshold", format!("the resampling threshold is {share}"))
                 .with_help("use a share of the particles between 0 and 1"));
+        }
+        if self.proposal.is_some() && self.weights == Weights::Absolute {
+            return Err(Fault::new("bad-setting", "absolute weights do not count what a proposal drew")
+                .with_help("use ratio weights, or no proposal"));
         }
         if let Some(rejuvenation) = &self.rejuvenate {
             rejuvenation.check(self.weights)?;

@@ -84,7 +84,7 @@ fn program(text: &str, power: &str) -> Task {
 
 /// The user's own: a distribution over whole numbers near the old one, skewed, so that its reverse matters.
 fn skewed() -> Kernel {
-    let text = r#"(module (fn "near" (params $k) (return (dist binomial 3 (cond (eq $k 0) 0.2 0.6)))) (entry "near"))"#;
+    let text = r#"(module (fn "near" (params $old) (return (dist binomial 3 (cond (eq $old 0) 0.2 0.6)))) (entry "near"))"#;
     Kernel::User(Arc::new(User::new(task(text)).expect("a proposal")))
 }
 
@@ -151,26 +151,34 @@ fn rows() -> Vec<Row> {
 
 /// The largest |z| over the values of a program.
 fn worst<R: Rules>(text: &str, row: &Row, seed: u64) -> f64 {
-    let exact = enumerate(&program(text, row.power), 100_000, &mut |_| true).expect("few runs");
-    let shares = exact.outcomes.iter().map(|(value, log)| {
-        let value = repr(value).expect("a value");
-        (value, (log - exact.log_evidence).exp())
-    });
-    worst_of::<R>(&program(text, "1.0"), &shares.collect::<Vec<_>>(), row, seed)
+    furthest::<R>(&program(text, "1.0"), &program(text, row.power), &settings(row, seed))
 }
 
-/// The same, of a program whose values have these probabilities.
-fn worst_of<R: Rules>(task: &Task, exact: &[(String, f64)], row: &Row, seed: u64) -> f64 {
-    const STRETCHES: usize = 60;
-    let settings = Settings {
+fn settings(row: &Row, seed: u64) -> Settings {
+    Settings {
         seed,
         kernel: row.kernel.clone(),
         thin: 0,
         temperatures: row.temperatures.clone(),
         every: 5,
         ..Settings::default()
-    };
-    let mut chain = Ladder::<R>::start(task, &settings, 0, None).expect("a chain");
+    }
+}
+
+/// The largest |z| over the values of a task whose chain follows the posterior of `followed`.
+pub fn furthest<R: Rules>(task: &Task, followed: &Task, settings: &Settings) -> f64 {
+    let exact = enumerate(followed, 100_000, &mut |_| true).expect("few runs");
+    let shares = exact.outcomes.iter().map(|(value, log)| {
+        let value = repr(value).expect("a value");
+        (value, (log - exact.log_evidence).exp())
+    });
+    worst_of::<R>(task, &shares.collect::<Vec<_>>(), settings)
+}
+
+/// The same, of a task whose values have these probabilities.
+fn worst_of<R: Rules>(task: &Task, exact: &[(String, f64)], settings: &Settings) -> f64 {
+    const STRETCHES: usize = 60;
+    let mut chain = Ladder::<R>::start(task, settings, 0, None).expect("a chain");
     chain.advance(task, 500, &mut |_, _| true).expect("a run");
     let mut shares: Vec<HashMap<String, f64>> = vec![HashMap::new(); STRETCHES];
     for share in &mut shares {
@@ -221,7 +229,7 @@ fn a_step_that_is_not_adapted_finds_both_peaks() {
         ("block", Kernel::Block { step: 3.0, share: 1.0, target: 0.44 }),
     ] {
         let row = Row { name, kernel, temperatures: vec![1.0], power: "1.0", only: "" };
-        let z = worst_of::<MetropolisHastings>(&two, &exact, &row, 11);
+        let z = worst_of::<MetropolisHastings>(&two, &exact, &settings(&row, 11));
         assert!(z < 6.0, "{name}: z = {z}");
     }
 }

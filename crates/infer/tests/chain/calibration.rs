@@ -270,7 +270,7 @@ fn kernels_leave_the_posterior_as_it_is() {
 #[test]
 fn a_proposal_of_ones_own_leaves_the_posterior_as_it_is() {
     // A scale that depends on the value: going there is not as likely as coming back.
-    let text = r#"(module (fn "near" (params $x) (return (dist gaussian (mul 0.5 $x) (add 0.3 (mul $x $x))))) (entry "near"))"#;
+    let text = r#"(module (fn "near" (params $old) (return (dist gaussian (mul 0.5 $old) (add 0.3 (mul $old $old))))) (entry "near"))"#;
     let own = Kernel::User(Arc::new(User::new(task(text)).expect("a proposal")));
     let sites = Selection { sites: vec![vec!["x".into()]], ..Selection::default() };
     let kernel = Kernel::Mixture(vec![(3.0, Kernel::On(sites, Box::new(own))), (1.0, Kernel::Prior)]);

@@ -170,7 +170,7 @@ fn direct_methods_agree_with_enumeration() {
         let z = counted(&task, &values);
         assert!(z < LIMIT, "{name}: {z}");
         // The mean of independent weights.
-        let weighted = importance(&task, 20_000, 4, &mut |_| true).unwrap();
+        let weighted = importance(&task, None, 20_000, 4, &mut |_| true).unwrap();
         let weights: Vec<f64> = weighted.samples.iter().map(|s| s.record.log_score().exp()).collect();
         let n = weights.len() as f64;
         let (mean, square) = weights.iter().fold((0.0, 0.0), |(m, s), w| (m + w / n, s + w * w / n));
@@ -178,7 +178,7 @@ fn direct_methods_agree_with_enumeration() {
         assert!(z.abs() < LIMIT, "{name}: {z}");
         // Those that are counted are those without weight, but for conditions.
         let fresh = task.uncounted();
-        let again = importance(&fresh, 20_000, 4, &mut |_| true).unwrap();
+        let again = importance(&fresh, None, 20_000, 4, &mut |_| true).unwrap();
         let invalid = again.samples.iter().filter(|s| s.record.invalid.is_some()).count() as u64;
         assert_eq!(fresh.invalid.counts().iter().map(|site| site.1).sum::<u64>(), invalid);
         assert!(invalid > 1000, "{name}: {invalid}");
@@ -337,7 +337,7 @@ fn said(text: &str) -> Vec<Result<(), Failure>> {
         populations(&task, &own, &[20, 20], &mut |_| true).map(drop),
         particle_gibbs(&task, &own, Ancestors::Sampled, 3, None, &mut |_| true).map(drop),
         pimh(&task, &own, 3, &mut |_| true).map(drop),
-        importance(&task, 50, 1, &mut |_| true).map(drop),
+        importance(&task, None, 50, 1, &mut |_| true).map(drop),
         rejection(&task, 5, 0.0, 50, 1, &mut |_| true).map(drop),
         enumerate(&task, 1000, &mut |_| true).map(drop),
         explore(&task, &plan, &|_| true).map(drop),

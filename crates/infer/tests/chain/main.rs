@@ -6,6 +6,7 @@ mod calibration;
 mod invalid;
 mod mixed;
 mod programs;
+mod scoped;
 
 use niwaki_geom::{Aabb, no_overshoot, vec3};
 use niwaki_infer::Task;
@@ -76,12 +77,12 @@ fn own_proposals(task: &Task) -> Kernel {
         }
     }
     let dists = [
-        "gaussian (mul 0.5 $x) 0.8",
-        "poisson (add 0.5 (mul 0.5 (mul $x $x)))",
-        "bernoulli (cond $x 0.3 0.8)",
+        "gaussian (mul 0.5 $old) 0.8",
+        "poisson (add 0.5 (mul 0.5 (mul $old $old)))",
+        "bernoulli (cond $old 0.3 0.8)",
     ];
     let own = sites.into_iter().zip(dists).filter(|(sites, _)| !sites.is_empty()).map(|(sites, dist)| {
-        let text = format!(r#"(module (fn "near" (params $x) (return (dist {dist}))) (entry "near"))"#);
+        let text = format!(r#"(module (fn "near" (params $old) (return (dist {dist}))) (entry "near"))"#);
         let user = Kernel::User(Arc::new(User::new(programs::task(&text)).expect("a proposal")));
         Kernel::On(Selection { sites: vec![sites], ..Selection::default() }, Box::new(user))
     });

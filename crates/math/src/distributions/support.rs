@@ -142,6 +142,62 @@ impl<S: Scalar> Dist<S> {
         }
     }
 
+    /// Whether both measure their densities alike, so that a ratio of them means something.
+    pub fn compares_with(&self, other: &Dist<S>) -> bool {
+        self.measure() == other.measure()
+    }
+
+    /// Values of `other`, of the same measure, that this distribution visibly never draws, for a message: one of finitely
+    /// many, or an end of an interval. What is missing inside an interval is not seen.
+    ///
+    /// ```
+    /// use niwaki_math::Dist;
+    /// let (narrow, wide): (Dist, Dist) = (Dist::Uniform { lo: 0.0, hi: 1.0 }, Dist::Gaussian { mean: 0.5, sd: 1.0 });
+    /// assert_eq!(narrow.lacks(&wide), Some("numbers below 0".into()));
+    /// assert_eq!(wide.lacks(&narrow), None);
+    /// ```
+    pub fn lacks(&self, other: &Dist<S>) -> Option<String> {
+        let low = |lo: &dyn Fn() -> String| Some(format!("numbers below {}", lo()));
+        let high = |hi: &dyn Fn() -> String| Some(format!("numbers above {}", hi()));
+        let outside = match (self.support(), other.support()) {
+            (Support::Integers { lo, .. }, Support::Integers { lo: least, .. }) if least < lo => {
+                low(&|| lo.to_string())
+            }
+            (Support::Integers { hi: Some(hi), .. }, Support::Integers { hi: most, .. })
+                if most.is_none_or(|most| most > hi) =>
+            {
+                high(&|| hi.to_string())
+            }
+            (Support::Reals { lo, .. }, Support::Reals { lo: least, .. }) if least < lo => {
+                low(&|| lo.to_string())
+            }
+            (Support::Reals { hi, .. }, Support::Reals { hi: most, .. }) if most > hi => {
+                high(&|| hi.to_string())
+            }
+            _ => None,
+        };
+        let has_gaps = matches!(
+            self,
+            Dist::Bernoulli { .. }
+                | Dist::Categorical(_)
+                | Dist::Binomial { .. }
+                | Dist::Mixture(_)
+                | Dist::Delta(_)
+        );
+        if outside.is_none() && !has_gaps {
+            return None;
+        }
+        // The ends of a finite support may themselves be impossible, so each of its values is asked for.
+        let Some(values) = other.enumerate() else { return outside };
+        let missing = values.into_iter().find(|x| self.log_density(x).value() == f64::NEG_INFINITY)?;
+        Some(match missing {
+            Draw::Bool(b) => if b { "True" } else { "False" }.into(),
+            Draw::Int(i) => format!("the value {i}"),
+            Draw::Real(x) => format!("the value {}", x.value()),
+            Draw::Vector(_) => "a vector".into(),
+        })
+    }
+
     /// The values of positive probability, in order, where they are finitely many (up to about a million).
     ///
     /// ```
@@ -185,5 +241,28 @@ mod tests {
         assert_eq!(Dist::Binomial { n: 5, p: 0.0 }.enumerate(), Some(vec![Draw::Int(0)]));
         assert_eq!(Dist::Poisson { rate: 1.0 }.enumerate(), None);
         assert_eq!(Dist::<f64>::DiscreteUniform { lo: i64::MIN, hi: i64::MAX }.enumerate(), None);
+    }
+
+    /// A part that is missing is named; impossible values at the ends are no part.
+    #[test]
+    fn what_a_distribution_never_draws_is_seen() {
+        let weights = |w: &[f64]| Dist::new(Family::Categorical, &[Param::Vector(w.to_vec())]).unwrap();
+        let range = |lo, hi| Dist::<f64>::DiscreteUniform { lo, hi };
+        let said = |q: Dist, p: Dist| q.lacks(&p);
+        assert_eq!(said(weights(&[1.0, 0.0, 1.0]), range(0, 2)).as_deref(), Some("the value 1"));
+        assert_eq!(said(range(1, 2), weights(&[0.0, 1.0, 1.0, 0.0])), None);
+        assert_eq!(said(range(1, 2), weights(&[0.1, 1.0, 1.0])).as_deref(), Some("the value 0"));
+        assert_eq!(said(Dist::Bernoulli { p: 1.0 }, Dist::Bernoulli { p: 0.5 }).as_deref(), Some("False"));
+        assert_eq!(said(range(0, 9), Dist::Poisson { rate: 1.0 }).as_deref(), Some("numbers above 9"));
+        assert_eq!(said(Dist::Geometric { p: 0.5 }, Dist::Poisson { rate: 1.0 }), None);
+        let positive = Dist::Exponential { rate: 1.0 };
+        assert_eq!(
+            said(positive.clone(), Dist::Gaussian { mean: 0.0, sd: 1.0 }).as_deref(),
+            Some("numbers below 0")
+        );
+        assert_eq!(said(Dist::Beta { a: 1.0, b: 1.0 }, positive.clone()).as_deref(), Some("numbers above 1"));
+        assert!(
+            !positive.compares_with(&range(0, 1)) && positive.compares_with(&Dist::Beta { a: 1.0, b: 1.0 })
+        );
     }
 }

@@ -27,6 +27,8 @@ impl Program<f64> {
             constants: f.constants.iter().map(|value| value.convert(&S::from_f64)).collect(),
             names: f.names.clone(),
             sites: f.sites.clone(),
+            parameters: f.parameters.clone(),
+            scope: f.scope.clone(),
         };
         Program {
             files: self.files.clone(),

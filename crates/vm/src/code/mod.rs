@@ -438,6 +438,21 @@ pub struct Function<S: Scalar = f64> {
     pub names: Vec<Name>,
     /// Suspension sites in program order.
     pub sites: Vec<Site>,
+    /// Readable names of the parameters.
+    pub parameters: Vec<Name>,
+    /// Variables that can be read at choices, where the program was compiled to keep some.
+    pub scope: Vec<Visible>,
+}
+
+/// A variable that can be read at a choice.
+#[derive(Clone, Debug)]
+pub struct Visible {
+    /// The choice.
+    pub site: SiteId,
+    /// The variable's name in the model's source.
+    pub name: Name,
+    /// Where its value lies: never in scratch.
+    pub at: Operand,
 }
 
 /// A compiled program.

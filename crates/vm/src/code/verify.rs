@@ -124,6 +124,9 @@ fn function<S: Scalar>(program: &Program<S>, f: &Function<S>, outer: usize) -> R
             _ => {}
         }
     }
+    if !f.scope.iter().all(|x| fits(x.at) && x.at.place() != Place::Scratch) {
+        return fail(0, "a variable to keep that is not kept");
+    }
     let starts = f.sites.iter().map(|site| site.again).chain(f.inputs.iter().chain(&f.outers).copied());
     if starts.into_iter().any(|start| start as usize >= f.code.len()) {
         return fail(f.code.len(), "no such slice");

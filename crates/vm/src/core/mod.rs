@@ -15,6 +15,11 @@ use std::sync::Arc;
 /// A name of a variable, function or field.
 pub type Name = Arc<str>;
 
+/// The name of a variable in the model's source: `x` of `x` and of `x%3`. Empty for what only the front end named.
+pub fn readable(name: &str) -> &str {
+    name.split('%').next().unwrap_or(name)
+}
+
 /// A place in a source file: 1-based lines and columns, the end exclusive. All zero when unknown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Span {

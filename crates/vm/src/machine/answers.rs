@@ -4,8 +4,9 @@
 //! inference algorithm is the set of answers that it gives.
 
 use super::address::join;
+use super::registers::Registers;
 use super::state::{NodeId, State};
-use crate::code::{Function, Program, Site};
+use crate::code::{Function, Mode, Program, Site, Visible};
 use crate::fault::Fault;
 use crate::value::Value;
 use niwaki_geom::Shape;
@@ -58,6 +59,22 @@ impl<S: Scalar> At<'_, S> {
             path.push('/');
         }
         path + &self.site.label
+    }
+
+    /// The value of a variable in scope, by its name in the model's source, where the program was compiled to keep it
+    /// ([`compile_keeping`](crate::passes::compile_keeping)).
+    pub fn scope(&self, name: &str) -> Option<Value<S>> {
+        let is_it =
+            |x: &&Visible| *x.name == *name && self.function.sites[x.site.0 as usize].key == self.site.key;
+        let at = self.function.scope.iter().find(is_it)?.at;
+        let node = &self.state.nodes[self.node.0 as usize];
+        let outer = match self.function.mode {
+            Mode::Iteration => self.state.nodes[node.parent.0 as usize].registers as usize,
+            _ => 0,
+        };
+        let own = node.registers as usize;
+        // What is kept is never in scratch.
+        Some(Registers { f: self.function, own, outer, scratch: 0 }.get(self.state, &[], at).clone())
     }
 }
 

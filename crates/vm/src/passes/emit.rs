@@ -2,7 +2,7 @@
 
 use super::liveness::LoopHeads;
 use super::{CompileError, Unit, literal, place};
-use crate::code::{Args, Function, FunctionId, Mode, Op, Operand, Place, Site};
+use crate::code::{Args, Function, FunctionId, Mode, Op, Operand, Place, Site, Visible};
 use crate::core::{self, ExprKind, Literal, Name, Span};
 use crate::value::Value;
 use niwaki_math::Scalar;
@@ -47,6 +47,7 @@ pub(crate) struct Builder<'u, 'm, S: Scalar> {
     pub data: HashMap<usize, Operand>,
     pub names: Vec<Name>,
     pub sites: Vec<Site>,
+    pub scope: Vec<Visible>,
     pub occurrences: HashMap<String, u32>,
     pub labels: Vec<Option<usize>>,
     pub registers: usize,
@@ -75,6 +76,7 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
             data: HashMap::new(),
             names: vec![],
             sites: vec![],
+            scope: vec![],
             occurrences: HashMap::new(),
             labels: vec![],
             registers: 0,
@@ -99,7 +101,9 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
             let none = b.literal(&Literal::None);
             b.op(Op::Return { a: none });
         }
-        b.finish(f.params.len(), f.captures.len(), defaults, f.span)
+        let mut made = b.finish(f.params.len(), f.captures.len(), defaults, f.span)?;
+        made.parameters = f.params.iter().map(|x| Name::from(core::readable(x))).collect();
+        Ok(made)
     }
 
     fn default(&mut self, f: &core::Function, e: &core::Expr) -> Result<Operand> {
@@ -161,6 +165,8 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
             constants: self.constants,
             names: self.names,
             sites: self.sites,
+            parameters: vec![],
+            scope: self.scope,
         };
         place::place(&mut f, self.registers);
         super::slices::slice(&mut f);

@@ -57,6 +57,8 @@ pub(crate) struct Unit<'m, S: Scalar> {
     pub collections: Collections,
     pub ids: HashMap<Name, FunctionId>,
     pub data: Vec<Value<S>>,
+    /// Readable names of the variables to keep where choices stand.
+    pub kept: &'m [Name],
     /// Functions made so far; the module's own come first, lifted loops after them.
     pub functions: Vec<Option<Function<S>>>,
 }
@@ -67,9 +69,23 @@ pub(crate) struct Unit<'m, S: Scalar> {
 /// Names that are not defined, wrong numbers of arguments to known functions, or a function too large for the
 /// machine (more than 16,384 registers).
 pub fn compile<S: Scalar>(module: &Module, data: Vec<Value<S>>) -> Result<Program<S>, CompileError> {
+    compile_keeping(module, data, &[])
+}
+
+/// [`compile`], so that variables with these readable names can be read at every choice where they are in scope. What
+/// the program does is the same: addresses, and so random streams, do not depend on it.
+///
+/// # Errors
+/// As there.
+pub fn compile_keeping<S: Scalar>(
+    module: &Module,
+    data: Vec<Value<S>>,
+    kept: &[Name],
+) -> Result<Program<S>, CompileError> {
     let effects = Effects::of(module);
     let collections = Collections::of(module, &effects);
-    let mut unit = Unit { module, effects, collections, ids: HashMap::new(), data, functions: Vec::new() };
+    let mut unit =
+        Unit { module, effects, collections, ids: HashMap::new(), data, kept, functions: Vec::new() };
     for (k, literal) in &module.constants {
         let value = constant(literal)?;
         if unit.data.len() <= *k {

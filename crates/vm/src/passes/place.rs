@@ -104,7 +104,17 @@ pub(crate) fn successors(op: &Op, at: usize) -> (Option<usize>, Option<usize>) {
 
 /// Which of the `registers` registers of one class are live before each instruction, and before the end.
 pub(crate) fn live_before<S: Scalar>(f: &Function<S>, of: Place, registers: usize) -> Vec<Bits> {
-    let effects: Vec<_> = f.code.iter().map(|op| reads_and_writes(f, op)).collect();
+    let effects: Vec<_> = f
+        .code
+        .iter()
+        .map(|op| {
+            let (mut reads, writes) = reads_and_writes(f, op);
+            if let Op::Site { site } = op {
+                reads.extend(f.scope.iter().filter(|x| x.site == *site).map(|x| x.at));
+            }
+            (reads, writes)
+        })
+        .collect();
     let mut before = vec![Bits::empty(of, registers); f.code.len() + 1];
     loop {
         let mut changed = false;
@@ -143,6 +153,7 @@ pub(crate) fn place<S: Scalar>(f: &mut Function<S>, registers: usize) {
     let mut node = Bits::empty(Place::Node, registers);
     if !pure {
         (0..inputs).for_each(|i| node.set(Operand::new(Place::Node, i)));
+        f.scope.iter().for_each(|x| node.set(x.at));
         let after = live_after(f, registers);
         for (at, op) in f.code.iter().enumerate() {
             let Op::Site { site } = *op else { continue };
@@ -231,6 +242,7 @@ pub(crate) fn rewrite<S: Scalar>(f: &mut Function<S>, map: impl Fn(Operand) -> O
         // Defaults name captured inputs, which keep their numbers in either place.
         *o = map(*o);
     }
+    f.scope.iter_mut().for_each(|x| x.at = map(x.at));
     for s in &mut f.sites {
         s.to = map(s.to);
         if let SiteKind::Loop(l) = &mut s.kind {

@@ -6,8 +6,8 @@
 
 use super::CompileError;
 use super::emit::{Builder, Result};
-use crate::code::{Args, Op, Operand, Place, Site, SiteKind};
-use crate::core::{Expr, ExprKind, Name};
+use crate::code::{Args, Op, Operand, Place, Site, SiteId, SiteKind, Visible};
+use crate::core::{Expr, ExprKind, Name, readable};
 use crate::machine::address;
 use niwaki_math::{Family, Scalar};
 
@@ -201,6 +201,9 @@ impl<S: Scalar> Builder<'_, '_, S> {
         let key = self.occurrence(&format!("{}|{what}|{target}", self.name));
         let (given, named) = label;
         let repeated = self.occurrence(&format!("label {named}")).1;
+        if matches!(kind, SiteKind::Sample { .. } | SiteKind::SampleDist | SiteKind::SampleIndexed) {
+            self.keep_scope();
+        }
         let label = match (given, repeated) {
             (Some(given), _) => given.clone(),
             (None, 0) => named,
@@ -220,6 +223,21 @@ impl<S: Scalar> Builder<'_, '_, S> {
         });
         self.op(Op::Site { site: crate::code::SiteId((self.sites.len() - 1) as u16) });
         Ok(to)
+    }
+
+    /// Notes where the variables lie that are to be kept at the next site. The front end numbers the variables of the
+    /// source before its own, so of several with one readable name the first is meant.
+    fn keep_scope(&mut self) {
+        let site = SiteId(self.sites.len() as u16);
+        let number = |name: &Name| name.split_once('%').map_or(0, |(_, n)| n.parse().unwrap_or(u32::MAX));
+        for name in self.unit.kept {
+            let named = self.env.iter().filter(|(x, _)| readable(x) == &**name);
+            if let Some((_, binding)) = named.min_by_key(|(x, _)| number(x))
+                && !binding.maybe_unset
+            {
+                self.scope.push(Visible { site, name: name.clone(), at: binding.at });
+            }
+        }
     }
 
     /// The text itself, and how many equal ones came before it in this function.

@@ -35,7 +35,8 @@ pub(crate) fn slice<S: Scalar>(f: &mut Function<S>) {
     f.inputs = (0..inputs).map(|i| append(f, 0, &[Operand::new(Place::Node, i)])).collect();
     if f.mode == Mode::Iteration {
         let outer = |o: &Operand| (o.place() == Place::Outer).then(|| o.index() + 1);
-        let all = f.code.iter().flat_map(|op| reads_and_writes(f, op).0);
+        let read = f.code.iter().flat_map(|op| reads_and_writes(f, op).0);
+        let all = read.chain(f.scope.iter().map(|x| x.at));
         let count = all.filter_map(|o| outer(&o)).max().unwrap_or(0);
         f.outers = (0..count).map(|i| append(f, 0, &[Operand::new(Place::Outer, i)])).collect();
     }

@@ -8,7 +8,7 @@ use super::CompileError;
 use super::emit::{Binding, Builder, Environment, LoopContext, Result};
 use crate::code::{Function, FunctionId, Loop, Mode, Op, Operand, Place, SiteKind, exit};
 use crate::core::walk::{Names, assigned, returns};
-use crate::core::{Expr, Literal, Name, Stmt, StmtKind};
+use crate::core::{Expr, Literal, Name, Stmt, StmtKind, readable};
 use niwaki_math::Scalar;
 
 impl<S: Scalar> Builder<'_, '_, S> {
@@ -318,6 +318,9 @@ impl<S: Scalar> Builder<'_, '_, S> {
         crate::core::walk::each_stmt(body, &mut |s| {
             s.expressions().into_iter().for_each(|e| e.reads(&mut reads))
         });
+        // What is kept for choices in the body; a variable that the body assigns is the iteration's own.
+        let kept = self.env.keys().filter(|x| self.unit.kept.iter().any(|name| **name == *readable(x)));
+        reads.extend(kept.filter(|x| !set.contains(*x)).cloned());
         let captured: Vec<Name> =
             reads.into_iter().filter(|x| !carried.contains(x) && self.env.contains_key(x)).collect();
         let capture_at: Vec<Operand> = captured.iter().map(|x| self.env[x].at).collect();
@@ -424,6 +427,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
             constants: vec![],
             names: vec![],
             sites: vec![],
+            scope: vec![],
             ..function.clone()
         };
         self.unit.functions.extend([Some(header), Some(function)]);

@@ -39,8 +39,9 @@ CHAINS = (
     Message(
         "bad-proposal",
         "a proposal of your own did not give a distribution",
-        why="a chain needs the density of going there and of coming back",
-        help="write a function of the old value that gives back a distribution, and draws nothing",
+        why="a search needs the density of what is proposed, and a chain also that of coming back",
+        help="write a function of `old`, the value before, or of variables in scope that gives back a distribution, and draws "
+        "nothing; `old` is for `mh` only",
         example="kernels.proposal(lambda old: gaussian(old, 0.1))",
         cure="kernels.proposal(lambda old: Gaussian(old, 0.1))",
     ),
@@ -50,6 +51,24 @@ CHAINS = (
         help="propose values of the kind that the choice's own distribution draws; restrict the proposal with `on`",
         example='kernels.on("count", kernels.proposal(lambda old: Gaussian(old, 1)))',
         cure='kernels.on("count", kernels.proposal(lambda old: DiscreteUniform(old - 1, old + 1)))',
+    ),
+    Message(
+        "proposal-scope",
+        "a proposal of your own asks for a variable that is not there",
+        why="a parameter other than `old` is a variable of the function in which the choice stands, assigned before it on "
+        "every path, that holds a number or a truth value",
+        help="name such a variable, or restrict the proposal with `on` to the choices where it is in scope",
+        example='kernels.on("x", kernels.proposal(lambda x: Gaussian(x, 0.1)))',
+        cure='kernels.on("x", kernels.proposal(lambda old: Gaussian(old, 0.1)))',
+    ),
+    Message(
+        "proposal-support",
+        "a proposal of your own leaves out values that the choice can have",
+        why="weights make up for what is proposed too often or too rarely, but not for what is never proposed: the answer "
+        "would lack it",
+        help="propose from a distribution that reaches all values of the choice's own, if rarely",
+        example='kernels.on("width", kernels.proposal(lambda: Uniform(0.2, 0.4)))',
+        cure='kernels.on("width", kernels.proposal(lambda: Gaussian(0.3, 0.1)))',
     ),
     Message(
         "one-value",

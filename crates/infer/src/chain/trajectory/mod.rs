@@ -191,8 +191,7 @@ impl<R: Rules> Chain<R> {
             let (forward, backward) = if changes.is_empty() { (forward, backward) } else { (0.0, 0.0) };
             changes.push(Changed { choice, proposed: Proposed { value, forward, backward } });
         }
-        let mut answers =
-            Fresh { key: self.streams.fresh(visit), known: None, hosts: &*task.hosts, spreads: None };
+        let mut answers = Fresh::plain(self.streams.fresh(visit), &*task.hosts);
         let change =
             match machine.change(&mut self.state.trace, changes, self.settings.strategy, &mut answers) {
                 Ok(change) => change,

@@ -18,7 +18,7 @@ fn last_values(task: &Task, settings: &Settings, ancestors: Ancestors) -> Vec<St
     values_after(task, settings, ancestors, SEEDS, 3)
 }
 
-fn values_after(
+pub(super) fn values_after(
     task: &Task,
     settings: &Settings,
     ancestors: Ancestors,
@@ -49,7 +49,7 @@ fn values_from(
 }
 
 /// Z-scores of the counts of all outcomes.
-fn counted(task: &Task, values: &[String]) -> Vec<(String, f64)> {
+pub(super) fn counted(task: &Task, values: &[String]) -> Vec<(String, f64)> {
     let exact = enumerate(task, 100_000, &mut |_| true).unwrap();
     let n = values.len() as f64;
     exact
@@ -65,7 +65,7 @@ fn counted(task: &Task, values: &[String]) -> Vec<(String, f64)> {
         .collect()
 }
 
-fn small(particles: usize, order: Order) -> Settings {
+pub(super) fn small(particles: usize, order: Order) -> Settings {
     Settings { particles, ..settings(order, Resampling::Systematic) }
 }
 

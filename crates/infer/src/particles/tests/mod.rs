@@ -21,6 +21,7 @@ use std::time::Duration;
 
 mod annealed;
 mod chains;
+mod proposed;
 mod rejuvenated;
 mod several;
 mod walking;
@@ -68,6 +69,10 @@ pub enum Mutant {
     DeadLeftOut,
     /// Walks start from the best particles, and not from particles drawn by weight.
     StartsAtBest,
+    /// What a proposal drew does not count in the weights.
+    ForgetsProposal,
+    /// The held run counts as drawn from the prior.
+    HeldByPrior,
     /// A run with an invalid distribution keeps the weight that it had.
     KeepsInvalid,
 }

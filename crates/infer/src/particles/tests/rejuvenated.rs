@@ -11,6 +11,7 @@ use super::super::rejuvenation::Round;
 use super::*;
 use crate::chain::kernel::Kernel;
 use crate::chain::state::State as ChainState;
+use crate::chooser::Prior;
 use crate::forward::Forward;
 use crate::record::Record;
 use niwaki_math::StreamKey;
@@ -65,7 +66,14 @@ pub fn complete_score(task: &Task, machine: &mut Machine<'_>, state: &State, str
     let (mut state, mut record) = (state.clone(), Record::default());
     while let Some(next) = state.runnable().first().copied() {
         let hosts = &*task.hosts;
-        let mut answers = Forward { record: &mut record, stream, hosts, barriers: false, complete: true };
+        let mut answers = Forward {
+            record: &mut record,
+            chooser: Prior(stream),
+            log_ratio: 0.0,
+            hosts,
+            barriers: false,
+            complete: true,
+        };
         match machine.resume(&mut state, next, &mut answers) {
             Ok(Stop::Paused) => break,
             Ok(_) => {}
