@@ -56,20 +56,6 @@ pub trait Chooser {
     }
 }
 
-impl<C: Chooser> Chooser for &mut C {
-    const IS_PRIOR: bool = C::IS_PRIOR;
-
-    #[inline(always)]
-    fn choose(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Chosen, Fault> {
-        (**self).choose(at, dist)
-    }
-
-    #[inline(always)]
-    fn draw(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Value, Fault> {
-        (**self).draw(at, dist)
-    }
-}
-
 /// From the choice's own distribution, with the random bits of this stream at the choice's address.
 #[derive(Clone, Copy)]
 pub struct Prior(pub StreamKey);

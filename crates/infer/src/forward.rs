@@ -121,27 +121,19 @@ pub fn forward_by(task: &Task, chooser: impl Chooser, complete: bool) -> Result<
     let mut state = task.start(&machine, true)?;
     let mut record = Record::start(&task.sketches);
     let hosts = &*task.hosts;
-    let (mut chooser, mut log_ratio) = (chooser, 0.0);
-    while !state.has_ended() && (complete || record.cause.is_none()) {
+    let mut answers =
+        Forward { record: &mut record, chooser, log_ratio: 0.0, hosts, barriers: false, complete };
+    while !state.has_ended() && (complete || answers.record.cause.is_none()) {
         let Some(next) = state.runnable().first().copied() else {
             return Err(Box::new(machine.waiting_cycle(&state)).into());
         };
-        let mut answers = Forward {
-            record: &mut record,
-            chooser: &mut chooser,
-            log_ratio,
-            hosts,
-            barriers: false,
-            complete,
-        };
-        let stop = machine.resume(&mut state, next, &mut answers);
-        log_ratio = answers.log_ratio;
-        match stop {
+        match machine.resume(&mut state, next, &mut answers) {
             Ok(_) => {}
             Err(met) if complete => return Err(met.into()),
-            Err(met) => record.forgive(task, met)?,
+            Err(met) => answers.record.forgive(task, met)?,
         }
     }
+    let log_ratio = answers.log_ratio;
     let value = if state.has_ended() { state.result() } else { Value::None };
     let log_weight = record.log_score() + log_ratio;
     Ok(Sample { record, value, log_weight })
