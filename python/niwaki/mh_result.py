@@ -146,11 +146,12 @@ class ChainResult(Result):
     def more(self, steps: int) -> ChainResult:
         """Go on for `steps` proposals in each chain, from where they are; the result itself, with more in it."""
         at_least_one("steps", steps)
+        chains = self._engine
         self._looks = {}
         wall, cpu = time.perf_counter(), time.process_time()
         try:
             with translated(self.model.name, f"seed={self.seed}"):
-                self.interrupted = self._engine.advance(steps, self._threads, self._watch)
+                self.interrupted = chains.advance(steps, self._threads, self._watch)
             self._warn()
         finally:
             self.seconds += time.perf_counter() - wall

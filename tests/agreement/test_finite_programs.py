@@ -250,6 +250,7 @@ def wrong(program: str, seed: int, tally: Tally | None = None) -> str:
 
 def look(seeds: Iterable[int], tally: Tally) -> None:
     """Looks at programs; the first that is wrong is made smaller and told."""
+    before = set(linecache.cache)
     for seed in seeds:
         program = text(seed)
         try:
@@ -259,7 +260,9 @@ def look(seeds: Iterable[int], tally: Tally) -> None:
         if found:
             small = reduced(program, lambda less: still_wrong(less, seed, found))  # noqa: B023
             pytest.fail(f"seed {seed}: {found}\n{small}\n{wrong(small, seed)}")
-        linecache.clearcache()
+        # The texts of programs that were looked at, and of nothing else.
+        for name in set(linecache.cache) - before:
+            del linecache.cache[name]
 
 
 def still_wrong(program: str, seed: int, before: str) -> bool:

@@ -100,7 +100,7 @@ mod tests {
             (do (condition (gt $x 0))) (do (factor (cond (eq $x 2) 0.5 0.0))) (return $x)) (entry "m"))"#;
         let task = Task::new(Arc::new(compile(&parse(text).unwrap(), vec![]).unwrap()));
         let n = 20_000;
-        let found = importance(&task, n, 1, &mut |_| true).unwrap();
+        let found = importance(&task, None, n, 1, &mut |_| true).unwrap();
         let (mean, square) = (0.3 + 0.2 * 0.5f64.exp(), 0.3 + 0.2 * 1.0f64.exp());
         let error = ((square - mean * mean) / n as f64).sqrt();
         let z = (found.log_evidence.exp() - mean) / error;

@@ -282,3 +282,37 @@ def test_a_search_that_makes_no_sense_is_refused():
         nw.Search(PILE, method=nw.smc(diverse=2), polish=nw.mh(10))
     with pytest.raises(nw.InputError, match="particles"):
         nw.grow(PILE, ship(), method=nw.pimh(), particles=3)
+
+
+@model
+def line():
+    a = gaussian(0, 1)
+    nw.observe(nw.Gaussian(a, 0.5), 1.0)
+    return a + flip(0.5)
+
+
+def test_results_of_chains_are_pickled_with_all_that_they_say():
+    chains = nw.run(
+        line, nw.mh(600, chains=2, keep=20, kernel=kernels.cycle(kernels.mh(), kernels.hmc(3))), seed=2
+    )
+    again = pickle.loads(pickle.dumps(chains))
+    assert found(again) == found(chains) and again.best.choices == chains.best.choices
+    assert again.acceptance == chains.acceptance and again.counters == chains.counters
+    assert [one.value for one in again.last] == [one.value for one in chains.last]
+    assert again.trajectories == chains.trajectories and again.method == chains.method
+    with pytest.raises(nw.InputError, match="cannot go on"):
+        again.more(10)
+    with pytest.warns(UserWarning, match="discrete"):
+        drawn = nw.run(line, nw.nuts(20, warmup=30, chains=2), seed=2)
+    again = pickle.loads(pickle.dumps(drawn))
+    assert all(np.array_equal(again.draws[path], drawn.draws[path]) for path in drawn.draws)
+    assert again.best.choices == drawn.best.choices and found(again[:3]) == found(drawn[:3])
+    assert [len(chain) for chain in again.by_chain] == [20, 20]
+
+
+def test_draws_stand_by_address_whatever_the_method():
+    for method in (nw.mh(100, chains=2, keep=9), nw.smc(9), nw.importance(9), nw.pimh(5, 9)):
+        result = nw.run(line, method, seed=3)
+        a, heads = result.draws["a"], result.draws["bernoulli"]
+        assert a.shape == heads.shape == (len(result.by_chain), len(result.by_chain[0]))
+        assert a[0, 4] == result.by_chain[0][4].choices["a"] and heads.dtype == bool
