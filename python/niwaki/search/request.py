@@ -117,10 +117,8 @@ class Search:
             raise _wrong("runs", self.runs, "a whole number above 0", "1 or more")
         if self.keep not in KEEP:
             raise _wrong("keep", self.keep, '"all" or "best"', '"all"')
-        polish: Any = self.polish
-        if polish is not None and not isinstance(polish, Mh):
-            suggestion = "`mh(20_000)`, or with a kernel `mh(20_000, kernel=kernels.drift())`"
-            raise _wrong("polish", self.polish, "Metropolis-Hastings", suggestion)
+        if self.polish is not None:
+            check_polish(self.polish)
         if self.polish is not None and getattr(self.method, "diverse", None) is not None:
             suggestion = "None, and `Result.polish` for one of the results"
             raise _wrong("polish", "mh(...)", "nothing beside `diverse`, as chains may meet", suggestion)
@@ -303,6 +301,13 @@ def check_seed(seed: int) -> int:
     if not isinstance(seed, int) or isinstance(seed, bool) or not 0 <= seed < 2**64:
         raise _wrong("seed", seed, "a whole number from 0 to 2**64 - 1", "such a number, or leave it out")
     return seed
+
+
+def check_polish(method: Any) -> None:
+    """Refuse what is not Metropolis-Hastings."""
+    if not isinstance(method, Mh):
+        suggestion = "`mh(20_000)`, or with a kernel `mh(20_000, kernel=kernels.drift())`"
+        raise _wrong("polish", method, "Metropolis-Hastings", suggestion)
 
 
 def check_threads(threads: int | None) -> int | None:

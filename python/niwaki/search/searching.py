@@ -15,11 +15,11 @@ from niwaki.errors import InputError, ModelFault
 from niwaki.info import INFOS, Info, PopulationInfo
 from niwaki.methods import Hmc, Mh, Nuts, ParticleGibbs, Smc
 from niwaki.result import Result, Sample
+from niwaki.search.request import Search, check_polish, check_seed, check_threads
 
 if TYPE_CHECKING:
     from niwaki.methods import Method
     from niwaki.mh_result import ChainResult
-    from niwaki.search.request import Search
 
 
 class SearchWarning(UserWarning):
@@ -256,6 +256,9 @@ def polished(result: Result, method: Mh, seed: int, threads: int | None, watch: 
     and long: each of its proposals changes one thing, and costs only what that touches. So one is good at starting
     where the other ends.
     """
+    check_polish(method)
+    check_seed(seed)
+    check_threads(threads)
     best = result.best
     if not best.has_ended:
         raise InputError(
