@@ -112,9 +112,9 @@ def test_a_seed_decides_whatever_the_threads_and_the_strategy(kernel: k.Kernel) 
 
 
 def test_more_goes_on_where_it_stopped() -> None:
-    settings = {"thin": 50, "seed": 3, "kernel": BOTH, "warmup": 300}
-    whole = nw.run(BEADS, nw.mh(steps=1000, **settings))
-    parts = nw.run(BEADS, nw.mh(steps=310, **settings)).more(90).more(600)
+    settings = {"thin": 50, "kernel": BOTH, "warmup": 300}
+    whole = nw.run(BEADS, nw.mh(steps=1000, **settings), seed=3)
+    parts = nw.run(BEADS, nw.mh(steps=310, **settings), seed=3).more(90).more(600)
     assert states(parts) == states(whole)
     assert parts.trajectories == whole.trajectories
 

@@ -201,7 +201,7 @@ impl Total {
     #[inline(always)]
     pub fn small(&self) -> Option<f64> {
         let fits = (self.near.wrapping_add(SMALL) as u64) < 2 * SMALL as u64;
-        (fits && self.rest.is_none()).then(|| self.near as f64 * STEP)
+        (fits && self.rest.is_none()).then_some(self.near as f64 * STEP)
     }
 
     /// The nearest `f64`, ties to even. A term of minus infinity makes it minus infinity, and a term of each sign NaN.
