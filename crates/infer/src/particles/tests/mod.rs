@@ -363,6 +363,24 @@ fn fresh_seeds_agree_too() {
     }
 }
 
+/// Any order gives the right answer, so the tests above do not see who is picked: chi-square with 5 degrees of freedom,
+/// false alarm 1e-6, threshold 35.9.
+#[test]
+fn every_order_is_as_likely_as_any_other() {
+    let task = task(
+        r#"(module (fn "leaf" (params) (return (sample (dist bernoulli 0.5))))
+            (fn "m" (params) (do (future "leaf")) (do (future "leaf")) (do (future "leaf")) (return 0)) (entry "m"))"#,
+    );
+    let own = Settings { particles: 6000, seed: 3, ..Settings::default() };
+    let mut counts: HashMap<Vec<usize>, f64> = HashMap::new();
+    for p in smc(&task, &own, &mut |_| true).unwrap().particles {
+        let picks = p.record.log.entries().iter().filter_map(crate::log::Entry::which).collect();
+        *counts.entry(picks).or_insert(0.0) += 1.0;
+    }
+    let statistic: f64 = counts.values().map(|n| (n - 1000.0).powi(2) / 1000.0).sum();
+    assert!(counts.len() == 6 && statistic < 35.9, "{counts:?}");
+}
+
 /// The same seed gives the same bits on any number of threads.
 #[test]
 fn threads_change_nothing() {
