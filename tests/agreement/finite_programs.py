@@ -224,6 +224,11 @@ class Maker:
             lambda: [f"n = {self.integer(2)} % 3"],
             lambda: [f"n = {self.integer(2)} % 3"],
             lambda: [f"b = {self.truth(2)}"],
+            # Kept until much later, by those who read them again and again.
+            lambda: self.held("integers", "c", f"{self.integer(2)} % 3"),
+            lambda: self.held(
+                "truths", "c", f"{self.truth(2)} {self.random.choice(['and', 'or'])} {self.truth(1)}"
+            ),
             *([self.score] * 3),
             *([lambda: self.held("promises", "f", self.promise(2))] * 2),
             lambda: self.held("promises", "f", f"{self.future(1)} if {self.truth(1)} else {self.integer(0)}"),
@@ -378,7 +383,7 @@ def text(seed: int, size: int = 6) -> str:
         lines += maker.statement(2)
     s = maker.scope
     # A promise may be what a model returns: its value is seen.
-    seen = [*s.promises[-2:], *s.lists[-1:], *s.pairs[-1:]]
+    seen = [*s.integers[1:][-1:], *s.truths[1:][-2:], *s.promises[-2:], *s.lists[-1:], *s.pairs[-1:]]
     lines.append(f"return ({', '.join(['n', 'b', *seen])})")
     body = "\n".join(f"    {line}" for line in lines)
     return "\n".join([HEADER, *helpers, f"@model\ndef m():\n{body}\n"])
