@@ -18,7 +18,9 @@ if TYPE_CHECKING:
 
 
 @app.command()
-@settings.with_settings(*settings.METHODS.values())
+@settings.with_settings(
+    *settings.METHODS.values(), temper="16, with absolute weights 1", particles="what suits the model, or 300"
+)
 def grow(
     model: ModelName,
     target: asking.TargetFile = None,

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 
 @app.command()
-@settings.with_settings(Mh)
+@settings.with_settings(Mh, chains="4", warmup="a fifth of all", keep="100", kernel="mh()")
 def sample(
     model: ModelName,
     target: Annotated[

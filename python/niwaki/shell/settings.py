@@ -40,10 +40,12 @@ _FUNCTIONS = ("proposal",)
 _PLAIN = (int, float, str, bool)
 
 
-def with_settings(*methods: type[Method]) -> Callable[[Callable[..., None]], Callable[..., None]]:
+def with_settings(
+    *methods: type[Method], **usual: str
+) -> Callable[[Callable[..., None]], Callable[..., None]]:
     """Give a command an option for each setting of these methods, in place of its `**settings`.
 
-    What was not typed is None.
+    What was not typed is None. `usual` says what the command takes then, where that is not the method's default.
     """
 
     def decorated(command: Callable[..., None]) -> Callable[..., None]:
@@ -53,7 +55,7 @@ def with_settings(*methods: type[Method]) -> Callable[[Callable[..., None]], Cal
         ]
         plain = [one.replace(annotation=hints[one.name]) for one in own]
         taken = {one.name for one in plain}
-        more = [_option(name, methods) for name in _names(methods) if name not in taken]
+        more = [_option(name, methods, usual.get(name)) for name in _names(methods) if name not in taken]
         keyword = [one.replace(kind=one.KEYWORD_ONLY) for one in more]
         command.__signature__ = inspect.Signature([*plain, *keyword])  # type: ignore[attr-defined]
         command.__annotations__ = {one.name: one.annotation for one in (*plain, *keyword)}
@@ -67,8 +69,8 @@ def _names(methods: tuple[type[Method], ...]) -> list[str]:
     return [name for name in dict.fromkeys(names) if name not in _FUNCTIONS]
 
 
-def _option(name: str, methods: tuple[type[Method], ...]) -> inspect.Parameter:
-    """The option of one setting."""
+def _option(name: str, methods: tuple[type[Method], ...], said: str | None) -> inspect.Parameter:
+    """The option of one setting; `said` is its default in words."""
     owners = [method for method in methods if name in {field.name for field in fields(method)}]
     kind = get_type_hints(owners[0])[name]
     plain = [one for one in _PLAIN if kind in (one, one | None)]
@@ -79,7 +81,8 @@ def _option(name: str, methods: tuple[type[Method], ...]) -> inspect.Parameter:
         else f"{', '.join(method.NAME.replace('_', '-') for method in owners)}: "
     )
     default = {field.name: field.default for field in fields(owners[0])}[name]
-    usual = "" if default is None or typed is bool else f" Default: {default}."
+    shown = said or ("" if default is None or typed is bool else str(default))
+    usual = f" Default: {shown}." if shown else ""
     flag = f"--{name.replace('_', '-')}"
     names = [f"{flag}/--no-{name.replace('_', '-')}"] if typed is bool else [*_short(name), flag]
     option = typer.Option(*names, help=f"{whose}{described(owners[0]).get(name, '')}{usual}")
@@ -96,7 +99,7 @@ def described(method: type[Method]) -> dict[str, str]:
     found: dict[str, str] = {}
     body = inspect.cleandoc(method.__doc__ or "").partition("Parameters\n----------\n")[2]
     for names, text in re.findall(r"^(\w[\w, ]*)\n((?:    .*\n?|\n)+)", body + "\n", re.MULTILINE):
-        sentence = re.split(r"(?<=[.;:]) ", " ".join(text.split()).replace("`", ""), maxsplit=1)[0]
+        sentence = re.split(r"(?<=[.]) ", " ".join(text.split()).replace("`", ""), maxsplit=1)[0]
         found |= {name.strip(): sentence.rstrip(".;:") + "." for name in names.split(",")}
     if method is not Smc:
         found |= {
