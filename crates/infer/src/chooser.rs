@@ -10,9 +10,9 @@
 //! [`Prior`] draws from `p` itself, [`Known`] takes values that are given, [`Guided`] asks a user's [`Proposal`]; the last
 //! two leave what they do not know to another chooser.
 
-use crate::chain::glob::{last, matches, nearest};
+use crate::chain::glob::{last, matches};
 use crate::chain::kernel::{Kernel, Selection};
-use crate::chain::select::labels;
+use crate::chain::select::{labels, no_choice};
 use crate::chain::user::User;
 use crate::record::log_density;
 use niwaki_math::{Dist, StreamKey};
@@ -183,12 +183,7 @@ impl Proposal {
         let patterns = self.parts.iter().flat_map(|(selection, _)| selection.sites.iter().flatten());
         for pattern in patterns.filter(|pattern| !pattern.contains("**")) {
             if !labels.iter().any(|label| matches(last(pattern), label)) {
-                let near: Vec<String> =
-                    nearest(pattern, &labels).iter().map(|near| format!("`{near}`")).collect();
-                let near = if near.is_empty() { "the model has no choice".into() } else { near.join(", ") };
-                return Err(
-                    Fault::new("no-address", format!("`{pattern}` matches no choice")).with_help(near)
-                );
+                return Err(no_choice(pattern, &labels));
             }
         }
         Ok(())

@@ -376,16 +376,6 @@ impl Smc {
             }
         }
     }
-
-    /// How many results that differ are asked for.
-    pub fn diverse(&self) -> Option<usize> {
-        self.diverse
-    }
-
-    /// Whether a clock decides how long it searches.
-    pub fn is_timed(&self) -> bool {
-        self.seconds.is_some()
-    }
 }
 
 impl ParticleGibbs {

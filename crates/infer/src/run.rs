@@ -1,6 +1,6 @@
 //! A finished run, whatever found it: its choices as a log of addresses and values, its scores, its measures.
 
-use crate::chain::snapshot::Snapshot;
+use crate::chain::snapshot::{Snapshot, copy_of};
 use crate::forward::Sample;
 use crate::log::Log;
 use crate::particles::Outcome;
@@ -65,12 +65,9 @@ impl From<Outcome> for Run {
 impl From<&Snapshot> for Run {
     /// Of a chain's state, which other samples may share: the log is copied.
     fn from(snapshot: &Snapshot) -> Run {
-        let (facts, mut log) = (&snapshot.facts, Log::default());
-        for entry in snapshot.log.entries() {
-            log.push(entry.address(), entry.value);
-        }
+        let facts = &snapshot.facts;
         Run {
-            log,
+            log: copy_of(&snapshot.log),
             value: facts.value.clone(),
             log_prior: facts.log_prior,
             log_score: facts.log_score,

@@ -28,6 +28,7 @@ from niwaki.compiled import as_model, task
 from niwaki.errors import InputError
 from niwaki.lang.core import Core
 from niwaki.methods import Forward, Method, Mh
+from niwaki.methods.checks import bad
 from niwaki.search.data import Reader, Writer, model_data, of_record_class, text_hash
 from niwaki.sketches import Score
 from niwaki.words.models import Model
@@ -112,16 +113,19 @@ class Search:
             ("score", Score, "`no_self_intersection() * volume_match(target)`"),
         ):
             if not isinstance(getattr(self, name), kind):
-                raise _wrong(name, getattr(self, name), f"a {kind.__name__.lower()}", suggestion)
+                raise bad(name, getattr(self, name), f"a {kind.__name__.lower()}", suggestion)
         if not isinstance(self.runs, int) or isinstance(self.runs, bool) or self.runs < 1:
-            raise _wrong("runs", self.runs, "a whole number above 0", "1 or more")
+            raise bad("runs", self.runs, "a whole number above 0", "1 or more")
         if self.keep not in KEEP:
-            raise _wrong("keep", self.keep, '"all" or "best"', '"all"')
+            raise bad("keep", self.keep, '"all" or "best"', '"all"')
         if self.polish is not None:
             check_polish(self.polish)
         if self.polish is not None and getattr(self.method, "diverse", None) is not None:
             suggestion = "None, and `Result.polish` for one of the results"
-            raise _wrong("polish", "mh(...)", "nothing beside `diverse`, as chains may meet", suggestion)
+            expected = "nothing beside `diverse`, as chains may meet"
+            raise InputError(
+                "bad-setting", name="polish", found="mh(...)", expected=expected, suggestion=suggestion
+            )
 
     @cached_property
     def task(self) -> _engine.Task:
@@ -299,7 +303,7 @@ def _function_writer(write: Writer) -> Any:
 def check_seed(seed: int) -> int:
     """The seed, where it makes sense."""
     if not isinstance(seed, int) or isinstance(seed, bool) or not 0 <= seed < 2**64:
-        raise _wrong("seed", seed, "a whole number from 0 to 2**64 - 1", "such a number, or leave it out")
+        raise bad("seed", seed, "a whole number from 0 to 2**64 - 1", "such a number, or leave it out")
     return seed
 
 
@@ -307,21 +311,16 @@ def check_polish(method: Any) -> None:
     """Refuse what is not Metropolis-Hastings."""
     if not isinstance(method, Mh):
         suggestion = "`mh(20_000)`, or with a kernel `mh(20_000, kernel=kernels.drift())`"
-        raise _wrong("polish", method, "Metropolis-Hastings", suggestion)
+        raise bad("polish", method, "Metropolis-Hastings", suggestion)
 
 
 def check_threads(threads: int | None) -> int | None:
     """The number of threads, where it makes sense."""
     if threads is not None and (not isinstance(threads, int) or not 1 <= threads <= 1024):
-        raise _wrong(
+        raise bad(
             "threads",
             threads,
             "a whole number from 1 to 1024",
             "such a number, or leave it out for all cores",
         )
     return threads
-
-
-def _wrong(name: str, found: Any, expected: str, suggestion: str) -> InputError:
-    shown = found if isinstance(found, str) and name == "polish" else repr(found)
-    return InputError("bad-setting", name=name, found=shown, expected=expected, suggestion=suggestion)

@@ -14,6 +14,7 @@ from niwaki.compiled import as_model, translated
 from niwaki.errors import InputError, ModelFault
 from niwaki.info import INFOS, Info, PopulationInfo
 from niwaki.methods import Hmc, Mh, Nuts, ParticleGibbs, Smc
+from niwaki.methods.checks import bad
 from niwaki.result import Result, Sample
 from niwaki.search.request import Search, check_polish, check_seed, check_threads
 
@@ -261,13 +262,8 @@ def polished(result: Result, method: Mh, seed: int, threads: int | None, watch: 
     check_threads(threads)
     best = result.best
     if not best.has_ended:
-        raise InputError(
-            "bad-setting",
-            name="polish",
-            found=repr(best),
-            expected="a search with a run that has ended, for the chain to start from",
-            suggestion="more time or particles",
-        )
+        expected = "a search with a run that has ended, for the chain to start from"
+        raise bad("polish", best, expected, "more time or particles")
     start = [(choice[1], choice[3]) for choice in best._trace.choices]
     chains = chains_of(result.search, method, seed, threads, watch, start)
     chains.seconds += result.seconds

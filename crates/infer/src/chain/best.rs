@@ -4,7 +4,7 @@
 //! with a list of changes undone. Only when that list has become as long as the trace is a copy made. What is reported of it
 //! is that of a run with its choices.
 
-use super::snapshot::{Facts, Snapshot, logged, present};
+use super::snapshot::{Facts, Snapshot, copy_of, logged, present};
 use super::state::State;
 use super::streams::Streams;
 use crate::log::Log;
@@ -99,7 +99,7 @@ impl Best {
     /// A fault of that run, or that it is impossible: a host function that does not answer as before.
     pub fn get(&self, state: &State, task: &Task) -> Result<Snapshot, Failure> {
         let log = match &self.copied {
-            Some(log) => logged(log.entries().into_iter().map(|e| (e.address(), e.value))),
+            Some(log) => copy_of(log),
             None => self.way_back(state, &task.program),
         };
         let (fresh, _) = State::start(task, Streams::new(0, 0), 1, Some(&by_address(&log.entries())))?;

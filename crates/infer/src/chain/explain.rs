@@ -1,7 +1,8 @@
 //! What each strategy does for one proposal: which activations it makes, enters, goes back into, skips and takes away
 //! (dissertation figure 3.1, for any program).
 
-use super::glob::{matches, nearest};
+use super::glob::matches;
+use super::select::no_choice;
 use super::state::{Fresh, State};
 use super::streams::Streams;
 use crate::{Failure, Task};
@@ -95,11 +96,7 @@ pub fn explain(task: &Task, seed: u64, tries: u64, address: &str) -> Result<Expl
     let paths: Vec<String> = state.trace.numbers().map(|n| state.trace.path(program, n)).collect();
     let exact = paths.iter().position(|path| path == address);
     let Some(choice) = exact.or_else(|| paths.iter().position(|path| matches(address, path))) else {
-        let near: Vec<String> = nearest(address, &paths).iter().map(|path| format!("`{path}`")).collect();
-        let near = if near.is_empty() { "the model has no choice".into() } else { near.join(", ") };
-        return Err(Fault::new("no-address", format!("`{address}` matches no choice"))
-            .with_help(near)
-            .into());
+        return Err(no_choice(address, &paths).into());
     };
     let home = state.trace.key_of(program, state.trace.activation(choice, 0));
     let old = state.trace.choice(program, choice).0.clone();

@@ -83,11 +83,7 @@ impl Selection {
                 let elsewhere: Vec<String> =
                     labels.into_iter().filter(|label| !trace_has(&known, label)).collect();
                 known.extend(elsewhere);
-                let near: Vec<String> = nearest(pattern, &known).iter().map(|p| format!("`{p}`")).collect();
-                let near = if near.is_empty() { "the model has no choice".into() } else { near.join(", ") };
-                return Err(Fault::new("no-address", format!("`{pattern}` matches no choice"))
-                    .with_help(near)
-                    .into());
+                return Err(no_choice(pattern, &known).into());
             }
         }
         Ok(())
@@ -103,6 +99,13 @@ fn is_continuous(family: Family) -> bool {
 /// Whether an address of the trace ends in the last component of the pattern.
 fn trace_has(known: &[String], pattern: &str) -> bool {
     known.iter().any(|path| matches(last(pattern), last(path)))
+}
+
+/// The fault of a pattern that matches none of the known choices, with those that are nearest.
+pub(crate) fn no_choice(pattern: &str, known: &[String]) -> Fault {
+    let near: Vec<String> = nearest(pattern, known).iter().map(|p| format!("`{p}`")).collect();
+    let near = if near.is_empty() { "the model has no choice".into() } else { near.join(", ") };
+    Fault::new("no-address", format!("`{pattern}` matches no choice")).with_help(near)
 }
 
 /// The readable components of the program's choices.

@@ -74,3 +74,8 @@ pub(crate) fn logged(choices: impl IntoIterator<Item = (u128, Value)>) -> Log {
     }
     log
 }
+
+/// A log of the same choices that shares nothing with it: those of a chain may be shared among its samples.
+pub(crate) fn copy_of(log: &Log) -> Log {
+    logged(log.entries().into_iter().map(|entry| (entry.address(), entry.value)))
+}
