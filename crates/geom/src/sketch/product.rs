@@ -6,7 +6,7 @@
 
 use super::{Sketch, SketchSpec};
 use crate::primitive::Primitive;
-use niwaki_math::Total;
+use niwaki_math::{Total, grid};
 use std::sync::Arc;
 
 /// An ordered list of sketches, scored together.
@@ -145,7 +145,7 @@ impl Sketches {
     pub fn total(&self) -> Total {
         let mut sum = Total::default();
         for member in &self.members {
-            sum.add(member.log_score);
+            sum.add(grid(member.log_score));
             if member.is_forbidden() {
                 break;
             }

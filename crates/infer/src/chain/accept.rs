@@ -11,9 +11,7 @@
 //! Dissertation 3.2, with the odds of a choice in place of the ratio of the numbers of choices.
 
 use crate::hamiltonian::{Kernel, Metric, Phase, Potential, Transition};
-use niwaki_math::{Stream, Total};
-use niwaki_vm::code::Program;
-use niwaki_vm::machine::kept::Trace;
+use niwaki_math::{Stream, Total, grid};
 
 /// What decides over a proposal, nats.
 #[derive(Clone, Copy, Debug)]
@@ -41,10 +39,13 @@ impl Terms<'_> {
     #[cold]
     #[inline(never)]
     fn wide_log_ratio(&self) -> f64 {
+        if [self.prior, self.score, self.stale, self.fresh].iter().all(|sum| !sum.near().is_nan()) {
+            return f64::NAN;
+        }
         let mut sum = self.prior.less(self.fresh);
         sum.add_total(self.stale);
-        sum.add(self.backward);
-        sum.remove(self.forward);
+        sum.add(grid(self.backward));
+        sum.remove(grid(self.forward));
         if self.beta == 1.0 {
             sum.add_total(self.score);
             return sum.value() + self.odds;
@@ -61,12 +62,9 @@ pub trait Rules: Send {
     /// Log of the acceptance ratio; NaN where two infinities meet, which counts as impossible.
     #[inline(always)]
     fn log_ratio(t: &Terms<'_>) -> f64 {
-        match (t.prior.small(), t.score.small(), t.stale.small(), t.fresh.small()) {
-            (Some(prior), Some(score), Some(stale), Some(fresh)) => {
-                (prior + t.beta * score) + (stale - fresh) + (t.backward - t.forward) + t.odds
-            }
-            _ => t.wide_log_ratio(),
-        }
+        let (prior, score, stale, fresh) = (t.prior.near(), t.score.near(), t.stale.near(), t.fresh.near());
+        let ratio = (prior + t.beta * score) + (stale - fresh) + (t.backward - t.forward) + t.odds;
+        if ratio.is_nan() { t.wide_log_ratio() } else { ratio }
     }
 
     /// Log of the probability with which chains that follow these powers of the score, the colder one's first, exchange
@@ -86,15 +84,6 @@ pub trait Rules: Send {
         stream: &mut Stream,
     ) -> Transition {
         kernel.step(target, metric, step, phase, stream)
-    }
-
-    /// Told of a chain's trace before its first proposal.
-    fn begin(_trace: &mut Trace) {}
-
-    /// Undoes a proposal.
-    #[inline(always)]
-    fn undo(trace: &mut Trace, program: &Program) {
-        trace.rollback(program);
     }
 }
 

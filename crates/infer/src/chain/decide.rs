@@ -41,7 +41,7 @@ impl<R: Rules> Chain<R> {
                 return Ok(self.last);
             }
             Change::Impossible => {
-                R::undo(&mut self.state.trace, program);
+                self.state.trace.rollback(program);
                 self.last = Decision { same: false, accepted: false, log_ratio: f64::NEG_INFINITY };
                 return Ok(self.last);
             }
@@ -53,15 +53,13 @@ impl<R: Rules> Chain<R> {
             return Err(failure);
         }
         let trace = &self.state.trace;
-        let (before, after) = (trace.before(), trace.totals());
+        let (totals, changed) = (trace.totals(), trace.change());
         let (fresh, stale) = trace.fresh_and_stale();
         let (forward, backward) = trace.forward_and_backward();
-        let prior = after.log_prior.less(&before.log_prior);
-        let mut score = after.log_factors.less(&before.log_factors);
-        self.state.add_sketch_change(&mut score);
+        let with_sketches = self.state.sketch_change().map(|change| changed.log_factors.plus(&change));
         let terms = Terms {
-            prior: &prior,
-            score: &score,
+            prior: &changed.log_prior,
+            score: with_sketches.as_ref().unwrap_or(&changed.log_factors),
             beta,
             stale,
             fresh,
@@ -71,9 +69,10 @@ impl<R: Rules> Chain<R> {
         };
         let log_ratio = R::log_ratio(&terms);
         let u = open_unit(rng);
-        let fits = self.barriers.is_none_or(|n| self.state.primitives + after.factors == n);
+        let barriers = || self.state.primitives as i64 + totals.factors + changed.factors;
+        let fits = self.barriers.is_none_or(|n| barriers() == n as i64);
         let accepted =
-            fits && !after.is_impossible() && (log_ratio >= 0.0 || u.ln() < log_ratio) && !self.undoing;
+            fits && !changed.is_impossible() && (log_ratio >= 0.0 || u.ln() < log_ratio) && !self.undoing;
         if accepted {
             if self.best.is_noting() {
                 let moved = moved(&self.state.trace);
@@ -86,7 +85,7 @@ impl<R: Rules> Chain<R> {
             self.best.compare(&self.state, program, self.visit);
         } else {
             self.state.look_back();
-            R::undo(&mut self.state.trace, program);
+            self.state.trace.rollback(program);
         }
         self.last = Decision { same: false, accepted, log_ratio };
         Ok(self.last)

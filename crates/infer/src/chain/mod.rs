@@ -171,12 +171,11 @@ impl<R: Rules> Chain<R> {
         settings: &Settings,
         number: u64,
         mut plan: Plan,
-        mut state: State,
+        state: State,
         spreads: &HashMap<u128, f64>,
     ) -> Result<Chain<R>, Failure> {
         let (program, streams) = (&*task.program, Streams::new(settings.seed, number));
         let counts = Counts::new(program);
-        R::begin(&mut state.trace);
         let mut tables = Vec::new();
         for leaf in &mut plan.leaves {
             if let Way::Trajectory(own) = &mut leaf.way {

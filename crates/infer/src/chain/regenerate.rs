@@ -50,8 +50,8 @@ impl<R: Rules> Chain<R> {
             beta,
             &mut rng,
             |chain, trace| {
-                let after = table
-                    .map_or(trace.totals().choices as u64, |t| chain.tables[t].total_after(trace, program));
+                let after =
+                    table.map_or(trace.len_after() as u64, |t| chain.tables[t].total_after(trace, program));
                 let leading = chain.leading(program, activation, levels, table);
                 (leading as f64 / after as f64).ln() - (weight as f64 / total as f64).ln()
             },

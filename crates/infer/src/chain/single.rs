@@ -156,7 +156,7 @@ impl<R: Rules> Chain<R> {
             |chain, trace| match table {
                 // The choice itself is still there, and weighs what it did.
                 None => {
-                    let after = trace.totals().choices as u64;
+                    let after = trace.len_after() as u64;
                     if after == total { 0.0 } else { (total as f64 / after as f64).ln() }
                 }
                 Some(t) => {

@@ -166,7 +166,7 @@ impl Answers<f64> for Walk<'_> {
                     }
                     None => {
                         let chosen = fresh.choose(at, dist)?;
-                        self.densities.fresh.add(chosen.log_prior);
+                        self.densities.fresh.add(grid(chosen.log_prior));
                         (chosen.value, chosen.log_prior)
                     }
                 }

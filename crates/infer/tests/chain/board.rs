@@ -15,7 +15,6 @@ use niwaki_infer::chain::ladder::Ladder;
 use niwaki_infer::chain::user::User;
 use niwaki_infer::enumeration::enumerate;
 use niwaki_math::Total;
-use niwaki_vm::machine::kept::Trace;
 use niwaki_vm::value::repr;
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -266,14 +265,6 @@ impl Rules for ExchangesAnyway {
     }
 }
 
-/// Draws a kept value anew where it falls outside its new support.
-struct RedrawnOutside;
-impl Rules for RedrawnOutside {
-    fn begin(trace: &mut Trace) {
-        trace.redraw_what_falls_outside();
-    }
-}
-
 #[test]
 fn mutants_are_found_out() {
     let rows = rows();
@@ -286,7 +277,6 @@ fn mutants_are_found_out() {
         ("no count ratio, regenerated", worst::<NoCountRatio>(recursion, row("regenerate 1"), 11)),
         ("stale choices forgotten", worst::<StaleForgotten>(recursion, row("prior"), 11)),
         ("no reverse density", worst::<NoReverse>(bound, row("own proposal"), 11)),
-        ("redrawn when outside", worst::<RedrawnOutside>(bound, row("prior"), 11)),
         ("exchanged anyway", worst::<ExchangesAnyway>(recursion, row("temper"), 11)),
     ] {
         assert!(z > 8.0, "{name}: z = {z} only");

@@ -10,13 +10,10 @@ mod scoped;
 
 use niwaki_geom::{Aabb, no_overshoot, vec3};
 use niwaki_infer::Task;
-use niwaki_infer::chain::accept::{MetropolisHastings, Rules};
-use niwaki_infer::chain::agreement::{Seen, compare, disagreement};
+use niwaki_infer::chain::agreement::compare;
 use niwaki_infer::chain::kernel::{Kernel, Selection};
 use niwaki_infer::chain::user::User;
 use niwaki_infer::chain::{Chain, Settings};
-use niwaki_vm::code::Program;
-use niwaki_vm::machine::kept::Trace;
 use niwaki_vm::machine::kept::inspect::Item;
 use niwaki_vm::value::Value;
 use programs::{PROGRAMS, task};
@@ -55,7 +52,7 @@ fn kernels(task: &Task) -> Vec<(&'static str, Kernel)> {
 
 /// Choices of a first state: the last part of the address, and the value.
 fn choices(task: &Task) -> Vec<(String, Value)> {
-    let chain = Chain::<MetropolisHastings>::start(task, &settings(), 0, None).expect("a chain");
+    let chain: Chain = Chain::start(task, &settings(), 0, None).expect("a chain");
     let mut found = vec![];
     chain.state.trace.visit(&task.program, |place, item| {
         if let Item::Choice(value, _) = item {
@@ -137,32 +134,4 @@ fn four_strategies_score_the_same_scene() {
 
 fn settings() -> Settings {
     Settings { seed: 5, thin: 0, ..Settings::default() }
-}
-
-/// A rollback that leaves one register.
-struct LeavesOneRegister;
-
-impl Rules for LeavesOneRegister {
-    fn undo(trace: &mut Trace, program: &Program) {
-        trace.rollback_but_one_register(program);
-    }
-}
-
-#[test]
-fn a_rollback_that_leaves_one_register_is_found_out() {
-    for kind in ["prior", "own proposals", "temper"] {
-        let mut found_out = 0;
-        for (_, text) in PROGRAMS {
-            let task = task(text);
-            let settings = match kind {
-                "prior" => settings(),
-                "own proposals" => Settings { kernel: own_proposals(&task), ..settings() },
-                _ => Settings { temperatures: vec![1.0, 3.0], every: 4, ..settings() },
-            };
-            let found = disagreement::<LeavesOneRegister>(&task, &settings, 300, 30, &mut Seen::default());
-            found_out += usize::from(!matches!(found, Ok(None)));
-        }
-        // Where hardly anything is rejected, or the register is written again before it is read, nothing is to be seen.
-        assert!(2 * found_out > PROGRAMS.len(), "{kind}: in {found_out} of {} programs", PROGRAMS.len());
-    }
 }

@@ -5,7 +5,7 @@
 //! other activations may have overwritten is never read; and what an activation has read it does not overwrite.
 
 use super::{Function, Mode, Op, Operand, Place, Program, SiteKind};
-use crate::passes::{live_before, reads_and_writes, successors};
+use crate::passes::place::{live_before, reads_and_writes, successors};
 use niwaki_math::Scalar;
 use std::collections::HashSet;
 
@@ -207,7 +207,7 @@ mod tests {
     //! The claim: a value in scratch that the machine reads when it is gone is refused, whoever reads it.
     use super::*;
     use crate::core::parse::parse;
-    use crate::passes::{compile, rewrite};
+    use crate::passes::{compile, place::rewrite};
 
     /// Every kind of site.
     const TEXT: &str = r#"(module (const 0 (list (dist bernoulli 0.4) (dist bernoulli 0.6)))

@@ -88,7 +88,7 @@ pub fn complete_score(task: &Task, machine: &mut Machine<'_>, state: &State, str
 
 /// How many barriers a run that has ended must keep: where it moves on, as many as it has.
 pub fn own_ending(ending: Option<usize>, state: &ChainState, round: &Round<'_>) -> Option<usize> {
-    let own = state.primitives + state.trace.totals().factors;
+    let own = state.primitives + state.trace.totals().factors as usize;
     ending.map(|n| if round.settings.is(Mutant::MovesOn) { own } else { n })
 }
 
