@@ -266,7 +266,7 @@ def test_what_is_no_number_is_said_with_its_count() -> None:
 
 
 def test_an_extreme_scale_that_is_a_choice_is_an_error() -> None:
-    """It has to be learnt, and its square is no number."""
+    """It has to be learnt, and its square is out of range."""
     for method in (few(), nw.mh(steps=50, kernel=nw.kernels.hmc())):
         for name, spread in (("scaled", 1e300), ("scaled", 1e-300), ("vectors", 1e150), ("vectors", 1e-150)):
             with pytest.raises(NiwakiError, match="extreme-scale"):
