@@ -51,7 +51,7 @@ def wrong_inside(method: Method) -> str:
 
     text, functions = method.text()
     if functions:
-        return "inside a model a kernel cannot ask a Python function: `proposal` has no meaning there"
+        return "inside a model a kernel cannot call a Python function, so `proposal` cannot be used there"
     try:
         _engine.check_inside(text)
     except _engine.EngineFault as fault:

@@ -18,7 +18,7 @@ def check(
     core: Annotated[bool, typer.Option("--core", help="Print the core form.")] = False,
     bytecode: Annotated[bool, typer.Option("--bytecode", help="Print the bytecode.")] = False,
 ) -> None:
-    """Compile MODEL and report what it is made of, with advice; exit 1 when it does not compile."""
+    """Compile MODEL and report its functions and choices, with advice; exit 1 when it does not compile."""
     from niwaki.lang.advice import advise
     from niwaki.shell.finding import find
 

@@ -25,7 +25,7 @@ def color(
         ),
     ],
     rules: Annotated[
-        str | None, typer.Option("--rules", metavar="FILE", help="What is asked of the regions, as TOML.")
+        str | None, typer.Option("--rules", metavar="FILE", help="Rules for the regions, a TOML file.")
     ] = None,
     count: Annotated[int, typer.Option("-n", "--count", help="How many colourings.")] = 12,
     output: Folder = None,
@@ -39,7 +39,7 @@ def color(
         int | None, typer.Option(help="Default: all cores. Results do not depend on it.")
     ] = None,
 ) -> None:
-    """Color DRAWING in ways that differ; writes 01.svg, 01.png, ..., sheet.png, colors.json and residuals.csv."""
+    """Color DRAWING in colourings that differ; writes 01.svg, 01.png, ..., sheet.png, colors.json and residuals.csv."""
     from niwaki.color import Drawing, Rules
     from niwaki.color import color as colorings_of
     from niwaki.color.files import write

@@ -7,7 +7,7 @@ from niwaki.shell.app import app
 
 @app.command()
 def models() -> None:
-    """List the gallery: name, target, what it makes."""
+    """List the gallery: name, target, title."""
     from niwaki.gallery import entries
 
     for entry in entries():

@@ -13,7 +13,7 @@ from niwaki.shell.app import Folder, app, made_folder
 
 @app.command()
 def replay(
-    run: Annotated[Path, typer.Argument(metavar="RUN.JSON", help="What `niwaki grow` wrote.")],
+    run: Annotated[Path, typer.Argument(metavar="RUN.JSON", help="The file that `niwaki grow` wrote.")],
     number: Annotated[
         int | None, typer.Option("--run", help="Which of its results, from 0; default: the best.")
     ] = None,
@@ -25,7 +25,7 @@ def replay(
     size: writing.Size = None,
     picture: Annotated[bool, typer.Option("--picture/--no-picture", help="Draw best.png.")] = True,
 ) -> None:
-    """Make the best result of a search again, byte for byte, in any format."""
+    """Write the best result of a search again, byte for byte, in any format."""
     from niwaki.shell.run_files import load, replayed
 
     files = writing.Files.asked(formats, scale, fuse, frames, size)

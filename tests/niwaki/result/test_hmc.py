@@ -260,7 +260,7 @@ def test_a_step_that_was_given_is_to_be_smaller() -> None:
 def test_what_is_no_number_is_said_with_its_count() -> None:
     result, said = messages(MODELS["overflow"], few(), seed=1)
     assert said[0].startswith(
-        f"{result.divergences.not_finite} trajectories of `overflow` came to points without"
+        f"{result.divergences.not_finite} trajectories of `overflow` reached points without"
     )
     assert "factor(inf - inf" in said[0] and len(said) == 1
 

@@ -8,7 +8,9 @@ from __future__ import annotations
 
 from niwaki.errors.texts.message import Message
 
-RESUMED = "a run can be resumed from any of its choices; all of these continuations would share the changed {thing}"
+RESUMED = (
+    "a run can be resumed from any of its choices; all of these continuations would share the changed {thing}"
+)
 
 LANGUAGE = (
     Message(
