@@ -4,7 +4,6 @@ use super::glob::{last, matches, nearest};
 use super::kernel::Selection;
 use super::odds::{UNIT, Weigh};
 use crate::Failure;
-use niwaki_math::Family;
 use niwaki_vm::code::{FunctionId, Program, SiteKind};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::kept::Trace;
@@ -39,7 +38,7 @@ impl Selection {
     pub(super) fn may_be_continuous(&self, trace: &Trace, program: &Program) -> bool {
         let mut seen: HashMap<_, bool> = HashMap::new();
         for choice in trace.numbers() {
-            let is_real = trace.family(choice).is_some_and(is_continuous);
+            let is_real = trace.family(choice).is_some_and(|family| family.space().is_continuous());
             *seen.entry(trace.site_of(choice)).or_default() |= is_real;
         }
         let takes = |label: &str| {
@@ -48,7 +47,7 @@ impl Selection {
         program.functions.iter().enumerate().any(|(f, function)| {
             function.sites.iter().enumerate().any(|(s, site)| {
                 let may = match site.kind {
-                    SiteKind::Sample { family } => is_continuous(family),
+                    SiteKind::Sample { family } => family.space().is_continuous(),
                     SiteKind::SampleDist | SiteKind::SampleIndexed => {
                         seen.get(&(FunctionId(f as _), s as u16)).copied().unwrap_or(true)
                     }
@@ -88,12 +87,6 @@ impl Selection {
         }
         Ok(())
     }
-}
-
-/// Whether a family draws real numbers, other than one that is given.
-fn is_continuous(family: Family) -> bool {
-    use Family::{Bernoulli, Binomial, Categorical, Delta, DiscreteUniform, Geometric, Poisson};
-    !matches!(family, Bernoulli | Binomial | Categorical | Delta | DiscreteUniform | Geometric | Poisson)
 }
 
 /// Whether an address of the trace ends in the last component of the pattern.
