@@ -4,7 +4,7 @@ use super::glob::{last, matches, nearest};
 use super::kernel::Selection;
 use super::odds::{UNIT, Weigh};
 use crate::Failure;
-use niwaki_vm::code::{FunctionId, Program, SiteKind};
+use niwaki_vm::code::{FunctionId, Program, SiteKind, Source};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::kept::Trace;
 use niwaki_vm::machine::kept::inspect::Place;
@@ -47,8 +47,8 @@ impl Selection {
         program.functions.iter().enumerate().any(|(f, function)| {
             function.sites.iter().enumerate().any(|(s, site)| {
                 let may = match site.kind {
-                    SiteKind::Sample { family } => family.space().is_continuous(),
-                    SiteKind::SampleDist | SiteKind::SampleIndexed => {
+                    SiteKind::Sample(Source::Family(family)) => family.space().is_continuous(),
+                    SiteKind::Sample(Source::Value | Source::Element) => {
                         seen.get(&(FunctionId(f as _), s as u16)).copied().unwrap_or(true)
                     }
                     _ => false,
@@ -105,10 +105,7 @@ pub(crate) fn no_choice(pattern: &str, known: &[String]) -> Fault {
 pub(crate) fn labels(program: &Program) -> Vec<String> {
     let mut found: Vec<String> = Vec::new();
     for site in program.functions.iter().flat_map(|f| &f.sites) {
-        use SiteKind::{Sample, SampleDist, SampleIndexed};
-        if matches!(site.kind, Sample { .. } | SampleDist | SampleIndexed)
-            && !found.iter().any(|l| **l == *site.label)
-        {
+        if matches!(site.kind, SiteKind::Sample(_)) && !found.iter().any(|l| **l == *site.label) {
             found.push(site.label.to_string());
         }
     }
