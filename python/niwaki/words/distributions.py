@@ -12,6 +12,32 @@ from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from typing import Any, ClassVar
 
+__all__ = [
+    "Bernoulli",
+    "Beta",
+    "Binomial",
+    "Categorical",
+    "Cauchy",
+    "Delta",
+    "Dirichlet",
+    "DiscreteUniform",
+    "Distribution",
+    "Exponential",
+    "Gamma",
+    "Gaussian",
+    "Geometric",
+    "InverseGamma",
+    "Laplace",
+    "LogNormal",
+    "Mixture",
+    "MultivariateGaussian",
+    "Poisson",
+    "StudentT",
+    "TruncatedGaussian",
+    "Uniform",
+    "VonMises",
+]
+
 
 @dataclass(frozen=True)
 class Distribution:
@@ -42,12 +68,12 @@ class Bernoulli(Distribution):
 
 @dataclass(frozen=True)
 class Categorical(Distribution):
-    """An index from 0, drawn with odds proportional to `weights`.
+    """An index from 0, drawn with probability proportional to its weight.
 
     Parameters
     ----------
     weights
-        Odds of each index, not negative, not all zero; they need not sum to one.
+        Weight of each index, not negative, not all zero; they need not sum to one.
     """
 
     family: ClassVar[str] = "categorical"
@@ -378,12 +404,12 @@ class MultivariateGaussian(Distribution):
 
 @dataclass(frozen=True)
 class Mixture(Distribution):
-    """A draw from one of several distributions, picked with odds proportional to `weights`.
+    """A draw from one of several distributions, picked with probability proportional to its weight.
 
     Parameters
     ----------
     weights
-        Odds of each component.
+        Weight of each component.
     components
         Distribution values, as many as weights.
     """
@@ -409,27 +435,5 @@ class Delta(Distribution):
     value: Any
 
 
-FAMILIES: tuple[type[Distribution], ...] = (
-    Bernoulli,
-    Categorical,
-    DiscreteUniform,
-    Poisson,
-    Binomial,
-    Geometric,
-    Uniform,
-    Gaussian,
-    LogNormal,
-    Gamma,
-    InverseGamma,
-    Beta,
-    Exponential,
-    Laplace,
-    Cauchy,
-    StudentT,
-    VonMises,
-    TruncatedGaussian,
-    Dirichlet,
-    MultivariateGaussian,
-    Mixture,
-    Delta,
-)
+#: In the order in which they stand here.
+FAMILIES: tuple[type[Distribution], ...] = tuple(Distribution.__subclasses__())

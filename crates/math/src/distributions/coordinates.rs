@@ -2,7 +2,7 @@
 //!
 //! With `s(v) = 1 / (1 + exp(-v))`:
 //!
-//! | support | value of the coordinate `v` | log of dx/dv |
+//! | support | value of the coordinate `v` | log of the size of dx/dv |
 //! | --- | --- | --- |
 //! | line | `v` | 0 |
 //! | above `lo` | `lo + exp(v)` | `v` |
@@ -184,7 +184,7 @@ mod tests {
                 };
                 let step = 1e-5;
                 let slope = (at(v + step) - at(v - step)) / (2.0 * step);
-                assert!((slope.ln() - log_slope(v)).abs() < 1e-8, "{interval:?} at {x}");
+                assert!((slope.abs().ln() - log_slope(v)).abs() < 1e-8, "{interval:?} at {x}");
                 let (new, forward, backward) = interval.moved(x, 0.3);
                 assert!((new - at(v + 0.3)).abs() < 1e-12);
                 assert!((forward - backward - (log_slope(v) - log_slope(v + 0.3))).abs() < 1e-12);
