@@ -11,9 +11,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from niwaki import _engine
 from niwaki.words.vectors import VecLike
-
-__all__ = ["Bark", "Frame", "box", "cylinder", "limb", "mesh", "segment"]
 
 Rotation = Sequence[Sequence[float]]
 Color = Sequence[float]
@@ -59,12 +58,10 @@ class Bark(NamedTuple):
 
 
 def _make(kind: str, *arguments: Any) -> Any:
-    from niwaki._engine import Shape
-
     if kind == "mesh":
         vertices, faces, *rest = arguments
         arguments = (np.asarray(vertices, dtype=np.float64), np.asarray(faces, dtype=np.int64), *rest)
-    return getattr(Shape, kind)(*arguments)
+    return getattr(_engine.Shape, kind)(*arguments)
 
 
 def box(
