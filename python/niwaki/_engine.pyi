@@ -15,6 +15,7 @@ __all__ = [
     "Outcome",
     "Picture",
     "Program",
+    "SHAPES",
     "Shape",
     "Sketch",
     "SketchSpec",
@@ -49,6 +50,9 @@ __all__ = [
 ]
 
 __version__: str
+
+#: The words for shapes, and the parameters of each in order.
+SHAPES: dict[str, list[str]]
 
 _Triple = Sequence[float]
 _Rows = Sequence[Sequence[float]]

@@ -141,8 +141,7 @@ impl PyProgram {
         let mut found = Vec::new();
         for f in &self.program.functions {
             for site in &f.sites {
-                use SiteKind::{Sample, SampleDist, SampleIndexed};
-                if matches!(site.kind, Sample { .. } | SampleDist | SampleIndexed) {
+                if matches!(site.kind, SiteKind::Sample(_)) {
                     found.push((f.name.to_string(), site.label.to_string(), site.span.line));
                 }
             }

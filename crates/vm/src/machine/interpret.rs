@@ -249,20 +249,16 @@ impl<S: Scalar> Machine<'_, S> {
                 Op::Site { site: number } => {
                     let site = &f.sites[number.0 as usize];
                     match site.kind {
-                        SiteKind::Sample { .. } | SiteKind::SampleDist | SiteKind::SampleIndexed => {
-                            match self.choose(state, answers, r!(), node, site) {
+                        SiteKind::Sample(_) => match self.choose(state, answers, r!(), node, site) {
+                            Ok(()) => {}
+                            Err(halt) => stop!(halt, site),
+                        },
+                        SiteKind::Observe(_) | SiteKind::Factor | SiteKind::Condition => {
+                            match self.factor(state, answers, r!(), node, site) {
                                 Ok(()) => {}
                                 Err(halt) => stop!(halt, site),
                             }
                         }
-                        SiteKind::Observe { .. }
-                        | SiteKind::ObserveDist
-                        | SiteKind::ObserveIndexed
-                        | SiteKind::Factor
-                        | SiteKind::Condition => match self.factor(state, answers, r!(), node, site) {
-                            Ok(()) => {}
-                            Err(halt) => stop!(halt, site),
-                        },
                         SiteKind::Call { function } => {
                             let inner = check!(self.call_known(state, r!(), node, number, site, function));
                             step!();

@@ -203,11 +203,7 @@ impl<S: Scalar> Kept<S> {
         }
         let kind = &program.function(state.nodes[node.0 as usize].function).sites[site as usize].kind;
         match kind {
-            SiteKind::Call { .. }
-            | SiteKind::Apply
-            | SiteKind::Future { .. }
-            | SiteKind::FutureApply { .. }
-            | SiteKind::Loop(_) => self.remove(program, state, NodeId(slot.held)),
+            kind if kind.makes_activation() => self.remove(program, state, NodeId(slot.held)),
             SiteKind::Read => return self.withdraw(kind, at, node, site),
             _ => self.withdraw(kind, at, node, site),
         }
@@ -236,13 +232,10 @@ impl<S: Scalar> Kept<S> {
                 if !slot.is_filled() {
                     continue;
                 }
-                match &site.kind {
-                    SiteKind::Call { .. }
-                    | SiteKind::Apply
-                    | SiteKind::Future { .. }
-                    | SiteKind::FutureApply { .. }
-                    | SiteKind::Loop(_) => self.journal.removed.push(NodeId(slot.held)),
-                    kind => self.withdraw(kind, at, id, i as u16),
+                if site.kind.makes_activation() {
+                    self.journal.removed.push(NodeId(slot.held));
+                } else {
+                    self.withdraw(&site.kind, at, id, i as u16);
                 }
             }
         }

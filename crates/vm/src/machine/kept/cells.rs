@@ -254,7 +254,7 @@ impl<S: Scalar> Machine<'_, S> {
             return false;
         };
         let site = &f.sites[number.0 as usize];
-        if !matches!(site.kind, SiteKind::Observe { .. } | SiteKind::ObserveDist | SiteKind::ObserveIndexed) {
+        if !matches!(site.kind, SiteKind::Observe(_)) {
             return false;
         }
         let (own, outer) = self.bases(state, f, node);
