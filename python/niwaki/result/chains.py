@@ -11,19 +11,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from niwaki.errors import InputError
+from niwaki import _engine
+from niwaki.errors import InputError, ModelFault
 from niwaki.lang.compiled import as_fault, translated
 from niwaki.methods import Mh, at_least_one
 from niwaki.methods.kernels import Kernel
 from niwaki.result.diagnostics import Divergences
 from niwaki.result.hmc import SOME, diverged, kept, listed, refused, say, without_slope
+from niwaki.result.progress import EngineWatch
 from niwaki.result.result import Result, Sample
 
 if TYPE_CHECKING:
-    from niwaki import _engine
-    from niwaki.errors import ModelFault
     from niwaki.search import Search
-    from niwaki.search.searching import EngineWatch
 
 
 @dataclass(frozen=True)

@@ -14,16 +14,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from niwaki.errors import InputError
+from niwaki import _engine
+from niwaki.errors import InputError, ModelFault
 from niwaki.lang.compiled import as_fault, translated
 from niwaki.methods import Hmc, Nuts
-from niwaki.result.diagnostics import Divergences
+from niwaki.result.diagnostics import Divergences, Summaries, summarise
 from niwaki.result.result import Result, Sample
 
 if TYPE_CHECKING:
-    from niwaki import _engine
-    from niwaki.errors import ModelFault
-    from niwaki.result.diagnostics import Summaries
     from niwaki.search import Search
 
 Reals = NDArray[np.float64]
@@ -286,8 +284,6 @@ class HmcResult(Result):
 
     def summary(self) -> Summaries:
         """Mean, deviation, standard error, effective sizes and R-hat of every number, and of the log density."""
-        from niwaki.result.diagnostics import summarise
-
         return summarise({**self.draws, "log density": self.log_density}, self.divergences)
 
     def _statistics(self) -> dict[str, NDArray[Any]]:

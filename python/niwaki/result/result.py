@@ -14,20 +14,22 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from niwaki import _engine, draw
+from niwaki.draw.scene import Part, Scene
 from niwaki.errors import InputError
 from niwaki.lang.compiled import translated
+from niwaki.lang.models import Model
+from niwaki.methods import Method, Mh
+from niwaki.result import diagnostics
+from niwaki.result.gradient import LogDensity
 from niwaki.result.info import EnumerationInfo, Info
+from niwaki.result.progress import Watch
+from niwaki.targets.sketches import Score
+from niwaki.targets.target import Target
 
 if TYPE_CHECKING:
-    from niwaki import _engine
-    from niwaki.draw.scene import Scene
-    from niwaki.methods import Method, Mh
     from niwaki.result.chains import ChainResult
-    from niwaki.result.gradient import LogDensity
-    from niwaki.search import Search, Watch
-    from niwaki.targets.sketches import Score
-    from niwaki.targets.target import Target
-    from niwaki.words.models import Model
+    from niwaki.search import Search
 
 
 class Sample:
@@ -87,8 +89,6 @@ class Sample:
         return sample
 
     def __reduce__(self) -> tuple[Any, ...]:
-        from niwaki import _engine
-
         outcome = self._outcome
         if isinstance(outcome, _engine.Outcome):
             data = outcome.data()
@@ -106,8 +106,6 @@ class Sample:
 
     def log_density(self) -> LogDensity:
         """The log density around this run over its continuous choices: see `niwaki.log_density`."""
-        from niwaki.result.gradient import LogDensity
-
         choices = [(address, value) for _, address, _, value, _ in self._trace.choices]
         with translated("model"):
             return LogDensity(self.search.task.density(choices))
@@ -153,17 +151,13 @@ class Sample:
     @cached_property
     def scene(self) -> Scene:
         """The primitives, by the addresses of their `emit`."""
-        from niwaki.draw.scene import Scene
-
         return Scene(self._trace.parts)
 
     def export(
         self, path: str | PathLike[str], *, scale: float | None = None, fuse: float | None = None
     ) -> Path:
         """Write the scene as .glb, .obj, .ply, .stl, .3mf, .gif or .apng; see `niwaki.draw.files.export`."""
-        from niwaki.draw.animation import FORMATS
-
-        if Path(path).suffix.lower() in FORMATS and scale is None and fuse is None:
+        if Path(path).suffix.lower() in draw.animation.FORMATS and scale is None and fuse is None:
             return self.animate(path)
         return self.scene.export(path, scale=scale, fuse=fuse)
 
@@ -174,8 +168,6 @@ class Sample:
 
         Settings are those of `niwaki.draw.animation.growth`; the target is a ghost unless it is None.
         """
-        from niwaki.draw.scene import Part
-
         parts = [Part(address, tuple(shapes)) for address, shapes in self._trace.parts]
         return self.scene.animate(path, self._ghost(target), parts=parts, **settings)
 
@@ -193,9 +185,7 @@ class Sample:
         return target
 
     def _repr_png_(self) -> bytes | None:
-        from niwaki.draw.picture import png
-
-        return png(self.picture(size=(800, 600))) if self.primitives else None
+        return draw.picture.png(self.picture(size=(800, 600))) if self.primitives else None
 
     def __repr__(self) -> str:
         parts = [f"log score {self.log_score:.2f}", f"log prior {self.log_prior:.2f}"]
@@ -312,9 +302,7 @@ class Result(Sequence[Sample]):
         InputError
             ArviZ is not installed.
         """
-        from niwaki.result.diagnostics import to_arviz
-
-        return to_arviz(self.draws, self._statistics())
+        return diagnostics.to_arviz(self.draws, self._statistics())
 
     def _statistics(self) -> dict[str, NDArray[Any]]:
         """Numbers of each draw for ArviZ, (chains, draws)."""
@@ -358,15 +346,11 @@ class Result(Sequence[Sample]):
         ChainResult
             The chains, whose seconds are those of this search and their own.
         """
-        from niwaki.search.searching import polished, watcher
-
-        return polished(self, method, self.seed if seed is None else seed, threads, watcher(progress))
+        return self.search.polished(self, method, seed=seed, threads=threads, progress=progress)
 
     @cached_property
     def unique_models(self) -> int:
         """Of how many samples no other shares more than half of its choices, as (address, value) pairs."""
-        from niwaki import _engine
-
         outcomes = [s._outcome for s in self.samples]
         return _engine.unique_models([one for one in outcomes if isinstance(one, _engine.Outcome)])
 
@@ -422,11 +406,9 @@ class Result(Sequence[Sample]):
 
     def sheet(self, **settings: Any) -> Any:
         """All samples side by side, best first, with their numbers."""
-        from niwaki.draw.sheet import sheet
-
         ranked = sorted(self.samples, key=lambda sample: -sample.log_score)
         scenes = [sample.scene for sample in ranked]
-        return sheet(scenes, [caption(sample) for sample in ranked], self.score.target, **settings)
+        return draw.sheet.sheet(scenes, [caption(sample) for sample in ranked], self.score.target, **settings)
 
     def _repr_png_(self) -> bytes | None:
         return self.best._repr_png_() if self.samples else None
@@ -465,3 +447,21 @@ def _can_be_key(value: Any) -> bool:
     except TypeError:
         return False
     return True
+
+
+def log_density(sample: Sample) -> LogDensity:
+    """The log density of a model around one of its runs: priors, factors and observations, with the Jacobians.
+
+    Parameters
+    ----------
+    sample : Sample
+        Of any result: `nw.run(model, seed=1).best`, for example.
+
+    Raises
+    ------
+    InputError
+        The scene is scored by a sketch, which has no gradient, or there are no continuous choices.
+    ModelFault
+        An operation on the way to the score has no derivative, or the run is impossible; with the line.
+    """
+    return sample.log_density()
