@@ -1,6 +1,6 @@
-"""What can go wrong while a model runs: found by the engine, and by the plain run where Python would raise.
+"""What can go wrong while a model runs: reported by the engine, and by the plain run where Python would raise.
 
-The one who finds it usually gives the title, with the values; the titles here are for when they do not.
+The part that reports a fault usually gives the title, with the values; the titles here are the defaults.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from niwaki.errors.texts.message import Message
 FAULTS = (
     Message(
         "list-index",
-        "an index lies outside of the list",
+        "an index is outside of the list",
         "no such item",
         help="indices run from 0 to `len(xs) - 1`; negative ones count from the end",
         example="[1, 2, 3][3]",
