@@ -5,13 +5,12 @@
 
 use super::follow::reason;
 use super::{live_of, model};
-use crate::chain::snapshot::Snapshot;
 use crate::chain::state::State;
 use crate::chain::streams::Streams;
 use crate::hamiltonian::chains::{GLANCE, run};
 use crate::hamiltonian::climb::climb_in_lanes;
 use crate::hamiltonian::{Cause, Chain, Draws, Settings, lanes};
-use crate::replay::{Choice, Missing, Source, Trace, by_address, replay};
+use crate::replay::{Choice, Missing, Source, Trace, replay};
 use crate::{Failure, Task};
 use niwaki_grad::{Continuous, Live, Model, Recorded, Wide};
 use niwaki_vm::fault::Fault;
@@ -57,7 +56,7 @@ impl Explored {
     pub fn scores(&self, task: &Task) -> Result<Vec<(f64, f64)>, Failure> {
         let score = |draw| {
             let trace = self.trace(task, draw).unwrap_or_else(|| unreachable!("a draw of this chain"))?;
-            Ok((trace.record.log_prior.value(), trace.record.log_score()))
+            Ok((trace.run.log_prior, trace.run.log_score))
         };
         (0..self.draws.len()).into_par_iter().map(score).collect()
     }
@@ -173,7 +172,7 @@ fn start(
     first: Option<&Live>,
 ) -> Result<Member, Failure> {
     let (state, _) = State::start(task, Streams::new(plan.seed, number as u64), plan.tries, plan.known)?;
-    let choices = by_address(&Snapshot::of(&state, &task.program, 0).log.entries());
+    let choices = state.choices(&task.program).collect();
     drop(state);
     let (target, start) = match first.and_then(|first| first.beside(&choices)) {
         Some(found) => found,
