@@ -1,8 +1,8 @@
 //! Markov chains behind the door: they stay alive between two calls, so that a search goes on where it stopped.
 
 use crate::faults;
-use crate::outcome::PyOutcome;
-use crate::search::{Known, PyTask, detached};
+use crate::runs::PyRun;
+use crate::search::{PyTask, detached};
 use niwaki_infer::chain::agreement::compare;
 use niwaki_infer::chain::counts::{Count, Counts};
 use niwaki_infer::chain::explain::What;
@@ -18,7 +18,24 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::collections::HashMap;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Proposals at one site of the program.
+#[pyclass(frozen, get_all, name = "Site", module = "niwaki._engine")]
+pub struct PySite {
+    /// Its function.
+    function: String,
+    /// Its readable component.
+    site: String,
+    /// Its line in the source.
+    line: u32,
+    /// How many proposals there were.
+    proposed: u64,
+    /// How many were kept.
+    accepted: u64,
+    /// How many lay outside the support of the choice's distribution.
+    outside: u64,
+}
 
 /// Several chains of one seed.
 #[pyclass(frozen, name = "Chains", module = "niwaki._engine")]
@@ -29,11 +46,11 @@ pub struct PyChains {
 
 #[pymethods]
 impl PyChains {
-    /// Chains in their first states, by the text of a method; ``known`` are first values by hash of the address.
+    /// Chains in their first states, by the text of a method; ``start`` has values for their choices.
     /// ``functions`` are the users' proposals that the kernel names by number; ``room`` is the most choices that the
     /// samples of one chain hold together.
     #[new]
-    #[pyo3(signature = (task, method, seed, *, functions=Vec::new(), room=1 << 22, known=None, threads=None))]
+    #[pyo3(signature = (task, method, seed, *, functions=Vec::new(), room=1 << 22, start=None, threads=None))]
     #[expect(clippy::too_many_arguments, reason = "what chains are told")]
     fn new(
         py: Python<'_>,
@@ -42,13 +59,13 @@ impl PyChains {
         seed: u64,
         functions: Vec<Py<PyTask>>,
         room: usize,
-        known: Option<Known<'_>>,
+        start: Option<&PyRun>,
         threads: Option<usize>,
     ) -> PyResult<PyChains> {
         let own = task.get();
         let (method, settings, kept) = settings(py, own, method, seed, &functions)?;
         let settings = Settings { room, ..settings };
-        let known = own.known(known)?;
+        let known = start.map(PyRun::by_address);
         let (made, _) = detached(py, &kept.program, threads, None, |_| {
             Chains::start(&kept, &settings, method.chains, known.as_ref())
         })?;
@@ -74,31 +91,30 @@ impl PyChains {
     }
 
     /// The best state of each chain.
-    fn best(&self, py: Python<'_>) -> PyResult<Vec<PyOutcome>> {
+    fn best(&self, py: Python<'_>) -> PyResult<Vec<PyRun>> {
         let task = &self.task.get().task;
         let (best, _) = detached(py, &task.program, None, None, |_| {
             let chains = self.lock();
             let rungs = chains.chains.iter().filter_map(Ladder::best);
             rungs.map(|rung| rung.best.get(&rung.state, task)).collect::<Result<Vec<_>, _>>()
         })?;
-        Ok(best.iter().map(|snapshot| self.outcome(snapshot)).collect())
+        Ok(best.into_iter().map(|run| self.run(Arc::new(run))).collect())
     }
 
-    /// The samples of a chain from the ``start``-th on.
-    #[pyo3(signature = (chain, start=0))]
-    fn samples(&self, chain: usize, start: usize) -> Vec<PyOutcome> {
+    /// The samples of a chain.
+    fn samples(&self, chain: usize) -> Vec<PyRun> {
         let chains = self.lock();
         let Some(rung) = chains.chains.get(chain).and_then(|ladder| ladder.rungs.first()) else {
             return vec![];
         };
-        rung.samples.all.iter().skip(start).map(|s| self.outcome(s)).collect()
+        rung.samples.all.iter().map(|run| self.run(run.clone())).collect()
     }
 
     /// The present state of each chain.
-    fn now(&self) -> Vec<PyOutcome> {
+    fn now(&self) -> Vec<PyRun> {
         let (program, chains) = (&self.task.get().task.program, self.lock());
         let first = chains.chains.iter().filter_map(|ladder| ladder.rungs.first());
-        first.map(|rung| self.outcome(&rung.now(program))).collect()
+        first.map(|rung| self.run(Arc::new(rung.now(program)))).collect()
     }
 
     /// Proposals between two samples, of each chain.
@@ -119,8 +135,8 @@ impl PyChains {
         all
     }
 
-    /// Proposals by site: (function, readable component, line, proposed, accepted, outside the support).
-    fn sites(&self) -> Vec<(String, String, u32, u64, u64, u64)> {
+    /// Proposals by site, all chains together.
+    fn sites(&self) -> Vec<PySite> {
         let (program, chains) = (&self.task.get().task.program, self.lock());
         let mut all = Counts::new(program);
         for chain in chains.chains.iter().flat_map(|ladder| &ladder.rungs) {
@@ -128,9 +144,15 @@ impl PyChains {
                 *sum += *count;
             }
         }
-        let row =
-            |(f, c, line, n): (String, String, u32, Count)| (f, c, line, n.proposed, n.accepted, n.outside);
-        all.named(program).into_iter().map(row).collect()
+        let site = |(function, site, line, Count { proposed, accepted, outside })| PySite {
+            function,
+            site,
+            line,
+            proposed,
+            accepted,
+            outside,
+        };
+        all.named(program).into_iter().map(site).collect()
     }
 
     /// Of each leaf of the kernel that follows the gradient, in order, all chains and temperatures together: a dict with
@@ -284,14 +306,15 @@ impl PyChains {
         self.chains.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn outcome(&self, snapshot: &niwaki_infer::chain::snapshot::Snapshot) -> PyOutcome {
-        PyOutcome::new(Run::from(snapshot), self.task.get().model.get().classes.clone())
+    fn run(&self, run: Arc<Run>) -> PyRun {
+        PyRun::new(run, self.task.get().model.get().classes.clone())
     }
 }
 
 /// Puts this room into the module.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PyChains>()?;
+    module.add_class::<PySite>()?;
     module.add_function(wrap_pyfunction!(agreement, module)?)?;
     module.add_function(wrap_pyfunction!(explain, module)?)
 }

@@ -2,7 +2,7 @@
 
 use crate::faults;
 use crate::values::Classes;
-use niwaki_grad::{Live, Refused, jax};
+use niwaki_grad::{Continuous, Live, Refused, jax};
 use niwaki_infer::Failure;
 use niwaki_vm::code::Program;
 use niwaki_vm::fault::Fault;
@@ -10,6 +10,39 @@ use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::sync::{Arc, Mutex, PoisonError};
+
+/// A continuous choice.
+#[pyclass(frozen, get_all, name = "Continuous", module = "niwaki._engine")]
+pub struct PyContinuous {
+    /// Its readable address.
+    path: String,
+    /// The family that it is drawn from.
+    family: &'static str,
+    /// How its value follows from coordinates.
+    transform: &'static str,
+    /// Its first coordinate.
+    first: usize,
+    /// How many coordinates it has.
+    coordinates: usize,
+    /// How many numbers its value has.
+    width: usize,
+    /// Whether its value is a list.
+    is_vector: bool,
+}
+
+impl PyContinuous {
+    pub fn of(choice: &Continuous) -> PyContinuous {
+        PyContinuous {
+            path: choice.path.clone(),
+            family: choice.family.name(),
+            transform: choice.transform.name(),
+            first: choice.first,
+            coordinates: choice.coordinates,
+            width: choice.width(),
+            is_vector: choice.is_vector(),
+        }
+    }
+}
 
 /// The log density of a model around one run, over unconstrained coordinates.
 #[pyclass(frozen, name = "Density", module = "niwaki._engine")]
@@ -55,14 +88,10 @@ impl PyDensity {
         PyArray1::from_slice(py, &self.with(|live| live.recorded().start.clone()))
     }
 
-    /// Continuous choices: (path, family, transform, first coordinate, coordinates).
+    /// Continuous choices.
     #[getter]
-    fn choices(&self) -> Vec<(String, &'static str, &'static str, usize, usize)> {
-        self.with(|live| {
-            let all = live.recorded().choices.iter();
-            all.map(|c| (c.path.clone(), c.family.name(), c.transform.name(), c.first, c.coordinates))
-                .collect()
-        })
+    fn choices(&self) -> Vec<PyContinuous> {
+        self.with(|live| live.recorded().choices.iter().map(PyContinuous::of).collect())
     }
 
     /// Operations of (a value with its gradient, a gradient alone), and guards, of the path last used.
@@ -139,5 +168,6 @@ impl PyDensity {
 
 /// Puts this room into the module.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_class::<PyContinuous>()?;
     module.add_class::<PyDensity>()
 }

@@ -1,7 +1,9 @@
 //! Chains that follow the gradient, behind the door.
 
 use crate::faults;
-use crate::search::{Known, PyTask, detached};
+use crate::gradients::PyContinuous;
+use crate::runs::{PyChoice, PyRun};
+use crate::search::{PyTask, detached};
 use niwaki_infer::Failure;
 use niwaki_infer::gradient::explore::{Explored, Plan, explore};
 use niwaki_infer::hamiltonian::Cause;
@@ -24,22 +26,22 @@ pub struct PyTrajectories {
 
 #[pymethods]
 impl PyTrajectories {
-    /// Runs the chains of a method, given as its text. ``known`` are first values by hash of the address.
+    /// Runs the chains of a method, given as its text. ``start`` has values for the choices of their starts.
     #[new]
-    #[pyo3(signature = (task, method, seed, *, known=None, threads=None, watch=None))]
+    #[pyo3(signature = (task, method, seed, *, start=None, threads=None, watch=None))]
     fn new(
         py: Python<'_>,
         task: Py<PyTask>,
         method: &str,
         seed: u64,
-        known: Option<Known<'_>>,
+        start: Option<&PyRun>,
         threads: Option<usize>,
         watch: Option<Py<PyAny>>,
     ) -> PyResult<PyTrajectories> {
         let own = task.get();
         let (settings, chains, tries) = (own.read(py, method)?.trajectories())
             .ok_or_else(|| PyTypeError::new_err("this method does not follow the gradient"))?;
-        let known = own.known(known)?;
+        let known = start.map(PyRun::by_address);
         let plan = Plan { settings: &settings, seed, chains, tries, known: known.as_ref() };
         let (found, pressed) = detached(py, &own.task.program, threads, watch.as_ref(), |watch| {
             explore(&own.task, &plan, &|done| watch.look(done, 0, f64::NEG_INFINITY))
@@ -48,29 +50,15 @@ impl PyTrajectories {
         Ok(PyTrajectories { task, chains: found, interrupted })
     }
 
-    /// Continuous choices of a chain: (path, family, transform, first coordinate, coordinates, numbers of its value, whether
-    /// that is a list).
-    #[expect(clippy::type_complexity, reason = "a row of a table")]
-    fn choices(
-        &self,
-        chain: usize,
-    ) -> PyResult<Vec<(String, &'static str, &'static str, usize, usize, usize, bool)>> {
-        let row = |c: &niwaki_grad::Continuous| {
-            let (path, family, transform) = (c.path.clone(), c.family.name(), c.transform.name());
-            (path, family, transform, c.first, c.coordinates, c.width(), c.is_vector())
-        };
-        Ok(self.chain(chain)?.choices().iter().map(row).collect())
+    /// Continuous choices of a chain.
+    fn choices(&self, chain: usize) -> PyResult<Vec<PyContinuous>> {
+        Ok(self.chain(chain)?.choices().iter().map(PyContinuous::of).collect())
     }
 
-    /// Choices that a chain held fixed: (path, family, value).
-    fn fixed<'py>(
-        &self,
-        py: Python<'py>,
-        chain: usize,
-    ) -> PyResult<Vec<(String, &'static str, Bound<'py, PyAny>)>> {
+    /// Choices that a chain held fixed.
+    fn fixed(&self, py: Python<'_>, chain: usize) -> PyResult<Vec<Py<PyChoice>>> {
         let classes = &self.task.get().model.get().classes;
-        let fixed = &self.chain(chain)?.fixed;
-        fixed.iter().map(|c| Ok((c.path.clone(), c.family, classes.object(py, &c.value)?))).collect()
+        self.chain(chain)?.fixed.iter().map(|choice| PyChoice::of(py, choice, classes)).collect()
     }
 
     /// Values of the continuous choices of a chain, (draws, numbers).
