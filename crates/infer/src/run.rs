@@ -79,14 +79,16 @@ mod tests {
     #[test]
     fn a_run_comes_back_from_its_data() {
         let mut log = Log::default();
-        let vector = niwaki_vm::builtins::draw_to_value(niwaki_math::Draw::Vector([0.1, f64::INFINITY].into()));
+        let vector =
+            niwaki_vm::builtins::draw_to_value(niwaki_math::Draw::Vector([0.1, f64::INFINITY].into()));
         let values = [Value::Bool(true), Value::Int(-3), Value::Real(-0.0), Value::Real(f64::NAN), vector];
         for (i, value) in values.into_iter().enumerate() {
             log.push(u128::MAX - i as u128, value);
         }
         log.push_order(7, 2);
         let (score, similarity) = (f64::NEG_INFINITY, Some(0.1 + 0.2));
-        let run = Run { log, log_prior: 0.1, log_score: score, similarity, visit: u64::MAX, ..Run::default() };
+        let run =
+            Run { log, log_prior: 0.1, log_score: score, similarity, visit: u64::MAX, ..Run::default() };
         let text = serde_json::to_string(&run).expect("data");
         let back: Run = serde_json::from_str(&text).expect("a run");
         assert_eq!(format!("{run:?}"), format!("{back:?}"));

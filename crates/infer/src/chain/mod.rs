@@ -179,7 +179,7 @@ impl<R: Rules> Chain<R> {
         let mut tables = Vec::new();
         for leaf in &mut plan.leaves {
             if let Way::Trajectory(own) = &mut leaf.way {
-                own.prepare::<R>(task)?;
+                own.prepare(task)?;
             }
             if !leaf.selection.is_all() {
                 leaf.table = Some(tables.len());

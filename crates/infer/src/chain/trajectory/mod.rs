@@ -31,7 +31,7 @@ use crate::hamiltonian::nuts::Nuts;
 use crate::hamiltonian::step_size::first_guess;
 use crate::hamiltonian::{Cause, Kernel};
 use crate::{Failure, Task, gradient};
-use niwaki_grad::{Continuous, Model, Scope, Transform};
+use niwaki_grad::{Continuous, Model, Transform};
 use niwaki_vm::machine::Machine;
 use niwaki_vm::machine::kept::{Changed, Proposed, Trace};
 use scales::Scales;
@@ -93,10 +93,9 @@ impl Trajectory {
     ///
     /// # Errors
     /// Sketches, which have no gradient.
-    pub fn prepare<R: Rules>(&mut self, task: &Task) -> Result<(), Failure> {
+    pub fn prepare(&mut self, task: &Task) -> Result<(), Failure> {
         if self.model.is_none() {
-            let scope = Scope { drops_jacobian: R::DROPS_JACOBIAN, ..Scope::default() };
-            self.model = Some(Model { scope, ..gradient::model(task)? });
+            self.model = Some(gradient::model(task)?);
         }
         Ok(())
     }
@@ -125,7 +124,7 @@ impl<R: Rules> Chain<R> {
         let (visit, program) = (self.visit, &*task.program);
         self.visit += 1;
         self.last = Decision { same: true, accepted: true, log_ratio: 0.0 };
-        own.prepare::<R>(task)?;
+        own.prepare(task)?;
         let Some(model) = &own.model else { return Ok(()) };
         if own.warming.is_none() {
             own.scales.freeze();
@@ -164,7 +163,7 @@ impl<R: Rules> Chain<R> {
             own.scales.guessed(guess, dim);
         }
         let step = own.scales.step(dim);
-        let made = R::travel(&mut own.kernel, target, &metric, step, &mut phase, &mut key.at(0));
+        let made = own.kernel.step(target, &metric, step, &mut phase, &mut key.at(0));
         if let Some(share) = own.warming {
             own.scales.learn(labels, &phase.gradient, made.accept, share);
         }

@@ -150,10 +150,8 @@ fn importance_sampling_weighs_what_a_proposal_draws() {
         assert!(z.abs() < LIMIT, "{name}: {z}");
         for (value, log) in &exact.outcomes {
             let own = repr(value).unwrap();
-            let share =
-                |s: &crate::run::Run| if repr(&s.value).unwrap() == own { weight(s) } else { 0.0 };
-            let z =
-                z_of(&found.runs.iter().map(share).collect::<Vec<_>>(), (log - exact.log_evidence).exp());
+            let share = |s: &crate::run::Run| if repr(&s.value).unwrap() == own { weight(s) } else { 0.0 };
+            let z = z_of(&found.runs.iter().map(share).collect::<Vec<_>>(), (log - exact.log_evidence).exp());
             assert!(z.abs() < LIMIT, "{name}, {own}: {z}");
         }
     }
