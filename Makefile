@@ -62,7 +62,7 @@ $(STAMPS)/engine: $(RUST) pyproject.toml $(STAMPS)/core $(STAMPS)/build
 # ---- what a person asks for
 
 demo: $(STAMPS)/engine
-	$(PY) -m niwaki.gallery.demo out
+	$(PY) -m niwaki.shell.demo out
 
 test: $(STAMPS)/engine $(STAMPS)/test
 	cargo test $(CARGO_FLAGS) --workspace
@@ -94,7 +94,7 @@ bench-c3: $(STAMPS)/engine $(STAMPS)/bench
 
 # Installs half a gigabyte of peers; with them here, the tests that need JAX and ArviZ run.
 bench-hmc: $(STAMPS)/engine $(STAMPS)/bench-hmc $(STAMPS)/test
-	$(PY) -m pytest tests/niwaki/test_with_peers.py
+	$(PY) -m pytest tests/niwaki/result/test_with_peers.py
 	$(PY) benches/gradients.py
 
 soak: $(STAMPS)/engine $(STAMPS)/test

@@ -14,12 +14,9 @@ from niwaki._engine import __version__
 from niwaki.words import *  # noqa: F403
 
 if TYPE_CHECKING:
-    from niwaki import kernels
-    from niwaki.camera import Camera
-    from niwaki.constraints import Residuals, residuals
+    from niwaki.draw.scene import Scene
     from niwaki.errors import InputError, ModelError, ModelFault, NiwakiError
-    from niwaki.gradient import LogDensity, log_density
-    from niwaki.hmc_result import HmcResult
+    from niwaki.lang.constraints import Residuals, residuals
     from niwaki.lang.plain import run_python
     from niwaki.methods import (
         enumerate_all,
@@ -27,6 +24,7 @@ if TYPE_CHECKING:
         forward,
         hmc,
         importance,
+        kernels,
         mh,
         nuts,
         particle_gibbs,
@@ -34,12 +32,14 @@ if TYPE_CHECKING:
         rejection,
         smc,
     )
-    from niwaki.mh_result import ChainResult
-    from niwaki.outline import load_polygon
-    from niwaki.result import Result, Sample
-    from niwaki.scene import Scene
+    from niwaki.result import Result, Sample, diagnostics
+    from niwaki.result.chains import ChainResult
+    from niwaki.result.gradient import LogDensity, log_density
+    from niwaki.result.hmc import HmcResult
     from niwaki.search import Progress, Search, grow, run
-    from niwaki.sketches import (
+    from niwaki.targets.camera import Camera
+    from niwaki.targets.outline import load_polygon
+    from niwaki.targets.sketches import (
         Score,
         avoid,
         floor,
@@ -49,13 +49,13 @@ if TYPE_CHECKING:
         overshoot,
         volume_match,
     )
-    from niwaki.target import Receiver, Target
+    from niwaki.targets.target import Receiver, Target
 
 #: Where the names live that are imported when they are used.
 _HOMES = {
-    "niwaki.camera": ("Camera",),
+    "niwaki.targets.camera": ("Camera",),
     "niwaki.errors": ("InputError", "ModelError", "ModelFault", "NiwakiError"),
-    "niwaki.gradient": ("LogDensity", "log_density"),
+    "niwaki.result.gradient": ("LogDensity", "log_density"),
     "niwaki.search": ("Progress", "Search", "grow", "run"),
     "niwaki.lang.plain": ("run_python",),
     "niwaki.methods": (
@@ -71,13 +71,13 @@ _HOMES = {
         "rejection",
         "smc",
     ),
-    "niwaki.mh_result": ("ChainResult",),
-    "niwaki.hmc_result": ("HmcResult",),
-    "niwaki.constraints": ("Residuals", "residuals"),
-    "niwaki.outline": ("load_polygon",),
+    "niwaki.result.chains": ("ChainResult",),
+    "niwaki.result.hmc": ("HmcResult",),
+    "niwaki.lang.constraints": ("Residuals", "residuals"),
+    "niwaki.targets.outline": ("load_polygon",),
     "niwaki.result": ("Result", "Sample"),
-    "niwaki.scene": ("Scene",),
-    "niwaki.sketches": (
+    "niwaki.draw.scene": ("Scene",),
+    "niwaki.targets.sketches": (
         "Score",
         "avoid",
         "floor",
@@ -87,10 +87,10 @@ _HOMES = {
         "overshoot",
         "volume_match",
     ),
-    "niwaki.target": ("Receiver", "Target"),
+    "niwaki.targets.target": ("Receiver", "Target"),
 }
 #: Modules that are used by name.
-_MODULES = ("kernels",)
+_MODULES = {"diagnostics": "niwaki.result.diagnostics", "kernels": "niwaki.methods.kernels"}
 _HOME = {name: home for home, names in _HOMES.items() for name in names}
 
 __all__ = [  # noqa: PLE0604
@@ -114,6 +114,7 @@ __all__ = [  # noqa: PLE0604
     "Search",
     "Target",
     "avoid",
+    "diagnostics",
     "enumerate_all",
     "explore",
     "forward",
@@ -143,7 +144,7 @@ __all__ = [  # noqa: PLE0604
 
 def __getattr__(name: str) -> Any:
     if name in _MODULES:
-        return import_module(f"niwaki.{name}")
+        return import_module(_MODULES[name])
     if name not in _HOME:
         raise AttributeError(f"module 'niwaki' has no attribute {name!r}")
     found = getattr(import_module(_HOME[name]), name)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from PIL import Image, ImageDraw, ImageFont
 
-from niwaki.file_errors import FileError
+from niwaki.errors import FileError
 
 if TYPE_CHECKING:
     from niwaki.color.search import Coloring

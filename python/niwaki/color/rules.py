@@ -26,7 +26,7 @@ from pathlib import Path
 from typing import Any
 
 from niwaki.color.drawing import OWN
-from niwaki.file_errors import FileError
+from niwaki.errors import FileError
 
 CHAINS = {
     "lightness": "lightness",

@@ -21,8 +21,7 @@ from niwaki.color.drawing import OWN, Drawing
 from niwaki.color.model import coloring
 from niwaki.color.rules import Rule, Rules
 from niwaki.color.settle import settled
-from niwaki.errors import InputError
-from niwaki.file_errors import FileError
+from niwaki.errors import FileError, InputError
 from niwaki.methods import Method, at_least_one, explore
 from niwaki.methods.checks import bad, is_number
 
@@ -32,7 +31,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from PIL import Image
 
-    from niwaki.constraints import Constraint, Residuals
+    from niwaki.lang.constraints import Constraint, Residuals
     from niwaki.result import Sample
     from niwaki.search import Progress
 
@@ -101,7 +100,7 @@ class Coloring:
     @cached_property
     def residuals(self) -> Residuals:
         """Every soft constraint of the model, worst first."""
-        from niwaki.constraints import residuals
+        from niwaki.lang.constraints import residuals
 
         return residuals(coloring, *self.arguments, choices=self.sample.choices)
 

@@ -20,7 +20,7 @@ import numpy as np
 from PIL import Image
 
 from niwaki.color.styles import INITIAL, SelectorError, Styles, declarations, tag_of
-from niwaki.file_errors import FileError
+from niwaki.errors import FileError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -1,5 +1,6 @@
-"""A result as pictures and files.
+"""A scene as pictures and files.
 
+scene.py    the parts that a model emitted
 picture.py  a scene, and its target as a ghost, as one picture
 sheet.py    several pictures on one page, with captions
 plan.py     a scene from above, as SVG or pixels

@@ -16,13 +16,13 @@ import numpy as np
 from PIL import Image
 
 from niwaki.draw.picture import LARGEST, picture, write_whole
-from niwaki.file_errors import FileError
-from niwaki.scene import Part, Scene
+from niwaki.draw.scene import Part, Scene
+from niwaki.errors import FileError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from niwaki.target import Target
+    from niwaki.targets.target import Target
 
 FORMATS = (".gif", ".apng")
 

@@ -18,10 +18,10 @@ from niwaki.draw.glb import glb
 from niwaki.draw.mesh_files import obj, ply
 from niwaki.draw.picture import write_whole
 from niwaki.draw.solid import METRE
-from niwaki.file_errors import FileError
+from niwaki.errors import FileError
 
 if TYPE_CHECKING:
-    from niwaki.scene import Scene
+    from niwaki.draw.scene import Scene
 
 MESHES = (".glb", ".obj", ".ply")
 SOLIDS = (".stl", ".3mf")

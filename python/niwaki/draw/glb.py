@@ -22,7 +22,7 @@ from niwaki.draw.palette import Paint
 from niwaki.draw.parts import part_meshes
 
 if TYPE_CHECKING:
-    from niwaki.scene import Scene
+    from niwaki.draw.scene import Scene
 
 # glTF's names for numbers.
 FLOAT, UNSIGNED_INT, ARRAY_BUFFER, ELEMENT_ARRAY_BUFFER, TRIANGLES = 5126, 5125, 34962, 34963, 4

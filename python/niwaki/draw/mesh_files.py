@@ -14,7 +14,7 @@ import numpy as np
 from niwaki.draw.parts import part_meshes
 
 if TYPE_CHECKING:
-    from niwaki.scene import Scene
+    from niwaki.draw.scene import Scene
 
 
 def obj(scene: Scene) -> bytes:

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from niwaki._engine import Shape
-    from niwaki.scene import Part, Scene
+    from niwaki.draw.scene import Part, Scene
 
 Color = tuple[float, float, float]
 

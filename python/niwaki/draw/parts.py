@@ -16,7 +16,7 @@ from niwaki import _engine
 from niwaki.draw.palette import Paint, paints
 
 if TYPE_CHECKING:
-    from niwaki.scene import Scene
+    from niwaki.draw.scene import Scene
 
 #: Steps of a tone of the palette, sRGB in [0, 1].
 TONE_STEP = 1 / 32

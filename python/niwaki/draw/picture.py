@@ -17,11 +17,11 @@ from PIL import Image
 
 from niwaki import _engine
 from niwaki.draw.palette import paints
-from niwaki.file_errors import FileError
+from niwaki.errors import FileError
 
 if TYPE_CHECKING:
-    from niwaki.scene import Scene
-    from niwaki.target import Target
+    from niwaki.draw.scene import Scene
+    from niwaki.targets.target import Target
 
 Backdrop = Literal["studio", "white", "slate", "clear"]
 Rgb = tuple[float, float, float]

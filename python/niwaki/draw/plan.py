@@ -16,11 +16,11 @@ from PIL import Image, ImageDraw
 
 from niwaki.draw.palette import paints
 from niwaki.draw.picture import write_whole
-from niwaki.file_errors import FileError
+from niwaki.errors import FileError
 from niwaki.words.vectors import VecLike, _vec
 
 if TYPE_CHECKING:
-    from niwaki.scene import Scene
+    from niwaki.draw.scene import Scene
 
 Point = tuple[float, float]
 Rgb = tuple[float, float, float]

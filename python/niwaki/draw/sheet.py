@@ -13,11 +13,11 @@ from typing import TYPE_CHECKING, Any
 from PIL import Image, ImageDraw, ImageFont
 
 from niwaki.draw.picture import BACKDROPS, picture, save_image
-from niwaki.file_errors import FileError
-from niwaki.scene import Scene
+from niwaki.draw.scene import Scene
+from niwaki.errors import FileError
 
 if TYPE_CHECKING:
-    from niwaki.target import Target
+    from niwaki.targets.target import Target
 
 
 def sheet(

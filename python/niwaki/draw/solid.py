@@ -17,10 +17,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from niwaki import _engine
-from niwaki.file_errors import FileError
+from niwaki.errors import FileError
 
 if TYPE_CHECKING:
-    from niwaki.scene import Scene
+    from niwaki.draw.scene import Scene
 
 #: Details of the union below this share of its longest side are melted away: slivers that a float cannot keep.
 SMALLEST = 1e-6

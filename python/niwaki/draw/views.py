@@ -18,9 +18,9 @@ from niwaki.draw.picture import Camera as Eye
 from niwaki.draw.picture import picture, save_image
 
 if TYPE_CHECKING:
-    from niwaki.camera import Camera
-    from niwaki.scene import Scene
-    from niwaki.sketches import View
+    from niwaki.draw.scene import Scene
+    from niwaki.targets.camera import Camera
+    from niwaki.targets.sketches import View
 
 Rgb = tuple[int, int, int]
 

@@ -1,7 +1,7 @@
 """Models to look at and start from: one model, one file, one picture.
 
 A module of this folder is an entry of the gallery when it has MODEL (the model), and, where they make sense, TITLE (one
-line), TARGET (the name of a function of `niwaki.gallery.targets`), VOXEL (the cell size that suits both) and PARTICLES
+line), TARGET (the name of a function of `niwaki.targets.examples`), VOXEL (the cell size that suits both) and PARTICLES
 (how many it takes to do it well).
 """
 
@@ -13,11 +13,11 @@ from pkgutil import iter_modules
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from niwaki.target import Target
+    from niwaki.targets.target import Target
     from niwaki.words.models import Model
 
 #: Modules of this folder that hold no model; they are not imported to find that out.
-NOT_MODELS = ("data", "demo", "experiments", "figures", "furnishings", "pictures", "plates", "targets")
+NOT_MODELS = ("data", "furnishings")
 
 #: Size of a population where nothing else is said.
 PARTICLES = 300
@@ -57,7 +57,7 @@ class Entry:
 
 def named_target(name: str) -> Target:
     """Make one of the gallery's own targets."""
-    from niwaki.gallery import targets
+    from niwaki.targets import examples as targets
 
     made: Target = getattr(targets, name)()
     return made

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from niwaki.gallery import furnishings
 from niwaki.methods import smc
-from niwaki.outline import load_polygon
+from niwaki.targets.outline import load_polygon
 from niwaki.words import (
     Vec,
     discrete_uniform,

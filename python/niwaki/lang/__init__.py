@@ -1,6 +1,5 @@
 """From a Python function to core form, and the plain-Python run.
 
-source         files, spans, the syntax tree of a live function
 scope          who owns each name; what nested functions capture
 names          what names mean outside of the model
 constants      which live objects may cross as data
@@ -12,6 +11,6 @@ expressions, comprehensions, arguments, calls, builtin_calls, statements, refuse
                the lowering: one function for each kind of syntax
 instrument, densities, plain
                a model as ordinary Python
-messages, texts, catalogue
-               every error message, and its page
+constraints    how far the soft constraints of a run are from holding
+compiled       models on their way to the engine
 """

@@ -14,6 +14,7 @@ from types import FunctionType, ModuleType
 from typing import Any
 
 from niwaki import words
+from niwaki.errors.source import Span, head_span, span_of
 from niwaki.lang import builtin_calls, vocabulary
 from niwaki.lang.arguments import bind, no_keywords, no_stars
 from niwaki.lang.body import Body
@@ -23,7 +24,6 @@ from niwaki.lang.inference import infer
 from niwaki.lang.names import MISSING, is_library, is_random, is_record_class, nearest
 from niwaki.lang.program import Program, Unit
 from niwaki.lang.scope import Scope, Variable, default_expressions
-from niwaki.lang.source import Span, head_span, span_of
 from niwaki.lang.vocabulary import OMITTED, REQUIRED, Parameter
 from niwaki.words.models import Host, underlying
 

@@ -89,7 +89,7 @@ def search(
         Asked for the calls of the plain run when the search fails.
     """
     from niwaki import _engine
-    from niwaki.compiled import task
+    from niwaki.lang.compiled import task
 
     made = task(Model(function), args)
     try:
@@ -137,7 +137,7 @@ def _constant(body: Body, node: ast.expr) -> Any:
     """A method, a kernel or a setting: made here, a literal, or a constant of the module."""
     if isinstance(node, ast.Call):
         maker = static(body, node.func)
-        if str(getattr(maker, "__module__", "")).startswith(("niwaki.methods", "niwaki.kernels")):
+        if str(getattr(maker, "__module__", "")).startswith("niwaki.methods"):
             args = [_constant(body, arg) for arg in node.args]
             keywords = {
                 keyword.arg: _constant(body, keyword.value) for keyword in node.keywords if keyword.arg

@@ -9,6 +9,7 @@ from __future__ import annotations
 import ast
 from types import FunctionType
 
+from niwaki.errors.source import head_span
 from niwaki.lang import calls, comprehensions  # noqa: F401  (they register themselves)
 from niwaki.lang.body import Body
 from niwaki.lang.core import Core, Expr, Form, literal, write_tree
@@ -16,7 +17,6 @@ from niwaki.lang.expressions import expression
 from niwaki.lang.names import is_named_tuple, record_fields
 from niwaki.lang.program import Program, Unit, check_signature
 from niwaki.lang.scope import Scope, Variable, functions
-from niwaki.lang.source import head_span
 from niwaki.lang.statements import statement
 
 

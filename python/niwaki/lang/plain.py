@@ -15,9 +15,10 @@ from dataclasses import dataclass, field
 from types import FrameType, FunctionType
 from typing import Any
 
-from niwaki.constraints import Constraint
-from niwaki.errors import Call, InputError, ModelFault, NiwakiError, place
+from niwaki.errors import Call, InputError, ModelFault, NiwakiError
+from niwaki.errors.kinds import place
 from niwaki.lang import densities, vocabulary
+from niwaki.lang.constraints import Constraint
 from niwaki.lang.instrument import instrumented
 from niwaki.lang.names import is_library
 from niwaki.methods import EnumerateAll

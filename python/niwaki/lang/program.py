@@ -11,12 +11,12 @@ from types import FunctionType
 from typing import Any
 
 from niwaki.errors import InputError, ModelError
+from niwaki.errors.source import SourceFile, Span, find_function, span_of
 from niwaki.lang.constants import is_data, owned
 from niwaki.lang.core import Expr, Form, is_literal, literal
 from niwaki.lang.names import Namespace, is_library, is_named_tuple, is_record_class, record_fields
 from niwaki.lang.scope import FunctionNode, Scope, Scopes, analyse, functions
 from niwaki.lang.sites import labels_of
-from niwaki.lang.source import SourceFile, Span, find_function, span_of
 from niwaki.words.distributions import Distribution
 from niwaki.words.models import Host, Model
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from niwaki.errors import InputError
-from niwaki.kernels import Kernel
+from niwaki.methods.kernels import Kernel
 
 
 def bad(name: str, found: Any, expected: str, suggestion: str) -> InputError:

@@ -13,19 +13,19 @@ from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 from niwaki import _engine
-from niwaki.compiled import arguments, as_model, task, translated
 from niwaki.errors import InputError
+from niwaki.lang.compiled import arguments, as_model, task, translated
 from niwaki.methods import Forward, Method, Smc
 from niwaki.search.request import Search, check_seed
 from niwaki.search.searching import given, starts
-from niwaki.sketches import Score, no_self_intersection, volume_match
+from niwaki.targets.sketches import Score, no_self_intersection, volume_match
 from niwaki.words.models import Model
 
 if TYPE_CHECKING:
     from niwaki.methods import Mh
     from niwaki.result import Result
     from niwaki.search.searching import Watch
-    from niwaki.target import Target
+    from niwaki.targets.target import Target
 
 #: The settings of `smc`, which `grow` takes by name.
 SETTINGS = {field.name: field.default for field in fields(Smc)}
@@ -148,7 +148,7 @@ def grow(
         One sample for each run, the best of its population, or as many as are `diverse`; runs in which every particle
         became impossible are left out with a warning, and are an error when there is no other.
     """
-    from niwaki.target import Target
+    from niwaki.targets.target import Target
 
     model = as_model(model)
     settings = {name: kwargs.pop(name) for name in SETTINGS if name in kwargs}

@@ -21,10 +21,10 @@ from typing import Any, NamedTuple, cast
 import numpy as np
 
 from niwaki import _engine
-from niwaki.camera import Camera
 from niwaki.errors import InputError
 from niwaki.lang.names import is_named_tuple, record_fields
-from niwaki.target import Receiver, Target
+from niwaki.targets.camera import Camera
+from niwaki.targets.target import Receiver, Target
 from niwaki.words import distributions
 from niwaki.words.models import Host, Model
 from niwaki.words.vectors import Rotation, Vec

@@ -24,13 +24,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from niwaki import _engine
-from niwaki.compiled import as_model, task
 from niwaki.errors import InputError
+from niwaki.lang.compiled import as_model, task
 from niwaki.lang.core import Core
 from niwaki.methods import Forward, Method, Mh
 from niwaki.methods.checks import bad
 from niwaki.search.data import Reader, Writer, model_data, of_record_class, text_hash
-from niwaki.sketches import Score
+from niwaki.targets.sketches import Score
 from niwaki.words.models import Model
 
 if TYPE_CHECKING:

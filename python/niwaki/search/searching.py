@@ -10,17 +10,17 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from niwaki import _engine
-from niwaki.compiled import as_model, translated
 from niwaki.errors import InputError, ModelFault
-from niwaki.info import INFOS, Info, PopulationInfo
+from niwaki.lang.compiled import as_model, translated
 from niwaki.methods import Hmc, Mh, Nuts, ParticleGibbs, Smc
 from niwaki.methods.checks import bad
 from niwaki.result import Result, Sample
+from niwaki.result.info import INFOS, Info, PopulationInfo
 from niwaki.search.request import Search, check_polish, check_seed, check_threads
 
 if TYPE_CHECKING:
     from niwaki.methods import Method
-    from niwaki.mh_result import ChainResult
+    from niwaki.result.chains import ChainResult
 
 
 class SearchWarning(UserWarning):
@@ -208,7 +208,7 @@ def chains_of(
     start: list[tuple[int, Any]] | None,
 ) -> ChainResult:
     """Chains in their first states, and their first proposals."""
-    from niwaki.mh_result import ChainResult
+    from niwaki.result.chains import ChainResult
 
     text, functions = _written(method)
     counted = search.task.uncounted()
@@ -233,7 +233,7 @@ def trajectories(
     start: list[tuple[int, Any]] | None,
 ) -> Result:
     """Chains that follow the gradient."""
-    from niwaki.hmc_result import HmcResult
+    from niwaki.result.hmc import HmcResult
 
     counted, clock = search.task.uncounted(), Clock()
     with translated(search.model.name, f"seed={seed}"):

@@ -33,7 +33,7 @@ Folder = Annotated[
 
 def made_folder(place: Path) -> Path:
     """The folder, made where it is not there."""
-    from niwaki.file_errors import FileError
+    from niwaki.errors import FileError
 
     try:
         place.mkdir(parents=True, exist_ok=True)

@@ -17,9 +17,9 @@ import typer
 from niwaki.errors import InputError
 
 if TYPE_CHECKING:
-    from niwaki.finding import Found
-    from niwaki.sketches import Score
-    from niwaki.target import Target
+    from niwaki.shell.finding import Found
+    from niwaki.targets.sketches import Score
+    from niwaki.targets.target import Target
 
 Triple = tuple[float, float, float]
 
@@ -129,7 +129,7 @@ class Asked:
 
     def aim(self, found: Found) -> Target | None:
         """The volume to fill: the one named; else the model's own, unless a picture is asked for."""
-        from niwaki.target import Target
+        from niwaki.targets.target import Target
 
         if self.target is not None:
             return Target.find(self.target)
@@ -141,7 +141,7 @@ class Asked:
 
     def controls(self, voxel: float | None, sigma: float) -> Score:
         """Everything but the volume: what forbids comes before what scores."""
-        from niwaki import sketches
+        from niwaki.targets import sketches
 
         score = sketches.Score()
         if self.floor is not None:

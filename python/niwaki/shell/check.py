@@ -19,8 +19,8 @@ def check(
     bytecode: Annotated[bool, typer.Option("--bytecode", help="Print the bytecode.")] = False,
 ) -> None:
     """Compile MODEL and report what it is made of, with advice; exit 1 when it does not compile."""
-    from niwaki.finding import find
     from niwaki.lang.advice import advise
+    from niwaki.shell.finding import find
 
     found = find(model)
     start = time.perf_counter()

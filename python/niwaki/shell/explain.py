@@ -24,8 +24,8 @@ def explain(
 ) -> None:
     """Draw which calls of MODEL a proposal makes each strategy run, go on with, skip, make and take away."""
     from niwaki.draw.reuse import WORDS, counts, draw, said
-    from niwaki.finding import find
     from niwaki.search import explain as explained
+    from niwaki.shell.finding import find
 
     found = find(model)
     told = explained(found.model, choice, seed=seed)

@@ -13,8 +13,8 @@ from niwaki.shell import asking, settings, writing
 from niwaki.shell.app import Folder, ModelName, app, made_folder, progress_line
 
 if TYPE_CHECKING:
-    from niwaki.finding import Found
     from niwaki.result import Result, Sample
+    from niwaki.shell.finding import Found
 
 
 @app.command()
@@ -62,8 +62,8 @@ def grow(
 ) -> None:
     """Grow MODEL into what is asked for; writes best.glb, best.png, sheet.png and run.json."""
     from niwaki import search as searches
-    from niwaki.finding import find
     from niwaki.gallery import PARTICLES
+    from niwaki.shell.finding import find
 
     asked = asking.Asked(
         target,
@@ -105,7 +105,7 @@ def grow(
     if output is not None or not as_json:
         _write(output or Path("out"), result, found, files, picture)
     if as_json:
-        from niwaki.run_files import numbers
+        from niwaki.shell.run_files import numbers
 
         print(json.dumps({"runs": [numbers(sample) for sample in result]}))
     else:
@@ -122,7 +122,7 @@ def _write(
     picture: bool,
 ) -> None:
     """The record first: whatever fails after it can be made again from there."""
-    from niwaki import run_files
+    from niwaki.shell import run_files
 
     folder = made_folder(output)
     run_files.save(folder / "run.json", run_files.written(result, found))
@@ -142,7 +142,7 @@ def _write(
 
 
 def _summary(result: Result, folder: Path) -> None:
-    from niwaki.result import caption
+    from niwaki.result.result import caption
 
     for sample in result:
         print(f"{caption(sample)}   {sample.primitives} primitives   {sample.seconds:.2f} s")

@@ -26,7 +26,7 @@ def replay(
     picture: Annotated[bool, typer.Option("--picture/--no-picture", help="Draw best.png.")] = True,
 ) -> None:
     """Make the best result of a search again, byte for byte, in any format."""
-    from niwaki.run_files import load, replayed
+    from niwaki.shell.run_files import load, replayed
 
     files = writing.Files.asked(formats, scale, fuse, frames, size)
     sample = replayed(load(run), number)

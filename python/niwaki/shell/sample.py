@@ -20,9 +20,9 @@ from niwaki.shell import settings
 from niwaki.shell.app import Folder, ModelName, app, made_folder
 
 if TYPE_CHECKING:
-    from niwaki.finding import Found
-    from niwaki.mh_result import ChainResult
+    from niwaki.result.chains import ChainResult
     from niwaki.search import Progress
+    from niwaki.shell.finding import Found
 
 
 @app.command()
@@ -52,10 +52,10 @@ def sample(
 ) -> None:
     """Sample MODEL by Markov chains; writes samples.csv and run.json, and best.glb, best.png, sheet.png of scenes."""
     from niwaki import search
-    from niwaki.finding import find
-    from niwaki.mh_result import ChainResult
-    from niwaki.sketches import Score, no_self_intersection, volume_match
-    from niwaki.target import Target
+    from niwaki.result.chains import ChainResult
+    from niwaki.shell.finding import find
+    from niwaki.targets.sketches import Score, no_self_intersection, volume_match
+    from niwaki.targets.target import Target
 
     found = find(model)
     score = Score()
@@ -72,7 +72,7 @@ def sample(
     if output is not None or not as_json:
         _write(output or Path("out"), result, found, picture)
     if as_json:
-        from niwaki.run_files import numbers
+        from niwaki.shell.run_files import numbers
 
         print(json.dumps({"runs": [numbers(one) for one in result.bests]}))
     else:
@@ -82,9 +82,9 @@ def sample(
 
 
 def _write(output: Path, result: ChainResult, found: Found, picture: bool) -> None:
-    from niwaki import run_files
     from niwaki.draw.picture import save_image, write_whole
     from niwaki.result import Result
+    from niwaki.shell import run_files
 
     folder = made_folder(output)
     # The best of each chain is what can be replayed.

@@ -16,7 +16,7 @@ from niwaki.errors import InputError, NiwakiError
 
 if TYPE_CHECKING:
     from niwaki.result import Sample
-    from niwaki.target import Target
+    from niwaki.targets.target import Target
 
 MESHES, SOLIDS, ANIMATIONS = ("glb", "obj", "ply"), ("stl", "3mf"), ("gif", "apng")
 FORMATS = (*MESHES, *SOLIDS, *ANIMATIONS)

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from niwaki.draw.picture import write_whole
-from niwaki.file_errors import FileError
+from niwaki.errors import FileError
 from niwaki.stacks.structure import Floats, Structure
 
 #: Corners of the two outlines that a block may have, and the edges along its thickness.

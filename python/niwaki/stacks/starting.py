@@ -14,7 +14,7 @@ from niwaki.errors import ModelFault
 from niwaki.stacks.judges import need
 
 if TYPE_CHECKING:
-    from niwaki.gradient import LogDensity
+    from niwaki.result.gradient import LogDensity
     from niwaki.stacks.structure import Floats
     from niwaki.words.models import Model
 
@@ -93,7 +93,7 @@ def polished(
     dict of str to values
         The choices of the structure that was found.
     """
-    from niwaki.gradient import log_density
+    from niwaki.result.gradient import log_density
     from niwaki.search import run
 
     optimize = need("scipy.optimize")
@@ -108,7 +108,7 @@ def polished(
 
 def density_of(model: Model[..., Any], seed: int, **arguments: Any) -> LogDensity:
     """The log density around the first draw of the prior that is possible."""
-    from niwaki.gradient import log_density
+    from niwaki.result.gradient import log_density
     from niwaki.search import run
 
     for number in range(TRIES):

@@ -51,7 +51,7 @@ class Model(Generic[P, T]):
     def program(self) -> Program:
         """The model compiled for the engine; kept, like its core form."""
         if self._program is None:
-            from niwaki.compiled import compile_core
+            from niwaki.lang.compiled import compile_core
 
             self._program = compile_core(self.core())
         return self._program

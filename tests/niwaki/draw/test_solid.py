@@ -14,9 +14,9 @@ import pytest
 import trimesh
 from niwaki import rotation
 from niwaki._engine import Shape
+from niwaki.draw.scene import Scene
 from niwaki.draw.solid import PrintWarning, Solid, union
-from niwaki.file_errors import FileError
-from niwaki.scene import Scene
+from niwaki.errors import FileError
 
 TETRAHEDRON = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype=np.float64)
 FACES = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])

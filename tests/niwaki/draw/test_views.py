@@ -9,8 +9,8 @@ import niwaki as nw
 import numpy as np
 import pytest
 from niwaki import _engine
+from niwaki.draw.scene import Scene
 from niwaki.draw.views import INK, MISSING, PAPER, SHADE, SURPLUS, eye, save_view, view_sheet
-from niwaki.scene import Scene
 from PIL import Image
 
 ON = np.zeros((100, 100), dtype=bool)

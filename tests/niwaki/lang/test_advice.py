@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from niwaki.errors.messages import ADVICE, Message
 from niwaki.gallery import entries
 from niwaki.gallery.spaceship import __file__ as SHIP
 from niwaki.lang.advice import advise
-from niwaki.lang.messages import ADVICE, Message
 
 GOLDEN = Path(__file__).parents[2] / "golden"
 

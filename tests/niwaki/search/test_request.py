@@ -15,9 +15,9 @@ import niwaki as nw
 import numpy as np
 import pytest
 from niwaki import box, emit, flip, gaussian, host, kernels, model, uniform
-from niwaki.finding import find
-from niwaki.gallery.targets import ship
 from niwaki.methods import Method
+from niwaki.shell.finding import find
+from niwaki.targets.examples import ship
 
 MODEL = """
     from niwaki import *
