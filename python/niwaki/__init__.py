@@ -33,9 +33,7 @@ if TYPE_CHECKING:
         smc,
     )
     from niwaki.result import Result, Sample, diagnostics
-    from niwaki.result.chains import ChainResult
     from niwaki.result.gradient import LogDensity, log_density
-    from niwaki.result.hmc import HmcResult
     from niwaki.search import Progress, Search, grow, run
     from niwaki.targets.camera import Camera
     from niwaki.targets.outline import load_polygon
@@ -71,8 +69,6 @@ _HOMES = {
         "rejection",
         "smc",
     ),
-    "niwaki.result.chains": ("ChainResult",),
-    "niwaki.result.hmc": ("HmcResult",),
     "niwaki.lang.constraints": ("Residuals", "residuals"),
     "niwaki.targets.outline": ("load_polygon",),
     "niwaki.result": ("Result", "Sample"),
@@ -96,9 +92,7 @@ _HOME = {name: home for home, names in _HOMES.items() for name in names}
 __all__ = [  # noqa: PLE0604
     "__version__",
     *words.__all__,
-    "ChainResult",
     "Camera",
-    "HmcResult",
     "InputError",
     "LogDensity",
     "ModelError",

@@ -3,6 +3,7 @@
 use crate::faults;
 use crate::runs::PyRun;
 use crate::search::{PyTask, detached};
+use crate::trajectories::broken_off;
 use niwaki_infer::chain::agreement::compare;
 use niwaki_infer::chain::counts::{Count, Counts};
 use niwaki_infer::chain::explain::What;
@@ -10,7 +11,6 @@ use niwaki_infer::chain::ladder::Ladder;
 use niwaki_infer::chain::many::Chains;
 use niwaki_infer::chain::trajectory::travel::Travel;
 use niwaki_infer::chain::{Chain, Settings};
-use niwaki_infer::hamiltonian::Cause;
 use niwaki_infer::method::{Given, Method, Mh};
 use niwaki_infer::run::Run;
 use niwaki_infer::{Failure, Task};
@@ -184,11 +184,7 @@ impl PyChains {
             facts.set_item("gradients", travel.gradients)?;
             facts.set_item("structures", structures)?;
             facts.set_item("recordings", recordings)?;
-            facts.set_item("warmup_divergences", travel.warmup_divergences)?;
-            facts.set_item("energy", travel.drifted)?;
-            facts.set_item("guard", travel.refused[Cause::Guard as usize])?;
-            facts.set_item("impossible", travel.refused[Cause::Impossible as usize])?;
-            facts.set_item("not_finite", travel.refused[Cause::NotFinite as usize])?;
+            broken_off(&facts, &travel.broken)?;
             facts.set_item("steps", steps)?;
             let fault = travel.fault.map(|fault| faults::raise(py, &Failure::Run(fault), program));
             facts.set_item("fault", fault)?;

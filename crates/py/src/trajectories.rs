@@ -6,7 +6,7 @@ use crate::runs::{PyChoice, PyRun};
 use crate::search::{PyTask, detached};
 use niwaki_infer::Failure;
 use niwaki_infer::gradient::explore::{Explored, Plan, explore};
-use niwaki_infer::hamiltonian::Cause;
+use niwaki_infer::hamiltonian::{BrokenOff, Cause};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::{PyIndexError, PyTypeError};
 use pyo3::prelude::*;
@@ -48,6 +48,12 @@ impl PyTrajectories {
         })?;
         let interrupted = pressed || found.iter().any(|chain| chain.draws.interrupted);
         Ok(PyTrajectories { task, chains: found, interrupted })
+    }
+
+    /// How many chains there are.
+    #[getter]
+    fn chains(&self) -> usize {
+        self.chains.len()
     }
 
     /// Continuous choices of a chain.
@@ -105,13 +111,8 @@ impl PyTrajectories {
         facts.set_item("step_size", draws.step_size)?;
         facts.set_item("gradients", draws.gradients)?;
         facts.set_item("warmup_gradients", draws.warmup_gradients)?;
-        facts.set_item("warmup_divergences", draws.warmup_divergences)?;
         facts.set_item("recordings", chain.recordings)?;
-        let refused = draws.refused.iter().sum::<u64>();
-        facts.set_item("energy", draws.divergences.len() as u64 - refused)?;
-        facts.set_item("guard", draws.refused[Cause::Guard as usize])?;
-        facts.set_item("impossible", draws.refused[Cause::Impossible as usize])?;
-        facts.set_item("not_finite", draws.refused[Cause::NotFinite as usize])?;
+        broken_off(&facts, &draws.broken)?;
         Ok(facts)
     }
 
@@ -127,6 +128,15 @@ impl PyTrajectories {
     fn chain(&self, chain: usize) -> PyResult<&Explored> {
         self.chains.get(chain).ok_or_else(|| PyIndexError::new_err("no such chain"))
     }
+}
+
+/// Notes how many trajectories broke off, by the reason.
+pub fn broken_off(facts: &Bound<'_, PyDict>, broken: &BrokenOff) -> PyResult<()> {
+    facts.set_item("warmup_divergences", broken.in_warmup)?;
+    facts.set_item("energy", broken.drifted)?;
+    facts.set_item("guard", broken.refused[Cause::Guard as usize])?;
+    facts.set_item("impossible", broken.refused[Cause::Impossible as usize])?;
+    facts.set_item("not_finite", broken.refused[Cause::NotFinite as usize])
 }
 
 /// Puts this room into the module.

@@ -241,7 +241,7 @@ class Divergences:
     impossible : int
         The density is zero there.
     not_finite : int
-        The density or its gradient is no number there; see `HmcResult.fault`.
+        The density or its gradient is no number there; see `HmcInfo.fault`.
     """
 
     energy: int = 0

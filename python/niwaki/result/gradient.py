@@ -27,7 +27,7 @@ from niwaki.lang.compiled import translated
 
 if TYPE_CHECKING:
     from niwaki import _engine
-    from niwaki.result.result import Sample
+    from niwaki.result.sample import Sample
 
 
 @dataclass(frozen=True)
@@ -70,7 +70,10 @@ class LogDensity:
     def __init__(self, density: _engine.Density) -> None:
         self._density = density
         self.start: NDArray[np.float64] = density.start
-        self.choices: tuple[Coordinates, ...] = tuple(Coordinates(*choice) for choice in density.choices)
+        self.choices: tuple[Coordinates, ...] = tuple(
+            Coordinates(choice.path, choice.family, choice.transform, choice.first, choice.coordinates)
+            for choice in density.choices
+        )
 
     @property
     def dim(self) -> int:

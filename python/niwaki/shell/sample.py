@@ -20,7 +20,7 @@ from niwaki.shell import settings
 from niwaki.shell.app import Folder, ModelName, app, made_folder
 
 if TYPE_CHECKING:
-    from niwaki.result.chains import ChainResult
+    from niwaki.result import Result
     from niwaki.search import Progress
     from niwaki.shell.finding import Found
 
@@ -52,7 +52,6 @@ def sample(
 ) -> None:
     """Sample MODEL by Markov chains; writes samples.csv and run.json, and best.glb, best.png, sheet.png of scenes."""
     from niwaki import search
-    from niwaki.result.chains import ChainResult
     from niwaki.shell.finding import find
     from niwaki.targets.sketches import Score, no_self_intersection, volume_match
     from niwaki.targets.target import Target
@@ -68,7 +67,6 @@ def sample(
         result = search.run(
             found.model, method=method, score=score, seed=seed, threads=threads, progress=progress
         )
-    assert isinstance(result, ChainResult)
     if output is not None or not as_json:
         _write(output or Path("out"), result, found, picture)
     if as_json:
@@ -81,7 +79,7 @@ def sample(
         raise typer.Exit(130)
 
 
-def _write(output: Path, result: ChainResult, found: Found, picture: bool) -> None:
+def _write(output: Path, result: Result, found: Found, picture: bool) -> None:
     from niwaki.draw.picture import save_image, write_whole
     from niwaki.result import Result
     from niwaki.shell import run_files
@@ -100,7 +98,7 @@ def _write(output: Path, result: ChainResult, found: Found, picture: bool) -> No
         save_image(lambda: bests.sheet(), folder / "sheet.png")
 
 
-def _table(result: ChainResult) -> str:
+def _table(result: Result) -> str:
     """The samples, one a line."""
     text = io.StringIO()
     rows = csv.writer(text, lineterminator="\n")
@@ -111,7 +109,7 @@ def _table(result: ChainResult) -> str:
     return text.getvalue()
 
 
-def _summary(result: ChainResult, folder: Path) -> None:
+def _summary(result: Result, folder: Path) -> None:
     print(f"{'site':<40}{'proposals':>12}{'accepted':>10}")
     for name, row in list(result.acceptance.items())[:12]:
         print(f"{name:<40}{row.proposed:>12}{row.rate:>10.2f}")

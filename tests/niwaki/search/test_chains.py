@@ -119,7 +119,7 @@ def test_the_best_is_kept_whether_it_was_sampled_or_not() -> None:
     assert len(result) == 0
     best = result.best
     # Run once more, it scores what it scored.
-    assert best._trace.log_score == best.log_score
+    assert best._trace.run.log_score == best.log_score
     every = nw.run(GARDEN, nw.mh(steps=20_000, thin=1), seed=1)
     assert max(sample.log_score for sample in [*every, every.bests[0]]) == best.log_score
     assert max(every.trace[0]) == best.log_score
@@ -133,8 +133,8 @@ def test_sketches_follow_the_chain(kernel: k.Kernel) -> None:
         score = score * nw.volume_match(target)
     result = nw.run(TOWER, nw.mh(steps=2000, keep=50, kernel=kernel), seed=2, score=score)
     for sample in [*result, result.best]:
-        assert sample._trace.log_score == sample.log_score
-        assert sample._trace.primitives == sample.primitives == len(list(sample.scene))
+        assert sample._trace.run.log_score == sample.log_score
+        assert sample._trace.run.primitives == sample.primitives == len(list(sample.scene))
     assert len({sample.primitives for sample in result}) > 1
 
 

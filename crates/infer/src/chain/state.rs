@@ -176,8 +176,7 @@ impl State {
 
     /// Its choices.
     pub fn choices<'a>(&'a self, program: &'a Program) -> impl Iterator<Item = (u128, Value)> + 'a {
-        let trace = &self.trace;
-        trace.numbers().map(|n| (trace.address(program, n), trace.choice(program, n).0.clone()))
+        choices(&self.trace, program)
     }
 
     /// As a finished run, reached after `visit` proposals.
@@ -263,6 +262,14 @@ impl State {
         self.log_sketches.clone_from(&self.before.log_sketches);
         self.primitives = self.before.primitives;
     }
+}
+
+/// The choices of a trace.
+pub(super) fn choices<'a>(
+    trace: &'a Trace,
+    program: &'a Program,
+) -> impl Iterator<Item = (u128, Value)> + 'a {
+    trace.numbers().map(|n| (trace.address(program, n), trace.choice(program, n).0.clone()))
 }
 
 /// What makes a run impossible: the factor or choice at which it stopped.

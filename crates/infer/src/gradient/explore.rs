@@ -103,7 +103,7 @@ struct Member {
     start: Vec<f64>,
 }
 
-/// Draws from a task's distribution. `watch` is told the transitions of all chains now and then; when it answers false,
+/// Draws from a task's distribution. `watch` is called with the transitions of all chains now and then; when it answers false,
 /// they end with what they have.
 ///
 /// Where each thread has a dozen chains or more of one structure, with trajectories of a fixed length and a metric of
@@ -242,13 +242,13 @@ fn in_lanes<const L: usize>(
         drop(chains);
         return Err(no_slope(&group[at].target, &group[at].start));
     }
-    // Companies of one size, so that no few are left over.
+    // Groups of one size, so that no few are left over.
     let even = chains.len().div_ceil(chains.len().div_ceil(L));
     let mut chains = chains.into_iter().peekable();
     let mut draws = Vec::with_capacity(chains.len());
     while chains.peek().is_some() {
-        let company = chains.by_ref().take(even).collect();
-        draws.extend(lanes::run_in_lanes(company, &mut wide, plan.settings, &|_, _| look()));
+        let some = chains.by_ref().take(even).collect();
+        draws.extend(lanes::run_in_lanes(some, &mut wide, plan.settings, &|_, _| look()));
     }
     let ends = group.into_iter().zip(draws);
     ends.map(|(Member { number, target, recorded, start }, draws)| {

@@ -319,7 +319,7 @@ fn chains_of_the_gradient_end_their_trajectories_there_too() {
     let settings = hamiltonian::Settings { warmup: 200, draws: 400, ..hamiltonian::Settings::nuts() };
     let plan = Plan { settings: &settings, seed: 1, chains: 2, tries: 1000, known: None };
     for chain in explore(&task, &plan, &|_| true).expect("chains") {
-        let refused = chain.draws.refused;
+        let refused = chain.draws.broken.refused;
         assert!(refused[Cause::Impossible as usize] > 0, "{refused:?}");
         assert!(refused[Cause::NotFinite as usize] == 0 && chain.fault.is_none(), "{refused:?}");
     }

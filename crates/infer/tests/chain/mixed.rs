@@ -154,7 +154,7 @@ fn what_became_of_trajectories_is_counted() {
     assert_eq!((travel.made, travel.settled), (2000, 1800));
     assert!(travel.moved > 800 && travel.unwritten == 0, "{travel:?}");
     // Over the place where `more` begins there are other choices.
-    assert!(travel.refused[hamiltonian::Cause::Guard as usize] > 0, "{travel:?}");
+    assert!(travel.broken.refused[hamiltonian::Cause::Guard as usize] > 0, "{travel:?}");
     let accept = travel.accept / travel.settled as f64;
     assert!((0.6..0.95).contains(&accept) && step > 0.0, "{accept}");
     assert!(structures == 2 && recordings >= structures, "{structures} {recordings}");

@@ -25,9 +25,7 @@ use super::accept::Rules;
 use super::decide::Decision;
 use super::state::Fresh;
 use crate::gradient::follow::reason;
-use crate::hamiltonian::chains::Length;
-use crate::hamiltonian::hmc::Hmc;
-use crate::hamiltonian::nuts::Nuts;
+use crate::hamiltonian::chains::{Length, MAX_ENERGY_ERROR};
 use crate::hamiltonian::step_size::first_guess;
 use crate::hamiltonian::{Cause, Kernel};
 use crate::{Failure, Task, gradient};
@@ -37,9 +35,6 @@ use niwaki_vm::machine::kept::{Changed, Proposed, Trace};
 use scales::Scales;
 use structures::{Moving, Structures};
 use travel::Travel;
-
-/// An energy error above this many nats is a divergence, as in Stan.
-const MAX_ENERGY_ERROR: f64 = 1000.0;
 
 /// Trajectories of one leaf of a kernel.
 pub(crate) struct Trajectory {
@@ -75,12 +70,8 @@ impl std::fmt::Debug for Trajectory {
 
 impl Trajectory {
     pub fn new(length: Length, step: f64, target: f64) -> Trajectory {
-        let kernel = match length {
-            Length::Fixed { steps, jitter } => Kernel::Hmc(Hmc::new(steps, jitter, MAX_ENERGY_ERROR)),
-            Length::NoUTurn { max_depth } => Kernel::Nuts(Nuts::new(max_depth, MAX_ENERGY_ERROR)),
-        };
         Trajectory {
-            kernel,
+            kernel: length.kernel(MAX_ENERGY_ERROR),
             scales: Scales::new(step, target),
             structures: Structures::default(),
             model: None,
@@ -148,7 +139,7 @@ impl<R: Rules> Chain<R> {
             Ok(phase) => phase,
             Err(stop) => {
                 let fault = || reason(target.live(), &target.all(&[]));
-                own.travel.refused(stop.cause, own.warming.is_some(), fault);
+                own.travel.refused(stop, own.warming.is_some(), fault);
                 self.count_many(self.last);
                 return Ok(());
             }
