@@ -1,4 +1,4 @@
-//! Markov chains behind the door: they stay alive between two calls, so that a search goes on where it stopped.
+//! Markov chains for Python: they stay alive between two calls, so that a search goes on where it stopped.
 
 use crate::faults;
 use crate::runs::PyRun;
@@ -16,7 +16,7 @@ use niwaki_infer::run::Run;
 use niwaki_infer::{Failure, Task};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyTuple};
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -51,7 +51,7 @@ impl PyChains {
     /// samples of one chain hold together.
     #[new]
     #[pyo3(signature = (task, method, seed, *, functions=Vec::new(), room=1 << 22, start=None, threads=None))]
-    #[expect(clippy::too_many_arguments, reason = "what chains are told")]
+    #[expect(clippy::too_many_arguments, reason = "what chains are asked for")]
     fn new(
         py: Python<'_>,
         task: Py<PyTask>,
@@ -156,11 +156,11 @@ impl PyChains {
     }
 
     /// Of each leaf of the kernel that follows the gradient, in order, all chains and temperatures together: a dict with
-    /// ``made``, ``moved``, ``unwritten``, ``settled`` (after the warm-up), ``accept`` (their sum), ``gradients``,
-    /// ``structures``, ``recordings``, ``warmup_divergences``; by reason how many broke off after the warm-up: ``energy``,
-    /// ``guard``, ``impossible``, ``not_finite``; ``steps``, by chain; and ``fault``, an exception or None.
+    /// ``made``, ``moved``, ``unwritten``, ``settled`` (after the warm-up), ``acceptance`` (their mean), ``gradients``,
+    /// ``structures``, ``recordings``, ``divergences`` (see [`broken_off`]), ``warmup_divergences``; ``step``, by chain;
+    /// and ``fault``, an exception or None.
     fn trajectories<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
-        let chains = self.lock();
+        let (program, chains) = (&self.task.get().task.program, self.lock());
         let mut all: Vec<(Travel, Vec<f64>, u64, u64)> = Vec::new();
         for chain in chains.chains.iter().flat_map(|ladder| &ladder.rungs) {
             for (leaf, (travel, step, (structures, recordings))) in chain.trajectories().enumerate() {
@@ -173,21 +173,23 @@ impl PyChains {
                 (sum.2, sum.3) = (sum.2 + structures, sum.3 + recordings);
             }
         }
-        let program = &self.task.get().task.program;
         let row = |(travel, steps, structures, recordings): (Travel, Vec<f64>, u64, u64)| {
             let facts = PyDict::new(py);
             facts.set_item("made", travel.made)?;
             facts.set_item("moved", travel.moved)?;
             facts.set_item("unwritten", travel.unwritten)?;
             facts.set_item("settled", travel.settled)?;
-            facts.set_item("accept", travel.accept)?;
+            facts.set_item("acceptance", travel.accept / travel.settled as f64)?;
             facts.set_item("gradients", travel.gradients)?;
             facts.set_item("structures", structures)?;
             facts.set_item("recordings", recordings)?;
-            broken_off(&facts, &travel.broken)?;
-            facts.set_item("steps", steps)?;
-            let fault = travel.fault.map(|fault| faults::raise(py, &Failure::Run(fault), program));
-            facts.set_item("fault", fault)?;
+            facts.set_item("divergences", broken_off(py, &travel.broken)?)?;
+            facts.set_item("warmup_divergences", travel.broken.in_warmup)?;
+            facts.set_item("step", PyTuple::new(py, steps)?)?;
+            facts.set_item(
+                "fault",
+                travel.fault.map(|fault| faults::raise(py, &Failure::Run(fault), program)),
+            )?;
             Ok(facts)
         };
         all.into_iter().map(row).collect()
@@ -215,7 +217,7 @@ impl PyChains {
     }
 }
 
-/// Metropolis-Hastings of a text, what its chains are told, and the task that keeps what their proposals ask for.
+/// Metropolis-Hastings of a text, what its chains are asked for, and the task that keeps what their proposals ask for.
 fn settings(
     py: Python<'_>,
     task: &PyTask,
@@ -307,7 +309,7 @@ impl PyChains {
     }
 }
 
-/// Puts this room into the module.
+/// Puts this part into the module.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PyChains>()?;
     module.add_class::<PySite>()?;

@@ -11,33 +11,33 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// A continuous choice.
-#[pyclass(frozen, get_all, name = "Continuous", module = "niwaki._engine")]
-pub struct PyContinuous {
+/// A continuous choice as a sampler sees it: its coordinates are `x[first : first + count]`.
+#[pyclass(frozen, get_all, name = "Coordinates", module = "niwaki._engine")]
+pub struct PyCoordinates {
     /// Its readable address.
-    path: String,
+    name: String,
     /// The family that it is drawn from.
     family: &'static str,
-    /// How its value follows from coordinates.
+    /// How its value follows from coordinates: line, above, between, circle, simplex or vector.
     transform: &'static str,
     /// Its first coordinate.
     first: usize,
     /// How many coordinates it has.
-    coordinates: usize,
+    count: usize,
     /// How many numbers its value has.
     width: usize,
     /// Whether its value is a list.
     is_vector: bool,
 }
 
-impl PyContinuous {
-    pub fn of(choice: &Continuous) -> PyContinuous {
-        PyContinuous {
-            path: choice.path.clone(),
+impl PyCoordinates {
+    pub fn of(choice: &Continuous) -> PyCoordinates {
+        PyCoordinates {
+            name: choice.path.clone(),
             family: choice.family.name(),
             transform: choice.transform.name(),
             first: choice.first,
-            coordinates: choice.coordinates,
+            count: choice.coordinates,
             width: choice.width(),
             is_vector: choice.is_vector(),
         }
@@ -90,8 +90,8 @@ impl PyDensity {
 
     /// Continuous choices.
     #[getter]
-    fn choices(&self) -> Vec<PyContinuous> {
-        self.with(|live| live.recorded().choices.iter().map(PyContinuous::of).collect())
+    fn choices(&self) -> Vec<PyCoordinates> {
+        self.with(|live| live.recorded().choices.iter().map(PyCoordinates::of).collect())
     }
 
     /// Operations of (a value with its gradient, a gradient alone), and guards, of the path last used.
@@ -168,6 +168,6 @@ impl PyDensity {
 
 /// Puts this room into the module.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add_class::<PyContinuous>()?;
+    module.add_class::<PyCoordinates>()?;
     module.add_class::<PyDensity>()
 }

@@ -1,7 +1,7 @@
-//! Chains that follow the gradient, behind the door.
+//! Chains that follow the gradient, for Python.
 
 use crate::faults;
-use crate::gradients::PyContinuous;
+use crate::gradients::PyCoordinates;
 use crate::runs::{PyChoice, PyRun};
 use crate::search::{PyTask, detached};
 use niwaki_infer::Failure;
@@ -57,8 +57,8 @@ impl PyTrajectories {
     }
 
     /// Continuous choices of a chain.
-    fn choices(&self, chain: usize) -> PyResult<Vec<PyContinuous>> {
-        Ok(self.chain(chain)?.choices().iter().map(PyContinuous::of).collect())
+    fn choices(&self, chain: usize) -> PyResult<Vec<PyCoordinates>> {
+        Ok(self.chain(chain)?.choices().iter().map(PyCoordinates::of).collect())
     }
 
     /// Choices that a chain held fixed.
@@ -79,18 +79,18 @@ impl PyTrajectories {
         PyArray1::from_slice(py, &draws.x).reshape([draws.len(), draws.dim])
     }
 
-    /// Of each draw of a chain: ``log_density`` (over coordinates), ``energy`` (nats), ``accept``, ``steps``, ``depth``,
-    /// ``diverging``, ``off_structure``.
+    /// Of each draw of a chain: ``log_density`` (over coordinates) and ``energy``, nats, ``acceptance_rate``, ``n_steps``,
+    /// ``tree_depth``, and whether trajectories were ``diverging`` or ``refused_for_structure``.
     fn draws<'py>(&self, py: Python<'py>, chain: usize) -> PyResult<Bound<'py, PyDict>> {
         let (chain, facts) = (self.chain(chain)?, PyDict::new(py));
         let draws = &chain.draws;
         facts.set_item("log_density", PyArray1::from_slice(py, &draws.log_density))?;
         facts.set_item("energy", PyArray1::from_slice(py, &draws.energy))?;
-        facts.set_item("accept", PyArray1::from_slice(py, &draws.accept))?;
-        facts.set_item("steps", PyArray1::from_slice(py, &draws.steps))?;
-        facts.set_item("depth", PyArray1::from_slice(py, &draws.depth))?;
+        facts.set_item("acceptance_rate", PyArray1::from_slice(py, &draws.accept))?;
+        facts.set_item("n_steps", PyArray1::from_slice(py, &draws.steps))?;
+        facts.set_item("tree_depth", PyArray1::from_slice(py, &draws.depth))?;
         facts.set_item("diverging", PyArray1::from_slice(py, &draws.diverging))?;
-        facts.set_item("off_structure", PyArray1::from_slice(py, &draws.off_structure))?;
+        facts.set_item("refused_for_structure", PyArray1::from_slice(py, &draws.off_structure))?;
         Ok(facts)
     }
 
@@ -103,16 +103,12 @@ impl PyTrajectories {
         Ok((PyArray1::from_vec(py, prior), PyArray1::from_vec(py, score)))
     }
 
-    /// Of a chain: ``step_size``, ``gradients``, ``warmup_gradients``, ``warmup_divergences``, ``recordings``, and by
-    /// reason how many trajectories broke off: ``energy``, ``guard``, ``impossible``, ``not_finite``.
+    /// Of a chain: ``step_size``, ``gradients`` (warm-up included) and ``divergences``: see [`broken_off`].
     fn counters<'py>(&self, py: Python<'py>, chain: usize) -> PyResult<Bound<'py, PyDict>> {
-        let (chain, facts) = (self.chain(chain)?, PyDict::new(py));
-        let draws = &chain.draws;
+        let (draws, facts) = (&self.chain(chain)?.draws, PyDict::new(py));
         facts.set_item("step_size", draws.step_size)?;
-        facts.set_item("gradients", draws.gradients)?;
-        facts.set_item("warmup_gradients", draws.warmup_gradients)?;
-        facts.set_item("recordings", chain.recordings)?;
-        broken_off(&facts, &draws.broken)?;
+        facts.set_item("gradients", draws.gradients + draws.warmup_gradients)?;
+        facts.set_item("divergences", broken_off(py, &draws.broken)?)?;
         Ok(facts)
     }
 
@@ -130,16 +126,18 @@ impl PyTrajectories {
     }
 }
 
-/// Notes how many trajectories broke off, by the reason.
-pub fn broken_off(facts: &Bound<'_, PyDict>, broken: &BrokenOff) -> PyResult<()> {
-    facts.set_item("warmup_divergences", broken.in_warmup)?;
+/// How many trajectories broke off after the warm-up, by the reason: a dict with ``energy``, ``structure``,
+/// ``impossible`` and ``not_finite``.
+pub fn broken_off<'py>(py: Python<'py>, broken: &BrokenOff) -> PyResult<Bound<'py, PyDict>> {
+    let facts = PyDict::new(py);
     facts.set_item("energy", broken.drifted)?;
-    facts.set_item("guard", broken.refused[Cause::Guard as usize])?;
+    facts.set_item("structure", broken.refused[Cause::Guard as usize])?;
     facts.set_item("impossible", broken.refused[Cause::Impossible as usize])?;
-    facts.set_item("not_finite", broken.refused[Cause::NotFinite as usize])
+    facts.set_item("not_finite", broken.refused[Cause::NotFinite as usize])?;
+    Ok(facts)
 }
 
-/// Puts this room into the module.
+/// Puts this part into the module.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PyTrajectories>()
 }

@@ -180,25 +180,9 @@ class MhInfo(Info):
         return [self._travelled(*one) for one in zip(leaves, self.running.chains.trajectories(), strict=True)]
 
     def _travelled(self, leaf: Kernel, counts: dict[str, Any]) -> Trajectories:
-        broke = ("energy", "guard", "impossible", "not_finite")
-        same = (
-            "made",
-            "moved",
-            "settled",
-            "warmup_divergences",
-            "unwritten",
-            "gradients",
-            "structures",
-            "recordings",
-        )
-        return Trajectories(
-            kernel=leaf,
-            acceptance=counts["accept"] / counts["settled"] if counts["settled"] else math.nan,
-            divergences=Divergences(*(counts[name] for name in broke)),
-            step=tuple(counts["steps"]),
-            fault=as_fault(counts["fault"], self._search.model.name, f"seed={self._seed}"),
-            **{name: counts[name] for name in same},
-        )
+        fault = as_fault(counts["fault"], self._search.model.name, f"seed={self._seed}")
+        own = {"kernel": leaf, "divergences": Divergences(**counts["divergences"]), "fault": fault}
+        return Trajectories(**{**counts, **own})
 
     @cached_property
     def counters(self) -> dict[str, int]:

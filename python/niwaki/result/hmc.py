@@ -161,35 +161,22 @@ class HmcInfo(Info):
     @classmethod
     def of(cls, search: Search, seed: int, found: _engine.Trajectories) -> HmcInfo:
         """What chains on the engine found."""
-        chains = range(search.method.chains)  # TEMP
+        chains = range(found.chains)
         draws = [found.draws(chain) for chain in chains]
         counts = [found.counters(chain) for chain in chains]
         sizes = tuple(len(one["energy"]) for one in draws)
-
-        def together(name: str) -> NDArray[Any]:
-            return np.array([one[name][: min(sizes)] for one in draws])
-
-        def total(name: str) -> int:
-            return sum(count[name] for count in counts)
-
+        stats = {name: np.array([one[name][: min(sizes)] for one in draws]) for name in draws[0]}
         faults = (found.fault(chain) for chain in chains)
         first = next((fault for fault in faults if fault is not None), None)
         return cls(
             search=search,
             seed=seed,
             sizes=sizes,
-            log_density=together("log_density"),
-            stats={
-                "energy": together("energy"),
-                "acceptance_rate": together("accept"),
-                "n_steps": together("steps"),
-                "tree_depth": together("depth"),
-                "diverging": together("diverging"),
-                "refused_for_structure": together("off_structure"),
-            },
+            log_density=stats.pop("log_density"),
+            stats=stats,
             step_size=np.array([count["step_size"] for count in counts]),
-            divergences=Divergences(*map(total, ("energy", "guard", "impossible", "not_finite"))),
-            gradients=total("gradients") + total("warmup_gradients"),
+            divergences=sum((Divergences(**count["divergences"]) for count in counts), Divergences()),
+            gradients=sum(count["gradients"] for count in counts),
             fixed=[{choice.path: choice.value for choice in found.fixed(chain)} for chain in chains],
             fault=as_fault(first, search.model.name, f"seed={seed}"),
             _found=found,
@@ -215,7 +202,7 @@ class HmcInfo(Info):
             ends = np.cumsum([choice.width for choice in choices])[:-1]
             parts = np.split(found.values(chain), ends, axis=1)
             return {
-                choice.path: part if choice.is_vector else part[:, 0]
+                choice.name: part if choice.is_vector else part[:, 0]
                 for choice, part in zip(choices, parts, strict=True)
             }
 

@@ -208,15 +208,16 @@ def chains_of(
     threads: int | None,
     watch: EngineWatch,
     start: _engine.Run | None,
+    spent: tuple[float, float] = (0.0, 0.0),
 ) -> Result:
-    """Chains in their first states, and their first proposals."""
+    """Chains in their first states, and their first proposals; `spent` are the seconds of the search before."""
     text, functions = _written(method)
     counted = search.task.uncounted()
     with translated(search.model.name, f"seed={seed}"):
         chains = _engine.Chains(counted, text, seed, functions=functions, start=start, threads=threads)
     running = Running(chains, counted, watch, threads)
     info = MhInfo(_search=search, _method=method, _seed=seed, _running=running)
-    return Result(search, [], seed, method=method, info=info).more(method.steps)
+    return Result(search, [], seed, method=method, info=info, seconds=spent).more(method.steps)
 
 
 def trajectories(
@@ -262,7 +263,5 @@ def polished(result: Result, method: Mh, seed: int, threads: int | None, watch: 
     if not best.has_ended:
         expected = "a search with a run that has ended, for the chain to start from"
         raise bad("polish", best, expected, "more time or particles")
-    chains = chains_of(result.search, method, seed, threads, watch, best._run)
-    chains.seconds += result.seconds
-    chains.cpu_seconds += result.cpu_seconds
-    return chains
+    spent = result.seconds, result.cpu_seconds
+    return chains_of(result.search, method, seed, threads, watch, best._run, spent)

@@ -10,7 +10,7 @@ use crate::chain::streams::Streams;
 use crate::hamiltonian::chains::{GLANCE, run};
 use crate::hamiltonian::climb::climb_in_lanes;
 use crate::hamiltonian::{Cause, Chain, Draws, Settings, lanes};
-use crate::replay::{Choice, Missing, Source, Trace, replay};
+use crate::replay::{Choice, Missing, Source, replay};
 use crate::{Failure, Task};
 use niwaki_grad::{Continuous, Live, Model, Recorded, Wide};
 use niwaki_vm::fault::Fault;
@@ -54,22 +54,13 @@ impl Explored {
     /// # Errors
     /// A fault of the program.
     pub fn scores(&self, task: &Task) -> Result<Vec<(f64, f64)>, Failure> {
-        let score = |draw| {
-            let trace = self.trace(task, draw).unwrap_or_else(|| unreachable!("a draw of this chain"))?;
-            Ok((trace.run.log_prior, trace.run.log_score))
+        let width = self.width();
+        let score = |draw: usize| {
+            let values = self.recorded.values_of(&self.numbers[draw * width..(draw + 1) * width]);
+            let run = replay(task, Source::Addresses(values), Missing::Refuse)?.run;
+            Ok((run.log_prior, run.log_score))
         };
         (0..self.draws.len()).into_par_iter().map(score).collect()
-    }
-
-    /// The run of a draw; `None` where there is no such draw.
-    ///
-    /// # Errors
-    /// A fault of the program.
-    pub fn trace(&self, task: &Task, draw: usize) -> Option<Result<Trace, Failure>> {
-        let width = self.width();
-        let numbers = self.numbers.get(draw * width..(draw + 1) * width)?;
-        let source = Source::Addresses(self.recorded.values_of(numbers));
-        Some(replay(task, source, Missing::Refuse))
     }
 }
 

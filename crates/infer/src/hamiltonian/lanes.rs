@@ -9,7 +9,7 @@
 
 #![allow(unsafe_code)] // Calls of functions compiled for AVX2 or AVX-512, after asking whether there is that.
 
-use super::chains::{Chain, Ongoing, Draws, Purpose, Settings};
+use super::chains::{Chain, Draws, Ongoing, Purpose, Settings};
 use super::hmc::Start;
 use super::leapfrog::Phase;
 use super::metric::{Metric, Shape};

@@ -94,7 +94,10 @@ fn a_lane_gives_what_its_chain_gives_alone() {
             );
             assert_eq!(a.len(), 60);
         }
-        assert!(alone.iter().map(|a| a.broken.refused[Cause::Guard as usize]).sum::<u64>() > 0, "the wall is met");
+        assert!(
+            alone.iter().map(|a| a.broken.refused[Cause::Guard as usize]).sum::<u64>() > 0,
+            "the wall is met"
+        );
         assert_eq!(wide.asked < 100, top == f64::NEG_INFINITY, "{}", wide.asked);
     }
 }
