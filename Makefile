@@ -3,7 +3,7 @@
 #
 #   make demo     grow the gallery's models; pictures and files go to out/
 #   make test     the engine's tests, then the package's
-#   make lint     formatting, clippy, ruff, mypy and the door's stub, warnings as errors
+#   make lint     formatting, clippy, ruff, the order of imports, mypy and the stub of the engine, warnings as errors
 #   make bench    rates beside WebPPL and a hand-written limit, on one thread (needs node and npm)
 #   make figures-sosmc  the figures and the table of chapter 5, into out/figures-sosmc (QUICK=1: a smoke run)
 #   make figures-hmc  the figures and the tables of chapter 4, into out/figures-hmc (QUICK=1: a smoke run)
@@ -75,6 +75,7 @@ lint: $(STAMPS)/engine $(STAMPS)/lint
 	cargo clippy $(CARGO_FLAGS) $(LIMIT) --all-targets -- -D warnings
 	$(VENV)/bin/ruff format --check $(PYTHON_SOURCES)
 	$(VENV)/bin/ruff check $(PYTHON_SOURCES)
+	$(VENV)/bin/lint-imports --no-cache
 	$(VENV)/bin/mypy
 	$(VENV)/bin/stubtest niwaki._engine
 

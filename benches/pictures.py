@@ -13,9 +13,9 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from niwaki.draw.picture import write_whole
 from niwaki.draw.scene import Scene
 from niwaki.draw.sheet import sheet
+from niwaki.errors.files import write_whole
 from niwaki.gallery.niwaki_tree import VOXEL as TREE_VOXEL
 from niwaki.gallery.niwaki_tree import niwaki_tree
 from niwaki.gallery.spaceship import VOXEL as SHIP_VOXEL

@@ -12,11 +12,11 @@ from typing import Any
 
 from experiments import EXPERIMENTS
 from niwaki.draw.scene import Scene
-from niwaki.draw.views import view_sheet
 from niwaki.gallery import Entry, entries
 from niwaki.methods import importance
 from niwaki.search import grow, run
 from niwaki.targets.sketches import no_self_intersection
+from niwaki.targets.views import view_sheet
 from pictures import written
 from PIL import Image
 

@@ -8,13 +8,13 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from niwaki.draw.views import view_sheet
 from niwaki.gallery.spaceship import spaceship
 from niwaki.methods import smc
 from niwaki.search import run
 from niwaki.targets.camera import Camera
 from niwaki.targets.sketches import Score, match_image, match_shadow, no_self_intersection
 from niwaki.targets.target import Receiver
+from niwaki.targets.views import view_sheet
 from pictures import written
 from PIL import Image, ImageDraw
 

@@ -14,9 +14,9 @@ from experiments import EXPERIMENTS, Experiment
 from niwaki._engine import Shape
 from niwaki.draw.scene import Scene
 from niwaki.draw.sheet import sheet
-from niwaki.draw.views import view_sheet
 from niwaki.gallery import entry, named_target
 from niwaki.gallery.simple_ship import MODEL as SIMPLE_SHIP
+from niwaki.targets.views import view_sheet
 from pictures import written
 from PIL import Image, ImageDraw, ImageFont
 

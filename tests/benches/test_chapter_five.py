@@ -25,8 +25,8 @@ from niwaki.gallery.building import building
 from niwaki.gallery.gnarly_tree import gnarly_tree
 from niwaki.gallery.pipes import pipes
 from niwaki.gallery.toy_blocks import toy_blocks
+from niwaki.lang.models import Model
 from niwaki.targets import examples as targets
-from niwaki.words.models import Model
 
 AnyModel = Model[..., Any]
 

@@ -101,13 +101,11 @@ impl PyChains {
         Ok(best.into_iter().map(|run| self.run(Arc::new(run))).collect())
     }
 
-    /// The samples of a chain.
-    fn samples(&self, chain: usize) -> Vec<PyRun> {
+    /// The samples of each chain.
+    fn samples(&self) -> Vec<Vec<PyRun>> {
         let chains = self.lock();
-        let Some(rung) = chains.chains.get(chain).and_then(|ladder| ladder.rungs.first()) else {
-            return vec![];
-        };
-        rung.samples.all.iter().map(|run| self.run(run.clone())).collect()
+        let first = chains.chains.iter().filter_map(|ladder| ladder.rungs.first());
+        first.map(|rung| rung.samples.all.iter().map(|run| self.run(run.clone())).collect()).collect()
     }
 
     /// The present state of each chain.

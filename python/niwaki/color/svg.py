@@ -12,18 +12,15 @@ from collections.abc import Mapping
 from copy import deepcopy
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
 
 import numpy as np
+from numpy.typing import NDArray
 from PIL import Image
 
 from niwaki.color.styles import INITIAL, SelectorError, Styles, declarations, tag_of
 from niwaki.errors import FileError
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 SVG = "http://www.w3.org/2000/svg"
 XLINK = "http://www.w3.org/1999/xlink"

@@ -16,3 +16,7 @@ solid.py        the union as one solid, for printing
 print_files.py  the solid as STL and 3MF
 animation.py    growth, or any sequence of scenes, as GIF or animated PNG
 """
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

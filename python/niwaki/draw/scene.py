@@ -11,18 +11,28 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from niwaki import _engine
+from niwaki import _engine, draw
+from niwaki._engine import Shape
 
 if TYPE_CHECKING:
     from PIL.Image import Image
 
-    from niwaki._engine import Shape
-    from niwaki.targets.target import Target
+
+class Volume(Protocol):
+    """What a scene should fill, as a picture needs it: a mesh that is drawn as a ghost."""
+
+    vertices: NDArray[np.float64]
+    faces: NDArray[np.int64]
+
+    @property
+    def bounds(self) -> NDArray[np.float64]:
+        """Low and high corner, (2, 3)."""
+        ...
 
 
 @dataclass(frozen=True)
@@ -107,44 +117,28 @@ class Scene:
                 count += len(v)
         return np.concatenate(vertices), np.concatenate(faces)
 
-    def picture(self, target: Target | None = None, **settings: Any) -> Image:
+    def picture(self, target: Volume | None = None, **settings: Any) -> Image:
         """Draw the scene; see `niwaki.draw.picture.picture`."""
-        from niwaki.draw.picture import picture
+        return draw.picture.picture(self, target, **settings)
 
-        return picture(self, target, **settings)
-
-    def save(self, path: str | PathLike[str], target: Target | None = None, **settings: Any) -> Path:
+    def save(self, path: str | PathLike[str], target: Volume | None = None, **settings: Any) -> Path:
         """Draw the scene into an image file whose name ends in .png, .jpg or .webp."""
-        from niwaki.draw.picture import save
-
-        return save(self, path, target, **settings)
+        return draw.picture.save(self, path, target, **settings)
 
     def export(
         self, path: str | PathLike[str], *, scale: float | None = None, fuse: float | None = None
     ) -> Path:
         """Write the scene as .glb, .obj, .ply, .stl, .3mf, .gif or .apng; see `niwaki.draw.files.export`."""
-        from niwaki.draw.files import export
+        return draw.files.export(self, path, scale=scale, fuse=fuse)
 
-        return export(self, path, scale=scale, fuse=fuse)
-
-    def animate(self, path: str | PathLike[str], target: Target | None = None, **settings: Any) -> Path:
+    def animate(self, path: str | PathLike[str], target: Volume | None = None, **settings: Any) -> Path:
         """Write the scene growing part by part, as .gif or .apng; see `niwaki.draw.animation.growth`."""
-        from niwaki.draw.animation import growth
-
-        return growth(self, path, target, **settings)
+        return draw.animation.growth(self, path, target, **settings)
 
     def _repr_png_(self) -> bytes:
-        from niwaki.draw.picture import png
-
-        return png(self.picture(size=(800, 600))) if len(self) else png(_blank())
+        return draw.picture.preview(self)
 
 
 def _natural(address: str) -> tuple[tuple[str, int], ...]:
     """Make a key that sorts `wing[10]` after `wing[9]`."""
     return tuple((text, int(digits or -1)) for text, digits in re.findall(r"([^0-9]*)([0-9]*)", address))
-
-
-def _blank() -> Image:
-    from PIL import Image as images
-
-    return images.new("RGBA", (1, 1))

@@ -11,16 +11,14 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from niwaki import _engine
+from niwaki.draw.scene import Scene
 from niwaki.errors import FileError
-
-if TYPE_CHECKING:
-    from niwaki.draw.scene import Scene
 
 #: Details of the union below this share of its longest side are melted away: slivers that a float cannot keep.
 SMALLEST = 1e-6

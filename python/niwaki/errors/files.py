@@ -1,11 +1,13 @@
-"""Errors about files that come in or go out; their texts are in the one table, `niwaki.errors.texts.files`.
+"""Files that come in or go out, and the errors about them; their texts are in `niwaki.errors.texts.files`.
 
 A message has a code, a title, the file it is about, the reason and the cure.
 """
 
 from __future__ import annotations
 
+import os
 from os import PathLike
+from pathlib import Path
 from typing import Any
 
 from niwaki.errors.kinds import NiwakiError
@@ -51,6 +53,23 @@ class FileError(NiwakiError):
             lines.append(f"  --> {self.place}")
         return "\n".join([*lines, f" = why: {why}", f" = help: {cure}"])
 
-    def __str__(self) -> str:
-        """Return the whole message."""
-        return self.render()
+
+def existing(path: str | PathLike[str]) -> Path:
+    """The path of a file that is there; an error where it is not."""
+    place = Path(path)
+    if not place.is_file():
+        raise FileError("file-missing", path, absolute=place.absolute(), folder=Path.cwd())
+    return place
+
+
+def write_whole(place: Path, data: bytes) -> Path:
+    """Write bytes under a temporary name beside the file, then rename: readers see all of it or nothing."""
+    temporary = place.with_name(f".{place.name}.{os.getpid()}.part")
+    try:
+        temporary.write_bytes(data)
+        os.replace(temporary, place)
+    except OSError as error:
+        raise FileError("file-unwritable", place, reason=error.strerror or str(error)) from error
+    finally:
+        temporary.unlink(missing_ok=True)
+    return place

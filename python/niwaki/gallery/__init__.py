@@ -10,11 +10,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from importlib import import_module
 from pkgutil import iter_modules
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-if TYPE_CHECKING:
-    from niwaki.targets.target import Target
-    from niwaki.words.models import Model
+from niwaki import targets
+from niwaki.lang.models import Model
+from niwaki.targets.target import Target
 
 #: Modules of this folder that hold no model; they are not imported to find that out.
 NOT_MODELS = ("data", "furnishings")
@@ -57,9 +57,7 @@ class Entry:
 
 def named_target(name: str) -> Target:
     """Make one of the gallery's own targets."""
-    from niwaki.targets import examples as targets
-
-    made: Target = getattr(targets, name)()
+    made: Target = getattr(targets.examples, name)()
     return made
 
 

@@ -10,6 +10,7 @@ The plan has x to the right and y upwards; in the scene they are x and -z.
 from math import cos, pi, sin
 from pathlib import Path
 
+from niwaki import model
 from niwaki.gallery import furnishings
 from niwaki.methods import smc
 from niwaki.targets.outline import load_polygon
@@ -23,7 +24,6 @@ from niwaki.words import (
     gaussian,
     infer,
     mesh,
-    model,
     poisson,
     polygon_area,
     polygon_contains,

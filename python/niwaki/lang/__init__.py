@@ -6,11 +6,14 @@ constants      which live objects may cross as data
 sites          the readable names of choices, calls and loops
 vocabulary     built-ins, `math` and our words, as operations
 core           the core form: grammar and writer
+marks          functions that are marked for the language
 program, body  what one lowering, and one function in it, collects
-expressions, comprehensions, arguments, calls, builtin_calls, statements, refuse, lower
+expressions, statements, comprehensions, arguments, callees, builtin_calls, inference, calls, refuse, lower
                the lowering: one function for each kind of syntax
 instrument, densities, plain
                a model as ordinary Python
-constraints    how far the soft constraints of a run are from holding
 compiled       models on their way to the engine
+models         `@model`
+constraints, residuals
+               the soft constraints of a run, and how far they are from holding
 """

@@ -24,10 +24,10 @@ from niwaki.errors.messages import MESSAGES
 from niwaki.errors.source import Span, span_of
 from niwaki.lang import vocabulary
 from niwaki.lang.lower import lowered
+from niwaki.lang.marks import underlying
 from niwaki.lang.names import MISSING, hashable, is_library
 from niwaki.lang.program import Program, Unit
 from niwaki.lang.scope import Scope, Variable
-from niwaki.words.models import underlying
 
 BARRIERS = (words.emit, words.factor, words.observe, words.condition)
 LEAVES = (ast.Return, ast.Break, ast.Continue)

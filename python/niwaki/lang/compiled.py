@@ -6,12 +6,37 @@ import inspect
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from difflib import get_close_matches
+from types import FunctionType
 from typing import Any
 
 from niwaki import _engine
 from niwaki.errors import InputError, ModelFault
 from niwaki.lang.core import Core
-from niwaki.words.models import Model
+from niwaki.lang.lower import lower
+from niwaki.lang.marks import Marked, P, T
+
+
+class Compiled(Marked[P, T]):
+    """A marked function with its core form and its program for the engine, each made at the first call and kept."""
+
+    def __init__(self, function: Callable[P, T]) -> None:
+        if not isinstance(function, FunctionType):
+            raise InputError("model-of-a-value", found=repr(function))
+        super().__init__(function)
+        self._core: Core | None = None
+        self._program: _engine.Program | None = None
+
+    def core(self) -> Core:
+        """The model in core form."""
+        if self._core is None:
+            self._core = lower(self.function)
+        return self._core
+
+    def program(self) -> _engine.Program:
+        """The model compiled for the engine."""
+        if self._program is None:
+            self._program = compile_core(self.core())
+        return self._program
 
 
 def compile_core(core: Core) -> _engine.Program:
@@ -20,13 +45,8 @@ def compile_core(core: Core) -> _engine.Program:
         return _engine.Program(core.text, list(core.constants), list(core.classes))
 
 
-def as_model(model: Model[..., Any] | Callable[..., Any]) -> Model[..., Any]:
-    """The model itself, or a plain function of the modelling language as one."""
-    return model if isinstance(model, Model) else Model(model)
-
-
 def task(
-    model: Model[..., Any],
+    model: Compiled[..., Any],
     args: Sequence[Any] = (),
     kwargs: Mapping[str, Any] | None = None,
     sketches: Sequence[_engine.SketchSpec] = (),
@@ -52,7 +72,7 @@ def task(
 
 
 def _bad_argument(
-    model: Model[..., Any], program: _engine.Program, given: list[Any], error: Exception
+    model: Compiled[..., Any], program: _engine.Program, given: list[Any], error: Exception
 ) -> InputError:
     """Which argument the engine cannot take."""
     for number, value in enumerate(given, 1):
@@ -63,7 +83,7 @@ def _bad_argument(
     return InputError("argument-value", number="?", name=model.name, found=str(error))
 
 
-def arguments(model: Model[..., Any], args: Sequence[Any], kwargs: Mapping[str, Any]) -> list[Any]:
+def arguments(model: Compiled[..., Any], args: Sequence[Any], kwargs: Mapping[str, Any]) -> list[Any]:
     """The arguments by position, without the defaults that nobody changed at the end."""
     core = model.core()
     try:
@@ -85,7 +105,7 @@ def arguments(model: Model[..., Any], args: Sequence[Any], kwargs: Mapping[str, 
     return [bound.arguments[name] for name in core.parameters[:last]]
 
 
-def _signature(model: Model[..., Any], given: int) -> inspect.Signature:
+def _signature(model: Compiled[..., Any], given: int) -> inspect.Signature:
     """The signature of a model; of one without its Python function, the names of its first parameters."""
     if hasattr(model, "function"):
         return inspect.signature(model.function)

@@ -5,6 +5,7 @@ sample       `Sample`, one run
 info         what each method says of its search
 chains       Markov chains: what they say, and how they go on
 hmc          what chains that follow a gradient say
+progress     how far a search is
 diagnostics  whether draws of chains can be trusted; draws for ArviZ
 gradient     the log density of a run, with its gradient
 """

@@ -1,30 +1,26 @@
-"""What Markov chains say of their search: best states, acceptance by site, trajectories; and how they go on."""
+"""What Markov chains say of their search: best states, acceptance by site, trajectories."""
 
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Iterable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from niwaki.errors import InputError
-from niwaki.lang.compiled import as_fault, translated
-from niwaki.methods import Mh, at_least_one
-from niwaki.methods.checks import bad
+from niwaki import _engine
+from niwaki.errors import InputError, ModelFault
+from niwaki.lang.compiled import as_fault
+from niwaki.methods import Mh
 from niwaki.methods.kernels import Kernel
 from niwaki.result.diagnostics import Divergences
 from niwaki.result.hmc import SOME, diverged, kept, listed, refused, say, without_slope
 from niwaki.result.info import Info
+from niwaki.result.progress import EngineWatch
 from niwaki.result.sample import Sample
 
 if TYPE_CHECKING:
-    from niwaki import _engine
-    from niwaki.errors import ModelFault
-    from niwaki.result.result import Result
     from niwaki.search import Search
-    from niwaki.search.searching import EngineWatch
 
 
 @dataclass(frozen=True)
@@ -117,15 +113,19 @@ class MhInfo(Info):
 
     Attributes
     ----------
+    search, method, seed
+        What was asked of the chains.
+    seconds : tuple of float
+        Wall and processor time so far.
     visits : list of list of int
         Of each chain, the numbers of proposals before its samples.
     """
 
-    _search: Search
-    _method: Mh
-    _seed: int
+    search: Search
+    method: Mh
+    seed: int
     _running: Running | None
-    _seconds: tuple[float, float] = (0.0, 0.0)
+    seconds: tuple[float, float] = (0.0, 0.0)
     visits: list[list[int]] = field(default_factory=list)
 
     def __getstate__(self) -> dict[str, Any]:
@@ -144,12 +144,12 @@ class MhInfo(Info):
             The result was pickled, and its chains stayed behind.
         """
         if self._running is None:
-            raise InputError("chains-gone", name=self._search.model.name)
+            raise InputError("chains-gone", name=self.search.model.name)
         return self._running
 
     def samples_of(self, runs: Iterable[_engine.Run]) -> list[Sample]:
         """Runs as samples of this search."""
-        return [Sample(run, self._search, self._seed, *self._seconds) for run in runs]
+        return [Sample(run, self.search, self.seed, *self.seconds) for run in runs]
 
     @cached_property
     def bests(self) -> list[Sample]:
@@ -180,7 +180,7 @@ class MhInfo(Info):
         return [self._travelled(*one) for one in zip(leaves, self.running.chains.trajectories(), strict=True)]
 
     def _travelled(self, leaf: Kernel, counts: dict[str, Any]) -> Trajectories:
-        fault = as_fault(counts["fault"], self._search.model.name, f"seed={self._seed}")
+        fault = as_fault(counts["fault"], self.search.model.name, f"seed={self.seed}")
         own = {"kernel": leaf, "divergences": Divergences(**counts["divergences"]), "fault": fault}
         return Trajectories(**{**counts, **own})
 
@@ -195,11 +195,11 @@ class MhInfo(Info):
 
     @property
     def _leaves(self) -> list[Kernel]:
-        return [] if self._method.kernel is None else self._method.kernel.leaves()
+        return [] if self.method.kernel is None else self.method.kernel.leaves()
 
     def warn(self) -> None:
         """Say what a person must know of the trajectories before using the samples."""
-        name = self._search.model.name
+        name = self.search.model.name
         if self._leaves and all(leaf.name in ("hmc", "nuts") for leaf in self._leaves):
             values = (item for sample in self.last for item in sample.choices.items())
             if held := sorted({path for path, value in values if isinstance(value, (bool, int))}):
@@ -214,7 +214,7 @@ class MhInfo(Info):
                 )
             if broke.energy:
                 smaller = (
-                    "raise its `target`" if self._method.warmup else "give it a smaller `step`, or a `warmup`"
+                    "raise its `target`" if self.method.warmup else "give it a smaller `step`, or a `warmup`"
                 )
                 say(diverged(broke.energy, one.settled, name, f"{smaller} (`{one.kernel!r}`)"))
             if broke.not_finite > SOME * one.made:
@@ -232,29 +232,3 @@ class MhInfo(Info):
             if not isinstance(value, (bool, int))
         }
         return sorted(sites - proposed)
-
-
-def advanced(result: Result, steps: int) -> Result:
-    """The result itself, its chains gone on for `steps` proposals each from where they are."""
-    at_least_one("steps", steps)
-    info = result.info
-    if not isinstance(info, MhInfo):
-        raise bad(
-            "method", result.method, "a result of `mh`, whose chains can go on", "`result.polish(mh(...))`"
-        )
-    chains, counted, watch, threads = info.running
-    wall, cpu = time.perf_counter(), time.process_time()
-    try:
-        with translated(result.model.name, f"seed={result.seed}"):
-            result.interrupted = chains.advance(steps, threads, watch)
-    finally:
-        result.seconds += time.perf_counter() - wall
-        result.cpu_seconds += time.process_time() - cpu
-        by_chain = [chains.samples(chain) for chain in range(info._method.chains)]
-        visits = [[run.visit for run in runs] for runs in by_chain]
-        info = replace(info, visits=visits, _seconds=(result.seconds, result.cpu_seconds))
-        result.samples = info.samples_of(run for runs in by_chain for run in runs)
-        result.sizes, result.info = [len(runs) for runs in by_chain], info
-        result.invalid = counted.invalid()
-    info.warn()
-    return result

@@ -8,6 +8,7 @@ that of the dissertation's Figures 4.3 and 4.5, with each chain's own mean and v
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import astuple, dataclass
 from operator import add
@@ -16,6 +17,8 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+from niwaki.errors import InputError
 
 Reals = NDArray[np.float64]
 
@@ -335,16 +338,12 @@ def to_arviz(draws: Mapping[str, ArrayLike], stats: Mapping[str, ArrayLike] | No
     InputError
         ArviZ is not installed.
     """
-    import warnings
-
     try:
         with warnings.catch_warnings():
             # 0.23 announces its successor whenever it is imported.
             warnings.simplefilter("ignore", FutureWarning)
             import arviz
     except ImportError:
-        from niwaki.errors import InputError
-
         raise InputError("no-arviz") from None
     posterior = {name: np.asarray(values) for name, values in draws.items()}
     groups: dict[str, Any] = {"posterior": posterior}

@@ -17,16 +17,13 @@ vector    vectors                     `v`
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from niwaki import _engine
 from niwaki.lang.compiled import translated
-
-if TYPE_CHECKING:
-    from niwaki import _engine
-    from niwaki.result.sample import Sample
 
 
 class LogDensity:
@@ -118,21 +115,3 @@ class LogDensity:
     def jax(self) -> str:
         """The text of a module with a JAX function `log_density(x)`, NaN where the model would take another path."""
         return self._density.jax()
-
-
-def log_density(sample: Sample) -> LogDensity:
-    """The log density of a model around one of its runs: priors, factors and observations, with the Jacobians.
-
-    Parameters
-    ----------
-    sample : Sample
-        Of any result: `nw.run(model, seed=1).best`, for example.
-
-    Raises
-    ------
-    InputError
-        The scene is scored by a sketch, which has no gradient, or there are no continuous choices.
-    ModelFault
-        An operation on the way to the score has no derivative, or the run is impossible; with the line.
-    """
-    return sample.log_density()

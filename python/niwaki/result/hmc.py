@@ -15,6 +15,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from niwaki import _engine
+from niwaki.errors import ModelFault
 from niwaki.lang.compiled import as_fault, translated
 from niwaki.methods import Hmc, Nuts
 from niwaki.result.diagnostics import Divergences
@@ -22,8 +24,6 @@ from niwaki.result.info import Info
 from niwaki.result.sample import Sample
 
 if TYPE_CHECKING:
-    from niwaki import _engine
-    from niwaki.errors import ModelFault
     from niwaki.search import Search
 
 Reals = NDArray[np.float64]
@@ -125,6 +125,8 @@ class HmcInfo(Info):
 
     Attributes
     ----------
+    search, seed
+        What was asked of the chains.
     log_density : array of shape (chains, draws)
         Over the coordinates in which the chains move, Jacobians included, nats.
     stats : dict of str to array

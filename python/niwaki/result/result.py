@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+import time
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
+from dataclasses import replace
 from functools import cached_property
 from itertools import accumulate, pairwise
 from os import PathLike
@@ -15,20 +17,23 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from niwaki import _engine, draw
+from niwaki.draw.scene import Scene
 from niwaki.errors import InputError
+from niwaki.lang.compiled import translated
+from niwaki.lang.models import Model
+from niwaki.methods import Method, Mh, at_least_one
 from niwaki.methods.checks import bad
-from niwaki.result.chains import MhInfo, advanced
+from niwaki.result import diagnostics
+from niwaki.result.chains import MhInfo
 from niwaki.result.hmc import HmcInfo
 from niwaki.result.info import EnumerationInfo, Info
+from niwaki.result.progress import Watch
 from niwaki.result.sample import Sample
+from niwaki.targets.sketches import Score
 
 if TYPE_CHECKING:
-    from niwaki.draw.scene import Scene
-    from niwaki.methods import Method, Mh
-    from niwaki.result.diagnostics import Summaries
-    from niwaki.search import Search, Watch
-    from niwaki.targets.sketches import Score
-    from niwaki.words.models import Model
+    from niwaki.search import Search
 
 
 class Result(Sequence[Sample]):
@@ -146,14 +151,12 @@ class Result(Sequence[Sample]):
         InputError
             ArviZ is not installed.
         """
-        from niwaki.result.diagnostics import to_arviz
-
         if isinstance(self.info, HmcInfo):
-            return to_arviz(self.draws, self.info.statistics())
+            return diagnostics.to_arviz(self.draws, self.info.statistics())
         numbers = {"lp": self._numbers("log_joint"), "log_weight": self._numbers("log_weight")}
-        return to_arviz(self.draws, numbers)
+        return diagnostics.to_arviz(self.draws, numbers)
 
-    def summary(self) -> Summaries:
+    def summary(self) -> diagnostics.Summaries:
         """Mean, deviation, standard error, effective sizes and R-hat of every number of the draws.
 
         After `hmc` and `nuts` also of the log density over coordinates, and what broke off.
@@ -163,13 +166,13 @@ class Result(Sequence[Sample]):
         InputError
             The samples do not weigh the same.
         """
-        from niwaki.result.diagnostics import summarise
-
         if isinstance(self.info, HmcInfo):
-            return summarise({**self.draws, "log density": self.info.log_density}, self.info.divergences)
+            return diagnostics.summarise(
+                {**self.draws, "log density": self.info.log_density}, self.info.divergences
+            )
         if len({sample.log_weight for sample in self.samples}) > 1:
             raise bad("method", self.method, "samples that weigh the same", "`draws` with `weights`")
-        return summarise(self.draws)
+        return diagnostics.summarise(self.draws)
 
     def _numbers(self, name: str) -> NDArray[np.float64]:
         """A number of each sample, (chains, samples of the shortest chain)."""
@@ -206,7 +209,27 @@ class Result(Sequence[Sample]):
         steps
             Proposals in each chain.
         """
-        return advanced(self, steps)
+        at_least_one("steps", steps)
+        if not isinstance(self.info, MhInfo):
+            raise bad(
+                "method", self.method, "a result of `mh`, whose chains can go on", "`result.polish(mh(...))`"
+            )
+        chains, counted, watch, threads = self.info.running
+        wall, cpu = time.perf_counter(), time.process_time()
+        try:
+            with translated(self.model.name, f"seed={self.seed}"):
+                self.interrupted = chains.advance(steps, threads, watch)
+        finally:
+            self.seconds += time.perf_counter() - wall
+            self.cpu_seconds += time.process_time() - cpu
+            by_chain = chains.samples()
+            visits = [[run.visit for run in runs] for runs in by_chain]
+            self.info = replace(self.info, visits=visits, seconds=(self.seconds, self.cpu_seconds))
+            self.samples = self.info.samples_of(run for runs in by_chain for run in runs)
+            self.sizes = [len(runs) for runs in by_chain]
+            self.invalid = counted.invalid()
+        self.info.warn()
+        return self
 
     def polish(
         self,
@@ -230,15 +253,11 @@ class Result(Sequence[Sample]):
         Result
             That of the chains, whose seconds are those of this search and their own.
         """
-        from niwaki.search.searching import polished, watcher
-
-        return polished(self, method, self.seed if seed is None else seed, threads, watcher(progress))
+        return self.search.polished(self, method, seed=seed, threads=threads, progress=progress)
 
     @cached_property
     def unique_models(self) -> int:
         """Of how many samples no other shares more than half of its choices, as (address, value) pairs."""
-        from niwaki import _engine
-
         return _engine.unique_models([sample._run for sample in self.samples])
 
     @property
@@ -293,11 +312,9 @@ class Result(Sequence[Sample]):
 
     def sheet(self, **settings: Any) -> Any:
         """All samples side by side, best first, with their numbers."""
-        from niwaki.draw.sheet import sheet
-
         ranked = sorted(self.samples, key=lambda sample: -sample.log_score)
         scenes = [sample.scene for sample in ranked]
-        return sheet(scenes, [caption(sample) for sample in ranked], self.score.target, **settings)
+        return draw.sheet.sheet(scenes, [caption(sample) for sample in ranked], self.score.target, **settings)
 
     def _repr_png_(self) -> bytes | None:
         return self.best._repr_png_() if self.samples else None

@@ -7,15 +7,15 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from niwaki import _engine, draw
+from niwaki.draw.scene import Part, Scene
 from niwaki.errors import InputError
 from niwaki.lang.compiled import translated
+from niwaki.result.gradient import LogDensity
+from niwaki.targets.target import Target
 
 if TYPE_CHECKING:
-    from niwaki import _engine
-    from niwaki.draw.scene import Scene
-    from niwaki.result.gradient import LogDensity
     from niwaki.search import Search
-    from niwaki.targets.target import Target
 
 
 class Sample:
@@ -85,8 +85,6 @@ class Sample:
 
     def log_density(self) -> LogDensity:
         """The log density around this run over its continuous choices: see `niwaki.log_density`."""
-        from niwaki.result.gradient import LogDensity
-
         with translated("model"):
             return LogDensity(self.search.task.density(self._run))
 
@@ -131,17 +129,13 @@ class Sample:
     @cached_property
     def scene(self) -> Scene:
         """The primitives, by the addresses of their `emit`."""
-        from niwaki.draw.scene import Scene
-
         return Scene(self._trace.parts)
 
     def export(
         self, path: str | PathLike[str], *, scale: float | None = None, fuse: float | None = None
     ) -> Path:
         """Write the scene as .glb, .obj, .ply, .stl, .3mf, .gif or .apng; see `niwaki.draw.files.export`."""
-        from niwaki.draw.animation import FORMATS
-
-        if Path(path).suffix.lower() in FORMATS and scale is None and fuse is None:
+        if Path(path).suffix.lower() in draw.animation.FORMATS and scale is None and fuse is None:
             return self.animate(path)
         return self.scene.export(path, scale=scale, fuse=fuse)
 
@@ -152,8 +146,6 @@ class Sample:
 
         Settings are those of `niwaki.draw.animation.growth`; the target is a ghost unless it is None.
         """
-        from niwaki.draw.scene import Part
-
         parts = [Part(address, tuple(shapes)) for address, shapes in self._trace.parts]
         return self.scene.animate(path, self._ghost(target), parts=parts, **settings)
 
@@ -171,9 +163,7 @@ class Sample:
         return target
 
     def _repr_png_(self) -> bytes | None:
-        from niwaki.draw.picture import png
-
-        return png(self.picture(size=(800, 600))) if self.primitives else None
+        return draw.picture.png(self.picture(size=(800, 600))) if self.primitives else None
 
     def __repr__(self) -> str:
         parts = [f"log score {self.log_score:.2f}", f"log prior {self.log_prior:.2f}"]
@@ -191,3 +181,21 @@ def _restored(search: Search, data: str, *rest: Any) -> Sample:
     sample = Sample(search.task.run_of_data(data), search, *rest)
     sample._is_restored = True
     return sample
+
+
+def log_density(sample: Sample) -> LogDensity:
+    """The log density of a model around one of its runs: priors, factors and observations, with the Jacobians.
+
+    Parameters
+    ----------
+    sample : Sample
+        Of any result: `nw.run(model, seed=1).best`, for example.
+
+    Raises
+    ------
+    InputError
+        The scene is scored by a sketch, which has no gradient, or there are no continuous choices.
+    ModelFault
+        An operation on the way to the score has no derivative, or the run is impossible; with the line.
+    """
+    return sample.log_density()

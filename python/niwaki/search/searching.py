@@ -5,65 +5,28 @@ from __future__ import annotations
 import time
 import warnings
 from collections import Counter
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from niwaki import _engine
 from niwaki.errors import InputError, ModelFault
-from niwaki.lang.compiled import as_model, translated
-from niwaki.methods import Hmc, Mh, Nuts, ParticleGibbs, Smc
+from niwaki.lang.compiled import translated
+from niwaki.lang.models import as_model
+from niwaki.methods import Hmc, Method, Mh, Nuts, ParticleGibbs, Smc
 from niwaki.methods.checks import bad
 from niwaki.result import Result, Sample
 from niwaki.result.chains import MhInfo, Running
 from niwaki.result.hmc import Drawn, HmcInfo
 from niwaki.result.info import INFOS, Info, PopulationInfo
-from niwaki.search.request import Search, check_polish, check_seed, check_threads
+from niwaki.result.progress import EngineWatch, Watch, watcher
+from niwaki.search.checks import check_polish, check_seed, check_threads
 
 if TYPE_CHECKING:
-    from niwaki.methods import Method
+    from niwaki.search.request import Search
 
 
 class SearchWarning(UserWarning):
     """A search gave a result, but less than was asked for."""
-
-
-@dataclass(frozen=True)
-class Progress:
-    """How far a search is; given to `progress` now and then.
-
-    Attributes
-    ----------
-    run, runs : int
-        Which of how many runs, from 0.
-    done : int
-        Barriers of a population, runs of the other methods.
-    ended : int
-        Particles that have ended.
-    best : float
-        Best log score of the population so far, nats.
-    """
-
-    run: int
-    runs: int
-    done: int
-    ended: int
-    best: float
-
-
-Watch = Callable[[Progress], None]
-#: What the engine calls: done, ended, best log score.
-EngineWatch = Callable[[int, int, float], None]
-
-
-def watcher(progress: Watch | None, number: int = 0, runs: int = 1) -> EngineWatch:
-    """What the engine calls, for a person's `progress`."""
-
-    def watch(done: int, ended: int, best: float) -> None:
-        if progress is not None:
-            progress(Progress(number, runs, done, ended, best))
-
-    return watch
 
 
 def carried_out(search: Search, threads: int | None, progress: Watch | None) -> Result:
@@ -216,7 +179,7 @@ def chains_of(
     with translated(search.model.name, f"seed={seed}"):
         chains = _engine.Chains(counted, text, seed, functions=functions, start=start, threads=threads)
     running = Running(chains, counted, watch, threads)
-    info = MhInfo(_search=search, _method=method, _seed=seed, _running=running)
+    info = MhInfo(search=search, method=method, seed=seed, _running=running)
     return Result(search, [], seed, method=method, info=info, seconds=spent).more(method.steps)
 
 

@@ -9,12 +9,13 @@ import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
+from rich.console import Console
 
-if TYPE_CHECKING:
-    from niwaki.search import Progress
+from niwaki.errors import FileError
+from niwaki.search import Progress
 
 app = typer.Typer(
     name="niwaki",
@@ -33,8 +34,6 @@ Folder = Annotated[
 
 def made_folder(place: Path) -> Path:
     """The folder, made where it is not there."""
-    from niwaki.errors import FileError
-
     try:
         place.mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -45,8 +44,6 @@ def made_folder(place: Path) -> Path:
 @contextmanager
 def progress_line(name: str) -> Iterator[Callable[[Progress], None]]:
     """A line on stderr that tells how far the search is; nothing where stderr is not a terminal."""
-    from rich.console import Console
-
     console = Console(stderr=True)
     if not console.is_terminal:
         yield lambda _: None

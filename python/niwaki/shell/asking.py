@@ -10,16 +10,14 @@ Flags that contradict one another, or lack a companion, are refused before any f
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
 from niwaki.errors import InputError
-
-if TYPE_CHECKING:
-    from niwaki.shell.finding import Found
-    from niwaki.targets.sketches import Score
-    from niwaki.targets.target import Target
+from niwaki.shell.finding import Found
+from niwaki.targets import examples, sketches
+from niwaki.targets.target import Target
 
 Triple = tuple[float, float, float]
 
@@ -129,20 +127,16 @@ class Asked:
 
     def aim(self, found: Found) -> Target | None:
         """The volume to fill: the one named; else the model's own, unless a picture is asked for."""
-        from niwaki.targets.target import Target
-
         if self.target is not None:
-            return Target.find(self.target)
+            return examples.find(self.target)
         if self.match_image is not None or self.match_shadow is not None:
             return None
         if found.entry is None or found.entry.target_name is None:
             raise InputError("no-target", name=found.reference)
-        return Target.find(f"gallery:{found.entry.target_name}")
+        return examples.find(f"gallery:{found.entry.target_name}")
 
-    def controls(self, voxel: float | None, sigma: float) -> Score:
+    def controls(self, voxel: float | None, sigma: float) -> sketches.Score:
         """Everything but the volume: what forbids comes before what scores."""
-        from niwaki.targets import sketches
-
         score = sketches.Score()
         if self.floor is not None:
             score *= sketches.floor(self.floor)

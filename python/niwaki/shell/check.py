@@ -9,7 +9,9 @@ from typing import Annotated
 import typer
 
 from niwaki.errors import ModelError
+from niwaki.lang.advice import advise
 from niwaki.shell.app import ModelName, app
+from niwaki.shell.finding import find
 
 
 @app.command()
@@ -19,9 +21,6 @@ def check(
     bytecode: Annotated[bool, typer.Option("--bytecode", help="Print the bytecode.")] = False,
 ) -> None:
     """Compile MODEL and report what it is made of, with advice; exit 1 when it does not compile."""
-    from niwaki.lang.advice import advise
-    from niwaki.shell.finding import find
-
     found = find(model)
     start = time.perf_counter()
     try:

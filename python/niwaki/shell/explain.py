@@ -7,7 +7,10 @@ from typing import Annotated
 
 import typer
 
+from niwaki.draw.reuse import WORDS, counts, draw, said
+from niwaki.search import explain as explained
 from niwaki.shell.app import ModelName, app, made_folder
+from niwaki.shell.finding import find
 
 
 @app.command()
@@ -23,10 +26,6 @@ def explain(
     ] = Path("explain.svg"),
 ) -> None:
     """Draw which calls of MODEL a proposal makes each strategy run, go on with, skip, make and take away."""
-    from niwaki.draw.reuse import WORDS, counts, draw, said
-    from niwaki.search import explain as explained
-    from niwaki.shell.finding import find
-
     found = find(model)
     told = explained(found.model, choice, seed=seed)
     made_folder(output.parent)

@@ -11,7 +11,7 @@ from typing import Any
 
 from niwaki.errors import InputError, NiwakiError
 from niwaki.gallery import Entry, entries, entry
-from niwaki.words.models import Model
+from niwaki.lang.models import Model
 
 
 @dataclass(frozen=True)

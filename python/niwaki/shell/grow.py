@@ -5,16 +5,20 @@ from __future__ import annotations
 import json
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
-from niwaki.shell import asking, settings, writing
+from niwaki import search as searches
+from niwaki.draw.picture import save_image
+from niwaki.gallery import PARTICLES
+from niwaki.result import Result, Sample
+from niwaki.result.result import caption
+from niwaki.shell import asking, run_files, settings, writing
 from niwaki.shell.app import Folder, ModelName, app, made_folder, progress_line
-
-if TYPE_CHECKING:
-    from niwaki.result import Result, Sample
-    from niwaki.shell.finding import Found
+from niwaki.shell.finding import Found, find
+from niwaki.shell.run_files import numbers
+from niwaki.targets.views import save_view
 
 
 @app.command()
@@ -61,10 +65,6 @@ def grow(
     **given: Any,
 ) -> None:
     """Grow MODEL into what is asked for; writes best.glb, best.png, sheet.png and run.json."""
-    from niwaki import search as searches
-    from niwaki.gallery import PARTICLES
-    from niwaki.shell.finding import find
-
     asked = asking.Asked(
         target,
         tuple(avoid or ()),
@@ -105,8 +105,6 @@ def grow(
     if output is not None or not as_json:
         _write(output or Path("out"), result, found, files, picture)
     if as_json:
-        from niwaki.shell.run_files import numbers
-
         print(json.dumps({"runs": [numbers(sample) for sample in result]}))
     else:
         _summary(result, output or Path("out"))
@@ -122,8 +120,6 @@ def _write(
     picture: bool,
 ) -> None:
     """The record first: whatever fails after it can be made again from there."""
-    from niwaki.shell import run_files
-
     folder = made_folder(output)
     run_files.save(folder / "run.json", run_files.written(result, found))
     best: Sample = result.best
@@ -131,9 +127,6 @@ def _write(
         print("warning: the best run emitted nothing, so there is no mesh and no picture", file=sys.stderr)
         return
     if picture:
-        from niwaki.draw.picture import save_image
-        from niwaki.draw.views import save_view
-
         best.save(folder / "best.png")
         save_image(lambda: result.sheet(), folder / "sheet.png")
         for view in result.score.views:
@@ -142,7 +135,6 @@ def _write(
 
 
 def _summary(result: Result, folder: Path) -> None:
-    from niwaki.result.result import caption
 
     for sample in result:
         print(f"{caption(sample)}   {sample.primitives} primitives   {sample.seconds:.2f} s")

@@ -9,6 +9,7 @@ import typer
 
 from niwaki.shell import writing
 from niwaki.shell.app import Folder, app, made_folder
+from niwaki.shell.run_files import load, replayed
 
 
 @app.command()
@@ -26,8 +27,6 @@ def replay(
     picture: Annotated[bool, typer.Option("--picture/--no-picture", help="Draw best.png.")] = True,
 ) -> None:
     """Make the best result of a search again, byte for byte, in any format."""
-    from niwaki.shell.run_files import load, replayed
-
     files = writing.Files.asked(formats, scale, fuse, frames, size)
     sample = replayed(load(run), number)
     folder = made_folder(output or Path("out"))

@@ -15,6 +15,7 @@ from typing import Any
 
 from niwaki import _engine
 from niwaki.errors import InputError
+from niwaki.errors.files import write_whole
 from niwaki.lang.compiled import translated
 from niwaki.result import Result, Sample
 from niwaki.search import Search
@@ -83,8 +84,6 @@ def _chosen(value: Any) -> Any:
 
 def save(path: str | PathLike[str], data: dict[str, Any]) -> Path:
     """Write a search, whole or not at all."""
-    from niwaki.draw.picture import write_whole
-
     return write_whole(Path(path), (json.dumps(data, indent=1, allow_nan=False) + "\n").encode())
 
 

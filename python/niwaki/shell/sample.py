@@ -10,19 +10,23 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
+from rich.console import Console
 
-from niwaki import kernels
+from niwaki import kernels, search
+from niwaki.draw.picture import save_image
+from niwaki.errors.files import write_whole
 from niwaki.methods import Mh
-from niwaki.shell import settings
+from niwaki.result import Result
+from niwaki.search import Progress
+from niwaki.shell import run_files, settings
 from niwaki.shell.app import Folder, ModelName, app, made_folder
-
-if TYPE_CHECKING:
-    from niwaki.result import Result
-    from niwaki.search import Progress
-    from niwaki.shell.finding import Found
+from niwaki.shell.finding import Found, find
+from niwaki.shell.run_files import numbers
+from niwaki.targets import examples
+from niwaki.targets.sketches import Score, no_self_intersection, volume_match
 
 
 @app.command()
@@ -51,15 +55,10 @@ def sample(
     **given: Any,
 ) -> None:
     """Sample MODEL by Markov chains; writes samples.csv and run.json, and best.glb, best.png, sheet.png of scenes."""
-    from niwaki import search
-    from niwaki.shell.finding import find
-    from niwaki.targets.sketches import Score, no_self_intersection, volume_match
-    from niwaki.targets.target import Target
-
     found = find(model)
     score = Score()
     if target is not None:
-        score = no_self_intersection() * volume_match(Target.find(target), voxel, sigma)
+        score = no_self_intersection() * volume_match(examples.find(target), voxel, sigma)
     given = settings.typed(given)
     steps = given.get("steps", Mh.steps)
     method = Mh(**{"kernel": kernels.mh(), "chains": 4, "warmup": steps // 5, "keep": 100, **given})
@@ -70,8 +69,6 @@ def sample(
     if output is not None or not as_json:
         _write(output or Path("out"), result, found, picture)
     if as_json:
-        from niwaki.shell.run_files import numbers
-
         print(json.dumps({"runs": [numbers(one) for one in result.bests]}))
     else:
         _summary(result, output or Path("out"))
@@ -80,9 +77,6 @@ def sample(
 
 
 def _write(output: Path, result: Result, found: Found, picture: bool) -> None:
-    from niwaki.draw.picture import save_image, write_whole
-    from niwaki.result import Result
-    from niwaki.shell import run_files
 
     folder = made_folder(output)
     # The best of each chain is what can be replayed.
@@ -127,8 +121,6 @@ def _summary(result: Result, folder: Path) -> None:
 @contextmanager
 def _shown(name: str, proposals: int) -> Iterator[Callable[[Progress], None]]:
     """A line on stderr that tells how far the chains are; nothing where stderr is not a terminal."""
-    from rich.console import Console
-
     console = Console(stderr=True)
     if not console.is_terminal:
         yield lambda _: None

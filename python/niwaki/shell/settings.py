@@ -16,6 +16,7 @@ import typer
 from niwaki import kernels
 from niwaki.errors import InputError
 from niwaki.methods import Method, Mh, ParticleGibbs, Pimh, Smc
+from niwaki.search.asking import sharpened
 
 #: The methods of `niwaki grow`, by the name that is typed.
 METHODS: dict[str, type[Method]] = {"smc": Smc, "particle-gibbs": ParticleGibbs, "pimh": Pimh}
@@ -122,8 +123,6 @@ def method(name: str, given: dict[str, Any], usual: int) -> Method:
     usual
         The number of particles that suits the model.
     """
-    from niwaki.search.asking import sharpened
-
     chosen = METHODS.get(name)
     if chosen is None:
         raise InputError(

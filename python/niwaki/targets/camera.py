@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from niwaki.errors import FileError, InputError
+from niwaki.errors.files import existing, write_whole
 
 Triple = tuple[float, float, float]
 
@@ -123,9 +124,7 @@ class Camera:
         InputError
             `bad-camera`: a name is missing or unknown, or a value makes no camera.
         """
-        place = Path(path)
-        if not place.is_file():
-            raise FileError("file-missing", path, absolute=place.absolute(), folder=Path.cwd())
+        place = existing(path)
         try:
             data = json.loads(place.read_text(encoding="utf-8"))
         except (ValueError, OSError) as error:
@@ -174,8 +173,6 @@ class Camera:
 
     def save(self, path: str | PathLike[str]) -> Path:
         """Write the JSON file."""
-        from niwaki.draw.picture import write_whole
-
         return write_whole(Path(path), (json.dumps(self.to_dict(), indent=2) + "\n").encode())
 
     def lens(self) -> tuple[Triple, Triple, Triple, bool, float, float]:

@@ -12,8 +12,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from PIL import Image as Pil
+from PIL import UnidentifiedImageError
 
 from niwaki.errors import FileError, InputError
+from niwaki.errors.files import existing
 
 if TYPE_CHECKING:
     from PIL.Image import Image as PilImage
@@ -90,11 +93,7 @@ def _values(image: Image) -> NDArray[Any]:
 
 
 def _read(place: Path) -> NDArray[Any]:
-    from PIL import Image as Pil
-    from PIL import UnidentifiedImageError
-
-    if not place.is_file():
-        raise FileError("file-missing", place, absolute=place.absolute(), folder=Path.cwd())
+    existing(place)
     try:
         with Pil.open(place) as opened:
             columns, rows = opened.size

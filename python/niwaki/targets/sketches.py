@@ -18,14 +18,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from niwaki import _engine
+from niwaki import _engine, targets
 from niwaki.errors import InputError
+from niwaki.targets.camera import Camera
+from niwaki.targets.target import Receiver, Target
 
 if TYPE_CHECKING:
     from niwaki.draw.scene import Scene
-    from niwaki.targets.camera import Camera
     from niwaki.targets.images import Image
-    from niwaki.targets.target import Receiver, Target
 
     Place = str | PathLike[str]
     CameraLike = Camera | Place | Mapping[str, Any]
@@ -205,8 +205,6 @@ def match_image(
     sigma
         Standard deviation of the share of the weight that may be wrong: smaller is stricter.
     """
-    from niwaki.targets.camera import Camera
-
     seen_by = Camera.of(camera)
     on, greys = _wish(image, weight_image)
     check_positive("sigma", sigma)
@@ -241,9 +239,6 @@ def match_shadow(
         Who sees the shadow; when left out, an orthographic camera that looks along the light at the middle of the
         receiver and shows its whole extent along x.
     """
-    from niwaki.targets.camera import Camera
-    from niwaki.targets.target import Receiver
-
     on, greys = _wish(image, weight_image)
     check_positive("sigma", sigma)
     floor = receiver if isinstance(receiver, Receiver) else Receiver.load(receiver)
@@ -283,8 +278,6 @@ def avoid(obstacle: Target | Place, voxel: float | None = None) -> Score:
         Size of a cell, scene units; the scene keeps up to two cells away. About 65 thousand cells around the obstacle
         when left out.
     """
-    from niwaki.targets.target import Target
-
     solid = obstacle if isinstance(obstacle, Target) else Target.load(obstacle)
     size = check_positive("voxel", automatic_voxel(solid) if voxel is None else voxel)
     with geometry_errors(solid, size):
@@ -312,8 +305,6 @@ def overshoot(
     sigma
         Standard deviation of the lengths outside, summed over the six sides, as shares of the box.
     """
-    from niwaki.targets.target import Target
-
     check_positive("sigma", sigma)
     corners = domain.bounds if isinstance(domain, Target) else domain
     try:
@@ -357,10 +348,8 @@ def _score(
 
 
 def _wish(image: Image, weight_image: Image | None) -> tuple[NDArray[np.bool_], NDArray[np.uint8] | None]:
-    from niwaki.targets import images
-
-    on = images.silhouette(image)
-    return on, None if weight_image is None else images.weights(weight_image, on)
+    on = targets.images.silhouette(image)
+    return on, None if weight_image is None else targets.images.weights(weight_image, on)
 
 
 def _direction(name: str, value: Any, zero: bool = False) -> tuple[float, float, float]:

@@ -6,7 +6,7 @@ with several objects is one target; its closed parts may overlap.
 
 from __future__ import annotations
 
-import os
+import sys
 import warnings
 from os import PathLike
 from pathlib import Path
@@ -15,19 +15,15 @@ from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from niwaki.errors import FileError, InputError
+from niwaki import draw, targets
+from niwaki._engine import Shape
+from niwaki.draw.scene import Scene
+from niwaki.errors import FileError
+from niwaki.targets.camera import Camera
+from niwaki.targets.memory import BYTES_PER_TRIANGLE, check_memory
 
 if TYPE_CHECKING:
     from PIL.Image import Image
-
-    from niwaki.targets.camera import Camera
-
-#: Memory that a mesh takes while it is checked and filled, and while its file is read: measured on closed meshes of a
-#: million and ten million triangles, the worst of the formats.
-BYTES_PER_TRIANGLE = 200
-BYTES_PER_BYTE = 20
-
-FORMATS = (".obj", ".stl", ".ply", ".glb", ".gltf")
 
 
 class TargetWarning(UserWarning):
@@ -80,7 +76,7 @@ class Target:
         self.name = name
         self.source: str | None = None
         count = len(self.faces)
-        _check_memory(name, f"{count:,} triangles", count * BYTES_PER_TRIANGLE)
+        check_memory(name, f"{count:,} triangles", count * BYTES_PER_TRIANGLE)
         _check(self.vertices, self.faces, name)
         self.vertices, self.faces = _welded(self.vertices, self.faces)
         if len(self.faces) == 0:
@@ -111,20 +107,8 @@ class Target:
         TargetWarning
             The mesh is not closed; counts its open edges.
         """
-        vertices, faces = _load(path)
+        vertices, faces = targets.reading.load(path)
         return _from(path, cls(vertices, faces, name=str(path)))
-
-    @classmethod
-    def find(cls, source: str) -> Target:
-        """The target of a `source`: a file, or `gallery:` and the name of a target there."""
-        from niwaki.targets.examples import TARGETS
-
-        made = TARGETS.get(source.removeprefix("gallery:").replace("-", "_"))
-        if source.startswith("gallery:") and made is not None:
-            found = made()
-            found.source = f"gallery:{made.__name__}"
-            return found
-        return cls.load(source)
 
     def __repr__(self) -> str:
         """Name, triangles, extent."""
@@ -151,16 +135,11 @@ class Target:
 
     def picture(self, **settings: Any) -> Image:
         """Draw the target as a solid of grey clay; settings as for a scene's picture."""
-        from niwaki._engine import Shape
-        from niwaki.draw.scene import Scene
-
         clay = Shape.mesh(self.vertices, self.faces, color=(0.72, 0.71, 0.69))
         return Scene([(self.name, [clay])]).picture(**settings)
 
     def _repr_png_(self) -> bytes:
-        from niwaki.draw.picture import png
-
-        return png(self.picture(size=(800, 600)))
+        return draw.picture.png(self.picture(size=(800, 600)))
 
 
 class Receiver:
@@ -193,13 +172,8 @@ class Receiver:
     @classmethod
     def load(cls, path: str | PathLike[str]) -> Receiver:
         """Read a receiver from a mesh file; formats as for `Target.load`."""
-        vertices, faces = _load(path)
+        vertices, faces = targets.reading.load(path)
         return _from(path, cls(vertices, faces, name=str(path)))
-
-    @classmethod
-    def find(cls, source: str) -> Receiver:
-        """The receiver of a `source`, a file."""
-        return cls.load(source)
 
     @classmethod
     def floor(
@@ -233,8 +207,6 @@ class Receiver:
         aspect
             Width of the picture over its height.
         """
-        from niwaki.targets.camera import Camera
-
         low, high = self.bounds
         middle, extent = (low + high) / 2, high - low
         along = np.asarray(light, dtype=np.float64)
@@ -244,53 +216,6 @@ class Receiver:
         up = (0.0, 0.0, -1.0) if abs(along[2]) < 0.999 else (0.0, 1.0, 0.0)
         width = float(extent[0]) or float(np.linalg.norm(extent))
         return Camera.orthographic(eye.tolist(), middle.tolist(), up, height=width / aspect)
-
-
-def _load(path: str | PathLike[str]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Vertices and faces of a mesh file."""
-    place = Path(path)
-    suffix = place.suffix.lower()
-    if not place.is_file():
-        raise FileError("file-missing", path, absolute=place.absolute(), folder=Path.cwd())
-    if suffix not in FORMATS:
-        raise FileError(
-            "file-format",
-            path,
-            suffix=place.suffix or "no suffix",
-            done="read",
-            formats=", ".join(FORMATS),
-        )
-    size = place.stat().st_size
-    if size == 0:
-        raise FileError("file-unreadable", path, suffix=suffix, reason="the file holds no bytes")
-    _check_memory(str(path), f"{size / 1e6:,.0f} MB on disk", size * BYTES_PER_BYTE)
-    return _read(place, suffix)
-
-
-def _read(place: Path, suffix: str) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Vertices and faces of all objects of a file, each placed as its file places it."""
-    import trimesh
-
-    options: dict[str, Any] = {"skip_materials": True} if suffix == ".obj" else {}
-    try:
-        loaded = trimesh.load_scene(place, process=False, **options)
-        parts = [part for part in loaded.dump() if isinstance(part, trimesh.Trimesh)]
-        arrays = [(np.asarray(part.vertices, np.float64), np.asarray(part.faces, np.int64)) for part in parts]
-    except Exception as error:  # readers of other people's formats fail in every way there is
-        reason = " ".join(str(error).split()) or type(error).__name__
-        raise FileError("file-unreadable", place, suffix=suffix, reason=reason) from error
-    if not any(len(faces) for _, faces in arrays):
-        found = "the file holds points or curves only" if loaded.geometry else "the file holds no object"
-        raise FileError("target-empty", place, reason=found)
-    starts = np.cumsum([0, *(len(vertices) for vertices, _ in arrays)])
-    for vertices, faces in arrays:
-        if len(faces) and (faces.min() < 0 or faces.max() >= len(vertices)):
-            reason = f"a face names vertex {int(faces.max()) + 1} of {len(vertices)}"
-            raise FileError("file-unreadable", place, suffix=suffix, reason=reason)
-    return (
-        np.concatenate([vertices for vertices, _ in arrays]),
-        np.concatenate([faces + start for (_, faces), start in zip(arrays, starts, strict=False)]),
-    )
 
 
 def _check_arrays(vertices: NDArray[np.float64], faces: NDArray[np.int64], name: str) -> None:
@@ -353,38 +278,8 @@ def _open_edges(faces: NDArray[np.int64]) -> int:
     return int((uses % 2 == 1).sum())
 
 
-def _check_memory(name: str, what: str, needed: int) -> None:
-    """Refuse a mesh that would not fit while it is read, checked and filled."""
-    free = _free_memory()
-    if needed > free:
-        raise InputError(
-            "mesh-too-large",
-            name=name,
-            what=what,
-            needed=f"{needed / 1e9:.1f} GB",
-            free=f"{free / 1e9:.1f} GB",
-        )
-
-
-def _free_memory() -> int:
-    """Bytes that a program can still get; without an answer of the system, as many as there can be."""
-    try:
-        with open("/proc/meminfo", encoding="ascii") as lines:
-            for line in lines:
-                if line.startswith("MemAvailable:"):
-                    return int(line.split()[1]) * 1024
-    except (OSError, ValueError):
-        pass
-    try:
-        return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
-    except (AttributeError, OSError, ValueError):
-        return 1 << 62
-
-
 def _outside() -> int:
     """How far up the caller's own code is, for a warning's place."""
-    import sys
-
     depth = 2
     frame = sys._getframe(2)
     while frame is not None and frame.f_globals.get("__name__") == __name__ and frame.f_back is not None:

@@ -24,7 +24,7 @@ GOLDEN = Path(__file__).parents[2] / "golden"
 TEXT = """
 import math
 
-from niwaki.words import *
+from niwaki import model; from niwaki.words import *
 
 @model
 def garden(n=3):

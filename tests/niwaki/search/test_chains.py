@@ -22,7 +22,7 @@ from typer.testing import CliRunner
 GOLDEN = Path(__file__).parents[2] / "golden"
 
 TEXT = """
-from niwaki.words import *
+from niwaki import model; from niwaki.words import *
 
 @model
 def garden(n=5):

@@ -14,6 +14,7 @@ import niwaki as nw
 import numpy as np
 import pytest
 from niwaki import kernels as k
+from niwaki import model
 from niwaki.errors import NiwakiError
 from niwaki.methods import Method
 from niwaki.words import (
@@ -25,7 +26,6 @@ from niwaki.words import (
     flip,
     future,
     gaussian,
-    model,
     observe,
     poisson,
 )

@@ -21,7 +21,7 @@ from niwaki.targets.examples import ship
 
 MODEL = """
     from niwaki import *
-    from niwaki.words import *
+    from niwaki import host, model; from niwaki.words import *
 
     SIZES = (0.5, 1.0)
     BLOCK = box((0, 0.5, 0), (1, 1, 1))

@@ -22,7 +22,7 @@ GOLDEN = Path(__file__).parents[2] / "golden"
 
 def load(text: str, name: str = "garden.py") -> Any:
     """The model `m` of a program."""
-    whole = f"from niwaki.words import *\n\n{text}"
+    whole = f"from niwaki import host, model; from niwaki.words import *\n\n{text}"
     linecache.cache[name] = (len(whole), None, whole.splitlines(True), name)
     space: dict[str, Any] = {"__name__": "garden"}
     exec(compile(whole, name, "exec"), space)

@@ -19,7 +19,7 @@ GOLDEN = Path(__file__).parents[2] / "golden"
 
 TEXT = """
 import math
-from niwaki.words import *
+from niwaki import model; from niwaki.words import *
 
 @model
 def beads(n=3):

@@ -12,9 +12,9 @@ import pytest
 import trimesh
 from niwaki import box
 from niwaki.draw.scene import Scene
-from niwaki.draw.views import INK, MISSING
 from niwaki.errors import NiwakiError
 from niwaki.shell.main import app
+from niwaki.targets.views import INK, MISSING
 from PIL import Image, ImageDraw
 from typer.testing import CliRunner
 

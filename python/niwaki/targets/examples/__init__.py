@@ -5,7 +5,7 @@
 - `images`                   pictures of silhouettes and shadows
 - `lofts`                    what the solids are built from
 
-All lengths are scene units, y is up. Images are loaded when they are asked for.
+All lengths are scene units, y is up.
 """
 
 from __future__ import annotations
@@ -13,16 +13,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+from PIL import Image
+
+from niwaki.targets.examples import images
 from niwaki.targets.examples.obstacles import emblem, funnel, gem, ledges
 from niwaki.targets.examples.ships import dart, ship
 from niwaki.targets.examples.towns import crescent, downtown
 from niwaki.targets.examples.trees import bent_tube, fan, forked_tree, niwaki, umbrella
 from niwaki.targets.target import Target
-
-if TYPE_CHECKING:
-    from PIL.Image import Image
 
 __all__ = [
     "IMAGES",
@@ -33,6 +32,7 @@ __all__ = [
     "downtown",
     "emblem",
     "fan",
+    "find",
     "forked_tree",
     "funnel",
     "gem",
@@ -65,12 +65,20 @@ TARGETS: dict[str, Callable[[], Target]] = {make.__name__: make for make in SOLI
 IMAGES = ("digits", "face", "face_stroke", "ship_front", "skyline")
 
 
-def image(name: str) -> Image:
+def image(name: str) -> Image.Image:
     """Draw the image of that name, one of `IMAGES`."""
-    from niwaki.targets.examples import images
-
-    drawn: Image = getattr(images, name)()
+    drawn: Image.Image = getattr(images, name)()
     return drawn
+
+
+def find(source: str) -> Target:
+    """The target of a `Target.source`: a file, or `gallery:` and the name of a target here."""
+    made = TARGETS.get(source.removeprefix("gallery:").replace("-", "_"))
+    if source.startswith("gallery:") and made is not None:
+        found = made()
+        found.source = f"gallery:{made.__name__}"
+        return found
+    return Target.load(source)
 
 
 def write_all(folder: str | PathLike[str]) -> list[Path]:

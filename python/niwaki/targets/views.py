@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,11 +16,9 @@ from PIL import Image, ImageDraw, ImageFont
 
 from niwaki.draw.picture import Camera as Eye
 from niwaki.draw.picture import picture, save_image
-
-if TYPE_CHECKING:
-    from niwaki.draw.scene import Scene
-    from niwaki.targets.camera import Camera
-    from niwaki.targets.sketches import View
+from niwaki.draw.scene import Scene
+from niwaki.targets.camera import Camera
+from niwaki.targets.sketches import View
 
 Rgb = tuple[int, int, int]
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from niwaki import _engine
 from niwaki.draw.scene import Scene
-from niwaki.draw.views import INK, MISSING, PAPER, SHADE, SURPLUS, eye, save_view, view_sheet
+from niwaki.targets.views import INK, MISSING, PAPER, SHADE, SURPLUS, eye, save_view, view_sheet
 from PIL import Image
 
 ON = np.zeros((100, 100), dtype=bool)
