@@ -1,4 +1,4 @@
-//! Log densities with their gradients behind the door.
+//! Log densities with their gradients for Python.
 
 use crate::faults;
 use crate::values::Classes;
@@ -166,7 +166,7 @@ impl PyDensity {
     }
 }
 
-/// Puts this room into the module.
+/// Puts this part into the module.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PyCoordinates>()?;
     module.add_class::<PyDensity>()

@@ -1,11 +1,11 @@
-//! The door between Python and the engine: the only crate that knows Python.
+//! The border between Python and the engine: the only crate that knows Python.
 //!
-//! One file for each room behind the door; this one only registers them.
+//! One file for each part; this one only registers them.
 //!
 //! * `values`: Python's objects to the machine's values, and back; `faults`: faults as data;
 //! * `model`: compiled models; `search`: algorithms; `chains`: Markov chains;
 //!   `runs`: what they find; `gradients`: log densities with their gradients; `trajectories`: chains that follow them;
-//! * `distributions`, `geometry`, `views`, `pictures`: the rooms below, by themselves.
+//! * `distributions`, `geometry`, `views`, `pictures`: what lies below, by itself.
 
 mod chains;
 mod distributions;

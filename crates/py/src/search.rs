@@ -1,4 +1,4 @@
-//! Searches behind the door: a task and the algorithms that answer it.
+//! Searches for Python: a task and the algorithms that answer it.
 //!
 //! The interpreter's lock is released while the engine works. Whoever watches is called every [`PAUSE`]; if that
 //! raises `KeyboardInterrupt` (or Ctrl-C was pressed), the search stops at its next barrier and gives what it has.
@@ -32,7 +32,7 @@ use std::time::Duration;
 /// Time between two calls of whoever watches.
 const PAUSE: Duration = Duration::from_millis(50);
 
-/// What a search tells whoever watches, and whether it should stop.
+/// What a search reports to whoever watches, and whether it should stop.
 #[derive(Default)]
 pub(crate) struct Watch {
     stop: AtomicBool,
@@ -100,7 +100,7 @@ pub(crate) fn detached<T: Send>(
             worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
         })
     });
-    // However short the search was, whoever watches is told how it ended.
+    // However short the search was, whoever watches hears how it ended.
     if raised.is_none() && done.is_ok() {
         raised = watch.tell(callable).err();
     }
@@ -161,7 +161,7 @@ impl PyTask {
     /// the method says of its search. ``functions`` are the users' proposals that kernels name by number; ``start`` is the
     /// run that a chain of whole runs starts from.
     #[pyo3(signature = (method, seed, *, functions=Vec::new(), start=None, threads=None, watch=None))]
-    #[expect(clippy::too_many_arguments, reason = "what a search is told")]
+    #[expect(clippy::too_many_arguments, reason = "what a search is asked")]
     fn search<'py>(
         &self,
         py: Python<'py>,
@@ -340,7 +340,7 @@ fn fingerprint() -> String {
     format!("{:032x}", niwaki_math::fingerprint::fingerprint())
 }
 
-/// Puts this room into the module.
+/// Puts this part into the module.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(check_inside, module)?)?;
     module.add_function(wrap_pyfunction!(fingerprint, module)?)?;

@@ -163,9 +163,9 @@ def test_samples_are_bounded() -> None:
     made = compiled.task(GARDEN, (), {})
     chains = nw._engine.Chains(made, nw.mh(thin=1).text()[0], 1, room=100)
     chains.advance(2000)
-    kept = chains.samples(0)
+    kept = chains.samples()[0]
     assert len(kept) * 8 <= 100
-    assert [outcome.visit for outcome in kept] == list(range(chains.thin()[0], 2001, chains.thin()[0]))
+    assert [run.visit for run in kept] == list(range(chains.thin()[0], 2001, chains.thin()[0]))
 
 
 def test_ctrl_c_gives_what_there_is() -> None:

@@ -218,9 +218,9 @@ pub struct Draws {
     pub steps: Vec<u32>,
     /// Doublings for each draw.
     pub depth: Vec<u32>,
-    /// Whether a trajectory on the way to each draw broke off for another reason than structure.
+    /// Whether a trajectory between each draw and the one before broke off for another reason than structure.
     pub diverging: Vec<bool>,
-    /// Whether a trajectory on the way to each draw was refused for structure ([`Cause::Guard`]).
+    /// Whether a trajectory between each draw and the one before was refused for structure ([`Cause::Guard`]).
     pub off_structure: Vec<bool>,
     /// The trajectories that broke off after warm-up.
     pub divergences: Vec<Divergence>,
@@ -285,7 +285,7 @@ impl Draws {
     }
 }
 
-/// How trajectories on the way to one draw broke off, if they did.
+/// How trajectories between two draws broke off, if they did.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Marks {
     diverging: bool,
@@ -386,7 +386,7 @@ impl<'a, P: Potential> Ongoing<'a, P> {
         }
     }
 
-    /// Tells whoever watches, now and then; ends when they say so.
+    /// Asks whoever watches, now and then, whether to go on.
     pub(super) fn look(&mut self, watch: &dyn Fn(u32) -> bool) {
         let visit = self.chain.visit;
         self.draws.interrupted |= visit.is_multiple_of(GLANCE) && !watch(visit as u32);

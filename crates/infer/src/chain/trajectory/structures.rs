@@ -83,7 +83,7 @@ fn is_continuous(value: &Value) -> bool {
 }
 
 impl Structures {
-    /// Makes the structure of a trace the present one: it is recorded where it is new. `moves` tells of a choice's number
+    /// Makes the structure of a trace the present one: it is recorded where it is new. `moves` says of a choice's number
     /// whether it may move.
     ///
     /// # Errors

@@ -25,7 +25,7 @@ pub struct Travel {
 }
 
 impl Travel {
-    /// Counts a transition; `fault` tells why its gradient was no number, where it was none.
+    /// Counts a transition; `fault` says why its gradient was no number, where it was none.
     pub(crate) fn count(
         &mut self,
         made: &Transition,
