@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import sys
 import warnings
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -89,6 +89,15 @@ def without_slope(count: int, name: str, fault: ModelFault | None) -> str:
     return (
         f"{count} trajectories of `{name}` reached points without a finite gradient and were rejected; {why}"
     )
+
+
+def together(chains: Sequence[Mapping[str, NDArray[Any]]]) -> dict[str, NDArray[Any]]:
+    """The values of several chains, (chains, draws, ...), of the choices that all of them have."""
+    return {
+        path: np.array([chain[path] for chain in chains])
+        for path, values in (chains[0].items() if chains else ())
+        if all(path in chain and chain[path].shape == values.shape for chain in chains)
+    }
 
 
 class Drawn(Sequence[Sample]):
@@ -209,6 +218,12 @@ class HmcInfo(Info):
             }
 
         return self._of_each(by_address)
+
+    @cached_property
+    def draws(self) -> dict[str, Reals]:
+        """Values of the continuous choices by address, of those that all chains have: as `Result.draws`."""
+        least = min(self.sizes)
+        return together([{path: x[:least] for path, x in chain.items()} for chain in self.values])
 
     def choices(self, chain: int, draw: int) -> dict[str, Any]:
         """Every choice of a draw by its address."""

@@ -26,7 +26,7 @@ from niwaki.methods import Method, Mh, at_least_one
 from niwaki.methods.checks import bad
 from niwaki.result import diagnostics
 from niwaki.result.chains import MhInfo
-from niwaki.result.hmc import HmcInfo
+from niwaki.result.hmc import HmcInfo, together
 from niwaki.result.info import EnumerationInfo, Info
 from niwaki.result.progress import Watch
 from niwaki.result.sample import Sample
@@ -132,16 +132,10 @@ class Result(Sequence[Sample]):
         continuous choices); of as many samples as the shortest chain has. Where samples have weights, they are not
         among these: see `weights`.
         """
-        least = min(self.sizes, default=0)
         if isinstance(self.info, HmcInfo):
-            chains = [{path: x[:least] for path, x in chain.items()} for chain in self.info.values]
-        else:
-            chains = [_columns(chain[:least]) for chain in self.by_chain]
-        return {
-            path: np.array([chain[path] for chain in chains])
-            for path, values in (chains[0].items() if chains else ())
-            if all(path in chain and chain[path].shape == values.shape for chain in chains)
-        }
+            return self.info.draws
+        least = min(self.sizes, default=0)
+        return together([_columns(chain[:least]) for chain in self.by_chain])
 
     def to_arviz(self) -> Any:
         """The draws for ArviZ, with the samples' statistics: a `DataTree` with 1.x, an `InferenceData` before.
