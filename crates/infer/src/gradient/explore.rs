@@ -23,7 +23,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 /// What one chain found.
 pub struct Explored {
-    /// Where it came through, in coordinates.
+    /// Its draws, in coordinates.
     pub draws: Draws,
     /// A recording of its structure.
     pub recorded: Arc<Recorded>,
@@ -31,8 +31,6 @@ pub struct Explored {
     pub fixed: Vec<Choice>,
     /// The values of the continuous choices by rows, `(draws, sum of widths)`.
     pub numbers: Vec<f64>,
-    /// How often the program was recorded.
-    pub recordings: usize,
     /// What the first trajectory met, after warm-up, that came to a point without a finite gradient.
     pub fault: Option<Box<RunFault>>,
 }
@@ -267,7 +265,7 @@ fn explored(
         numbers.extend(target.recorded().numbers(x));
     }
     let fixed = fixed(task, &recorded, start)?;
-    Ok(Explored { fixed, numbers, recordings: target.recordings(), fault, draws, recorded })
+    Ok(Explored { fixed, numbers, fault, draws, recorded })
 }
 
 /// The fixed choices of a recorded run by name.
