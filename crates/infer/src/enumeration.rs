@@ -182,6 +182,6 @@ mod tests {
         let task = Task::new(Arc::new(compile(&parse(&possible).unwrap(), vec![]).unwrap()));
         let found = enumerate(&task, 100, &mut |_| true).unwrap();
         assert!(found.runs == 1 && (found.log_evidence - 0.1f64.ln()).abs() < 1e-9);
-        assert_eq!(importance(&task, None, 300, 1, &mut |_| true).unwrap().samples.len(), 300);
+        assert_eq!(importance(&task, None, 300, 1, &mut |_| true).unwrap().runs.len(), 300);
     }
 }

@@ -94,12 +94,12 @@ impl Inner {
         match self.keep {
             Keep::Sample => {
                 let first = found.chains.first().and_then(|chain| chain.rungs.first());
-                first.map(|rung| rung.now(&task.program).facts.value).ok_or_else(impossible)
+                first.map(|rung| rung.now(&task.program).value).ok_or_else(impossible)
             }
             Keep::Best => {
                 let best = (0..found.chains.len()).max_by(|a, b| score(a).total_cmp(&score(b)));
                 let rung = best.and_then(|at| found.chains[at].best()).ok_or_else(impossible)?;
-                Ok(rung.best.get(&rung.state, task)?.facts.value)
+                Ok(rung.best.get(&rung.state, task)?.value)
             }
         }
     }

@@ -1,4 +1,4 @@
-//! Distributions behind the door: densities, draws and supports, as plain functions of plain values.
+//! Distributions for Python: densities, draws and supports, as plain functions of plain values.
 //!
 //! Parameters are numbers, truth values, lists, tuples or arrays of them, and for mixtures lists of
 //! `(family, parameters)`. What a family cannot use is a `BadParameter`, which is a `ValueError`.
@@ -214,7 +214,7 @@ fn parameter_names(family: &str) -> PyResult<Vec<&'static str>> {
     Ok(named(family)?.parameters().to_vec())
 }
 
-/// Adds this room's names to the engine.
+/// Adds this part's names to the engine.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("BadParameter", module.py().get_type::<BadParameter>())?;
     module.add_function(wrap_pyfunction!(log_density, module)?)?;

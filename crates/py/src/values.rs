@@ -1,4 +1,4 @@
-//! Values through the door: Python's objects to the machine's values, and back.
+//! Values at the border: Python's objects to the machine's values, and back.
 //!
 //! | Python | machine |
 //! | --- | --- |
@@ -254,7 +254,7 @@ fn drawn<'py>(py: Python<'py>, draw: &Draw) -> PyResult<Bound<'py, PyAny>> {
     }
 }
 
-/// Puts this room into the module.
+/// Puts this part into the module.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<Opaque>()
 }

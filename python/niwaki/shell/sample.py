@@ -20,7 +20,6 @@ from niwaki.draw.picture import save_image
 from niwaki.errors.files import write_whole
 from niwaki.methods import Mh
 from niwaki.result import Result
-from niwaki.result.chains import ChainResult
 from niwaki.search import Progress
 from niwaki.shell import run_files, settings
 from niwaki.shell.app import Folder, ModelName, app, made_folder
@@ -67,7 +66,6 @@ def sample(
         result = search.run(
             found.model, method=method, score=score, seed=seed, threads=threads, progress=progress
         )
-    assert isinstance(result, ChainResult)
     if output is not None or not as_json:
         _write(output or Path("out"), result, found, picture)
     if as_json:
@@ -78,7 +76,7 @@ def sample(
         raise typer.Exit(130)
 
 
-def _write(output: Path, result: ChainResult, found: Found, picture: bool) -> None:
+def _write(output: Path, result: Result, found: Found, picture: bool) -> None:
 
     folder = made_folder(output)
     # The best of each chain is what can be replayed.
@@ -94,7 +92,7 @@ def _write(output: Path, result: ChainResult, found: Found, picture: bool) -> No
         save_image(lambda: bests.sheet(), folder / "sheet.png")
 
 
-def _table(result: ChainResult) -> str:
+def _table(result: Result) -> str:
     """The samples, one a line."""
     text = io.StringIO()
     rows = csv.writer(text, lineterminator="\n")
@@ -105,7 +103,7 @@ def _table(result: ChainResult) -> str:
     return text.getvalue()
 
 
-def _summary(result: ChainResult, folder: Path) -> None:
+def _summary(result: Result, folder: Path) -> None:
     print(f"{'site':<40}{'proposals':>12}{'accepted':>10}")
     for name, row in list(result.acceptance.items())[:12]:
         print(f"{name:<40}{row.proposed:>12}{row.rate:>10.2f}")

@@ -40,7 +40,7 @@ fn values_from(
     (0..seeds)
         .map(|seed| {
             let exact = rejection(exact, 1, BOUND, 1_000_000, seed + 1_000_000, &mut |_| true).unwrap();
-            let from = exact.samples[0].record.log.entries();
+            let from = exact.runs[0].log.entries();
             let own = Settings { seed, ..settings.clone() };
             let chain = particle_gibbs(task, &own, ancestors, sweeps, Some(&from), &mut |_| true).unwrap();
             repr(&chain.states.last().unwrap().value).unwrap()
