@@ -17,7 +17,7 @@ from typing import Any
 
 from niwaki.constraints import Constraint
 from niwaki.errors import Call, InputError, ModelFault, NiwakiError, place
-from niwaki.lang import densities, vocabulary
+from niwaki.lang import densities, futures, vocabulary
 from niwaki.lang.instrument import instrumented
 from niwaki.lang.names import is_library
 from niwaki.methods import EnumerateAll
@@ -118,7 +118,9 @@ def run(
     finally:
         current.reset(token)
     log_prior, log_score = densities.total(state.priors), densities.total(state.scores)
-    return Run(value, state.made, log_prior, log_score, state.scene, state.answers, state.constraints)
+    queries = {key: futures.opened(answer) for key, answer in state.answers.items()}
+    value = futures.opened(value)
+    return Run(value, state.made, log_prior, log_score, state.scene, queries, state.constraints)
 
 
 class PlainRun:
@@ -153,6 +155,7 @@ class PlainRun:
         elif isinstance(label, tuple):
             value = self.with_function(label, function, args, kwargs)
         else:
+            futures.refuse(function, args, kwargs)
             self.pending = label
             value = function(*args, **kwargs)
         del self.path[depth:], self.loops[loops:]
@@ -322,7 +325,7 @@ class PlainRun:
         self.scene.append((self.address("emit"), flatten(shapes)))
 
     def future(self, function: Callable[..., Any], args: Sequence[Any]) -> Any:
-        """Run a call now, and give its value."""
+        """Run a call now; its value is to be forced."""
         label, self.pending = self.pending or "apply", ""
         depth, loops = len(self.path), len(self.loops)
         function = underlying(function)
@@ -330,13 +333,14 @@ class PlainRun:
             self.path.append(label)
             value = self.enter(function, args, {})
         else:
+            futures.refuse(function, args, {})
             value = function(*args)
         del self.path[depth:], self.loops[loops:]
-        return value
+        return futures.Future(value)
 
     def force(self, value: Any) -> Any:
-        """A future is its value already."""
-        return value
+        """The value of a future."""
+        return futures.forced(value)
 
     def infer(self, model: Callable[..., Any], method: Any, args: Sequence[Any], keep: str) -> Any:
         """Search another model, on the engine: only it has the methods."""
@@ -355,6 +359,9 @@ class PlainRun:
         calls = self.stack()
         span = calls[-1].span if calls else None
         self.constraints.append(Constraint(kind, "/".join([*self.path, kind]), span, a, b, width))
+
+    compared = staticmethod(futures.compared)
+    searched = staticmethod(futures.searched)
 
     # faults
 
@@ -400,6 +407,7 @@ class PlainRun:
 
 
 CODES: tuple[tuple[type[BaseException], str], ...] = (
+    (futures.NotForced, "future-not-forced"),
     (ZeroDivisionError, "division-by-zero"),
     (IndexError, "list-index"),
     (KeyError, "missing-key"),
