@@ -3,7 +3,7 @@
 #
 #   make demo     grow the gallery's models; pictures and files go to out/
 #   make test     the engine's tests, then the package's
-#   make lint     formatting, clippy, ruff, mypy and the door's stub, warnings as errors
+#   make lint     formatting, clippy, ruff, the order of imports, mypy and the stub of the engine, warnings as errors
 #   make bench    rates beside WebPPL and a hand-written limit, on one thread (needs node and npm)
 #   make figures-sosmc  the figures and the table of chapter 5, into out/figures-sosmc (QUICK=1: a smoke run)
 #   make figures-hmc  the figures and the tables of chapter 4, into out/figures-hmc (QUICK=1: a smoke run)
@@ -62,7 +62,7 @@ $(STAMPS)/engine: $(RUST) pyproject.toml $(STAMPS)/core $(STAMPS)/build
 # ---- what a person asks for
 
 demo: $(STAMPS)/engine
-	$(PY) -m niwaki.gallery.demo out
+	$(PY) -m niwaki.shell.demo out
 
 test: $(STAMPS)/engine $(STAMPS)/test
 	cargo test $(CARGO_FLAGS) --workspace
@@ -75,6 +75,7 @@ lint: $(STAMPS)/engine $(STAMPS)/lint
 	cargo clippy $(CARGO_FLAGS) $(LIMIT) --all-targets -- -D warnings
 	$(VENV)/bin/ruff format --check $(PYTHON_SOURCES)
 	$(VENV)/bin/ruff check $(PYTHON_SOURCES)
+	$(VENV)/bin/lint-imports --no-cache
 	$(VENV)/bin/mypy
 	$(VENV)/bin/stubtest niwaki._engine
 
@@ -94,7 +95,7 @@ bench-c3: $(STAMPS)/engine $(STAMPS)/bench
 
 # Installs half a gigabyte of peers; with them here, the tests that need JAX and ArviZ run.
 bench-hmc: $(STAMPS)/engine $(STAMPS)/bench-hmc $(STAMPS)/test
-	$(PY) -m pytest tests/niwaki/test_with_peers.py
+	$(PY) -m pytest tests/niwaki/result/test_with_peers.py
 	$(PY) benches/gradients.py
 
 soak: $(STAMPS)/engine $(STAMPS)/test

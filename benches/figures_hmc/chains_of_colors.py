@@ -14,7 +14,7 @@ import original
 from chains_of_numbers import Chains
 from niwaki.color import Drawing, coloring
 from niwaki.color.search import arguments, rules_of
-from niwaki.hmc_result import HmcResult
+from niwaki.result.hmc import HmcResult
 
 DRAWINGS = ("robot", "house", "bug", "rocket")
 DRAWS, STEPS, BURN_IN = 1000, 100, 2000

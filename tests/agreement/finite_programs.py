@@ -18,7 +18,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 
 HEADER = """from dataclasses import dataclass
-from niwaki.words import *
+from niwaki import model; from niwaki.words import *
 
 LOGS = (0.0, -0.7, 0.6)
 COINS = [Bernoulli(0.3), Bernoulli(0.5), Bernoulli(0.8)]

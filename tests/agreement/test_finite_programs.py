@@ -323,7 +323,7 @@ def still_wrong(program: str, seed: int, before: str) -> bool:
 
 
 #: A promise that one branch makes, forced where nobody waited for it before.
-CHOSEN = """from niwaki.words import *
+CHOSEN = """from niwaki import model; from niwaki.words import *
 
 def leaf():
     factor(-0.1)
@@ -338,7 +338,7 @@ def m():
 """
 
 #: A truth value that is made of an earlier one, and kept past a barrier.
-EITHER = """from niwaki.words import *
+EITHER = """from niwaki import model; from niwaki.words import *
 
 @model
 def m():
@@ -348,7 +348,7 @@ def m():
     return c
 """
 
-ONCE = """from niwaki.words import *
+ONCE = """from niwaki import model; from niwaki.words import *
 
 def leaf(n):
     factor(0.5 if n > 1 else -0.2)

@@ -18,7 +18,7 @@ import numpy as np
 import pytest
 from niwaki import diagnostics, kernels, model
 from niwaki.gallery.point import point
-from niwaki.hmc_result import GradientWarning
+from niwaki.result.hmc import GradientWarning
 from niwaki.words import Bernoulli, Gaussian
 
 METHODS = {

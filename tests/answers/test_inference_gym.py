@@ -18,7 +18,7 @@ import niwaki as nw
 import numpy as np
 import pytest
 from niwaki import diagnostics, model
-from niwaki.hmc_result import GradientWarning
+from niwaki.result.hmc import GradientWarning
 from niwaki.words import Gaussian
 
 FOUND = importlib.util.find_spec("inference_gym")

@@ -122,6 +122,33 @@ def test_every_python_file_opens_with_what_it_is_for():
     assert not [path.relative_to(ROOT).as_posix() for path in bare]
 
 
+#: What only some of the package's users install, and the module that asks for it.
+OPTIONAL = {("color/svg.py", "resvg_py"), ("draw/solid.py", "manifold3d"), ("result/diagnostics.py", "arviz")}
+
+
+def test_no_function_imports_but_what_is_optional():
+    package = ROOT / "python" / "niwaki"
+    found = {
+        (path.relative_to(package).as_posix(), name)
+        for path in package.rglob("*.py")
+        for function in ast.walk(ast.parse(path.read_text()))
+        if isinstance(function, (ast.FunctionDef, ast.AsyncFunctionDef))
+        for node in ast.walk(function)
+        if isinstance(node, (ast.Import, ast.ImportFrom))
+        for name in ([node.module] if isinstance(node, ast.ImportFrom) else [one.name for one in node.names])
+    }
+    assert found == OPTIONAL
+
+
+def test_help_names_only_what_there_is():
+    import niwaki
+
+    listed = re.findall(r"^    (\w+(?:, \w+)*)(?:, \.\.\.)?  ", niwaki.__doc__, re.M)
+    names = {name for line in listed for name in line.split(", ")}
+    assert len(names) > 40
+    assert names <= set(niwaki.__all__)
+
+
 def test_crates_import_only_the_rooms_above_them():
     rooms = ["math", "geom", "vm", "grad", "infer", "py"]
     for place, room in enumerate(rooms):

@@ -17,7 +17,8 @@ from xml.sax.saxutils import escape
 
 from PIL import Image, ImageDraw, ImageFont
 
-from niwaki.draw.picture import save_image, write_whole
+from niwaki.draw.picture import save_image
+from niwaki.errors.files import write_whole
 
 STRATEGIES = {
     "rerun": "rerun: all of it again",

@@ -11,16 +11,14 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from niwaki import _engine
-from niwaki.file_errors import FileError
-
-if TYPE_CHECKING:
-    from niwaki.scene import Scene
+from niwaki.draw.scene import Scene
+from niwaki.errors import FileError
 
 #: Details of the union below this share of its longest side are melted away: slivers that a float cannot keep.
 SMALLEST = 1e-6
@@ -100,7 +98,7 @@ def union(scene: Scene, scale: float = METRE, fuse: float | None = None) -> Soli
     pieces = _pieces(vertices, faces)
     if pieces > 1:
         warnings.warn(
-            f"the solid is in {pieces} pieces that do not hang together, and a printer makes each of them alone; "
+            f"the solid is in {pieces} pieces that do not touch, and a printer prints each of them alone; "
             "a larger `fuse` closes gaps",
             PrintWarning,
             stacklevel=2,

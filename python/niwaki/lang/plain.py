@@ -15,15 +15,18 @@ from dataclasses import dataclass, field
 from types import FrameType, FunctionType
 from typing import Any
 
-from niwaki.constraints import Constraint
-from niwaki.errors import Call, InputError, ModelFault, NiwakiError, place
-from niwaki.lang import densities, futures, vocabulary
+from niwaki import _engine
+from niwaki.errors import Call, InputError, ModelFault, NiwakiError
+from niwaki.errors.kinds import place
+from niwaki.lang import densities, futures, inference, vocabulary
+from niwaki.lang.compiled import Compiled, task
+from niwaki.lang.constraints import Constraint
 from niwaki.lang.instrument import instrumented
+from niwaki.lang.marks import Marked, underlying
 from niwaki.lang.names import is_library
 from niwaki.methods import EnumerateAll
 from niwaki.words.distributions import Distribution
 from niwaki.words.effects import flatten
-from niwaki.words.models import Model, underlying
 from niwaki.words.running import current
 
 VIEWS: tuple[type[Iterable[Any]], ...] = (type({}.keys()), type({}.values()), type({}.items()))
@@ -67,7 +70,7 @@ class Run:
 
 
 def run_python(
-    model: Model[..., Any] | Callable[..., Any],
+    model: Marked[..., Any] | Callable[..., Any],
     *args: Any,
     seed: int | None = None,
     choices: Mapping[str, Any] | None = None,
@@ -344,15 +347,16 @@ class PlainRun:
 
     def infer(self, model: Callable[..., Any], method: Any, args: Sequence[Any], keep: str) -> Any:
         """Search another model, on the engine: only it has the methods."""
-        from niwaki.lang import inference
-
         inference.check(method, keep)
         function = underlying(model)
         if not isinstance(function, FunctionType):
             raise ModelFault("not-callable", f"`infer` runs a model, found {model!r}", stack=self.stack())
         seed = 0 if isinstance(method, EnumerateAll) else self.sample(inference.SEEDS)
         self.pending = ""
-        return inference.search(function, method, keep, args, seed, self.stack)
+        try:
+            return task(Compiled(function), args).infer(inference.constant(method, keep), seed)
+        except _engine.EngineFault as fault:
+            raise ModelFault(fault.code, fault.message, fault.help, stack=self.stack()) from None
 
     def constraint(self, kind: str, a: float, b: float, width: float) -> None:
         """Keep what a soft constraint compares."""

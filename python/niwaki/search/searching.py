@@ -5,64 +5,28 @@ from __future__ import annotations
 import time
 import warnings
 from collections import Counter
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from niwaki import _engine
-from niwaki.compiled import as_model, translated
 from niwaki.errors import InputError, ModelFault
-from niwaki.info import INFOS, Info, PopulationInfo
-from niwaki.methods import Hmc, Mh, Nuts, ParticleGibbs, Smc
+from niwaki.lang.compiled import translated
+from niwaki.lang.models import as_model
+from niwaki.methods import Hmc, Method, Mh, Nuts, ParticleGibbs, Smc
 from niwaki.methods.checks import bad
 from niwaki.result import Result, Sample
-from niwaki.search.request import Search, check_polish, check_seed, check_threads
+from niwaki.result.chains import ChainResult
+from niwaki.result.hmc import HmcResult
+from niwaki.result.info import INFOS, Info, PopulationInfo
+from niwaki.result.progress import EngineWatch, Watch, watcher
+from niwaki.search.checks import check_polish, check_seed, check_threads
 
 if TYPE_CHECKING:
-    from niwaki.methods import Method
-    from niwaki.mh_result import ChainResult
+    from niwaki.search.request import Search
 
 
 class SearchWarning(UserWarning):
     """A search gave a result, but less than was asked for."""
-
-
-@dataclass(frozen=True)
-class Progress:
-    """How far a search is; given to `progress` now and then.
-
-    Attributes
-    ----------
-    run, runs : int
-        Which of how many runs, from 0.
-    done : int
-        Barriers of a population, runs of the other methods.
-    ended : int
-        Particles that have ended.
-    best : float
-        Best log score of the population so far, nats.
-    """
-
-    run: int
-    runs: int
-    done: int
-    ended: int
-    best: float
-
-
-Watch = Callable[[Progress], None]
-#: What the engine calls: done, ended, best log score.
-EngineWatch = Callable[[int, int, float], None]
-
-
-def watcher(progress: Watch | None, number: int = 0, runs: int = 1) -> EngineWatch:
-    """What the engine calls, for a person's `progress`."""
-
-    def watch(done: int, ended: int, best: float) -> None:
-        if progress is not None:
-            progress(Progress(number, runs, done, ended, best))
-
-    return watch
 
 
 def carried_out(search: Search, threads: int | None, progress: Watch | None) -> Result:
@@ -191,7 +155,7 @@ def _different(outcomes: list[_engine.Outcome], wanted: int, populations: int) -
     chosen = [ranked[place] for place in _engine.different(ranked, wanted)]
     if len(chosen) < wanted:
         warnings.warn(
-            f"{len(chosen)} of {wanted} results that differ were found in {populations} "
+            f"{len(chosen)} of {wanted} results that differ are in {populations} "
             f"population{'' if populations == 1 else 's'}; give more `populations`",
             SearchWarning,
             stacklevel=6,
@@ -208,8 +172,6 @@ def chains_of(
     start: list[tuple[int, Any]] | None,
 ) -> ChainResult:
     """Chains in their first states, and their first proposals."""
-    from niwaki.mh_result import ChainResult
-
     text, functions = _written(method)
     counted = search.task.uncounted()
     with translated(search.model.name, f"seed={seed}"):
@@ -233,8 +195,6 @@ def trajectories(
     start: list[tuple[int, Any]] | None,
 ) -> Result:
     """Chains that follow the gradient."""
-    from niwaki.hmc_result import HmcResult
-
     counted, clock = search.task.uncounted(), Clock()
     with translated(search.model.name, f"seed={seed}"):
         found = _engine.Trajectories(

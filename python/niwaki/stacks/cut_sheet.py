@@ -16,8 +16,8 @@ from typing import Any
 
 import numpy as np
 
-from niwaki.draw.picture import write_whole
-from niwaki.file_errors import FileError
+from niwaki.errors import FileError
+from niwaki.errors.files import write_whole
 from niwaki.stacks.structure import Floats, Structure
 
 #: Corners of the two outlines that a block may have, and the edges along its thickness.

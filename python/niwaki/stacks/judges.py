@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from niwaki.file_errors import FileError
+from niwaki.errors import FileError
 from niwaki.stacks.structure import Floats, Structure
 
 #: A residual below this share of the mean weight is balance.

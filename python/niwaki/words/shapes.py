@@ -8,9 +8,11 @@ there, a record of the same arguments.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any, NamedTuple
 
+import numpy as np
+
+from niwaki import _engine
 from niwaki.words.vectors import VecLike
 
 Rotation = Sequence[Sequence[float]]
@@ -56,29 +58,12 @@ class Bark(NamedTuple):
     high_radius: float
 
 
-@dataclass(frozen=True)
-class ShapeRecord:
-    """A shape as its constructor's name and arguments, in the order of the signature."""
-
-    kind: str
-    arguments: tuple[Any, ...]
-
-
 def _make(kind: str, *arguments: Any) -> Any:
     plain: tuple[Any, ...] = tuple(_plain(argument) for argument in arguments)
-    try:
-        from niwaki import _engine
-    except ImportError:
-        return ShapeRecord(kind, plain)
-    shape = getattr(_engine, "Shape", None)
-    if shape is None:
-        return ShapeRecord(kind, plain)
     if kind == "mesh":
-        import numpy as np
-
         vertices, faces = np.asarray(plain[0], dtype=np.float64), np.asarray(plain[1], dtype=np.int64)
         plain = (vertices, faces, *plain[2:])
-    return getattr(shape, kind)(*plain)
+    return getattr(_engine.Shape, kind)(*plain)
 
 
 def _plain(value: Any) -> Any:
