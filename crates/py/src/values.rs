@@ -170,7 +170,9 @@ impl Classes {
             }
             Value::Shape(shape) => Bound::new(py, PyShape(shape.clone()))?.into_any(),
             Value::Dist(dist) => distribution(py, dist)?,
-            Value::Function(_) | Value::Future(_) => Bound::new(py, Opaque(value.kind()))?.into_any(),
+            Value::Function(_) | Value::Future(_) | Value::Returned(_) => {
+                Bound::new(py, Opaque(value.kind()))?.into_any()
+            }
         })
     }
 }

@@ -266,7 +266,12 @@ class Result(Sequence[Sample]):
 
     @property
     def weights(self) -> NDArray[np.float64]:
-        """The samples' weights, (n,), summing to one; an error where every sample is impossible."""
+        """The samples' weights, (n,), summing to one; an error where every sample is impossible.
+
+        Particles of several runs have none: a weight says what a particle is beside those of its own population.
+        """
+        if self.search.runs > 1 and self.search.method.NAME == "smc":
+            raise InputError("weights-of-runs", runs=self.search.runs)
         logs = np.array([sample.log_weight for sample in self.samples], dtype=np.float64)
         if len(logs) == 0:
             return logs

@@ -17,6 +17,15 @@ FAULTS = (
         cure="[1, 2, 3][2]",
     ),
     Message(
+        "future-not-forced",
+        "a future was looked at that is not forced",
+        "looks at a future",
+        why="a future may still have to run; only `force` waits for its value",
+        help="write `force(f)`",
+        example="f = future(part)\nif f:\n    ...",
+        cure="f = future(part)\nif force(f):\n    ...",
+    ),
+    Message(
         "missing-key",
         "a dict has no such key",
         "no such key",
