@@ -154,7 +154,7 @@ class Artwork:
         self._copies += sum(1 for _ in source.iter())
         if self._copies > MOST_SHAPES:
             raise FileError(
-                "drawing-unclear", self.place, reason=f"its `use`s make more than {MOST_SHAPES} shapes"
+                "drawing-unclear", self.place, reason=f"its `use`s create more than {MOST_SHAPES} shapes"
             )
         copy = deepcopy(source)
         # The definition's id is its handle; the region is named by who uses it, or by a class.

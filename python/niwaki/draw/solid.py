@@ -98,7 +98,7 @@ def union(scene: Scene, scale: float = METRE, fuse: float | None = None) -> Soli
     pieces = _pieces(vertices, faces)
     if pieces > 1:
         warnings.warn(
-            f"the solid is in {pieces} pieces that do not hang together, and a printer makes each of them alone; "
+            f"the solid is in {pieces} pieces that do not touch, and a printer prints each of them alone; "
             "a larger `fuse` closes gaps",
             PrintWarning,
             stacklevel=2,

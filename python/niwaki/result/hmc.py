@@ -55,7 +55,7 @@ def kept(paths: Sequence[str], name: str) -> str:
     return (
         f"{len(paths)} discrete choice{'s' if many else ''} of `{name}` kept the value of each "
         f"chain's start, because a gradient does not move {'them' if many else 'it'}: {listed(paths)}; "
-        f"draws are given {'those values' if many else 'that value'}; "
+        f"draws are conditional on {'those values' if many else 'that value'}; "
         f"use `mh()` where {'they' if many else 'it'} should vary"
     )
 
@@ -64,7 +64,7 @@ def refused(count: int, trajectories: int, name: str) -> str:
     """What being refused for structure is."""
     return (
         f"{count} of {trajectories} trajectories of `{name}` after the warm-up were refused for structure: "
-        f"the model makes other choices where they came to, and a gradient does not lead there"
+        f"the model makes other choices at the points that they reached, and a gradient cannot change the structure"
     )
 
 
@@ -73,7 +73,7 @@ def diverged(count: int, trajectories: int, name: str, smaller: str) -> str:
     return (
         f"{count} of {trajectories} trajectories of `{name}` after the warm-up diverged: the step is too large where "
         f"the density bends sharply, and the draws may miss such places; {smaller}, or reparametrise: instead of "
-        f"`gaussian(mean, spread)` with a `spread` that is a choice itself, say `mean + spread * gaussian(0, 1)`"
+        f"`gaussian(mean, spread)` with a `spread` that is a choice itself, write `mean + spread * gaussian(0, 1)`"
     )
 
 
@@ -85,7 +85,7 @@ def without_slope(count: int, name: str, fault: ModelFault | None) -> str:
         else "they left the range of numbers: give the values other units"
     )
     return (
-        f"{count} trajectories of `{name}` came to points without a finite gradient and were rejected; {why}"
+        f"{count} trajectories of `{name}` reached points without a finite gradient and were rejected; {why}"
     )
 
 

@@ -152,7 +152,7 @@ def grow(
             "bad-setting",
             name=next(iter(settings)),
             found=repr(next(iter(settings.values()))),
-            expected="nothing beside `method`, which has settings of its own",
+            expected="no settings together with `method`, which has its own",
             suggestion=f"`method` left out, or the setting in `{method.NAME}(...)`",
         )
     asked = no_self_intersection(rule) * (Score() if score is None else score)

@@ -121,7 +121,7 @@ class Search:
             check_polish(self.polish)
         if self.polish is not None and getattr(self.method, "diverse", None) is not None:
             suggestion = "None, and `Result.polish` for one of the results"
-            expected = "nothing beside `diverse`, as chains may meet"
+            expected = "None together with `diverse`, because chains may end in the same state"
             raise InputError(
                 "bad-setting", name="polish", found="mh(...)", expected=expected, suggestion=suggestion
             )

@@ -155,7 +155,7 @@ def _different(outcomes: list[_engine.Outcome], wanted: int, populations: int) -
     chosen = [ranked[place] for place in _engine.different(ranked, wanted)]
     if len(chosen) < wanted:
         warnings.warn(
-            f"{len(chosen)} of {wanted} results that differ were found in {populations} "
+            f"{len(chosen)} of {wanted} results that differ are in {populations} "
             f"population{'' if populations == 1 else 's'}; give more `populations`",
             SearchWarning,
             stacklevel=6,

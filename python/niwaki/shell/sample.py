@@ -44,7 +44,7 @@ def sample(
     ] = None,
     voxel: Annotated[float | None, typer.Option(metavar="SIZE", help="Cell size for the target.")] = None,
     sigma: Annotated[float, typer.Option(help="Strictness of the match.")] = 0.02,
-    seed: Annotated[int | None, typer.Option(help="Default: a fresh one, which is written down.")] = None,
+    seed: Annotated[int | None, typer.Option(help="Default: a new one, which run.json keeps.")] = None,
     threads: Annotated[int | None, typer.Option(help="Default: all cores.")] = None,
     output: Folder = None,
     as_json: Annotated[
@@ -55,7 +55,7 @@ def sample(
     ] = True,
     **given: Any,
 ) -> None:
-    """Sample MODEL by Markov chains; writes samples.csv and run.json, and best.glb, best.png, sheet.png of scenes."""
+    """Sample MODEL by Markov chains; writes samples.csv and run.json, and best.glb, best.png, sheet.png for scenes."""
     found = find(model)
     score = Score()
     if target is not None:
@@ -110,7 +110,7 @@ def _summary(result: ChainResult, folder: Path) -> None:
     for name, row in list(result.acceptance.items())[:12]:
         print(f"{name:<40}{row.proposed:>12}{row.rate:>10.2f}")
         if row.proposed >= 100 and row.outside == row.proposed:
-            print(f"warning: every proposal for `{name}` lay outside its support", file=sys.stderr)
+            print(f"warning: every proposal for `{name}` was outside its support", file=sys.stderr)
     counters = result.counters
     if counters["many_proposed"]:
         share = counters["many_accepted"] / counters["many_proposed"]
@@ -132,7 +132,7 @@ def _shown(name: str, proposals: int) -> Iterator[Callable[[Progress], None]]:
         def show(now: Progress) -> None:
             best = f"{now.best:.2f}" if math.isfinite(now.best) else "-"
             status.update(
-                f"sampling {name}: {now.done} of {proposals} proposals, best {best}   (Ctrl-C keeps what there is)"
+                f"sampling {name}: {now.done} of {proposals} proposals, best {best}   (Ctrl-C keeps the states so far)"
             )
 
         yield show

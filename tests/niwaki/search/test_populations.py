@@ -135,7 +135,7 @@ def test_weights_of_what_is_impossible_are_an_error() -> None:
 
 
 def test_fewer_that_differ_are_said() -> None:
-    with pytest.warns(SearchWarning, match="of 30 results that differ were found in 1 population;"):
+    with pytest.warns(SearchWarning, match="of 30 results that differ are in 1 population;"):
         found = nw.run(COINS, method=nw.smc(particles=50, populations=1, diverse=30), seed=1)
     assert 1 <= len(found) < 30
 
