@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from niwaki import _engine
 from niwaki.draw.scene import Scene
 from niwaki.errors import FileError
+from niwaki.errors.extras import optional
 
 #: Details of the union below this share of its longest side are melted away: slivers that a float cannot keep.
 SMALLEST = 1e-6
@@ -114,11 +115,7 @@ def kernel() -> Any:
     FileError
         It is not installed.
     """
-    try:
-        import manifold3d
-    except ImportError:
-        raise FileError("missing-extra", task="joining parts to a solid", extra="print") from None
-    return manifold3d
+    return optional("manifold3d", "joining parts to a solid", "print")
 
 
 def _solids(scene: Scene, tools: Any, swell: float) -> list[Any]:

@@ -1,4 +1,4 @@
-"""The short ways to a search: `run` a model by any method, and `grow` one into a target.
+"""`run` a model by any method, and `grow` one into a target: both make a `Search` and run it.
 
 Seeds are 64-bit numbers; where none is given a fresh one is drawn and kept in the result. The same seed gives the same
 result on any number of threads. Ctrl-C stops a search, which then gives what it has (`Result.interrupted`).

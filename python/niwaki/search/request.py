@@ -1,6 +1,6 @@
 """A search as a value: all that decides what is found, and nothing that does not.
 
-`niwaki.grow` and `niwaki.run` are short ways to make one and run it. It can be written to JSON and read again, sent to
+`niwaki.grow` and `niwaki.run` make one and run it. It can be written to JSON and read again, sent to
 another process, and its hash says whether two searches are the same.
 
 >>> import niwaki as nw
