@@ -16,7 +16,7 @@ import typer
 
 from niwaki.errors import InputError
 from niwaki.shell.finding import Found
-from niwaki.targets import examples, sketches
+from niwaki.targets import sketches
 from niwaki.targets.target import Target
 
 Triple = tuple[float, float, float]
@@ -132,12 +132,12 @@ class Asked:
     def aim(self, found: Found) -> Target | None:
         """The volume to fill: the one named; else the model's own, unless a picture is asked for."""
         if self.target is not None:
-            return examples.find(self.target)
+            return Target.find(self.target)
         if self.match_image is not None or self.match_shadow is not None:
             return None
         if found.entry is None or found.entry.target_name is None:
             raise InputError("no-target", name=found.reference)
-        return examples.find(f"gallery:{found.entry.target_name}")
+        return Target.find(f"gallery:{found.entry.target_name}")
 
     def controls(self, voxel: float | None, sigma: float) -> sketches.Score:
         """Everything but the volume: what forbids comes before what scores."""

@@ -26,8 +26,8 @@ from niwaki.shell import run_files, settings
 from niwaki.shell.app import Folder, ModelName, app, made_folder
 from niwaki.shell.finding import Found, find
 from niwaki.shell.run_files import numbers
-from niwaki.targets import examples
 from niwaki.targets.sketches import Score, no_self_intersection, volume_match
+from niwaki.targets.target import Target
 
 
 @app.command()
@@ -59,7 +59,7 @@ def sample(
     found = find(model)
     score = Score()
     if target is not None:
-        score = no_self_intersection() * volume_match(examples.find(target), voxel, sigma)
+        score = no_self_intersection() * volume_match(Target.find(target), voxel, sigma)
     given = settings.typed(given)
     steps = given.get("steps", Mh.steps)
     method = Mh(**{"kernel": kernels.mh(), "chains": 4, "warmup": steps // 5, "keep": 100, **given})
