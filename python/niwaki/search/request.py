@@ -31,7 +31,6 @@ from niwaki.lang.models import Model, as_model
 from niwaki.methods import Forward, Method, Mh
 from niwaki.methods.checks import bad
 from niwaki.result import Result
-from niwaki.result.chains import ChainResult
 from niwaki.result.progress import Watch, watcher
 from niwaki.search import searching
 from niwaki.search.checks import check_polish, check_seed, check_threads, fresh
@@ -151,7 +150,7 @@ class Search:
         seed: int | None = None,
         threads: int | None = None,
         progress: Watch | None = None,
-    ) -> ChainResult:
+    ) -> Result:
         """Go on from the best sample of a result of this search; see `Result.polish`."""
         seed = result.seed if seed is None else seed
         return searching.polished(result, method, seed, threads, watcher(progress))

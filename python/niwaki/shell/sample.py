@@ -60,7 +60,6 @@ def sample(
         result = nw.run(
             found.model, method=method, score=score, seed=seed, threads=threads, progress=progress
         )
-    assert isinstance(result, nw.ChainResult)
     if output is not None or not as_json:
         _write(output or Path("out"), result, found, picture)
     if as_json:
@@ -71,7 +70,7 @@ def sample(
         raise typer.Exit(130)
 
 
-def _write(output: Path, result: nw.ChainResult, found: shell.finding.Found, picture: bool) -> None:
+def _write(output: Path, result: nw.Result, found: shell.finding.Found, picture: bool) -> None:
     folder = made_folder(output)
     # The best of each chain is what can be replayed.
     bests = nw.Result(result.search, result.bests, result.seed, interrupted=result.interrupted)
@@ -86,7 +85,7 @@ def _write(output: Path, result: nw.ChainResult, found: shell.finding.Found, pic
         draw.picture.save_image(lambda: bests.sheet(), folder / "sheet.png")
 
 
-def _table(result: nw.ChainResult) -> str:
+def _table(result: nw.Result) -> str:
     """The samples, one a line."""
     text = io.StringIO()
     rows = csv.writer(text, lineterminator="\n")
@@ -97,7 +96,7 @@ def _table(result: nw.ChainResult) -> str:
     return text.getvalue()
 
 
-def _summary(result: nw.ChainResult, folder: Path) -> None:
+def _summary(result: nw.Result, folder: Path) -> None:
     print(f"{'site':<40}{'proposals':>12}{'accepted':>10}")
     for name, row in list(result.acceptance.items())[:12]:
         print(f"{name:<40}{row.proposed:>12}{row.rate:>10.2f}")

@@ -1,4 +1,4 @@
-"""What is wrong with settings, models and run files that come through Python's or the shell's door."""
+"""What is wrong with settings, models and run files, given in Python or in a shell."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ DOORS = (
         "no-runs",
         "there is no best sample",
         why="the search keeps a table of values, not runs",
-        help="read `result.distribution()` after an enumeration, or ask for samples with another method",
+        help="read `result.distribution()` after an enumeration, or take samples with another method",
         example="run(model, method=enumerate_all()).best",
         cure="run(model, method=enumerate_all()).distribution()",
     ),

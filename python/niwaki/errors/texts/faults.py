@@ -1,6 +1,6 @@
-"""What can go wrong while a model runs: found by the engine, and by the plain run where Python would raise.
+"""What can go wrong while a model runs: reported by the engine, and by the plain run where Python would raise.
 
-The one who finds it usually gives the title, with the values; the titles here are for when they do not.
+The part that reports a fault usually gives the title, with the values; the titles here are the defaults.
 """
 
 from __future__ import annotations
@@ -10,11 +10,20 @@ from niwaki.errors.texts.message import Message
 FAULTS = (
     Message(
         "list-index",
-        "an index lies outside of the list",
+        "an index is outside of the list",
         "no such item",
         help="indices run from 0 to `len(xs) - 1`; negative ones count from the end",
         example="[1, 2, 3][3]",
         cure="[1, 2, 3][2]",
+    ),
+    Message(
+        "future-not-forced",
+        "a future was looked at that is not forced",
+        "looks at a future",
+        why="a future may still have to run; only `force` waits for its value",
+        help="write `force(f)`",
+        example="f = future(part)\nif f:\n    ...",
+        cure="f = future(part)\nif force(f):\n    ...",
     ),
     Message(
         "missing-key",

@@ -107,6 +107,14 @@ INPUTS = (
         cure="a ship that starts beside it",
     ),
     Message(
+        "weights-of-runs",
+        "samples of {runs} separate runs have no common weights",
+        why="a particle's weight is relative to its own population",
+        help="use `smc(particles, populations=n)`, which weighs its populations by their evidence, or look at each run",
+        example="grow(ship, target, runs=4).weights",
+        cure="run(ship, smc(300, populations=4), sketch=target).weights",
+    ),
+    Message(
         "not-enumerable",
         "not every choice of the model can be listed",
         why="an exact answer visits every value of every choice, so each choice needs a finite list of values",
