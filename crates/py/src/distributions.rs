@@ -1,4 +1,4 @@
-//! Distributions behind the door: densities, draws and supports, as plain functions of plain values.
+//! Distributions for Python: densities, draws and supports, as plain functions of plain values.
 //!
 //! Parameters are numbers, truth values, lists, tuples or arrays of them, and for mixtures lists of
 //! `(family, parameters)`. What a family cannot use is a `BadParameter`, which is a `ValueError`.
@@ -105,7 +105,7 @@ fn is_dist(value: &Bound<'_, PyAny>) -> bool {
     value.cast::<PyTuple>().is_ok_and(|pair| pair.len() == 2 && name(pair))
 }
 
-/// Numbers in a row.
+/// A list of numbers.
 fn row(value: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
     let number = |entry: PyResult<Bound<'_, PyAny>>| {
         let entry = plain(&entry?)?;
