@@ -26,10 +26,8 @@ from .methods import smc as smc
 from .result import Result as Result
 from .result import Sample as Sample
 from .result import diagnostics as diagnostics
-from .result.chains import ChainResult as ChainResult
 from .result.gradient import LogDensity as LogDensity
-from .result.hmc import HmcResult as HmcResult
-from .result.result import log_density as log_density
+from .result.sample import log_density as log_density
 from .search import Progress as Progress
 from .search import Search as Search
 from .search import grow as grow

@@ -123,7 +123,7 @@ def test_a_state_is_the_same_when_it_is_run_again() -> None:
             continue
         for sample in [*result, result.best]:
             try:
-                again: Any = sample._trace
+                again: Any = sample._trace.run
             except NiwakiError as error:
                 assert error.code == "query-twice", error  # type: ignore[attr-defined]
                 continue

@@ -74,7 +74,9 @@ def test_no_file_speaks_of_what_only_its_authors_can_look_up():
 
 def test_import_loads_nothing_that_is_not_always_needed():
     heavy = ["trimesh", "PIL", "typer", "rich", "matplotlib", "scipy"]
-    program = f"import sys, niwaki; print([name for name in {heavy} if name in sys.modules])"
+    # Not even when every public name is used.
+    program = "import sys, niwaki; [getattr(niwaki, name) for name in niwaki.__all__]; "
+    program += f"print([name for name in {heavy} if name in sys.modules])"
     shown = subprocess.run([sys.executable, "-c", program], check=True, capture_output=True, text=True).stdout
     assert shown.strip() == "[]"
 
@@ -122,8 +124,10 @@ def test_every_python_file_opens_with_what_it_is_for():
     assert not [path.relative_to(ROOT).as_posix() for path in bare]
 
 
-#: What only some of the package's users install, and the module that asks for it.
-OPTIONAL = {("color/svg.py", "resvg_py"), ("draw/solid.py", "manifold3d"), ("result/diagnostics.py", "arviz")}
+#: Imports inside functions: ArviZ is an extra, and warns while it is imported.
+OPTIONAL = {("result/diagnostics.py", "arviz")}
+#: Who imports modules by a name of their own: extras, the gallery's folder, host functions of a search that was read.
+BY_NAME = {"errors/extras.py", "gallery/__init__.py", "search/data.py"}
 
 
 def test_no_function_imports_but_what_is_optional():
@@ -138,6 +142,12 @@ def test_no_function_imports_but_what_is_optional():
         for name in ([node.module] if isinstance(node, ast.ImportFrom) else [one.name for one in node.names])
     }
     assert found == OPTIONAL
+    by_name = {
+        path.relative_to(package).as_posix()
+        for path in package.rglob("*.py")
+        if re.search(r"import_module|__import__", path.read_text())
+    }
+    assert by_name == BY_NAME
 
 
 def test_help_names_only_what_there_is():

@@ -214,7 +214,7 @@ fn parameter_names(family: &str) -> PyResult<Vec<&'static str>> {
     Ok(named(family)?.parameters().to_vec())
 }
 
-/// Adds this room's names to the engine.
+/// Adds this part's names to the engine.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("BadParameter", module.py().get_type::<BadParameter>())?;
     module.add_function(wrap_pyfunction!(log_density, module)?)?;

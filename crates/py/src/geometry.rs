@@ -147,17 +147,17 @@ impl PyShape {
         self.0.color()
     }
 
-    /// Smallest and largest corner of the box around the light geometry, scene units.
+    /// Smallest and largest corner of the box around the coarse mesh, scene units.
     fn aabb(&self) -> (Triple, Triple) {
         (self.0.aabb().low.to_array(), self.0.aabb().high.to_array())
     }
 
-    /// Vertices of the light geometry, world space, (n, 3) float64.
+    /// Vertices of the coarse mesh, world space, (n, 3) float64.
     fn vertices<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
         vertices_of(py, self.0.world_mesh())
     }
 
-    /// Triangles of the light geometry, (m, 3) int64, counter-clockwise from outside.
+    /// Triangles of the coarse mesh, (m, 3) int64, counter-clockwise from outside.
     fn faces<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<i64>> {
         faces_of(py, self.0.world_mesh())
     }
@@ -334,7 +334,7 @@ impl PySketch {
     }
 }
 
-/// Puts this room into the module; each word for shapes is a function of the class.
+/// Puts this part into the module; each word for shapes is a function of the class.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PyShape>()?;
     let (py, words) = (module.py(), PyDict::new(module.py()));

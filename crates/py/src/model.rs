@@ -1,4 +1,4 @@
-//! A compiled model behind the door: from the text of its core form and the objects that travel beside it.
+//! A compiled model for Python: from the text of its core form and the objects that travel beside it.
 
 use crate::faults;
 use crate::values::Classes;
@@ -155,7 +155,7 @@ impl PyProgram {
     }
 }
 
-/// Puts this room into the module.
+/// Puts this part into the module.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PyProgram>()
 }

@@ -10,10 +10,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from html import escape
 from os import PathLike
 from pathlib import Path
 from typing import Any
-from xml.sax.saxutils import escape
 
 from PIL import Image, ImageDraw, ImageFont
 
@@ -203,7 +203,7 @@ def _svg(marks: Sequence[_Mark], height: int) -> str:
         if mark.kind == "text":
             lines.append(
                 f'<text x="{mark.x:.1f}" y="{mark.y + 0.85 * mark.size:.1f}" font-size="{mark.size}" '
-                f'fill="{mark.fill}">{escape(mark.text)}</text>'
+                f'fill="{mark.fill}">{escape(mark.text, quote=False)}</text>'
             )
             continue
         fill = "none" if mark.kind == "ring" else mark.fill

@@ -1,4 +1,4 @@
-"""Several pictures on one page, each with a small caption: the way to compare results.
+"""Several pictures on one page, each with a small caption, to compare results.
 
 All scenes are framed alike, so that a larger one looks larger.
 """

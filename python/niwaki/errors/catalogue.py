@@ -13,13 +13,13 @@ from niwaki.errors.kinds import fill
 from niwaki.errors.messages import ADVICE, CHAINS, DOORS, FAULTS, FILES, INPUTS, LANGUAGE, Message
 
 KINDS = (
-    (LANGUAGE, "Found when a model is compiled, before anything runs."),
-    (FAULTS, "Found while a model runs; the message shows the model's own calls, outermost first."),
-    (INPUTS, "Found when a setting or an argument is looked at."),
-    (FILES, "Found when a file is read or written."),
-    (CHAINS, "Found when a Markov chain, or a search with a proposal, starts or runs."),
-    (DOORS, "Found when a setting, a model's name or a run's file is looked at."),
-    (ADVICE, "Advice of `niwaki check`: the model is right, and a search of it could be better."),
+    (LANGUAGE, "Reported when a model is compiled, before anything runs."),
+    (FAULTS, "Reported while a model runs; the message shows the model's own calls, outermost first."),
+    (INPUTS, "Reported when a setting or an argument is checked."),
+    (FILES, "Reported when a file is read or written."),
+    (CHAINS, "Reported when a Markov chain, or a search with a proposal, starts or runs."),
+    (DOORS, "Reported when a setting, a model's name or a run's file is checked."),
+    (ADVICE, "Advice of `niwaki check`: the model is right, and a search of it could be more efficient."),
 )
 
 
@@ -39,7 +39,7 @@ def page(message: Message, found: str) -> str:
     if message.example:
         parts += ["## Example", _block(message.example)]
     named = message.help in ("{suggestion}", "{cure}")
-    parts += ["## The way out", "The message says what was probably meant." if named else _sentence(cure)]
+    parts += ["## What to do", "The message suggests what to write." if named else _sentence(cure)]
     if message.cure:
         parts.append(_block(message.cure))
     return "\n\n".join(parts) + "\n"

@@ -12,7 +12,7 @@ expressions, statements, comprehensions, arguments, callees, builtin_calls, infe
                the lowering: one function for each kind of syntax
 instrument, densities, plain
                a model as ordinary Python
-compiled       models on their way to the engine
+compiled       a model with its program for the engine; tasks
 models         `@model`
 constraints, residuals
                the soft constraints of a run, and how far they are from holding

@@ -1,4 +1,4 @@
-"""One function on its way to core form: the statements made so far, its scope, and fresh variables.
+"""The state of lowering one function to core form: the statements so far, its scope, and fresh variables.
 
 Expressions of Python may need statements in core form (a comprehension is a loop). Such statements are appended to the
 current block *before* the expression that needs them. `in_order` keeps Python's order of evaluation while that

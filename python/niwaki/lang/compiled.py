@@ -1,4 +1,4 @@
-"""Models on their way to the engine: compiling, arguments, and the engine's faults as our errors."""
+"""Models for the engine: their programs, their arguments, and the engine's faults as our errors."""
 
 from __future__ import annotations
 

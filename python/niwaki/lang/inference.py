@@ -47,7 +47,7 @@ def wrong_inside(method: Method) -> str:
     """Why an inference inside a model cannot honour a method; nothing where it can."""
     text, functions = method.text()
     if functions:
-        return "inside a model a kernel cannot ask a Python function: `proposal` has no meaning there"
+        return "inside a model a kernel cannot call a Python function, so `proposal` cannot be used there"
     try:
         _engine.check_inside(text)
     except _engine.EngineFault as fault:

@@ -29,7 +29,7 @@ class Marked(Generic[P, T]):
 
 
 class Host(Marked[P, T]):
-    """A Python function that a model may call although the engine cannot read it; the slow way."""
+    """A Python function that a model may call although the engine cannot read it; this is slow."""
 
     def __call__(self, *args: P.args, **kwargs: P.kwargs) -> T:
         """Call the function."""
@@ -42,7 +42,7 @@ class Host(Marked[P, T]):
 def host(function: Callable[P, T]) -> Host[P, T]:
     """Mark a Python function as pure, so that a model may call it as it is.
 
-    It runs under Python's interpreter lock, once for every call in every particle: the slow way. It must give equal
+    It runs under Python's interpreter lock, once for every call in every particle, which is slow. It must give equal
     results for equal arguments and change nothing; nobody checks.
 
     Parameters

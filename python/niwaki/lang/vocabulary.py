@@ -215,11 +215,11 @@ COMPARE: dict[str, str] = {
 NOT_IN_A_MODEL: dict[Any, tuple[str, str]] = {
     print: (
         "prints",
-        "take the line out; to watch a run, step through `niwaki.run_python(model, seed=1)` in a debugger",
+        "remove the line; to watch a run, step through `niwaki.run_python(model, seed=1)` in a debugger",
     ),
-    isinstance: ("asks-for-a-type", "give records a field that says what they are, and compare that"),
-    issubclass: ("asks-for-a-type", "give records a field that says what they are, and compare that"),
-    type: ("asks-for-a-type", "give records a field that says what they are, and compare that"),
+    isinstance: ("asks-for-a-type", "give records a field for their kind, and compare that field"),
+    issubclass: ("asks-for-a-type", "give records a field for their kind, and compare that field"),
+    type: ("asks-for-a-type", "give records a field for their kind, and compare that field"),
     set: ("set-value", "use a list, and `in` to look for a value"),
     frozenset: ("set-value", "use a list, and `in` to look for a value"),
 }

@@ -17,7 +17,7 @@ class EnumerateAll(Method):
     Parameters
     ----------
     max_runs
-        Most complete runs to visit.
+        Most runs to visit, those that prove impossible included.
     """
 
     NAME = "enumerate_all"

@@ -437,7 +437,7 @@ def _positive(name: str, value: Any) -> float:
 
 def _weight(name: str, value: Any) -> float:
     if not _number(value) or value < 0:
-        raise _wrong(name, value, "odds, which are numbers of 0 or more", "1.0")
+        raise _wrong(name, value, "selection weights, which are numbers of 0 or more", "1.0")
     return float(value)
 
 

@@ -1,25 +1,23 @@
-"""What Markov chains give back: the best state, samples, acceptance by site, and the chains, to go on with."""
+"""What Markov chains say of their search: best states, acceptance by site, trajectories."""
 
 from __future__ import annotations
 
 import math
-import time
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
-from numpy.typing import NDArray
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from niwaki import _engine
 from niwaki.errors import InputError, ModelFault
-from niwaki.lang.compiled import as_fault, translated
-from niwaki.methods import Mh, at_least_one
+from niwaki.lang.compiled import as_fault
+from niwaki.methods import Mh
 from niwaki.methods.kernels import Kernel
 from niwaki.result.diagnostics import Divergences
 from niwaki.result.hmc import SOME, diverged, kept, listed, refused, say, without_slope
+from niwaki.result.info import Info
 from niwaki.result.progress import EngineWatch
-from niwaki.result.result import Result, Sample
+from niwaki.result.sample import Sample
 
 if TYPE_CHECKING:
     from niwaki.search import Search
@@ -100,104 +98,44 @@ class Trajectories:
     fault: ModelFault | None = None
 
 
-class ChainResult(Result):
-    """What Markov chains found; a sequence of its samples, chain after chain.
+class Running(NamedTuple):
+    """Chains on the engine, and what they need to go on."""
+
+    chains: _engine.Chains
+    counted: _engine.Task
+    watch: EngineWatch
+    threads: int | None
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class MhInfo(Info):
+    """Of `mh`: what its chains say of themselves, looked at when it is asked for.
 
     Attributes
     ----------
-    samples : list of Sample
-        Thinned states after the warm-up, those of the first chain first. All weigh the same.
+    search, method, seed
+        What was asked of the chains.
+    seconds : tuple of float
+        Wall and processor time so far.
     visits : list of list of int
-        The numbers of proposals before them.
-    counters : dict of str to int
-        Proposals, activations entered, calls skipped, instructions, primitives taken out of the scene or put into it
-        (`moved`); primitives, choices and bytes of the present states.
+        Of each chain, the numbers of proposals before its samples.
     """
 
-    def __init__(
-        self,
-        search: Search,
-        method: Mh,
-        counted: _engine.Task,
-        chains: _engine.Chains,
-        seed: int,
-        watch: EngineWatch,
-        threads: int | None,
-    ) -> None:
-        super().__init__(search, [], seed)
-        self._method, self._counted = method, counted
-        self._chains: _engine.Chains | None = chains
-        self._looks: dict[str, Any] = {}
-        self._watch, self._threads = watch, threads
-        self._by_chain: list[list[Sample]] = []
-        self.visits: list[list[int]] = []
-
-    @property
-    def method(self) -> Mh:
-        """How its chains move: the method of the search, or that of its polishing."""
-        return self._method
-
-    @property
-    def by_chain(self) -> list[Sequence[Sample]]:
-        """The samples of each chain."""
-        return list(self._by_chain)
-
-    def more(self, steps: int) -> ChainResult:
-        """Go on for `steps` proposals in each chain, from where they are; the result itself, with more in it."""
-        at_least_one("steps", steps)
-        chains = self._engine
-        self._looks = {}
-        wall, cpu = time.perf_counter(), time.process_time()
-        try:
-            with translated(self.model.name, f"seed={self.seed}"):
-                self.interrupted = chains.advance(steps, self._threads, self._watch)
-            self._warn()
-        finally:
-            self.seconds += time.perf_counter() - wall
-            self.cpu_seconds += time.process_time() - cpu
-            self._gather()
-        return self
-
-    def _gather(self) -> None:
-        self._looks = {}
-        self.invalid = self._counted.invalid()
-        kept = [self._engine.samples(chain) for chain in range(self.method.chains)]
-        self.visits = [[outcome.visit for outcome in outcomes] for outcomes in kept]
-        self._by_chain = [[self._sample(outcome) for outcome in outcomes] for outcomes in kept]
-        self.samples = [sample for chain in self._by_chain for sample in chain]
-
-    def _sample(self, outcome: _engine.Outcome) -> Sample:
-        return Sample(outcome, self.search, self.seed, self.seconds, self.cpu_seconds)
-
-    def _seen(self, name: str, look: Callable[[], Any]) -> Any:
-        """What the chains say of themselves, looked at once between two calls of `more`."""
-        if name not in self._looks:
-            self._looks[name] = look()
-        return self._looks[name]
+    search: Search
+    method: Mh
+    seed: int
+    _running: Running | None
+    seconds: tuple[float, float] = (0.0, 0.0)
+    visits: list[list[int]] = field(default_factory=list)
 
     def __getstate__(self) -> dict[str, Any]:
-        """All that can be asked of the result; the chains themselves stay where they are."""
+        """All that can be asked; the chains themselves stay where they are."""
         for name in ("bests", "last", "acceptance", "trajectories", "counters"):
             getattr(self, name)
-        return {**self.__dict__, "_chains": None, "_counted": None, "_watch": None}
+        return {**self.__dict__, "_running": None}
 
     @property
-    def best(self) -> Sample:
-        """The state of the best log score that any chain came through, whether it was sampled or not."""
-        return max(self.bests, key=lambda sample: sample.log_score)
-
-    @property
-    def bests(self) -> list[Sample]:
-        """The best state of each chain."""
-        return list(self._seen("bests", lambda: [self._sample(one) for one in self._engine.best()]))
-
-    @property
-    def last(self) -> list[Sample]:
-        """The present state of each chain."""
-        return list(self._seen("last", lambda: [self._sample(one) for one in self._engine.now()]))
-
-    @property
-    def _engine(self) -> _engine.Chains:
+    def running(self) -> Running:
         """The chains on the engine.
 
         Raises
@@ -205,62 +143,64 @@ class ChainResult(Result):
         InputError
             The result was pickled, and its chains stayed behind.
         """
-        if self._chains is None:
-            raise InputError("chains-gone", name=self.model.name)
-        return self._chains
+        if self._running is None:
+            raise InputError("chains-gone", name=self.search.model.name)
+        return self._running
 
-    @property
+    def samples_of(self, runs: Iterable[_engine.Run]) -> list[Sample]:
+        """Runs as samples of this search."""
+        return [Sample(run, self.search, self.seed, *self.seconds) for run in runs]
+
+    @cached_property
+    def bests(self) -> list[Sample]:
+        """The best state that each chain reached, whether it was sampled or not."""
+        return self.samples_of(self.running.chains.best())
+
+    @cached_property
+    def last(self) -> list[Sample]:
+        """The present state of each chain."""
+        return self.samples_of(self.running.chains.now())
+
+    @cached_property
     def acceptance(self) -> dict[str, Acceptance]:
         """Proposals by site (`function/site`), all chains together; most proposed first."""
-        return dict(self._seen("acceptance", self._acceptance))
-
-    def _acceptance(self) -> dict[str, Acceptance]:
-        rows = [Acceptance(*row) for row in self._engine.sites()]
-        rows.sort(key=lambda row: -row.proposed)
-        names = [f"{row.function}/{row.site}" for row in rows]
+        sites = sorted(self.running.chains.sites(), key=lambda one: -one.proposed)
+        names = [f"{one.function}/{one.site}" for one in sites]
         return {
-            name if names.count(name) == 1 else f"{name} line {row.line}": row
-            for name, row in zip(names, rows, strict=True)
+            name if names.count(name) == 1 else f"{name} line {one.line}": Acceptance(
+                one.function, one.site, one.line, one.proposed, one.accepted, one.outside
+            )
+            for name, one in zip(names, sites, strict=True)
         }
 
-    @property
+    @cached_property
     def trajectories(self) -> list[Trajectories]:
         """What became of the trajectories of each `hmc` and `nuts` of the kernel, in its order."""
-        return list(self._seen("trajectories", self._trajectories))
+        leaves = [leaf for leaf in self._leaves if leaf.follows]
+        return [self._travelled(*one) for one in zip(leaves, self.running.chains.trajectories(), strict=True)]
 
-    def _trajectories(self) -> list[Trajectories]:
-        leaves = [] if self.method.kernel is None else self.method.kernel.leaves()
-        found = []
-        rows = iter(self._engine.trajectories())
-        for leaf in leaves:
-            if not leaf.follows:
-                continue
-            row = next(rows)
-            broke = Divergences(row["energy"], row["guard"], row["impossible"], row["not_finite"])
-            found.append(
-                Trajectories(
-                    kernel=leaf,
-                    made=row["made"],
-                    moved=row["moved"],
-                    settled=row["settled"],
-                    acceptance=row["accept"] / row["settled"] if row["settled"] else math.nan,
-                    divergences=broke,
-                    warmup_divergences=row["warmup_divergences"],
-                    unwritten=row["unwritten"],
-                    gradients=row["gradients"],
-                    structures=row["structures"],
-                    recordings=row["recordings"],
-                    step=tuple(row["steps"]),
-                    fault=as_fault(row["fault"], self.model.name, f"seed={self.seed}"),
-                )
-            )
-        return found
+    def _travelled(self, leaf: Kernel, counts: dict[str, Any]) -> Trajectories:
+        fault = as_fault(counts["fault"], self.search.model.name, f"seed={self.seed}")
+        own = {"kernel": leaf, "divergences": Divergences(**counts["divergences"]), "fault": fault}
+        return Trajectories(**{**counts, **own})
 
-    def _warn(self) -> None:
+    @cached_property
+    def counters(self) -> dict[str, int]:
+        """Work done, and the size of the present states, all chains together.
+
+        Proposals, activations entered, calls skipped, instructions, primitives taken out of the scene or put into it
+        (`moved`); primitives, choices and bytes of the present states.
+        """
+        return self.running.chains.counters()
+
+    @property
+    def _leaves(self) -> list[Kernel]:
+        return [] if self.method.kernel is None else self.method.kernel.leaves()
+
+    def warn(self) -> None:
         """Say what a person must know of the trajectories before using the samples."""
-        name = self.model.name
-        leaves = [] if self.method.kernel is None else self.method.kernel.leaves()
-        if leaves and all(leaf.name in ("hmc", "nuts") for leaf in leaves):
+        name = self.search.model.name
+        if self._leaves and all(leaf.name in ("hmc", "nuts") for leaf in self._leaves):
             values = (item for sample in self.last for item in sample.choices.items())
             if held := sorted({path for path, value in values if isinstance(value, (bool, int))}):
                 say(kept(held, name))
@@ -282,10 +222,9 @@ class ChainResult(Result):
 
     def _unmoved(self) -> list[str]:
         """The continuous choices of the present states, by site, that no kernel without a gradient has moved."""
-        leaves = [] if self.method.kernel is None else self.method.kernel.leaves()
-        if any(not leaf.follows and leaf.name != "on" for leaf in leaves):
+        if any(not leaf.follows and leaf.name != "on" for leaf in self._leaves):
             return []
-        proposed = {row.site for row in self.acceptance.values()}
+        proposed = {one.site for one in self.acceptance.values()}
         sites = {
             path.rsplit("/", 1)[-1]
             for sample in self.last
@@ -293,23 +232,3 @@ class ChainResult(Result):
             if not isinstance(value, (bool, int))
         }
         return sorted(sites - proposed)
-
-    @property
-    def counters(self) -> dict[str, int]:
-        """Work done, and the size of the present states, all chains together."""
-        return dict(self._seen("counters", lambda: self._engine.counters()))
-
-    @property
-    def trace(self) -> NDArray[np.float64]:
-        """Log scores of the samples, (chains, samples of the shortest chain), nats."""
-        least = min((len(chain) for chain in self.by_chain), default=0)
-        return np.array(
-            [[one.log_score for one in chain[:least]] for chain in self.by_chain], dtype=np.float64
-        )
-
-    def __repr__(self) -> str:
-        proposals = self.counters["proposals"]
-        return (
-            f"<ChainResult: {self.method.chains} chain{'s' if self.method.chains > 1 else ''}, "
-            f"{proposals} proposals, {len(self.samples)} samples, best log score {self.best.log_score:.2f}>"
-        )

@@ -10,7 +10,8 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
+from operator import add
 from statistics import NormalDist
 from typing import Any
 
@@ -244,7 +245,7 @@ class Divergences:
     impossible : int
         The density is zero there.
     not_finite : int
-        The density or its gradient is no number there; see `HmcResult.fault`.
+        The density or its gradient is no number there; see `HmcInfo.fault`.
     """
 
     energy: int = 0
@@ -252,17 +253,20 @@ class Divergences:
     impossible: int = 0
     not_finite: int = 0
 
+    def __add__(self, other: Divergences) -> Divergences:
+        """Those of both."""
+        return Divergences(*map(add, astuple(self), astuple(other)))
+
     @property
     def total(self) -> int:
         """All of them."""
-        return self.energy + self.structure + self.impossible + self.not_finite
+        return sum(astuple(self))
 
     @property
     def named(self) -> list[str]:
         """Each count above 0 with its name, as results print them."""
         names = ("diverged", "refused for structure", "impossible", "not finite")
-        counts = (self.energy, self.structure, self.impossible, self.not_finite)
-        return [f"{count} {name}" for count, name in zip(counts, names, strict=True) if count]
+        return [f"{count} {name}" for count, name in zip(astuple(self), names, strict=True) if count]
 
 
 class Summaries(tuple[Summary, ...]):

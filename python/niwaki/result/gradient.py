@@ -17,7 +17,6 @@ vector    vectors                     `v`
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -25,29 +24,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from niwaki import _engine
 from niwaki.lang.compiled import translated
-
-
-@dataclass(frozen=True)
-class Coordinates:
-    """A continuous choice as a sampler sees it.
-
-    Attributes
-    ----------
-    name : str
-        Address of the choice.
-    family : str
-        The distribution that it is drawn from.
-    transform : str
-        From coordinates to value: line, above, between, circle, simplex or vector.
-    first, count : int
-        Its coordinates are `x[first : first + count]`.
-    """
-
-    name: str
-    family: str
-    transform: str
-    first: int
-    count: int
 
 
 class LogDensity:
@@ -60,14 +36,15 @@ class LogDensity:
     ----------
     start : array of shape (dim,)
         The coordinates of the sample.
-    choices : tuple of Coordinates
-        The continuous choices in the order of the run.
+    choices : list of Coordinates
+        The continuous choices in the order of the run: `name` (the address), `family`, `transform`, and where the
+        coordinates are, `x[first : first + count]`.
     """
 
     def __init__(self, density: _engine.Density) -> None:
         self._density = density
         self.start: NDArray[np.float64] = density.start
-        self.choices: tuple[Coordinates, ...] = tuple(Coordinates(*choice) for choice in density.choices)
+        self.choices: list[_engine.Coordinates] = density.choices
 
     @property
     def dim(self) -> int:

@@ -1,4 +1,4 @@
-"""The short ways to a search: `run` a model by any method, and `grow` one into a target.
+"""`run` a model by any method, and `grow` one into a target: both make a `Search` and run it.
 
 Seeds are 64-bit numbers; where none is given a fresh one is drawn and kept in the result. The same seed gives the same
 result on any number of threads. Ctrl-C stops a search, which then gives what it has (`Result.interrupted`).
@@ -152,7 +152,7 @@ def grow(
             "bad-setting",
             name=next(iter(settings)),
             found=repr(next(iter(settings.values()))),
-            expected="nothing beside `method`, which has settings of its own",
+            expected="no settings together with `method`, which has its own",
             suggestion=f"`method` left out, or the setting in `{method.NAME}(...)`",
         )
     asked = no_self_intersection(rule) * (Score() if score is None else score)

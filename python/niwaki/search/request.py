@@ -1,6 +1,6 @@
 """A search as a value: all that decides what is found, and nothing that does not.
 
-`niwaki.grow` and `niwaki.run` are short ways to make one and run it. It can be written to JSON and read again, sent to
+`niwaki.grow` and `niwaki.run` make one and run it. It can be written to JSON and read again, sent to
 another process, and its hash says whether two searches are the same.
 
 >>> import niwaki as nw
@@ -31,7 +31,6 @@ from niwaki.lang.models import Model, as_model
 from niwaki.methods import Forward, Method, Mh
 from niwaki.methods.checks import bad
 from niwaki.result import Result
-from niwaki.result.chains import ChainResult
 from niwaki.result.progress import Watch, watcher
 from niwaki.search import searching
 from niwaki.search.checks import check_polish, check_seed, check_threads, fresh
@@ -121,7 +120,7 @@ class Search:
             check_polish(self.polish)
         if self.polish is not None and getattr(self.method, "diverse", None) is not None:
             suggestion = "None, and `Result.polish` for one of the results"
-            expected = "nothing beside `diverse`, as chains may meet"
+            expected = "None together with `diverse`, because chains may end in the same state"
             raise InputError(
                 "bad-setting", name="polish", found="mh(...)", expected=expected, suggestion=suggestion
             )
@@ -151,7 +150,7 @@ class Search:
         seed: int | None = None,
         threads: int | None = None,
         progress: Watch | None = None,
-    ) -> ChainResult:
+    ) -> Result:
         """Go on from the best sample of a result of this search; see `Result.polish`."""
         seed = result.seed if seed is None else seed
         return searching.polished(result, method, seed, threads, watcher(progress))

@@ -19,7 +19,7 @@ from niwaki.search import Progress
 
 app = typer.Typer(
     name="niwaki",
-    help="Grow procedural models into the shapes you ask for.",
+    help="Grow procedural models into given shapes.",
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
@@ -28,7 +28,7 @@ app = typer.Typer(
 
 ModelName = Annotated[str, typer.Argument(metavar="MODEL", help="A gallery name, or file.py:function.")]
 Folder = Annotated[
-    Path | None, typer.Option("-o", "--output", metavar="DIR", help="Where files go; default: out.")
+    Path | None, typer.Option("-o", "--output", metavar="DIR", help="The folder for files; default: out.")
 ]
 
 

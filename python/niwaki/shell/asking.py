@@ -27,24 +27,28 @@ def _file(flag: str, text: str) -> Any:
 
 
 TargetFile = Annotated[str | None, _file("--target", "A mesh to fill (OBJ, STL, PLY, GLB).")]
-AvoidFiles = Annotated[list[str] | None, _file("--avoid", "A mesh to keep away from; may be repeated.")]
+AvoidFiles = Annotated[list[str] | None, _file("--avoid", "A mesh to avoid; may be repeated.")]
 Floor = Annotated[float | None, typer.Option("--floor", metavar="Y", help="A height to stay above.")]
 Within = Annotated[
     str | None,
-    typer.Option("--within", metavar="X,Y,Z,X,Y,Z", help="Low and high corner of a box to stay in, softly."),
+    typer.Option("--within", metavar="X,Y,Z,X,Y,Z", help="Low and high corner of a box to stay in; soft."),
 ]
 ImageFile = Annotated[str | None, _file("--match-image", "A silhouette to match; needs --camera.")]
 ShadowFile = Annotated[str | None, _file("--match-shadow", "A shadow to cast; needs --light and --receiver.")]
-CameraFile = Annotated[str | None, _file("--camera", "Who sees the image or the shadow, as JSON.")]
-WeightFile = Annotated[str | None, _file("--weight-image", "Where the match matters more: white.")]
-Weight = Annotated[float | None, typer.Option("--weight", help="How much more white weighs; default: 10.")]
+CameraFile = Annotated[
+    str | None, _file("--camera", "The camera that sees the image or the shadow, a JSON file.")
+]
+WeightFile = Annotated[str | None, _file("--weight-image", "An image, white where a pixel counts more.")]
+Weight = Annotated[
+    float | None, typer.Option("--weight", help="How much more a white pixel counts; default: 10.")
+]
 Light = Annotated[
     str | None, typer.Option("--light", metavar="X,Y,Z", help="The direction in which the light travels.")
 ]
 ReceiverFile = Annotated[str | None, _file("--receiver", "A mesh that the shadow falls on.")]
 Voxel = Annotated[
     float | None,
-    typer.Option("--voxel", metavar="SIZE", help="Cell size; default: what suits model or target."),
+    typer.Option("--voxel", metavar="SIZE", help="Cell size; default: depends on the model or target."),
 ]
 Sigma = Annotated[float, typer.Option("--sigma", help="Strictness of the match; smaller is stricter.")]
 
@@ -82,15 +86,15 @@ class Asked:
                 image,
                 "`--camera`",
                 self.camera is not None,
-                "it says from where the image is seen",
+                "an image is seen by a camera",
             ),
-            ("--match-shadow", shadow, "`--light`", self.light is not None, "it says where a shadow falls"),
+            ("--match-shadow", shadow, "`--light`", self.light is not None, "a shadow needs a light"),
             (
                 "--match-shadow",
                 shadow,
                 "`--receiver`",
                 self.receiver is not None,
-                "a shadow falls on something",
+                "a shadow needs a receiver",
             ),
             ("--light", self.light is not None, "`--match-shadow`", shadow, "only a shadow has a light"),
             (
@@ -98,7 +102,7 @@ class Asked:
                 self.receiver is not None,
                 "`--match-shadow`",
                 shadow,
-                "only a shadow falls on something",
+                "only a shadow has a receiver",
             ),
             (
                 "--camera",
@@ -112,14 +116,14 @@ class Asked:
                 self.weight_image is not None,
                 pictures,
                 image or shadow,
-                "it weighs a picture",
+                "it weights the pixels of a picture",
             ),
             (
                 "--weight",
                 self.weight is not None,
                 "`--weight-image`",
                 self.weight_image is not None,
-                "it says where",
+                "it is the weight of the white pixels",
             ),
         ):
             if given and not there:

@@ -20,7 +20,7 @@ def check(
     core: Annotated[bool, typer.Option("--core", help="Print the core form.")] = False,
     bytecode: Annotated[bool, typer.Option("--bytecode", help="Print the bytecode.")] = False,
 ) -> None:
-    """Compile MODEL and report what it is made of, with advice; exit 1 when it does not compile."""
+    """Compile MODEL and report its functions and choices, with advice; exit 1 when it does not compile."""
     found = find(model)
     start = time.perf_counter()
     try:

@@ -29,7 +29,7 @@ def color(
         ),
     ],
     rules: Annotated[
-        str | None, typer.Option("--rules", metavar="FILE", help="What is asked of the regions, as TOML.")
+        str | None, typer.Option("--rules", metavar="FILE", help="Rules for the regions, a TOML file.")
     ] = None,
     count: Annotated[int, typer.Option("-n", "--count", help="How many colourings.")] = 12,
     output: Folder = None,
@@ -43,7 +43,7 @@ def color(
         int | None, typer.Option(help="Default: all cores. Results do not depend on it.")
     ] = None,
 ) -> None:
-    """Color DRAWING in ways that differ; writes 01.svg, 01.png, ..., sheet.png, colors.json and residuals.csv."""
+    """Color DRAWING in colourings that differ; writes 01.svg, 01.png, ..., sheet.png, colors.json and residuals.csv."""
     for flag, value in (("--count", count), ("--size", size), ("--measure", measure)):
         at_least_one(flag, value)
     seed = fresh(seed)

@@ -23,7 +23,7 @@ from niwaki.targets.views import save_view
 
 @app.command()
 @settings.with_settings(
-    *settings.METHODS.values(), temper="16, with absolute weights 1", particles="what suits the model, or 300"
+    *settings.METHODS.values(), temper="16, with absolute weights 1", particles="the model's own, or 300"
 )
 def grow(
     model: ModelName,
@@ -40,12 +40,12 @@ def grow(
     receiver: asking.ReceiverFile = None,
     voxel: asking.Voxel = None,
     sigma: asking.Sigma = 0.02,
-    rule: Annotated[str, typer.Option(help="What intersects: solid or surface.")] = "solid",
+    rule: Annotated[str, typer.Option(help="Which parts count as intersecting: solid or surface.")] = "solid",
     method: settings.MethodName = "smc",
     polish: settings.Polish = None,
     polish_kernel: settings.PolishKernel = None,
     runs: Annotated[int, typer.Option(help="How many results, with seeds SEED, SEED + 1, ...")] = 1,
-    seed: Annotated[int | None, typer.Option(help="Default: a fresh one, which is written down.")] = None,
+    seed: Annotated[int | None, typer.Option(help="Default: a new one, which run.json keeps.")] = None,
     threads: Annotated[
         int | None, typer.Option(help="Default: all cores. Results do not depend on it.")
     ] = None,
@@ -60,11 +60,14 @@ def grow(
         bool, typer.Option("--json", help="Print the numbers as JSON; files are written only with -o.")
     ] = False,
     picture: Annotated[
-        bool, typer.Option("--picture/--no-picture", help="Draw best.png, sheet.png and what was matched.")
+        bool,
+        typer.Option(
+            "--picture/--no-picture", help="Draw best.png, sheet.png and the pictures that were matched."
+        ),
     ] = True,
     **given: Any,
 ) -> None:
-    """Grow MODEL into what is asked for; writes best.glb, best.png, sheet.png and run.json."""
+    """Grow MODEL into its target; writes best.glb, best.png, sheet.png and run.json."""
     asked = asking.Asked(
         target,
         tuple(avoid or ()),

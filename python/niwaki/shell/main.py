@@ -1,4 +1,4 @@
-"""The shell's door: every command of `niwaki.shell`, and the exit codes.
+"""The command line: every command of `niwaki.shell`, and the exit codes.
 
 Exit codes: 0 done, 1 a model that does not compile (`check`), 2 an error with a message, 130 stopped by Ctrl-C (what
 was found is written first).

@@ -8,6 +8,6 @@ from niwaki.shell.app import app
 
 @app.command()
 def models() -> None:
-    """List the gallery: name, target, what it makes."""
+    """List the gallery: name, target, title."""
     for entry in entries():
         print(f"{entry.name:<16} {entry.target_name or '-':<16} {entry.title}")

@@ -104,7 +104,7 @@ def load(path: str | PathLike[str]) -> dict[str, Any]:
     except (ValueError, OSError) as error:
         raise InputError("bad-run-file", path=place, reason=f"it is not JSON: {error}") from error
     except (KeyError, IndexError, TypeError) as error:
-        raise InputError("bad-run-file", path=place, reason=f"something is missing: {error!r}") from error
+        raise InputError("bad-run-file", path=place, reason=f"a field is missing: {error!r}") from error
     return dict(data)
 
 

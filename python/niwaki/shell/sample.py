@@ -20,7 +20,6 @@ from niwaki.draw.picture import save_image
 from niwaki.errors.files import write_whole
 from niwaki.methods import Mh
 from niwaki.result import Result
-from niwaki.result.chains import ChainResult
 from niwaki.search import Progress
 from niwaki.shell import run_files, settings
 from niwaki.shell.app import Folder, ModelName, app, made_folder
@@ -44,7 +43,7 @@ def sample(
     ] = None,
     voxel: Annotated[float | None, typer.Option(metavar="SIZE", help="Cell size for the target.")] = None,
     sigma: Annotated[float, typer.Option(help="Strictness of the match.")] = 0.02,
-    seed: Annotated[int | None, typer.Option(help="Default: a fresh one, which is written down.")] = None,
+    seed: Annotated[int | None, typer.Option(help="Default: a new one, which run.json keeps.")] = None,
     threads: Annotated[int | None, typer.Option(help="Default: all cores.")] = None,
     output: Folder = None,
     as_json: Annotated[
@@ -55,7 +54,7 @@ def sample(
     ] = True,
     **given: Any,
 ) -> None:
-    """Sample MODEL by Markov chains; writes samples.csv and run.json, and best.glb, best.png, sheet.png of scenes."""
+    """Sample MODEL by Markov chains; writes samples.csv and run.json, and best.glb, best.png, sheet.png for scenes."""
     found = find(model)
     score = Score()
     if target is not None:
@@ -67,7 +66,6 @@ def sample(
         result = search.run(
             found.model, method=method, score=score, seed=seed, threads=threads, progress=progress
         )
-    assert isinstance(result, ChainResult)
     if output is not None or not as_json:
         _write(output or Path("out"), result, found, picture)
     if as_json:
@@ -78,7 +76,7 @@ def sample(
         raise typer.Exit(130)
 
 
-def _write(output: Path, result: ChainResult, found: Found, picture: bool) -> None:
+def _write(output: Path, result: Result, found: Found, picture: bool) -> None:
 
     folder = made_folder(output)
     # The best of each chain is what can be replayed.
@@ -94,7 +92,7 @@ def _write(output: Path, result: ChainResult, found: Found, picture: bool) -> No
         save_image(lambda: bests.sheet(), folder / "sheet.png")
 
 
-def _table(result: ChainResult) -> str:
+def _table(result: Result) -> str:
     """The samples, one a line."""
     text = io.StringIO()
     rows = csv.writer(text, lineterminator="\n")
@@ -105,12 +103,12 @@ def _table(result: ChainResult) -> str:
     return text.getvalue()
 
 
-def _summary(result: ChainResult, folder: Path) -> None:
+def _summary(result: Result, folder: Path) -> None:
     print(f"{'site':<40}{'proposals':>12}{'accepted':>10}")
     for name, row in list(result.acceptance.items())[:12]:
         print(f"{name:<40}{row.proposed:>12}{row.rate:>10.2f}")
         if row.proposed >= 100 and row.outside == row.proposed:
-            print(f"warning: every proposal for `{name}` lay outside its support", file=sys.stderr)
+            print(f"warning: every proposal for `{name}` was outside its support", file=sys.stderr)
     counters = result.counters
     if counters["many_proposed"]:
         share = counters["many_accepted"] / counters["many_proposed"]
@@ -132,7 +130,7 @@ def _shown(name: str, proposals: int) -> Iterator[Callable[[Progress], None]]:
         def show(now: Progress) -> None:
             best = f"{now.best:.2f}" if math.isfinite(now.best) else "-"
             status.update(
-                f"sampling {name}: {now.done} of {proposals} proposals, best {best}   (Ctrl-C keeps what there is)"
+                f"sampling {name}: {now.done} of {proposals} proposals, best {best}   (Ctrl-C keeps the states so far)"
             )
 
         yield show

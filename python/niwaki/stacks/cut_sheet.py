@@ -9,7 +9,6 @@ from __future__ import annotations
 import io
 from dataclasses import dataclass
 from html import escape
-from importlib import import_module
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -17,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from niwaki.errors import FileError
+from niwaki.errors.extras import optional
 from niwaki.errors.files import write_whole
 from niwaki.stacks.structure import Floats, Structure
 
@@ -331,7 +331,4 @@ def svg_page(width: float, height: float, body: list[str]) -> str:
 
 def need(module: str) -> Any:
     """Import a library of the extra `stacks`, or say how to get it."""
-    try:
-        return import_module(module)
-    except ImportError:
-        raise FileError("missing-extra", task="laying pieces out on a board", extra="stacks") from None
+    return optional(module, "laying pieces out on a board", "stacks")

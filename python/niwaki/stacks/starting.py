@@ -13,7 +13,7 @@ import numpy as np
 from niwaki.errors import ModelFault
 from niwaki.lang.models import Model
 from niwaki.result.gradient import LogDensity
-from niwaki.result.result import log_density
+from niwaki.result.sample import log_density
 from niwaki.search import run
 from niwaki.stacks.judges import need
 from niwaki.stacks.structure import Floats

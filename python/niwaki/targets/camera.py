@@ -81,7 +81,7 @@ class Camera:
                 raise InputError("bad-camera", reason=reason)
         view = _minus(self.look_at, self.position)
         if not any(view):
-            raise InputError("bad-camera", reason=f"it stands where it looks at: {self.position}")
+            raise InputError("bad-camera", reason=f"its position is its look_at: {self.position}")
         across = _cross(view, self.up)
         if _length(across) <= 1e-9 * _length(view) * _length(self.up):
             raise InputError(

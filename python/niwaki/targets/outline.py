@@ -90,7 +90,7 @@ def _from_svg(text: str) -> list[Point]:
     for element in root.iter():
         kind = str(element.tag).rpartition("}")[2]
         if kind in ("polygon", "path") and any(part.get("transform") for part in root.iter()):
-            raise _Unusable("the drawing has a `transform`; apply it in the program that made the file")
+            raise _Unusable("the drawing has a `transform`; apply it in the program that wrote the file")
         if kind == "polygon":
             numbers = [_number(word) for word in re.split(r"[\s,]+", (element.get("points") or "").strip())]
             return [(x, -y) for x, y in zip(numbers[::2], numbers[1::2], strict=False)]

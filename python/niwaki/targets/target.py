@@ -87,7 +87,7 @@ class Target:
         if self.open_edges:
             warnings.warn(
                 f"{name}: the mesh is not closed: {self.open_edges} open edges; "
-                "what is inside is decided by majority, so close the holes if the fill looks wrong",
+                "inside and outside are decided by majority, so close the holes if the fill looks wrong",
                 TargetWarning,
                 stacklevel=_outside(),
             )

@@ -167,7 +167,7 @@ def test_what_is_not_a_solid_is_said_by_its_address(tmp_path: Path) -> None:
     assert str(caught.value) == (
         "error[not-a-solid]: 2 of 4 shapes are not solids that can be printed\n"
         " = why: ship/keel (its triangles face inwards); ship/sail, shape 2 (3 open edges)\n"
-        " = help: close these meshes in the program that made them, or write .glb, .obj or .ply, which take any mesh"
+        " = help: close these meshes in the program that wrote them, or write .glb, .obj or .ply, which accept any mesh"
     )
     assert list(tmp_path.iterdir()) == []
 

@@ -18,5 +18,5 @@ def test_the_pages_are_those_of_the_table() -> None:
 
 def test_every_page_says_what_to_do() -> None:
     for text in pages().values():
-        assert "## The way out" in text
+        assert "## What to do" in text
         assert "{" not in text.split("```")[0]

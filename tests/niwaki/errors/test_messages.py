@@ -104,11 +104,12 @@ def test_the_layout_is_the_one_of_the_style_guide() -> None:
         "  --> tree.py:15:9\n"
         "   |\n"
         "13 |     xs = []\n"
-        "   |     -- made here\n"
+        "   |     -- created here\n"
         "15 |         xs.append(branch(i))\n"
         "   |         ^^^^^^^^^^^^^^^^^^^^ changes `xs`\n"
         "   |\n"
-        "   = why: a run can be resumed from any of its choices; all of those futures would share the changed value\n"
+        "   = why: a run can be resumed from any of its choices; "
+        "all of these continuations would share the changed value\n"
         "   = help: write `xs = xs + [branch(i)]`"
     )
 

@@ -260,13 +260,13 @@ def test_a_step_that_was_given_is_to_be_smaller() -> None:
 def test_what_is_no_number_is_said_with_its_count() -> None:
     result, said = messages(MODELS["overflow"], few(), seed=1)
     assert said[0].startswith(
-        f"{result.divergences.not_finite} trajectories of `overflow` came to points without"
+        f"{result.divergences.not_finite} trajectories of `overflow` reached points without"
     )
     assert "factor(inf - inf" in said[0] and len(said) == 1
 
 
 def test_an_extreme_scale_that_is_a_choice_is_an_error() -> None:
-    """It has to be learnt, and its square is no number."""
+    """It has to be learnt, and its square is out of range."""
     for method in (few(), nw.mh(steps=50, kernel=nw.kernels.hmc())):
         for name, spread in (("scaled", 1e300), ("scaled", 1e-300), ("vectors", 1e150), ("vectors", 1e-150)):
             with pytest.raises(NiwakiError, match="extreme-scale"):

@@ -1,7 +1,9 @@
-"""A result says what was found: numbers in its repr, weights that sum to one, files and pictures of the best."""
+"""A result says what was found: numbers in its repr, weights that sum to one, files and pictures of the best. After any
+method it is the same class, can be pickled, and has draws by address."""
 
 from __future__ import annotations
 
+import pickle
 import warnings
 from pathlib import Path
 from typing import Any
@@ -118,3 +120,71 @@ def test_every_model_of_the_gallery_grows() -> None:
             result = nw.grow(one.model, target, particles=100, voxel=coarse, seed=1, runs=4)
         assert result.best.primitives > 0
     assert entry("targets") is None and entry("no such") is None
+
+
+@nw.model
+def pair():  # type: ignore[no-untyped-def]
+    first = nw.flip(0.4)
+    x = nw.uniform(-1.0, 1.0)
+    y = nw.dirichlet([1.0, 2.0])
+    nw.observe(nw.Gaussian(x + y[0], 1.0), 0.3)
+    return (first, x)
+
+
+METHODS: dict[str, Any] = {
+    "forward": nw.forward(4),
+    "rejection": nw.rejection(4),
+    "importance": nw.importance(8),
+    "smc": nw.smc(8),
+    "particle_gibbs": nw.particle_gibbs(4, 3),
+    "pimh": nw.pimh(4, 3),
+    "mh": nw.mh(60, chains=2, thin=10),
+    "mh and nuts": nw.mh(60, chains=2, thin=10, kernel=nw.kernels.cycle(nw.kernels.mh(), nw.kernels.nuts())),
+    "hmc": nw.hmc(draws=6, warmup=20, chains=2, steps=4),
+    "nuts": nw.nuts(draws=6, warmup=20, chains=2),
+    "explore": nw.explore(chains=2, draws=3),
+}
+
+
+@pytest.mark.parametrize("name", METHODS)
+def test_after_any_method_a_result_is_pickled_and_has_draws_by_address(name: str) -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # what chains that follow the gradient hold fixed
+        result = nw.run(pair, method=METHODS[name], seed=1)
+    again = pickle.loads(pickle.dumps(result))
+    assert type(result) is type(again) is nw.Result
+    assert repr(again) == repr(result) and again.method == result.method
+    assert [(s.choices, s.value, s.log_joint) for s in again] == [
+        (s.choices, s.value, s.log_joint) for s in result
+    ]
+    assert again.best.choices == result.best.choices
+    count, least = len(result.sizes), min(result.sizes)
+    assert sum(result.sizes) == len(result) and [len(chain) for chain in result.by_chain] == result.sizes
+    assert result.draws["x"].shape == (count, least) and result.draws["y"].shape == (count, least, 2)
+    for address, values in result.draws.items():
+        assert np.array_equal(again.draws[address], values)
+        first = result.by_chain[0][0].choices[address]
+        assert np.array_equal(values[0, 0], first)
+
+
+@pytest.mark.parametrize("name", METHODS)
+def test_after_any_method_arviz_reads_the_draws(name: str) -> None:
+    pytest.importorskip("arviz")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        result = nw.run(pair, method=METHODS[name], seed=1)
+        read = result.to_arviz()
+    assert np.array_equal(read["posterior"]["x"], result.draws["x"])
+    assert read["sample_stats"]["lp"].shape == (len(result.sizes), min(result.sizes))
+
+
+def test_what_the_method_says_is_read_of_the_result() -> None:
+    chains = nw.run(pair, method=METHODS["mh"], seed=1)
+    assert chains.acceptance is chains.info.acceptance and chains.visits[0] == list(range(10, 61, 10))
+    with pytest.raises(AttributeError, match="a result of `mh` has no `step_size`"):
+        _ = chains.step_size
+    weighted = nw.run(pair, method=METHODS["importance"], seed=1)
+    with pytest.raises(nw.InputError, match="samples that weigh the same"):
+        weighted.summary()
+    with pytest.raises(nw.InputError, match="whose chains can go on"):
+        weighted.more(10)

@@ -119,7 +119,7 @@ def test_the_best_is_kept_whether_it_was_sampled_or_not() -> None:
     assert len(result) == 0
     best = result.best
     # Run once more, it scores what it scored.
-    assert best._trace.log_score == best.log_score
+    assert best._trace.run.log_score == best.log_score
     every = nw.run(GARDEN, nw.mh(steps=20_000, thin=1), seed=1)
     assert max(sample.log_score for sample in [*every, every.bests[0]]) == best.log_score
     assert max(every.trace[0]) == best.log_score
@@ -133,8 +133,8 @@ def test_sketches_follow_the_chain(kernel: k.Kernel) -> None:
         score = score * nw.volume_match(target)
     result = nw.run(TOWER, nw.mh(steps=2000, keep=50, kernel=kernel), seed=2, score=score)
     for sample in [*result, result.best]:
-        assert sample._trace.log_score == sample.log_score
-        assert sample._trace.primitives == sample.primitives == len(list(sample.scene))
+        assert sample._trace.run.log_score == sample.log_score
+        assert sample._trace.run.primitives == sample.primitives == len(list(sample.scene))
     assert len({sample.primitives for sample in result}) > 1
 
 
@@ -163,9 +163,9 @@ def test_samples_are_bounded() -> None:
     made = compiled.task(GARDEN, (), {})
     chains = nw._engine.Chains(made, nw.mh(thin=1).text()[0], 1, room=100)
     chains.advance(2000)
-    kept = chains.samples(0)
+    kept = chains.samples()[0]
     assert len(kept) * 8 <= 100
-    assert [outcome.visit for outcome in kept] == list(range(chains.thin()[0], 2001, chains.thin()[0]))
+    assert [run.visit for run in kept] == list(range(chains.thin()[0], 2001, chains.thin()[0]))
 
 
 def test_ctrl_c_gives_what_there_is() -> None:

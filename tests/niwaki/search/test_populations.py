@@ -124,6 +124,26 @@ def test_nothing_that_is_possible_is_an_error(method: Any) -> None:
     assert "`condition` at line 7" in str(found.value)
 
 
+def test_particle_gibbs_starts_from_a_population_that_lives() -> None:
+    """Of two particles 0.81 die; ten populations all die for 12 seeds of 100."""
+    found = nw.run(RARE, method=nw.particle_gibbs(particles=2, sweeps=39), seed=2)
+    assert 0 < found.info.died < 40 and len(found) == 39
+    with pytest.raises(InputError, match="`condition` at line"):
+        nw.run(NEVER, method=nw.particle_gibbs(particles=3, sweeps=5), seed=3)
+
+
+def test_samples_of_separate_runs_have_no_common_weights() -> None:
+    several = nw.Search(COINS, method=nw.smc(5), seed=1, runs=3).run()
+    for ask in (lambda: several.weights, several.distribution):
+        with pytest.raises(InputError, match="weights-of-runs"):
+            ask()
+
+
+def test_enumeration_counts_impossible_runs() -> None:
+    with pytest.raises(InputError, match="too-many-runs"):
+        nw.run(RARE, method=nw.enumerate_all(max_runs=1), seed=1)
+
+
 def test_weights_of_what_is_impossible_are_an_error() -> None:
     found = nw.run(RARE, method=nw.importance(200), seed=1)
     assert set(found.distribution()) == {True} and found.weights.sum() == pytest.approx(1.0)
@@ -135,7 +155,7 @@ def test_weights_of_what_is_impossible_are_an_error() -> None:
 
 
 def test_fewer_that_differ_are_said() -> None:
-    with pytest.warns(SearchWarning, match="of 30 results that differ were found in 1 population;"):
+    with pytest.warns(SearchWarning, match="of 30 results that differ are in 1 population;"):
         found = nw.run(COINS, method=nw.smc(particles=50, populations=1, diverse=30), seed=1)
     assert 1 <= len(found) < 30
 

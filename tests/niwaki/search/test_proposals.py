@@ -23,6 +23,7 @@ from niwaki.words import (
     Gaussian,
     StudentT,
     Uniform,
+    factor,
     flip,
     future,
     gaussian,
@@ -113,6 +114,24 @@ def test_a_future_knows_its_whole_address(order: str) -> None:
     wrong = k.on("_[1]/**tall", k.proposal(lambda: Gaussian(0, 1)))
     with pytest.raises(NiwakiError, match=r"the choice `_\[1\]/tree/tall`"):
         nw.run(grove, nw.smc(5, order=order, proposal=wrong), seed=1)
+
+
+@model
+def walked(n: int = 3) -> int:
+    last, total = 0, 0
+    for _ in range(n):
+        step = flip(0.4)
+        last = 1 if step else 0
+        factor(0.3 * last)
+        total = total + last
+    return total
+
+
+def test_a_variable_that_only_the_proposal_reads_is_handed_from_iteration_to_iteration() -> None:
+    own = k.on("**step", k.proposal(lambda last: Bernoulli(0.3 + 0.4 * last)))
+    exact = nw.run(walked, nw.enumerate_all()).log_evidence
+    runs = [nw.run(walked, nw.importance(50, proposal=own), seed=seed) for seed in range(100)]
+    assert abs(z([math.exp(run.log_evidence - exact) for run in runs], 1.0)) < LIMIT
 
 
 @model

@@ -120,7 +120,7 @@ def test_the_trace_of_a_sample_has_its_scores() -> None:
         seed=2,
     )
     for sample in result[:10]:
-        trace = sample._trace
+        trace = sample._trace.run
         assert (trace.log_score, trace.log_prior) == (sample.log_score, sample.log_prior)
         assert (trace.primitives, trace.similarity) == (sample.primitives, sample.similarity)
         again = nw.run(ship.model, choices=sample.choices, score=result.score).best

@@ -122,7 +122,7 @@ def test_more_goes_on_where_it_stopped() -> None:
 def test_every_state_scores_what_it_scores_when_it_is_run_again() -> None:
     result = nw.run(BEADS, nw.mh(steps=2000, keep=50, kernel=BOTH), seed=1)
     for sample in [*result, result.best]:
-        assert sample._trace.log_score == sample.log_score
+        assert sample._trace.run.log_score == sample.log_score
         assert abs(sum(sample.choices["shares"]) - 1.0) < 1e-12
 
 

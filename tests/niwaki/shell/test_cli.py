@@ -173,16 +173,20 @@ def test_a_process_prints_errors_without_a_traceback() -> None:
 @pytest.mark.skipif(os.name == "nt", reason="signals of Unix")
 def test_ctrl_c_writes_the_best_so_far(tmp_path: Path) -> None:
     words = ["grow", "spaceship", "-n", "300", "--runs", "100000", "--voxel", "0.5", "--no-picture"]
+    out = tmp_path / "out"
     child = subprocess.Popen(
-        [sys.executable, "-m", "niwaki.shell.main", *words, "-o", str(tmp_path)], stdout=subprocess.PIPE
+        [sys.executable, "-m", "niwaki.shell.main", *words, "-o", str(out)], stdout=subprocess.PIPE
     )
+    # The folder is there before the search begins.
+    while not out.exists() and child.poll() is None:
+        time.sleep(0.1)
     time.sleep(3.0)
     child.send_signal(signal.SIGINT)
     assert child.wait(timeout=60) == 130
     assert child.stdout is not None
     child.stdout.close()
-    data = json.loads((tmp_path / "run.json").read_text())
+    data = json.loads((out / "run.json").read_text())
     assert data["interrupted"] and len(data["runs"]) >= 1
-    before = (tmp_path / "best.glb").read_bytes()
-    assert run("replay", str(tmp_path / "run.json"), "-o", str(tmp_path), "--no-picture").exit_code == 0
-    assert (tmp_path / "best.glb").read_bytes() == before
+    before = (out / "best.glb").read_bytes()
+    assert run("replay", str(out / "run.json"), "-o", str(out), "--no-picture").exit_code == 0
+    assert (out / "best.glb").read_bytes() == before

@@ -44,7 +44,7 @@ def test_defaults_are_those_of_the_published_cameras() -> None:
         ({"position": None}, "`position` is None"),
         ({"position": [0, 2]}, "three numbers"),
         ({"position": [0, nan, 0]}, "finite"),
-        ({"look_at": [0, 2, 20]}, "stands where it looks at"),
+        ({"look_at": [0, 2, 20]}, "position is its look_at"),
         ({"up": [0, 0, 1]}, "direction of view"),
         ({"up": [0, 0, 0]}, "direction of view"),
         ({"fov_degrees": 180}, "less than 180"),

@@ -10,8 +10,7 @@
 //! Differences are exact before they are rounded, so that a ratio is right however large the terms are that cancel in it.
 //! Dissertation 3.2, with the odds of a choice in place of the ratio of the numbers of choices.
 
-use crate::hamiltonian::{Kernel, Metric, Phase, Potential, Transition};
-use niwaki_math::{Stream, Total};
+use niwaki_math::Total;
 use niwaki_vm::code::Program;
 use niwaki_vm::machine::kept::Trace;
 
@@ -55,9 +54,6 @@ impl Terms<'_> {
 
 /// How a chain decides. Searches use [`MetropolisHastings`]; the tests also hold mutants of it, which must be found out.
 pub trait Rules: Send {
-    /// Whether densities over coordinates leave their Jacobians out.
-    const DROPS_JACOBIAN: bool = false;
-
     /// Log of the acceptance ratio; NaN where two infinities meet, which counts as impossible.
     #[inline(always)]
     fn log_ratio(t: &Terms<'_>) -> f64 {
@@ -74,18 +70,6 @@ pub trait Rules: Send {
     #[inline]
     fn log_exchange(powers: (f64, f64), gain: f64) -> f64 {
         (powers.0 - powers.1) * gain
-    }
-
-    /// One transition along the gradient.
-    fn travel<P: Potential>(
-        kernel: &mut Kernel,
-        target: &mut P,
-        metric: &Metric,
-        step: f64,
-        phase: &mut Phase,
-        stream: &mut Stream,
-    ) -> Transition {
-        kernel.step(target, metric, step, phase, stream)
     }
 
     /// Told of a chain's trace before its first proposal.

@@ -6,7 +6,7 @@
 //!   [`block`], `regenerate`: proposals that change many;
 //! * [`trajectory`]: the continuous choices move together along their gradient;
 //! * [`accept`]: the acceptance ratio, in plain letters; `decide`: a proposal is kept or undone;
-//! * [`counts`], [`best`], [`samples`], [`snapshot`]: what is told afterwards;
+//! * [`counts`], [`best`], [`samples`]: what is reported afterwards;
 //! * [`ladder`]: parallel tempering; [`many`]: several searches side by side;
 //! * [`agreement`]: four strategies in step, compared to the bit; [`explain`]: what each of them does for one proposal.
 //!
@@ -33,12 +33,12 @@ mod regenerate;
 pub mod samples;
 pub(crate) mod select;
 pub(crate) mod single;
-pub mod snapshot;
 pub mod state;
 pub mod streams;
 pub mod trajectory;
 pub mod user;
 
+use crate::run::Run;
 use crate::{Failure, Task, gradient};
 use accept::{MetropolisHastings, Rules};
 use best::Best;
@@ -54,7 +54,6 @@ use odds::Table;
 use plan::{Plan, Way};
 use samples::Samples;
 use single::{Ahead, FromPrior};
-use snapshot::Snapshot;
 use state::State;
 use std::collections::HashMap;
 use std::marker::PhantomData;
@@ -180,7 +179,7 @@ impl<R: Rules> Chain<R> {
         let mut tables = Vec::new();
         for leaf in &mut plan.leaves {
             if let Way::Trajectory(own) = &mut leaf.way {
-                own.prepare::<R>(task)?;
+                own.prepare(task)?;
             }
             if !leaf.selection.is_all() {
                 leaf.table = Some(tables.len());
@@ -226,8 +225,8 @@ impl<R: Rules> Chain<R> {
     }
 
     /// The present state.
-    pub fn now(&self, program: &Program) -> Snapshot {
-        Snapshot::of(&self.state, program, self.visit)
+    pub fn now(&self, program: &Program) -> Run {
+        self.state.run(program, self.visit)
     }
 
     /// Makes `steps` proposals. `watch` is told their number and the best score now and then; when it answers false,

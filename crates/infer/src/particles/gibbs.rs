@@ -102,7 +102,8 @@ pub(super) fn check_chain(settings: &Settings, sweeps: usize) -> Result<(), Faul
 /// `watch` is told after each barrier; when it answers false, the sweeps so far are given.
 ///
 /// # Errors
-/// Settings that a chain cannot have, fewer than two particles, a fault of the program, or no possible first run.
+/// Settings that a chain cannot have, fewer than two particles, a fault of the program, or first populations that all
+/// died.
 pub fn particle_gibbs(
     task: &Task,
     settings: &Settings,
@@ -125,15 +126,11 @@ pub fn particle_gibbs(
     let mut path = match from {
         Some(entries) => Path::of(task, settings, entries, &mut orders)?,
         None => {
-            let first = run(task, settings, false, watch)?;
-            if first.interrupted {
+            let Some(first) = first_run(task, settings, sweeps, &mut chain, watch)? else {
                 chain.interrupted = true;
                 return Ok(chain);
-            }
-            let mut weights = Normalised::default();
-            weights.read(first.particles.iter().map(|p| p.log_weight));
-            let row = draw_row(&weights, settings.seed, 0);
-            Path::of(task, settings, &first.particles[row].record.log.entries(), &mut orders)?
+            };
+            Path::of(task, settings, &first.record.log.entries(), &mut orders)?
         }
     };
     for sweep in 1..=sweeps {
@@ -148,6 +145,30 @@ pub fn particle_gibbs(
         path = new;
     }
     Ok(chain)
+}
+
+/// A run of the first population that lives, of at most one more than there are sweeps. `None` when it was stopped.
+fn first_run(
+    task: &Task,
+    settings: &Settings,
+    sweeps: usize,
+    chain: &mut Chain,
+    watch: &mut Watch<'_>,
+) -> Result<Option<Outcome>, Failure> {
+    let mut seed = settings.seed;
+    loop {
+        match run(task, &Settings { seed, ..settings.clone() }, false, watch) {
+            Ok(found) if found.interrupted => return Ok(None),
+            Ok(mut found) => {
+                let mut weights = Normalised::default();
+                weights.read(found.particles.iter().map(|p| p.log_weight));
+                return Ok(Some(found.particles.swap_remove(draw_row(&weights, seed, 0))));
+            }
+            Err(failure) if failure.is_impossible() && chain.died < sweeps => chain.died += 1,
+            Err(failure) => return Err(failure),
+        }
+        seed = Stream::new(settings.seed, SWEEPS, chain.died as u128, 2).next_u64();
+    }
 }
 
 /// One sweep: SMC with the path held, and a draw from its final set. `None` when it was stopped.

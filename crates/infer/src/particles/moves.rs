@@ -12,7 +12,6 @@ use crate::chain::counts::Count;
 use crate::chain::decide::below;
 use crate::chain::plan::Way;
 use crate::chain::single::{FromPrior, Move};
-use crate::chain::snapshot::{logged, present};
 use crate::chain::state::State as ChainState;
 use crate::chain::user::Asking;
 use crate::chain::{Chain, Settings as ChainSettings, block};
@@ -292,7 +291,7 @@ pub(super) fn move_ended(p: &mut Particle, round: &Round<'_>) -> Result<Count, F
     let state = chain.state;
     if count.accepted > 0 {
         let totals = state.trace.totals();
-        p.record.log = logged(present(&state, &task.program));
+        p.record.log = state.choices(&task.program).collect();
         p.record.log_prior.clone_from(&totals.log_prior);
         p.record.log_factors.clone_from(&totals.log_factors);
         p.record.primitives = state.primitives;

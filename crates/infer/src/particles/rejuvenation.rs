@@ -16,7 +16,6 @@ use super::moves::{move_ended, move_running};
 use super::population::{BATCH, Population};
 use super::settings::{Settings, Weights};
 use super::walks::Walks;
-use crate::chain::accept::MetropolisHastings;
 use crate::chain::counts::Count;
 use crate::chain::kernel::Kernel;
 use crate::chain::plan::{Plan, Way};
@@ -166,7 +165,7 @@ impl Mover {
         let mut plan = Plan::new(&rejuvenation.kernel, numbers.len())?;
         for leaf in &mut plan.leaves {
             if let Way::Trajectory(own) = &mut leaf.way {
-                own.prepare::<MetropolisHastings>(task)?;
+                own.prepare(task)?;
             }
         }
         let choosy = (0..plan.leaves.len()).filter(|n| !plan.leaves[*n].selection.is_all()).collect();

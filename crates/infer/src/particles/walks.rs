@@ -11,7 +11,6 @@ use super::moves::CHAINS;
 use super::population::Population;
 use super::smc::{Outcome, Progress};
 use crate::Failure;
-use crate::chain::snapshot::{logged, present};
 use crate::chain::state::State as ChainState;
 use crate::chain::{Chain, Settings as ChainSettings};
 use crate::record::Record;
@@ -111,7 +110,7 @@ fn state_of(chain: &mut Chain, program: &niwaki_vm::code::Program, lineage: u64)
     let totals = state.trace.totals();
     Outcome {
         record: Record {
-            log: logged(present(state, program)),
+            log: state.choices(program).collect(),
             log_prior: totals.log_prior.clone(),
             log_factors: totals.log_factors.clone(),
             log_sketches: state.log_sketches.clone(),

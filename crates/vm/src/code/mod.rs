@@ -324,6 +324,12 @@ impl SiteKind {
         }
     }
 
+    /// Whether what it gives is a future.
+    #[inline]
+    pub fn gives_future(&self) -> bool {
+        matches!(self, SiteKind::Future { detached: false, .. } | SiteKind::FutureApply { detached: false })
+    }
+
     /// Whether the arguments are read once more when other activations have run, so that they must outlive the site.
     /// Those of a site that is met again are; a proposal draws and scores from the node and the site alone; a query
     /// table is read in the same way; an append knows its list by where it lies, so it must live.

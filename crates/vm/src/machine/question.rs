@@ -181,7 +181,7 @@ impl<S: Scalar> Machine<'_, S> {
         let (factor, log) = match site.kind {
             SiteKind::Factor => (Factor::Factor, as_real(get!(last))?),
             SiteKind::Condition => {
-                let log = if ops::truth(get!(last)) { 0.0 } else { f64::NEG_INFINITY };
+                let log = if ops::truth(get!(last))? { 0.0 } else { f64::NEG_INFINITY };
                 (Factor::Condition, S::from_f64(log))
             }
             _ => {

@@ -1,4 +1,4 @@
-"""The texts of all messages, by who finds the error.
+"""The texts of all messages, by the part that reports the error.
 
 message    the shape of an entry
 language   the compiler: a model breaks a rule
@@ -7,6 +7,6 @@ inputs     settings and arguments
 views      images to match, cameras, lights, receivers and obstacles; part of inputs
 files      files, and the settings of targets and pictures
 drawings   drawings to color, and rules about their regions; part of files
-doors      settings, models and run files at Python's and the shell's door
-advice     `niwaki check`: a model is right and could be better
+doors      settings, models and run files, given in Python or in a shell
+advice     `niwaki check`: a model is right and could be more efficient
 """

@@ -9,8 +9,8 @@ CHAINS = (
         "no-start",
         "`{name}` has no possible state to start from: {tried} impossible",
         why="a chain starts from a run whose score is above minus infinity; {constraint}",
-        help="loosen that constraint (a `factor` that grows as it is met better), raise `tries`, or start from a run that is "
-        "possible: give its `choices`, or `start`",
+        help="loosen that constraint (use a `factor` that rises as the run comes closer to it), raise `tries`, or start from "
+        "a possible run: give its `choices`, or `start`",
         example="condition(gaussian(0, 1) > 9)",
         cure="observe(Gaussian(gaussian(0, 1), 0.5), 9)",
     ),
@@ -39,8 +39,8 @@ CHAINS = (
     Message(
         "bad-proposal",
         "a proposal of your own did not give a distribution",
-        why="a search needs the density of what is proposed, and a chain also that of coming back",
-        help="write a function of `old`, the value before, or of variables in scope that gives back a distribution, and draws "
+        why="a search needs the density of the proposed value, and a chain also the density of the reverse proposal",
+        help="write a function of `old`, the value before, or of variables in scope that returns a distribution, and draws "
         "nothing; `old` is for `mh` only",
         example="kernels.proposal(lambda old: gaussian(old, 0.1))",
         cure="kernels.proposal(lambda old: Gaussian(old, 0.1))",
@@ -54,9 +54,9 @@ CHAINS = (
     ),
     Message(
         "proposal-scope",
-        "a proposal of your own asks for a variable that is not there",
-        why="a parameter other than `old` is a variable of the function in which the choice stands, assigned before it on "
-        "every path, that holds a number or a truth value",
+        "a proposal of your own needs a variable that is not in scope",
+        why="a parameter other than `old` is a variable of the function that makes the choice; it is assigned before the "
+        "choice on every path, and holds a number or a truth value",
         help="name such a variable, or restrict the proposal with `on` to the choices where it is in scope",
         example='kernels.on("x", kernels.proposal(lambda x: Gaussian(x, 0.1)))',
         cure='kernels.on("x", kernels.proposal(lambda old: Gaussian(old, 0.1)))',
@@ -64,9 +64,9 @@ CHAINS = (
     Message(
         "proposal-support",
         "a proposal of your own leaves out values that the choice can have",
-        why="weights make up for what is proposed too often or too rarely, but not for what is never proposed: the answer "
-        "would lack it",
-        help="propose from a distribution that reaches all values of the choice's own, if rarely",
+        why="weights correct for values that are proposed too often or too rarely, but not for values that are never "
+        "proposed: the answer would lack them",
+        help="propose from a distribution that can draw all values of the choice's own distribution, even if rarely",
         example='kernels.on("width", kernels.proposal(lambda: Uniform(0.2, 0.4)))',
         cure='kernels.on("width", kernels.proposal(lambda: Gaussian(0.3, 0.1)))',
     ),

@@ -1,4 +1,4 @@
-"""What is wrong with settings, models and run files that come through Python's or the shell's door."""
+"""What is wrong with settings, models and run files, given in Python or in a shell."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ DOORS = (
     ),
     Message(
         "value-too-deep",
-        "the model's value cannot leave the engine",
-        why="it is {found}; Python's own tools stop at such depths too",
+        "the model's value is nested too deep to return to Python",
+        why="it is {found}; Python's own functions fail at such depths too",
         help="return a list instead of tuples inside of tuples",
         example="xs = ()\nfor i in range(1000):\n    xs = (xs, i)",
         cure="xs = []\nfor i in range(1000):\n    xs = xs + [i]",
@@ -33,7 +33,7 @@ DOORS = (
         "no-runs",
         "there is no best sample",
         why="the search keeps a table of values, not runs",
-        help="read `result.distribution()` after an enumeration, or ask for samples with another method",
+        help="read `result.distribution()` after an enumeration, or take samples with another method",
         example="run(model, method=enumerate_all()).best",
         cure="run(model, method=enumerate_all()).distribution()",
     ),
@@ -51,12 +51,12 @@ DOORS = (
         why="{reason}",
         help="a model's file is ordinary Python: run `python {path}` to see where it stops",
         example="a file that imports a module that is not installed",
-        cure="the same file where everything it imports is there",
+        cure="the same file after its imports are installed",
     ),
     Message(
         "no-target",
         "the model `{name}` has no target of its own",
-        why="a model is grown into a target",
+        why="`grow` needs a target",
         help="name one with `--target FILE`, or a picture with `--match-image` or `--match-shadow`; in Python `target` or `score`",
         example="niwaki grow garden.py:tree",
         cure="niwaki grow garden.py:tree --target cloud.obj",
@@ -72,16 +72,16 @@ DOORS = (
     Message(
         "chains-gone",
         "the chains of this result of `{name}` cannot go on",
-        why="a pickled result holds what its chains found, and not the chains",
+        why="a pickled result holds the samples of its chains, and not the chains",
         help="start chains again from its best: `niwaki.run(model, method, choices=result.best.choices)`",
         example="pickle.loads(pickle.dumps(result)).more(1000)",
         cure="result.more(1000)",
     ),
     Message(
         "changed-mesh",
-        "the mesh `{path}` has changed since this search was written down",
-        why="a search is the same only with the same target, so the mesh is known by a hash of its triangles",
-        help="put the old file back, or search again with the new one",
+        "the mesh `{path}` has changed since this search was saved",
+        why="a search is the same only with the same target, so the mesh is identified by a hash of its triangles",
+        help="restore the old file, or search again with the new one",
         example="niwaki.Search.of_json(text) after an edit of the target",
         cure="the file as it was",
     ),
@@ -104,7 +104,7 @@ DOORS = (
     ),
     Message(
         "flags-exclude",
-        "`{flag}` and `{other}` cannot be asked for together",
+        "`{flag}` and `{other}` cannot be used together",
         why="{reason}",
         help="{cure}",
         example="niwaki grow blocks --match-image front.png --match-shadow face.png",

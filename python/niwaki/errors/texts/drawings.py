@@ -8,7 +8,7 @@ DRAWINGS = (
     Message(
         "drawing-no-regions",
         "this drawing has no regions to color",
-        why="two regions or more are colored against one another; it has {found}",
+        why="at least two regions are needed; it has {found}",
         help="give each region a class, or an id, on its shapes or on a group around them; in an image, a colour of its own",
         example='<path d="M0 0H9V9z"/>',
         cure='<path class="roof" d="M0 0H9V9z"/> <path class="wall" d="M0 9H9V18z"/>',
@@ -23,9 +23,9 @@ DRAWINGS = (
     ),
     Message(
         "drawing-unclear",
-        "it cannot be told which shapes of this drawing are painted",
+        "it is not clear which shapes of this drawing are painted",
         why="{reason}",
-        help="let the program that made it export plain shapes: presentation attributes, no nested styles",
+        help="export plain shapes from the program that wrote it: presentation attributes, no nested styles",
         example="<style> g > path { fill: none } </style>",
         cure="<style> .outline { fill: none } </style>",
     ),

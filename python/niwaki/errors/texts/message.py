@@ -16,7 +16,7 @@ class Message:
     title
         What happened; stands alone, lower case, no full stop.
     label, second
-        Said beside the carets, and beside the second place if there is one.
+        The text beside the carets, and beside the second place if there is one.
     why
         Why there is such a rule.
     help

@@ -30,7 +30,7 @@ impl<S: Scalar> Kept<S> {
         if machine.program.function(function).mode == Mode::Pure {
             // A future of a pure function.
             r.gather(state, &machine.scratch, site.args, &mut machine.buffer);
-            return Ok(After::Pure { function, to: site.to, as_future: false });
+            return Ok(After::Pure { function, to: site.to, as_future: site.kind.gives_future() });
         }
         let at = Kept::slot_at(state, node, number.0 as usize);
         let held = self.slots[at].held;
@@ -82,7 +82,7 @@ impl<S: Scalar> Kept<S> {
         let (function, pure) = machine.unwrap_callee()?;
         if pure {
             self.vacate(machine.program, state, node, number.0);
-            return Ok(After::Pure { function, to: site.to, as_future: false });
+            return Ok(After::Pure { function, to: site.to, as_future: site.kind.gives_future() });
         }
         let at = Kept::slot_at(state, node, number.0 as usize);
         let held = self.slots[at].held;
@@ -175,6 +175,7 @@ impl<S: Scalar> Kept<S> {
         let above = &state.nodes[parent.0 as usize];
         let (own, is_new) = (above.registers as usize, above.made == self.now);
         let site = &program.function(above.function).sites[number];
+        let value = if site.kind.gives_future() { Value::returned(value) } else { value };
         let changed = self.write_to(state, is_new, own + site.to.index(), value);
         if !changed {
             let (function, site) = Kept::caller(state, node);

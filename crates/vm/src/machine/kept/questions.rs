@@ -111,6 +111,8 @@ impl<S: Scalar> Kept<S> {
             }
             SiteKind::Loop(l) => Ok(self.begin_loop(machine, state, r, node, number, site, l)?),
             SiteKind::Query => {
+                let key = r.get(state, &machine.scratch, r.f.operands[site.args.start as usize]);
+                key.refuse_futures("the key of a query")?;
                 let at = Kept::slot_at(state, node, number.0 as usize);
                 if !self.slots[at].is_filled() {
                     self.write_slot(self.quiet, at, Slot { held: 0, mark: 0, log: 0.0 });
@@ -132,8 +134,10 @@ impl<S: Scalar> Kept<S> {
                 Ok(After::Next)
             }
             SiteKind::Force => {
-                // A future has returned when its handle is seen: the handle is its value.
-                let value = r.get(state, &machine.scratch, r.f.operands[site.args.start as usize]).clone();
+                let value = match r.get(state, &machine.scratch, r.f.operands[site.args.start as usize]) {
+                    Value::Returned(value) => value.items()[0].clone(),
+                    other => other.clone(),
+                };
                 self.write_to(state, self.quiet, r.own + site.to.index(), value);
                 Ok(After::Next)
             }
@@ -230,7 +234,7 @@ impl<S: Scalar> Kept<S> {
         let log = match site.kind {
             SiteKind::Factor => as_real(r.get(state, &machine.scratch, operand))?.value(),
             SiteKind::Condition => {
-                if ops::truth(r.get(state, &machine.scratch, operand)) {
+                if ops::truth(r.get(state, &machine.scratch, operand))? {
                     0.0
                 } else {
                     f64::NEG_INFINITY
