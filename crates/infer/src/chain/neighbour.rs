@@ -2,7 +2,7 @@
 //!
 //! Each is as likely back as there, so nothing enters the acceptance ratio; numbers that leave the support are rejected.
 
-use super::single::{FromPrior, Move};
+use super::proposal::{FromPrior, Move};
 use niwaki_math::{Dist, Stream};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;
@@ -31,7 +31,7 @@ impl Move for Neighbour {
             (_, Value::Bool(b)) => Some(Value::Bool(!b)),
             (Dist::Categorical(weights), Value::Int(k)) if weights.len() > 1 => {
                 // One of the others: those from the old one on stand one further.
-                let other = super::decide::below(rng, weights.len() as u64 - 1) as i64;
+                let other = super::streams::below(rng, weights.len() as u64 - 1) as i64;
                 Some(Value::Int(other + i64::from(other >= *k)))
             }
             (_, Value::Int(k)) => Some(Value::Int(near(*k, self.reach, rng))),
@@ -46,7 +46,7 @@ impl Move for Neighbour {
 
 /// A whole number at most `reach` from another, and not the same.
 pub(super) fn near(k: i64, reach: u64, rng: &mut Stream) -> i64 {
-    let at = super::decide::below(rng, 2 * reach);
+    let at = super::streams::below(rng, 2 * reach);
     let by = (at / 2 + 1) as i64;
     k.saturating_add(if at.is_multiple_of(2) { by } else { -by })
 }
