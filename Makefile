@@ -1,20 +1,20 @@
-# Every command of the house. From a fresh clone it needs Python 3.11 or later and a Rust toolchain;
-# everything else lands in .venv, at the versions that requirements/*.txt pin.
+# Every command of the project. From a fresh clone it needs Python 3.11 or later and a Rust toolchain;
+# everything else is installed into .venv, at the versions that requirements/*.txt pin.
 #
-#   make demo     grow the gallery's models; pictures and files go to out/
+#   make demo     grow the gallery's models; writes pictures and files to out/
 #   make test     the engine's tests, then the package's
-#   make lint     formatting, clippy, ruff, mypy and the door's stub, warnings as errors
-#   make bench    rates beside WebPPL and a hand-written limit, on one thread (needs node and npm)
+#   make lint     formatting, clippy, ruff, the order of imports, mypy and the stub of the engine, warnings as errors
+#   make bench    speed compared with WebPPL and a hand-written limit, on one thread (needs node and npm)
 #   make figures-sosmc  the figures and the table of chapter 5, into out/figures-sosmc (QUICK=1: a smoke run)
 #   make figures-hmc  the figures and the tables of chapter 4, into out/figures-hmc (QUICK=1: a smoke run)
-#   make bench-c3 proposals of Markov chains beside WebPPL and the limit, with figures (15 minutes; QUICK=1: two)
-#   make bench-hmc gradients and effective samples beside JAX, NumPyro, nutpie and the limit (4 minutes; QUICK=1: one)
+#   make bench-c3 proposals of Markov chains compared with WebPPL and the limit, with figures (15 minutes; QUICK=1: two)
+#   make bench-hmc gradients and effective samples compared with JAX, NumPyro, nutpie and the limit (4 minutes; QUICK=1: one)
 #   make soak     the long tests, with fresh printed seeds (NIWAKI_FUZZ_SECONDS: how long finite programs are tried)
 #   make mutants  deliberate errors in the engine, which the tests must reject (ONLY=name: those); out/mutants.md
 #   make docs     the manual, into docs/_build/html, and the engine's pages, into target/doc
-#   make format   rewrite the sources in the house's style
-#   make locks    pin the newest versions of what pyproject.toml asks for
-#   make clean    remove everything that these targets made
+#   make format   format the sources
+#   make locks    pin the newest versions of the packages in pyproject.toml
+#   make clean    remove everything that these targets created
 
 SHELL := bash
 .SHELLFLAGS := -euo pipefail -c
@@ -62,7 +62,7 @@ $(STAMPS)/engine: $(RUST) pyproject.toml $(STAMPS)/core $(STAMPS)/build
 # ---- what a person asks for
 
 demo: $(STAMPS)/engine
-	$(PY) -m niwaki.gallery.demo out
+	$(PY) -m niwaki.shell.demo out
 
 test: $(STAMPS)/engine $(STAMPS)/test
 	cargo test $(CARGO_FLAGS) --workspace
@@ -75,6 +75,7 @@ lint: $(STAMPS)/engine $(STAMPS)/lint
 	cargo clippy $(CARGO_FLAGS) $(LIMIT) --all-targets -- -D warnings
 	$(VENV)/bin/ruff format --check $(PYTHON_SOURCES)
 	$(VENV)/bin/ruff check $(PYTHON_SOURCES)
+	$(VENV)/bin/lint-imports --no-cache
 	$(VENV)/bin/mypy
 	$(VENV)/bin/stubtest niwaki._engine
 
@@ -94,7 +95,7 @@ bench-c3: $(STAMPS)/engine $(STAMPS)/bench
 
 # Installs half a gigabyte of peers; with them here, the tests that need JAX and ArviZ run.
 bench-hmc: $(STAMPS)/engine $(STAMPS)/bench-hmc $(STAMPS)/test
-	$(PY) -m pytest tests/niwaki/test_with_peers.py
+	$(PY) -m pytest tests/niwaki/result/test_with_peers.py
 	$(PY) benches/gradients.py
 
 soak: $(STAMPS)/engine $(STAMPS)/test

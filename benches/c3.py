@@ -74,7 +74,7 @@ def draw_tree(report: Report, quick: bool) -> None:
     """Figure 3.5 and what it shows."""
     from chains import figures
     from niwaki.draw.picture import picture
-    from niwaki.gallery.targets import bent_tube
+    from niwaki.targets.examples import bent_tube
 
     found = tree.measure(report, 2 if quick else 20, quick)
     best = tree.fitted(report.folder, 5_000 if quick else 150_000)

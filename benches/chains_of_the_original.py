@@ -2,7 +2,7 @@
 
     .venv/bin/python benches/chains_of_the_original.py [RUNS] [EXPERIMENT ...]
 
-Experiments of `niwaki.gallery.experiments` that fill a volume. SOSMC takes 300 particles, temper 16; each chain gets
+Experiments of `experiments` that fill a volume. SOSMC takes 300 particles, temper 16; each chain gets
 the mean CPU time that it took, its first state not counted, and looks at the clock every 500 proposals. Best log
 scores are reported at the experiment's own sigma.
 """
@@ -15,9 +15,9 @@ import warnings
 from typing import Any
 
 import niwaki
+from experiments import experiment
 from niwaki import kernels
 from niwaki.gallery import entry, named_target
-from niwaki.gallery.experiments import experiment
 from niwaki.search import SearchWarning
 
 AT_ONCE = 500

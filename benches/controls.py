@@ -13,7 +13,7 @@ from math import cos, sin
 import niwaki as nw
 import numpy as np
 from niwaki import _engine
-from niwaki.sketches import Score
+from niwaki.targets.sketches import Score
 
 COUNTS = (50, 200, 800, 3200)
 

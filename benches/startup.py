@@ -19,7 +19,7 @@ import json, time
 start = time.perf_counter()
 import niwaki
 imported = time.perf_counter()
-from niwaki.compiled import compile_core
+from niwaki.lang.compiled import compile_core
 from niwaki.gallery.spaceship import spaceship
 from niwaki.lang.lower import lower
 loaded = time.perf_counter()

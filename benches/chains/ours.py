@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import niwaki
-from niwaki.kernels import Kernel
+from niwaki.methods.kernels import Kernel
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from niwaki.gallery.gmm import gmm
 from niwaki.gallery.hlr import hlr
 from niwaki.gallery.hmm import hmm
 from niwaki.gallery.lda import lda
-from niwaki.kernels import Kernel
+from niwaki.methods.kernels import Kernel
 
 
 @dataclass(frozen=True)

@@ -11,11 +11,11 @@ from pathlib import Path
 from typing import Any
 
 from niwaki import _engine, kernels, mh, run, volume_match
+from niwaki.draw.scene import Scene
 from niwaki.gallery.gnarly_tree import gnarly_tree
-from niwaki.gallery.targets import bent_tube
-from niwaki.scene import Scene
-from niwaki.sketches import Score
-from niwaki.target import Target
+from niwaki.targets.examples import bent_tube
+from niwaki.targets.sketches import Score
+from niwaki.targets.target import Target
 
 from chains.ours import Timed
 from chains.report import Report, middle, short

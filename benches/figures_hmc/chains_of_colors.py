@@ -14,7 +14,6 @@ import original
 from chains_of_numbers import Chains
 from niwaki.color import Drawing, coloring
 from niwaki.color.search import arguments, rules_of
-from niwaki.hmc_result import HmcResult
 
 DRAWINGS = ("robot", "house", "bug", "rocket")
 DRAWS, STEPS, BURN_IN = 1000, 100, 2000
@@ -73,7 +72,6 @@ def timed(name: str, method: Any, seed: int) -> Chains:
     start = time.process_time()
     found = nw.run(coloring, *given, method=method, seed=seed, threads=1)
     spent = time.process_time() - start
-    assert isinstance(found, HmcResult)
     colors = np.stack(list(found.draws.values()), axis=-1)
     shape = (*colors.shape[:2], len(drawing.names), 3)
     accepted = float(found.stats["acceptance_rate"].mean())

@@ -10,7 +10,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import niwaki as nw
 import numpy as np
-from niwaki.scene import Scene
+from niwaki.draw.scene import Scene
 from PIL import Image
 from stacking.files import Drawn, Verdicts, chains
 from stacking.judging import passes

@@ -23,9 +23,9 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import niwaki as nw
+from experiments import RECOMMENDED
 from niwaki import kernels
 from niwaki.gallery import entry, named_target
-from niwaki.gallery.experiments import RECOMMENDED
 from niwaki.methods import Mh
 
 SIGMA = 0.02

@@ -10,14 +10,14 @@ from collections.abc import Callable
 from pathlib import Path
 
 import niwaki as nw
+from experiments import EXPERIMENTS, Experiment
 from niwaki._engine import Shape
+from niwaki.draw.scene import Scene
 from niwaki.draw.sheet import sheet
-from niwaki.draw.views import view_sheet
 from niwaki.gallery import entry, named_target
-from niwaki.gallery.experiments import EXPERIMENTS, Experiment
-from niwaki.gallery.pictures import written
 from niwaki.gallery.simple_ship import MODEL as SIMPLE_SHIP
-from niwaki.scene import Scene
+from niwaki.targets.views import view_sheet
+from pictures import written
 from PIL import Image, ImageDraw, ImageFont
 
 #: Particles and seconds of table 5.1: Core i7-3840QM of 2012, one thread. The trees of 5.4 are one row there.

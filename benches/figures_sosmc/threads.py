@@ -7,7 +7,7 @@ times over, and the least of each counts: other programs can only add to it. Wha
 from collections.abc import Callable
 from pathlib import Path
 
-from niwaki.gallery.experiments import Experiment, experiment
+from experiments import Experiment, experiment
 
 NAMES = ("tree", "digits-of-pipes", "face-of-blocks", "ship", "building")
 SEEDS, REPEATS = (1, 2, 3), 7

@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 from niwaki import stacks
-from niwaki.gradient import LogDensity
+from niwaki.result.gradient import LogDensity
 from niwaki.stacks.starting import density_of, height
 
 from stacking.files import Drawn

@@ -1,155 +1,43 @@
 """Niwaki grows procedural models into the shapes you ask for.
 
-What a model may say comes from `niwaki.words`; the rest is imported when it is used, so that `import niwaki` loads
-NumPy and the engine only.
+A model is a Python function marked with `@model`. What it may say:
+
+    sample, flip, uniform, gaussian, ...        make a random choice
+    condition, factor, observe                  forbid a run, weigh it, score it by data
+    softeq, soft_at_least, soft_at_most         scores of numbers that should agree or be in order
+    emit                                        add shapes to the scene
+    box, cylinder, limb, segment, mesh          shapes
+    vec, dot, cross, norm, rotate, ...          vectors
+    future, force                               leave a call for later, and wait for its value
+    infer                                       search another model
+
+Searching a model:
+
+    grow                                        grow a model into a target
+    run                                         run a model by any method
+    Search                                      what `grow` and `run` carry out, as a value: JSON, a hash
+    smc, particle_gibbs, pimh                   methods: particles
+    mh, kernels                                 methods: Markov chains, and what they are made from
+    hmc, nuts, explore                          methods: chains that follow the gradient
+    enumerate_all, rejection, importance        methods: exact answers, and independent runs
+
+What a scene should be like:
+
+    Target, Receiver, Camera                    a mesh to fill, a surface for shadows, a point of view
+    volume_match, match_image, match_shadow     scores: fill a volume, have a silhouette, cast a shadow
+    no_self_intersection, avoid, floor          scores: what a scene must not do
+
+What a search gives back:
+
+    Result, Sample                              all runs, and one: its value, choices, scores, picture, files
+    residuals                                   how far soft constraints are from holding
+    log_density                                 a run as a function of its numbers, with its gradient
+    diagnostics                                 whether draws of chains can be trusted
+    run_python                                  one run as plain Python, for a debugger
+
+Every name is imported when it is first used; `__init__.pyi` lists them all.
 """
 
-from __future__ import annotations
+import lazy_loader
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
-
-from niwaki import words
-from niwaki._engine import __version__
-from niwaki.words import *  # noqa: F403
-
-if TYPE_CHECKING:
-    from niwaki import kernels
-    from niwaki.camera import Camera
-    from niwaki.constraints import Residuals, residuals
-    from niwaki.errors import InputError, ModelError, ModelFault, NiwakiError
-    from niwaki.gradient import LogDensity, log_density
-    from niwaki.hmc_result import HmcResult
-    from niwaki.lang.plain import run_python
-    from niwaki.methods import (
-        enumerate_all,
-        explore,
-        forward,
-        hmc,
-        importance,
-        mh,
-        nuts,
-        particle_gibbs,
-        pimh,
-        rejection,
-        smc,
-    )
-    from niwaki.mh_result import ChainResult
-    from niwaki.outline import load_polygon
-    from niwaki.result import Result, Sample
-    from niwaki.scene import Scene
-    from niwaki.search import Progress, Search, grow, run
-    from niwaki.sketches import (
-        Score,
-        avoid,
-        floor,
-        match_image,
-        match_shadow,
-        no_self_intersection,
-        overshoot,
-        volume_match,
-    )
-    from niwaki.target import Receiver, Target
-
-#: Where the names live that are imported when they are used.
-_HOMES = {
-    "niwaki.camera": ("Camera",),
-    "niwaki.errors": ("InputError", "ModelError", "ModelFault", "NiwakiError"),
-    "niwaki.gradient": ("LogDensity", "log_density"),
-    "niwaki.search": ("Progress", "Search", "grow", "run"),
-    "niwaki.lang.plain": ("run_python",),
-    "niwaki.methods": (
-        "enumerate_all",
-        "explore",
-        "forward",
-        "hmc",
-        "importance",
-        "mh",
-        "nuts",
-        "particle_gibbs",
-        "pimh",
-        "rejection",
-        "smc",
-    ),
-    "niwaki.mh_result": ("ChainResult",),
-    "niwaki.hmc_result": ("HmcResult",),
-    "niwaki.constraints": ("Residuals", "residuals"),
-    "niwaki.outline": ("load_polygon",),
-    "niwaki.result": ("Result", "Sample"),
-    "niwaki.scene": ("Scene",),
-    "niwaki.sketches": (
-        "Score",
-        "avoid",
-        "floor",
-        "match_image",
-        "match_shadow",
-        "no_self_intersection",
-        "overshoot",
-        "volume_match",
-    ),
-    "niwaki.target": ("Receiver", "Target"),
-}
-#: Modules that are used by name.
-_MODULES = ("kernels",)
-_HOME = {name: home for home, names in _HOMES.items() for name in names}
-
-__all__ = [  # noqa: PLE0604
-    "__version__",
-    *words.__all__,
-    "ChainResult",
-    "Camera",
-    "HmcResult",
-    "InputError",
-    "LogDensity",
-    "ModelError",
-    "ModelFault",
-    "NiwakiError",
-    "Progress",
-    "Residuals",
-    "Receiver",
-    "Result",
-    "Sample",
-    "Scene",
-    "Score",
-    "Search",
-    "Target",
-    "avoid",
-    "enumerate_all",
-    "explore",
-    "forward",
-    "floor",
-    "grow",
-    "hmc",
-    "importance",
-    "kernels",
-    "load_polygon",
-    "mh",
-    "match_image",
-    "match_shadow",
-    "log_density",
-    "no_self_intersection",
-    "nuts",
-    "overshoot",
-    "particle_gibbs",
-    "pimh",
-    "rejection",
-    "residuals",
-    "run",
-    "run_python",
-    "smc",
-    "volume_match",
-]
-
-
-def __getattr__(name: str) -> Any:
-    if name in _MODULES:
-        return import_module(f"niwaki.{name}")
-    if name not in _HOME:
-        raise AttributeError(f"module 'niwaki' has no attribute {name!r}")
-    found = getattr(import_module(_HOME[name]), name)
-    globals()[name] = found
-    return found
-
-
-def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__})
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -8,7 +8,7 @@ HEADER = """import math
 from dataclasses import dataclass
 from typing import NamedTuple
 import numpy as np
-from niwaki.words import *
+from niwaki import host, model; from niwaki.words import *
 from niwaki import enumerate_all, forward, importance, rejection, smc
 @dataclass(frozen=True)
 class Leaf:

@@ -5,19 +5,20 @@ branches, unpacked from tuples, and lies in lists, records, dictionaries and clo
 twice, late, in loops and in comprehensions, and futures make futures. Names are shadowed by parameters, comprehensions
 and loops. A barrier may stand anywhere, so that a force waits or does not.
 
-`text(seed)` is a whole module with the model `m`; the same seed gives the same text. `reduced` makes a text that fails
-smaller, line by line.
+`text(seed)` is a whole module with the model `m`; the same seed gives the same text. `looking(seed)` is one whose every
+run looks at a future that is not forced. `reduced` makes a text that fails smaller, line by line.
 """
 
 from __future__ import annotations
 
 import random
+import re
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 
 HEADER = """from dataclasses import dataclass
-from niwaki.words import *
+from niwaki import model; from niwaki.words import *
 
 LOGS = (0.0, -0.7, 0.6)
 COINS = [Bernoulli(0.3), Bernoulli(0.5), Bernoulli(0.8)]
@@ -332,6 +333,63 @@ class Maker:
             f"n = force({f}) % 3",
         ]
 
+    def sure(self, depth: int) -> str:
+        """A future, whatever the choices."""
+        made = self.future(1)
+        if depth <= 0:
+            return made
+        inner, other = self.sure(depth - 1), self.promise(0)
+        return self.one(
+            [
+                lambda: made,
+                lambda: f"through({inner})",
+                lambda: f"({inner} if {self.truth(0)} else {made})",
+                lambda: f"({other}, {inner})[1]",
+                lambda: f"[{inner}, {other}][0]",
+                lambda: f"[q for q in [{inner}, {made}]][{self.integer(0)} % 2]",
+                lambda: f"Both({other}, {inner}).second",
+                lambda: f"{{'a': {inner}, 'b': {other}}}['a']",
+                lambda: f"force(future(through, {inner}))",
+            ]
+        )
+
+    def look(self) -> list[str]:
+        """A look at a future that is not forced."""
+        name = self.fresh("f")
+        other = self.integer(0)
+        looks = [
+            [f"n = 1 if {name} else 0"],
+            [f"if {name}:", "    n = 1"],
+            [f"while not {name}:", "    n = 1"],
+            [f"b = {name} == {self.random.choice([other, name, 'None'])}"],
+            [f"b = [{name}, {other}] != [{other}]"],
+            [f"b = {name} < {other}"],
+            [f"b = {name} in [{other}]"],
+            [f"b = {other} in [{name}]"],
+            [f"n = {name} + {other}"],
+            [f"n = {other} - {name}"],
+            [f"n = max({other}, {name})"],
+            [f"n = sum([{other}, {name}])"],
+            [f"n = LOGS[{name}]"],
+            [f"n = len({name})"],
+            [f"n = late({name} + 1)"],
+            [f"n = f'{{{name}}}'"],
+            [f"n = f'{{[{name}]}}'"],
+            [f"for k in {name}:", "    n = k"],
+            [f"for k in range({name}):", "    n = k"],
+            [f"n = [{name} * k for k in range(2)]"],
+            [f"n, b = {name}"],
+            [f"n = {name}()"],
+            [f"n = {name}.first"],
+            [f"factor({name})"],
+            [f"condition({name})"],
+            [f"n = 1 if flip({name}) else 0"],
+            [f"observe(Bernoulli(0.5), {name})"],
+            [f"query({name}, 1)"],
+            [f"n = future(h0, 1) + {name}"],
+        ]
+        return [f"{name} = {self.sure(2)}", *self.random.choice(looks)]
+
     def nested(self) -> list[str]:
         """A closure that captures promises, and whose parameters shadow."""
         name = self.fresh("g")
@@ -369,8 +427,15 @@ class Maker:
         return f"def {name}(n, b=True):\n{body}\n"
 
 
-def text(seed: int, size: int = 6) -> str:
-    """A random program of `size` statements."""
+def looking(seed: int) -> str:
+    """A random program whose every run looks at a future that is not forced."""
+    whole = text(seed, 5, looks=True)
+    # A run that ends before its look, or is impossible, need not be refused.
+    return re.sub(r"condition\((?!f\d+\))", "bool(", whole).replace("return (n, -1)", "n = 0")
+
+
+def text(seed: int, size: int = 6, looks: bool = False) -> str:
+    """A random program of `size` statements, perhaps with a look at a future among them."""
     maker = Maker(random.Random(seed))
     helpers = []
     for _ in range(maker.random.randint(1, 3)):
@@ -379,8 +444,9 @@ def text(seed: int, size: int = 6) -> str:
     maker.choices = 2
     maker.scope = Scope(("n",), ("b",))
     lines = [f"n, b = {maker.random.randint(0, 2)}, flip(0.6)"]
-    for _ in range(size):
-        lines += maker.statement(2)
+    at = maker.random.randrange(size) if looks else size
+    for i in range(size):
+        lines += maker.statement(2) if i != at else maker.look()
     s = maker.scope
     # A promise may be what a model returns: its value is seen.
     seen = [*s.integers[1:][-1:], *s.truths[1:][-2:], *s.promises[-2:], *s.lists[-1:], *s.pairs[-1:]]

@@ -12,7 +12,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 HEADER = (
-    "import math\nfrom niwaki.words import *\n\nWEIGHTS = [1.0, 2.0, 3.0]\nTABLE = {'a': 1, 'b': 2.5}\n\n"
+    "import math\nfrom niwaki import model; from niwaki.words import *\n\n"
+    "WEIGHTS = [1.0, 2.0, 3.0]\nTABLE = {'a': 1, 'b': 2.5}\n\n"
 )
 
 

@@ -16,10 +16,10 @@ import niwaki as nw
 import pytest
 from chain_programs import program
 from niwaki import _engine, kernels
-from niwaki.compiled import task
 from niwaki.errors import ModelError, NiwakiError
+from niwaki.lang.compiled import task
 from niwaki.search.searching import _written
-from niwaki.sketches import no_self_intersection
+from niwaki.targets.sketches import no_self_intersection
 from niwaki.words import Bernoulli, Gaussian, clip
 from programs import shrink
 from test_engine import NOT_A_PROGRAM, load
@@ -123,7 +123,7 @@ def test_a_state_is_the_same_when_it_is_run_again() -> None:
             continue
         for sample in [*result, result.best]:
             try:
-                again: Any = sample._trace
+                again: Any = sample._trace.run
             except NiwakiError as error:
                 assert error.code == "query-twice", error  # type: ignore[attr-defined]
                 continue

@@ -9,6 +9,8 @@ Programs of `finite_programs`: futures of every shape, loops, closures, branches
   populations are most sensitive, as nothing averages an error away;
 - states of Markov chains are what their choices say, and the four strategies agree to the bit.
 
+Programs whose every run looks at a future that is not forced are refused by each of them.
+
 A quantity is wrong only if it is so twice: by 5 standard errors, and with fresh seeds and sixteen times the runs by 7.
 Only values of at least a twentieth are counted, and a standard error is taken to be no less than three runs' worth, so
 that rare runs that nobody saw do not count against a method. For a share of a twentieth, both bounds on its binomial
@@ -37,10 +39,12 @@ from typing import Any
 import niwaki as nw
 import numpy as np
 import pytest
-from finite_programs import reduced, text
+from finite_programs import looking, reduced, text
 from niwaki import kernels
 from niwaki.errors import ModelError, NiwakiError
+from niwaki.lang import futures
 from niwaki.lang.plain import run_python
+from niwaki.methods.chains import STRATEGIES
 from test_chains import disagreement
 from test_engine import compared, differs, facts, load
 
@@ -103,13 +107,14 @@ class Tally:
     """What was looked at."""
 
     def __init__(self) -> None:
-        self.programs = self.replays = self.quantities = self.looked_twice = 0
+        self.programs = self.looks = self.replays = self.quantities = self.looked_twice = 0
         self.skipped: Counter[str] = Counter()
 
     def __str__(self) -> str:
         return (
-            f"{self.programs} programs, {self.replays} samples run again in plain Python, {self.quantities} quantities "
-            f"against the exact answer ({self.looked_twice} looked at twice); left out: {dict(self.skipped)}"
+            f"{self.programs} programs, {self.looks} that look at futures, {self.replays} samples run "
+            f"again in plain Python, {self.quantities} quantities against the "
+            f"exact answer ({self.looked_twice} looked at twice); left out: {dict(self.skipped)}"
         )
 
 
@@ -257,11 +262,46 @@ def wrong(program: str, seed: int, tally: Tally | None = None) -> str:
     return ""
 
 
+def answers_a_look(program: str, seed: int) -> str:
+    """Who does not refuse a program that looks at a future, or nobody."""
+    model = load(program)
+    try:
+        model.core()
+    except (SyntaxError, ModelError):
+        return ""
+    smooth = load(program.replace("def m():\n", "def m():\n    x = gaussian(0, 1)\n"))
+    methods: dict[str, Any] = {
+        **populations(2, seed),
+        **gibbs(seed),
+        "PIMH": pimh(2, seed),
+        "forward": nw.forward(2),
+        "importance": nw.importance(2),
+        "rejection": nw.rejection(1, 9.0),
+        "enumeration": nw.enumerate_all(),
+        **{name: nw.mh(5, kernel=MOVES, strategy=name) for name in STRATEGIES},
+    }
+    runs = {name: lambda method=method: nw.run(model, method, seed=seed) for name, method in methods.items()}
+    runs["plain Python"] = lambda: run_python(model, seed=seed)
+    runs["gradients"] = lambda: nw.run(smooth, nw.hmc(2, warmup=2), seed=seed)
+    for name, run in runs.items():
+        try:
+            run()
+        except NiwakiError as error:
+            if error.code == "future-not-forced":
+                continue
+            return f"{name}: {error}"
+        return f"{name}: answers"
+    return ""
+
+
 def look(seeds: Iterable[int], tally: Tally) -> None:
     """Looks at programs; the first that is wrong is made smaller and told."""
     before = set(linecache.cache)
     for seed in seeds:
-        program = text(seed)
+        program, looks = text(seed), looking(seed)
+        if found := answers_a_look(looks, seed):
+            pytest.fail(f"seed {seed}: {found}\n{looks}")
+        tally.looks += 1
         try:
             found = wrong(program, seed, tally)
         except Exception as error:
@@ -283,7 +323,7 @@ def still_wrong(program: str, seed: int, before: str) -> bool:
 
 
 #: A promise that one branch makes, forced where nobody waited for it before.
-CHOSEN = """from niwaki.words import *
+CHOSEN = """from niwaki import model; from niwaki.words import *
 
 def leaf():
     factor(-0.1)
@@ -298,7 +338,7 @@ def m():
 """
 
 #: A truth value that is made of an earlier one, and kept past a barrier.
-EITHER = """from niwaki.words import *
+EITHER = """from niwaki import model; from niwaki.words import *
 
 @model
 def m():
@@ -308,7 +348,7 @@ def m():
     return c
 """
 
-ONCE = """from niwaki.words import *
+ONCE = """from niwaki import model; from niwaki.words import *
 
 def leaf(n):
     factor(0.5 if n > 1 else -0.2)
@@ -341,6 +381,13 @@ def test_a_factor_that_counts_twice_is_seen(name: str) -> None:
     twice = load(ONCE.replace("0.6 * k", "1.2 * k"))
     assert looked_at(load(ONCE), Exact(load(ONCE)), name, TIMES, 5, Tally())[1] < FIRST_LIMIT
     assert looked_at(twice, Exact(load(ONCE)), name, TIMES, 5, Tally())[1] > LIMIT
+
+
+def test_an_executor_that_answers_a_look_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The mutant of plain Python: a future is its value. Those of the engine are in `tests/mutants`."""
+    assert not any(answers_a_look(looking(seed), seed) for seed in range(5))
+    monkeypatch.setattr(futures, "Future", lambda value: value)
+    assert any(answers_a_look(looking(seed), seed).startswith("plain") for seed in range(5))
 
 
 def test_every_method_follows_the_exact_answer() -> None:

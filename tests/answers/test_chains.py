@@ -19,7 +19,7 @@ from niwaki import kernels as k
 from niwaki.words import Binomial, Categorical, Gaussian
 
 TEXT = """
-from niwaki.words import *
+from niwaki import model; from niwaki.words import *
 
 @model
 def coins():

@@ -18,7 +18,7 @@ import numpy as np
 import pytest
 from niwaki import diagnostics, kernels, model
 from niwaki.gallery.point import point
-from niwaki.hmc_result import GradientWarning
+from niwaki.result.hmc import GradientWarning
 from niwaki.words import Bernoulli, Gaussian
 
 METHODS = {
@@ -166,7 +166,7 @@ CASES: dict[str, tuple[Any, tuple[Any, ...], Callable[[], dict[str, float]]]] = 
 }
 
 
-def errors(result: nw.HmcResult, answers: dict[str, float]) -> dict[str, float]:
+def errors(result: nw.Result, answers: dict[str, float]) -> dict[str, float]:
     """How many standard errors each mean is off."""
     found: dict[str, np.ndarray] = {}
     for path, values in result.draws.items():

@@ -18,7 +18,7 @@ import niwaki as nw
 import numpy as np
 import pytest
 from niwaki import diagnostics, model
-from niwaki.hmc_result import GradientWarning
+from niwaki.result.hmc import GradientWarning
 from niwaki.words import Gaussian
 
 FOUND = importlib.util.find_spec("inference_gym")
@@ -130,7 +130,7 @@ def with_gaps(values: Any, seen: Any) -> list[float | None]:
     return [float(value) if there else None for value, there in zip(values, seen, strict=True)]
 
 
-def errors(result: nw.HmcResult, truth: str, names: tuple[str, ...], turned: Any = None) -> np.ndarray:
+def errors(result: nw.Result, truth: str, names: tuple[str, ...], turned: Any = None) -> np.ndarray:
     """How many combined standard errors each mean is off; chains must agree."""
     draws = np.array(list(result.draws.values()))
     found = draws if turned is None else turned(draws)

@@ -27,7 +27,7 @@ def rows(path: Path) -> list[dict]:
 
 
 def test_every_figure_is_drawn(drawn: Path) -> None:
-    from niwaki.gallery.experiments import EXPERIMENTS
+    from experiments import EXPERIMENTS
     from PIL import Image
 
     wanted = {

@@ -74,7 +74,9 @@ def test_no_file_speaks_of_what_only_its_authors_can_look_up():
 
 def test_import_loads_nothing_that_is_not_always_needed():
     heavy = ["trimesh", "PIL", "typer", "rich", "matplotlib", "scipy"]
-    program = f"import sys, niwaki; print([name for name in {heavy} if name in sys.modules])"
+    # Not even when every public name is used.
+    program = "import sys, niwaki; [getattr(niwaki, name) for name in niwaki.__all__]; "
+    program += f"print([name for name in {heavy} if name in sys.modules])"
     shown = subprocess.run([sys.executable, "-c", program], check=True, capture_output=True, text=True).stdout
     assert shown.strip() == "[]"
 
@@ -120,6 +122,41 @@ def test_every_python_file_opens_with_what_it_is_for():
     sources = [path for path in tracked() if path.suffix == ".py"]
     bare = [path for path in sources if ast.get_docstring(ast.parse(path.read_text())) is None]
     assert not [path.relative_to(ROOT).as_posix() for path in bare]
+
+
+#: Imports inside functions: ArviZ is an extra, and warns while it is imported.
+OPTIONAL = {("result/diagnostics.py", "arviz")}
+#: Who imports modules by a name of their own: extras, the gallery's folder, host functions of a search that was read.
+BY_NAME = {"errors/extras.py", "gallery/__init__.py", "search/data.py"}
+
+
+def test_no_function_imports_but_what_is_optional():
+    package = ROOT / "python" / "niwaki"
+    found = {
+        (path.relative_to(package).as_posix(), name)
+        for path in package.rglob("*.py")
+        for function in ast.walk(ast.parse(path.read_text()))
+        if isinstance(function, (ast.FunctionDef, ast.AsyncFunctionDef))
+        for node in ast.walk(function)
+        if isinstance(node, (ast.Import, ast.ImportFrom))
+        for name in ([node.module] if isinstance(node, ast.ImportFrom) else [one.name for one in node.names])
+    }
+    assert found == OPTIONAL
+    by_name = {
+        path.relative_to(package).as_posix()
+        for path in package.rglob("*.py")
+        if re.search(r"import_module|__import__", path.read_text())
+    }
+    assert by_name == BY_NAME
+
+
+def test_help_names_only_what_there_is():
+    import niwaki
+
+    listed = re.findall(r"^    (\w+(?:, \w+)*)(?:, \.\.\.)?  ", niwaki.__doc__, re.M)
+    names = {name for line in listed for name in line.split(", ")}
+    assert len(names) > 40
+    assert names <= set(niwaki.__all__)
 
 
 def test_crates_import_only_the_rooms_above_them():

@@ -20,7 +20,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-PRELUDE = "import math, random; from niwaki.words import *\n"
+PRELUDE = "import math, random; from niwaki import host, model; from niwaki.words import *\n"
 FENCE = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 

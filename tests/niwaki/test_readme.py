@@ -9,7 +9,7 @@ from pathlib import Path
 import niwaki as nw
 import pytest
 from niwaki import box
-from niwaki.scene import Scene
+from niwaki.draw.scene import Scene
 
 ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")

@@ -19,12 +19,21 @@ pub struct Look {
 }
 
 impl Shape {
+    /// A solid around `center`, `laid` along its axis before the look turns it.
+    ///
+    /// # Errors
+    /// `bad-shape`, as for [`Shape::new`].
+    pub fn placed(solid: Solid, center: Vec3, laid: Mat3, look: &Look) -> Result<Shape, GeomError> {
+        let rotation = look.rotation.map_or(laid, |r| r.after(&laid));
+        Shape::new(solid, Placement { rotation, translation: center }, look.bevel, look.color)
+    }
+
     /// A box around `center` with full side lengths `size`.
     ///
     /// # Errors
     /// `bad-shape`, as for [`Shape::new`].
     pub fn cuboid(center: Vec3, size: Vec3, look: &Look) -> Result<Shape, GeomError> {
-        place(Solid::Box { size }, center, Mat3::IDENTITY, look)
+        Shape::placed(Solid::Box { size }, center, Mat3::IDENTITY, look)
     }
 
     /// A box whose face at the + end of coordinate `axis` (0, 1 or 2) is scaled by `taper` in the other two.
@@ -51,7 +60,7 @@ impl Shape {
             1 => vec3(size.x, size.z, size.y),
             _ => size,
         };
-        place(Solid::TaperedBox { size, taper }, center, laid, look)
+        Shape::placed(Solid::TaperedBox { size, taper }, center, laid, look)
     }
 
     /// A cylinder around `center` along `axis` (any length), its `top_radius` at the end that `axis` points to.
@@ -73,7 +82,7 @@ impl Shape {
             }
             _ => Solid::Cylinder { radius, length, sides },
         };
-        place(solid, center, Mat3::between(Vec3::AXES[1], direction(axis, "axis")?), look)
+        Shape::placed(solid, center, Mat3::between(Vec3::AXES[1], direction(axis, "axis")?), look)
     }
 
     /// A bent, tapered segment between two round ends; a normal left out is the direction from start to end.
@@ -91,7 +100,7 @@ impl Shape {
         let start = Ring { center: start, normal: normal(normals.0)?, radius: radii.0 };
         let end = Ring { center: end, normal: normal(normals.1)?, radius: radii.1 };
         let solid = Solid::Limb { rings: Box::new([start, end]), sides: LIMB_SIDES };
-        place(solid, Vec3::ZERO, Mat3::IDENTITY, look)
+        Shape::placed(solid, Vec3::ZERO, Mat3::IDENTITY, look)
     }
 
     /// A segment of a tree over the frames `[start, split, end]`, its base on `onto` where that is given.
@@ -99,7 +108,7 @@ impl Shape {
     /// # Errors
     /// `bad-shape`, as for [`Shape::new`].
     pub fn segment(frames: [Frame; 3], onto: Option<Bark>, look: &Look) -> Result<Shape, GeomError> {
-        place(Solid::Segment(Box::new(Tube { frames, onto })), Vec3::ZERO, Mat3::IDENTITY, look)
+        Shape::placed(Solid::Segment(Box::new(Tube { frames, onto })), Vec3::ZERO, Mat3::IDENTITY, look)
     }
 
     /// A mesh, scaled about its own origin, turned and moved to `center`.
@@ -114,13 +123,8 @@ impl Shape {
             ));
         }
         let mesh = if scale == 1.0 { mesh.clone() } else { Arc::new(mesh.map(|p| p * scale)) };
-        place(Solid::Mesh(mesh), center, Mat3::IDENTITY, look)
+        Shape::placed(Solid::Mesh(mesh), center, Mat3::IDENTITY, look)
     }
-}
-
-fn place(solid: Solid, center: Vec3, laid: Mat3, look: &Look) -> Result<Shape, GeomError> {
-    let rotation = look.rotation.map_or(laid, |r| r.after(&laid));
-    Shape::new(solid, Placement { rotation, translation: center }, look.bevel, look.color)
 }
 
 fn direction(v: Vec3, what: &str) -> Result<Vec3, GeomError> {

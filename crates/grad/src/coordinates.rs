@@ -1,12 +1,10 @@
 //! Coordinates: what a continuous choice is in numbers without bounds, there and back.
 //!
-//! Unconstrained, with `s(v) = 1 / (1 + exp(-v))`, and each transform's log Jacobian in the density:
+//! Those of numbers are [`Interval`]'s, with the transform's log Jacobian in the density. Beyond these:
 //!
 //! | support | value | log Jacobian |
 //! | --- | --- | --- |
 //! | line | `u v`; the unit `u` is 1 (see [`unit`]) | `ln u` |
-//! | above `lo` | `lo + exp(v)` | `v` |
-//! | `lo` to `hi` | `lo + (hi - lo) s(v)` | `ln(hi - lo) + 2 ln s(v) - v` |
 //! | circle (von Mises) | `v` less whole turns, within half a turn of zero | 0: the line winds around the circle |
 //! | simplex of `n` | `n - 1` sticks: `z_k = s(v_k - ln(n - 1 - k))` of what is left | `sum ln(z_k (1 - z_k) left_k)` |
 //! | vectors | `v` | 0 |
@@ -18,7 +16,7 @@ use crate::graph::{Graph, Id};
 use crate::operation::apply;
 use crate::record::{Recorded, Recorder, no_coordinates};
 use crate::scalar::Var;
-use niwaki_math::{Dist, Draw, Family, Scalar};
+use niwaki_math::{Dist, Draw, Family, Interval, Scalar, Space, Support, log_odds, logistic};
 use niwaki_vm::builtins::value_to_draw;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::value::Value;
@@ -132,32 +130,6 @@ impl Continuous {
     }
 }
 
-/// Lower and upper bound of a family of reals.
-pub(crate) fn bounds(dist: &Dist<Var>) -> Option<(Option<Var>, Option<Var>)> {
-    let c = Var::from_f64;
-    Some(match dist {
-        Dist::Gaussian { .. } | Dist::Laplace { .. } | Dist::Cauchy { .. } | Dist::StudentT { .. } => {
-            (None, None)
-        }
-        Dist::LogNormal { .. }
-        | Dist::Gamma { .. }
-        | Dist::InverseGamma { .. }
-        | Dist::Exponential { .. } => (Some(c(0.0)), None),
-        Dist::Beta { .. } => (Some(c(0.0)), Some(c(1.0))),
-        Dist::Uniform { lo, hi } | Dist::TruncatedGaussian { lo, hi, .. } => (Some(*lo), Some(*hi)),
-        Dist::VonMises { .. } => (Some(c(-PI)), Some(c(PI))),
-        Dist::Mixture(m) => {
-            let mut all = m.components.iter().map(bounds);
-            let first = all.next()??;
-            all.try_fold(first, |(lo, hi), next| {
-                let (lo2, hi2) = next?;
-                Some((lo.zip(lo2).map(|(a, b)| a.min(b)), hi.zip(hi2).map(|(a, b)| a.max(b))))
-            })?
-        }
-        _ => return None,
-    })
-}
-
 /// Scales between these and their inverses are coordinates as they are: whoever follows the gradient finds them.
 const NEAR: f64 = 1e18;
 /// Squares of scales between these and their inverses are normal numbers.
@@ -188,18 +160,6 @@ fn learnt(dist: &Dist<Var>, scale: f64) -> Result<f64, Fault> {
         .with_help("draw from a scale of 1, and multiply: `mean + spread * gaussian(0, 1)`"))
 }
 
-/// Coordinates beyond lose the digits of the bound that they approach.
-const FARTHEST: f64 = 36.0;
-
-fn logistic(v: Var) -> Var {
-    let one = Var::from_f64(1.0);
-    one / (one + (-v).exp())
-}
-
-fn log_odds(share: f64) -> f64 {
-    (share.ln() - (-share).ln_1p()).clamp(-FARTHEST, FARTHEST)
-}
-
 impl Recorder<'_> {
     pub(crate) fn coordinate(&mut self, v: f64) -> Var {
         self.start.push(v);
@@ -213,9 +173,12 @@ impl Recorder<'_> {
         draw: &Draw,
         held: bool,
     ) -> Result<Option<Placed>, Fault> {
-        Ok(Some(match (dist, draw) {
-            (Dist::Dirichlet(a), Draw::Vector(x)) if a.len() == x.len() && !held => self.simplex(a, x),
-            (Dist::Dirichlet(_) | Dist::MultivariateGaussian(_), Draw::Vector(x)) => {
+        Ok(Some(match (dist.family().space(), draw) {
+            (Space::Simplex, Draw::Vector(x)) if !held && dist.dimension() == Some(x.len()) => match dist {
+                Dist::Dirichlet(a) => self.simplex(a, x),
+                _ => return Err(no_coordinates(dist)),
+            },
+            (Space::Simplex | Space::Vectors, Draw::Vector(x)) => {
                 if let Dist::MultivariateGaussian(g) = dist {
                     for (i, row) in g.covariance.iter().enumerate() {
                         learnt(dist, row[i].value().sqrt())?;
@@ -225,86 +188,72 @@ impl Recorder<'_> {
                 let log = dist.log_density(&Draw::Vector(values.clone().into()));
                 Placed::plain(Transform::Vector, values, log)
             }
-            (_, Draw::Real(_) | Draw::Int(_) | Draw::Bool(_)) if bounds(dist).is_some() => {
-                let Some(x) = draw.as_real() else { return Ok(None) };
-                if held {
-                    let value = self.coordinate(x);
-                    return Ok(Some(Placed::plain(
-                        Transform::Line,
-                        vec![value],
-                        dist.log_density_of_real(value),
-                    )));
-                }
-                self.real(dist, x)?
-            }
             (_, Draw::Vector(_)) => return Err(no_coordinates(dist)),
-            _ => return Ok(None),
+            (_, Draw::Real(_) | Draw::Int(_) | Draw::Bool(_)) => {
+                let (support, Some(x)) = (dist.support(), draw.as_real()) else { return Ok(None) };
+                match support {
+                    Support::Reals(_) | Support::Circle if held => {
+                        let value = self.coordinate(x);
+                        Placed::plain(Transform::Line, vec![value], dist.log_density_of_real(value))
+                    }
+                    Support::Reals(interval) => self.real(dist, interval, x)?,
+                    Support::Circle => {
+                        let v = self.coordinate(x);
+                        let turns = (v * Var::from_f64(1.0 / TAU)).round();
+                        let value = (v - Var::from_f64(TAU) * turns).within(-PI, PI).at(x);
+                        Placed::plain(Transform::Circle, vec![value], dist.log_density_of_real(value))
+                    }
+                    Support::Booleans | Support::Categories(_) | Support::Integers { .. } => return Ok(None),
+                    Support::Points { .. } | Support::VectorPoints(_) => return Ok(None),
+                    Support::Simplex(_) | Support::Vectors(_) => return Ok(None),
+                }
+            }
         }))
     }
 
     /// A real choice.
-    fn real(&mut self, dist: &Dist<Var>, x: f64) -> Result<Placed, Fault> {
-        let two = Var::from_f64(2.0);
+    fn real(&mut self, dist: &Dist<Var>, interval: Interval<Var>, x: f64) -> Result<Placed, Fault> {
         let at = |value: Var| dist.log_density_of_real(value);
-        if let Dist::VonMises { .. } = dist {
-            let v = self.coordinate(x);
-            let turns = (v * Var::from_f64(1.0 / TAU)).round();
-            let value = (v - Var::from_f64(TAU) * turns).within(-PI, PI).at(x);
-            return Ok(Placed::plain(Transform::Circle, vec![value], at(value)));
-        }
-        let (lo, hi) = bounds(dist).ok_or_else(|| no_coordinates(dist))?;
         let placed = |transform, value, log, slope| Placed {
             transform,
             values: vec![value],
             log,
             slope,
-            bounds: [lo, hi],
+            bounds: [interval.lo, interval.hi],
             unit: 1.0,
         };
-        Ok(match (lo, hi) {
-            (None, None) => {
-                let unit = unit(dist)?;
-                if unit == 1.0 {
-                    let v = self.coordinate(x);
-                    return Ok(Placed::plain(Transform::Line, vec![v], at(v)));
-                }
-                let value = (self.coordinate(x / unit) * Var::from_f64(unit)).at(x);
-                let slope = Var::from_f64(unit.ln());
-                Placed { unit, ..placed(Transform::Line, value, at(value) + slope, slope) }
+        if interval == Interval::LINE {
+            let unit = unit(dist)?;
+            if unit == 1.0 {
+                let v = self.coordinate(x);
+                return Ok(Placed::plain(Transform::Line, vec![v], at(v)));
             }
-            (Some(lo), None) => {
-                let v = self.coordinate(log_above(x - lo.value()));
-                let value = (lo + v.exp()).at(x);
-                placed(Transform::Above, value, at(value) + v, v)
+            let value = (self.coordinate(x / unit) * Var::from_f64(unit)).at(x);
+            let slope = Var::from_f64(unit.ln());
+            return Ok(Placed { unit, ..placed(Transform::Line, value, at(value) + slope, slope) });
+        }
+        let v = self.coordinate(interval.coordinate(x));
+        let found = interval.value(v);
+        let mut value = found.value.at(x);
+        let Some((log_width, log_share)) = found.between else {
+            return Ok(placed(Transform::Above, value, at(value) + found.log_slope, found.log_slope));
+        };
+        if let (Some(lo), Some(hi)) = (interval.lo, interval.hi)
+            && !lo.varies()
+            && !hi.varies()
+        {
+            value = value.within(lo.value(), hi.value());
+        }
+        // Where the density is one of the share, its logarithms are at hand, and nothing cancels.
+        let log = match dist {
+            Dist::Uniform { .. } => found.log_slope,
+            Dist::Beta { a, b } => {
+                let norm = a.ln_gamma() + b.ln_gamma() - (*a + *b).ln_gamma();
+                *a * log_share + *b * (log_share - v) - norm
             }
-            (None, Some(hi)) => {
-                let v = self.coordinate(log_above(hi.value() - x));
-                let value = (hi - v.exp()).at(x);
-                placed(Transform::Above, value, at(value) + v, v)
-            }
-            (Some(lo), Some(hi)) => {
-                let v = self.coordinate(log_odds((x - lo.value()) / (hi.value() - lo.value())));
-                let s = logistic(v);
-                let log = s.ln();
-                let width = hi - lo;
-                let mut value = (lo + width * s).at(x);
-                if !lo.varies() && !hi.varies() {
-                    value = value.within(lo.value(), hi.value());
-                }
-                let share = two * log - v;
-                let slope = width.ln() + share;
-                // Where the density is one of the share, its logarithms are at hand, and nothing cancels.
-                let log_density = match dist {
-                    Dist::Uniform { .. } => share,
-                    Dist::Beta { a, b } => {
-                        let norm = a.ln_gamma() + b.ln_gamma() - (*a + *b).ln_gamma();
-                        *a * log + *b * (log - v) - norm
-                    }
-                    _ => at(value) + width.ln() + share,
-                };
-                placed(Transform::Between, value, log_density, slope)
-            }
-        })
+            _ => at(value) + log_width + found.log_slope,
+        };
+        Ok(placed(Transform::Between, value, log, log_width + found.log_slope))
     }
 
     /// A point of the simplex.
@@ -339,11 +288,6 @@ impl Recorder<'_> {
     }
 }
 
-/// The coordinate of what lies so far above a bound.
-fn log_above(distance: f64) -> f64 {
-    distance.max(f64::MIN_POSITIVE).ln()
-}
-
 /// What centres the `k`-th stick of a simplex of `n`.
 fn shift(n: usize, k: usize) -> f64 {
     ((n - 1 - k) as f64).ln()
@@ -373,7 +317,7 @@ impl Recorded {
                 // It was written before the choice's coordinate, so it depends on coordinates that are known by now.
                 Edge::Node(id) => Some(self.node(id, &x, &mut nodes)),
             };
-            let (lo, hi) = (edge(choice.edges[0]), edge(choice.edges[1]));
+            let interval = Interval { lo: edge(choice.edges[0]), hi: edge(choice.edges[1]) };
             match (choice.transform, &draw) {
                 (Transform::Simplex, Draw::Vector(shares)) if shares.len() == choice.width() => {
                     let mut left = 1.0;
@@ -388,15 +332,10 @@ impl Recorded {
                 (Transform::Simplex | Transform::Vector, _) => return None,
                 (_, draw) => {
                     let value = draw.as_real()?;
-                    if lo.is_some_and(|lo| value < lo) || hi.is_some_and(|hi| value > hi) {
+                    if interval.lo.is_some_and(|lo| value < lo) || interval.hi.is_some_and(|hi| value > hi) {
                         return None;
                     }
-                    x[choice.first] = match (lo, hi) {
-                        (None, None) => value / choice.unit,
-                        (Some(lo), None) => log_above(value - lo),
-                        (None, Some(hi)) => log_above(hi - value),
-                        (Some(lo), Some(hi)) => log_odds((value - lo) / (hi - lo)),
-                    };
+                    x[choice.first] = interval.coordinate(value) / choice.unit;
                 }
             }
         }

@@ -61,8 +61,8 @@ impl Chooser for Branching {
     }
 }
 
-/// Enumerates every run of the program, at most `max_runs`. `watch` is called with the number of complete runs after each;
-/// when it answers false, the search is given up.
+/// Enumerates every run of the program, at most `max_runs`, those that prove impossible included. `watch` is called with
+/// the number of runs after each; when it answers false, the search is given up.
 ///
 /// # Errors
 /// A choice that cannot be enumerated, more runs than allowed, runs that are all impossible, or a fault of the program: also
@@ -77,7 +77,8 @@ pub fn enumerate(
     let mut open = vec![Branch { state: first, record: Record::start(&task.sketches), next: None }];
     let mut outcomes: Vec<(Value, Vec<f64>)> = Vec::new();
     let mut index: HashMap<String, usize> = HashMap::new();
-    let (mut runs, mut all) = (0, AllInvalid::default());
+    // Complete runs, and with them those that are impossible, which may be far more.
+    let (mut runs, mut met, mut all) = (0, 0, AllInvalid::default());
     let mut causes: HashMap<String, usize> = HashMap::new();
     while let Some(mut branch) = open.pop() {
         let hosts = &*task.hosts;
@@ -86,6 +87,20 @@ pub fn enumerate(
             Forward { record, chooser, log_ratio: 0.0, hosts, barriers: false, complete: false };
         answers.run(task, &mut machine, &mut branch.state)?;
         let values = answers.chooser.open;
+        if branch.record.cause.is_some() || branch.state.has_ended() {
+            met += 1;
+            if met > max_runs {
+                return Err(Fault::new(
+                    "too-many-runs",
+                    format!("the program has more than {max_runs} runs, the impossible ones included"),
+                )
+                .with_help("enumerate a smaller program, or use particles")
+                .into());
+            }
+            if !watch(met) {
+                return Err(Fault::new("interrupted", format!("stopped after {met} runs")).into());
+            }
+        }
         if let Some(cause) = branch.record.cause {
             all.note(branch.record.invalid.as_ref());
             *causes.entry(cause).or_insert(0) += 1;
@@ -98,17 +113,6 @@ pub fn enumerate(
         if branch.state.has_ended() {
             runs += 1;
             all.note(None);
-            if runs > max_runs {
-                return Err(Fault::new(
-                    "too-many-runs",
-                    format!("the program has more than {max_runs} runs"),
-                )
-                .with_help("enumerate a smaller program, or use particles")
-                .into());
-            }
-            if !watch(runs) {
-                return Err(Fault::new("interrupted", format!("stopped after {runs} runs")).into());
-            }
             let value = branch.state.result();
             let log_joint = branch.record.log_prior.plus(&branch.record.score()).value();
             let key = repr(&value)?;
@@ -151,12 +155,23 @@ mod tests {
             other => panic!("{other:?}"),
         };
         // Both conditions stand in line 0.
-        assert_eq!(causes(enumerate(&task, 100, &mut |_| true).err()), [10]);
+        assert_eq!(causes(enumerate(&task, 10, &mut |_| true).err()), [10]);
+        let fault = enumerate(&task, 9, &mut |_| true).err();
+        assert!(matches!(fault, Some(Failure::Setting(fault)) if fault.code == "too-many-runs"));
+        let mut seen = 0;
+        assert!(
+            enumerate(&task, 100, &mut |n| {
+                seen = n;
+                n < 4
+            })
+            .is_err()
+                && seen == 4
+        );
         assert_eq!(causes(importance(&task, None, 300, 1, &mut |_| true).err()), [300]);
         let possible = text.replace("(lt $x 0)", "(lt $x 1)");
         let task = Task::new(Arc::new(compile(&parse(&possible).unwrap(), vec![]).unwrap()));
         let found = enumerate(&task, 100, &mut |_| true).unwrap();
         assert!(found.runs == 1 && (found.log_evidence - 0.1f64.ln()).abs() < 1e-9);
-        assert_eq!(importance(&task, None, 300, 1, &mut |_| true).unwrap().samples.len(), 300);
+        assert_eq!(importance(&task, None, 300, 1, &mut |_| true).unwrap().runs.len(), 300);
     }
 }

@@ -3,6 +3,7 @@
 use crate::Failure;
 use crate::chooser::{Chooser, Context, Prior};
 use crate::record::{Record, check_factor};
+use crate::run::Run;
 use crate::task::{Hosts, Task};
 use niwaki_geom::Shape;
 use niwaki_math::{Dist, StreamKey};
@@ -117,30 +118,20 @@ impl<C: Chooser> Answers<f64> for Forward<'_, C> {
     }
 }
 
-/// A finished run.
-pub struct Sample {
-    /// Its choices and score. A run that became impossible stopped there.
-    pub record: Record,
-    /// What the program returned (`None` when impossible).
-    pub value: Value,
-    /// Log weight, nats: its score, and prior over proposal of its choices.
-    pub log_weight: f64,
-}
-
 /// One forward run from the prior, depth first; unless it is to be `complete`, it stops when its score becomes minus
 /// infinity, or where a distribution is invalid.
 ///
 /// # Errors
 /// A fault of the program.
-pub fn forward(task: &Task, seed: u64, stream: u64, complete: bool) -> Result<Sample, Failure> {
-    forward_by(task, Prior(StreamKey::new(seed, stream, 0)), complete)
+pub fn forward(task: &Task, seed: u64, stream: u64, complete: bool) -> Result<Run, Failure> {
+    Ok(Run { log_weight: 0.0, ..forward_by(task, Prior(StreamKey::new(seed, stream, 0)), complete)? })
 }
 
-/// One forward run by a chooser, as [`forward`].
+/// One forward run by a chooser, as [`forward`]. It weighs its score, and prior over proposal of its choices.
 ///
 /// # Errors
 /// A fault of the program, or of the chooser.
-pub fn forward_by(task: &Task, chooser: impl Chooser, complete: bool) -> Result<Sample, Failure> {
+pub fn forward_by(task: &Task, chooser: impl Chooser, complete: bool) -> Result<Run, Failure> {
     let mut machine = task.machine();
     let mut state = task.start(&machine, true)?;
     let mut record = Record::start(&task.sketches);
@@ -151,5 +142,6 @@ pub fn forward_by(task: &Task, chooser: impl Chooser, complete: bool) -> Result<
     let log_ratio = answers.log_ratio;
     let value = if state.has_ended() { state.result() } else { Value::None };
     let log_weight = record.log_score() + log_ratio;
-    Ok(Sample { record, value, log_weight })
+    let has_ended = complete || record.cause.is_none();
+    Ok(Run::of(record, value, log_weight, has_ended))
 }

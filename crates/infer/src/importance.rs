@@ -4,8 +4,9 @@
 //! `w_i = s(x_i) p(x_i) / q(x_i)`, `p(value | score) ~ sum of w_i [value_i = value]`; the evidence is the mean weight.
 
 use crate::chooser::{Guided, Prior, Proposal};
-use crate::forward::{Sample, forward_by};
+use crate::forward::forward_by;
 use crate::record::AllInvalid;
+use crate::run::Run;
 use crate::{Failure, Task};
 use niwaki_math::StreamKey;
 use niwaki_vm::fault::Fault;
@@ -17,7 +18,7 @@ const BLOCK: u64 = 256;
 /// Independent weighted runs.
 pub struct Weighted {
     /// The runs, with their weights.
-    pub samples: Vec<Sample>,
+    pub runs: Vec<Run>,
     /// Log of the mean weight, nats: an unbiased estimate of the evidence (not of its log), unless `watch` stopped
     /// the runs for what they were.
     pub log_evidence: f64,
@@ -51,22 +52,22 @@ pub fn importance(
         }
     };
     let n = n as u64;
-    let mut samples = Vec::new();
-    while (samples.len() as u64) < n {
-        let from = samples.len() as u64;
-        let runs = (from..n.min(from + BLOCK)).into_par_iter().map(one);
-        samples.extend(runs.collect::<Result<Vec<_>, _>>()?);
-        if !watch(samples.len()) {
+    let mut runs = Vec::new();
+    while (runs.len() as u64) < n {
+        let from = runs.len() as u64;
+        let next = (from..n.min(from + BLOCK)).into_par_iter().map(one);
+        runs.extend(next.collect::<Result<Vec<_>, _>>()?);
+        if !watch(runs.len()) {
             break;
         }
     }
-    AllInvalid::check_all(samples.iter().map(|s| &s.record))?;
-    let log_evidence = log_mean_exp(samples.iter().map(|s| s.log_weight));
+    AllInvalid::check_all(runs.iter().map(|run| run.invalid.as_ref()))?;
+    let log_evidence = log_mean_exp(runs.iter().map(|run| run.log_weight));
     if log_evidence == f64::NEG_INFINITY {
-        let causes = samples.iter().filter_map(|s| s.record.cause.as_deref());
+        let causes = runs.iter().filter_map(|run| run.cause.as_deref());
         return Err(Failure::impossible(0, causes.map(|cause| (cause, 1))));
     }
-    Ok(Weighted { samples, log_evidence })
+    Ok(Weighted { runs, log_evidence })
 }
 
 /// The log of the mean of exponentials, added up in order.
@@ -104,6 +105,6 @@ mod tests {
         let (mean, square) = (0.3 + 0.2 * 0.5f64.exp(), 0.3 + 0.2 * 1.0f64.exp());
         let error = ((square - mean * mean) / n as f64).sqrt();
         let z = (found.log_evidence.exp() - mean) / error;
-        assert!(found.samples.len() == n && z.abs() < 5.0, "{z}");
+        assert!(found.runs.len() == n && z.abs() < 5.0, "{z}");
     }
 }

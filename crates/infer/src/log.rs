@@ -3,7 +3,11 @@
 //! Entries made since the last copy are the particle's own; at a copy they are frozen and shared. Forking costs
 //! the entries since the last fork, not the length of the run.
 
+use niwaki_math::Draw;
+use niwaki_vm::builtins::{draw_to_value, value_to_draw};
 use niwaki_vm::value::Value;
+use serde::ser::Error;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use smallvec::SmallVec;
 use std::sync::Arc;
 
@@ -137,6 +141,56 @@ impl Log {
             at = frozen.before.as_deref();
         }
         parts.into_iter().rev().flatten().cloned().collect()
+    }
+}
+
+/// Choices in the order made.
+impl FromIterator<(u128, Value)> for Log {
+    fn from_iter<T: IntoIterator<Item = (u128, Value)>>(choices: T) -> Log {
+        let mut log = Log::default();
+        choices.into_iter().for_each(|(address, value)| log.push(address, value));
+        log
+    }
+}
+
+/// The value of an entry as data; reals as the numbers of their bits.
+#[derive(Serialize, Deserialize)]
+enum Plain {
+    Bool(bool),
+    Int(i64),
+    Real(u64),
+    Vector(Vec<u64>),
+    Order(u32),
+}
+
+impl Serialize for Log {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let plain = |entry: &Entry| {
+            let value = match (&entry.value, value_to_draw(&entry.value)) {
+                (Value::Future(which), _) => Plain::Order(*which),
+                (_, Some(Draw::Bool(b))) => Plain::Bool(b),
+                (_, Some(Draw::Int(i))) => Plain::Int(i),
+                (_, Some(Draw::Real(x))) => Plain::Real(x.to_bits()),
+                (_, Some(Draw::Vector(xs))) => Plain::Vector(xs.iter().map(|x| x.to_bits()).collect()),
+                (other, None) => return Err(S::Error::custom(format!("a choice of {}", other.described()))),
+            };
+            Ok((entry.address(), value))
+        };
+        to.collect_seq(self.entries().iter().map(plain).collect::<Result<Vec<_>, _>>()?)
+    }
+}
+
+impl<'de> Deserialize<'de> for Log {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Log, D::Error> {
+        let value = |plain| match plain {
+            Plain::Bool(b) => Value::Bool(b),
+            Plain::Int(i) => Value::Int(i),
+            Plain::Real(bits) => Value::Real(f64::from_bits(bits)),
+            Plain::Vector(xs) => draw_to_value(Draw::Vector(xs.into_iter().map(f64::from_bits).collect())),
+            Plain::Order(which) => Value::Future(which),
+        };
+        let entries: Vec<(u128, Plain)> = Vec::deserialize(from)?;
+        Ok(entries.into_iter().map(|(address, plain)| (address, value(plain))).collect())
     }
 }
 

@@ -242,8 +242,7 @@ impl Method {
             Method::Forward { n } => {
                 let mut runs = Vec::new();
                 while (runs.len() as u64) < *n && watch(runs.len() as u64, 0, none) {
-                    let sample = forward(task, seed, runs.len() as u64, true)?;
-                    runs.push(Run::of_sample(sample, true, 0.0));
+                    runs.push(forward(task, seed, runs.len() as u64, true)?);
                 }
                 let interrupted = (runs.len() as u64) < *n;
                 Ok(bare(runs, interrupted, Info::Forward))
@@ -252,20 +251,14 @@ impl Method {
                 let proposal = proposed(proposal.as_ref(), given)?;
                 let found =
                     importance(task, proposal.as_deref(), *n, seed, &mut |runs| watch(runs as u64, 0, none))?;
-                let weighted = |sample: crate::forward::Sample| {
-                    let log_weight = sample.log_weight;
-                    Run::of_sample(sample, false, log_weight)
-                };
-                let runs: Vec<Run> = found.samples.into_iter().map(weighted).collect();
-                let interrupted = runs.len() < *n;
+                let interrupted = found.runs.len() < *n;
                 let log_evidence = (!interrupted).then_some(found.log_evidence);
-                Ok(bare(runs, interrupted, Info::Importance { log_evidence }))
+                Ok(bare(found.runs, interrupted, Info::Importance { log_evidence }))
             }
             Method::Rejection { n, bound, max_tries } => {
                 let found =
                     rejection(task, *n, *bound, *max_tries, seed, &mut |tries| watch(tries, 0, none))?;
-                let runs = found.samples.into_iter().map(|sample| Run::of_sample(sample, false, 0.0));
-                Ok(bare(runs.collect(), found.interrupted, Info::Rejection { tries: found.tries }))
+                Ok(bare(found.runs, found.interrupted, Info::Rejection { tries: found.tries }))
             }
             Method::EnumerateAll { max_runs } => {
                 let found = enumerate(task, *max_runs, &mut |runs| watch(runs as u64, 0, none))?;

@@ -94,12 +94,12 @@ impl Inner {
         match self.keep {
             Keep::Sample => {
                 let first = search.chains.first().and_then(|chain| chain.rungs.first());
-                first.map(|rung| rung.now(&task.program).facts.value).ok_or_else(impossible)
+                first.map(|rung| rung.now(&task.program).value).ok_or_else(impossible)
             }
             Keep::Best => {
                 let best = (0..search.chains.len()).max_by(|a, b| score(a).total_cmp(&score(b)));
                 let rung = best.and_then(|at| search.chains[at].best()).ok_or_else(impossible)?;
-                Ok(rung.best.get(&rung.state, task)?.facts.value)
+                Ok(rung.best.get(&rung.state, task)?.value)
             }
         }
     }
@@ -210,10 +210,6 @@ impl Inferences {
         args: &[Value],
         seed: u64,
     ) -> Result<Value, Fault> {
-        if args.iter().chain(&model.captures).any(holds_future) {
-            return Err(Fault::type_mismatch("an argument of `infer` holds a future")
-                .with_help("`force` it first: the inner run cannot wait for the outer one"));
-        }
         if self.depth == DEPTH {
             return Err(Fault::new(
                 "infer-failed",
@@ -256,25 +252,6 @@ fn fault_of(name: &str, failure: Failure) -> Fault {
             Fault::new("infer-failed", format!("every run of `{name}` is impossible{causes}"))
         }
     }
-}
-
-/// Whether a value holds the handle of a future. A work list: values may be nested as deep as memory allows.
-fn holds_future(value: &Value) -> bool {
-    let mut open = vec![value];
-    while let Some(value) = open.pop() {
-        match value {
-            Value::Future(_) => return true,
-            Value::Tuple(tuple) => open.extend(tuple.items()),
-            Value::List(list) => {
-                open.extend(list.iter().filter(|item| !item.is_plain() || matches!(item, Value::Future(_))))
-            }
-            Value::Dict(dict) => open.extend(dict.values()),
-            Value::Record(record) => open.extend(&record.fields),
-            Value::Function(closure) => open.extend(&closure.captures),
-            _ => {}
-        }
-    }
-    false
 }
 
 #[cfg(test)]
@@ -403,8 +380,6 @@ mod tests {
         assert_eq!(code(&[deep.clone(), Value::Int(1)]), "infer-failed");
         assert_eq!(code(&[inner.clone(), Value::Int(1)]), "wrong-arity");
         assert_eq!(code(&[Value::Int(3), Value::Int(1)]), "not-callable");
-        let held = Value::list(vec![Value::Future(0)]);
-        assert_eq!(code(&[inner.clone(), held, Value::Int(1)]), "type-mismatch");
         assert_eq!(inferences.call(7, &[]).unwrap_err().code, "host-function");
     }
 

@@ -151,13 +151,13 @@ impl AllInvalid {
         }
     }
 
-    /// [`AllInvalid::check`] of these runs.
+    /// [`AllInvalid::check`] of runs by what made each invalid.
     ///
     /// # Errors
     /// As there.
-    pub fn check_all<'a>(records: impl Iterator<Item = &'a Record>) -> Result<(), Failure> {
+    pub fn check_all<'a>(invalid: impl Iterator<Item = Option<&'a Arc<RunFault>>>) -> Result<(), Failure> {
         let mut all = AllInvalid::default();
-        records.for_each(|record| all.note(record.invalid.as_ref()));
+        invalid.for_each(|met| all.note(met));
         all.check()
     }
 }

@@ -1,7 +1,8 @@
 //! Rejection sampling: forward runs, kept with probability `exp(log_score - bound)`.
 
-use crate::forward::{Sample, forward};
+use crate::forward::forward;
 use crate::record::AllInvalid;
+use crate::run::Run;
 use crate::{Failure, Task};
 use niwaki_math::Stream;
 use niwaki_vm::fault::Fault;
@@ -12,7 +13,7 @@ const ACCEPTANCE: u64 = u64::MAX;
 /// Exact samples.
 pub struct Accepted {
     /// The samples.
-    pub samples: Vec<Sample>,
+    pub runs: Vec<Run>,
     /// How many runs it took.
     pub tries: u64,
     /// Whether it was stopped before all samples were found.
@@ -33,12 +34,12 @@ pub fn rejection(
     seed: u64,
     watch: &mut dyn FnMut(u64) -> bool,
 ) -> Result<Accepted, Failure> {
-    let mut samples = Vec::new();
+    let mut runs = Vec::new();
     let (mut tries, mut all) = (0, AllInvalid::default());
-    while samples.len() < n {
+    while runs.len() < n {
         if tries == max_tries {
             all.check()?;
-            let found = samples.len();
+            let found = runs.len();
             return Err(Fault::new(
                 "rejection-budget",
                 format!("{tries} runs gave {found} samples of the {n} asked for"),
@@ -46,25 +47,25 @@ pub fn rejection(
             .with_help("loosen the conditions, raise `max_tries`, or use particles")
             .into());
         }
-        let sample = forward(task, seed, tries, false)?;
-        all.note(sample.record.invalid.as_ref());
-        let log_accept = sample.record.log_score() - bound;
+        let run = forward(task, seed, tries, false)?;
+        all.note(run.invalid.as_ref());
+        let log_accept = run.log_score - bound;
         if log_accept > 1e-9 {
             return Err(Fault::new(
                 "rejection-bound",
-                format!("a run scores {} nats, above the bound of {bound}", sample.record.log_score()),
+                format!("a run scores {} nats, above the bound of {bound}", run.log_score),
             )
             .with_help("give a bound that no run exceeds")
             .into());
         }
         let u = Stream::new(seed, ACCEPTANCE, u128::from(tries), 0).uniform();
         if u.ln() < log_accept {
-            samples.push(sample);
+            runs.push(run);
         }
         tries += 1;
         if !watch(tries) {
-            return Ok(Accepted { samples, tries, interrupted: true });
+            return Ok(Accepted { runs, tries, interrupted: true });
         }
     }
-    Ok(Accepted { samples, tries, interrupted: false })
+    Ok(Accepted { runs, tries, interrupted: false })
 }

@@ -7,9 +7,10 @@ use crate::chooser::{Chooser, Chosen, Context, Prior, Refuse};
 use crate::forward::factor_name;
 use crate::log::Entry;
 use crate::record::{Record, check_factor};
+use crate::run::Run;
 use crate::task::Task;
 use niwaki_geom::Shape;
-use niwaki_math::{Dist, StreamKey};
+use niwaki_math::{Dist, StreamKey, Total};
 use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Stop;
@@ -35,16 +36,16 @@ pub struct Choice {
 /// A run with names.
 #[derive(Default)]
 pub struct Trace {
+    /// The run.
+    pub run: Run,
+    /// The sums behind its scores, exact: of its choices, and of factors, observations and sketches.
+    pub sums: (Total, Total),
     /// Every choice, in depth-first order.
     pub choices: Vec<Choice>,
     /// The primitives of the scene: readable address and shapes.
     pub parts: Vec<(String, Vec<Shape>)>,
     /// The query table.
     pub queries: Vec<(Value, Value)>,
-    /// What the program returned.
-    pub value: Value,
-    /// Scores.
-    pub record: Record,
 }
 
 /// Where the values of a replay come from.
@@ -107,7 +108,8 @@ impl Chooser for Sourced<'_> {
 struct Replay<'a> {
     task: &'a Task,
     chooser: Sourced<'a>,
-    trace: &'a mut Trace,
+    trace: Trace,
+    record: Record,
     written: HashMap<String, u32>,
 }
 
@@ -117,7 +119,7 @@ impl Answers<f64> for Replay<'_> {
             return Ok(Answer::Pause);
         };
         let Chosen { value, log_prior: log_density, .. } = chosen;
-        self.trace.record.choose(at.address(), &value, log_density);
+        self.record.choose(at.address(), &value, log_density);
         let family = dist.family().name();
         self.trace.choices.push(Choice {
             path: at.path(),
@@ -130,13 +132,13 @@ impl Answers<f64> for Replay<'_> {
     }
 
     fn score(&mut self, at: &At<'_, f64>, factor: Factor, log: f64) -> Result<Answer<()>, Fault> {
-        self.trace.record.factor(check_factor(log)?, || factor_name(at, factor));
+        self.record.factor(check_factor(log)?, || factor_name(at, factor));
         Ok(Answer::Go(()))
     }
 
     fn emit(&mut self, at: &At<'_, f64>, shapes: &[Shape]) -> Result<Answer<()>, Fault> {
         self.trace.parts.push((at.path(), shapes.to_vec()));
-        self.trace.record.emit(shapes);
+        self.record.emit(shapes);
         Ok(Answer::Go(()))
     }
 
@@ -172,9 +174,9 @@ pub fn replay(task: &Task, source: Source<'_>, missing: Missing) -> Result<Trace
     let mut machine = task.machine();
     let mut state = task.start(&machine, missing != Missing::Stop)?;
     state.remember_origins();
-    let mut trace = Trace { record: Record::start(&task.sketches), ..Trace::default() };
+    let (trace, record) = (Trace::default(), Record::start(&task.sketches));
     let chooser = Sourced { source, missing };
-    let mut answers = Replay { task, chooser, trace: &mut trace, written: HashMap::new() };
+    let mut answers = Replay { task, chooser, trace, record, written: HashMap::new() };
     if missing == Missing::Stop {
         let mut stuck = Vec::new();
         while let Some(next) = state.runnable().iter().copied().find(|future| !stuck.contains(future)) {
@@ -185,7 +187,10 @@ pub fn replay(task: &Task, source: Source<'_>, missing: Missing) -> Result<Trace
     } else {
         machine.finish(&mut state, &mut answers)?;
     }
-    trace.value = if state.has_ended() { state.result() } else { Value::None };
+    let Replay { mut trace, record, .. } = answers;
+    let value = if state.has_ended() { state.result() } else { Value::None };
+    trace.sums = (record.log_prior.clone(), record.score());
+    trace.run = Run::of(record, value, 0.0, state.has_ended());
     for (_, value) in &mut trace.queries {
         *value = state.resolve(value);
     }

@@ -1,24 +1,28 @@
 //! A finished run, whatever found it: its choices as a log of addresses and values, its scores, its measures.
 
-use crate::chain::snapshot::{Snapshot, copy_of};
-use crate::forward::Sample;
 use crate::log::Log;
-use crate::particles::Outcome;
 use crate::record::Record;
+use niwaki_vm::machine::stack::RunFault;
 use niwaki_vm::value::Value;
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
-/// A finished run. Scores are in nats.
-#[derive(Debug, Default)]
+/// A finished run. Scores are in nats. As data it has all but its value, which a replay gives again, and the fault.
+#[derive(Debug, Default, Serialize, Deserialize)]
 pub struct Run {
     /// Its choices, in the order made; order choices of particles are among them.
     pub log: Log,
     /// What the program returned (`None` for a run that did not end).
+    #[serde(skip)]
     pub value: Value,
     /// Log densities of the choices.
+    #[serde(with = "bits")]
     pub log_prior: f64,
     /// Factors, observations and sketches.
+    #[serde(with = "bits")]
     pub log_score: f64,
     /// The weight in its population; 0 where all weigh the same.
+    #[serde(with = "bits")]
     pub log_weight: f64,
     /// Primitives of the scene.
     pub primitives: usize,
@@ -28,6 +32,9 @@ pub struct Run {
     pub has_ended: bool,
     /// What made it impossible.
     pub cause: Option<String>,
+    /// The fault of the distribution that did, where it was one with invalid parameters.
+    #[serde(skip)]
+    pub invalid: Option<Arc<RunFault>>,
     /// Of a chain's state: the number of proposals before it.
     pub visit: u64,
 }
@@ -44,38 +51,49 @@ impl Run {
             similarity: record.sketches.similarity(),
             has_ended,
             cause: record.cause,
+            invalid: record.invalid,
             log: record.log,
             visit: 0,
         }
     }
+}
 
-    /// Of a forward run: one that is impossible stopped before its end, unless it was to be complete.
-    pub fn of_sample(sample: Sample, complete: bool, log_weight: f64) -> Run {
-        let has_ended = complete || sample.record.cause.is_none();
-        Run::of(sample.record, sample.value, log_weight, has_ended)
+/// Reals as the numbers of their bits: JSON has no infinity.
+mod bits {
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    pub fn serialize<S: Serializer>(x: &f64, to: S) -> Result<S::Ok, S::Error> {
+        to.serialize_u64(x.to_bits())
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+        u64::deserialize(from).map(f64::from_bits)
     }
 }
 
-impl From<Outcome> for Run {
-    fn from(outcome: Outcome) -> Run {
-        Run::of(outcome.record, outcome.value, outcome.log_weight, outcome.has_ended)
-    }
-}
+#[cfg(test)]
+mod tests {
+    //! A run comes back from its data to the bit.
+    use super::*;
 
-impl From<&Snapshot> for Run {
-    /// Of a chain's state, which other samples may share: the log is copied.
-    fn from(snapshot: &Snapshot) -> Run {
-        let facts = &snapshot.facts;
-        Run {
-            log: copy_of(&snapshot.log),
-            value: facts.value.clone(),
-            log_prior: facts.log_prior,
-            log_score: facts.log_score,
-            primitives: facts.primitives,
-            similarity: facts.similarity,
-            has_ended: true,
-            visit: facts.visit,
-            ..Run::default()
+    #[test]
+    fn a_run_comes_back_from_its_data() {
+        let mut log = Log::default();
+        let vector =
+            niwaki_vm::builtins::draw_to_value(niwaki_math::Draw::Vector([0.1, f64::INFINITY].into()));
+        let values = [Value::Bool(true), Value::Int(-3), Value::Real(-0.0), Value::Real(f64::NAN), vector];
+        for (i, value) in values.into_iter().enumerate() {
+            log.push(u128::MAX - i as u128, value);
         }
+        log.push_order(7, 2);
+        let (score, similarity) = (f64::NEG_INFINITY, Some(0.1 + 0.2));
+        let run =
+            Run { log, log_prior: 0.1, log_score: score, similarity, visit: u64::MAX, ..Run::default() };
+        let text = serde_json::to_string(&run).expect("data");
+        let back: Run = serde_json::from_str(&text).expect("a run");
+        assert_eq!(format!("{run:?}"), format!("{back:?}"));
+        assert_eq!((back.log_prior, back.log_score, back.similarity), (0.1, score, similarity));
+        let values: Vec<_> = back.log.entries().into_iter().map(|entry| entry.value).collect();
+        assert!(matches!(values[2], Value::Real(x) if x.to_bits() == (-0.0f64).to_bits()));
     }
 }

@@ -19,13 +19,13 @@ fn task(body: &str) -> Task {
 }
 
 fn choices(task: &Task, seed: u64) -> HashMap<u128, Value> {
-    by_address(&forward(task, seed, 0, true).expect("a run").record.log.entries())
+    by_address(&forward(task, seed, 0, true).expect("a run").log.entries())
 }
 
 /// Log joint of the program itself (each term on the grid of 2^-32).
 fn log_joint(task: &Task, choices: HashMap<u128, Value>) -> f64 {
     let trace = replay(task, Source::Addresses(choices), Missing::Refuse).expect("a run");
-    trace.record.log_prior.plus(&trace.record.log_factors).value()
+    trace.sums.0.plus(&trace.sums.1).value()
 }
 
 /// The real numbers of a choice's value, all but the last share of a simplex.

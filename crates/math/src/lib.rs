@@ -26,7 +26,9 @@ pub mod streams;
 pub mod total;
 pub mod vector;
 
-pub use distributions::{BadParameter, Dist, Draw, Family, Param, Support};
+pub use distributions::{
+    BadParameter, Dist, Draw, Family, Interval, Param, Placed, Space, Support, log_odds, logistic,
+};
 pub use rounding::grid;
 pub use scalar::{LastLog, Scalar};
 pub use streams::{RngCore, Stream, StreamKey};

@@ -1,8 +1,9 @@
-//! Markov chains behind the door: they stay alive between two calls, so that a search goes on where it stopped.
+//! Markov chains for Python: they stay alive between two calls, so that a search goes on where it stopped.
 
 use crate::faults;
-use crate::outcome::PyOutcome;
-use crate::search::{Known, PyTask, detached};
+use crate::runs::PyRun;
+use crate::search::{PyTask, detached};
+use crate::trajectories::broken_off;
 use niwaki_infer::chain::agreement::compare;
 use niwaki_infer::chain::counts::{Count, Counts};
 use niwaki_infer::chain::explain::What;
@@ -10,15 +11,31 @@ use niwaki_infer::chain::ladder::Ladder;
 use niwaki_infer::chain::many::Chains;
 use niwaki_infer::chain::trajectory::travel::Travel;
 use niwaki_infer::chain::{Chain, Settings};
-use niwaki_infer::hamiltonian::Cause;
 use niwaki_infer::method::{Given, Method, Mh};
 use niwaki_infer::run::Run;
 use niwaki_infer::{Failure, Task};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyTuple};
 use std::collections::HashMap;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Proposals at one site of the program.
+#[pyclass(frozen, get_all, name = "Site", module = "niwaki._engine")]
+pub struct PySite {
+    /// Its function.
+    function: String,
+    /// Its readable component.
+    site: String,
+    /// Its line in the source.
+    line: u32,
+    /// How many proposals there were.
+    proposed: u64,
+    /// How many were kept.
+    accepted: u64,
+    /// How many lay outside the support of the choice's distribution.
+    outside: u64,
+}
 
 /// Several chains of one seed.
 #[pyclass(frozen, name = "Chains", module = "niwaki._engine")]
@@ -29,12 +46,12 @@ pub struct PyChains {
 
 #[pymethods]
 impl PyChains {
-    /// Chains in their first states, by the text of a method; ``known`` are first values by hash of the address.
+    /// Chains in their first states, by the text of a method; ``start`` has values for their choices.
     /// ``functions`` are the users' proposals that the kernel names by number; ``room`` is the most choices that the
     /// samples of one chain hold together.
     #[new]
-    #[pyo3(signature = (task, method, seed, *, functions=Vec::new(), room=1 << 22, known=None, threads=None))]
-    #[expect(clippy::too_many_arguments, reason = "what chains are told")]
+    #[pyo3(signature = (task, method, seed, *, functions=Vec::new(), room=1 << 22, start=None, threads=None))]
+    #[expect(clippy::too_many_arguments, reason = "what chains are asked for")]
     fn new(
         py: Python<'_>,
         task: Py<PyTask>,
@@ -42,13 +59,13 @@ impl PyChains {
         seed: u64,
         functions: Vec<Py<PyTask>>,
         room: usize,
-        known: Option<Known<'_>>,
+        start: Option<&PyRun>,
         threads: Option<usize>,
     ) -> PyResult<PyChains> {
         let own = task.get();
         let (method, settings, kept) = settings(py, own, method, seed, &functions)?;
         let settings = Settings { room, ..settings };
-        let known = own.known(known)?;
+        let known = start.map(PyRun::by_address);
         let (made, _) = detached(py, &kept.program, threads, None, |_| {
             Chains::start(&kept, &settings, method.chains, known.as_ref())
         })?;
@@ -74,31 +91,28 @@ impl PyChains {
     }
 
     /// The best state of each chain.
-    fn best(&self, py: Python<'_>) -> PyResult<Vec<PyOutcome>> {
+    fn best(&self, py: Python<'_>) -> PyResult<Vec<PyRun>> {
         let task = &self.task.get().task;
         let (best, _) = detached(py, &task.program, None, None, |_| {
             let chains = self.lock();
             let rungs = chains.chains.iter().filter_map(Ladder::best);
             rungs.map(|rung| rung.best.get(&rung.state, task)).collect::<Result<Vec<_>, _>>()
         })?;
-        Ok(best.iter().map(|snapshot| self.outcome(snapshot)).collect())
+        Ok(best.into_iter().map(|run| self.run(Arc::new(run))).collect())
     }
 
-    /// The samples of a chain from the ``start``-th on.
-    #[pyo3(signature = (chain, start=0))]
-    fn samples(&self, chain: usize, start: usize) -> Vec<PyOutcome> {
+    /// The samples of each chain.
+    fn samples(&self) -> Vec<Vec<PyRun>> {
         let chains = self.lock();
-        let Some(rung) = chains.chains.get(chain).and_then(|ladder| ladder.rungs.first()) else {
-            return vec![];
-        };
-        rung.samples.all.iter().skip(start).map(|s| self.outcome(s)).collect()
+        let first = chains.chains.iter().filter_map(|ladder| ladder.rungs.first());
+        first.map(|rung| rung.samples.all.iter().map(|run| self.run(run.clone())).collect()).collect()
     }
 
     /// The present state of each chain.
-    fn now(&self) -> Vec<PyOutcome> {
+    fn now(&self) -> Vec<PyRun> {
         let (program, chains) = (&self.task.get().task.program, self.lock());
         let first = chains.chains.iter().filter_map(|ladder| ladder.rungs.first());
-        first.map(|rung| self.outcome(&rung.now(program))).collect()
+        first.map(|rung| self.run(Arc::new(rung.now(program)))).collect()
     }
 
     /// Proposals between two samples, of each chain.
@@ -119,8 +133,8 @@ impl PyChains {
         all
     }
 
-    /// Proposals by site: (function, readable component, line, proposed, accepted, outside the support).
-    fn sites(&self) -> Vec<(String, String, u32, u64, u64, u64)> {
+    /// Proposals by site, all chains together.
+    fn sites(&self) -> Vec<PySite> {
         let (program, chains) = (&self.task.get().task.program, self.lock());
         let mut all = Counts::new(program);
         for chain in chains.chains.iter().flat_map(|ladder| &ladder.rungs) {
@@ -128,17 +142,23 @@ impl PyChains {
                 *sum += *count;
             }
         }
-        let row =
-            |(f, c, line, n): (String, String, u32, Count)| (f, c, line, n.proposed, n.accepted, n.outside);
-        all.named(program).into_iter().map(row).collect()
+        let site = |(function, site, line, Count { proposed, accepted, outside })| PySite {
+            function,
+            site,
+            line,
+            proposed,
+            accepted,
+            outside,
+        };
+        all.named(program).into_iter().map(site).collect()
     }
 
     /// Of each leaf of the kernel that follows the gradient, in order, all chains and temperatures together: a dict with
-    /// ``made``, ``moved``, ``unwritten``, ``settled`` (after the warm-up), ``accept`` (their sum), ``gradients``,
-    /// ``structures``, ``recordings``, ``warmup_divergences``; by reason how many broke off after the warm-up: ``energy``,
-    /// ``guard``, ``impossible``, ``not_finite``; ``steps``, by chain; and ``fault``, an exception or None.
+    /// ``made``, ``moved``, ``unwritten``, ``settled`` (after the warm-up), ``acceptance`` (their mean), ``gradients``,
+    /// ``structures``, ``recordings``, ``divergences`` (see [`broken_off`]), ``warmup_divergences``; ``step``, by chain;
+    /// and ``fault``, an exception or None.
     fn trajectories<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
-        let chains = self.lock();
+        let (program, chains) = (&self.task.get().task.program, self.lock());
         let mut all: Vec<(Travel, Vec<f64>, u64, u64)> = Vec::new();
         for chain in chains.chains.iter().flat_map(|ladder| &ladder.rungs) {
             for (leaf, (travel, step, (structures, recordings))) in chain.trajectories().enumerate() {
@@ -151,25 +171,23 @@ impl PyChains {
                 (sum.2, sum.3) = (sum.2 + structures, sum.3 + recordings);
             }
         }
-        let program = &self.task.get().task.program;
         let row = |(travel, steps, structures, recordings): (Travel, Vec<f64>, u64, u64)| {
             let facts = PyDict::new(py);
             facts.set_item("made", travel.made)?;
             facts.set_item("moved", travel.moved)?;
             facts.set_item("unwritten", travel.unwritten)?;
             facts.set_item("settled", travel.settled)?;
-            facts.set_item("accept", travel.accept)?;
+            facts.set_item("acceptance", travel.accept / travel.settled as f64)?;
             facts.set_item("gradients", travel.gradients)?;
             facts.set_item("structures", structures)?;
             facts.set_item("recordings", recordings)?;
-            facts.set_item("warmup_divergences", travel.warmup_divergences)?;
-            facts.set_item("energy", travel.drifted)?;
-            facts.set_item("guard", travel.refused[Cause::Guard as usize])?;
-            facts.set_item("impossible", travel.refused[Cause::Impossible as usize])?;
-            facts.set_item("not_finite", travel.refused[Cause::NotFinite as usize])?;
-            facts.set_item("steps", steps)?;
-            let fault = travel.fault.map(|fault| faults::raise(py, &Failure::Run(fault), program));
-            facts.set_item("fault", fault)?;
+            facts.set_item("divergences", broken_off(py, &travel.broken)?)?;
+            facts.set_item("warmup_divergences", travel.broken.in_warmup)?;
+            facts.set_item("step", PyTuple::new(py, steps)?)?;
+            facts.set_item(
+                "fault",
+                travel.fault.map(|fault| faults::raise(py, &Failure::Run(fault), program)),
+            )?;
             Ok(facts)
         };
         all.into_iter().map(row).collect()
@@ -197,7 +215,7 @@ impl PyChains {
     }
 }
 
-/// Metropolis-Hastings of a text, what its chains are told, and the task that keeps what their proposals ask for.
+/// Metropolis-Hastings of a text, what its chains are asked for, and the task that keeps what their proposals ask for.
 fn settings(
     py: Python<'_>,
     task: &PyTask,
@@ -284,14 +302,15 @@ impl PyChains {
         self.chains.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn outcome(&self, snapshot: &niwaki_infer::chain::snapshot::Snapshot) -> PyOutcome {
-        PyOutcome::new(Run::from(snapshot), self.task.get().model.get().classes.clone())
+    fn run(&self, run: Arc<Run>) -> PyRun {
+        PyRun::new(run, self.task.get().model.get().classes.clone())
     }
 }
 
-/// Puts this room into the module.
+/// Puts this part into the module.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PyChains>()?;
+    module.add_class::<PySite>()?;
     module.add_function(wrap_pyfunction!(agreement, module)?)?;
     module.add_function(wrap_pyfunction!(explain, module)?)
 }

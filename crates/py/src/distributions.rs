@@ -1,9 +1,9 @@
-//! Distributions behind the door: densities, draws and supports, as plain functions of plain values.
+//! Distributions for Python: densities, draws and supports, as plain functions of plain values.
 //!
 //! Parameters are numbers, truth values, lists, tuples or arrays of them, and for mixtures lists of
 //! `(family, parameters)`. What a family cannot use is a `BadParameter`, which is a `ValueError`.
 
-use niwaki_math::{self as math, Dist, Draw, Family, Param, Stream, Support};
+use niwaki_math::{self as math, Dist, Draw, Family, Interval, Param, Stream, Support};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyFloat, PyInt, PyString, PyTuple};
@@ -174,12 +174,17 @@ fn draw_at(
 /// Numbers have their ends (`None` for whole numbers without end); vectors their length twice.
 #[pyfunction]
 fn support(py: Python<'_>, family: &str, params: &Bound<'_, PyAny>) -> PyResult<Py<PyTuple>> {
-    let tuple = match dist(family, params)?.support() {
+    let inf = f64::INFINITY;
+    let tuple = match dist(family, params)?.support().in_bounds() {
         Support::Booleans => ("bool", false, true).into_pyobject(py)?,
         Support::Integers { lo, hi } => ("int", lo, hi).into_pyobject(py)?,
-        Support::Reals { lo, hi } => ("real", lo, hi).into_pyobject(py)?,
+        Support::Points { lo, hi } => ("real", lo, hi).into_pyobject(py)?,
+        Support::Reals(Interval { lo, hi }) => {
+            ("real", lo.unwrap_or(-inf), hi.unwrap_or(inf)).into_pyobject(py)?
+        }
         Support::Simplex(n) => ("simplex", n, n).into_pyobject(py)?,
-        Support::Vectors(n) => ("vector", n, n).into_pyobject(py)?,
+        Support::Vectors(n) | Support::VectorPoints(n) => ("vector", n, n).into_pyobject(py)?,
+        Support::Categories(_) | Support::Circle => unreachable!("not in bounds"),
     };
     Ok(tuple.unbind())
 }
@@ -209,7 +214,7 @@ fn parameter_names(family: &str) -> PyResult<Vec<&'static str>> {
     Ok(named(family)?.parameters().to_vec())
 }
 
-/// Adds this room's names to the engine.
+/// Adds this part's names to the engine.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("BadParameter", module.py().get_type::<BadParameter>())?;
     module.add_function(wrap_pyfunction!(log_density, module)?)?;

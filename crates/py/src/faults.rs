@@ -28,10 +28,17 @@ pub fn raise(py: Python<'_>, failure: &Failure, program: &Program) -> PyErr {
 
 fn build(py: Python<'_>, failure: &Failure, program: &Program) -> PyResult<PyErr> {
     let facts = PyDict::new(py);
-    let told = |fault: &Fault, kind: &str| note(&facts, fault, kind);
+    let about = |fault: &Fault, kind: &str| note(&facts, fault, kind);
+    let all_impossible = |kind: &str, code: &str, causes: &[(String, usize)]| {
+        facts.set_item("kind", kind)?;
+        facts.set_item("code", code)?;
+        facts.set_item("message", failure.to_string())?;
+        facts.set_item("help", py.None())?;
+        facts.set_item("causes", causes.to_vec())
+    };
     match failure {
         Failure::Run(run) => {
-            told(&run.fault, "run")?;
+            about(&run.fault, "run")?;
             let place = |call: &Call| {
                 let path = program.files.get(call.file as usize).map_or("", String::as_str);
                 let s = call.span;
@@ -42,22 +49,14 @@ fn build(py: Python<'_>, failure: &Failure, program: &Program) -> PyResult<PyErr
             facts.set_item("path", &run.path)?;
             facts.set_item("invalid", failure.is_impossible())?;
         }
-        Failure::Setting(fault) => told(fault, "setting")?,
+        Failure::Setting(fault) => about(fault, "setting")?,
         Failure::Impossible { barrier, causes } => {
-            facts.set_item("kind", "impossible")?;
-            facts.set_item("code", "everything-impossible")?;
-            facts.set_item("message", failure.to_string())?;
-            facts.set_item("help", py.None())?;
             facts.set_item("barrier", barrier)?;
-            facts.set_item("causes", causes.clone())?;
+            all_impossible("impossible", "everything-impossible", causes)?;
         }
         Failure::NoStart { tries, causes } => {
-            facts.set_item("kind", "no-start")?;
-            facts.set_item("code", "no-start")?;
-            facts.set_item("message", failure.to_string())?;
-            facts.set_item("help", py.None())?;
             facts.set_item("barrier", tries)?;
-            facts.set_item("causes", causes.clone())?;
+            all_impossible("no-start", "no-start", causes)?;
         }
     }
     with_facts(py, failure.to_string(), &facts)
@@ -98,7 +97,7 @@ fn with_facts(py: Python<'_>, message: String, facts: &Bound<'_, PyDict>) -> PyR
     Ok(error)
 }
 
-/// Puts this room into the module.
+/// Puts this part into the module.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("EngineFault", module.py().get_type::<EngineFault>())
 }

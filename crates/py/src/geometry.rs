@@ -3,24 +3,22 @@
 //! Every error is a `ValueError` with an attribute `code` (`bad-shape`, `empty-mesh`, `mesh-index`, ...), for which
 //! Python's table of messages has the words.
 
+use crate::values::Classes;
 use niwaki_geom::{
-    Bark, Frame, GeomError, Look, Mat3, Primitive, Rule, Shape, SketchSpec, Sketches, Target, TriMesh, Vec3,
-    no_self_intersection, volume_match,
+    GeomError, Primitive, Rule, Shape, SketchSpec, Sketches, Target, TriMesh, Vec3, no_self_intersection,
+    volume_match,
 };
+use niwaki_vm::builtins::{builtin, builtin_id, shapes};
+use niwaki_vm::fault::Fault;
+use niwaki_vm::value::Value;
 use numpy::ndarray::{Array2, Array3};
 use numpy::{IntoPyArray, PyArray2, PyArray3, PyReadonlyArray2};
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyCFunction, PyDict, PyTuple};
 use std::sync::Arc;
 
 type Triple = [f64; 3];
-type Rows = [[f64; 3]; 3];
-/// Centre, forward, up, radius.
-type FrameWord = (Triple, Triple, Triple, f64);
-/// Low, its radius, high, its radius.
-type BarkWord = (Triple, f64, Triple, f64);
-
 /// A `ValueError` that carries its code.
 pub fn value_error(py: Python<'_>, error: &GeomError) -> PyErr {
     let raised = PyValueError::new_err(error.message.clone());
@@ -28,10 +26,6 @@ pub fn value_error(py: Python<'_>, error: &GeomError) -> PyErr {
         Ok(()) => raised,
         Err(other) => other,
     }
-}
-
-fn bad_shape(message: String) -> GeomError {
-    GeomError::new("bad-shape", message)
 }
 
 /// A mesh from arrays, every entry checked.
@@ -80,22 +74,46 @@ fn faces_of<'py>(py: Python<'py>, mesh: &TriMesh) -> Bound<'py, PyArray2<i64>> {
     Array2::from_shape_fn((faces.len(), 3), |(i, k)| i64::from(faces[i][k])).into_pyarray(py)
 }
 
-/// An axis by name, or any direction.
-#[derive(FromPyObject)]
-enum AxisWord {
-    #[pyo3(transparent)]
-    Name(String),
-    #[pyo3(transparent)]
-    Direction(Triple),
-}
-
-fn named_axis(name: &str) -> Result<usize, GeomError> {
-    let message = || bad_shape(format!("the axis is {name:?}, expected \"x\", \"y\" or \"z\""));
-    ["x", "y", "z"].iter().position(|a| *a == name).ok_or_else(message)
-}
-
-fn look(rotation: Option<Rows>, bevel: Option<f64>, color: Option<[f32; 3]>) -> Look {
-    Look { rotation: rotation.map(Mat3::from_rows), bevel, color }
+/// The shape that a word makes of its arguments: positions, then names. The machine reads them, as in a model; a mesh comes
+/// in arrays.
+fn made(
+    (word, parameters): (&'static str, &[&str]),
+    args: &Bound<'_, PyTuple>,
+    named: Option<&Bound<'_, PyDict>>,
+) -> PyResult<PyShape> {
+    let py = args.py();
+    let mut given: Vec<Option<Bound<'_, PyAny>>> = args.iter().map(Some).collect();
+    given.resize(given.len().max(parameters.len()), None);
+    for (name, value) in named.into_iter().flatten() {
+        let unknown = || PyTypeError::new_err(format!("`{word}` has no parameter {name}"));
+        let at = parameters.iter().position(|own| name.eq(own).unwrap_or(false)).ok_or_else(unknown)?;
+        given[at] = Some(value);
+    }
+    let mut mesh = None;
+    if let ("mesh", [vertices, faces, ..]) = (word, &mut given[..]) {
+        let (vertices, faces) = (vertices.take(), faces.take());
+        let missing = || PyTypeError::new_err("`mesh` needs vertices and faces");
+        let (vertices, faces) = vertices.zip(faces).ok_or_else(missing)?;
+        let read = mesh_from(&vertices.extract()?, &faces.extract()?);
+        mesh = Some(Arc::new(read.map_err(|e| value_error(py, &e))?));
+    }
+    let classes = Classes::default();
+    let value =
+        |one: &Option<Bound<'_, PyAny>>| one.as_ref().map_or(Ok(Value::None), |one| classes.value(one));
+    let values: Vec<Value> = given.iter().map(value).collect::<PyResult<_>>()?;
+    let answer = match (mesh, builtin_id(word)) {
+        (Some(mesh), _) => shapes::placed(&mesh, &values),
+        (None, Some(id)) => builtin(id).call(&values),
+        (None, None) => Err(Fault::bad_shape(format!("there is no shape `{word}`"))),
+    };
+    match answer {
+        Ok(Value::Shape(shape)) => Ok(PyShape(shape)),
+        Ok(other) => Err(PyTypeError::new_err(format!("`{word}` makes {}", other.described()))),
+        Err(fault) if ["type-mismatch", "argument-count"].contains(&fault.code) => {
+            Err(PyTypeError::new_err(fault.message.clone()))
+        }
+        Err(fault) => Err(value_error(py, &GeomError::new(fault.code, fault.message.clone()))),
+    }
 }
 
 /// A placed solid with its look; never changes.
@@ -117,117 +135,6 @@ impl PyShape {
         read.map(PyShape).map_err(|error| PyValueError::new_err(error.to_string()))
     }
 
-    /// A box; ``taper`` scales the face at the + end of ``taper_axis``.
-    #[staticmethod]
-    #[pyo3(signature = (center, size, rotation=None, taper=1.0, taper_axis="z", bevel=None, color=None))]
-    #[expect(clippy::too_many_arguments, reason = "the words of the modelling language")]
-    fn r#box(
-        py: Python<'_>,
-        center: Triple,
-        size: Triple,
-        rotation: Option<Rows>,
-        taper: f64,
-        taper_axis: &str,
-        bevel: Option<f64>,
-        color: Option<[f32; 3]>,
-    ) -> PyResult<PyShape> {
-        let look = look(rotation, bevel, color);
-        named_axis(taper_axis)
-            .and_then(|axis| Shape::tapered_box(center.into(), size.into(), taper, axis, &look))
-            .map(PyShape)
-            .map_err(|e| value_error(py, &e))
-    }
-
-    /// A cylinder along ``axis`` ("x", "y", "z" or a direction), ``top_radius`` at its + end.
-    #[staticmethod]
-    #[pyo3(signature = (center, radius, length, axis=AxisWord::Direction([0.0, 1.0, 0.0]), top_radius=None, rotation=None, bevel=None, color=None))]
-    #[expect(clippy::too_many_arguments, reason = "the words of the modelling language")]
-    fn cylinder(
-        py: Python<'_>,
-        center: Triple,
-        radius: f64,
-        length: f64,
-        axis: AxisWord,
-        top_radius: Option<f64>,
-        rotation: Option<Rows>,
-        bevel: Option<f64>,
-        color: Option<[f32; 3]>,
-    ) -> PyResult<PyShape> {
-        let look = look(rotation, bevel, color);
-        let axis = match axis {
-            AxisWord::Name(name) => named_axis(&name).map(|a| Vec3::AXES[a]),
-            AxisWord::Direction(direction) => Ok(direction.into()),
-        };
-        axis.and_then(|axis| Shape::cylinder(center.into(), radius, length, axis, top_radius, &look))
-            .map(PyShape)
-            .map_err(|e| value_error(py, &e))
-    }
-
-    /// A bent, tapered segment between two round ends.
-    #[staticmethod]
-    #[pyo3(signature = (start, end, start_radius, end_radius, start_normal=None, end_normal=None, color=None))]
-    #[expect(clippy::too_many_arguments, reason = "the words of the modelling language")]
-    fn limb(
-        py: Python<'_>,
-        start: Triple,
-        end: Triple,
-        start_radius: f64,
-        end_radius: f64,
-        start_normal: Option<Triple>,
-        end_normal: Option<Triple>,
-        color: Option<[f32; 3]>,
-    ) -> PyResult<PyShape> {
-        let normals = (start_normal.map(Vec3::from), end_normal.map(Vec3::from));
-        Shape::limb(start.into(), end.into(), (start_radius, end_radius), normals, &look(None, None, color))
-            .map(PyShape)
-            .map_err(|e| value_error(py, &e))
-    }
-
-    /// A bent, tapered tube over three frames, each (center, forward, up, radius); its base lies ``onto`` a piece of a
-    /// parent's cone, (low, low radius, high, high radius).
-    #[staticmethod]
-    #[pyo3(signature = (start, split, end, onto=None, color=None))]
-    fn segment(
-        py: Python<'_>,
-        start: FrameWord,
-        split: FrameWord,
-        end: FrameWord,
-        onto: Option<BarkWord>,
-        color: Option<[f32; 3]>,
-    ) -> PyResult<PyShape> {
-        let frames = [start, split, end].map(|(center, forward, up, radius)| Frame {
-            center: center.into(),
-            forward: forward.into(),
-            up: up.into(),
-            radius,
-        });
-        let onto = onto.map(|(low, low_radius, high, high_radius)| Bark {
-            low: low.into(),
-            low_radius,
-            high: high.into(),
-            high_radius,
-        });
-        Shape::segment(frames, onto, &look(None, None, color)).map(PyShape).map_err(|e| value_error(py, &e))
-    }
-
-    /// A closed triangle mesh: ``vertices`` (n, 3) float64, ``faces`` (m, 3) int64.
-    #[staticmethod]
-    #[pyo3(signature = (vertices, faces, center=[0.0; 3], rotation=None, scale=1.0, color=None))]
-    fn mesh(
-        py: Python<'_>,
-        vertices: PyReadonlyArray2<f64>,
-        faces: PyReadonlyArray2<i64>,
-        center: Triple,
-        rotation: Option<Rows>,
-        scale: f64,
-        color: Option<[f32; 3]>,
-    ) -> PyResult<PyShape> {
-        mesh_from(&vertices, &faces)
-            .and_then(|mesh| Shape::mesh(&Arc::new(mesh), center.into(), scale, &look(rotation, None, color)))
-            .map(PyShape)
-            .map_err(|e| value_error(py, &e))
-    }
-
     /// ``box``, ``tapered-box``, ``cylinder``, ``tapered-cylinder``, ``limb``, ``segment`` or ``mesh``.
     #[getter]
     fn kind(&self) -> &'static str {
@@ -240,17 +147,17 @@ impl PyShape {
         self.0.color()
     }
 
-    /// Smallest and largest corner of the box around the light geometry, scene units.
+    /// Smallest and largest corner of the box around the coarse mesh, scene units.
     fn aabb(&self) -> (Triple, Triple) {
         (self.0.aabb().low.to_array(), self.0.aabb().high.to_array())
     }
 
-    /// Vertices of the light geometry, world space, (n, 3) float64.
+    /// Vertices of the coarse mesh, world space, (n, 3) float64.
     fn vertices<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
         vertices_of(py, self.0.world_mesh())
     }
 
-    /// Triangles of the light geometry, (m, 3) int64, counter-clockwise from outside.
+    /// Triangles of the coarse mesh, (m, 3) int64, counter-clockwise from outside.
     fn faces<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<i64>> {
         faces_of(py, self.0.world_mesh())
     }
@@ -427,9 +334,19 @@ impl PySketch {
     }
 }
 
-/// Puts this room into the module.
+/// Puts this part into the module; each word for shapes is a function of the class.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PyShape>()?;
+    let (py, words) = (module.py(), PyDict::new(module.py()));
+    for &(word, parameters) in shapes::WORDS {
+        let make = move |args: &Bound<'_, PyTuple>, named: Option<&Bound<'_, PyDict>>| {
+            made((word, parameters), args, named)
+        };
+        let function = PyCFunction::new_closure(py, None, None, make)?;
+        py.get_type::<PyShape>().setattr(word, function)?;
+        words.set_item(word, parameters)?;
+    }
+    module.add("SHAPES", words)?;
     module.add_class::<PyTarget>()?;
     module.add_class::<PySketchSpec>()?;
     module.add_class::<PySketch>()?;

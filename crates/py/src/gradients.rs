@@ -1,8 +1,8 @@
-//! Log densities with their gradients behind the door.
+//! Log densities with their gradients for Python.
 
 use crate::faults;
 use crate::values::Classes;
-use niwaki_grad::{Live, Refused, jax};
+use niwaki_grad::{Continuous, Live, Refused, jax};
 use niwaki_infer::Failure;
 use niwaki_vm::code::Program;
 use niwaki_vm::fault::Fault;
@@ -10,6 +10,39 @@ use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::sync::{Arc, Mutex, PoisonError};
+
+/// A continuous choice as a sampler sees it: its coordinates are `x[first : first + count]`.
+#[pyclass(frozen, get_all, name = "Coordinates", module = "niwaki._engine")]
+pub struct PyCoordinates {
+    /// Its readable address.
+    name: String,
+    /// The family that it is drawn from.
+    family: &'static str,
+    /// How its value follows from coordinates: line, above, between, circle, simplex or vector.
+    transform: &'static str,
+    /// Its first coordinate.
+    first: usize,
+    /// How many coordinates it has.
+    count: usize,
+    /// How many numbers its value has.
+    width: usize,
+    /// Whether its value is a list.
+    is_vector: bool,
+}
+
+impl PyCoordinates {
+    pub fn of(choice: &Continuous) -> PyCoordinates {
+        PyCoordinates {
+            name: choice.path.clone(),
+            family: choice.family.name(),
+            transform: choice.transform.name(),
+            first: choice.first,
+            count: choice.coordinates,
+            width: choice.width(),
+            is_vector: choice.is_vector(),
+        }
+    }
+}
 
 /// The log density of a model around one run, over unconstrained coordinates.
 #[pyclass(frozen, name = "Density", module = "niwaki._engine")]
@@ -55,14 +88,10 @@ impl PyDensity {
         PyArray1::from_slice(py, &self.with(|live| live.recorded().start.clone()))
     }
 
-    /// Continuous choices: (path, family, transform, first coordinate, coordinates).
+    /// Continuous choices.
     #[getter]
-    fn choices(&self) -> Vec<(String, &'static str, &'static str, usize, usize)> {
-        self.with(|live| {
-            let all = live.recorded().choices.iter();
-            all.map(|c| (c.path.clone(), c.family.name(), c.transform.name(), c.first, c.coordinates))
-                .collect()
-        })
+    fn choices(&self) -> Vec<PyCoordinates> {
+        self.with(|live| live.recorded().choices.iter().map(PyCoordinates::of).collect())
     }
 
     /// Operations of (a value with its gradient, a gradient alone), and guards, of the path last used.
@@ -137,7 +166,8 @@ impl PyDensity {
     }
 }
 
-/// Puts this room into the module.
+/// Puts this part into the module.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_class::<PyCoordinates>()?;
     module.add_class::<PyDensity>()
 }

@@ -1,11 +1,11 @@
-//! The door between Python and the engine: the only crate that knows Python.
+//! The border between Python and the engine: the only crate that knows Python.
 //!
-//! One file for each room behind the door; this one only registers them.
+//! One file for each part; this one only registers them.
 //!
 //! * `values`: Python's objects to the machine's values, and back; `faults`: faults as data;
 //! * `model`: compiled models; `search`: algorithms; `chains`: Markov chains;
-//!   `outcome`: what they find; `gradients`: log densities with their gradients; `trajectories`: chains that follow them;
-//! * `distributions`, `geometry`, `views`, `pictures`: the rooms below, by themselves.
+//!   `runs`: what they find; `gradients`: log densities with their gradients; `trajectories`: chains that follow them;
+//! * `distributions`, `geometry`, `views`, `pictures`: what lies below, by itself.
 
 mod chains;
 mod distributions;
@@ -13,8 +13,8 @@ mod faults;
 mod geometry;
 mod gradients;
 mod model;
-mod outcome;
 mod pictures;
+mod runs;
 mod search;
 mod trajectories;
 mod values;
@@ -38,7 +38,7 @@ fn _engine(module: &Bound<'_, PyModule>) -> PyResult<()> {
     values::register(module)?;
     faults::register(module)?;
     model::register(module)?;
-    outcome::register(module)?;
+    runs::register(module)?;
     search::register(module)?;
     chains::register(module)?;
     trajectories::register(module)

@@ -1,4 +1,4 @@
-//! A compiled model behind the door: from the text of its core form and the objects that travel beside it.
+//! A compiled model for Python: from the text of its core form and the objects that travel beside it.
 
 use crate::faults;
 use crate::values::Classes;
@@ -141,8 +141,7 @@ impl PyProgram {
         let mut found = Vec::new();
         for f in &self.program.functions {
             for site in &f.sites {
-                use SiteKind::{Sample, SampleDist, SampleIndexed};
-                if matches!(site.kind, Sample { .. } | SampleDist | SampleIndexed) {
+                if matches!(site.kind, SiteKind::Sample(_)) {
                     found.push((f.name.to_string(), site.label.to_string(), site.span.line));
                 }
             }
@@ -156,7 +155,7 @@ impl PyProgram {
     }
 }
 
-/// Puts this room into the module.
+/// Puts this part into the module.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PyProgram>()
 }

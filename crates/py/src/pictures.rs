@@ -1,6 +1,6 @@
 //! Pictures: meshes in, pixels out.
 //!
-//! Arrays are copied at the door and the interpreter is released while rays fly.
+//! Arrays are copied at the border and the interpreter is released while rays fly.
 
 use crate::geometry::PyShape;
 use niwaki_geom::render::{self, Backdrop, Camera, Shot, Surface, View};
@@ -19,7 +19,7 @@ type Eye = (Corner, Corner, Corner, f32);
 /// `(vertices (n, 3), faces (m, 3), normals (n, 3))`.
 type Arrays<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<i64>>, Bound<'py, PyArray2<f64>>);
 
-/// Registers this room.
+/// Registers this part.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(render_meshes, module)?)?;
     module.add_function(wrap_pyfunction!(frame_camera, module)?)?;

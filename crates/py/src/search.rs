@@ -1,4 +1,4 @@
-//! Searches behind the door: a task and the algorithms that answer it.
+//! Searches for Python: a task and the algorithms that answer it.
 //!
 //! The interpreter's lock is released while the engine works. Whoever watches is called every [`PAUSE`]; if that
 //! raises `KeyboardInterrupt` (or Ctrl-C was pressed), the search stops at its next barrier and gives what it has.
@@ -7,11 +7,10 @@ use crate::faults;
 use crate::geometry::PySketchSpec;
 use crate::gradients::PyDensity;
 use crate::model::PyProgram;
-use crate::outcome::{OutcomeData, PyOutcome, PyTrace};
+use crate::runs::{PyRun, PyTrace};
 use niwaki_infer::chain::counts::Count;
 use niwaki_infer::chain::user::User;
 use niwaki_infer::gradient::live;
-use niwaki_infer::log::Entry;
 use niwaki_infer::method::{self, Given, Info, Method};
 use niwaki_infer::nested::Inner;
 use niwaki_infer::replay::{Missing, Source, replay};
@@ -33,7 +32,7 @@ use std::time::Duration;
 /// Time between two calls of whoever watches.
 const PAUSE: Duration = Duration::from_millis(50);
 
-/// What a search tells whoever watches, and whether it should stop.
+/// What a search reports to whoever watches, and whether it should stop.
 #[derive(Default)]
 pub(crate) struct Watch {
     stop: AtomicBool,
@@ -101,7 +100,7 @@ pub(crate) fn detached<T: Send>(
             worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
         })
     });
-    // However short the search was, whoever watches is told how it ended.
+    // However short the search was, whoever watches hears how it ended.
     if raised.is_none() && done.is_ok() {
         raised = watch.tell(callable).err();
     }
@@ -112,9 +111,6 @@ pub(crate) fn detached<T: Send>(
         _ => done.map(|found| (found, pressed)).map_err(|failure| faults::raise(py, &failure, program)),
     }
 }
-
-/// Values of choices by hash of the address, as Python gives them.
-pub(crate) type Known<'py> = HashMap<u128, Bound<'py, PyAny>>;
 
 /// A model with its arguments and the sketches that score its scene.
 #[pyclass(frozen, name = "Task", module = "niwaki._engine")]
@@ -163,26 +159,23 @@ impl PyTask {
 
     /// Searches by a method, given as its text: the finished runs, whether the search was interrupted, and a dict of what
     /// the method says of its search. ``functions`` are the users' proposals that kernels name by number; ``start`` is the
-    /// run that a chain of whole runs starts from, each choice as the hash of its address and its value.
+    /// run that a chain of whole runs starts from.
     #[pyo3(signature = (method, seed, *, functions=Vec::new(), start=None, threads=None, watch=None))]
-    #[expect(clippy::too_many_arguments, reason = "what a search is told")]
+    #[expect(clippy::too_many_arguments, reason = "what a search is asked")]
     fn search<'py>(
         &self,
         py: Python<'py>,
         method: &str,
         seed: u64,
         functions: Vec<Py<PyTask>>,
-        start: Option<Vec<(u128, Bound<'py, PyAny>)>>,
+        start: Option<&PyRun>,
         threads: Option<usize>,
         watch: Option<Py<PyAny>>,
-    ) -> PyResult<(Vec<PyOutcome>, bool, Bound<'py, PyDict>)> {
+    ) -> PyResult<(Vec<PyRun>, bool, Bound<'py, PyDict>)> {
         let method = self.read(py, method)?;
         let functions = self.proposals(py, &functions)?;
         let classes = &self.model.get().classes;
-        let entry =
-            |(address, value): (u128, Bound<'_, PyAny>)| Ok(Entry::new(address, classes.value(&value)?));
-        let start: Option<Vec<Entry>> =
-            start.map(|run| run.into_iter().map(entry).collect::<PyResult<_>>()).transpose()?;
+        let start = start.map(PyRun::entries);
         let given = Given { seed, functions: &functions, start: start.as_deref() };
         let task = self.keeping(py, &functions)?;
         let find = |watch: &mut method::Watch<'_>| method.search(&task, &given, watch);
@@ -193,7 +186,7 @@ impl PyTask {
                 find(&mut |done, ended, best| watch.look(done, ended, best))
             })?
         };
-        let runs = found.runs.into_iter().map(|run| PyOutcome::new(run, classes.clone())).collect();
+        let runs = found.runs.into_iter().map(|run| PyRun::new(Arc::new(run), classes.clone())).collect();
         Ok((runs, found.interrupted || pressed, self.info(py, found.info)?))
     }
 
@@ -214,29 +207,23 @@ impl PyTask {
         self.object(py, &value)
     }
 
-    /// The log density around the run with these choices, each an address with a value.
-    fn density(&self, py: Python<'_>, choices: Vec<(u128, Bound<'_, PyAny>)>) -> PyResult<PyDensity> {
-        let own = self.model.get();
-        let values = choices
-            .into_iter()
-            .map(|(address, value)| Ok((address, own.classes.value(&value)?)))
-            .collect::<PyResult<HashMap<u128, Value>>>()?;
-        let live = self.at_once(py, || live(&self.task, &values))?;
-        Ok(PyDensity::new(live, self.task.program.clone(), own.classes.clone()))
+    /// The log density around a run.
+    fn density(&self, py: Python<'_>, run: &PyRun) -> PyResult<PyDensity> {
+        let live = self.at_once(py, || live(&self.task, &run.by_address()))?;
+        Ok(PyDensity::new(live, self.task.program.clone(), self.model.get().classes.clone()))
     }
 
-    /// Runs once more with the choices of an outcome; one that had not ended as far as its choices go.
-    fn trace(&self, py: Python<'_>, outcome: &PyOutcome) -> PyResult<PyTrace> {
-        let missing = if outcome.ended() { Missing::Refuse } else { Missing::Stop };
-        let source = Source::Addresses(outcome.by_address());
-        let classes = &self.model.get().classes;
+    /// Runs once more with the choices of a run; one that had not ended as far as its choices go.
+    fn trace(&self, py: Python<'_>, run: &PyRun) -> PyResult<PyTrace> {
+        let missing = if run.went_to_its_end() { Missing::Refuse } else { Missing::Stop };
+        let source = Source::Addresses(run.by_address());
         let trace = self.at_once(py, || replay(&self.task, source, missing))?;
-        PyTrace::new(py, trace, classes)
+        PyTrace::new(py, trace, &self.model.get().classes)
     }
 
-    /// The outcome of what ``Outcome.data`` gave, without what the model returned.
-    fn outcome(&self, data: OutcomeData<'_>) -> PyResult<PyOutcome> {
-        data.outcome(self.model.get().classes.clone())
+    /// The run of what ``Run.data`` gave, without what the model returned.
+    fn run_of_data(&self, data: &str) -> PyResult<PyRun> {
+        PyRun::of_data(data, self.model.get().classes.clone())
     }
 
     /// Runs with the choices of ``choices``, by readable address. Others are drawn from ``seed`` where there is one;
@@ -297,13 +284,6 @@ impl PyTask {
         Ok(Task { program: self.model.get().keeping(py, &names)?, ..self.task.clone() })
     }
 
-    /// Values by hash of the address.
-    pub(crate) fn known(&self, given: Option<Known<'_>>) -> PyResult<Option<HashMap<u128, Value>>> {
-        let classes = &self.model.get().classes;
-        let value = |(address, value): (u128, Bound<'_, PyAny>)| Ok((address, classes.value(&value)?));
-        given.map(|given| given.into_iter().map(value).collect()).transpose()
-    }
-
     /// What a method says of its search.
     fn info<'py>(&self, py: Python<'py>, info: Info) -> PyResult<Bound<'py, PyDict>> {
         let dict = PyDict::new(py);
@@ -360,7 +340,7 @@ fn fingerprint() -> String {
     format!("{:032x}", niwaki_math::fingerprint::fingerprint())
 }
 
-/// Puts this room into the module.
+/// Puts this part into the module.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(check_inside, module)?)?;
     module.add_function(wrap_pyfunction!(fingerprint, module)?)?;

@@ -1,10 +1,12 @@
-//! Chains that follow the gradient, behind the door.
+//! Chains that follow the gradient, for Python.
 
 use crate::faults;
-use crate::search::{Known, PyTask, detached};
+use crate::gradients::PyCoordinates;
+use crate::runs::{PyChoice, PyRun};
+use crate::search::{PyTask, detached};
 use niwaki_infer::Failure;
 use niwaki_infer::gradient::explore::{Explored, Plan, explore};
-use niwaki_infer::hamiltonian::Cause;
+use niwaki_infer::hamiltonian::{BrokenOff, Cause};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::{PyIndexError, PyTypeError};
 use pyo3::prelude::*;
@@ -24,22 +26,22 @@ pub struct PyTrajectories {
 
 #[pymethods]
 impl PyTrajectories {
-    /// Runs the chains of a method, given as its text. ``known`` are first values by hash of the address.
+    /// Runs the chains of a method, given as its text. ``start`` has values for the choices of their starts.
     #[new]
-    #[pyo3(signature = (task, method, seed, *, known=None, threads=None, watch=None))]
+    #[pyo3(signature = (task, method, seed, *, start=None, threads=None, watch=None))]
     fn new(
         py: Python<'_>,
         task: Py<PyTask>,
         method: &str,
         seed: u64,
-        known: Option<Known<'_>>,
+        start: Option<&PyRun>,
         threads: Option<usize>,
         watch: Option<Py<PyAny>>,
     ) -> PyResult<PyTrajectories> {
         let own = task.get();
         let (settings, chains, tries) = (own.read(py, method)?.trajectories())
             .ok_or_else(|| PyTypeError::new_err("this method does not follow the gradient"))?;
-        let known = own.known(known)?;
+        let known = start.map(PyRun::by_address);
         let plan = Plan { settings: &settings, seed, chains, tries, known: known.as_ref() };
         let (found, pressed) = detached(py, &own.task.program, threads, watch.as_ref(), |watch| {
             explore(&own.task, &plan, &|done| watch.look(done, 0, f64::NEG_INFINITY))
@@ -48,29 +50,21 @@ impl PyTrajectories {
         Ok(PyTrajectories { task, chains: found, interrupted })
     }
 
-    /// Continuous choices of a chain: (path, family, transform, first coordinate, coordinates, numbers of its value, whether
-    /// that is a list).
-    #[expect(clippy::type_complexity, reason = "a row of a table")]
-    fn choices(
-        &self,
-        chain: usize,
-    ) -> PyResult<Vec<(String, &'static str, &'static str, usize, usize, usize, bool)>> {
-        let row = |c: &niwaki_grad::Continuous| {
-            let (path, family, transform) = (c.path.clone(), c.family.name(), c.transform.name());
-            (path, family, transform, c.first, c.coordinates, c.width(), c.is_vector())
-        };
-        Ok(self.chain(chain)?.choices().iter().map(row).collect())
+    /// How many chains there are.
+    #[getter]
+    fn chains(&self) -> usize {
+        self.chains.len()
     }
 
-    /// Choices that a chain held fixed: (path, family, value).
-    fn fixed<'py>(
-        &self,
-        py: Python<'py>,
-        chain: usize,
-    ) -> PyResult<Vec<(String, &'static str, Bound<'py, PyAny>)>> {
+    /// Continuous choices of a chain.
+    fn choices(&self, chain: usize) -> PyResult<Vec<PyCoordinates>> {
+        Ok(self.chain(chain)?.choices().iter().map(PyCoordinates::of).collect())
+    }
+
+    /// Choices that a chain held fixed.
+    fn fixed(&self, py: Python<'_>, chain: usize) -> PyResult<Vec<Py<PyChoice>>> {
         let classes = &self.task.get().model.get().classes;
-        let fixed = &self.chain(chain)?.fixed;
-        fixed.iter().map(|c| Ok((c.path.clone(), c.family, classes.object(py, &c.value)?))).collect()
+        self.chain(chain)?.fixed.iter().map(|choice| PyChoice::of(py, choice, classes)).collect()
     }
 
     /// Values of the continuous choices of a chain, (draws, numbers).
@@ -85,18 +79,18 @@ impl PyTrajectories {
         PyArray1::from_slice(py, &draws.x).reshape([draws.len(), draws.dim])
     }
 
-    /// Of each draw of a chain: ``log_density`` (over coordinates), ``energy`` (nats), ``accept``, ``steps``, ``depth``,
-    /// ``diverging``, ``off_structure``.
+    /// Of each draw of a chain: ``log_density`` (over coordinates) and ``energy``, nats, ``acceptance_rate``, ``n_steps``,
+    /// ``tree_depth``, and whether trajectories were ``diverging`` or ``refused_for_structure``.
     fn draws<'py>(&self, py: Python<'py>, chain: usize) -> PyResult<Bound<'py, PyDict>> {
         let (chain, facts) = (self.chain(chain)?, PyDict::new(py));
         let draws = &chain.draws;
         facts.set_item("log_density", PyArray1::from_slice(py, &draws.log_density))?;
         facts.set_item("energy", PyArray1::from_slice(py, &draws.energy))?;
-        facts.set_item("accept", PyArray1::from_slice(py, &draws.accept))?;
-        facts.set_item("steps", PyArray1::from_slice(py, &draws.steps))?;
-        facts.set_item("depth", PyArray1::from_slice(py, &draws.depth))?;
+        facts.set_item("acceptance_rate", PyArray1::from_slice(py, &draws.accept))?;
+        facts.set_item("n_steps", PyArray1::from_slice(py, &draws.steps))?;
+        facts.set_item("tree_depth", PyArray1::from_slice(py, &draws.depth))?;
         facts.set_item("diverging", PyArray1::from_slice(py, &draws.diverging))?;
-        facts.set_item("off_structure", PyArray1::from_slice(py, &draws.off_structure))?;
+        facts.set_item("refused_for_structure", PyArray1::from_slice(py, &draws.off_structure))?;
         Ok(facts)
     }
 
@@ -109,21 +103,12 @@ impl PyTrajectories {
         Ok((PyArray1::from_vec(py, prior), PyArray1::from_vec(py, score)))
     }
 
-    /// Of a chain: ``step_size``, ``gradients``, ``warmup_gradients``, ``warmup_divergences``, ``recordings``, and by
-    /// reason how many trajectories broke off: ``energy``, ``guard``, ``impossible``, ``not_finite``.
+    /// Of a chain: ``step_size``, ``gradients`` (warm-up included) and ``divergences``: see [`broken_off`].
     fn counters<'py>(&self, py: Python<'py>, chain: usize) -> PyResult<Bound<'py, PyDict>> {
-        let (chain, facts) = (self.chain(chain)?, PyDict::new(py));
-        let draws = &chain.draws;
+        let (draws, facts) = (&self.chain(chain)?.draws, PyDict::new(py));
         facts.set_item("step_size", draws.step_size)?;
-        facts.set_item("gradients", draws.gradients)?;
-        facts.set_item("warmup_gradients", draws.warmup_gradients)?;
-        facts.set_item("warmup_divergences", draws.warmup_divergences)?;
-        facts.set_item("recordings", chain.recordings)?;
-        let refused = draws.refused.iter().sum::<u64>();
-        facts.set_item("energy", draws.divergences.len() as u64 - refused)?;
-        facts.set_item("guard", draws.refused[Cause::Guard as usize])?;
-        facts.set_item("impossible", draws.refused[Cause::Impossible as usize])?;
-        facts.set_item("not_finite", draws.refused[Cause::NotFinite as usize])?;
+        facts.set_item("gradients", draws.gradients + draws.warmup_gradients)?;
+        facts.set_item("divergences", broken_off(py, &draws.broken)?)?;
         Ok(facts)
     }
 
@@ -141,7 +126,18 @@ impl PyTrajectories {
     }
 }
 
-/// Puts this room into the module.
+/// How many trajectories broke off after the warm-up, by the reason: a dict with ``energy``, ``structure``,
+/// ``impossible`` and ``not_finite``.
+pub fn broken_off<'py>(py: Python<'py>, broken: &BrokenOff) -> PyResult<Bound<'py, PyDict>> {
+    let facts = PyDict::new(py);
+    facts.set_item("energy", broken.drifted)?;
+    facts.set_item("structure", broken.refused[Cause::Guard as usize])?;
+    facts.set_item("impossible", broken.refused[Cause::Impossible as usize])?;
+    facts.set_item("not_finite", broken.refused[Cause::NotFinite as usize])?;
+    Ok(facts)
+}
+
+/// Puts this part into the module.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PyTrajectories>()
 }

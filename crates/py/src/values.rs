@@ -1,4 +1,4 @@
-//! Values through the door: Python's objects to the machine's values, and back.
+//! Values at the border: Python's objects to the machine's values, and back.
 //!
 //! | Python | machine |
 //! | --- | --- |
@@ -170,7 +170,9 @@ impl Classes {
             }
             Value::Shape(shape) => Bound::new(py, PyShape(shape.clone()))?.into_any(),
             Value::Dist(dist) => distribution(py, dist)?,
-            Value::Function(_) | Value::Future(_) => Bound::new(py, Opaque(value.kind()))?.into_any(),
+            Value::Function(_) | Value::Future(_) | Value::Returned(_) => {
+                Bound::new(py, Opaque(value.kind()))?.into_any()
+            }
         })
     }
 }
@@ -254,7 +256,7 @@ fn drawn<'py>(py: Python<'py>, draw: &Draw) -> PyResult<Bound<'py, PyAny>> {
     }
 }
 
-/// Puts this room into the module.
+/// Puts this part into the module.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<Opaque>()
 }

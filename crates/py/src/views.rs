@@ -142,7 +142,7 @@ fn py_overshoot(py: Python<'_>, low: Triple, high: Triple, sigma: f64) -> PyResu
     spec(py, no_overshoot(Aabb { low: low.into(), high: high.into() }, sigma))
 }
 
-/// Puts this room into the module.
+/// Puts this part into the module.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PyPicture>()?;
     module.add_function(wrap_pyfunction!(py_match_image, module)?)?;

@@ -66,6 +66,8 @@ macro_rules! kinds {
 kinds! {
     /// An operation met a value of a kind that it does not work on.
     type_mismatch = "type-mismatch";
+    /// A future was looked at that is not forced.
+    not_forced = "future-not-forced";
     /// A position outside a list, tuple, string, range or vector.
     list_index = "list-index";
     /// `/`, `//`, `%` or a negative power met zero.

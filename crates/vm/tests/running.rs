@@ -299,3 +299,54 @@ fn a_force_that_waits_reads_its_future_again_wherever_that_lies() {
         }
     }
 }
+
+/// The claim: whatever looks at a future that is not forced is a fault with one code, whether the future may still run
+/// (orders that are not depth first), has returned (depth first), or is kept (chains), its function pure or not.
+#[test]
+fn a_look_at_a_future_that_is_not_forced_is_a_fault() {
+    let helpers = r#"
+        (fn "leaf" (params $k) (do (factor 0.1)) (return (mul 10 $k)))
+        (fn "now" (params $k) (return (mul 10 $k)))"#;
+    let looks = [
+        "(if $f (then (return 1)))",
+        "(while $f (body (return 1)))",
+        "(do (not $f))",
+        "(do (eq $f $f))",
+        "(do (eq (list $f) (list 10)))",
+        "(do (lt (tuple 1 $f) (tuple 2 1)))",
+        "(do (add 1 $f))",
+        "(do (sum (list 1 $f)))",
+        "(do (min $f 2))",
+        "(do (in 1 (list 1 $f)))",
+        "(do (fstr $f))",
+        "(do (str (list $f)))",
+        "(do (len $f))",
+        "(do (index (list 1 2) $f))",
+        "(do (apply $f 1))",
+        "(for $i $f (body (set $x $i)))",
+        "(do (dist bernoulli $f))",
+        "(do (sample (dist bernoulli $f)))",
+        "(do (factor $f))",
+        "(do (condition $f))",
+        "(do (emit $f))",
+        "(do (query $f 1))",
+    ];
+    for (look, leaf) in looks.iter().flat_map(|look| ["leaf", "now"].map(|leaf| (look, leaf))) {
+        let body = format!("(set $f (future \"{leaf}\" 1)) {look} (return 0)");
+        let program = program(&format!("(module {helpers} (fn \"m\" (params) {body}) (entry \"m\"))"));
+        let mut machine = Machine::new(&program, Limits::default());
+        let mut ran = |depth_first| {
+            let mut state = machine.start(&[], depth_first).expect("a start");
+            machine
+                .finish(&mut state, &mut Script::default())
+                .map(|()| "an answer")
+                .map_err(|met| met.fault.code)
+        };
+        let (deep, wide) = (ran(true), ran(false));
+        let kept =
+            machine.begin(&[], &mut Script::default()).map(|_| "an answer").map_err(|met| met.fault.code);
+        for found in [deep, wide, kept] {
+            assert_eq!(found, Err("future-not-forced"), "{leaf}: {look}");
+        }
+    }
+}

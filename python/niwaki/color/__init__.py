@@ -3,6 +3,7 @@
 drawing    what is coloured: regions, their areas, which lie next to which
 svg        the regions of an SVG file, and the file painted
 styles     which paint reaches a shape of an SVG
+rule       one rule
 rules      what is asked of the regions; a small TOML file
 agree      whether rules can hold together, and which ones cannot
 model      the compatibility model

@@ -10,18 +10,29 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from niwaki.color.lab import of_hex
-
-if TYPE_CHECKING:
-    from niwaki.color.rules import Rules
+from niwaki.color.rule import LEAST, STEP, Rule
 
 #: Of a rule about lightness so much must be left, in units, for its order to be seen.
 LEFT = 0.1
 #: Pinned shades of one colour may differ by this much in a and b.
 CHROMA_APART = 15.0
 GROUND = ""
+
+
+class Rules(Protocol):
+    """Rules, and the colours that do not change, `#rrggbb` by region."""
+
+    @property
+    def pinned(self) -> dict[str, str]:
+        """The colours by region."""
+        ...
+
+    def __iter__(self) -> Iterator[Rule]:
+        """Go through the rules."""
+        ...
 
 
 @dataclass(frozen=True)
@@ -65,8 +76,6 @@ def contradiction(rules: Rules) -> list[str]:
 
 
 def _bounds(rules: Rules) -> Iterator[_Bound]:
-    from niwaki.color.rules import LEAST, STEP
-
     seen = {name for rule in rules for name in (rule.first, rule.second) if name} | set(rules.pinned)
     for name in sorted(seen):
         if name in rules.pinned:

@@ -10,16 +10,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 from PIL import Image, UnidentifiedImageError
 
-from niwaki.color.svg import Artwork
-from niwaki.file_errors import FileError
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
+from niwaki.color.svg import Artwork, raster
+from niwaki.errors import FileError
 
 NEAR = 2  # pixels
 MOST_REGIONS = 256
@@ -104,8 +101,6 @@ class Drawing:
     def picture(self, colors: Mapping[str, str], size: int = 512) -> Image.Image:
         """The drawing in these colours, `#rrggbb` by region; the longer side of an SVG has `size` pixels."""
         if self.artwork is not None:
-            from niwaki.color.svg import raster
-
             return raster(self.artwork.painted(colors), size, self.place)
         table = np.zeros((len(self.names) + 1, 4), dtype=np.uint8)
         for k, name in enumerate(self.names):

@@ -7,14 +7,11 @@ import json
 from collections.abc import Sequence
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from PIL import Image, ImageDraw, ImageFont
 
-from niwaki.file_errors import FileError
-
-if TYPE_CHECKING:
-    from niwaki.color.search import Coloring
+from niwaki.color.search import Coloring
+from niwaki.errors import FileError
 
 PAPER, INK = (250, 249, 246), (84, 82, 78)
 

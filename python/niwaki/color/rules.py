@@ -25,8 +25,10 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
+from niwaki.color.agree import contradiction
 from niwaki.color.drawing import OWN
-from niwaki.file_errors import FileError
+from niwaki.color.rule import Rule
+from niwaki.errors import FileError
 
 CHAINS = {
     "lightness": "lightness",
@@ -34,40 +36,6 @@ CHAINS = {
     "same-chroma": "same_chroma",
     "same-hue": "same_hue",
 }
-
-
-@dataclass(frozen=True)
-class Rule:
-    """One rule about one or two regions.
-
-    Attributes
-    ----------
-    kind : str
-        "lightness", "lighter", "same-chroma", "same-hue" or "muted".
-    first, second : str
-        The regions, the lighter one first; no second for "muted".
-    most : float
-        For "muted": how far from grey, CIELAB units.
-    """
-
-    kind: str
-    first: str
-    second: str = ""
-    most: float = 0.0
-
-    def __str__(self) -> str:
-        if self.kind == "same-chroma":
-            return f"`{self.first}` and `{self.second}` are shades of one colour"
-        if self.kind == "same-hue":
-            return f"`{self.first}` and `{self.second}` have one hue"
-        if self.kind == "muted":
-            return f"`{self.first}` is at most {self.most:g} units from grey"
-        much = f"{STEP:.0f} units" if self.kind == "lightness" else f"at least {LEAST:.0f} units"
-        return f"`{self.first}` is {much} lighter than `{self.second}`"
-
-
-#: Units of CIELAB lightness between neighbours in a `lightness` chain (dissertation appendix B.1), a `lighter` one.
-STEP, LEAST = 15.0, 12.0
 
 
 @dataclass(frozen=True)
@@ -189,8 +157,6 @@ class Rules:
                 near = get_close_matches(name, names, n=1)
                 reason = f"did you mean `{near[0]}`?" if near else f"it has {', '.join(names)}"
                 raise FileError("rules-no-region", self.place, name=name, reason=reason)
-        from niwaki.color.agree import contradiction
-
         found = contradiction(self)
         if found:
             raise FileError("rules-contradict", self.place, rules="; ".join(found))

@@ -8,6 +8,7 @@ as far as can be in CIELAB from those already chosen (farthest-point choice, Gon
 from __future__ import annotations
 
 import re
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from os import PathLike
@@ -15,26 +16,24 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from niwaki.color import lab
 from niwaki.color.drawing import OWN, Drawing
 from niwaki.color.model import coloring
-from niwaki.color.rules import Rule, Rules
+from niwaki.color.rule import Rule
+from niwaki.color.rules import Rules
 from niwaki.color.settle import settled
-from niwaki.errors import InputError
-from niwaki.file_errors import FileError
+from niwaki.errors import FileError, InputError
+from niwaki.lang.constraints import Constraint
+from niwaki.lang.residuals import Residuals, residuals
 from niwaki.methods import Method, at_least_one, explore
 from niwaki.methods.checks import bad, is_number
+from niwaki.result import Sample
+from niwaki.search import Progress, run
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
-    from numpy.typing import NDArray
     from PIL import Image
-
-    from niwaki.constraints import Constraint, Residuals
-    from niwaki.result import Sample
-    from niwaki.search import Progress
 
 # The functions of the model that score a rule, and what makes their residuals units of CIELAB.
 SCORED = {
@@ -101,8 +100,6 @@ class Coloring:
     @cached_property
     def residuals(self) -> Residuals:
         """Every soft constraint of the model, worst first."""
-        from niwaki.constraints import residuals
-
         return residuals(coloring, *self.arguments, choices=self.sample.choices)
 
     @property
@@ -202,8 +199,6 @@ def color(
     >>> sorted(one.colors) == sorted(two.colors), one.colors["wing"] != two.colors["wing"]
     (True, True)
     """
-    from niwaki.search import run
-
     count = at_least_one("count", count)
     if rules is None:
         rules = Rules() if isinstance(drawing, Drawing) else rules_of(drawing)

@@ -7,12 +7,11 @@ coordinates of `niwaki.log_density`.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from niwaki.result import Sample
+from niwaki.result import Sample
 
 #: Length of a step in logits, at first and at last; colours are on a logistic scale.
 FIRST, LAST = 0.1, 0.003

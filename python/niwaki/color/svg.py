@@ -12,18 +12,16 @@ from collections.abc import Mapping
 from copy import deepcopy
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
 
 import numpy as np
+from numpy.typing import NDArray
 from PIL import Image
 
 from niwaki.color.styles import INITIAL, SelectorError, Styles, declarations, tag_of
-from niwaki.file_errors import FileError
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
+from niwaki.errors import FileError
+from niwaki.errors.extras import optional
 
 SVG = "http://www.w3.org/2000/svg"
 XLINK = "http://www.w3.org/1999/xlink"
@@ -157,7 +155,7 @@ class Artwork:
         self._copies += sum(1 for _ in source.iter())
         if self._copies > MOST_SHAPES:
             raise FileError(
-                "drawing-unclear", self.place, reason=f"its `use`s make more than {MOST_SHAPES} shapes"
+                "drawing-unclear", self.place, reason=f"its `use`s create more than {MOST_SHAPES} shapes"
             )
         copy = deepcopy(source)
         # The definition's id is its handle; the region is named by who uses it, or by a class.
@@ -205,10 +203,7 @@ def raster(text: str, size: int, place: str | Path | None = None) -> Image.Image
     FileError
         resvg is not installed, or cannot read it.
     """
-    try:
-        import resvg_py
-    except ImportError:
-        raise FileError("missing-extra", task="drawing SVG files", extra="color") from None
+    resvg_py = optional("resvg_py", "drawing SVG files", "color")
     try:
         # Reading the system's fonts takes longer than the rest.
         plain = "<text" not in text

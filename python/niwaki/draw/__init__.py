@@ -1,5 +1,6 @@
-"""A result as pictures and files.
+"""A scene as pictures and files.
 
+scene.py    the parts that a model emitted
 picture.py  a scene, and its target as a ghost, as one picture
 sheet.py    several pictures on one page, with captions
 plan.py     a scene from above, as SVG or pixels
@@ -15,3 +16,7 @@ solid.py        the union as one solid, for printing
 print_files.py  the solid as STL and 3MF
 animation.py    growth, or any sequence of scenes, as GIF or animated PNG
 """
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

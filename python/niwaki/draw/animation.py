@@ -10,19 +10,16 @@ import io
 from collections.abc import Sequence
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from PIL import Image
 
-from niwaki.draw.picture import LARGEST, picture, write_whole
-from niwaki.file_errors import FileError
-from niwaki.scene import Part, Scene
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from niwaki.target import Target
+from niwaki.draw.picture import LARGEST, picture
+from niwaki.draw.scene import Part, Scene, Volume
+from niwaki.errors import FileError
+from niwaki.errors.files import write_whole
 
 FORMATS = (".gif", ".apng")
 
@@ -37,7 +34,7 @@ DOTS = 10.0
 def growth(
     scene: Scene,
     path: str | PathLike[str],
-    target: Target | None = None,
+    target: Volume | None = None,
     *,
     parts: Sequence[Part] | None = None,
     frames: int = 48,
@@ -72,7 +69,7 @@ def growth(
 def animate(
     states: Sequence[Scene],
     path: str | PathLike[str],
-    target: Target | None = None,
+    target: Volume | None = None,
     *,
     seconds: float = 4.0,
     size: tuple[int, int] = (480, 360),

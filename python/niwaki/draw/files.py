@@ -12,16 +12,15 @@ from __future__ import annotations
 
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+from niwaki.draw.animation import growth
 from niwaki.draw.glb import glb
 from niwaki.draw.mesh_files import obj, ply
-from niwaki.draw.picture import write_whole
-from niwaki.draw.solid import METRE
-from niwaki.file_errors import FileError
-
-if TYPE_CHECKING:
-    from niwaki.scene import Scene
+from niwaki.draw.print_files import stl, threemf
+from niwaki.draw.scene import Scene
+from niwaki.draw.solid import METRE, union
+from niwaki.errors import FileError
+from niwaki.errors.files import write_whole
 
 MESHES = (".glb", ".obj", ".ply")
 SOLIDS = (".stl", ".3mf")
@@ -65,13 +64,8 @@ def export(
     if len(scene) == 0:
         raise FileError("scene-empty", place, verb="write")
     if suffix in ANIMATIONS:
-        from niwaki.draw.animation import growth
-
         return growth(scene, place)
     if suffix in SOLIDS:
-        from niwaki.draw.print_files import stl, threemf
-        from niwaki.draw.solid import union
-
         solid = union(scene, METRE if scale is None else scale, fuse)
         return write_whole(place, stl(solid) if suffix == ".stl" else threemf(solid, place.stem))
     return write_whole(place, {".glb": glb, ".obj": obj, ".ply": ply}[suffix](scene))

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import json
 import struct
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,9 +20,7 @@ from numpy.typing import NDArray
 from niwaki.draw.instances import Geometry, Instance, instances, quaternion
 from niwaki.draw.palette import Paint
 from niwaki.draw.parts import part_meshes
-
-if TYPE_CHECKING:
-    from niwaki.scene import Scene
+from niwaki.draw.scene import Scene
 
 # glTF's names for numbers.
 FLOAT, UNSIGNED_INT, ARRAY_BUFFER, ELEMENT_ARRAY_BUFFER, TRIANGLES = 5126, 5125, 34962, 34963, 4

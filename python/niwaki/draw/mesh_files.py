@@ -7,14 +7,11 @@ line that Blender, MeshLab and trimesh read). Nothing is joined: parts that over
 from __future__ import annotations
 
 import io
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from niwaki.draw.parts import part_meshes
-
-if TYPE_CHECKING:
-    from niwaki.scene import Scene
+from niwaki.draw.scene import Scene
 
 
 def obj(scene: Scene) -> bytes:

@@ -11,11 +11,9 @@ import colorsys
 import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from niwaki._engine import Shape
-    from niwaki.scene import Part, Scene
+from niwaki._engine import Shape
+from niwaki.draw.scene import Part, Scene
 
 Color = tuple[float, float, float]
 

@@ -7,16 +7,14 @@ sees), so that a file has a few dozen materials and not one for each part; colou
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from niwaki import _engine
 from niwaki.draw.palette import Paint, paints
-
-if TYPE_CHECKING:
-    from niwaki.scene import Scene
+from niwaki.draw.scene import Scene
 
 #: Steps of a tone of the palette, sRGB in [0, 1].
 TONE_STEP = 1 / 32

@@ -7,21 +7,18 @@ gives the same pixels on any number of threads.
 from __future__ import annotations
 
 import io
-import os
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, get_args
+from typing import Any, Literal, get_args
 
 import numpy as np
 from PIL import Image
 
 from niwaki import _engine
 from niwaki.draw.palette import paints
-from niwaki.file_errors import FileError
-
-if TYPE_CHECKING:
-    from niwaki.scene import Scene
-    from niwaki.target import Target
+from niwaki.draw.scene import Scene, Volume
+from niwaki.errors import FileError
+from niwaki.errors.files import write_whole
 
 Backdrop = Literal["studio", "white", "slate", "clear"]
 Rgb = tuple[float, float, float]
@@ -43,7 +40,7 @@ IMAGE_FORMATS = (".png", ".jpg", ".jpeg", ".webp")
 
 def picture(
     scene: Scene,
-    target: Target | None = None,
+    target: Volume | None = None,
     *,
     size: tuple[int, int] = (960, 720),
     samples: int = 16,
@@ -144,7 +141,7 @@ def png(image: Image.Image) -> bytes:
     return out.getvalue()
 
 
-def save(scene: Scene, path: str | PathLike[str], target: Target | None = None, **settings: Any) -> Path:
+def save(scene: Scene, path: str | PathLike[str], target: Volume | None = None, **settings: Any) -> Path:
     """Draws a scene into a file; `settings` are those of `picture`."""
     return save_image(lambda: picture(scene, target, **settings), path)
 
@@ -167,20 +164,12 @@ def save_image(draw: Any, path: str | PathLike[str]) -> Path:
     return write_whole(place, out.getvalue())
 
 
-def write_whole(place: Path, data: bytes) -> Path:
-    """Write bytes under a temporary name beside the file, then rename: readers see all of it or nothing."""
-    temporary = place.with_name(f".{place.name}.{os.getpid()}.part")
-    try:
-        temporary.write_bytes(data)
-        os.replace(temporary, place)
-    except OSError as error:
-        raise FileError("file-unwritable", place, reason=error.strerror or str(error)) from error
-    finally:
-        temporary.unlink(missing_ok=True)
-    return place
+def preview(scene: Scene) -> bytes:
+    """Return a small picture of a scene as the bytes of a PNG file, for notebooks; one clear pixel of an empty one."""
+    return png(picture(scene, size=(800, 600)) if len(scene) else Image.new("RGBA", (1, 1)))
 
 
-def _ghost(target: Target) -> tuple[Any, ...]:
+def _ghost(target: Volume) -> tuple[Any, ...]:
     """Make the target's mesh with normals that are smooth where it is smooth."""
     vertices, faces, normals = _engine.fine_mesh(_engine.Shape.mesh(target.vertices, target.faces))
     return (vertices, faces, normals, (1.0, 1.0, 1.0), (0.0, 0.0, 0.0))

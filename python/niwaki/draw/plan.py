@@ -10,17 +10,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from PIL import Image, ImageDraw
 
 from niwaki.draw.palette import paints
-from niwaki.draw.picture import write_whole
-from niwaki.file_errors import FileError
+from niwaki.draw.picture import png
+from niwaki.draw.scene import Scene
+from niwaki.errors import FileError
+from niwaki.errors.files import write_whole
 from niwaki.words.vectors import VecLike, _vec
-
-if TYPE_CHECKING:
-    from niwaki.scene import Scene
 
 Point = tuple[float, float]
 Rgb = tuple[float, float, float]
@@ -158,8 +156,6 @@ def save(path: str | PathLike[str], scene: Scene, outline: Sequence[VecLike] = (
     scene, outline
         As for `plan`.
     """
-    from niwaki.draw.picture import png
-
     place = Path(path)
     if place.suffix.lower() == ".svg":
         return write_whole(place, plan_svg(scene, outline).encode())

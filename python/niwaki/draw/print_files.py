@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import io
 import zipfile
-from xml.sax.saxutils import escape
+from html import escape
 
 import numpy as np
 
@@ -66,7 +66,7 @@ def stl(solid: Solid) -> bytes:
 
 def threemf(solid: Solid, name: str) -> bytes:
     """The bytes of a 3MF file; equal solids give equal bytes."""
-    title = escape(name, {'"': "&quot;"})
+    title = escape(name, quote=False).replace('"', "&quot;")
     vertices = "\n".join(
         f'<vertex x="{x:.9g}" y="{y:.9g}" z="{z:.9g}"/>' for x, y, z in solid.vertices.tolist()
     )

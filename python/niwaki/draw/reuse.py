@@ -10,14 +10,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from html import escape
 from os import PathLike
 from pathlib import Path
 from typing import Any
-from xml.sax.saxutils import escape
 
 from PIL import Image, ImageDraw, ImageFont
 
-from niwaki.draw.picture import save_image, write_whole
+from niwaki.draw.picture import save_image
+from niwaki.errors.files import write_whole
 
 STRATEGIES = {
     "rerun": "rerun: all of it again",
@@ -202,7 +203,7 @@ def _svg(marks: Sequence[_Mark], height: int) -> str:
         if mark.kind == "text":
             lines.append(
                 f'<text x="{mark.x:.1f}" y="{mark.y + 0.85 * mark.size:.1f}" font-size="{mark.size}" '
-                f'fill="{mark.fill}">{escape(mark.text)}</text>'
+                f'fill="{mark.fill}">{escape(mark.text, quote=False)}</text>'
             )
             continue
         fill = "none" if mark.kind == "ring" else mark.fill

@@ -1,4 +1,4 @@
-"""Several pictures on one page, each with a small caption: the way to compare results.
+"""Several pictures on one page, each with a small caption, to compare results.
 
 All scenes are framed alike, so that a larger one looks larger.
 """
@@ -8,22 +8,20 @@ from __future__ import annotations
 from collections.abc import Sequence
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from PIL import Image, ImageDraw, ImageFont
 
+from niwaki._engine import Shape
 from niwaki.draw.picture import BACKDROPS, picture, save_image
-from niwaki.file_errors import FileError
-from niwaki.scene import Scene
-
-if TYPE_CHECKING:
-    from niwaki.target import Target
+from niwaki.draw.scene import Scene, Volume
+from niwaki.errors import FileError
 
 
 def sheet(
     scenes: Sequence[Scene],
     captions: Sequence[str] | None = None,
-    target: Target | None = None,
+    target: Volume | None = None,
     *,
     columns: int | None = None,
     size: tuple[int, int] = (480, 360),
@@ -99,10 +97,8 @@ def _columns(count: int) -> int:
     return across
 
 
-def _together(scenes: Sequence[Scene], target: Target | None) -> Scene:
+def _together(scenes: Sequence[Scene], target: Volume | None) -> Scene:
     """One scene with all parts, to frame by."""
-    from niwaki._engine import Shape
-
     parts = [(f"{k}", [shape for part in scene for shape in part.shapes]) for k, scene in enumerate(scenes)]
     if target is not None:
         parts.append(("target", [Shape.mesh(target.vertices, target.faces)]))

@@ -11,16 +11,15 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from niwaki import _engine
-from niwaki.file_errors import FileError
-
-if TYPE_CHECKING:
-    from niwaki.scene import Scene
+from niwaki.draw.scene import Scene
+from niwaki.errors import FileError
+from niwaki.errors.extras import optional
 
 #: Details of the union below this share of its longest side are melted away: slivers that a float cannot keep.
 SMALLEST = 1e-6
@@ -100,7 +99,7 @@ def union(scene: Scene, scale: float = METRE, fuse: float | None = None) -> Soli
     pieces = _pieces(vertices, faces)
     if pieces > 1:
         warnings.warn(
-            f"the solid is in {pieces} pieces that do not hang together, and a printer makes each of them alone; "
+            f"the solid is in {pieces} pieces that do not touch, and a printer prints each of them alone; "
             "a larger `fuse` closes gaps",
             PrintWarning,
             stacklevel=2,
@@ -116,11 +115,7 @@ def kernel() -> Any:
     FileError
         It is not installed.
     """
-    try:
-        import manifold3d
-    except ImportError:
-        raise FileError("missing-extra", task="joining parts to a solid", extra="print") from None
-    return manifold3d
+    return optional("manifold3d", "joining parts to a solid", "print")
 
 
 def _solids(scene: Scene, tools: Any, swell: float) -> list[Any]:

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from PIL import Image, ImageDraw, ImageFont
 
-from niwaki.file_errors import FileError
+from niwaki.errors import FileError
 from niwaki.words.vectors import VecLike, _vec
 
 PAPER, INK = (250, 249, 246), (84, 82, 78)

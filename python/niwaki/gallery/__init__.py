@@ -1,7 +1,7 @@
 """Models to look at and start from: one model, one file, one picture.
 
 A module of this folder is an entry of the gallery when it has MODEL (the model), and, where they make sense, TITLE (one
-line), TARGET (the name of a function of `niwaki.gallery.targets`), VOXEL (the cell size that suits both) and PARTICLES
+line), TARGET (the name of a function of `niwaki.targets.examples`), VOXEL (the cell size that suits both) and PARTICLES
 (how many it takes to do it well).
 """
 
@@ -10,14 +10,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from importlib import import_module
 from pkgutil import iter_modules
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-if TYPE_CHECKING:
-    from niwaki.target import Target
-    from niwaki.words.models import Model
+from niwaki import targets
+from niwaki.lang.models import Model
+from niwaki.targets.target import Target
 
 #: Modules of this folder that hold no model; they are not imported to find that out.
-NOT_MODELS = ("data", "demo", "experiments", "figures", "furnishings", "pictures", "plates", "targets")
+NOT_MODELS = ("data", "furnishings")
 
 #: Size of a population where nothing else is said.
 PARTICLES = 300
@@ -57,9 +57,7 @@ class Entry:
 
 def named_target(name: str) -> Target:
     """Make one of the gallery's own targets."""
-    from niwaki.gallery import targets
-
-    made: Target = getattr(targets, name)()
+    made: Target = getattr(targets.examples, name)()
     return made
 
 

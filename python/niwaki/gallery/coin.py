@@ -3,8 +3,9 @@
 Exact enumeration answers: 2 with probability 1/2, 1 with 1/3, 3 with 1/6.
 """
 
+from niwaki import model
 from niwaki.methods import enumerate_all
-from niwaki.words import condition, flip, model
+from niwaki.words import condition, flip
 
 TITLE = "three coins, one of the first two heads"
 METHOD = enumerate_all()

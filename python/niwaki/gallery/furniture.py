@@ -10,9 +10,10 @@ The plan has x to the right and y upwards; in the scene they are x and -z.
 from math import cos, pi, sin
 from pathlib import Path
 
+from niwaki import model
 from niwaki.gallery import furnishings
 from niwaki.methods import smc
-from niwaki.outline import load_polygon
+from niwaki.targets.outline import load_polygon
 from niwaki.words import (
     Vec,
     discrete_uniform,
@@ -23,7 +24,6 @@ from niwaki.words import (
     gaussian,
     infer,
     mesh,
-    model,
     poisson,
     polygon_area,
     polygon_contains,

@@ -3,9 +3,10 @@
 Every latent variable is a choice: weights, means and deviations of the components, and the component of each point.
 """
 
+from niwaki import model
 from niwaki.gallery import data
 from niwaki.methods import mh
-from niwaki.words import Gaussian, categorical, dirichlet, gaussian, model, observe, uniform
+from niwaki.words import Gaussian, categorical, dirichlet, gaussian, observe, uniform
 
 TITLE = "four clusters of a hundred numbers"
 METHOD = mh(steps=400_000, warmup=100_000)

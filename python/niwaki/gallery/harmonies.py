@@ -12,7 +12,7 @@ temperatures: where the constraint is loose the scheme turns, and where it is ti
 
 from math import pi
 
-from niwaki import kernels
+from niwaki import kernels, model
 from niwaki.methods import mh
 from niwaki.words import (
     beta,
@@ -22,7 +22,6 @@ from niwaki.words import (
     factor,
     gaussian,
     hsv,
-    model,
     softeq,
     truncated_gaussian,
     uniform,

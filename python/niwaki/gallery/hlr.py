@@ -3,9 +3,10 @@
 Each sequence has an intercept and a slope; those of all sequences are drawn around a common mean.
 """
 
+from niwaki import model
 from niwaki.gallery import data
 from niwaki.methods import mh
-from niwaki.words import Gaussian, gaussian, model, observe, uniform
+from niwaki.words import Gaussian, gaussian, observe, uniform
 
 TITLE = "twenty lines and what they have in common"
 METHOD = mh(steps=400_000, warmup=100_000)

@@ -3,9 +3,10 @@
 The tables are known and the states are not. The distributions are built once, outside of the model.
 """
 
+from niwaki import model
 from niwaki.gallery import data
 from niwaki.methods import mh
-from niwaki.words import Categorical, model, observe, sample
+from niwaki.words import Categorical, observe, sample
 
 TITLE = "the states behind a hundred observations"
 METHOD = mh(steps=400_000, warmup=100_000)

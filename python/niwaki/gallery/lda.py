@@ -4,9 +4,10 @@ Appendix A of the dissertation: ten topics over a hundred words, twenty words to
 choice: the topics' words, the documents' topics, the topic of each word.
 """
 
+from niwaki import model
 from niwaki.gallery import data
 from niwaki.methods import mh
-from niwaki.words import Categorical, Dirichlet, categorical, model, observe, sample
+from niwaki.words import Categorical, Dirichlet, categorical, observe, sample
 
 TITLE = "ten topics of a few documents"
 METHOD = mh(steps=400_000, warmup=100_000)

@@ -8,8 +8,9 @@ so that a search that builds step by step is led from the first colour on.
 
 from math import cos, pi, radians
 
+from niwaki import model
 from niwaki.methods import smc
-from niwaki.words import distance, factor, hsv, model, uniform, vec
+from niwaki.words import distance, factor, hsv, uniform, vec
 
 TITLE = "palettes of five harmonious colours"
 METHOD = smc(particles=20_000, ess=0.5)

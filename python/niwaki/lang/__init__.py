@@ -1,17 +1,19 @@
 """From a Python function to core form, and the plain-Python run.
 
-source         files, spans, the syntax tree of a live function
 scope          who owns each name; what nested functions capture
 names          what names mean outside of the model
 constants      which live objects may cross as data
 sites          the readable names of choices, calls and loops
 vocabulary     built-ins, `math` and our words, as operations
 core           the core form: grammar and writer
+marks          functions that are marked for the language
 program, body  what one lowering, and one function in it, collects
-expressions, comprehensions, arguments, calls, builtin_calls, statements, refuse, lower
+expressions, statements, comprehensions, arguments, callees, builtin_calls, inference, calls, refuse, lower
                the lowering: one function for each kind of syntax
 instrument, densities, plain
                a model as ordinary Python
-messages, texts, catalogue
-               every error message, and its page
+compiled       a model with its program for the engine; tasks
+models         `@model`
+constraints, residuals
+               the soft constraints of a run, and how far they are from holding
 """

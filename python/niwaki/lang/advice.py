@@ -19,15 +19,15 @@ from types import FunctionType
 from typing import Any
 
 from niwaki import words
-from niwaki.errors import fill, notes, snippet
+from niwaki.errors.kinds import fill, notes, snippet
+from niwaki.errors.messages import MESSAGES
+from niwaki.errors.source import Span, span_of
 from niwaki.lang import vocabulary
 from niwaki.lang.lower import lowered
-from niwaki.lang.messages import MESSAGES
+from niwaki.lang.marks import underlying
 from niwaki.lang.names import MISSING, hashable, is_library
 from niwaki.lang.program import Program, Unit
 from niwaki.lang.scope import Scope, Variable
-from niwaki.lang.source import Span, span_of
-from niwaki.words.models import underlying
 
 BARRIERS = (words.emit, words.factor, words.observe, words.condition)
 LEAVES = (ast.Return, ast.Break, ast.Continue)

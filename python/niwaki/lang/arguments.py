@@ -6,11 +6,11 @@ import ast
 from collections.abc import Callable, Sequence
 from functools import partial
 
+from niwaki.errors.source import Span
 from niwaki.lang.body import Body
 from niwaki.lang.core import Expr
 from niwaki.lang.expressions import expression
 from niwaki.lang.names import nearest
-from niwaki.lang.source import Span
 from niwaki.lang.vocabulary import REQUIRED, Parameter
 
 

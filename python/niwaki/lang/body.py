@@ -1,4 +1,4 @@
-"""One function on its way to core form: the statements made so far, its scope, and fresh variables.
+"""The state of lowering one function to core form: the statements so far, its scope, and fresh variables.
 
 Expressions of Python may need statements in core form (a comprehension is a loop). Such statements are appended to the
 current block *before* the expression that needs them. `in_order` keeps Python's order of evaluation while that
@@ -9,16 +9,14 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import Any, NoReturn
 
 from niwaki.errors import ModelError
+from niwaki.errors.source import SourceFile, Span, span_of
 from niwaki.lang.core import Expr, Form
+from niwaki.lang.names import Namespace
+from niwaki.lang.program import Program, Unit
 from niwaki.lang.scope import Scope, Scopes
-from niwaki.lang.source import SourceFile, Span, span_of
-
-if TYPE_CHECKING:
-    from niwaki.lang.names import Namespace
-    from niwaki.lang.program import Program, Unit
 
 Block = list[Expr]
 

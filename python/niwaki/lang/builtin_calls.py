@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 import ast
+import builtins
 from collections.abc import Callable, Sequence
 from functools import partial
+from types import FunctionType
 from typing import Any
 
 from niwaki import words
-from niwaki.lang import vocabulary
+from niwaki.lang import comprehensions, vocabulary
 from niwaki.lang.arguments import bind, no_keywords
 from niwaki.lang.body import Body
+from niwaki.lang.callees import applied, nested, operate, user_function
 from niwaki.lang.core import Expr, Form, literal
 from niwaki.lang.expressions import closure, expression, expressions, keep_defaults, static
+from niwaki.lang.marks import underlying
 from niwaki.lang.names import MISSING, hashable
 from niwaki.lang.scope import Scope
-from niwaki.words.models import underlying
 
 TABLE: dict[Any, Callable[[Body, ast.Call], Expr]] = {}
 
@@ -32,15 +35,13 @@ def lowers(*functions: Any) -> Callable[[Callable[[Body, ast.Call], Expr]], Call
 
 def iterable(body: Body, node: ast.expr) -> Expr:
     """An argument that may be a generator, which becomes the list of its values."""
-    from niwaki.lang.comprehensions import collect
-
-    return collect(body, node) if isinstance(node, ast.GeneratorExp) else expression(body, node)
+    return (
+        comprehensions.collect(body, node) if isinstance(node, ast.GeneratorExp) else expression(body, node)
+    )
 
 
 def _operate(body: Body, node: ast.Call, name: str) -> Expr:
-    from niwaki.lang.calls import operate
-
-    return operate(body, node, vocabulary.OPERATIONS[getattr(__import__("builtins"), name)])
+    return operate(body, node, vocabulary.OPERATIONS[getattr(builtins, name)])
 
 
 def _generator(node: ast.Call) -> ast.GeneratorExp | None:
@@ -55,14 +56,12 @@ def _keyword(node: ast.Call, name: str) -> ast.expr | None:
 @lowers(any, all)
 def decide(body: Body, node: ast.Call) -> Expr:
     """`any(generator)`, `all(generator)` stop early; of a list they are operations."""
-    from niwaki.lang.comprehensions import decide as loop
-
     assert isinstance(node.func, (ast.Name, ast.Attribute))
     name = body.span(node.func).text.rpartition(".")[2]
     generator = _generator(node)
     if generator is None or len(node.args) != 1 or node.keywords:
         return _operate(body, node, name)
-    return loop(body, generator, name == "any")
+    return comprehensions.decide(body, generator, name == "any")
 
 
 @lowers(sum, list, tuple, enumerate, reversed)
@@ -112,8 +111,6 @@ def dict_(body: Body, node: ast.Call) -> Expr:
 @lowers(map)
 def map_(body: Body, node: ast.Call) -> Expr:
     """`map(f, xs)`, `map(f, xs, ys)`: a list, made at once."""
-    from niwaki.lang.comprehensions import mapped
-
     no_keywords(body, node, "map")
     if len(node.args) < 2:
         body.refuse(
@@ -131,14 +128,12 @@ def map_(body: Body, node: ast.Call) -> Expr:
             return [function([variable], node)]
         return [function([Form("index", [variable, str(n)]) for n in range(many)], node)]
 
-    return mapped(body, items, "map", node, use)
+    return comprehensions.mapped(body, items, "map", node, use)
 
 
 @lowers(filter)
 def filter_(body: Body, node: ast.Call) -> Expr:
     """`filter(f, xs)`: a list, made at once; `filter(None, xs)` keeps what is true."""
-    from niwaki.lang.comprehensions import mapped
-
     no_keywords(body, node, "filter")
     if len(node.args) != 2:
         body.refuse(
@@ -162,16 +157,13 @@ def filter_(body: Body, node: ast.Call) -> Expr:
         body.put(Form("if", [function([variable], node), Form("then", [keep]), Form("else", [])]))
         return []
 
-    mapped(body, items, "filter", node, use)
-    body.block = [part for part in body.block]
+    comprehensions.mapped(body, items, "filter", node, use)
     return result
 
 
 @lowers(sorted)
 def sorted_(body: Body, node: ast.Call) -> Expr:
     """`sorted(xs, key=f, reverse=True)`; the keys are computed once each, in order."""
-    from niwaki.lang.comprehensions import mapped
-
     if len(node.args) != 1:
         body.refuse(
             "wrong-number-of-arguments", node, name="sorted", expected="1 argument", found=str(len(node.args))
@@ -184,15 +176,13 @@ def sorted_(body: Body, node: ast.Call) -> Expr:
             makers.append(partial(expression, body, reverse))
         return body.form("sorted", body.in_order(makers), node)
     items, function, flag = _with_key(body, node, key, reverse)
-    keys = mapped(body, items, "sorted", node, lambda variable: [function([variable], node)])
+    keys = comprehensions.mapped(body, items, "sorted", node, lambda variable: [function([variable], node)])
     return body.form("sorted_by", [items, keys, *([flag] if flag is not None else [])], node)
 
 
 @lowers(min, max)
 def extreme(body: Body, node: ast.Call) -> Expr:
     """`min(xs)`, `min(a, b)`, `min(xs, key=f)`, `min(xs, default=d)`."""
-    from niwaki.lang.comprehensions import mapped
-
     name = body.span(node.func).text.rpartition(".")[2]
     _only(body, node, ("key", "default"))
     key, default = _keyword(node, "key"), _keyword(node, "default")
@@ -215,7 +205,7 @@ def extreme(body: Body, node: ast.Call) -> Expr:
     else:
         whole = node.args[0] if one else ast.copy_location(ast.List(list(node.args), ast.Load()), node)
         items, function, other = _with_key(body, node, key, default, whole)
-        keys = mapped(body, items, name, node, lambda variable: [function([variable], node)])
+        keys = comprehensions.mapped(body, items, name, node, lambda variable: [function([variable], node)])
         best = body.form("argmin_by" if name == "min" else "argmax_by", [items, keys], node)
     if other is None:
         return best
@@ -297,10 +287,6 @@ def choose(body: Body, node: ast.Call) -> Expr:
 @lowers(words.future)
 def future(body: Body, node: ast.Call) -> Expr:
     """`future(f, *args)`: directly when `f` is known."""
-    from types import FunctionType
-
-    from niwaki.lang.calls import applied, nested, user_function
-
     if not node.args:
         body.refuse(
             "wrong-number-of-arguments", node, name="future", expected="at least 1 argument", found="0"

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from niwaki._engine import Shape
 from niwaki.lang.core import is_literal
-from niwaki.words.shapes import ShapeRecord
 from niwaki.words.vectors import Rotation, Vec
 
 NUMERIC = "biuf"
@@ -24,7 +24,7 @@ def is_data(value: Any) -> bool:
     """Whether a value is plain data: numbers, strings, tuples, lists, dicts, arrays, vectors, shapes."""
     if isinstance(value, np.ndarray):
         return value.dtype.kind in NUMERIC
-    if isinstance(value, (Vec, Rotation, ShapeRecord)) or type(value).__name__ == "Shape":
+    if isinstance(value, (Vec, Rotation, Shape)):
         return True
     if type(value) in (list, tuple):
         return all(map(is_data, value))

@@ -51,7 +51,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from niwaki.lang.source import SourceFile, Span
+from niwaki.errors.source import SourceFile, Span
 
 
 @dataclass

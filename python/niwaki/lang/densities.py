@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import hashlib
-import importlib
 import math
 from collections.abc import Iterable
 from typing import Any
 
+from niwaki import _engine
 from niwaki.words.distributions import Distribution
 
 
@@ -42,12 +42,10 @@ def _parameter(value: Any) -> Any:
 
 def log_density(dist: Distribution, value: Any) -> float:
     """The log density of a value (nats), on the grid."""
-    engine: Any = importlib.import_module("niwaki._engine")
-    return grid(float(engine.log_density(dist.family, parameters(dist), value)))
+    return grid(float(_engine.log_density(dist.family, parameters(dist), value)))
 
 
 def draw(dist: Distribution, seed: int, address: str) -> Any:
     """The value that a seed gives at an address."""
-    engine: Any = importlib.import_module("niwaki._engine")
-    value = engine.draw_at(dist.family, parameters(dist), seed, 0, hashed(address), 0)
+    value = _engine.draw_at(dist.family, parameters(dist), seed, 0, hashed(address), 0)
     return tuple(value) if isinstance(value, list) else value

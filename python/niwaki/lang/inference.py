@@ -9,19 +9,17 @@ engine's `nested` reads the constant.
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Sequence
 from functools import partial
-from types import FunctionType
 from typing import Any
 
-from niwaki.errors import Call, InputError, ModelFault
+from niwaki import _engine
+from niwaki.errors import InputError, ModelFault
 from niwaki.lang.body import Body
 from niwaki.lang.core import Expr, Form
 from niwaki.lang.expressions import expression, static
 from niwaki.lang.names import MISSING
 from niwaki.methods import EnumerateAll, Method
 from niwaki.words.distributions import DiscreteUniform
-from niwaki.words.models import Model
 
 KEEP = ("sample", "best")
 
@@ -47,11 +45,9 @@ def constant(method: Method, keep: str) -> tuple[str, str, str]:
 
 def wrong_inside(method: Method) -> str:
     """Why an inference inside a model cannot honour a method; nothing where it can."""
-    from niwaki import _engine
-
     text, functions = method.text()
     if functions:
-        return "inside a model a kernel cannot ask a Python function: `proposal` has no meaning there"
+        return "inside a model a kernel cannot call a Python function, so `proposal` cannot be used there"
     try:
         _engine.check_inside(text)
     except _engine.EngineFault as fault:
@@ -67,35 +63,6 @@ def check(method: Any, keep: Any) -> None:
         raise ModelFault("bad-argument", f"{wrong}, found {method!r}")
     if keep not in KEEP:
         raise ModelFault("bad-argument", f'`keep` is "sample" or "best", found {keep!r}')
-
-
-def search(
-    function: FunctionType,
-    method: Method,
-    keep: str,
-    args: Sequence[Any],
-    seed: int,
-    stack: Callable[[], list[Call]],
-) -> Any:
-    """What the engine gives for an `infer` of a plain run.
-
-    Parameters
-    ----------
-    function
-        The inner model.
-    method, keep, args, seed
-        As the words say.
-    stack
-        Asked for the calls of the plain run when the search fails.
-    """
-    from niwaki import _engine
-    from niwaki.compiled import task
-
-    made = task(Model(function), args)
-    try:
-        return made.infer(constant(method, keep), seed)
-    except _engine.EngineFault as fault:
-        raise ModelFault(fault.code, fault.message, fault.help, stack=stack()) from None
 
 
 def infer(body: Body, node: ast.Call) -> Expr:
@@ -137,7 +104,7 @@ def _constant(body: Body, node: ast.expr) -> Any:
     """A method, a kernel or a setting: made here, a literal, or a constant of the module."""
     if isinstance(node, ast.Call):
         maker = static(body, node.func)
-        if str(getattr(maker, "__module__", "")).startswith(("niwaki.methods", "niwaki.kernels")):
+        if str(getattr(maker, "__module__", "")).startswith("niwaki.methods"):
             args = [_constant(body, arg) for arg in node.args]
             keywords = {
                 keyword.arg: _constant(body, keyword.value) for keyword in node.keywords if keyword.arg

@@ -1,7 +1,8 @@
 """A model function that tells where it is: the user's own code, compiled from their file with each site named.
 
-`f(x)` becomes `__nw__.call("f", f, x)`, `for i in xs` becomes `for i in __nw__.loop("i[]", xs)`; nested functions
-bear their names of the core form; nothing else changes, and every node keeps its line and columns, so that a debugger
+`f(x)` becomes `__nw__.call("f", f, x)`, `for i in xs` becomes `for i in __nw__.loop("i[]", xs)`, what is compared
+becomes `__nw__.compared(x)`; nested functions bear their names of the core form; nothing else changes, and every node
+keeps its line and columns, so that a debugger
 and a traceback show the file that the user wrote.
 `__nw__` is a cell of the function's closure: the user's module is not touched.
 """
@@ -22,7 +23,7 @@ _codes: WeakKeyDictionary[FunctionType, CodeType] = WeakKeyDictionary()
 
 
 def instrumented(function: FunctionType, hook: Any) -> FunctionType:
-    """The function with its sites named; `hook` answers `call`, `loop`, `forever` and `leave`."""
+    """The function with its sites named; `hook` answers `call`, `loop`, `compared`, ..."""
     if function not in _codes:
         _codes[function] = _compile(function)
     code = _codes[function]
@@ -103,6 +104,18 @@ class _Namer(ast.NodeTransformer):
         self.generic_visit(node)
         shown: Any = tuple(label) if isinstance(label, list) else label
         return self._hook("call", [ast.Constant(shown), node.func, *node.args], node.keywords, node)
+
+    def visit_Compare(self, node: ast.Compare) -> ast.AST:
+        self.generic_visit(node)
+        sides = [node.left, *node.comparators]
+        for at, op in enumerate(node.ops):
+            if not isinstance(op, (ast.Is, ast.IsNot)):
+                word = "searched" if isinstance(op, (ast.In, ast.NotIn)) else "compared"
+                sides[at + 1] = self._hook(word, [sides[at + 1]], [], node)
+                if at == 0:
+                    sides[0] = self._hook("compared", [sides[0]], [], node)
+        node.left, *node.comparators = sides
+        return node
 
     def visit_For(self, node: ast.For) -> ast.AST:
         label = self.labels.get(node, "")

@@ -9,14 +9,15 @@ from __future__ import annotations
 import ast
 from types import FunctionType
 
+from niwaki.errors.source import head_span
 from niwaki.lang import calls, comprehensions  # noqa: F401  (they register themselves)
 from niwaki.lang.body import Body
+from niwaki.lang.callees import live_defaults
 from niwaki.lang.core import Core, Expr, Form, literal, write_tree
 from niwaki.lang.expressions import expression
 from niwaki.lang.names import is_named_tuple, record_fields
 from niwaki.lang.program import Program, Unit, check_signature
 from niwaki.lang.scope import Scope, Variable, functions
-from niwaki.lang.source import head_span
 from niwaki.lang.statements import statement
 
 
@@ -94,8 +95,7 @@ def _function(program: Program, unit: Unit, scope: Scope) -> Form:
 def _defaults(body: Body, unit: Unit, scope: Scope) -> list[Expr]:
     if scope is unit.scopes.root:
         return [
-            atom
-            for _, atom in sorted(calls.live_defaults(body.program, unit).items(), key=lambda pair: pair[0])
+            atom for _, atom in sorted(live_defaults(body.program, unit).items(), key=lambda pair: pair[0])
         ]
     return [
         default.core if isinstance(default, Variable) else expression(body, default)

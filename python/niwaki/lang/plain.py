@@ -15,15 +15,18 @@ from dataclasses import dataclass, field
 from types import FrameType, FunctionType
 from typing import Any
 
-from niwaki.constraints import Constraint
-from niwaki.errors import Call, InputError, ModelFault, NiwakiError, place
-from niwaki.lang import densities, vocabulary
+from niwaki import _engine
+from niwaki.errors import Call, InputError, ModelFault, NiwakiError
+from niwaki.errors.kinds import place
+from niwaki.lang import densities, futures, inference, vocabulary
+from niwaki.lang.compiled import Compiled, task
+from niwaki.lang.constraints import Constraint
 from niwaki.lang.instrument import instrumented
+from niwaki.lang.marks import Marked, underlying
 from niwaki.lang.names import is_library
 from niwaki.methods import EnumerateAll
 from niwaki.words.distributions import Distribution
 from niwaki.words.effects import flatten
-from niwaki.words.models import Model, underlying
 from niwaki.words.running import current
 
 VIEWS: tuple[type[Iterable[Any]], ...] = (type({}.keys()), type({}.values()), type({}.items()))
@@ -67,7 +70,7 @@ class Run:
 
 
 def run_python(
-    model: Model[..., Any] | Callable[..., Any],
+    model: Marked[..., Any] | Callable[..., Any],
     *args: Any,
     seed: int | None = None,
     choices: Mapping[str, Any] | None = None,
@@ -118,7 +121,9 @@ def run(
     finally:
         current.reset(token)
     log_prior, log_score = densities.total(state.priors), densities.total(state.scores)
-    return Run(value, state.made, log_prior, log_score, state.scene, state.answers, state.constraints)
+    queries = {key: futures.opened(answer) for key, answer in state.answers.items()}
+    value = futures.opened(value)
+    return Run(value, state.made, log_prior, log_score, state.scene, queries, state.constraints)
 
 
 class PlainRun:
@@ -153,6 +158,7 @@ class PlainRun:
         elif isinstance(label, tuple):
             value = self.with_function(label, function, args, kwargs)
         else:
+            futures.refuse(function, args, kwargs)
             self.pending = label
             value = function(*args, **kwargs)
         del self.path[depth:], self.loops[loops:]
@@ -322,7 +328,7 @@ class PlainRun:
         self.scene.append((self.address("emit"), flatten(shapes)))
 
     def future(self, function: Callable[..., Any], args: Sequence[Any]) -> Any:
-        """Run a call now, and give its value."""
+        """Run a call now; its value is to be forced."""
         label, self.pending = self.pending or "apply", ""
         depth, loops = len(self.path), len(self.loops)
         function = underlying(function)
@@ -330,31 +336,36 @@ class PlainRun:
             self.path.append(label)
             value = self.enter(function, args, {})
         else:
+            futures.refuse(function, args, {})
             value = function(*args)
         del self.path[depth:], self.loops[loops:]
-        return value
+        return futures.Future(value)
 
     def force(self, value: Any) -> Any:
-        """A future is its value already."""
-        return value
+        """The value of a future."""
+        return futures.forced(value)
 
     def infer(self, model: Callable[..., Any], method: Any, args: Sequence[Any], keep: str) -> Any:
         """Search another model, on the engine: only it has the methods."""
-        from niwaki.lang import inference
-
         inference.check(method, keep)
         function = underlying(model)
         if not isinstance(function, FunctionType):
             raise ModelFault("not-callable", f"`infer` runs a model, found {model!r}", stack=self.stack())
         seed = 0 if isinstance(method, EnumerateAll) else self.sample(inference.SEEDS)
         self.pending = ""
-        return inference.search(function, method, keep, args, seed, self.stack)
+        try:
+            return task(Compiled(function), args).infer(inference.constant(method, keep), seed)
+        except _engine.EngineFault as fault:
+            raise ModelFault(fault.code, fault.message, fault.help, stack=self.stack()) from None
 
     def constraint(self, kind: str, a: float, b: float, width: float) -> None:
         """Keep what a soft constraint compares."""
         calls = self.stack()
         span = calls[-1].span if calls else None
         self.constraints.append(Constraint(kind, "/".join([*self.path, kind]), span, a, b, width))
+
+    compared = staticmethod(futures.compared)
+    searched = staticmethod(futures.searched)
 
     # faults
 
@@ -400,6 +411,7 @@ class PlainRun:
 
 
 CODES: tuple[tuple[type[BaseException], str], ...] = (
+    (futures.NotForced, "future-not-forced"),
     (ZeroDivisionError, "division-by-zero"),
     (IndexError, "list-index"),
     (KeyError, "missing-key"),

@@ -11,14 +11,14 @@ from types import FunctionType
 from typing import Any
 
 from niwaki.errors import InputError, ModelError
+from niwaki.errors.source import SourceFile, Span, find_function, span_of
 from niwaki.lang.constants import is_data, owned
 from niwaki.lang.core import Expr, Form, is_literal, literal
+from niwaki.lang.marks import Host, underlying
 from niwaki.lang.names import Namespace, is_library, is_named_tuple, is_record_class, record_fields
 from niwaki.lang.scope import FunctionNode, Scope, Scopes, analyse, functions
 from niwaki.lang.sites import labels_of
-from niwaki.lang.source import SourceFile, Span, find_function, span_of
 from niwaki.words.distributions import Distribution
-from niwaki.words.models import Host, Model
 
 
 @dataclasses.dataclass(eq=False)
@@ -65,7 +65,7 @@ class Program:
             scopes = analyse(node)
             unit = Unit(function, file, node, scopes, namespace, {}, {})
             self._name(unit)
-            unit.labels = labels_of(unit)
+            unit.labels = labels_of(unit.scopes, unit.namespace)
             self.units[function] = unit
             self.waiting.append(unit)
         return self.units[function]
@@ -103,8 +103,7 @@ class Program:
 
     def constant(self, value: Any, used_at: Span, name: str) -> Expr:
         """A live object as an expression: a literal, data of the table, or built from both."""
-        if isinstance(value, Model):
-            value = value.function
+        value = underlying(value)
         if isinstance(value, FunctionType):
             if is_library(value):
                 code = "word-as-value" if value.__module__.startswith("niwaki.words") else "library-function"

@@ -24,24 +24,21 @@ import ast
 from collections import Counter
 from collections.abc import Iterable
 from types import FunctionType, ModuleType
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from niwaki import words
 from niwaki.lang import vocabulary
-from niwaki.lang.names import MISSING, hashable, is_library
-from niwaki.lang.scope import Scope, Variable, default_expressions
-from niwaki.words.models import underlying
-
-if TYPE_CHECKING:
-    from niwaki.lang.program import Unit
+from niwaki.lang.marks import underlying
+from niwaki.lang.names import MISSING, Namespace, hashable, is_library
+from niwaki.lang.scope import Scope, Scopes, Variable, default_expressions
 
 CALLS_A_FUNCTION = {map: "map", filter: "filter", sorted: "sorted", min: "min", max: "max"}
 
 
-def labels_of(unit: Unit) -> dict[Any, str]:
+def labels_of(scopes: Scopes, namespace: Namespace) -> dict[Any, str]:
     """Every site's label: by syntax node, or by (node, "loop") and (node, "call") for `map` and the like."""
-    namer = _Namer(unit)
-    for scope in unit.scopes.of.values():
+    namer = _Namer(scopes, namespace)
+    for scope in scopes.of.values():
         if scope.is_function:
             assert isinstance(scope.node, (ast.FunctionDef, ast.Lambda))
             namer.activation(
@@ -51,10 +48,10 @@ def labels_of(unit: Unit) -> dict[Any, str]:
 
 
 class _Namer:
-    def __init__(self, unit: Unit) -> None:
-        self.unit = unit
+    def __init__(self, scopes: Scopes, namespace: Namespace) -> None:
+        self.scopes, self.namespace = scopes, namespace
         self.labels: dict[Any, str] = {}
-        self.scope: Scope = unit.scopes.root
+        self.scope: Scope = scopes.root
         self.counts: Counter[tuple[str, str]] = Counter()
         self.target = ""
 
@@ -107,7 +104,7 @@ class _Namer:
         self.visit(part.iter)
         self.label(part, "loop", f"{first_name(part.target)}[]")
         outer = self.scope, self.counts
-        self.scope, self.counts = self.unit.scopes.of.get(node, scope), Counter()
+        self.scope, self.counts = self.scopes.of.get(node, scope), Counter()
         for test in part.ifs:
             self.visit(test)
         self.generators(node, number + 1, self.scope)
@@ -151,7 +148,7 @@ class _Namer:
                 and not is_library(value)
             )
         if isinstance(node, ast.Attribute):
-            return self.unit.namespace.has_field(node.attr)
+            return self.namespace.has_field(node.attr)
         return True
 
     def family(self, dist: ast.expr | None) -> str:
@@ -169,7 +166,7 @@ class _Namer:
         if isinstance(node, ast.Lambda):
             return "lambda"
         if isinstance(node, ast.Name):
-            found = self.unit.scopes.find(node.id, self.scope)
+            found = self.scopes.find(node.id, self.scope)
             if isinstance(found, (Scope, Variable)):
                 return found.name
         value = self.meaning(node)
@@ -180,9 +177,9 @@ class _Namer:
     def meaning(self, node: ast.expr) -> Any:
         """The live object that a name outside of the model means, or MISSING."""
         if isinstance(node, ast.Name):
-            if self.unit.scopes.find(node.id, self.scope) is not None:
+            if self.scopes.find(node.id, self.scope) is not None:
                 return MISSING
-            return underlying(self.unit.namespace.find(node.id))
+            return underlying(self.namespace.find(node.id))
         if isinstance(node, ast.Attribute):
             owner = self.meaning(node.value)
             if isinstance(owner, ModuleType):

@@ -14,6 +14,7 @@ from typing import Any
 from niwaki import words
 from niwaki.lang.core import is_literal
 from niwaki.words.distributions import FAMILIES, Distribution
+from niwaki.words.shapes import SHAPES
 
 
 @dataclass(frozen=True)
@@ -112,7 +113,6 @@ _SOFT = (
     words.smooth_min,
     words.smooth_abs,
 )
-_SHAPES = (words.box, words.cylinder, words.limb, words.segment, words.mesh)
 
 
 def _word(function: Any, omit: bool) -> Op:
@@ -124,7 +124,7 @@ def _word(function: Any, omit: bool) -> Op:
 
 WORDS: dict[Any, Op] = {
     **{function: _word(function, True) for function in (*_VECTORS, *_COLORS, *_POLYGONS, *_NUMBERS, *_SOFT)},
-    **{function: _word(function, False) for function in _SHAPES},
+    **{function: _word(function, False) for function in SHAPES},
 }
 
 OPERATIONS: dict[Any, Op] = {**BUILTINS, **MATH, **WORDS}
@@ -215,11 +215,11 @@ COMPARE: dict[str, str] = {
 NOT_IN_A_MODEL: dict[Any, tuple[str, str]] = {
     print: (
         "prints",
-        "take the line out; to watch a run, step through `niwaki.run_python(model, seed=1)` in a debugger",
+        "remove the line; to watch a run, step through `niwaki.run_python(model, seed=1)` in a debugger",
     ),
-    isinstance: ("asks-for-a-type", "give records a field that says what they are, and compare that"),
-    issubclass: ("asks-for-a-type", "give records a field that says what they are, and compare that"),
-    type: ("asks-for-a-type", "give records a field that says what they are, and compare that"),
+    isinstance: ("asks-for-a-type", "give records a field for their kind, and compare that field"),
+    issubclass: ("asks-for-a-type", "give records a field for their kind, and compare that field"),
+    type: ("asks-for-a-type", "give records a field for their kind, and compare that field"),
     set: ("set-value", "use a list, and `in` to look for a value"),
     frozenset: ("set-value", "use a list, and `in` to look for a value"),
 }

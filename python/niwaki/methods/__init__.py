@@ -4,6 +4,7 @@ direct      forward runs, enumeration, rejection, likelihood weighting
 particles   sequential Monte Carlo, and the chains made of it
 chains      Metropolis-Hastings
 gradients   Hamiltonian Monte Carlo
+kernels     Markov kernels, for chains
 method      what all have in common: a method as data
 checks      what their settings are checked for
 """

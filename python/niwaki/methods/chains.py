@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from niwaki.kernels import Kernel
 from niwaki.methods.checks import at_least_one, bad, from_zero, one_of
+from niwaki.methods.kernels import Kernel
 from niwaki.methods.method import Method
 
 STRATEGIES = ("c3", "rerun", "resume", "cache")
@@ -61,7 +61,12 @@ class Mh(Method):
             raise bad("warmup", self.warmup, "fewer proposals than `steps`", repr(self.steps // 5))
         one_of("strategy", self.strategy, STRATEGIES)
         if self.kernel is not None and not isinstance(self.kernel, Kernel):
-            raise bad("kernel", self.kernel, "a kernel", "one of `niwaki.kernels`, such as `kernels.drift()`")
+            raise bad(
+                "kernel",
+                self.kernel,
+                "a kernel",
+                "one of `niwaki.kernels`, such as `kernels.drift()`",
+            )
 
 
 mh = Mh

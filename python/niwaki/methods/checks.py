@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from niwaki.errors import InputError
-from niwaki.kernels import Kernel
+from niwaki.methods.kernels import Kernel
 
 
 def bad(name: str, found: Any, expected: str, suggestion: str) -> InputError:
@@ -42,7 +42,7 @@ def proposal(kernel: Any) -> None:
         return
     usual = 'kernels.on("x", kernels.proposal(function))'
     if not isinstance(kernel, Kernel):
-        raise bad("proposal", kernel, "a kernel made by `kernels.proposal`", usual)
+        raise bad("proposal", kernel, "a kernel from `kernels.proposal`", usual)
     odds = kernel.name == "on" and not kernel.settings["sites"]
     if kernel.name not in ("proposal", "on", "cycle") or odds:
         raise bad("proposal", kernel, "`proposal`, `on` around it, or a `cycle` of those", usual)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from niwaki.kernels import Kernel
 from niwaki.methods.checks import at_least_one, bad, is_number, samples
 from niwaki.methods.checks import proposal as check_proposal
+from niwaki.methods.kernels import Kernel
 from niwaki.methods.method import Method
 
 
@@ -17,7 +17,7 @@ class EnumerateAll(Method):
     Parameters
     ----------
     max_runs
-        Most complete runs to visit.
+        Most runs to visit, those that prove impossible included.
     """
 
     NAME = "enumerate_all"

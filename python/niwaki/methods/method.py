@@ -12,7 +12,7 @@ from dataclasses import dataclass, fields
 from typing import Any, ClassVar, Self
 
 from niwaki.errors import InputError
-from niwaki.kernels import Kernel
+from niwaki.methods.kernels import Kernel
 
 
 @dataclass(frozen=True)

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from niwaki.errors import InputError
-from niwaki.kernels import Kernel
 from niwaki.methods.checks import at_least_one, bad, is_number, is_whole, one_of
 from niwaki.methods.checks import particles as check_particles
 from niwaki.methods.checks import proposal as check_proposal
+from niwaki.methods.kernels import Kernel
 from niwaki.methods.method import Method
 
 ORDERS = ("stochastic", "depth-first")
@@ -119,10 +119,10 @@ class Smc(Method):
         if self.populations is not None:
             at_least_one("populations", self.populations)
             if not isinstance(self.particles, int):
-                raise bad("populations", self.populations, "nothing beside a list of sizes", "None")
+                raise bad("populations", self.populations, "None together with a list of sizes", "None")
         check_proposal(self.proposal)
         if self.proposal is not None and self.weights == "absolute":
-            expected = "nothing beside absolute weights, which do not count what it draws"
+            expected = "None together with absolute weights, which ignore the density of a proposal"
             raise bad("proposal", self.proposal, expected, 'None, or `weights` to "ratio"')
         self._check_moves()
         self._set("anneal", _powers(self.anneal, self.weights))
@@ -135,16 +135,14 @@ class Smc(Method):
         if self.draws is not None:
             at_least_one("draws", self.draws)
             if self.rejuvenate is None:
-                raise bad(
-                    "draws", self.draws, "nothing without `rejuvenate`, which says how chains move", "None"
-                )
+                raise bad("draws", self.draws, "None without `rejuvenate`, the kernel of the chains", "None")
         elif self.chains != 1:
-            expected = "nothing without `draws`, which says how many states of each"
+            expected = "1 without `draws`, the number of states of each chain"
             raise bad("chains", self.chains, expected, "1")
         if self.rejuvenate is None:
             for name in ("moves", "at"):
                 if getattr(self, name) != 1:
-                    expected = "nothing without `rejuvenate`, which says how particles are moved"
+                    expected = "1 without `rejuvenate`, the kernel that moves particles"
                     raise bad(name, getattr(self, name), expected, "1, or give `rejuvenate`")
             return
         kernel: Any = self.rejuvenate
@@ -152,11 +150,11 @@ class Smc(Method):
             suggestion = "one of `niwaki.kernels`, such as `kernels.mh()`"
             raise bad("rejuvenate", self.rejuvenate, "a kernel", suggestion)
         if self.weights == "absolute":
-            expected = "nothing beside absolute weights, which have no law to keep"
+            expected = "None together with absolute weights, which follow no fixed distribution"
             raise bad("rejuvenate", self.rejuvenate, expected, 'None, or `weights` to "ratio"')
         changing = self.rejuvenate.first("anneal", "temper")
         if changing is not None:
-            expected = "a kernel that keeps the particles' law, which annealing and tempering do not"
+            expected = "a kernel that keeps the particles' distribution, which annealing and tempering do not"
             raise bad(
                 "rejuvenate", self.rejuvenate, expected, f"{changing.parts[0]!r}, and `anneal=` of `smc`"
             )
@@ -263,12 +261,10 @@ def _powers(anneal: Any, weights: str) -> float | tuple[float, ...] | None:
     if anneal is None:
         return None
     if weights == "absolute":
-        raise InputError(
-            "bad-anneal", found=repr(anneal), reason="absolute weights have no temperature to go"
-        )
+        raise InputError("bad-anneal", found=repr(anneal), reason="absolute weights have no temperature")
     if is_number(anneal):
         if not 0 < anneal < 1:
-            raise InputError("bad-anneal", found=repr(anneal), reason="a share lies between 0 and 1")
+            raise InputError("bad-anneal", found=repr(anneal), reason="a share is between 0 and 1")
         return float(anneal)
     path = tuple(anneal) if isinstance(anneal, Sequence) and not isinstance(anneal, str) else ()
     if not path or not all(is_number(t) and 0 <= t < float("inf") for t in path):
@@ -285,6 +281,6 @@ def _fixed(anneal: Any) -> tuple[float, ...] | None:
         raise InputError(
             "bad-anneal",
             found=repr(anneal),
-            reason="every sweep of a chain goes the same way, so it is a list",
+            reason="every sweep of a chain needs the same powers, so it must be a list",
         )
     return powers

@@ -1,4 +1,4 @@
-"""The short ways to a search: `run` a model by any method, and `grow` one into a target.
+"""`run` a model by any method, and `grow` one into a target: both make a `Search` and run it.
 
 Seeds are 64-bit numbers; where none is given a fresh one is drawn and kept in the result. The same seed gives the same
 result on any number of threads. Ctrl-C stops a search, which then gives what it has (`Result.interrupted`).
@@ -6,26 +6,23 @@ result on any number of threads. Ctrl-C stops a search, which then gives what it
 
 from __future__ import annotations
 
-import secrets
 from collections.abc import Callable, Mapping
 from dataclasses import fields
 from os import PathLike
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from niwaki import _engine
-from niwaki.compiled import arguments, as_model, task, translated
 from niwaki.errors import InputError
-from niwaki.methods import Forward, Method, Smc
-from niwaki.search.request import Search, check_seed
+from niwaki.lang.compiled import arguments, task, translated
+from niwaki.lang.models import Model, as_model
+from niwaki.methods import Forward, Method, Mh, Smc
+from niwaki.result import Result
+from niwaki.result.progress import Watch
+from niwaki.search.checks import check_seed, fresh
+from niwaki.search.request import Search
 from niwaki.search.searching import given, starts
-from niwaki.sketches import Score, no_self_intersection, volume_match
-from niwaki.words.models import Model
-
-if TYPE_CHECKING:
-    from niwaki.methods import Mh
-    from niwaki.result import Result
-    from niwaki.search.searching import Watch
-    from niwaki.target import Target
+from niwaki.targets.sketches import Score, no_self_intersection, volume_match
+from niwaki.targets.target import Target
 
 #: The settings of `smc`, which `grow` takes by name.
 SETTINGS = {field.name: field.default for field in fields(Smc)}
@@ -148,8 +145,6 @@ def grow(
         One sample for each run, the best of its population, or as many as are `diverse`; runs in which every particle
         became impossible are left out with a warning, and are an error when there is no other.
     """
-    from niwaki.target import Target
-
     model = as_model(model)
     settings = {name: kwargs.pop(name) for name in SETTINGS if name in kwargs}
     if method is not None and settings:
@@ -157,7 +152,7 @@ def grow(
             "bad-setting",
             name=next(iter(settings)),
             found=repr(next(iter(settings.values()))),
-            expected="nothing beside `method`, which has settings of its own",
+            expected="no settings together with `method`, which has its own",
             suggestion=f"`method` left out, or the setting in `{method.NAME}(...)`",
         )
     asked = no_self_intersection(rule) * (Score() if score is None else score)
@@ -221,8 +216,3 @@ def explain(
     made = task(model, args, kwargs, (), max_steps)
     with translated(model.name, f"seed={seed}"):
         return _engine.explain(made, check_seed(seed), choice)
-
-
-def fresh(seed: int | None) -> int:
-    """The seed, or a fresh one."""
-    return secrets.randbits(32) if seed is None else check_seed(seed)

@@ -7,11 +7,13 @@ whoever reads was told to trust.
 
 from __future__ import annotations
 
+import ast
 import base64
 import hashlib
 import inspect
 import math
 import sys
+import textwrap
 import zlib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, is_dataclass, make_dataclass
@@ -20,13 +22,14 @@ from typing import Any, NamedTuple, cast
 
 import numpy as np
 
-from niwaki import _engine
-from niwaki.camera import Camera
+from niwaki import _engine, targets
 from niwaki.errors import InputError
+from niwaki.lang.marks import Host
+from niwaki.lang.models import Model
 from niwaki.lang.names import is_named_tuple, record_fields
-from niwaki.target import Receiver, Target
+from niwaki.targets.camera import Camera
+from niwaki.targets.target import Receiver, Target
 from niwaki.words import distributions
-from niwaki.words.models import Host, Model
 from niwaki.words.vectors import Rotation, Vec
 
 
@@ -146,9 +149,6 @@ def host_reference(function: Any) -> dict[str, str]:
 
 def source_hash(function: Any) -> str:
     """SHA-256 of what a function does: its syntax tree without places and comments; its name where that is all."""
-    import ast
-    import textwrap
-
     try:
         return text_hash(ast.dump(ast.parse(textwrap.dedent(inspect.getsource(function)))))
     except (OSError, TypeError, SyntaxError):
@@ -199,7 +199,7 @@ class Reader:
         wanted = data[kind.__name__.lower()]
         if "file" in data:
             name = data["file"]
-            found = kind.find(name)
+            found = targets.examples.find(name) if kind is Target else kind.load(name)
             if mesh_hash(found) != wanted:
                 raise InputError("changed-mesh", path=name)
             return found

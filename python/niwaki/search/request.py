@@ -1,6 +1,6 @@
 """A search as a value: all that decides what is found, and nothing that does not.
 
-`niwaki.grow` and `niwaki.run` are short ways to make one and run it. It can be written to JSON and read again, sent to
+`niwaki.grow` and `niwaki.run` make one and run it. It can be written to JSON and read again, sent to
 another process, and its hash says whether two searches are the same.
 
 >>> import niwaki as nw
@@ -21,21 +21,21 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cache, cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from niwaki import _engine
-from niwaki.compiled import as_model, task
 from niwaki.errors import InputError
+from niwaki.lang.compiled import arguments, task
 from niwaki.lang.core import Core
+from niwaki.lang.models import Model, as_model
 from niwaki.methods import Forward, Method, Mh
 from niwaki.methods.checks import bad
+from niwaki.result import Result
+from niwaki.result.progress import Watch, watcher
+from niwaki.search import searching
+from niwaki.search.checks import check_polish, check_seed, check_threads, fresh
 from niwaki.search.data import Reader, Writer, model_data, of_record_class, text_hash
-from niwaki.sketches import Score
-from niwaki.words.models import Model
-
-if TYPE_CHECKING:
-    from niwaki.result import Result
-    from niwaki.search.searching import Watch
+from niwaki.targets.sketches import Score
 
 #: The version of what a search is written down as.
 FORMAT = 1
@@ -56,9 +56,7 @@ class StoredModel(Model[..., Any]):
 
     def __call__(self, *args: Any, **kwargs: Any) -> Any:
         """Run the model once with a fresh seed, and keep only its value."""
-        from niwaki.search.asking import run
-
-        return run(self, *args, **kwargs).value
+        return Search(self, tuple(arguments(self, args, kwargs)), seed=fresh(None)).run().value
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,7 +120,7 @@ class Search:
             check_polish(self.polish)
         if self.polish is not None and getattr(self.method, "diverse", None) is not None:
             suggestion = "None, and `Result.polish` for one of the results"
-            expected = "nothing beside `diverse`, as chains may meet"
+            expected = "None together with `diverse`, because chains may end in the same state"
             raise InputError(
                 "bad-setting", name="polish", found="mh(...)", expected=expected, suggestion=suggestion
             )
@@ -142,9 +140,20 @@ class Search:
         progress
             Called now and then with a `Progress`; what it raises ends the search.
         """
-        from niwaki.search.searching import carried_out
+        return searching.carried_out(self, check_threads(threads), progress)
 
-        return carried_out(self, check_threads(threads), progress)
+    def polished(
+        self,
+        result: Result,
+        method: Mh,
+        *,
+        seed: int | None = None,
+        threads: int | None = None,
+        progress: Watch | None = None,
+    ) -> Result:
+        """Go on from the best sample of a result of this search; see `Result.polish`."""
+        seed = result.seed if seed is None else seed
+        return searching.polished(result, method, seed, threads, watcher(progress))
 
     def data(self, files: str = "named") -> dict[str, Any]:
         """The search as plain data.
@@ -298,29 +307,3 @@ def _function_writer(write: Writer) -> Any:
         return model_hash(own) if write.files == "hashed" else model_data(own, write)
 
     return function
-
-
-def check_seed(seed: int) -> int:
-    """The seed, where it makes sense."""
-    if not isinstance(seed, int) or isinstance(seed, bool) or not 0 <= seed < 2**64:
-        raise bad("seed", seed, "a whole number from 0 to 2**64 - 1", "such a number, or leave it out")
-    return seed
-
-
-def check_polish(method: Any) -> None:
-    """Refuse what is not Metropolis-Hastings."""
-    if not isinstance(method, Mh):
-        suggestion = "`mh(20_000)`, or with a kernel `mh(20_000, kernel=kernels.drift())`"
-        raise bad("polish", method, "Metropolis-Hastings", suggestion)
-
-
-def check_threads(threads: int | None) -> int | None:
-    """The number of threads, where it makes sense."""
-    if threads is not None and (not isinstance(threads, int) or not 1 <= threads <= 1024):
-        raise bad(
-            "threads",
-            threads,
-            "a whole number from 1 to 1024",
-            "such a number, or leave it out for all cores",
-        )
-    return threads

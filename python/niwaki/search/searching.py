@@ -5,64 +5,28 @@ from __future__ import annotations
 import time
 import warnings
 from collections import Counter
-from collections.abc import Callable
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from niwaki import _engine
-from niwaki.compiled import as_model, translated
 from niwaki.errors import InputError, ModelFault
-from niwaki.info import INFOS, Info, PopulationInfo
-from niwaki.methods import Hmc, Mh, Nuts, ParticleGibbs, Smc
+from niwaki.lang.compiled import translated
+from niwaki.lang.models import as_model
+from niwaki.methods import Hmc, Method, Mh, Nuts, ParticleGibbs, Smc
 from niwaki.methods.checks import bad
 from niwaki.result import Result, Sample
-from niwaki.search.request import Search, check_polish, check_seed, check_threads
+from niwaki.result.chains import MhInfo, Running
+from niwaki.result.hmc import Drawn, HmcInfo
+from niwaki.result.info import INFOS, Info, PopulationInfo
+from niwaki.result.progress import EngineWatch, Watch, watcher
+from niwaki.search.checks import check_polish, check_seed, check_threads
 
 if TYPE_CHECKING:
-    from niwaki.methods import Method
-    from niwaki.mh_result import ChainResult
+    from niwaki.search.request import Search
 
 
 class SearchWarning(UserWarning):
     """A search gave a result, but less than was asked for."""
-
-
-@dataclass(frozen=True)
-class Progress:
-    """How far a search is; given to `progress` now and then.
-
-    Attributes
-    ----------
-    run, runs : int
-        Which of how many runs, from 0.
-    done : int
-        Barriers of a population, runs of the other methods.
-    ended : int
-        Particles that have ended.
-    best : float
-        Best log score of the population so far, nats.
-    """
-
-    run: int
-    runs: int
-    done: int
-    ended: int
-    best: float
-
-
-Watch = Callable[[Progress], None]
-#: What the engine calls: done, ended, best log score.
-EngineWatch = Callable[[int, int, float], None]
-
-
-def watcher(progress: Watch | None, number: int = 0, runs: int = 1) -> EngineWatch:
-    """What the engine calls, for a person's `progress`."""
-
-    def watch(done: int, ended: int, best: float) -> None:
-        if progress is not None:
-            progress(Progress(number, runs, done, ended, best))
-
-    return watch
 
 
 def carried_out(search: Search, threads: int | None, progress: Watch | None) -> Result:
@@ -94,8 +58,10 @@ def carried_out(search: Search, threads: int | None, progress: Watch | None) -> 
                 raise
             interrupted = True
             break
-        # Of several runs there is one record, that of the last, and no evidence.
-        info, interrupted = replace(one.info, log_evidence=None), one.interrupted
+        # Of several runs there is one record, that of the last, and no evidence; none where each has chains of its own.
+        if not isinstance(one.info, MhInfo | HmcInfo):
+            info = replace(one.info, log_evidence=None)
+        interrupted = one.interrupted
         invalid.update(one.invalid)
         if interrupted and found and not any(sample.has_ended for sample in one):
             spent += one.seconds
@@ -117,9 +83,10 @@ def carried_out(search: Search, threads: int | None, progress: Watch | None) -> 
             SearchWarning,
             stacklevel=4,
         )
-    result = Result(search, found, search.seed, info=info, interrupted=interrupted, invalid=invalid)
-    result.seconds = spent
-    return result
+    seconds = spent, sum(sample.cpu_seconds for sample in found)
+    return Result(
+        search, found, search.seed, info=info, interrupted=interrupted, invalid=invalid, seconds=seconds
+    )
 
 
 def starts(method: Method) -> bool:
@@ -134,13 +101,12 @@ def given(search: Search, seed: int | None = None) -> Result:
     return Result(search, [Sample.of_trace(trace, search)], search.seed)
 
 
-def _start(search: Search, seed: int) -> list[tuple[int, Any]] | None:
-    """The run that chains start from, each choice as the hash of its address and its value."""
+def _start(search: Search, seed: int) -> _engine.Run | None:
+    """The run that chains start from."""
     if search.choices is None:
         return None
     with translated(search.model.name, choices=search.choices):
-        first = search.task.replay(dict(search.choices), seed)
-    return [(choice[1], choice[3]) for choice in first.choices]
+        return search.task.replay(dict(search.choices), seed).run
 
 
 def once(search: Search, seed: int, threads: int | None, watch: EngineWatch) -> Result:
@@ -153,18 +119,17 @@ def once(search: Search, seed: int, threads: int | None, watch: EngineWatch) -> 
     method, functions = _written(search.method)
     counted, clock = search.task.uncounted(), Clock()
     with translated(search.model.name, f"seed={seed}"):
-        outcomes, interrupted, said = counted.search(
+        runs, interrupted, said = counted.search(
             method, seed, functions=functions, start=start, threads=threads, watch=watch
         )
     info = INFOS.get(search.method.NAME, Info)(**said)
     diverse = getattr(search.method, "diverse", None)
     if diverse is not None and isinstance(info, PopulationInfo):
-        outcomes = _different(outcomes, diverse, len(info.plan))
-    seconds, cpu_seconds = clock.read()
-    samples = [Sample(outcome, search, seed, seconds, cpu_seconds) for outcome in outcomes]
-    result = Result(search, samples, seed, info=info, interrupted=interrupted, invalid=counted.invalid())
-    result.seconds, result.cpu_seconds = seconds, cpu_seconds
-    return result
+        runs = _different(runs, diverse, len(info.plan))
+    seconds = clock.read()
+    samples = [Sample(run, search, seed, *seconds) for run in runs]
+    invalid = counted.invalid()
+    return Result(search, samples, seed, info=info, interrupted=interrupted, invalid=invalid, seconds=seconds)
 
 
 def _written(method: Method) -> tuple[str, list[_engine.Task]]:
@@ -184,14 +149,14 @@ class Clock:
         return time.perf_counter() - self._wall, time.process_time() - self._cpu
 
 
-def _different(outcomes: list[_engine.Outcome], wanted: int, populations: int) -> list[_engine.Outcome]:
+def _different(runs: list[_engine.Run], wanted: int, populations: int) -> list[_engine.Run]:
     """The best of those that differ; runs that did not end or are impossible are none."""
-    ended = [one for one in outcomes if one.has_ended and one.cause is None]
+    ended = [one for one in runs if one.has_ended and one.cause is None]
     ranked = sorted(ended, key=lambda one: -one.log_score)
     chosen = [ranked[place] for place in _engine.different(ranked, wanted)]
     if len(chosen) < wanted:
         warnings.warn(
-            f"{len(chosen)} of {wanted} results that differ were found in {populations} "
+            f"{len(chosen)} of {wanted} results that differ are in {populations} "
             f"population{'' if populations == 1 else 's'}; give more `populations`",
             SearchWarning,
             stacklevel=6,
@@ -205,23 +170,17 @@ def chains_of(
     seed: int,
     threads: int | None,
     watch: EngineWatch,
-    start: list[tuple[int, Any]] | None,
-) -> ChainResult:
-    """Chains in their first states, and their first proposals."""
-    from niwaki.mh_result import ChainResult
-
+    start: _engine.Run | None,
+    spent: tuple[float, float] = (0.0, 0.0),
+) -> Result:
+    """Chains in their first states, and their first proposals; `spent` are the seconds of the search before."""
     text, functions = _written(method)
     counted = search.task.uncounted()
     with translated(search.model.name, f"seed={seed}"):
-        chains = _engine.Chains(
-            counted,
-            text,
-            seed,
-            functions=functions,
-            known=None if start is None else dict(start),
-            threads=threads,
-        )
-    return ChainResult(search, method, counted, chains, seed, watch, threads).more(method.steps)
+        chains = _engine.Chains(counted, text, seed, functions=functions, start=start, threads=threads)
+    running = Running(chains, counted, watch, threads)
+    info = MhInfo(search=search, method=method, seed=seed, _running=running)
+    return Result(search, [], seed, method=method, info=info, seconds=spent).more(method.steps)
 
 
 def trajectories(
@@ -230,27 +189,30 @@ def trajectories(
     seed: int,
     threads: int | None,
     watch: EngineWatch,
-    start: list[tuple[int, Any]] | None,
+    start: _engine.Run | None,
 ) -> Result:
     """Chains that follow the gradient."""
-    from niwaki.hmc_result import HmcResult
-
     counted, clock = search.task.uncounted(), Clock()
     with translated(search.model.name, f"seed={seed}"):
         found = _engine.Trajectories(
-            counted,
-            method.text()[0],
-            seed,
-            known=None if start is None else dict(start),
-            threads=threads,
-            watch=watch,
+            counted, method.text()[0], seed, start=start, threads=threads, watch=watch
         )
-    result = HmcResult(search, method, counted, found, seed, *clock.read())
-    result.warn()
+    info, seconds = HmcInfo.of(search, seed, found), clock.read()
+    result = Result(
+        search,
+        Drawn(info, seconds),
+        seed,
+        info=info,
+        sizes=info.sizes,
+        interrupted=found.interrupted,
+        invalid=counted.invalid(),
+        seconds=seconds,
+    )
+    info.warn(method)
     return result
 
 
-def polished(result: Result, method: Mh, seed: int, threads: int | None, watch: EngineWatch) -> ChainResult:
+def polished(result: Result, method: Mh, seed: int, threads: int | None, watch: EngineWatch) -> Result:
     """Chains from the best sample of a result; their time is added to that of the search.
 
     A population is wide and short: it finds where to look, and each of its particles is built once. A chain is narrow
@@ -264,8 +226,5 @@ def polished(result: Result, method: Mh, seed: int, threads: int | None, watch: 
     if not best.has_ended:
         expected = "a search with a run that has ended, for the chain to start from"
         raise bad("polish", best, expected, "more time or particles")
-    start = [(choice[1], choice[3]) for choice in best._trace.choices]
-    chains = chains_of(result.search, method, seed, threads, watch, start)
-    chains.seconds += result.seconds
-    chains.cpu_seconds += result.cpu_seconds
-    return chains
+    spent = result.seconds, result.cpu_seconds
+    return chains_of(result.search, method, seed, threads, watch, best._run, spent)

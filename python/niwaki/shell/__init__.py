@@ -1,4 +1,4 @@
-"""The shell's commands, one a file; `niwaki.cli` puts them together.
+"""The shell's commands, one a file; `main` puts them together.
 
 app.py       the application they hang on, and what they share: arguments, folders, the line that shows progress
 asking.py    what a person asks of a shape, as flags
@@ -10,5 +10,8 @@ sample.py    `niwaki sample`: Markov chains, written to a folder
 explain.py   `niwaki explain`: what each strategy does for one proposal, as a picture
 models.py    `niwaki models`: the gallery
 color.py     `niwaki color`: a drawing in colours that differ
+finding.py   a model by what a person writes
+run_files.py a search and its runs as a file
+demo.py      the gallery, grown into its targets
 check.py     `niwaki check`: what a model is made of, with advice
 """

@@ -9,16 +9,17 @@ import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
+from rich.console import Console
 
-if TYPE_CHECKING:
-    from niwaki.search import Progress
+from niwaki.errors import FileError
+from niwaki.search import Progress
 
 app = typer.Typer(
     name="niwaki",
-    help="Grow procedural models into the shapes you ask for.",
+    help="Grow procedural models into given shapes.",
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
@@ -27,14 +28,12 @@ app = typer.Typer(
 
 ModelName = Annotated[str, typer.Argument(metavar="MODEL", help="A gallery name, or file.py:function.")]
 Folder = Annotated[
-    Path | None, typer.Option("-o", "--output", metavar="DIR", help="Where files go; default: out.")
+    Path | None, typer.Option("-o", "--output", metavar="DIR", help="The folder for files; default: out.")
 ]
 
 
 def made_folder(place: Path) -> Path:
     """The folder, made where it is not there."""
-    from niwaki.file_errors import FileError
-
     try:
         place.mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -45,8 +44,6 @@ def made_folder(place: Path) -> Path:
 @contextmanager
 def progress_line(name: str) -> Iterator[Callable[[Progress], None]]:
     """A line on stderr that tells how far the search is; nothing where stderr is not a terminal."""
-    from rich.console import Console
-
     console = Console(stderr=True)
     if not console.is_terminal:
         yield lambda _: None

@@ -10,16 +10,14 @@ Flags that contradict one another, or lack a companion, are refused before any f
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
 from niwaki.errors import InputError
-
-if TYPE_CHECKING:
-    from niwaki.finding import Found
-    from niwaki.sketches import Score
-    from niwaki.target import Target
+from niwaki.shell.finding import Found
+from niwaki.targets import examples, sketches
+from niwaki.targets.target import Target
 
 Triple = tuple[float, float, float]
 
@@ -29,24 +27,28 @@ def _file(flag: str, text: str) -> Any:
 
 
 TargetFile = Annotated[str | None, _file("--target", "A mesh to fill (OBJ, STL, PLY, GLB).")]
-AvoidFiles = Annotated[list[str] | None, _file("--avoid", "A mesh to keep away from; may be repeated.")]
+AvoidFiles = Annotated[list[str] | None, _file("--avoid", "A mesh to avoid; may be repeated.")]
 Floor = Annotated[float | None, typer.Option("--floor", metavar="Y", help="A height to stay above.")]
 Within = Annotated[
     str | None,
-    typer.Option("--within", metavar="X,Y,Z,X,Y,Z", help="Low and high corner of a box to stay in, softly."),
+    typer.Option("--within", metavar="X,Y,Z,X,Y,Z", help="Low and high corner of a box to stay in; soft."),
 ]
 ImageFile = Annotated[str | None, _file("--match-image", "A silhouette to match; needs --camera.")]
 ShadowFile = Annotated[str | None, _file("--match-shadow", "A shadow to cast; needs --light and --receiver.")]
-CameraFile = Annotated[str | None, _file("--camera", "Who sees the image or the shadow, as JSON.")]
-WeightFile = Annotated[str | None, _file("--weight-image", "Where the match matters more: white.")]
-Weight = Annotated[float | None, typer.Option("--weight", help="How much more white weighs; default: 10.")]
+CameraFile = Annotated[
+    str | None, _file("--camera", "The camera that sees the image or the shadow, a JSON file.")
+]
+WeightFile = Annotated[str | None, _file("--weight-image", "An image, white where a pixel counts more.")]
+Weight = Annotated[
+    float | None, typer.Option("--weight", help="How much more a white pixel counts; default: 10.")
+]
 Light = Annotated[
     str | None, typer.Option("--light", metavar="X,Y,Z", help="The direction in which the light travels.")
 ]
 ReceiverFile = Annotated[str | None, _file("--receiver", "A mesh that the shadow falls on.")]
 Voxel = Annotated[
     float | None,
-    typer.Option("--voxel", metavar="SIZE", help="Cell size; default: what suits model or target."),
+    typer.Option("--voxel", metavar="SIZE", help="Cell size; default: depends on the model or target."),
 ]
 Sigma = Annotated[float, typer.Option("--sigma", help="Strictness of the match; smaller is stricter.")]
 
@@ -84,15 +86,15 @@ class Asked:
                 image,
                 "`--camera`",
                 self.camera is not None,
-                "it says from where the image is seen",
+                "an image is seen by a camera",
             ),
-            ("--match-shadow", shadow, "`--light`", self.light is not None, "it says where a shadow falls"),
+            ("--match-shadow", shadow, "`--light`", self.light is not None, "a shadow needs a light"),
             (
                 "--match-shadow",
                 shadow,
                 "`--receiver`",
                 self.receiver is not None,
-                "a shadow falls on something",
+                "a shadow needs a receiver",
             ),
             ("--light", self.light is not None, "`--match-shadow`", shadow, "only a shadow has a light"),
             (
@@ -100,7 +102,7 @@ class Asked:
                 self.receiver is not None,
                 "`--match-shadow`",
                 shadow,
-                "only a shadow falls on something",
+                "only a shadow has a receiver",
             ),
             (
                 "--camera",
@@ -114,14 +116,14 @@ class Asked:
                 self.weight_image is not None,
                 pictures,
                 image or shadow,
-                "it weighs a picture",
+                "it weights the pixels of a picture",
             ),
             (
                 "--weight",
                 self.weight is not None,
                 "`--weight-image`",
                 self.weight_image is not None,
-                "it says where",
+                "it is the weight of the white pixels",
             ),
         ):
             if given and not there:
@@ -129,20 +131,16 @@ class Asked:
 
     def aim(self, found: Found) -> Target | None:
         """The volume to fill: the one named; else the model's own, unless a picture is asked for."""
-        from niwaki.target import Target
-
         if self.target is not None:
-            return Target.find(self.target)
+            return examples.find(self.target)
         if self.match_image is not None or self.match_shadow is not None:
             return None
         if found.entry is None or found.entry.target_name is None:
             raise InputError("no-target", name=found.reference)
-        return Target.find(f"gallery:{found.entry.target_name}")
+        return examples.find(f"gallery:{found.entry.target_name}")
 
-    def controls(self, voxel: float | None, sigma: float) -> Score:
+    def controls(self, voxel: float | None, sigma: float) -> sketches.Score:
         """Everything but the volume: what forbids comes before what scores."""
-        from niwaki import sketches
-
         score = sketches.Score()
         if self.floor is not None:
             score *= sketches.floor(self.floor)

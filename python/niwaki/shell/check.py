@@ -9,7 +9,9 @@ from typing import Annotated
 import typer
 
 from niwaki.errors import ModelError
+from niwaki.lang.advice import advise
 from niwaki.shell.app import ModelName, app
+from niwaki.shell.finding import find
 
 
 @app.command()
@@ -18,10 +20,7 @@ def check(
     core: Annotated[bool, typer.Option("--core", help="Print the core form.")] = False,
     bytecode: Annotated[bool, typer.Option("--bytecode", help="Print the bytecode.")] = False,
 ) -> None:
-    """Compile MODEL and report what it is made of, with advice; exit 1 when it does not compile."""
-    from niwaki.finding import find
-    from niwaki.lang.advice import advise
-
+    """Compile MODEL and report its functions and choices, with advice; exit 1 when it does not compile."""
     found = find(model)
     start = time.perf_counter()
     try:

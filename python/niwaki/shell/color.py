@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
+from niwaki.color import Coloring, Drawing, Rules
+from niwaki.color import color as colorings_of
+from niwaki.color.agree import least_slack
+from niwaki.color.files import write
+from niwaki.color.search import rules_of
+from niwaki.methods import at_least_one
+from niwaki.search.checks import fresh
 from niwaki.shell.app import Folder, app, made_folder
-
-if TYPE_CHECKING:
-    from niwaki.color import Coloring, Drawing, Rules
 
 
 @app.command()
@@ -25,7 +29,7 @@ def color(
         ),
     ],
     rules: Annotated[
-        str | None, typer.Option("--rules", metavar="FILE", help="What is asked of the regions, as TOML.")
+        str | None, typer.Option("--rules", metavar="FILE", help="Rules for the regions, a TOML file.")
     ] = None,
     count: Annotated[int, typer.Option("-n", "--count", help="How many colourings.")] = 12,
     output: Folder = None,
@@ -39,14 +43,7 @@ def color(
         int | None, typer.Option(help="Default: all cores. Results do not depend on it.")
     ] = None,
 ) -> None:
-    """Color DRAWING in ways that differ; writes 01.svg, 01.png, ..., sheet.png, colors.json and residuals.csv."""
-    from niwaki.color import Drawing, Rules
-    from niwaki.color import color as colorings_of
-    from niwaki.color.files import write
-    from niwaki.color.search import rules_of
-    from niwaki.methods import at_least_one
-    from niwaki.search.asking import fresh
-
+    """Color DRAWING in colourings that differ; writes 01.svg, 01.png, ..., sheet.png, colors.json and residuals.csv."""
     for flag, value in (("--count", count), ("--size", size), ("--measure", measure)):
         at_least_one(flag, value)
     seed = fresh(seed)
@@ -64,8 +61,6 @@ def color(
 
 def _before(drawing: Drawing, rules: Rules) -> None:
     """What is known before the search: regions, and how near the rules can come to holding."""
-    from niwaki.color.agree import least_slack
-
     rules.check(drawing.names)
     print(f"{len(drawing.names)} regions, {len(drawing.pairs)} pairs of neighbours, {len(list(rules))} rules")
     if drawing.hidden:

@@ -7,7 +7,10 @@ from typing import Annotated
 
 import typer
 
+from niwaki.draw.reuse import WORDS, counts, draw, said
+from niwaki.search import explain as explained
 from niwaki.shell.app import ModelName, app, made_folder
+from niwaki.shell.finding import find
 
 
 @app.command()
@@ -15,18 +18,14 @@ def explain(
     model: ModelName,
     choice: Annotated[
         str,
-        typer.Option("--choice", metavar="ADDRESS", help="The choice that is changed; patterns may be used."),
+        typer.Option("--choice", metavar="ADDRESS", help="The choice to change; a pattern is possible."),
     ],
-    seed: Annotated[int, typer.Option(help="Of the first state and the proposal.")] = 0,
+    seed: Annotated[int, typer.Option(help="The seed of the first state and the proposal.")] = 0,
     output: Annotated[
         Path, typer.Option("-o", "--output", metavar="FILE", help="A .svg or .png file.")
     ] = Path("explain.svg"),
 ) -> None:
-    """Draw which calls of MODEL a proposal makes each strategy run, go on with, skip, make and take away."""
-    from niwaki.draw.reuse import WORDS, counts, draw, said
-    from niwaki.finding import find
-    from niwaki.search import explain as explained
-
+    """Draw which calls of MODEL each strategy runs, resumes, skips, creates and removes for a proposal."""
     found = find(model)
     told = explained(found.model, choice, seed=seed)
     made_folder(output.parent)

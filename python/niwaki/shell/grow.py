@@ -5,21 +5,25 @@ from __future__ import annotations
 import json
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
-from niwaki.shell import asking, settings, writing
+from niwaki import search as searches
+from niwaki.draw.picture import save_image
+from niwaki.gallery import PARTICLES
+from niwaki.result import Result, Sample
+from niwaki.result.result import caption
+from niwaki.shell import asking, run_files, settings, writing
 from niwaki.shell.app import Folder, ModelName, app, made_folder, progress_line
-
-if TYPE_CHECKING:
-    from niwaki.finding import Found
-    from niwaki.result import Result, Sample
+from niwaki.shell.finding import Found, find
+from niwaki.shell.run_files import numbers
+from niwaki.targets.views import save_view
 
 
 @app.command()
 @settings.with_settings(
-    *settings.METHODS.values(), temper="16, with absolute weights 1", particles="what suits the model, or 300"
+    *settings.METHODS.values(), temper="16, with absolute weights 1", particles="the model's own, or 300"
 )
 def grow(
     model: ModelName,
@@ -36,12 +40,12 @@ def grow(
     receiver: asking.ReceiverFile = None,
     voxel: asking.Voxel = None,
     sigma: asking.Sigma = 0.02,
-    rule: Annotated[str, typer.Option(help="What intersects: solid or surface.")] = "solid",
+    rule: Annotated[str, typer.Option(help="Which parts count as intersecting: solid or surface.")] = "solid",
     method: settings.MethodName = "smc",
     polish: settings.Polish = None,
     polish_kernel: settings.PolishKernel = None,
     runs: Annotated[int, typer.Option(help="How many results, with seeds SEED, SEED + 1, ...")] = 1,
-    seed: Annotated[int | None, typer.Option(help="Default: a fresh one, which is written down.")] = None,
+    seed: Annotated[int | None, typer.Option(help="Default: a new one, which run.json keeps.")] = None,
     threads: Annotated[
         int | None, typer.Option(help="Default: all cores. Results do not depend on it.")
     ] = None,
@@ -56,15 +60,14 @@ def grow(
         bool, typer.Option("--json", help="Print the numbers as JSON; files are written only with -o.")
     ] = False,
     picture: Annotated[
-        bool, typer.Option("--picture/--no-picture", help="Draw best.png, sheet.png and what was matched.")
+        bool,
+        typer.Option(
+            "--picture/--no-picture", help="Draw best.png, sheet.png and the pictures that were matched."
+        ),
     ] = True,
     **given: Any,
 ) -> None:
-    """Grow MODEL into what is asked for; writes best.glb, best.png, sheet.png and run.json."""
-    from niwaki import search as searches
-    from niwaki.finding import find
-    from niwaki.gallery import PARTICLES
-
+    """Grow MODEL into its target; writes best.glb, best.png, sheet.png and run.json."""
     asked = asking.Asked(
         target,
         tuple(avoid or ()),
@@ -105,8 +108,6 @@ def grow(
     if output is not None or not as_json:
         _write(output or Path("out"), result, found, files, picture)
     if as_json:
-        from niwaki.run_files import numbers
-
         print(json.dumps({"runs": [numbers(sample) for sample in result]}))
     else:
         _summary(result, output or Path("out"))
@@ -122,8 +123,6 @@ def _write(
     picture: bool,
 ) -> None:
     """The record first: whatever fails after it can be made again from there."""
-    from niwaki import run_files
-
     folder = made_folder(output)
     run_files.save(folder / "run.json", run_files.written(result, found))
     best: Sample = result.best
@@ -131,9 +130,6 @@ def _write(
         print("warning: the best run emitted nothing, so there is no mesh and no picture", file=sys.stderr)
         return
     if picture:
-        from niwaki.draw.picture import save_image
-        from niwaki.draw.views import save_view
-
         best.save(folder / "best.png")
         save_image(lambda: result.sheet(), folder / "sheet.png")
         for view in result.score.views:
@@ -142,7 +138,6 @@ def _write(
 
 
 def _summary(result: Result, folder: Path) -> None:
-    from niwaki.result import caption
 
     for sample in result:
         print(f"{caption(sample)}   {sample.primitives} primitives   {sample.seconds:.2f} s")

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
+from niwaki.gallery import entries
 from niwaki.shell.app import app
 
 
 @app.command()
 def models() -> None:
-    """List the gallery: name, target, what it makes."""
-    from niwaki.gallery import entries
-
+    """List the gallery: name, target, title."""
     for entry in entries():
         print(f"{entry.name:<16} {entry.target_name or '-':<16} {entry.title}")

@@ -9,11 +9,12 @@ import typer
 
 from niwaki.shell import writing
 from niwaki.shell.app import Folder, app, made_folder
+from niwaki.shell.run_files import load, replayed
 
 
 @app.command()
 def replay(
-    run: Annotated[Path, typer.Argument(metavar="RUN.JSON", help="What `niwaki grow` wrote.")],
+    run: Annotated[Path, typer.Argument(metavar="RUN.JSON", help="The file that `niwaki grow` wrote.")],
     number: Annotated[
         int | None, typer.Option("--run", help="Which of its results, from 0; default: the best.")
     ] = None,
@@ -25,9 +26,7 @@ def replay(
     size: writing.Size = None,
     picture: Annotated[bool, typer.Option("--picture/--no-picture", help="Draw best.png.")] = True,
 ) -> None:
-    """Make the best result of a search again, byte for byte, in any format."""
-    from niwaki.run_files import load, replayed
-
+    """Write the best result of a search again, byte for byte, in any format."""
     files = writing.Files.asked(formats, scale, fuse, frames, size)
     sample = replayed(load(run), number)
     folder = made_folder(output or Path("out"))

@@ -10,19 +10,23 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
+from rich.console import Console
 
-from niwaki import kernels
+from niwaki import kernels, search
+from niwaki.draw.picture import save_image
+from niwaki.errors.files import write_whole
 from niwaki.methods import Mh
-from niwaki.shell import settings
+from niwaki.result import Result
+from niwaki.search import Progress
+from niwaki.shell import run_files, settings
 from niwaki.shell.app import Folder, ModelName, app, made_folder
-
-if TYPE_CHECKING:
-    from niwaki.finding import Found
-    from niwaki.mh_result import ChainResult
-    from niwaki.search import Progress
+from niwaki.shell.finding import Found, find
+from niwaki.shell.run_files import numbers
+from niwaki.targets import examples
+from niwaki.targets.sketches import Score, no_self_intersection, volume_match
 
 
 @app.command()
@@ -39,7 +43,7 @@ def sample(
     ] = None,
     voxel: Annotated[float | None, typer.Option(metavar="SIZE", help="Cell size for the target.")] = None,
     sigma: Annotated[float, typer.Option(help="Strictness of the match.")] = 0.02,
-    seed: Annotated[int | None, typer.Option(help="Default: a fresh one, which is written down.")] = None,
+    seed: Annotated[int | None, typer.Option(help="Default: a new one, which run.json keeps.")] = None,
     threads: Annotated[int | None, typer.Option(help="Default: all cores.")] = None,
     output: Folder = None,
     as_json: Annotated[
@@ -50,17 +54,11 @@ def sample(
     ] = True,
     **given: Any,
 ) -> None:
-    """Sample MODEL by Markov chains; writes samples.csv and run.json, and best.glb, best.png, sheet.png of scenes."""
-    from niwaki import search
-    from niwaki.finding import find
-    from niwaki.mh_result import ChainResult
-    from niwaki.sketches import Score, no_self_intersection, volume_match
-    from niwaki.target import Target
-
+    """Sample MODEL by Markov chains; writes samples.csv and run.json, and best.glb, best.png, sheet.png for scenes."""
     found = find(model)
     score = Score()
     if target is not None:
-        score = no_self_intersection() * volume_match(Target.find(target), voxel, sigma)
+        score = no_self_intersection() * volume_match(examples.find(target), voxel, sigma)
     given = settings.typed(given)
     steps = given.get("steps", Mh.steps)
     method = Mh(**{"kernel": kernels.mh(), "chains": 4, "warmup": steps // 5, "keep": 100, **given})
@@ -68,12 +66,9 @@ def sample(
         result = search.run(
             found.model, method=method, score=score, seed=seed, threads=threads, progress=progress
         )
-    assert isinstance(result, ChainResult)
     if output is not None or not as_json:
         _write(output or Path("out"), result, found, picture)
     if as_json:
-        from niwaki.run_files import numbers
-
         print(json.dumps({"runs": [numbers(one) for one in result.bests]}))
     else:
         _summary(result, output or Path("out"))
@@ -81,10 +76,7 @@ def sample(
         raise typer.Exit(130)
 
 
-def _write(output: Path, result: ChainResult, found: Found, picture: bool) -> None:
-    from niwaki import run_files
-    from niwaki.draw.picture import save_image, write_whole
-    from niwaki.result import Result
+def _write(output: Path, result: Result, found: Found, picture: bool) -> None:
 
     folder = made_folder(output)
     # The best of each chain is what can be replayed.
@@ -100,7 +92,7 @@ def _write(output: Path, result: ChainResult, found: Found, picture: bool) -> No
         save_image(lambda: bests.sheet(), folder / "sheet.png")
 
 
-def _table(result: ChainResult) -> str:
+def _table(result: Result) -> str:
     """The samples, one a line."""
     text = io.StringIO()
     rows = csv.writer(text, lineterminator="\n")
@@ -111,12 +103,12 @@ def _table(result: ChainResult) -> str:
     return text.getvalue()
 
 
-def _summary(result: ChainResult, folder: Path) -> None:
+def _summary(result: Result, folder: Path) -> None:
     print(f"{'site':<40}{'proposals':>12}{'accepted':>10}")
     for name, row in list(result.acceptance.items())[:12]:
         print(f"{name:<40}{row.proposed:>12}{row.rate:>10.2f}")
         if row.proposed >= 100 and row.outside == row.proposed:
-            print(f"warning: every proposal for `{name}` lay outside its support", file=sys.stderr)
+            print(f"warning: every proposal for `{name}` was outside its support", file=sys.stderr)
     counters = result.counters
     if counters["many_proposed"]:
         share = counters["many_accepted"] / counters["many_proposed"]
@@ -129,8 +121,6 @@ def _summary(result: ChainResult, folder: Path) -> None:
 @contextmanager
 def _shown(name: str, proposals: int) -> Iterator[Callable[[Progress], None]]:
     """A line on stderr that tells how far the chains are; nothing where stderr is not a terminal."""
-    from rich.console import Console
-
     console = Console(stderr=True)
     if not console.is_terminal:
         yield lambda _: None
@@ -140,7 +130,7 @@ def _shown(name: str, proposals: int) -> Iterator[Callable[[Progress], None]]:
         def show(now: Progress) -> None:
             best = f"{now.best:.2f}" if math.isfinite(now.best) else "-"
             status.update(
-                f"sampling {name}: {now.done} of {proposals} proposals, best {best}   (Ctrl-C keeps what there is)"
+                f"sampling {name}: {now.done} of {proposals} proposals, best {best}   (Ctrl-C keeps the states so far)"
             )
 
         yield show

@@ -16,6 +16,7 @@ import typer
 from niwaki import kernels
 from niwaki.errors import InputError
 from niwaki.methods import Method, Mh, ParticleGibbs, Pimh, Smc
+from niwaki.search.asking import sharpened
 
 #: The methods of `niwaki grow`, by the name that is typed.
 METHODS: dict[str, type[Method]] = {"smc": Smc, "particle-gibbs": ParticleGibbs, "pimh": Pimh}
@@ -25,11 +26,15 @@ MethodName = Annotated[
 ]
 Polish = Annotated[
     int | None,
-    typer.Option("--polish", metavar="STEPS", help="Go on from the best: so many proposals of a chain."),
+    typer.Option(
+        "--polish", metavar="STEPS", help="Continue from the best result: STEPS proposals of a chain."
+    ),
 ]
 PolishKernel = Annotated[
     str | None,
-    typer.Option("--polish-kernel", metavar="KERNEL", help='With --polish: how it moves; default: "mh()".'),
+    typer.Option(
+        "--polish-kernel", metavar="KERNEL", help='With --polish: the kernel of the chain; default: "mh()".'
+    ),
 ]
 
 #: Short names.
@@ -122,8 +127,6 @@ def method(name: str, given: dict[str, Any], usual: int) -> Method:
     usual
         The number of particles that suits the model.
     """
-    from niwaki.search.asking import sharpened
-
     chosen = METHODS.get(name)
     if chosen is None:
         raise InputError(
@@ -147,8 +150,8 @@ def method(name: str, given: dict[str, Any], usual: int) -> Method:
                     "flags-exclude",
                     flag="--seconds",
                     other=flag,
-                    reason="a time to spend decides how many particles there are, in how many populations",
-                    cure=f"give the one or the other; run.json keeps what {said['seconds']:g} s came to",
+                    reason="the given time decides the numbers of particles and populations",
+                    cure=f"give only one of them; run.json contains the numbers for {said['seconds']:g} s",
                 )
     said = {"particles": usual, **said}
     return sharpened(said) if chosen is Smc else chosen(**{"temper": 16.0, **said})
@@ -164,7 +167,7 @@ def polish(steps: int | None, kernel: str | None) -> Mh | None:
     if steps is None:
         if kernel is None:
             return None
-        reason = "it says how the chain moves"
+        reason = "it is the kernel of the chain"
         raise InputError("flag-alone", flag="--polish-kernel", other="`--polish`", reason=reason)
     return Mh(steps, kernel=None if kernel is None else kernels.parse(kernel), keep=0)
 

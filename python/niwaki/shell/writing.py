@@ -8,15 +8,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
+from niwaki.draw.solid import kernel
 from niwaki.errors import InputError, NiwakiError
-
-if TYPE_CHECKING:
-    from niwaki.result import Sample
-    from niwaki.target import Target
+from niwaki.result import Sample
+from niwaki.targets.target import Target
 
 MESHES, SOLIDS, ANIMATIONS = ("glb", "obj", "ply"), ("stl", "3mf"), ("gif", "apng")
 FORMATS = (*MESHES, *SOLIDS, *ANIMATIONS)
@@ -75,8 +74,6 @@ class Files:
         if frames is not None and not 1 <= frames <= 10_000:
             raise _refused("--frames", repr(frames), "a whole number from 1 to 10000", "48")
         if set(SOLIDS) & set(chosen):
-            from niwaki.draw.solid import kernel
-
             kernel()
         return cls(chosen, scale, fuse, frames, _pixels(size))
 

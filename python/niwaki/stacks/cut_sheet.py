@@ -9,15 +9,15 @@ from __future__ import annotations
 import io
 from dataclasses import dataclass
 from html import escape
-from importlib import import_module
 from os import PathLike
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from niwaki.draw.picture import write_whole
-from niwaki.file_errors import FileError
+from niwaki.errors import FileError
+from niwaki.errors.extras import optional
+from niwaki.errors.files import write_whole
 from niwaki.stacks.structure import Floats, Structure
 
 #: Corners of the two outlines that a block may have, and the edges along its thickness.
@@ -331,7 +331,4 @@ def svg_page(width: float, height: float, body: list[str]) -> str:
 
 def need(module: str) -> Any:
     """Import a library of the extra `stacks`, or say how to get it."""
-    try:
-        return import_module(module)
-    except ImportError:
-        raise FileError("missing-extra", task="laying pieces out on a board", extra="stacks") from None
+    return optional(module, "laying pieces out on a board", "stacks")

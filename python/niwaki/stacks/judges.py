@@ -8,12 +8,12 @@ MuJoCo, each a rigid body of its own, and waits.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from importlib import import_module
 from typing import Any
 
 import numpy as np
 
-from niwaki.file_errors import FileError
+from niwaki.errors import FileError
+from niwaki.errors.extras import optional
 from niwaki.stacks.structure import Floats, Structure
 
 #: A residual below this share of the mean weight is balance.
@@ -246,8 +246,4 @@ def _floor(part: Structure) -> float:
 
 def need(module: str) -> Any:
     """Import a library of the extra `stacks`, or say how to get it."""
-    try:
-        return import_module(module)
-    except ImportError:
-        task = "judging a structure"
-        raise FileError("missing-extra", task=task, extra="stacks") from None
+    return optional(module, "judging a structure", "stacks")

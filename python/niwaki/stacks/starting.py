@@ -6,17 +6,17 @@ and narrows by tens, and at each the log density is maximised (L-BFGS, through S
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from niwaki.errors import ModelFault
+from niwaki.lang.models import Model
+from niwaki.result.gradient import LogDensity
+from niwaki.result.sample import log_density
+from niwaki.search import run
 from niwaki.stacks.judges import need
-
-if TYPE_CHECKING:
-    from niwaki.gradient import LogDensity
-    from niwaki.stacks.structure import Floats
-    from niwaki.words.models import Model
+from niwaki.stacks.structure import Floats
 
 #: Tolerances on the way, as multiples of the last.
 WIDER = (300.0, 30.0, 3.0, 1.0)
@@ -93,9 +93,6 @@ def polished(
     dict of str to values
         The choices of the structure that was found.
     """
-    from niwaki.gradient import log_density
-    from niwaki.search import run
-
     optimize = need("scipy.optimize")
     for finer in FINER:
         density = log_density(run(model, choices=choices, width=finer * width, **arguments).best)
@@ -108,9 +105,6 @@ def polished(
 
 def density_of(model: Model[..., Any], seed: int, **arguments: Any) -> LogDensity:
     """The log density around the first draw of the prior that is possible."""
-    from niwaki.gradient import log_density
-    from niwaki.search import run
-
     for number in range(TRIES):
         try:
             return log_density(run(model, seed=seed + number, **arguments).best)

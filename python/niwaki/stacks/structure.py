@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from niwaki.file_errors import FileError
+from niwaki.errors import FileError
 from niwaki.stacks.blocks import BOTTOM, SIDES, TOP
 
 Floats = NDArray[np.float64]

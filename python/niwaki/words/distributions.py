@@ -42,12 +42,12 @@ class Bernoulli(Distribution):
 
 @dataclass(frozen=True)
 class Categorical(Distribution):
-    """An index from 0, drawn with odds proportional to `weights`.
+    """An index from 0, drawn with probability proportional to its weight.
 
     Parameters
     ----------
     weights
-        Odds of each index, not negative, not all zero; they need not sum to one.
+        Weight of each index, not negative, not all zero; they need not sum to one.
     """
 
     family: ClassVar[str] = "categorical"
@@ -378,12 +378,12 @@ class MultivariateGaussian(Distribution):
 
 @dataclass(frozen=True)
 class Mixture(Distribution):
-    """A draw from one of several distributions, picked with odds proportional to `weights`.
+    """A draw from one of several distributions, picked with probability proportional to its weight.
 
     Parameters
     ----------
     weights
-        Odds of each component.
+        Weight of each component.
     components
         Distribution values, as many as weights.
     """
@@ -409,27 +409,5 @@ class Delta(Distribution):
     value: Any
 
 
-FAMILIES: tuple[type[Distribution], ...] = (
-    Bernoulli,
-    Categorical,
-    DiscreteUniform,
-    Poisson,
-    Binomial,
-    Geometric,
-    Uniform,
-    Gaussian,
-    LogNormal,
-    Gamma,
-    InverseGamma,
-    Beta,
-    Exponential,
-    Laplace,
-    Cauchy,
-    StudentT,
-    VonMises,
-    TruncatedGaussian,
-    Dirichlet,
-    MultivariateGaussian,
-    Mixture,
-    Delta,
-)
+#: In the order in which they stand here.
+FAMILIES: tuple[type[Distribution], ...] = tuple(Distribution.__subclasses__())

@@ -87,7 +87,7 @@ def future(function: Callable[..., T], *args: Any) -> T:
 
     Returns
     -------
-    A promise of the function's value, to be given to `force`.
+    A future of the function's value. It may be passed on; only `force` looks at it.
     """
     promise: T = runner("future").future(function, args)
     return promise
@@ -99,7 +99,7 @@ def force(promise: T) -> T:
     Parameters
     ----------
     promise
-        What `future` gave.
+        What `future` gave; anything else is given back.
     """
     value: T = runner("force").force(promise)
     return value

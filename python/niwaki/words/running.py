@@ -9,6 +9,8 @@ from collections.abc import Callable, Sequence
 from contextvars import ContextVar
 from typing import Any, Protocol
 
+from niwaki.errors import InputError
+
 
 class Runner(Protocol):
     """What a plain-Python run answers; one method for each effect."""
@@ -61,7 +63,5 @@ def runner(word: str) -> Runner:
     """The run that is going on, or an error that names the word."""
     found = current.get()
     if found is None:
-        from niwaki.errors import InputError
-
         raise InputError("outside-a-model", word=word)
     return found

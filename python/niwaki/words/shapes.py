@@ -1,16 +1,17 @@
 """Shapes, the things that `emit` adds to a scene. Right-handed, y up, metres unless the model says otherwise.
 
 A point is a 3-tuple, a list or a `vec`. A colour is `(r, g, b)` in [0, 1]. A rotation is three rows of three numbers,
-as `rotation(axis, angle)` gives. In a plain-Python run a shape is the engine's own `Shape`; where the engine is not
-there, a record of the same arguments.
+as `rotation(axis, angle)` gives. In a plain-Python run a shape is the engine's own `Shape`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any, NamedTuple
 
+import numpy as np
+
+from niwaki import _engine
 from niwaki.words.vectors import VecLike
 
 Rotation = Sequence[Sequence[float]]
@@ -56,36 +57,11 @@ class Bark(NamedTuple):
     high_radius: float
 
 
-@dataclass(frozen=True)
-class ShapeRecord:
-    """A shape as its constructor's name and arguments, in the order of the signature."""
-
-    kind: str
-    arguments: tuple[Any, ...]
-
-
 def _make(kind: str, *arguments: Any) -> Any:
-    plain: tuple[Any, ...] = tuple(_plain(argument) for argument in arguments)
-    try:
-        from niwaki import _engine
-    except ImportError:
-        return ShapeRecord(kind, plain)
-    shape = getattr(_engine, "Shape", None)
-    if shape is None:
-        return ShapeRecord(kind, plain)
     if kind == "mesh":
-        import numpy as np
-
-        vertices, faces = np.asarray(plain[0], dtype=np.float64), np.asarray(plain[1], dtype=np.int64)
-        plain = (vertices, faces, *plain[2:])
-    return getattr(shape, kind)(*plain)
-
-
-def _plain(value: Any) -> Any:
-    """Tuples of numbers for points, whatever they were written as."""
-    if isinstance(value, str) or not hasattr(value, "__iter__"):
-        return value
-    return tuple(_plain(part) for part in value)
+        vertices, faces, *rest = arguments
+        arguments = (np.asarray(vertices, dtype=np.float64), np.asarray(faces, dtype=np.int64), *rest)
+    return getattr(_engine.Shape, kind)(*arguments)
 
 
 def box(
@@ -228,3 +204,7 @@ def mesh(
         `(r, g, b)` in [0, 1].
     """
     return _make("mesh", vertices, faces, center, rotation, scale, color)
+
+
+#: The words for shapes; the engine has a function for each of the same name.
+SHAPES = (box, cylinder, limb, segment, mesh)

@@ -9,7 +9,7 @@ import pytest
 from niwaki.color import Drawing
 from niwaki.color.drawing import neighbours
 from niwaki.color.svg import Artwork
-from niwaki.file_errors import FileError
+from niwaki.errors import FileError
 from PIL import Image
 
 pytest.importorskip("resvg_py")

@@ -7,7 +7,7 @@ import pytest
 from niwaki.color import Rules, lab
 from niwaki.color.agree import contradiction, least_slack
 from niwaki.color.drawing import OWN
-from niwaki.file_errors import FileError
+from niwaki.errors import FileError
 
 
 def refused(place, text: str) -> FileError:

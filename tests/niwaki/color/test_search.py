@@ -8,10 +8,10 @@ import json
 import numpy as np
 import pytest
 from niwaki import explore, mh
-from niwaki.cli import app
 from niwaki.color import Drawing, Rules, color, lab
 from niwaki.color.search import default_method, farthest
 from niwaki.errors import InputError
+from niwaki.shell.main import app
 from PIL import Image
 from typer.testing import CliRunner
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from niwaki.color import Drawing, Rules, color
-from niwaki.file_errors import FileError
+from niwaki.errors import FileError
 
 pytest.importorskip("resvg_py")
 GOLDEN = Path(__file__).parents[2] / "golden" / "drawings.txt"

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from niwaki._engine import Shape
 from niwaki.draw.animation import animate, growth
-from niwaki.file_errors import FileError
-from niwaki.scene import Scene
+from niwaki.draw.scene import Scene
+from niwaki.errors import FileError
 from PIL import Image
 
 SMALL = {"size": (96, 72), "samples": 1}

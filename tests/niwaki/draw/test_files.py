@@ -12,8 +12,8 @@ import pytest
 import trimesh
 from niwaki._engine import Shape
 from niwaki.draw.glb import glb
-from niwaki.file_errors import FileError
-from niwaki.scene import Scene
+from niwaki.draw.scene import Scene
+from niwaki.errors import FileError
 
 
 def scene(order: int = 1) -> Scene:

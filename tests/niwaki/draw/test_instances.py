@@ -16,7 +16,7 @@ from niwaki._engine import Shape
 from niwaki.draw.glb import glb
 from niwaki.draw.instances import instances, quaternion
 from niwaki.draw.parts import part_meshes
-from niwaki.scene import Scene
+from niwaki.draw.scene import Scene
 
 AXIS = (0.36, 0.48, 0.8)
 

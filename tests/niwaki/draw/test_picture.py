@@ -13,9 +13,9 @@ import pytest
 from niwaki import _engine
 from niwaki._engine import Shape
 from niwaki.draw.picture import picture
-from niwaki.file_errors import FileError
-from niwaki.gallery import targets
-from niwaki.scene import Scene
+from niwaki.draw.scene import Scene
+from niwaki.errors import FileError
+from niwaki.targets import examples as targets
 from PIL import Image
 
 SMALL = {"size": (120, 90), "samples": 4}
@@ -55,8 +55,9 @@ def test_the_ghost_shows_only_where_it_is_in_front() -> None:
 
 def test_the_same_bytes_on_one_thread_and_four() -> None:
     program = (
-        "import hashlib, numpy as np; from niwaki.gallery import targets; from niwaki._engine import Shape\n"
-        "from niwaki.scene import Scene; s = Scene([('a', [Shape.cylinder((0, 0, 0), 1.0, 3.0, 'x')])])\n"
+        "import hashlib, numpy as np; from niwaki._engine import Shape\n"
+        "from niwaki.targets import examples as targets\n"
+        "from niwaki.draw.scene import Scene; s = Scene([('a', [Shape.cylinder((0, 0, 0), 1.0, 3.0, 'x')])])\n"
         "p = s.picture(targets.ship(), size=(96, 64), samples=5)\n"
         "print(hashlib.sha256(np.asarray(p).tobytes()).hexdigest())\n"
     )

@@ -8,9 +8,9 @@ from pathlib import Path
 import niwaki as nw
 import pytest
 from niwaki.draw import plan
+from niwaki.draw.scene import Scene
 from niwaki.draw.swatches import swatches
-from niwaki.file_errors import FileError
-from niwaki.scene import Scene
+from niwaki.errors import FileError
 
 RED, BLUE = (0.9, 0.1, 0.1), (0.1, 0.1, 0.9)
 FLOOR = [(-3.0, -3.0), (3.0, -3.0), (3.0, 3.0), (-3.0, 3.0)]

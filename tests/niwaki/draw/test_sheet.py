@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 from niwaki._engine import Shape
+from niwaki.draw.scene import Scene
 from niwaki.draw.sheet import sheet
-from niwaki.file_errors import FileError
-from niwaki.scene import Scene
+from niwaki.errors import FileError
 
 
 def blocks(count: int) -> list[Scene]:

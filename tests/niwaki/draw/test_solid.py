@@ -14,9 +14,9 @@ import pytest
 import trimesh
 from niwaki import rotation
 from niwaki._engine import Shape
+from niwaki.draw.scene import Scene
 from niwaki.draw.solid import PrintWarning, Solid, union
-from niwaki.file_errors import FileError
-from niwaki.scene import Scene
+from niwaki.errors import FileError
 
 TETRAHEDRON = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype=np.float64)
 FACES = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
@@ -167,7 +167,7 @@ def test_what_is_not_a_solid_is_said_by_its_address(tmp_path: Path) -> None:
     assert str(caught.value) == (
         "error[not-a-solid]: 2 of 4 shapes are not solids that can be printed\n"
         " = why: ship/keel (its triangles face inwards); ship/sail, shape 2 (3 open edges)\n"
-        " = help: close these meshes in the program that made them, or write .glb, .obj or .ply, which take any mesh"
+        " = help: close these meshes in the program that wrote them, or write .glb, .obj or .ply, which accept any mesh"
     )
     assert list(tmp_path.iterdir()) == []
 

@@ -13,10 +13,10 @@ from pathlib import Path
 import niwaki as nw
 import numpy as np
 import pytest
+from niwaki.draw.scene import Scene
 from niwaki.gallery import Entry, entries, entry
-from niwaki.gallery.demo import demo
 from niwaki.gallery.spaceship import spaceship
-from niwaki.scene import Scene
+from niwaki.shell.demo import demo
 
 GALLERY = [one for one in entries() if one.target_name is not None]
 FEW = 60
@@ -86,7 +86,7 @@ def test_a_third_of_the_ships_run_through_themselves() -> None:
 
 
 def test_the_demo_leaves_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("niwaki.gallery.demo.RUNS", 1)
+    monkeypatch.setattr("niwaki.shell.demo.RUNS", 1)
     demo(tmp_path)
     for one in GALLERY:
         for name in ("best.glb", "best.png", "sheet.png", "run.json"):

@@ -162,7 +162,7 @@ def test_palettes_are_harmonious(seed: int) -> None:
 
 
 # A few of 48,000 trajectories diverge and are rejected, which is of no consequence for designs.
-@pytest.mark.filterwarnings("ignore:.* diverged:niwaki.hmc_result.GradientWarning")
+@pytest.mark.filterwarnings("ignore:.* diverged:niwaki.result.hmc.GradientWarning")
 def test_one_chain_comes_through_many_harmonies() -> None:
     result = nw.run(harmonies.harmonies, harmonies.METHOD, seed=1)
     drawn = [sample.value for sample in result]

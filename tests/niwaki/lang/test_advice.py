@@ -7,17 +7,19 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from niwaki.errors.messages import ADVICE, Message
 from niwaki.gallery import entries
 from niwaki.gallery.spaceship import __file__ as SHIP
 from niwaki.lang.advice import advise
-from niwaki.lang.messages import ADVICE, Message
 
 GOLDEN = Path(__file__).parents[2] / "golden"
 
 
 def load(text: str, name: str) -> Any:
     """The model `m` of a program."""
-    whole = text if "import" in text else f"from niwaki.words import *\n\n{text}"
+    whole = (
+        text if "import" in text else f"from niwaki import host, model; from niwaki.words import *\n\n{text}"
+    )
     linecache.cache[name] = (len(whole), None, whole.splitlines(True), name)
     space: dict[str, Any] = {"__name__": "advice"}
     exec(compile(whole, name, "exec"), space)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import niwaki as nw
 import pytest
-from niwaki import words
 from niwaki.errors import InputError, ModelFault
 from niwaki.lang.densities import grid, total
 from niwaki.lang.plain import run_python
@@ -54,12 +54,12 @@ def test_a_missing_choice_names_the_nearest(model) -> None:
 
 def test_words_outside_of_a_model_say_so() -> None:
     with pytest.raises(InputError, match="outside-a-model"):
-        words.gaussian(0, 1)
+        nw.gaussian(0, 1)
 
 
 def test_a_model_is_made_of_a_function() -> None:
     with pytest.raises(InputError, match="model-of-a-value"):
-        words.model(3)  # type: ignore[arg-type]
+        nw.model(3)  # type: ignore[arg-type]
 
 
 FAULTS = {

@@ -15,13 +15,13 @@ import niwaki as nw
 import numpy as np
 import pytest
 from niwaki import box, emit, flip, gaussian, host, kernels, model, uniform
-from niwaki.finding import find
-from niwaki.gallery.targets import ship
 from niwaki.methods import Method
+from niwaki.shell.finding import find
+from niwaki.targets.examples import ship
 
 MODEL = """
     from niwaki import *
-    from niwaki.words import *
+    from niwaki import host, model; from niwaki.words import *
 
     SIZES = (0.5, 1.0)
     BLOCK = box((0, 0.5, 0), (1, 1, 1))

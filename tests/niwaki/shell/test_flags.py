@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 import trimesh
 from niwaki import box
-from niwaki.cli import app
-from niwaki.draw.views import INK, MISSING
+from niwaki.draw.scene import Scene
 from niwaki.errors import NiwakiError
-from niwaki.scene import Scene
+from niwaki.shell.main import app
+from niwaki.targets.views import INK, MISSING
 from PIL import Image, ImageDraw
 from typer.testing import CliRunner
 

@@ -13,11 +13,11 @@ import numpy as np
 import pytest
 from niwaki import stacks
 from niwaki.lang import densities
+from niwaki.lang.models import Model
 from niwaki.stacks.blocks import box_corners, volume_and_centre
 from niwaki.stacks.contacts import DOWN, GROUND, Asked, Contact, balance, contact, corners, force_at
 from niwaki.stacks.structure import Structure
 from niwaki.stacks.towers import BOTTOM, FLOOR, GROUND_TOP, TOP
-from niwaki.words.models import Model
 from scipy import stats
 from scipy.spatial import ConvexHull
 

@@ -98,14 +98,6 @@ impl Lens {
     pub fn direction(&self, x: f32, y: f32) -> V3 {
         self.forward + self.right * (x * self.half_width) + self.up * (y * self.half_height)
     }
-
-    /// Picture position of a point, in `[-1, 1]` when visible, and its depth along the view.
-    #[cfg(test)]
-    pub fn project(&self, p: V3) -> (f32, f32, f32) {
-        let d = p - self.eye;
-        let depth = d.dot(self.forward);
-        (d.dot(self.right) / (depth * self.half_width), d.dot(self.up) / (depth * self.half_height), depth)
-    }
 }
 
 impl From<V3> for [f32; 3] {
@@ -118,6 +110,13 @@ impl From<V3> for [f32; 3] {
 mod tests {
     //! Claim: a framed box touches the margin on two opposite sides and crosses it nowhere.
     use super::*;
+
+    /// Picture position of a point, in `[-1, 1]` when visible, and its depth along the view.
+    fn project(lens: &Lens, p: V3) -> (f32, f32, f32) {
+        let d = p - lens.eye;
+        let depth = d.dot(lens.forward);
+        (d.dot(lens.right) / (depth * lens.half_width), d.dot(lens.up) / (depth * lens.half_height), depth)
+    }
 
     #[test]
     fn framing_is_tight_and_complete() {
@@ -135,7 +134,7 @@ mod tests {
         {
             let view = View { azimuth, elevation, ..View::default() };
             let lens = Camera::framing(&corners, view, aspect).lens(aspect);
-            let seen: Vec<_> = corners.iter().map(|&c| lens.project(c.into())).collect();
+            let seen: Vec<_> = corners.iter().map(|&c| project(&lens, c.into())).collect();
             let most = seen.iter().map(|&(x, y, _)| x.abs().max(y.abs())).fold(0.0, f32::max);
             assert!(seen.iter().all(|&(_, _, depth)| depth > 0.0));
             assert!((most - 0.86).abs() < 1e-3, "{azimuth} {elevation}: {most}");

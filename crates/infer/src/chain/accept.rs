@@ -10,7 +10,6 @@
 //! Differences are exact before they are rounded, so that a ratio is right however large the terms are that cancel in it.
 //! Dissertation 3.2, with selection weights in place of the numbers of choices.
 
-use crate::hamiltonian::{Kernel, Metric, Phase, Potential, Transition};
 use niwaki_math::streams::open_unit;
 use niwaki_math::{Stream, Total};
 use niwaki_vm::code::Program;
@@ -70,9 +69,6 @@ pub(crate) fn accepts(log_ratio: f64, rng: &mut Stream) -> bool {
 
 /// How a chain decides. Searches use [`MetropolisHastings`]; the tests also hold mutants of it, which they must reject.
 pub trait Rules: Send {
-    /// Whether densities over coordinates leave their Jacobians out.
-    const DROPS_JACOBIAN: bool = false;
-
     /// Log of the acceptance ratio; NaN where two infinities meet, which counts as impossible.
     #[inline(always)]
     fn log_ratio(t: &Terms<'_>) -> f64 {
@@ -89,18 +85,6 @@ pub trait Rules: Send {
     #[inline]
     fn log_exchange(powers: (f64, f64), gain: f64) -> f64 {
         (powers.0 - powers.1) * gain
-    }
-
-    /// One transition along the gradient.
-    fn travel<P: Potential>(
-        kernel: &mut Kernel,
-        target: &mut P,
-        metric: &Metric,
-        step: f64,
-        phase: &mut Phase,
-        stream: &mut Stream,
-    ) -> Transition {
-        kernel.step(target, metric, step, phase, stream)
     }
 
     /// Sees a chain's trace before its first proposal.

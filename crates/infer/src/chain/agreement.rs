@@ -3,7 +3,6 @@
 
 use super::accept::{MetropolisHastings, Rules};
 use super::ladder::Ladder;
-use super::snapshot::present;
 use super::state::State;
 use super::{Chain, Settings};
 use crate::replay::{Missing, Source, replay};
@@ -139,7 +138,7 @@ fn look_closer<R: Rules>(
         }
     }
     // From the start: once keeping the calls, once dropping them.
-    let known: HashMap<_, _> = present(&chains[0].state, program).collect();
+    let known: HashMap<_, _> = chains[0].state.choices(program).collect();
     match State::start(task, super::streams::Streams::new(0, 0), 1, Some(&known)) {
         Ok((fresh, _)) => {
             let (fresh, kept) = ((fresh.trace.totals(), fresh.score()), &chains[3].state);
@@ -154,14 +153,11 @@ fn look_closer<R: Rules>(
     }
     match replay(task, Source::Addresses(known), Missing::Refuse) {
         Ok(fresh) => {
-            let (record, kept) = (&fresh.record, &chains[3].state);
-            let sums = (&kept.trace.totals().log_prior, kept.score());
-            if (&record.log_prior, record.score()) != sums {
-                return Some(format!(
-                    "after proposal {step} a replay has {:?} and {:?}, the chain {sums:?}",
-                    record.log_prior,
-                    record.score()
-                ));
+            let kept = &chains[3].state;
+            let sums = (kept.trace.totals().log_prior.clone(), kept.score());
+            if fresh.sums != sums {
+                let fresh = fresh.sums;
+                return Some(format!("after proposal {step} a replay has {fresh:?}, the chain {sums:?}"));
             }
         }
         // Two writes of one query are a fault of the replay only.

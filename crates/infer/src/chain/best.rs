@@ -1,14 +1,12 @@
-//! The best state that a chain came through.
+//! The best state that a chain reached.
 //!
 //! It is not copied at each record, which would cost the length of the trace at each step uphill: it is the present state
 //! with a list of changes undone. Only when that list has become as long as the trace is a copy made. What is reported of it
 //! is that of a run with its choices.
 
-use super::snapshot::{Facts, Snapshot, copy_of, logged, present};
 use super::state::State;
 use super::streams::Streams;
-use crate::log::Log;
-use crate::replay::by_address;
+use crate::run::Run;
 use crate::{Failure, Task};
 use niwaki_vm::code::Program;
 use niwaki_vm::value::Value;
@@ -19,9 +17,10 @@ type Undo = (u128, Option<Value>);
 
 /// The best state so far.
 pub struct Best {
-    facts: Facts,
+    /// Its scores.
+    scores: Run,
     /// Its choices, where they were copied.
-    copied: Option<Log>,
+    copied: Option<Vec<(u128, Value)>>,
     /// What leads from the present state back to it, where they were not.
     since: Vec<Undo>,
 }
@@ -29,10 +28,10 @@ pub struct Best {
 impl Best {
     /// The first state.
     pub fn new(state: &State) -> Best {
-        Best { facts: Facts::of_scores(state, 0), copied: None, since: vec![] }
+        Best { scores: state.scores(0), copied: None, since: vec![] }
     }
 
-    /// Whether the way back is being noted.
+    /// Whether changes are noted.
     #[inline(always)]
     pub fn is_noting(&self) -> bool {
         self.copied.is_none()
@@ -41,9 +40,9 @@ impl Best {
     /// Its log score, nats.
     #[inline(always)]
     pub fn score(&self) -> f64 {
-        self.facts.log_score
+        self.scores.log_score
     }
-    /// Notes the way back, just before an open transaction is kept; `moved` are the choices that the proposal itself
+    /// Notes how to go back, just before an open transaction is kept; `moved` are the choices that the proposal itself
     /// changed, with their values before.
     pub fn note(&mut self, state: &State, program: &Program, moved: impl IntoIterator<Item = (u128, Value)>) {
         let trace = &state.trace;
@@ -60,7 +59,7 @@ impl Best {
     /// Compares the present state, just after it was reached, with the best.
     #[inline(always)]
     pub fn compare(&mut self, state: &State, program: &Program, visit: u64) {
-        if state.log_score() > self.facts.log_score {
+        if state.log_score() > self.scores.log_score {
             self.record(state, visit);
         } else if self.copied.is_none() && self.since.len() > state.trace.len().max(64) {
             self.copy(state, program);
@@ -69,19 +68,20 @@ impl Best {
 
     #[inline(never)]
     fn record(&mut self, state: &State, visit: u64) {
-        self.facts = Facts::of_scores(state, visit);
+        self.scores = state.scores(visit);
         self.copied = None;
         self.since.clear();
     }
 
     #[inline(never)]
     fn copy(&mut self, state: &State, program: &Program) {
-        self.copied = Some(self.way_back(state, program));
+        self.copied = Some(self.choices(state, program));
         self.since = vec![];
     }
 
-    fn way_back(&self, state: &State, program: &Program) -> Log {
-        let mut choices: HashMap<u128, Value> = present(state, program).collect();
+    /// Its choices, from those of the present state.
+    fn choices(&self, state: &State, program: &Program) -> Vec<(u128, Value)> {
+        let mut choices: HashMap<u128, Value> = state.choices(program).collect();
         for (address, value) in self.since.iter().rev() {
             match value {
                 Some(value) => choices.insert(*address, value.clone()),
@@ -90,19 +90,18 @@ impl Best {
         }
         let mut choices: Vec<_> = choices.into_iter().collect();
         choices.sort_unstable_by_key(|choice| choice.0);
-        logged(choices)
+        choices
     }
 
-    /// A copy of it: a run from the start with its choices, so that its scores are those of its values.
+    /// A run from the start with its choices, so that its scores are those of its values.
     ///
     /// # Errors
     /// A fault of that run, or that it is impossible: a host function that does not answer as before.
-    pub fn get(&self, state: &State, task: &Task) -> Result<Snapshot, Failure> {
-        let log = match &self.copied {
-            Some(log) => copy_of(log),
-            None => self.way_back(state, &task.program),
-        };
-        let (fresh, _) = State::start(task, Streams::new(0, 0), 1, Some(&by_address(&log.entries())))?;
-        Ok(Snapshot { log, facts: Facts::of(&fresh, self.facts.visit) })
+    pub fn get(&self, state: &State, task: &Task) -> Result<Run, Failure> {
+        let choices = self.copied.clone().unwrap_or_else(|| self.choices(state, &task.program));
+        let known = choices.iter().cloned().collect();
+        let (fresh, _) = State::start(task, Streams::new(0, 0), 1, Some(&known))?;
+        let (log, value) = (choices.into_iter().collect(), fresh.trace.result());
+        Ok(Run { log, value, ..fresh.scores(self.scores.visit) })
     }
 }

@@ -7,12 +7,12 @@
 
 use super::Chain;
 use super::accept::Rules;
-use super::drift::{adapt, around, normal, on_simplex, within};
+use super::drift::{adapt, normal};
 use super::metropolis::Decision;
 use super::neighbour::near;
 use super::state::Fresh;
 use crate::{Failure, Task};
-use niwaki_math::{Draw, Family, Stream};
+use niwaki_math::{Family, Space, Stream};
 use niwaki_vm::builtins::{draw_to_value, value_to_draw};
 use niwaki_vm::machine::Machine;
 use niwaki_vm::machine::kept::{Changed, Proposed};
@@ -35,33 +35,18 @@ pub struct Block {
 
 /// A step of one choice; `None` where it has none.
 pub(crate) fn step(family: Family, old: &Value, size: f64, rng: &mut Stream) -> Option<Proposed<f64>> {
-    let plain = |value| Some(Proposed { value, forward: 0.0, backward: 0.0 });
-    let inf = f64::INFINITY;
-    match (family, old) {
-        (Family::Delta, _) => None,
-        (_, Value::Bool(b)) => plain(Value::Bool(!b)),
-        (_, Value::Int(k)) => plain(Value::Int(near(*k, 1, rng))),
-        (Family::VonMises, Value::Real(x)) => plain(Value::Real(around(x + size * normal(rng)))),
-        (Family::LogNormal | Family::Gamma | Family::InverseGamma | Family::Exponential, Value::Real(x)) => {
-            let (new, forward, backward) = within(*x, 0.0, inf, size, rng);
-            Some(Proposed { value: Value::Real(new), forward, backward })
-        }
-        (Family::Beta, Value::Real(x)) => {
-            let (new, forward, backward) = within(*x, 0.0, 1.0, size, rng);
-            Some(Proposed { value: Value::Real(new), forward, backward })
-        }
-        (_, Value::Real(x)) => plain(Value::Real(x + size * normal(rng))),
-        (Family::Dirichlet, _) => {
-            let Some(Draw::Vector(x)) = value_to_draw(old) else { return None };
-            let (draw, forward, backward) = on_simplex(&x, size, rng);
-            Some(Proposed { value: draw_to_value(draw), forward, backward })
-        }
-        (Family::MultivariateGaussian, _) => {
-            let Some(Draw::Vector(x)) = value_to_draw(old) else { return None };
-            plain(draw_to_value(Draw::Vector(x.iter().map(|x| x + size * normal(rng)).collect())))
-        }
+    let space = family.space();
+    let discrete = match old {
+        _ if space == Space::Fixed => return None,
+        Value::Bool(b) => Some(Value::Bool(!b)),
+        Value::Int(k) => Some(Value::Int(near(*k, 1, rng))),
         _ => None,
+    };
+    if let Some(value) = discrete {
+        return Some(Proposed { value, forward: 0.0, backward: 0.0 });
     }
+    let (new, forward, backward) = space.coordinates()?.moved(&value_to_draw(old)?, || size * normal(rng))?;
+    Some(Proposed { value: draw_to_value(new), forward, backward })
 }
 
 impl<R: Rules> Chain<R> {

@@ -62,8 +62,7 @@ impl Counts {
         for (f, first) in program.functions.iter().zip(&self.first) {
             for (i, site) in f.sites.iter().enumerate() {
                 let count = self.sites[*first as usize + i];
-                use SiteKind::{Sample, SampleDist, SampleIndexed};
-                if matches!(site.kind, Sample { .. } | SampleDist | SampleIndexed) && count.proposed > 0 {
+                if matches!(site.kind, SiteKind::Sample(_)) && count.proposed > 0 {
                     rows.push((f.name.to_string(), site.label.to_string(), site.span.line, count));
                 }
             }

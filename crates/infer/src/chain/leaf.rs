@@ -1,7 +1,6 @@
 //! A leaf of a kernel: how it proposes, and for which choices. What it is applied to is the kept run of a chain or the
 //! partial run of a particle; which proposal is made is decided here, for both.
 
-use super::accept::Rules;
 use super::block::Block;
 use super::by_family::ByFamily;
 use super::drift::Drift;
@@ -40,8 +39,8 @@ impl Leaf {
     ///
     /// # Errors
     /// Sketches, which have no gradient that a trajectory could follow.
-    pub fn prepare<R: Rules>(&mut self, task: &Task) -> Result<(), Failure> {
-        if let Proposer::Trajectory(own) = &mut self.proposer { own.prepare::<R>(task) } else { Ok(()) }
+    pub fn prepare(&mut self, task: &Task) -> Result<(), Failure> {
+        if let Proposer::Trajectory(own) = &mut self.proposer { own.prepare(task) } else { Ok(()) }
     }
 }
 

@@ -7,7 +7,7 @@
 //! * `proposal`: a new value for one choice: from the prior, [`drift`], [`neighbour`], `by_family`, by the [`user`]'s function;
 //! * [`block`], `regenerate`: proposals that change many choices;
 //! * [`trajectory`]: the continuous choices move together along their gradient;
-//! * [`counts`], [`best`], [`samples`], [`snapshot`]: what is reported afterwards;
+//! * [`counts`], [`best`], [`samples`]: what is reported afterwards;
 //! * [`ladder`]: parallel tempering; [`many`]: several searches side by side;
 //! * [`agreement`]: four strategies in step, compared to the bit; [`explain`]: what each of them does for one proposal.
 //!
@@ -35,12 +35,12 @@ pub(crate) mod proposal;
 mod regenerate;
 pub mod samples;
 pub(crate) mod select;
-pub mod snapshot;
 pub mod state;
 pub mod streams;
 pub mod trajectory;
 pub mod user;
 
+use crate::run::Run;
 use crate::{Failure, Task, gradient};
 use accept::{MetropolisHastings, Rules};
 use best::Best;
@@ -57,7 +57,6 @@ use odds::Table;
 use plan::Plan;
 use proposal::{FromPrior, Move};
 use samples::Samples;
-use snapshot::Snapshot;
 use state::State;
 use std::collections::HashMap;
 use std::marker::PhantomData;
@@ -183,7 +182,7 @@ impl<R: Rules> Chain<R> {
         R::begin(&mut state.trace);
         let mut tables = Vec::new();
         for leaf in &mut plan.leaves {
-            leaf.prepare::<R>(task)?;
+            leaf.prepare(task)?;
             if !leaf.selection.is_all() {
                 leaf.table = Some(tables.len());
                 tables.push(Table::new(Box::new(leaf.selection.clone()), &state.trace, program));
@@ -228,8 +227,8 @@ impl<R: Rules> Chain<R> {
     }
 
     /// The present state.
-    pub fn now(&self, program: &Program) -> Snapshot {
-        Snapshot::of(&self.state, program, self.visit)
+    pub fn now(&self, program: &Program) -> Run {
+        self.state.run(program, self.visit)
     }
 
     /// Makes `steps` proposals. `watch` is called with their number and the best score now and then; when it answers false,

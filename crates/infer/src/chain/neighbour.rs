@@ -3,7 +3,7 @@
 //! Each is as likely back as there, so nothing enters the acceptance ratio; numbers that leave the support are rejected.
 
 use super::proposal::{FromPrior, Move};
-use niwaki_math::{Dist, Stream};
+use niwaki_math::{Dist, Space, Stream, Support};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;
 use niwaki_vm::machine::kept::Proposed;
@@ -26,15 +26,17 @@ impl Move for Neighbour {
         log_density: f64,
         rng: &mut Stream,
     ) -> Result<Proposed<f64>, Fault> {
-        let value = match (dist, old) {
-            (Dist::Delta(_), _) => None,
+        let value = match (dist.family().space(), old) {
+            (Space::Fixed, _) => None,
             (_, Value::Bool(b)) => Some(Value::Bool(!b)),
-            (Dist::Categorical(weights), Value::Int(k)) if weights.len() > 1 => {
-                // One of the others: those from the old one on stand one further.
-                let other = super::streams::below(rng, weights.len() as u64 - 1) as i64;
-                Some(Value::Int(other + i64::from(other >= *k)))
-            }
-            (_, Value::Int(k)) => Some(Value::Int(near(*k, self.reach, rng))),
+            (_, Value::Int(k)) => Some(Value::Int(match dist.support() {
+                Support::Categories(n @ 2..) => {
+                    // One of the others: those from the old one on stand one further.
+                    let other = super::streams::below(rng, n as u64 - 1) as i64;
+                    other + i64::from(other >= *k)
+                }
+                _ => near(*k, self.reach, rng),
+            })),
             _ => None,
         };
         match value {

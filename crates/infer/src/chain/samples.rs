@@ -1,13 +1,14 @@
 //! Samples of a chain, thinned, in bounded room.
 
-use super::snapshot::Snapshot;
 use super::state::State;
+use crate::run::Run;
 use niwaki_vm::code::Program;
+use std::sync::Arc;
 
 /// Samples, oldest first.
 pub struct Samples {
-    /// The samples.
-    pub all: Vec<Snapshot>,
+    /// The samples, shared with whoever reads them.
+    pub all: Vec<Arc<Run>>,
     /// Proposals between two samples; doubled when they take too much room. Zero: no samples.
     pub thin: u64,
     /// Most choices that all samples together may hold.
@@ -25,11 +26,11 @@ impl Samples {
     /// thinning would have kept; `warmup` is where the first interval began.
     pub fn keep(&mut self, state: &State, program: &Program, visit: u64, warmup: u64) {
         self.held += state.trace.len() + 1;
-        self.all.push(Snapshot::of(state, program, visit));
+        self.all.push(Arc::new(state.run(program, visit)));
         while self.held > self.room && self.all.len() > 1 {
             self.thin *= 2;
             let thin = self.thin;
-            self.all.retain(|sample| (sample.facts.visit - warmup).is_multiple_of(thin));
+            self.all.retain(|sample| (sample.visit - warmup).is_multiple_of(thin));
             self.held = self.all.iter().map(|sample| sample.log.len() + 1).sum();
         }
     }

@@ -4,8 +4,7 @@ use super::glob::{last, matches, nearest};
 use super::kernel::Selection;
 use super::odds::{UNIT, Weigh};
 use crate::Failure;
-use niwaki_math::Family;
-use niwaki_vm::code::{FunctionId, Program, SiteKind};
+use niwaki_vm::code::{FunctionId, Program, SiteKind, Source};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::kept::Trace;
 use niwaki_vm::machine::kept::inspect::Place;
@@ -39,7 +38,7 @@ impl Selection {
     pub(super) fn may_be_continuous(&self, trace: &Trace, program: &Program) -> bool {
         let mut seen: HashMap<_, bool> = HashMap::new();
         for choice in trace.numbers() {
-            let is_real = trace.family(choice).is_some_and(is_continuous);
+            let is_real = trace.family(choice).is_some_and(|family| family.space().is_continuous());
             *seen.entry(trace.site_of(choice)).or_default() |= is_real;
         }
         let takes = |label: &str| {
@@ -48,8 +47,8 @@ impl Selection {
         program.functions.iter().enumerate().any(|(f, function)| {
             function.sites.iter().enumerate().any(|(s, site)| {
                 let may = match site.kind {
-                    SiteKind::Sample { family } => is_continuous(family),
-                    SiteKind::SampleDist | SiteKind::SampleIndexed => {
+                    SiteKind::Sample(Source::Family(family)) => family.space().is_continuous(),
+                    SiteKind::Sample(Source::Value | Source::Element) => {
                         seen.get(&(FunctionId(f as _), s as u16)).copied().unwrap_or(true)
                     }
                     _ => false,
@@ -90,12 +89,6 @@ impl Selection {
     }
 }
 
-/// Whether a family draws real numbers, other than one that is given.
-fn is_continuous(family: Family) -> bool {
-    use Family::{Bernoulli, Binomial, Categorical, Delta, DiscreteUniform, Geometric, Poisson};
-    !matches!(family, Bernoulli | Binomial | Categorical | Delta | DiscreteUniform | Geometric | Poisson)
-}
-
 /// Whether an address of the trace ends in the last component of the pattern.
 fn trace_has(known: &[String], pattern: &str) -> bool {
     known.iter().any(|path| matches(last(pattern), last(path)))
@@ -112,10 +105,7 @@ pub(crate) fn no_choice(pattern: &str, known: &[String]) -> Fault {
 pub(crate) fn labels(program: &Program) -> Vec<String> {
     let mut found: Vec<String> = Vec::new();
     for site in program.functions.iter().flat_map(|f| &f.sites) {
-        use SiteKind::{Sample, SampleDist, SampleIndexed};
-        if matches!(site.kind, Sample { .. } | SampleDist | SampleIndexed)
-            && !found.iter().any(|l| **l == *site.label)
-        {
+        if matches!(site.kind, SiteKind::Sample(_)) && !found.iter().any(|l| **l == *site.label) {
             found.push(site.label.to_string());
         }
     }

@@ -4,6 +4,7 @@ use super::drift::plain_spread;
 use super::streams::Streams;
 use crate::chooser::{Chooser, Known, Prior};
 use crate::record::{AllInvalid, score_of};
+use crate::run::Run;
 use crate::task::{Hosts, Task};
 use crate::{Failure, forward};
 use niwaki_geom::Shape;
@@ -173,6 +174,29 @@ impl State {
         Ok(State { trace, sketches, log_sketches, primitives, moved: 0, before: Before::default() })
     }
 
+    /// Its choices.
+    pub fn choices<'a>(&'a self, program: &'a Program) -> impl Iterator<Item = (u128, Value)> + 'a {
+        choices(&self.trace, program)
+    }
+
+    /// As a finished run, reached after `visit` proposals.
+    pub fn run(&self, program: &Program, visit: u64) -> Run {
+        Run { log: self.choices(program).collect(), value: self.trace.result(), ..self.scores(visit) }
+    }
+
+    /// The same without choices and value, whose copies take as long as they are.
+    pub(super) fn scores(&self, visit: u64) -> Run {
+        Run {
+            log_prior: self.trace.totals().log_prior.value(),
+            log_score: self.log_score(),
+            primitives: self.primitives,
+            similarity: self.sketches.similarity(),
+            has_ended: true,
+            visit,
+            ..Run::default()
+        }
+    }
+
     /// Factors, observations and sketches, nats.
     #[inline]
     pub fn log_score(&self) -> f64 {
@@ -227,6 +251,14 @@ impl State {
         self.log_sketches.clone_from(&self.before.log_sketches);
         self.primitives = self.before.primitives;
     }
+}
+
+/// The choices of a trace.
+pub(super) fn choices<'a>(
+    trace: &'a Trace,
+    program: &'a Program,
+) -> impl Iterator<Item = (u128, Value)> + 'a {
+    trace.numbers().map(|n| (trace.address(program, n), trace.choice(program, n).0.clone()))
 }
 
 /// What makes a run impossible: the factor or choice at which it stopped.

@@ -5,13 +5,12 @@
 
 use super::follow::reason;
 use super::{live_of, model};
-use crate::chain::snapshot::Snapshot;
 use crate::chain::state::State;
 use crate::chain::streams::Streams;
 use crate::hamiltonian::chains::{GLANCE, run};
 use crate::hamiltonian::climb::climb_in_lanes;
 use crate::hamiltonian::{Cause, Chain, Draws, Settings, lanes};
-use crate::replay::{Choice, Missing, Source, Trace, by_address, replay};
+use crate::replay::{Choice, Missing, Source, replay};
 use crate::{Failure, Task};
 use niwaki_grad::{Continuous, Live, Model, Recorded, Wide};
 use niwaki_vm::fault::Fault;
@@ -24,7 +23,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 /// What one chain found.
 pub struct Explored {
-    /// Where it came through, in coordinates.
+    /// Its draws, in coordinates.
     pub draws: Draws,
     /// A recording of its structure.
     pub recorded: Arc<Recorded>,
@@ -32,8 +31,6 @@ pub struct Explored {
     pub fixed: Vec<Choice>,
     /// The values of the continuous choices by rows, `(draws, sum of widths)`.
     pub numbers: Vec<f64>,
-    /// How often the program was recorded.
-    pub recordings: usize,
     /// What the first trajectory met, after warm-up, that came to a point without a finite gradient.
     pub fault: Option<Box<RunFault>>,
 }
@@ -55,22 +52,13 @@ impl Explored {
     /// # Errors
     /// A fault of the program.
     pub fn scores(&self, task: &Task) -> Result<Vec<(f64, f64)>, Failure> {
-        let score = |draw| {
-            let trace = self.trace(task, draw).unwrap_or_else(|| unreachable!("a draw of this chain"))?;
-            Ok((trace.record.log_prior.value(), trace.record.log_score()))
+        let width = self.width();
+        let score = |draw: usize| {
+            let values = self.recorded.values_of(&self.numbers[draw * width..(draw + 1) * width]);
+            let run = replay(task, Source::Addresses(values), Missing::Refuse)?.run;
+            Ok((run.log_prior, run.log_score))
         };
         (0..self.draws.len()).into_par_iter().map(score).collect()
-    }
-
-    /// The run of a draw; `None` where there is no such draw.
-    ///
-    /// # Errors
-    /// A fault of the program.
-    pub fn trace(&self, task: &Task, draw: usize) -> Option<Result<Trace, Failure>> {
-        let width = self.width();
-        let numbers = self.numbers.get(draw * width..(draw + 1) * width)?;
-        let source = Source::Addresses(self.recorded.values_of(numbers));
-        Some(replay(task, source, Missing::Refuse))
     }
 }
 
@@ -104,7 +92,7 @@ struct Member {
     start: Vec<f64>,
 }
 
-/// Draws from a task's distribution. `watch` is told the transitions of all chains now and then; when it answers false,
+/// Draws from a task's distribution. `watch` is called with the transitions of all chains now and then; when it answers false,
 /// they end with what they have.
 ///
 /// Where each thread has a dozen chains or more of one structure, with trajectories of a fixed length and a metric of
@@ -173,7 +161,7 @@ fn start(
     first: Option<&Live>,
 ) -> Result<Member, Failure> {
     let (state, _) = State::start(task, Streams::new(plan.seed, number as u64), plan.tries, plan.known)?;
-    let choices = by_address(&Snapshot::of(&state, &task.program, 0).log.entries());
+    let choices = state.choices(&task.program).collect();
     drop(state);
     let (target, start) = match first.and_then(|first| first.beside(&choices)) {
         Some(found) => found,
@@ -243,13 +231,13 @@ fn in_lanes<const L: usize>(
         drop(chains);
         return Err(no_slope(&group[at].target, &group[at].start));
     }
-    // Companies of one size, so that no few are left over.
+    // Groups of one size, so that no few are left over.
     let even = chains.len().div_ceil(chains.len().div_ceil(L));
     let mut chains = chains.into_iter().peekable();
     let mut draws = Vec::with_capacity(chains.len());
     while chains.peek().is_some() {
-        let company = chains.by_ref().take(even).collect();
-        draws.extend(lanes::run_in_lanes(company, &mut wide, plan.settings, &|_, _| look()));
+        let some = chains.by_ref().take(even).collect();
+        draws.extend(lanes::run_in_lanes(some, &mut wide, plan.settings, &|_, _| look()));
     }
     let ends = group.into_iter().zip(draws);
     ends.map(|(Member { number, target, recorded, start }, draws)| {
@@ -277,7 +265,7 @@ fn explored(
         numbers.extend(target.recorded().numbers(x));
     }
     let fixed = fixed(task, &recorded, start)?;
-    Ok(Explored { fixed, numbers, recordings: target.recordings(), fault, draws, recorded })
+    Ok(Explored { fixed, numbers, fault, draws, recorded })
 }
 
 /// The fixed choices of a recorded run by name.

@@ -10,7 +10,7 @@ use super::metric::{Metric, Shape};
 use super::nuts::Nuts;
 use super::potential::{Cause, Potential, Stop};
 use super::step_size::first_guess;
-use super::transition::{Divergence, Kernel, Transition};
+use super::transition::{BrokenOff, Divergence, Kernel, Transition};
 use super::warmup::Adaptation;
 use niwaki_math::Stream;
 use rayon::prelude::*;
@@ -32,7 +32,20 @@ pub enum Length {
     },
 }
 
-/// What a chain is told.
+impl Length {
+    /// A kernel of that length.
+    pub fn kernel(self, max_energy_error: f64) -> Kernel {
+        match self {
+            Length::Fixed { steps, jitter } => Kernel::Hmc(Hmc::new(steps, jitter, max_energy_error)),
+            Length::NoUTurn { max_depth } => Kernel::Nuts(Nuts::new(max_depth, max_energy_error)),
+        }
+    }
+}
+
+/// An energy error above this many nats is a divergence, as in Stan.
+pub const MAX_ENERGY_ERROR: f64 = 1000.0;
+
+/// What a chain is asked for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
     /// How long trajectories are.
@@ -67,7 +80,7 @@ impl Settings {
             target_accept: 0.8,
             shape: Shape::Diagonal,
             step_size: None,
-            max_energy_error: 1000.0,
+            max_energy_error: MAX_ENERGY_ERROR,
         }
     }
 
@@ -82,10 +95,7 @@ impl Settings {
 
     /// The kernel that these settings describe.
     pub fn kernel(&self) -> Kernel {
-        match self.length {
-            Length::Fixed { steps, jitter } => Kernel::Hmc(Hmc::new(steps, jitter, self.max_energy_error)),
-            Length::NoUTurn { max_depth } => Kernel::Nuts(Nuts::new(max_depth, self.max_energy_error)),
-        }
+        self.length.kernel(self.max_energy_error)
     }
 }
 
@@ -119,7 +129,7 @@ pub struct Chain<P> {
     pub number: u64,
     /// Transitions made.
     pub visit: u64,
-    /// Gradients taken on the way uphill.
+    /// Gradients taken uphill.
     pub climbed: u32,
 }
 
@@ -208,19 +218,17 @@ pub struct Draws {
     pub steps: Vec<u32>,
     /// Doublings for each draw.
     pub depth: Vec<u32>,
-    /// Whether a trajectory on the way to each draw broke off for another reason than structure.
+    /// Whether a trajectory between each draw and the one before broke off for another reason than structure.
     pub diverging: Vec<bool>,
-    /// Whether a trajectory on the way to each draw was refused for structure ([`Cause::Guard`]).
+    /// Whether a trajectory between each draw and the one before was refused for structure ([`Cause::Guard`]).
     pub off_structure: Vec<bool>,
     /// The trajectories that broke off after warm-up.
     pub divergences: Vec<Divergence>,
-    /// How many of those the target refused, by [`Cause`]; the rest drifted in energy.
-    pub refused: [u64; Cause::COUNT],
-    /// How many broke off in warm-up.
-    pub warmup_divergences: u64,
+    /// How many broke off, in warm-up and after it.
+    pub broken: BrokenOff,
     /// Gradients taken after warm-up.
     pub gradients: u64,
-    /// Gradients taken in warm-up and on the way to it, without those of first guesses.
+    /// Gradients taken in warm-up and uphill, without those of first guesses.
     pub warmup_gradients: u64,
     /// The frozen step size.
     pub step_size: f64,
@@ -249,23 +257,23 @@ impl Draws {
     /// Counts a transition of the warm-up.
     pub(super) fn count_warmup(&mut self, made: &Transition) {
         self.warmup_gradients += u64::from(made.steps);
-        self.warmup_divergences += u64::from(made.divergence.is_some());
+        if let Some(divergence) = &made.divergence {
+            self.broken.count(divergence.stop, true);
+        }
     }
 
     /// Counts a transition after warm-up; how it broke off.
-    pub(super) fn count(&mut self, made: &Transition) -> BrokeOff {
+    pub(super) fn count(&mut self, made: &Transition) -> Marks {
         self.gradients += u64::from(made.steps);
-        let Some(divergence) = &made.divergence else { return BrokeOff::default() };
-        if let Some(stop) = divergence.stop {
-            self.refused[stop.cause as usize] += 1;
-        }
+        let Some(divergence) = &made.divergence else { return Marks::default() };
+        self.broken.count(divergence.stop, false);
         self.divergences.push(divergence.clone());
         let off_structure = divergence.stop.is_some_and(|stop| stop.cause == Cause::Guard);
-        BrokeOff { diverging: !off_structure, off_structure }
+        Marks { diverging: !off_structure, off_structure }
     }
 
-    /// Adds where a chain stands.
-    pub(super) fn push(&mut self, phase: &Phase, made: &Transition, broke_off: BrokeOff) {
+    /// Adds the point of a chain.
+    pub(super) fn push(&mut self, phase: &Phase, made: &Transition, broke_off: Marks) {
         self.x.extend_from_slice(&phase.x);
         self.log_density.push(phase.log_density);
         self.energy.push(made.energy);
@@ -277,9 +285,9 @@ impl Draws {
     }
 }
 
-/// How trajectories on the way to one draw broke off, if they did.
+/// How trajectories between two draws broke off, if they did.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct BrokeOff {
+pub(super) struct Marks {
     diverging: bool,
     off_structure: bool,
 }
@@ -293,7 +301,7 @@ pub struct BadStart {
     pub stop: Stop,
 }
 
-/// Told now and then (chain, transitions made); the chains end, with what they have, when it answers false.
+/// Called now and then with (chain, transitions made); the chains end, with what they have, when it answers false.
 pub type Watch<'a> = &'a (dyn Fn(usize, u32) -> bool + Sync);
 
 /// Transitions between two looks of whoever watches.
@@ -324,17 +332,17 @@ pub fn sample<P: Potential>(
 
 /// Warms a chain up, then draws.
 pub fn run<P: Potential>(chain: Chain<P>, settings: &Settings, watch: &dyn Fn(u32) -> bool) -> Draws {
-    let mut course = Course::new(chain, settings);
-    while !course.is_over() {
-        let made = course.chain.advance();
-        course.take(&made);
-        course.look(watch);
+    let mut ongoing = Ongoing::new(chain, settings);
+    while !ongoing.is_over() {
+        let made = ongoing.chain.advance();
+        ongoing.take(&made);
+        ongoing.look(watch);
     }
-    course.finish()
+    ongoing.finish()
 }
 
-/// A chain on its way through warm-up and draws.
-pub(super) struct Course<'a, P> {
+/// A chain in warm-up, or among its draws.
+pub(super) struct Ongoing<'a, P> {
     pub(super) chain: Chain<P>,
     settings: &'a Settings,
     adaptation: Adaptation,
@@ -343,16 +351,16 @@ pub(super) struct Course<'a, P> {
     /// Transitions still to make for the next draw.
     left: u32,
     /// How those already made broke off.
-    broke_off: BrokeOff,
+    broke_off: Marks,
 }
 
-impl<'a, P: Potential> Course<'a, P> {
+impl<'a, P: Potential> Ongoing<'a, P> {
     pub(super) fn new(mut chain: Chain<P>, settings: &'a Settings) -> Self {
         let adaptation = Adaptation::new(&mut chain, settings);
         let dim = chain.phase.x.len();
         let draws = Draws { dim, warmup_gradients: u64::from(chain.climbed), ..Draws::default() };
         let left = settings.thin.max(1);
-        Course { chain, settings, adaptation, draws, warmed: 0, left, broke_off: BrokeOff::default() }
+        Ongoing { chain, settings, adaptation, draws, warmed: 0, left, broke_off: Marks::default() }
     }
 
     pub(super) fn is_over(&self) -> bool {
@@ -374,11 +382,11 @@ impl<'a, P: Potential> Course<'a, P> {
         self.left -= 1;
         if self.left == 0 {
             self.draws.push(&self.chain.phase, made, self.broke_off);
-            (self.left, self.broke_off) = (self.settings.thin.max(1), BrokeOff::default());
+            (self.left, self.broke_off) = (self.settings.thin.max(1), Marks::default());
         }
     }
 
-    /// Tells whoever watches, now and then; ends when they say so.
+    /// Asks whoever watches, now and then, whether to go on.
     pub(super) fn look(&mut self, watch: &dyn Fn(u32) -> bool) {
         let visit = self.chain.visit;
         self.draws.interrupted |= visit.is_multiple_of(GLANCE) && !watch(visit as u32);

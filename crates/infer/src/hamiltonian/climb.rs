@@ -3,7 +3,7 @@
 //!
 //! Each coordinate moves by the size of its own slopes (Kingma & Ba 2015, algorithm 1). Coarse steps pass over small
 //! summits, which a line search would stop at; they become finer where the height wavers by more than it grows, and the
-//! way ends where it does neither by more than draws would. Where it ends is a start and no draw: the warm-up
+//! ascent ends where it does neither by more than draws would. Where it ends is a start and no draw: the warm-up
 //! that follows makes it one, and chains from different runs end on different summits.
 
 use super::lanes::{Wide, finite};
@@ -24,8 +24,8 @@ const LITTLE: f64 = 3.0;
 /// Keeps a coordinate without any slope where it is.
 const TINY: f64 = 1e-9;
 
-/// A way uphill.
-struct Way {
+/// An ascent uphill.
+struct Ascent {
     /// Where the next gradient is taken.
     at: Vec<f64>,
     /// The highest point so far, and how high it is, nats.
@@ -43,10 +43,10 @@ struct Way {
     is_over: bool,
 }
 
-impl Way {
-    fn from(x: &[f64], steps: u32) -> Way {
+impl Ascent {
+    fn from(x: &[f64], steps: u32) -> Ascent {
         let none = vec![0.0; x.len()];
-        Way {
+        Ascent {
             at: x.to_vec(),
             top: x.to_vec(),
             height: f64::NEG_INFINITY,
@@ -109,18 +109,18 @@ impl Way {
 }
 
 /// Moves `x` uphill, to the highest point of at most `steps` steps; gives the number of gradients taken. A point that the
-/// target refuses ends the way before it.
+/// target refuses ends the ascent before it.
 pub fn climb(target: &mut (impl Potential + ?Sized), x: &mut [f64], steps: u32) -> u32 {
-    let (mut way, mut gradient) = (Way::from(x, steps), vec![0.0; x.len()]);
-    while !way.is_over {
-        way.step_alone(target, &mut gradient, steps);
+    let (mut ascent, mut gradient) = (Ascent::from(x, steps), vec![0.0; x.len()]);
+    while !ascent.is_over {
+        ascent.step_alone(target, &mut gradient, steps);
     }
-    x.copy_from_slice(&way.top);
-    way.taken
+    x.copy_from_slice(&ascent.top);
+    ascent.taken
 }
 
 /// The same from several points, `L` of them side by side, each with a target of its own for where the wide density does
-/// not cover it. Where a way ends, the next point takes its lane.
+/// not cover it. Where an ascent ends, the next point takes its lane.
 pub fn climb_in_lanes<const L: usize>(
     targets: &mut [&mut impl Potential],
     starts: &mut [&mut Vec<f64>],
@@ -128,33 +128,33 @@ pub fn climb_in_lanes<const L: usize>(
     steps: u32,
 ) -> Vec<u32> {
     let dim = starts.first().map_or(0, |start| start.len());
-    let mut ways: Vec<Way> = starts.iter().map(|start| Way::from(start, steps)).collect();
+    let mut ascents: Vec<Ascent> = starts.iter().map(|start| Ascent::from(start, steps)).collect();
     let (mut x, mut g, mut one) = (vec![[0.0; L]; dim], vec![[0.0; L]; dim], vec![0.0; dim]);
-    let mut waiting = (0..ways.len()).take_while(|_| steps > 0);
+    let mut waiting = (0..ascents.len()).take_while(|_| steps > 0);
     let mut lanes: [Option<usize>; L] = [(); L].map(|()| waiting.next());
     while let Some(first) = lanes.iter().flatten().next().copied() {
         for (l, lane) in lanes.iter().enumerate() {
             // Lanes without a point stand where the first one does.
-            let way = &ways[lane.unwrap_or(first)];
-            x.iter_mut().zip(&way.at).for_each(|(row, x)| row[l] = *x);
+            let ascent = &ascents[lane.unwrap_or(first)];
+            x.iter_mut().zip(&ascent.at).for_each(|(row, x)| row[l] = *x);
         }
         let (values, covered) = wide.value_and_gradient(&x, &mut g);
         let finite = finite(&g);
         for (l, lane) in lanes.iter_mut().enumerate() {
             let Some(number) = *lane else { continue };
-            let way = &mut ways[number];
+            let ascent = &mut ascents[number];
             if covered[l] && values[l].is_finite() && finite[l] {
-                way.step(values[l], g.iter().map(|row| row[l]), steps);
+                ascent.step(values[l], g.iter().map(|row| row[l]), steps);
             } else {
-                way.step_alone(&mut *targets[number], &mut one, steps);
+                ascent.step_alone(&mut *targets[number], &mut one, steps);
             }
-            if way.is_over {
+            if ascent.is_over {
                 *lane = waiting.next();
             }
         }
     }
-    starts.iter_mut().zip(&ways).for_each(|(start, way)| start.copy_from_slice(&way.top));
-    ways.iter().map(|way| way.taken).collect()
+    starts.iter_mut().zip(&ascents).for_each(|(start, ascent)| start.copy_from_slice(&ascent.top));
+    ascents.iter().map(|ascent| ascent.taken).collect()
 }
 
 #[cfg(test)]
@@ -188,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn a_refusal_ends_the_way() {
+    fn a_refusal_ends_the_ascent() {
         let mut walled = By(1, |x: &[f64], g: &mut [f64]| {
             g[0] = 1.0;
             if x[0] < 1.0 { Ok(x[0]) } else { Err(Stop { cause: Cause::Guard, place: 0 }) }

@@ -80,8 +80,8 @@ impl Hmc {
 
     /// Stays where the trajectory led, or goes back. Momentum and velocity are those with which it came there.
     ///
-    /// The gradient alone is asked for on the way, so a trajectory that runs off is seen at its end, or where numbers
-    /// overflow: there its kinetic energy tells that it had diverged before.
+    /// The gradient alone is asked for between the ends, so a trajectory that runs off is seen at its end, or where numbers
+    /// overflow: there its kinetic energy shows that it had diverged before.
     pub(super) fn end(
         &mut self,
         start: Start,

@@ -9,7 +9,7 @@
 
 #![allow(unsafe_code)] // Calls of functions compiled for AVX2 or AVX-512, after asking whether there is that.
 
-use super::chains::{Chain, Course, Draws, Purpose, Settings};
+use super::chains::{Chain, Draws, Ongoing, Purpose, Settings};
 use super::hmc::Start;
 use super::leapfrog::Phase;
 use super::metric::{Metric, Shape};
@@ -36,7 +36,7 @@ pub fn suits(settings: &Settings) -> bool {
 /// More than this share of points outside of the wide density, and its chains go on alone.
 const SHARE_OUTSIDE: f64 = 0.25;
 
-/// Warms chains up, then draws, in lanes; `watch` is told (chain, transitions made). At most `L` chains, whose settings
+/// Warms chains up, then draws, in lanes; `watch` is called with (chain, transitions made). At most `L` chains, whose settings
 /// [`suits`] accepts.
 ///
 /// # Panics
@@ -48,24 +48,24 @@ pub fn run_in_lanes<P: Potential, const L: usize>(
     watch: &dyn Fn(usize, u32) -> bool,
 ) -> Vec<Draws> {
     assert!(chains.len() <= L, "a lane for each chain");
-    let mut courses: Vec<_> = chains.into_iter().map(|chain| Course::new(chain, settings)).collect();
-    let Some(first) = courses.first() else { return vec![] };
+    let mut all: Vec<_> = chains.into_iter().map(|chain| Ongoing::new(chain, settings)).collect();
+    let Some(first) = all.first() else { return vec![] };
     let mut lanes = Lanes::<L>::new(first.chain.phase.x.len());
-    while !courses.iter().all(Course::is_over) {
-        let going: Vec<usize> = (0..courses.len()).filter(|&l| !courses[l].is_over()).collect();
-        let made = if lanes.outside > SHARE_OUTSIDE || going.len() * 4 < courses.len() {
-            going.iter().map(|&l| courses[l].chain.advance()).collect()
+    while !all.iter().all(Ongoing::is_over) {
+        let going: Vec<usize> = (0..all.len()).filter(|&l| !all[l].is_over()).collect();
+        let made = if lanes.outside > SHARE_OUTSIDE || going.len() * 4 < all.len() {
+            going.iter().map(|&l| all[l].chain.advance()).collect()
         } else {
             let mut group: Vec<_> =
-                courses.iter_mut().filter(|c| !c.is_over()).map(|course| &mut course.chain).collect();
+                all.iter_mut().filter(|c| !c.is_over()).map(|ongoing| &mut ongoing.chain).collect();
             lanes.advance(&mut group, wide)
         };
         for (&l, made) in going.iter().zip(&made) {
-            courses[l].take(made);
-            courses[l].look(&|done| watch(l, done));
+            all[l].take(made);
+            all[l].look(&|done| watch(l, done));
         }
     }
-    courses.into_iter().map(Course::finish).collect()
+    all.into_iter().map(Ongoing::finish).collect()
 }
 
 /// What the chains of one group work in.

@@ -88,7 +88,7 @@ pub fn add(y: &mut [f64], a: f64, x: &[f64]) {
 /// gradient is all that the target is asked for.
 ///
 /// # Errors
-/// The target's refusal of a position on the way; the phase then stands there, its gradient unspecified.
+/// The target's refusal of a position; the phase then stands there, its gradient unspecified.
 pub fn leapfrog(
     target: &mut (impl Potential + ?Sized),
     metric: &Metric,

@@ -3,12 +3,12 @@
 //! In the order of a step: momentum from the metric, leapfrog steps along the gradient, acceptance by the change of
 //! the total energy `H(x, p) = p . v / 2 - log_density(x)`, with velocity `v = M^-1 p` (dissertation 4.3).
 //!
-//! * [`potential`]: the door: a log density with its gradient, and what may stop a trajectory;
+//! * [`potential`]: what a target is: a log density with its gradient, and what may stop a trajectory;
 //! * [`metric`]: the mass matrix `M`: diagonal, dense, or diagonal with a low-rank correction;
 //! * [`leapfrog`]: the integrator;
 //! * [`hmc`], [`nuts`]: one transition, with a fixed length and with one that it finds itself;
 //! * [`transition`]: what both report, and the choice between them;
-//! * [`mod@climb`]: the way uphill from a start that is unlikely;
+//! * [`mod@climb`]: uphill from a start that is unlikely;
 //! * [`step_size`], [`estimate`], [`warmup`]: what is adapted in warm-up and frozen afterwards;
 //! * [`chains`]: whole chains, side by side; [`lanes`]: many of them in the lanes of one vector.
 //!
@@ -31,4 +31,4 @@ pub use chains::{Chain, Draws, Settings, sample};
 pub use leapfrog::Phase;
 pub use metric::{Metric, Shape};
 pub use potential::{Cause, Potential, Stop};
-pub use transition::{Divergence, Kernel, Transition};
+pub use transition::{BrokenOff, Divergence, Kernel, Transition};

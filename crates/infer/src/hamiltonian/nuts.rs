@@ -200,7 +200,7 @@ impl<P: Potential + ?Sized> Growth<'_, P> {
         Some(older)
     }
 
-    /// Lengthens `older` by the `newer` stretch that follows it, whose chosen point it takes if told to; true when
+    /// Lengthens `older` by the `newer` stretch that follows it, whose chosen point it takes where `take` says so; true when
     /// the two together have turned.
     fn join(&mut self, older: &mut Stretch, newer: Stretch, take: bool) -> bool {
         use Part::{FirstP, FirstV, Gradient, LastP, LastV, Rho, X};

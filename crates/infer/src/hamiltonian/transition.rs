@@ -4,7 +4,7 @@ use super::hmc::Hmc;
 use super::leapfrog::Phase;
 use super::metric::Metric;
 use super::nuts::Nuts;
-use super::potential::{Potential, Stop};
+use super::potential::{Cause, Potential, Stop};
 use niwaki_math::Stream;
 
 /// What one transition did.
@@ -37,6 +37,36 @@ pub struct Divergence {
     pub energy_error: f64,
     /// The target's refusal, if that was the reason.
     pub stop: Option<Stop>,
+}
+
+/// Trajectories that broke off.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct BrokenOff {
+    /// How many after the warm-up the target refused, by [`Cause`].
+    pub refused: [u64; Cause::COUNT],
+    /// How many after the warm-up drifted in energy.
+    pub drifted: u64,
+    /// How many in the warm-up, whatever the reason.
+    pub in_warmup: u64,
+}
+
+impl BrokenOff {
+    /// Counts a trajectory; `stop` is the target's refusal, if that was the reason.
+    pub fn count(&mut self, stop: Option<Stop>, warming: bool) {
+        match stop {
+            _ if warming => self.in_warmup += 1,
+            Some(stop) => self.refused[stop.cause as usize] += 1,
+            None => self.drifted += 1,
+        }
+    }
+}
+
+impl std::ops::AddAssign for BrokenOff {
+    fn add_assign(&mut self, other: BrokenOff) {
+        self.refused.iter_mut().zip(other.refused).for_each(|(sum, one)| *sum += one);
+        self.drifted += other.drifted;
+        self.in_warmup += other.in_warmup;
+    }
 }
 
 /// A transition with the memory that it works in.

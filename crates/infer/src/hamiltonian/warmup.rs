@@ -48,7 +48,7 @@ impl Schedule {
     }
 }
 
-/// A chain's warm-up under way.
+/// A chain's warm-up in progress.
 pub struct Adaptation {
     schedule: Schedule,
     window: Window,

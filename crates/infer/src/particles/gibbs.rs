@@ -103,7 +103,8 @@ pub(super) fn check_chain(settings: &Settings, sweeps: usize) -> Result<(), Faul
 /// `watch` is called after each barrier; when it answers false, the sweeps so far are given.
 ///
 /// # Errors
-/// Settings that a chain cannot have, fewer than two particles, a fault of the program, or no possible first run.
+/// Settings that a chain cannot have, fewer than two particles, a fault of the program, or first populations that all
+/// died.
 pub fn particle_gibbs(
     task: &Task,
     settings: &Settings,
@@ -134,15 +135,11 @@ pub fn particle_gibbs(
     let mut now = match from {
         Some(entries) => held(entries)?,
         None => {
-            let first = run(task, settings, false, watch)?;
-            if first.interrupted {
+            let Some(first) = first_run(task, settings, sweeps, &mut chain, watch)? else {
                 chain.interrupted = true;
                 return Ok(chain);
-            }
-            let mut weights = Normalised::default();
-            weights.read(first.particles.iter().map(|p| p.log_weight));
-            let index = draw_index(&weights, settings.seed, 0);
-            held(&first.particles[index].record.log.entries())?
+            };
+            held(&first.record.log.entries())?
         }
     };
     for sweep in 1..=sweeps {
@@ -157,6 +154,30 @@ pub fn particle_gibbs(
         now = next;
     }
     Ok(chain)
+}
+
+/// A run of the first population that lives, of at most one more than there are sweeps. `None` when it was stopped.
+fn first_run(
+    task: &Task,
+    settings: &Settings,
+    sweeps: usize,
+    chain: &mut Chain,
+    watch: &mut Watch<'_>,
+) -> Result<Option<Outcome>, Failure> {
+    let mut seed = settings.seed;
+    loop {
+        match run(task, &Settings { seed, ..settings.clone() }, false, watch) {
+            Ok(result) if result.interrupted => return Ok(None),
+            Ok(mut result) => {
+                let mut weights = Normalised::default();
+                weights.read(result.particles.iter().map(|p| p.log_weight));
+                return Ok(Some(result.particles.swap_remove(draw_index(&weights, seed, 0))));
+            }
+            Err(failure) if failure.is_impossible() && chain.died < sweeps => chain.died += 1,
+            Err(failure) => return Err(failure),
+        }
+        seed = Stream::new(settings.seed, SWEEPS, chain.died as u128, 2).next_u64();
+    }
 }
 
 /// One sweep: SMC with a run held, and a draw from its final set. `None` when it was stopped.

@@ -8,10 +8,8 @@ use super::settings::Order;
 use crate::chain::accept::{MetropolisHastings, Rules, Terms, accepts, selected};
 use crate::chain::block::{self, Block};
 use crate::chain::counts::Count;
-
 use crate::chain::leaf::{Leaf, Target};
 use crate::chain::proposal::Move;
-use crate::chain::snapshot::{logged, present};
 use crate::chain::state::State as ChainState;
 use crate::chain::streams::below;
 use crate::chain::{Chain, Settings as ChainSettings};
@@ -244,7 +242,7 @@ pub(super) fn chain_from(
 pub(super) fn record_of(state: &mut ChainState, program: &Program) -> Record {
     let totals = state.trace.totals();
     Record {
-        log: logged(present(state, program)),
+        log: state.choices(program).collect(),
         log_prior: totals.log_prior.clone(),
         log_factors: totals.log_factors.clone(),
         log_sketches: state.log_sketches.clone(),

@@ -217,7 +217,7 @@ impl<'a> Population<'a> {
             self.temperatures.push(next);
         }
         if !self.weights.read(self.logs.iter().copied()) {
-            AllInvalid::check_all(self.particles.iter().map(|p| &p.record))?;
+            AllInvalid::check_all(self.particles.iter().map(|p| p.record.invalid.as_ref()))?;
             return Err(impossible(&self.particles, self.barriers));
         }
         Ok(Seen { best, ended })

@@ -18,7 +18,6 @@ use super::final_chains::FinalChains;
 use super::moves::{move_ended, move_running};
 use super::population::{BATCH, Population};
 use super::settings::{Settings, Weights};
-use crate::chain::accept::MetropolisHastings;
 use crate::chain::counts::Count;
 use crate::chain::kernel::Kernel;
 use crate::chain::plan::Plan;
@@ -143,7 +142,7 @@ impl Mover {
         let sites = task.program.functions.iter().flat_map(|f| &f.sites);
         let numbers: HashMap<u128, usize> = sites.enumerate().map(|(n, site)| (site.key, n)).collect();
         let mut plan = Plan::new(&rejuvenation.kernel, numbers.len())?;
-        plan.leaves.iter_mut().try_for_each(|leaf| leaf.prepare::<MetropolisHastings>(task))?;
+        plan.leaves.iter_mut().try_for_each(|leaf| leaf.prepare(task))?;
         let choosy = (0..plan.leaves.len()).filter(|n| !plan.leaves[*n].selection.is_all()).collect();
         let mut spreads = HashMap::new();
         for run in 0..FIRST_RUNS {

@@ -5,6 +5,7 @@ use super::population::Population;
 use super::rejuvenation::Moved;
 use super::settings::{Anneal, Settings, Weights};
 use crate::record::Record;
+use crate::run::Run;
 use crate::{Failure, Task};
 use niwaki_vm::value::Value;
 
@@ -32,6 +33,12 @@ impl Outcome {
             has_ended: self.has_ended,
             lineage: self.lineage,
         }
+    }
+}
+
+impl From<Outcome> for Run {
+    fn from(outcome: Outcome) -> Run {
+        Run::of(outcome.record, outcome.value, outcome.log_weight, outcome.has_ended)
     }
 }
 

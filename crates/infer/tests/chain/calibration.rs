@@ -141,7 +141,7 @@ fn tempered(drawing: &Task, given: &Task, deviation: f64, power: f64, replicate:
     for attempt in 0..100_000 {
         let seed = (rung << 32) + attempt;
         let run = forward(drawing, seed, replicate, true).expect("a run");
-        let known = by_address(&run.record.log.entries());
+        let known = by_address(&run.log.entries());
         if power == 0.0 {
             return known;
         }
@@ -179,7 +179,7 @@ fn distance_at<R: Rules>(
     for replicate in 0..replicates {
         fresh.push(numbers(&forward(&drawing, 1, replicate, true).expect("a run").value));
         let first = forward(&drawing, 2, replicate, true).expect("a run");
-        let (choices, values) = (first.record.log.entries(), numbers(&first.value));
+        let (choices, values) = (first.log.entries(), numbers(&first.value));
         let args = choices[choices.len() - data..].iter().map(|choice| choice.value.clone()).collect();
         let given = Task { args, ..observing.clone() };
         let settings = Settings {

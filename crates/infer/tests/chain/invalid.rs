@@ -90,7 +90,7 @@ fn proposals<R: Rules>(task: &Task, settings: &Settings, known: &HashMap<u128, V
 
 fn exact_draw(task: &Task, seed: u64, bound: f64) -> HashMap<u128, Value> {
     let draw = rejection(task, 1, bound, 100_000, seed, &mut |_| true).expect("a draw");
-    by_address(&draw.samples[0].record.log.entries())
+    by_address(&draw.runs[0].log.entries())
 }
 
 /// Z-scores of the counts of all outcomes; an outcome that is none has an infinite one.
@@ -166,12 +166,12 @@ fn direct_methods_agree_with_enumeration() {
         let task = task(text);
         let exact = enumerate(&task, 100_000, &mut |_| true).unwrap();
         let runs = rejection(&task, 4000, 1.0, 1_000_000, 3, &mut |_| true).unwrap();
-        let values: Vec<String> = runs.samples.iter().map(|s| repr(&s.value).unwrap()).collect();
+        let values: Vec<String> = runs.runs.iter().map(|s| repr(&s.value).unwrap()).collect();
         let z = counted(&task, &values);
         assert!(z < LIMIT, "{name}: {z}");
         // The mean of independent weights.
         let weighted = importance(&task, None, 20_000, 4, &mut |_| true).unwrap();
-        let weights: Vec<f64> = weighted.samples.iter().map(|s| s.record.log_score().exp()).collect();
+        let weights: Vec<f64> = weighted.runs.iter().map(|s| s.log_score.exp()).collect();
         let n = weights.len() as f64;
         let (mean, square) = weights.iter().fold((0.0, 0.0), |(m, s), w| (m + w / n, s + w * w / n));
         let z = (mean - exact.log_evidence.exp()) / ((square - mean * mean) / n).sqrt();
@@ -179,7 +179,7 @@ fn direct_methods_agree_with_enumeration() {
         // Those that are counted are those without weight, but for conditions.
         let fresh = task.uncounted();
         let again = importance(&fresh, None, 20_000, 4, &mut |_| true).unwrap();
-        let invalid = again.samples.iter().filter(|s| s.record.invalid.is_some()).count() as u64;
+        let invalid = again.runs.iter().filter(|s| s.invalid.is_some()).count() as u64;
         assert_eq!(fresh.invalid.counts().iter().map(|site| site.1).sum::<u64>(), invalid);
         assert!(invalid > 1000, "{name}: {invalid}");
     }
@@ -292,7 +292,7 @@ fn trajectories_in_a_chain_end_where_a_distribution_is_invalid() {
 }
 
 fn exact_values(task: &Task, seed: u64) -> (f64, f64) {
-    pair(&rejection(task, 1, 0.3, 100_000, seed, &mut |_| true).expect("a draw").samples[0].value)
+    pair(&rejection(task, 1, 0.3, 100_000, seed, &mut |_| true).expect("a draw").runs[0].value)
 }
 
 #[test]
@@ -319,7 +319,7 @@ fn chains_of_the_gradient_end_their_trajectories_there_too() {
     let settings = hamiltonian::Settings { warmup: 200, draws: 400, ..hamiltonian::Settings::nuts() };
     let plan = Plan { settings: &settings, seed: 1, chains: 2, tries: 1000, known: None };
     for chain in explore(&task, &plan, &|_| true).expect("chains") {
-        let refused = chain.draws.refused;
+        let refused = chain.draws.broken.refused;
         assert!(refused[Cause::Impossible as usize] > 0, "{refused:?}");
         assert!(refused[Cause::NotFinite as usize] == 0 && chain.fault.is_none(), "{refused:?}");
     }

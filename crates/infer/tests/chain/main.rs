@@ -13,6 +13,7 @@ use niwaki_infer::Task;
 use niwaki_infer::chain::accept::{MetropolisHastings, Rules};
 use niwaki_infer::chain::agreement::{Seen, compare, disagreement};
 use niwaki_infer::chain::kernel::{Kernel, Selection};
+use niwaki_infer::chain::ladder::Ladder;
 use niwaki_infer::chain::user::User;
 use niwaki_infer::chain::{Chain, Settings};
 use niwaki_vm::code::Program;
@@ -146,6 +147,21 @@ impl Rules for LeavesOneRegister {
     fn undo(trace: &mut Trace, program: &Program) {
         trace.rollback_but_one_register(program);
     }
+}
+
+#[test]
+fn rungs_of_a_ladder_draw_numbers_of_their_own() {
+    let differ = |text: &str| {
+        let task = task(text);
+        // Equal temperatures and no exchange: with shared streams both chains would be the same.
+        let settings = Settings { temperatures: vec![1.0, 1.0], every: 1000, ..settings() };
+        let mut ladder: Ladder = Ladder::start(&task, &settings, 0, None).expect("a ladder");
+        ladder.advance(&task, 100, &mut |_, _| true).expect("proposals");
+        let [first, second] = [0, 1].map(|rung| format!("{:?}", ladder.rungs[rung].state.trace.result()));
+        first != second
+    };
+    let count = PROGRAMS.iter().filter(|(_, text)| differ(text)).count();
+    assert!(2 * count > PROGRAMS.len(), "in {count} of {} programs", PROGRAMS.len());
 }
 
 #[test]

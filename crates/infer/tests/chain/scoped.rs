@@ -18,7 +18,7 @@ use niwaki_vm::passes::compile_keeping;
 use std::sync::Arc;
 
 /// What it is, the program, a pattern and the proposal for the choices that match it.
-const PROGRAMS: [(&str, &str, &str, &str); 5] = [
+const PROGRAMS: [(&str, &str, &str, &str); 6] = [
     (
         "a pure value that only the proposal reads, and one of two arms",
         r#"(module (fn "m" (params)
@@ -54,6 +54,21 @@ const PROGRAMS: [(&str, &str, &str, &str); 5] = [
           (fn "m" (params) (set $k (call "more" 0)) (do (factor (mul 0.8 $k))) (return $k)) (entry "m"))"#,
         "on",
         "(params $k $old) (return (dist bernoulli (cond $old 0.5 (div 1.0 (add 1.2 $k)))))",
+    ),
+    (
+        "a variable that a loop assigns, and that nothing but the proposal reads",
+        r#"(module
+          (fn "m" (params)
+            (set $s 0) (set $n 0)
+            (for $i (range 3) (body
+              (set $x (sample (dist bernoulli 0.4)))
+              (for $j (range 2) (body (set $s (cond $x 1 0))))
+              (set $n (add $n (cond $x 1 0)))))
+            (do (factor (mul 0.5 $n)))
+            (return $n))
+          (entry "m"))"#,
+        "x",
+        "(params $s $old) (return (dist bernoulli (cond (eq $s 1) 0.7 0.3)))",
     ),
     (
         "a value that a loop hands on",

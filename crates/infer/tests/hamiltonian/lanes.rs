@@ -89,12 +89,15 @@ fn a_lane_gives_what_its_chain_gives_alone() {
         for (a, b) in alone.iter().zip(&together) {
             assert_eq!(bits(a), bits(b), "{jitter} {shape:?} {top}");
             assert_eq!(
-                (a.metric.as_ref(), a.refused, a.gradients),
-                (b.metric.as_ref(), b.refused, b.gradients)
+                (a.metric.as_ref(), a.broken, a.gradients),
+                (b.metric.as_ref(), b.broken, b.gradients)
             );
             assert_eq!(a.len(), 60);
         }
-        assert!(alone.iter().map(|a| a.refused[Cause::Guard as usize]).sum::<u64>() > 0, "the wall is met");
+        assert!(
+            alone.iter().map(|a| a.broken.refused[Cause::Guard as usize]).sum::<u64>() > 0,
+            "the wall is met"
+        );
         assert_eq!(wide.asked < 100, top == f64::NEG_INFINITY, "{}", wide.asked);
     }
 }

@@ -1,7 +1,7 @@
 //! Reading parameters: each is looked at once, when a distribution is built, and refused in one way.
 
-use super::dist::Dist;
 use super::draw::{Draw, Param};
+use super::family::Dist;
 use super::family::Family;
 use crate::scalar::Scalar;
 use std::fmt;

@@ -1,14 +1,12 @@
-//! One value for all families: building (with checks), scoring, drawing.
-//!
-//! Families with a few numbers are kept inline, so that a choice allocates nothing; those with tables are
-
+//! What each family does: building (with checks), scoring, drawing.
 //!
 //! The families whose work outweighs a call are kept out of line there (`inline(never)`): inlined, they would
 //! make every choice pay for their registers.
 
 use super::check::{BadParameter, Reader};
 use super::draw::{Draw, Param};
-use super::family::Family;
+
+use super::family::{Dist, Family};
 use super::mixture::Mixture;
 use super::vectors::MultivariateGaussian;
 use super::weights::Weights;
@@ -16,66 +14,6 @@ use super::{bell, circle, counts, interval, tails, truncated, vectors, waiting, 
 use crate::scalar::{LastLog, Scalar};
 use crate::streams::RngCore;
 use std::sync::Arc;
-
-/// A distribution with checked parameters.
-///
-/// ```
-/// use niwaki_math::{Dist, Draw, Family, Param, Stream};
-/// let d: Dist = Dist::new(Family::Gaussian, &[Param::Int(0), Param::Real(2.0)]).unwrap();
-/// let x = d.sample(&mut Stream::new(1, 0, 0, 0));
-/// assert!(d.log_density(&x) <= d.log_density(&Draw::Real(0.0)));
-/// ```
-#[derive(Clone, Debug, PartialEq)]
-#[allow(missing_docs)] // The fields are the families' parameters, described at `Family`.
-pub enum Dist<S: Scalar = f64> {
-    /// See [`Family::Bernoulli`].
-    Bernoulli { p: S },
-    /// See [`Family::Categorical`].
-    Categorical(Arc<Weights<S>>),
-    /// See [`Family::DiscreteUniform`].
-    DiscreteUniform { lo: i64, hi: i64 },
-    /// See [`Family::Poisson`].
-    Poisson { rate: S },
-    /// See [`Family::Binomial`].
-    Binomial { n: i64, p: S },
-    /// See [`Family::Geometric`].
-    Geometric { p: S },
-    /// See [`Family::Uniform`].
-    Uniform { lo: S, hi: S },
-    /// See [`Family::Gaussian`].
-    Gaussian { mean: S, sd: S },
-    /// See [`Family::LogNormal`].
-    LogNormal { mean: S, sd: S },
-    /// See [`Family::Gamma`].
-    Gamma { shape: S, scale: S },
-    /// See [`Family::InverseGamma`].
-    InverseGamma { shape: S, scale: S },
-    /// See [`Family::Beta`].
-    Beta { a: S, b: S },
-    /// See [`Family::Exponential`].
-    Exponential { rate: S },
-    /// See [`Family::Laplace`].
-    Laplace { loc: S, scale: S },
-    /// See [`Family::Cauchy`].
-    Cauchy { loc: S, scale: S },
-    /// See [`Family::StudentT`].
-    StudentT { df: S, loc: S, scale: S },
-    /// See [`Family::VonMises`].
-    VonMises { mean: S, concentration: S },
-    /// See [`Family::TruncatedGaussian`].
-    TruncatedGaussian { mean: S, sd: S, lo: S, hi: S },
-    /// See [`Family::Dirichlet`].
-    Dirichlet(Arc<[S]>),
-    /// See [`Family::MultivariateGaussian`].
-    MultivariateGaussian(Arc<MultivariateGaussian<S>>),
-    /// See [`Family::Mixture`].
-    Mixture(Arc<Mixture<S>>),
-    /// See [`Family::Delta`].
-    Delta(Draw<S>),
-}
-
-// A distribution travels in registers and trees of nodes: it should not grow unnoticed.
-const _: () = assert!(size_of::<Dist<f64>>() <= 40);
 
 impl<S: Scalar> Dist<S> {
     /// The distribution of two real parameters, for the families that models make anew at every choice; `None`
@@ -319,65 +257,6 @@ impl<S: Scalar> Dist<S> {
             Dist::MultivariateGaussian(g) => vector(g.sample(rng)),
             Dist::Mixture(m) => m.sample(rng),
             Dist::Delta(value) => value.clone(),
-        }
-    }
-
-    /// The family.
-    pub fn family(&self) -> Family {
-        match self {
-            Dist::Bernoulli { .. } => Family::Bernoulli,
-            Dist::Categorical(_) => Family::Categorical,
-            Dist::DiscreteUniform { .. } => Family::DiscreteUniform,
-            Dist::Poisson { .. } => Family::Poisson,
-            Dist::Binomial { .. } => Family::Binomial,
-            Dist::Geometric { .. } => Family::Geometric,
-            Dist::Uniform { .. } => Family::Uniform,
-            Dist::Gaussian { .. } => Family::Gaussian,
-            Dist::LogNormal { .. } => Family::LogNormal,
-            Dist::Gamma { .. } => Family::Gamma,
-            Dist::InverseGamma { .. } => Family::InverseGamma,
-            Dist::Beta { .. } => Family::Beta,
-            Dist::Exponential { .. } => Family::Exponential,
-            Dist::Laplace { .. } => Family::Laplace,
-            Dist::Cauchy { .. } => Family::Cauchy,
-            Dist::StudentT { .. } => Family::StudentT,
-            Dist::VonMises { .. } => Family::VonMises,
-            Dist::TruncatedGaussian { .. } => Family::TruncatedGaussian,
-            Dist::Dirichlet(_) => Family::Dirichlet,
-            Dist::MultivariateGaussian(_) => Family::MultivariateGaussian,
-            Dist::Mixture(_) => Family::Mixture,
-            Dist::Delta(_) => Family::Delta,
-        }
-    }
-
-    /// The parameters, in the order in which [`Dist::new`] takes them.
-    pub fn params(&self) -> Vec<Param<S>> {
-        let reals = |numbers: &[S]| numbers.iter().map(|x| Param::Real(*x)).collect();
-        match self {
-            Dist::Bernoulli { p } | Dist::Geometric { p } => reals(&[*p]),
-            Dist::Categorical(w) => vec![Param::Vector(w.given().to_vec())],
-            Dist::DiscreteUniform { lo, hi } => vec![Param::Int(*lo), Param::Int(*hi)],
-            Dist::Binomial { n, p } => vec![Param::Int(*n), Param::Real(*p)],
-            Dist::Poisson { rate } | Dist::Exponential { rate } => reals(&[*rate]),
-            Dist::Uniform { lo: a, hi: b }
-            | Dist::Gaussian { mean: a, sd: b }
-            | Dist::LogNormal { mean: a, sd: b }
-            | Dist::Gamma { shape: a, scale: b }
-            | Dist::InverseGamma { shape: a, scale: b }
-            | Dist::Beta { a, b }
-            | Dist::Laplace { loc: a, scale: b }
-            | Dist::Cauchy { loc: a, scale: b }
-            | Dist::VonMises { mean: a, concentration: b } => reals(&[*a, *b]),
-            Dist::StudentT { df, loc, scale } => reals(&[*df, *loc, *scale]),
-            Dist::TruncatedGaussian { mean, sd, lo, hi } => reals(&[*mean, *sd, *lo, *hi]),
-            Dist::Dirichlet(a) => vec![Param::Vector(a.to_vec())],
-            Dist::MultivariateGaussian(g) => {
-                vec![Param::Vector(g.mean.clone()), Param::Matrix(g.covariance.clone())]
-            }
-            Dist::Mixture(m) => {
-                vec![Param::Vector(m.weights.given().to_vec()), Param::Dists(m.components.clone())]
-            }
-            Dist::Delta(value) => vec![Param::Draw(value.clone())],
         }
     }
 }

@@ -1,6 +1,6 @@
 //! What goes in and comes out of a distribution: parameters and drawn values.
 
-use super::dist::Dist;
+use super::family::Dist;
 use crate::scalar::Scalar;
 use std::fmt;
 use std::sync::Arc;
@@ -61,6 +61,16 @@ impl<S: Scalar> Draw<S> {
         match self {
             Draw::Vector(v) => Some(v),
             _ => None,
+        }
+    }
+
+    /// The same value over another kind of number.
+    pub fn convert<T: Scalar>(&self, number: &impl Fn(S) -> T) -> Draw<T> {
+        match self {
+            Draw::Bool(b) => Draw::Bool(*b),
+            Draw::Int(i) => Draw::Int(*i),
+            Draw::Real(x) => Draw::Real(number(*x)),
+            Draw::Vector(v) => Draw::Vector(v.iter().map(|x| number(*x)).collect()),
         }
     }
 }

@@ -1,10 +1,121 @@
-//! The families' names and those of their parameters, as a model writes them.
+//! The table of the families: what each is called, what its parameters are, and where its values lie.
+//!
+//! A row holds the family's variants of [`Family`] and [`Dist`], its name in a model and its [`Space`]. All else that is
+//! asked of a family and follows from these stands below the table and is an exhaustive `match`, here and wherever a
+//! [`Space`] or a [`Support`] decides something: a family cannot be left out.
 
+use super::coordinates::Interval;
+use super::draw::{Draw, Param};
+use super::mixture::Mixture;
+use super::parts::Part;
+use super::support::Support;
+use super::vectors::MultivariateGaussian;
+use super::weights::Weights;
+use crate::scalar::Scalar;
 use std::fmt;
+use std::sync::Arc;
 
-/// Declares the enum, its names and its parameter names in one table.
+/// Where the values of a family lie, as far as the family alone tells: the same for all of its parameters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Space {
+    /// Truth values.
+    Booleans,
+    /// Whole numbers without order, from zero.
+    Categories,
+    /// Whole numbers.
+    Integers,
+    /// All real numbers; the family has a scale.
+    Line,
+    /// Real numbers above zero.
+    Positive,
+    /// Real numbers from zero to one.
+    Unit,
+    /// Real numbers with bounds that are parameters.
+    Bounded,
+    /// Angles.
+    Circle,
+    /// Vectors of positive numbers that sum to one.
+    Simplex,
+    /// Vectors; the family has a scale.
+    Vectors,
+    /// Where the values of its components lie.
+    Components,
+    /// A value that is given.
+    Fixed,
+}
+
+impl Space {
+    /// Whether values are real numbers or vectors, other than ones that are given.
+    pub const fn is_continuous(self) -> bool {
+        match self {
+            Space::Booleans | Space::Categories | Space::Integers | Space::Fixed => false,
+            Space::Line | Space::Positive | Space::Unit | Space::Bounded | Space::Circle => true,
+            Space::Simplex | Space::Vectors | Space::Components => true,
+        }
+    }
+}
+
+/// The support of a row.
+macro_rules! support {
+    (Booleans) => {
+        Support::Booleans
+    };
+    (Categories $n:expr) => {
+        Support::Categories($n)
+    };
+    (Integers $lo:expr, $hi:expr) => {
+        Support::Integers { lo: $lo, hi: $hi }
+    };
+    (Line $scale:expr) => {
+        Support::Reals(Interval::LINE)
+    };
+    (Positive) => {
+        Support::Reals(Interval { lo: Some(S::from_f64(0.0)), hi: None })
+    };
+    (Unit) => {
+        Support::Reals(Interval { lo: Some(S::from_f64(0.0)), hi: Some(S::from_f64(1.0)) })
+    };
+    (Bounded $lo:expr, $hi:expr) => {
+        Support::Reals(Interval { lo: $lo, hi: $hi })
+    };
+    (Circle) => {
+        Support::Circle
+    };
+    (Simplex $n:expr) => {
+        Support::Simplex($n)
+    };
+    (Vectors $n:expr, $scale:expr) => {
+        Support::Vectors($n)
+    };
+    (Components $mixture:expr) => {
+        $mixture.support()
+    };
+    (Fixed $value:expr) => {
+        Support::of_value($value)
+    };
+}
+
+/// The scale of a row.
+macro_rules! scale {
+    (Line $scale:expr) => {
+        Some($scale)
+    };
+    (Vectors $n:expr, $scale:expr) => {
+        Some($scale)
+    };
+    (Components $mixture:expr) => {
+        $mixture.components.first()?.scale()
+    };
+    ($space:ident $($other:tt)*) => {
+        None
+    };
+}
+
+/// Declares the enums from the table, and what follows from it.
 macro_rules! families {
-    ($( $(#[$doc:meta])* $variant:ident $name:literal [$($parameter:literal),*] )*) => {
+    ($( $(#[$doc:meta])* $variant:ident
+        $({ $($field:ident: $type:ty),* })? $(($whole:ident: $held:ty; $($parameter:literal),*))?
+        $name:literal $space:ident $(($($place:tt)*))?; )*) => {
         /// A family of distributions.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         pub enum Family { $( $(#[$doc])* $variant, )* }
@@ -20,7 +131,12 @@ macro_rules! families {
 
             /// The parameters' names, in their order.
             pub const fn parameters(self) -> &'static [&'static str] {
-                match self { $(Family::$variant => &[$($parameter),*],)* }
+                match self { $(Family::$variant => &[$($(stringify!($field)),*)? $($($parameter),*)?],)* }
+            }
+
+            /// Where its values lie.
+            pub const fn space(self) -> Space {
+                match self { $(Family::$variant => Space::$space,)* }
             }
 
             /// The family of this name.
@@ -28,55 +144,111 @@ macro_rules! families {
                 match name { $($name => Some(Family::$variant),)* _ => None }
             }
         }
+
+        /// A distribution with checked parameters.
+        ///
+        /// ```
+        /// use niwaki_math::{Dist, Draw, Family, Param, Stream};
+        /// let d: Dist = Dist::new(Family::Gaussian, &[Param::Int(0), Param::Real(2.0)]).unwrap();
+        /// let x = d.sample(&mut Stream::new(1, 0, 0, 0));
+        /// assert!(d.log_density(&x) <= d.log_density(&Draw::Real(0.0)));
+        /// ```
+        #[derive(Clone, Debug, PartialEq)]
+        #[allow(missing_docs)] // The fields are the parameters.
+        pub enum Dist<S: Scalar = f64> { $( $(#[$doc])* $variant $({ $($field: $type),* })? $(($held))?, )* }
+
+        #[allow(unused_variables)] // A space rarely needs all fields of its row.
+        impl<S: Scalar> Dist<S> {
+            /// The family.
+            pub fn family(&self) -> Family {
+                match self { $(Dist::$variant { .. } => Family::$variant,)* }
+            }
+
+            /// The parameters, in the order in which [`Dist::new`] takes them.
+            pub fn params(&self) -> Vec<Param<S>> {
+                match self {
+                    $(Dist::$variant $({ $($field),* })? $(($whole))? => {
+                        [$($($field.params()),*)? $($whole.params())?].concat()
+                    })*
+                }
+            }
+
+            /// The same distribution over another kind of number.
+            pub fn convert<T: Scalar>(&self, number: &impl Fn(S) -> T) -> Dist<T> {
+                match self {
+                    $(Dist::$variant $({ $($field),* })? $(($whole))? => {
+                        Dist::$variant $({ $($field: $field.over(number)),* })? $(($whole.over(number)))?
+                    })*
+                }
+            }
+
+            /// Where the values lie.
+            pub fn support(&self) -> Support<S> {
+                match self {
+                    $(Dist::$variant $({ $($field),* })? $(($whole))? => support!($space $($($place)*)?),)*
+                }
+            }
+
+            /// The scale of a family on the whole line or of vectors; the first of a mixture of such.
+            pub fn scale(&self) -> Option<S> {
+                match self {
+                    $(Dist::$variant $({ $($field),* })? $(($whole))? => scale!($space $($($place)*)?),)*
+                }
+            }
+        }
     };
 }
 
 families! {
     /// True with probability `p`.
-    Bernoulli "bernoulli" ["p"]
+    Bernoulli { p: S } "bernoulli" Booleans;
     /// Index 0, 1, ... with probability proportional to its weight.
-    Categorical "categorical" ["weights"]
+    Categorical(w: Arc<Weights<S>>; "weights") "categorical" Categories(w.len());
     /// Whole numbers from `lo` to `hi`, both included, equally likely.
-    DiscreteUniform "discrete_uniform" ["lo", "hi"]
+    DiscreteUniform { lo: i64, hi: i64 } "discrete_uniform" Integers(*lo, Some(*hi));
     /// Number of events when `rate` are expected.
-    Poisson "poisson" ["rate"]
+    Poisson { rate: S } "poisson" Integers(0, None);
     /// Successes in `n` trials of probability `p`.
-    Binomial "binomial" ["n", "p"]
+    Binomial { n: i64, p: S } "binomial" Integers(0, Some(*n));
     /// Failures before the first success of probability `p`: 0, 1, ...
-    Geometric "geometric" ["p"]
+    Geometric { p: S } "geometric" Integers(0, None);
     /// Real numbers between `lo` and `hi`, equally likely.
-    Uniform "uniform" ["lo", "hi"]
+    Uniform { lo: S, hi: S } "uniform" Bounded(Some(*lo), Some(*hi));
     /// The normal distribution.
-    Gaussian "gaussian" ["mean", "sd"]
+    Gaussian { mean: S, sd: S } "gaussian" Line(*sd);
     /// Its logarithm is Gaussian with this mean and standard deviation.
-    LogNormal "log_normal" ["mean", "sd"]
+    LogNormal { mean: S, sd: S } "log_normal" Positive;
     /// Gamma; its mean is `shape * scale`.
-    Gamma "gamma" ["shape", "scale"]
+    Gamma { shape: S, scale: S } "gamma" Positive;
     /// One over a gamma with the same shape and scale `1 / scale`.
-    InverseGamma "inverse_gamma" ["shape", "scale"]
+    InverseGamma { shape: S, scale: S } "inverse_gamma" Positive;
     /// Between 0 and 1; its mean is `a / (a + b)`.
-    Beta "beta" ["a", "b"]
+    Beta { a: S, b: S } "beta" Unit;
     /// Time to the first event; its mean is `1 / rate`.
-    Exponential "exponential" ["rate"]
+    Exponential { rate: S } "exponential" Positive;
     /// Two exponentials back to back.
-    Laplace "laplace" ["loc", "scale"]
+    Laplace { loc: S, scale: S } "laplace" Line(*scale);
     /// Student's t with one degree of freedom.
-    Cauchy "cauchy" ["loc", "scale"]
+    Cauchy { loc: S, scale: S } "cauchy" Line(*scale);
     /// Student's t, moved and scaled.
-    StudentT "student_t" ["df", "loc", "scale"]
+    StudentT { df: S, loc: S, scale: S } "student_t" Line(*scale);
     /// An angle in radians, within half a turn of zero.
-    VonMises "von_mises" ["mean", "concentration"]
+    VonMises { mean: S, concentration: S } "von_mises" Circle;
     /// A Gaussian given that it falls between `lo` and `hi`.
-    TruncatedGaussian "truncated_gaussian" ["mean", "sd", "lo", "hi"]
+    TruncatedGaussian { mean: S, sd: S, lo: S, hi: S } "truncated_gaussian" Bounded(Some(*lo), Some(*hi));
     /// Positive numbers that sum to one.
-    Dirichlet "dirichlet" ["concentrations"]
+    Dirichlet(a: Arc<[S]>; "concentrations") "dirichlet" Simplex(a.len());
     /// Gaussian vectors.
-    MultivariateGaussian "multivariate_gaussian" ["mean", "covariance"]
+    MultivariateGaussian(g: Arc<MultivariateGaussian<S>>; "mean", "covariance")
+        "multivariate_gaussian" Vectors(g.mean.len(), g.scale());
     /// One of `components`, chosen by `weights`.
-    Mixture "mixture" ["weights", "components"]
+    Mixture(m: Arc<Mixture<S>>; "weights", "components") "mixture" Components(m);
     /// Always the same value.
-    Delta "delta" ["value"]
+    Delta(value: Draw<S>; "value") "delta" Fixed(value);
 }
+
+// A distribution travels in registers and trees of nodes: it should not grow unnoticed.
+const _: () = assert!(size_of::<Dist<f64>>() <= 40);
 
 impl fmt::Display for Family {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -8,8 +8,9 @@
 //! value against a Gaussian has no meaning.
 
 use super::check::{BadParameter, Reader};
-use super::dist::Dist;
-use super::draw::Draw;
+use super::draw::{Draw, Param};
+use super::family::Dist;
+use super::parts::Part;
 use super::support::Support;
 use super::weights::Weights;
 use crate::scalar::Scalar;
@@ -32,8 +33,7 @@ impl<S: Scalar> Mixture<S> {
         if components.len() != weights.len() {
             return reader.refuse_kind(1, EXPECTED);
         }
-        let measure = components[0].measure();
-        if components.iter().any(|c| c.measure() != measure) {
+        if components.iter().any(|c| !c.compares_with(&components[0])) {
             return reader.refuse_kind(1, "distributions over values of one kind");
         }
         Ok(Mixture { weights, components: components.to_vec() })
@@ -58,15 +58,16 @@ impl<S: Scalar> Mixture<S> {
         self.components[self.weights.sample(rng)].sample(rng)
     }
 
-    /// The components that can be chosen.
+    /// The components that can be chosen, here or where a recorded weight is another.
     fn possible(&self) -> impl Iterator<Item = &Dist<S>> {
-        let chosen = |k: usize| self.weights.given()[k].value() > 0.0;
+        let chosen = |k: usize| self.weights.given()[k].varies() || self.weights.given()[k].value() > 0.0;
         self.components.iter().enumerate().filter(move |(k, _)| chosen(*k)).map(|(_, c)| c)
     }
 
-    /// The smallest support of the listed kinds that covers all components.
-    pub(super) fn support(&self) -> Support {
-        self.possible().map(Dist::support).reduce(Support::cover).unwrap_or(Support::Booleans)
+    /// The smallest support in bounds that covers all components.
+    pub(super) fn support(&self) -> Support<S> {
+        let supports = self.possible().map(|c| c.support().in_bounds());
+        supports.reduce(Support::cover).unwrap_or(Support::Booleans)
     }
 
     /// Values of all components, each once.
@@ -80,6 +81,19 @@ impl<S: Scalar> Mixture<S> {
             }
         }
         Some(values)
+    }
+}
+
+impl<S: Scalar> Part<S> for Mixture<S> {
+    type Over<T: Scalar> = Mixture<T>;
+
+    fn over<T: Scalar>(&self, number: &impl Fn(S) -> T) -> Mixture<T> {
+        let components = self.components.iter().map(|c| c.convert(number)).collect();
+        Mixture { weights: self.weights.over(number), components }
+    }
+
+    fn params(&self) -> Vec<Param<S>> {
+        vec![Param::Vector(self.weights.given().to_vec()), Param::Dists(self.components.clone())]
     }
 }
 

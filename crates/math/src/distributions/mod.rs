@@ -2,12 +2,13 @@
 //!
 //! | file | what it holds |
 //! | --- | --- |
-//! | `family` | the families' names and those of their parameters |
+//! | `family` | the table: [`Family`] and [`Dist`], names, parameters, and where values lie: [`Space`] |
 //! | `draw` | what goes in and comes out: [`Param`], [`Draw`] |
 //! | `check` | reading parameters; the one way to say that one is wrong: [`BadParameter`] |
-//! | `convert` | the same distribution over another kind of number |
-//! | `dist` | [`Dist`]: one value for all families; building, scoring, drawing |
+//! | `parts` | what distributions are made of: over another kind of number, and as parameters |
+//! | `dist` | what each family does: building, scoring, drawing |
 //! | `support` | [`Support`], and listing the values of the finite discrete families |
+//! | `coordinates` | real numbers with bounds as numbers without, and small moves there: [`Interval`] |
 //! | `whole` | bernoulli, discrete_uniform, geometric |
 //! | `counts` | poisson, binomial |
 //! | `weights` | categorical, and the table of weights that mixtures share |
@@ -30,13 +31,14 @@
 mod bell;
 mod check;
 mod circle;
-mod convert;
+mod coordinates;
 mod counts;
 mod dist;
 mod draw;
 mod family;
 mod interval;
 mod mixture;
+mod parts;
 mod support;
 mod tails;
 mod truncated;
@@ -49,9 +51,9 @@ mod whole;
 mod testing;
 
 pub use check::BadParameter;
-pub use dist::Dist;
+pub use coordinates::{Interval, Placed, log_odds, logistic};
 pub use draw::{Draw, Param};
-pub use family::Family;
+pub use family::{Dist, Family, Space};
 pub use mixture::Mixture;
 pub use support::Support;
 pub use vectors::MultivariateGaussian;

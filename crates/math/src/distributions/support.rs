@@ -1,16 +1,20 @@
 //! Where a distribution's values lie, and the list of them where it is finite.
 
-use super::dist::Dist;
+use super::coordinates::Interval;
 use super::draw::Draw;
+use super::family::Dist;
 use crate::scalar::Scalar;
+use std::f64::consts::PI;
 
 /// Where the values of a distribution lie.
 ///
 /// Single values inside may still be impossible: a weight of zero, the gap between a mixture's components.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Support {
+pub enum Support<S = f64> {
     /// True and false.
     Booleans,
+    /// So many whole numbers from zero, without order.
+    Categories(usize),
     /// Whole numbers from `lo` to `hi`, both included; `None` is no bound.
     Integers {
         /// Smallest value.
@@ -18,52 +22,76 @@ pub enum Support {
         /// Largest value.
         hi: Option<i64>,
     },
-    /// Real numbers between `lo` and `hi`, which may be infinite.
-    Reals {
-        /// Lower end.
-        lo: f64,
-        /// Upper end.
-        hi: f64,
+    /// Single real numbers, each with a probability.
+    Points {
+        /// Smallest value.
+        lo: S,
+        /// Largest value.
+        hi: S,
     },
+    /// Real numbers.
+    Reals(Interval<S>),
+    /// Angles within half a turn of zero, radians.
+    Circle,
     /// Vectors of `n` positive numbers that sum to one.
     Simplex(usize),
     /// All vectors of `n` numbers.
     Vectors(usize),
+    /// Single vectors of `n` numbers, each with a probability.
+    VectorPoints(usize),
 }
 
-impl Support {
-    /// The smallest support that contains both (which are of one kind).
-    pub(super) fn cover(self, other: Support) -> Support {
+impl<S: Scalar> Support<S> {
+    /// That of a single value.
+    pub(super) fn of_value(value: &Draw<S>) -> Support<S> {
+        match value {
+            Draw::Bool(_) => Support::Booleans,
+            Draw::Int(i) => Support::Integers { lo: *i, hi: Some(*i) },
+            Draw::Real(x) => Support::Points { lo: *x, hi: *x },
+            Draw::Vector(v) => Support::VectorPoints(v.len()),
+        }
+    }
+
+    /// By bounds alone: categories are whole numbers, and angles are real ones.
+    #[must_use]
+    pub fn in_bounds(self) -> Support<S> {
+        match self {
+            Support::Categories(n) => Support::Integers { lo: 0, hi: Some(n as i64 - 1) },
+            Support::Circle => {
+                Support::Reals(Interval { lo: Some(S::from_f64(-PI)), hi: Some(S::from_f64(PI)) })
+            }
+            Support::Booleans | Support::Integers { .. } | Support::Points { .. } | Support::Reals(_) => self,
+            Support::Simplex(_) | Support::Vectors(_) | Support::VectorPoints(_) => self,
+        }
+    }
+
+    /// The smallest support in bounds that contains both (which are of one kind).
+    pub(super) fn cover(self, other: Support<S>) -> Support<S> {
         match (self, other) {
             (Support::Integers { lo, hi }, Support::Integers { lo: lo2, hi: hi2 }) => {
                 Support::Integers { lo: lo.min(lo2), hi: hi.zip(hi2).map(|(a, b)| a.max(b)) }
             }
-            (Support::Reals { lo, hi }, Support::Reals { lo: lo2, hi: hi2 }) => {
-                Support::Reals { lo: lo.min(lo2), hi: hi.max(hi2) }
+            (Support::Points { lo, hi }, Support::Points { lo: lo2, hi: hi2 }) => {
+                Support::Points { lo: lo.min(lo2), hi: hi.max(hi2) }
             }
-            (Support::Simplex(n), Support::Vectors(_)) => Support::Vectors(n),
-            (first, _) => first,
+            (Support::Reals(a), Support::Reals(b)) => Support::Reals(Interval {
+                lo: a.lo.zip(b.lo).map(|(a, b)| a.min(b)),
+                hi: a.hi.zip(b.hi).map(|(a, b)| a.max(b)),
+            }),
+            (first @ (Support::Booleans | Support::Categories(_) | Support::Integers { .. }), _)
+            | (first @ (Support::Points { .. } | Support::Reals(_) | Support::Circle), _)
+            | (first @ (Support::Simplex(_) | Support::Vectors(_) | Support::VectorPoints(_)), _) => first,
         }
     }
-}
 
-/// How a density is measured: two distributions with equal measures can be mixed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Measure {
-    /// Counting truth values.
-    Booleans,
-    /// Counting whole numbers.
-    Integers,
-    /// Counting single points of the line (a delta).
-    Points,
-    /// Length.
-    Length,
-    /// Area of the simplex of this many entries.
-    Simplex(usize),
-    /// Volume in this many dimensions.
-    Volume(usize),
-    /// Counting single vectors of this many entries (a delta).
-    VectorPoints(usize),
+    /// How many components its vectors have.
+    pub fn dimension(&self) -> Option<usize> {
+        match self {
+            Support::Simplex(n) | Support::Vectors(n) | Support::VectorPoints(n) => Some(*n),
+            Support::Booleans | Support::Categories(_) | Support::Integers { .. } => None,
+            Support::Points { .. } | Support::Reals(_) | Support::Circle => None,
+        }
+    }
 }
 
 /// Longer lists of values are not written out.
@@ -72,79 +100,14 @@ const LONGEST_LIST: i64 = 1 << 20;
 impl<S: Scalar> Dist<S> {
     /// How many components its values have, of a family of vectors.
     pub fn dimension(&self) -> Option<usize> {
-        match self {
-            Dist::Dirichlet(_) | Dist::MultivariateGaussian(_) | Dist::Mixture(_) => match self.support() {
-                Support::Simplex(n) | Support::Vectors(n) => Some(n),
-                _ => None,
-            },
-            Dist::Delta(Draw::Vector(x)) => Some(x.len()),
-            _ => None,
-        }
+        self.support().dimension()
     }
 
-    /// The scale of a family with a location and a scale on the whole line; the first of a mixture of such.
-    pub fn scale(&self) -> Option<S> {
-        match self {
-            Dist::Gaussian { sd, .. } => Some(*sd),
-            Dist::Laplace { scale, .. } | Dist::Cauchy { scale, .. } | Dist::StudentT { scale, .. } => {
-                Some(*scale)
-            }
-            Dist::Mixture(m) => m.components.first()?.scale(),
-            _ => None,
-        }
-    }
-
-    /// Where the values lie.
-    pub fn support(&self) -> Support {
-        let reals = |lo, hi| Support::Reals { lo, hi };
-        let inf = f64::INFINITY;
-        match self {
-            Dist::Bernoulli { .. } => Support::Booleans,
-            Dist::Categorical(w) => Support::Integers { lo: 0, hi: Some(w.len() as i64 - 1) },
-            Dist::DiscreteUniform { lo, hi } => Support::Integers { lo: *lo, hi: Some(*hi) },
-            Dist::Poisson { .. } | Dist::Geometric { .. } => Support::Integers { lo: 0, hi: None },
-            Dist::Binomial { n, .. } => Support::Integers { lo: 0, hi: Some(*n) },
-            Dist::Uniform { lo, hi } | Dist::TruncatedGaussian { lo, hi, .. } => {
-                reals(lo.value(), hi.value())
-            }
-            Dist::Gaussian { .. } | Dist::Laplace { .. } | Dist::Cauchy { .. } | Dist::StudentT { .. } => {
-                reals(-inf, inf)
-            }
-            Dist::LogNormal { .. }
-            | Dist::Gamma { .. }
-            | Dist::InverseGamma { .. }
-            | Dist::Exponential { .. } => reals(0.0, inf),
-            Dist::Beta { .. } => reals(0.0, 1.0),
-            Dist::VonMises { .. } => reals(-std::f64::consts::PI, std::f64::consts::PI),
-            Dist::Dirichlet(a) => Support::Simplex(a.len()),
-            Dist::MultivariateGaussian(g) => Support::Vectors(g.mean.len()),
-            Dist::Mixture(m) => m.support(),
-            Dist::Delta(Draw::Bool(_)) => Support::Booleans,
-            Dist::Delta(Draw::Int(i)) => Support::Integers { lo: *i, hi: Some(*i) },
-            Dist::Delta(Draw::Real(x)) => reals(x.value(), x.value()),
-            Dist::Delta(Draw::Vector(v)) => Support::Vectors(v.len()),
-        }
-    }
-
-    /// How the density is measured.
-    pub(super) fn measure(&self) -> Measure {
-        match self {
-            Dist::Delta(Draw::Real(_)) => Measure::Points,
-            Dist::Delta(Draw::Vector(v)) => Measure::VectorPoints(v.len()),
-            Dist::Mixture(m) => m.components[0].measure(),
-            _ => match self.support() {
-                Support::Booleans => Measure::Booleans,
-                Support::Integers { .. } => Measure::Integers,
-                Support::Reals { .. } => Measure::Length,
-                Support::Simplex(n) => Measure::Simplex(n),
-                Support::Vectors(n) => Measure::Volume(n),
-            },
-        }
-    }
-
-    /// Whether both measure their densities alike, so that a ratio of them means something.
+    /// Whether both measure their densities alike, by counting or by length, area, ..., so that a ratio of them means
+    /// something and they can be mixed.
     pub fn compares_with(&self, other: &Dist<S>) -> bool {
-        self.measure() == other.measure()
+        let (a, b) = (self.support().in_bounds(), other.support().in_bounds());
+        std::mem::discriminant(&a) == std::mem::discriminant(&b) && a.dimension() == b.dimension()
     }
 
     /// Values of `other`, of the same measure, that this distribution visibly never draws, for a message: one of finitely
@@ -159,23 +122,26 @@ impl<S: Scalar> Dist<S> {
     pub fn lacks(&self, other: &Dist<S>) -> Option<String> {
         let low = |lo: &dyn Fn() -> String| Some(format!("numbers below {}", lo()));
         let high = |hi: &dyn Fn() -> String| Some(format!("numbers above {}", hi()));
-        let outside = match (self.support(), other.support()) {
-            (Support::Integers { lo, .. }, Support::Integers { lo: least, .. }) if least < lo => {
-                low(&|| lo.to_string())
-            }
-            (Support::Integers { hi: Some(hi), .. }, Support::Integers { hi: most, .. })
-                if most.is_none_or(|most| most > hi) =>
-            {
-                high(&|| hi.to_string())
-            }
-            (Support::Reals { lo, .. }, Support::Reals { lo: least, .. }) if least < lo => {
-                low(&|| lo.to_string())
-            }
-            (Support::Reals { hi, .. }, Support::Reals { hi: most, .. }) if most > hi => {
-                high(&|| hi.to_string())
-            }
-            _ => None,
-        };
+        let outside =
+            match (self.support().in_bounds(), other.support().in_bounds()) {
+                (Support::Integers { lo, .. }, Support::Integers { lo: least, .. }) if least < lo => {
+                    low(&|| lo.to_string())
+                }
+                (Support::Integers { hi: Some(hi), .. }, Support::Integers { hi: most, .. })
+                    if most.is_none_or(|most| most > hi) =>
+                {
+                    high(&|| hi.to_string())
+                }
+                (
+                    Support::Reals(Interval { lo: Some(lo), .. }),
+                    Support::Reals(Interval { lo: least, .. }),
+                ) if least.is_none_or(|least| least.value() < lo.value()) => low(&|| lo.value().to_string()),
+                (
+                    Support::Reals(Interval { hi: Some(hi), .. }),
+                    Support::Reals(Interval { hi: most, .. }),
+                ) if most.is_none_or(|most| most.value() > hi.value()) => high(&|| hi.value().to_string()),
+                _ => None,
+            };
         let has_gaps = matches!(
             self,
             Dist::Bernoulli { .. }
@@ -206,22 +172,21 @@ impl<S: Scalar> Dist<S> {
     /// assert_eq!(coin.enumerate(), Some(vec![Draw::Bool(false), Draw::Bool(true)]));
     /// ```
     pub fn enumerate(&self) -> Option<Vec<Draw<S>>> {
-        let (lo, hi) = match self {
-            Dist::Bernoulli { p } => {
-                let possible = |b: bool| if b { p.value() > 0.0 } else { p.value() < 1.0 };
-                return Some([false, true].into_iter().filter(|b| possible(*b)).map(Draw::Bool).collect());
+        let possible = |x: &Draw<S>| self.log_density(x).value() > f64::NEG_INFINITY;
+        let (lo, hi) = match (self, self.support().in_bounds()) {
+            (Dist::Delta(value), _) => return Some(vec![value.clone()]),
+            (Dist::Mixture(m), _) => return m.enumerate(),
+            (_, Support::Booleans) => {
+                return Some([false, true].map(Draw::Bool).into_iter().filter(possible).collect());
             }
-            Dist::Categorical(w) => (0, w.len() as i64 - 1),
-            Dist::DiscreteUniform { lo, hi } => (*lo, *hi),
-            Dist::Binomial { n, .. } => (0, *n),
-            Dist::Delta(value) => return Some(vec![value.clone()]),
-            Dist::Mixture(m) => return m.enumerate(),
-            _ => return None,
+            (_, Support::Integers { lo, hi: Some(hi) }) => (lo, hi),
+            (_, Support::Integers { hi: None, .. } | Support::Categories(_) | Support::Points { .. })
+            | (_, Support::Reals(_) | Support::Circle)
+            | (_, Support::Simplex(_) | Support::Vectors(_) | Support::VectorPoints(_)) => return None,
         };
         if hi.checked_sub(lo)? >= LONGEST_LIST {
             return None;
         }
-        let possible = |x: &Draw<S>| self.log_density(x).value() > f64::NEG_INFINITY;
         Some((lo..=hi).map(Draw::Int).filter(possible).collect())
     }
 }

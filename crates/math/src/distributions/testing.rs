@@ -3,8 +3,8 @@
 //! Fixed seeds. Each call of [`continuous_agrees`], [`follows`] or [`discrete_agrees`] raises a false alarm with
 //! probability at most 1e-6; there are about a hundred of them.
 
-use super::dist::Dist;
 use super::draw::{Draw, Param};
+use super::family::Dist;
 use super::family::Family;
 use crate::streams::Stream;
 use std::ops::RangeInclusive;

@@ -2,6 +2,8 @@
 
 use super::bell::HALF_LN_TAU;
 use super::check::{BadParameter, Reader};
+use super::draw::Param;
+use super::parts::Part;
 use super::waiting::{gamma_draw, log_gamma_draw};
 use crate::scalar::Scalar;
 use crate::streams::RngCore;
@@ -90,15 +92,10 @@ impl<S: Scalar> MultivariateGaussian<S> {
         }
     }
 
-    /// The same Gaussian over another kind of number.
-    pub(super) fn convert<T: Scalar>(&self, number: &impl Fn(S) -> T) -> MultivariateGaussian<T> {
-        let all = |xs: &Vec<S>| xs.iter().map(|x| number(*x)).collect::<Vec<_>>();
-        MultivariateGaussian {
-            mean: all(&self.mean),
-            covariance: self.covariance.iter().map(all).collect(),
-            factor: self.factor.iter().map(all).collect(),
-            log_peak: number(self.log_peak),
-        }
+    /// The root of the mean variance: about how far its values lie from each other.
+    pub(super) fn scale(&self) -> S {
+        let sum = (0..self.mean.len()).fold(S::from_f64(0.0), |sum, i| sum + self.covariance[i][i]);
+        (sum / S::from_f64(self.mean.len() as f64)).sqrt()
     }
 
     /// `log_peak - |y|^2 / 2`, where `factor y = x - mean`.
@@ -127,6 +124,24 @@ impl<S: Scalar> MultivariateGaussian<S> {
             x.clamp(f64::MIN, f64::MAX)
         };
         self.mean.iter().zip(&self.factor).map(entry).collect()
+    }
+}
+
+impl<S: Scalar> Part<S> for MultivariateGaussian<S> {
+    type Over<T: Scalar> = MultivariateGaussian<T>;
+
+    fn over<T: Scalar>(&self, number: &impl Fn(S) -> T) -> MultivariateGaussian<T> {
+        let all = |xs: &Vec<S>| xs.iter().map(|x| number(*x)).collect::<Vec<_>>();
+        MultivariateGaussian {
+            mean: all(&self.mean),
+            covariance: self.covariance.iter().map(all).collect(),
+            factor: self.factor.iter().map(all).collect(),
+            log_peak: number(self.log_peak),
+        }
+    }
+
+    fn params(&self) -> Vec<Param<S>> {
+        vec![Param::Vector(self.mean.clone()), Param::Matrix(self.covariance.clone())]
     }
 }
 

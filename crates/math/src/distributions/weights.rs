@@ -4,6 +4,8 @@
 //! that scoring is a look-up and drawing one uniform and a search.
 
 use super::check::{BadParameter, Reader};
+use super::draw::Param;
+use super::parts::Part;
 use crate::scalar::Scalar;
 use crate::streams::{RngCore, open_unit};
 
@@ -43,15 +45,6 @@ impl<S: Scalar> Weights<S> {
         Ok(Weights { given: given.into(), log, cumulative })
     }
 
-    /// The same table over another kind of number.
-    pub(super) fn convert<T: Scalar>(&self, number: &impl Fn(S) -> T) -> Weights<T> {
-        Weights {
-            given: self.given.iter().map(|w| number(*w)).collect(),
-            log: self.log.iter().map(|w| number(*w)).collect(),
-            cumulative: self.cumulative.clone(),
-        }
-    }
-
     /// How many choices there are.
     pub fn len(&self) -> usize {
         self.log.len()
@@ -85,6 +78,22 @@ impl<S: Scalar> Weights<S> {
         } else {
             self.cumulative.partition_point(|sum| *sum <= u)
         }
+    }
+}
+
+impl<S: Scalar> Part<S> for Weights<S> {
+    type Over<T: Scalar> = Weights<T>;
+
+    fn over<T: Scalar>(&self, number: &impl Fn(S) -> T) -> Weights<T> {
+        Weights {
+            given: self.given.iter().map(|w| number(*w)).collect(),
+            log: self.log.iter().map(|w| number(*w)).collect(),
+            cumulative: self.cumulative.clone(),
+        }
+    }
+
+    fn params(&self) -> Vec<Param<S>> {
+        vec![Param::Vector(self.given.to_vec())]
     }
 }
 

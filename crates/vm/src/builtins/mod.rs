@@ -138,7 +138,7 @@ table! {
 
     "int" 0 1 arithmetic::int;
     "float" 0 1 arithmetic::float;
-    "bool" 0 1 |a| Ok(Value::Bool(a.first().is_some_and(ops::truth)));
+    "bool" 0 1 |a| Ok(Value::Bool(a.first().map_or(Ok(false), ops::truth)?));
     "abs" 1 1 arithmetic::abs;
     "round" 1 2 arithmetic::round;
     "divmod" 2 2 |a| Ok(Value::tuple(vec![ops::floordiv(&a[0], &a[1])?, ops::mod_(&a[0], &a[1])?]));
@@ -197,8 +197,8 @@ table! {
     "sorted" 1 2 sequences::sorted;
     "sorted_by" 2 3 sequences::sorted_by;
     "reversed" 1 1 sequences::reversed;
-    "any" 1 1 |a| Ok(Value::Bool(index::iter_all(&a[0])?.iter().any(ops::truth)));
-    "all" 1 1 |a| Ok(Value::Bool(index::iter_all(&a[0])?.iter().all(ops::truth)));
+    "any" 1 1 |a| sequences::has(&a[0], true).map(Value::Bool);
+    "all" 1 1 |a| Ok(Value::Bool(!sequences::has(&a[0], false)?));
     "enumerate" 1 2 sequences::enumerate;
     "zip" 0 ANY sequences::zip;
     "zip_strict" 0 ANY sequences::zip_strict;
@@ -285,6 +285,38 @@ pub(crate) mod tests {
         }
         assert_eq!(builtin_id("no-such"), None);
         assert_eq!(code("sqrt", &[]), "argument-count");
+    }
+
+    /// What a function makes of a future that is not forced: nothing, but for the few that look at no element.
+    #[test]
+    fn functions_do_not_look_at_futures() {
+        let passing = [
+            "is_none",
+            "append",
+            "reversed",
+            "to_list",
+            "to_tuple",
+            "enumerate",
+            "zip",
+            "zip_strict",
+            "method",
+            "len",
+        ];
+        for future in [V::Future(1), V::returned(V::Int(1))] {
+            let plain = [V::Int(1), V::real(0.5), V::str("x"), ints([3, 1]), V::vector(&[1.0, 0.0, 0.0])];
+            for builtin in builtins::<f64>().iter().filter(|b| !passing.contains(&b.name)) {
+                for (count, other) in
+                    (1..=builtin.max_args.min(4)).flat_map(|n| plain.iter().map(move |p| (n, p)))
+                {
+                    for at in 0..count {
+                        let mut args = vec![other.clone(); count];
+                        args[at] = future.clone();
+                        let answer = builtin.call(&args);
+                        assert!(answer.is_err(), "{}: {answer:?}", builtin.name);
+                    }
+                }
+            }
+        }
     }
 
     /// No kind of argument makes a function panic: every function, every kind, every number of arguments up to four.

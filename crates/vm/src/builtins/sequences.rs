@@ -51,7 +51,7 @@ pub fn extreme<S: Scalar>(name: &str, items: &[Value<S>], keys: Option<&[Value<S
 /// `sorted(xs)` or `sorted(xs, reverse)`.
 pub fn sorted<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let items = iter_all(&args[0])?;
-    let order = stable_order(&items, args.get(1).is_some_and(ops::truth))?;
+    let order = stable_order(&items, args.get(1).map_or(Ok(false), ops::truth)?)?;
     Ok(Value::list(order.into_iter().map(|at| items[at].clone()).collect()))
 }
 
@@ -62,7 +62,7 @@ pub fn sorted_by<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
         let (keys, items) = (keys.len(), items.len());
         return Err(Fault::bad_argument(format!("`sorted` has {keys} keys for {items} elements")));
     }
-    let order = stable_order(&keys, args.get(2).is_some_and(ops::truth))?;
+    let order = stable_order(&keys, args.get(2).map_or(Ok(false), ops::truth)?)?;
     Ok(Value::list(order.into_iter().map(|at| items[at].clone()).collect()))
 }
 
@@ -96,6 +96,16 @@ fn stable_order<S: Scalar>(keys: &[Value<S>], reverse: bool) -> Result<Vec<usize
         width *= 2;
     }
     Ok(order)
+}
+
+/// Whether an element has that truth value; those after it are not looked at.
+pub fn has<S: Scalar>(items: &Value<S>, truth: bool) -> Result<bool, Fault> {
+    for item in iter_all(items)? {
+        if ops::truth(&item)? == truth {
+            return Ok(true);
+        }
+    }
+    Ok(false)
 }
 
 /// `reversed(xs)`, as a list.

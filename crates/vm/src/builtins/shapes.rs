@@ -1,4 +1,4 @@
-//! Shapes from values: the words `box`, `cylinder`, `limb`, `segment` and `mesh`, their arguments in the order of their signatures.
+//! Shapes from values: the words of [`WORDS`]. Models and plain Python runs come here alike.
 //!
 //! A scene is made of plain numbers: what a recording scalar remembers ends here.
 
@@ -14,6 +14,15 @@ use super::{Answer, unfit};
 use crate::fault::Fault;
 use crate::value::index::{iter_all, iter_get, iter_len};
 use crate::value::{Scalar, Value, same};
+
+/// The words that make shapes, and their parameters in order; those of `niwaki.words` are the same.
+pub const WORDS: &[(&str, &[&str])] = &[
+    ("box", &["center", "size", "rotation", "taper", "taper_axis", "bevel", "color"]),
+    ("cylinder", &["center", "radius", "length", "axis", "top_radius", "rotation", "bevel", "color"]),
+    ("limb", &["start", "end", "start_radius", "end_radius", "start_normal", "end_normal", "color"]),
+    ("segment", &["start", "split", "end", "onto", "color"]),
+    ("mesh", &["vertices", "faces", "center", "rotation", "scale", "color"]),
+];
 
 /// One word's arguments; those left out are `None`.
 struct Arguments<'a, S: Scalar> {
@@ -114,7 +123,7 @@ fn letter<S: Scalar>(word: &str, value: &Value<S>) -> Result<usize, Fault> {
     })
 }
 
-/// `box(center, size, rotation, taper, taper_axis, bevel, color)`.
+/// The word `box`.
 pub fn cuboid<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let given = Arguments { word: "box", args };
     let (center, size) = (given.point(0)?, given.point(1)?);
@@ -123,7 +132,7 @@ pub fn cuboid<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     shape(Shape::tapered_box(center, size, taper, axis, &given.look(Some(2), Some(5), 6)?))
 }
 
-/// `cylinder(center, radius, length, axis, top_radius, rotation, bevel, color)`.
+/// The word `cylinder`.
 pub fn cylinder<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let given = Arguments { word: "cylinder", args };
     let axis = match given.given(3) {
@@ -136,7 +145,7 @@ pub fn cylinder<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     shape(Shape::cylinder(given.point(0)?, given.number(1)?, given.number(2)?, axis, top, &look))
 }
 
-/// `limb(start, end, start_radius, end_radius, start_normal, end_normal, color)`.
+/// The word `limb`.
 pub fn limb<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let given = Arguments { word: "limb", args };
     let radii = (given.number(2)?, given.number(3)?);
@@ -144,7 +153,7 @@ pub fn limb<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     shape(Shape::limb(given.point(0)?, given.point(1)?, radii, normals, &given.look(None, None, 6)?))
 }
 
-/// `segment(start, split, end, onto, color)`.
+/// The word `segment`.
 pub fn segment<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let given = Arguments { word: "segment", args };
     let onto = given.given(3).map(|_| {
@@ -157,12 +166,17 @@ pub fn segment<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     shape(Shape::segment(frames, onto.transpose()?, &given.look(None, None, 4)?))
 }
 
-/// `mesh(vertices, faces, center, rotation, scale, color)`.
+/// The word `mesh`.
 pub fn mesh<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let given = Arguments { word: "mesh", args };
-    let mesh = kept_mesh(given.needed(0)?, given.needed(1)?)?;
+    placed(&kept_mesh(given.needed(0)?, given.needed(1)?)?, args)
+}
+
+/// The word `mesh`, of a mesh that was read before: the first two arguments are not looked at.
+pub fn placed<S: Scalar>(mesh: &Arc<TriMesh>, args: &[Value<S>]) -> Answer<S> {
+    let given = Arguments { word: "mesh", args };
     let center = given.given(2).map_or(Ok(vec3(0.0, 0.0, 0.0)), |arg| point("mesh", arg))?;
-    shape(Shape::mesh(&mesh, center, given.number_or(4, 1.0)?, &given.look(Some(3), None, 5)?))
+    shape(Shape::mesh(mesh, center, given.number_or(4, 1.0)?, &given.look(Some(3), None, 5)?))
 }
 
 /// Meshes that a thread keeps, newest last.
@@ -214,10 +228,21 @@ fn read_mesh<S: Scalar>(vertices: &Value<S>, faces: &Value<S>) -> Result<TriMesh
 
 #[cfg(test)]
 mod tests {
+    use super::WORDS;
     use crate::builtins::tests::{V, call, code, reals};
+    use crate::builtins::{builtin, builtin_id};
     use crate::value::Value;
     use niwaki_geom::{Shape, Solid, vec3};
     use std::sync::Arc;
+
+    #[test]
+    fn each_word_is_a_builtin_that_takes_its_parameters() {
+        for (name, parameters) in WORDS {
+            let id =
+                builtin_id(name).unwrap_or_else(|| panic!("`{name}` is missing in the table of builtins"));
+            assert_eq!(builtin::<f64>(id).max_args, parameters.len(), "parameters of `{name}`");
+        }
+    }
 
     fn made(name: &str, args: &[V]) -> Shape {
         match call(name, args) {

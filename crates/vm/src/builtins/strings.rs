@@ -65,6 +65,7 @@ fn within_budget(len: usize) -> Result<(), Fault> {
 pub fn method<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let (value, rest) = (&args[0], &args[2..]);
     let Value::Str(name) = &args[1] else { return Err(unfit("method", "a name", &args[1])) };
+    rest.first().map_or(Ok(()), |item| item.refuse_futures("looked for"))?;
     let found = match value {
         Value::Str(own) => of_text(own, name, rest),
         Value::Dict(dict) => of_dict(dict, name, rest),
@@ -141,7 +142,7 @@ fn of_text<S: Scalar>(own: &Text, name: &str, rest: &[Value<S>]) -> Option<Answe
         ("startswith" | "endswith", _, [Value::Tuple(choices)]) => {
             let each = choices.items().iter().map(|choice| of_text(own, name, std::slice::from_ref(choice)));
             let answers: Option<Result<Vec<Value<S>>, Fault>> = each.collect();
-            answers?.map(|answers| Value::Bool(answers.iter().any(crate::value::ops::truth)))
+            answers?.map(|answers| Value::Bool(answers.contains(&Value::Bool(true))))
         }
         ("count", [""], [_]) => Ok(Value::Int(own.chars_len() as i64 + 1)),
         ("count", [part], [_]) => Ok(Value::Int(own.matches(part).count() as i64)),

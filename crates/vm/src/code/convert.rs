@@ -74,6 +74,7 @@ impl<S: Scalar> Value<S> {
             Value::Unset => Value::Unset,
             Value::Cell(cell) => Value::Cell(*cell),
             Value::Str(text) => Value::Str(text.clone()),
+            Value::Returned(value) => Value::Returned(all(&mut value.items().iter()).into()),
             Value::Tuple(tuple) => Value::tuple(all(&mut tuple.items().iter())),
             Value::List(list) => Value::list(all(&mut list.iter())),
             Value::Dict(dict) => {

@@ -233,6 +233,17 @@ pub enum Op {
     Done,
 }
 
+/// Where the distribution of a choice or an observation comes from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Source {
+    /// A known family; the arguments are its parameters.
+    Family(Family),
+    /// A distribution value, the first argument.
+    Value,
+    /// Element `args[1]` of the list of distributions `args[0]`.
+    Element,
+}
+
 /// What happens at a suspension site.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SiteKind {
@@ -245,24 +256,10 @@ pub enum SiteKind {
     Apply,
     /// A lifted loop; see [`Loop`].
     Loop(Loop),
-    /// A random choice; the arguments are the parameters of a known family.
-    Sample {
-        /// Which family.
-        family: Family,
-    },
-    /// A random choice from a distribution value, the only argument.
-    SampleDist,
-    /// A random choice from element `args[1]` of the list of distributions `args[0]`.
-    SampleIndexed,
-    /// A factor by the density of a known family; the last argument is the value.
-    Observe {
-        /// Which family.
-        family: Family,
-    },
-    /// A factor by the density of a distribution value; the last argument is the value.
-    ObserveDist,
-    /// As `ObserveDist`, with element `args[1]` of the list of distributions `args[0]`.
-    ObserveIndexed,
+    /// A random choice.
+    Sample(Source),
+    /// A factor by the density of a value, the last argument.
+    Observe(Source),
     /// A log factor.
     Factor,
     /// A factor of one or zero.
@@ -301,30 +298,36 @@ pub enum SiteKind {
 }
 
 impl SiteKind {
+    /// Whether an activation is made at such a site: of a call, a future or a loop.
+    #[inline]
+    pub fn makes_activation(&self) -> bool {
+        match self {
+            SiteKind::Call { .. } | SiteKind::Apply | SiteKind::Loop(_) => true,
+            SiteKind::Future { .. } | SiteKind::FutureApply { .. } => true,
+            SiteKind::Sample(_) | SiteKind::Observe(_) | SiteKind::Factor | SiteKind::Condition => false,
+            SiteKind::Query | SiteKind::Emit | SiteKind::Force => false,
+            SiteKind::Cell { .. } | SiteKind::Append { .. } | SiteKind::Read => false,
+        }
+    }
+
     /// Whether a run that stops at such a site goes on *at* it, and not after it: a choice is asked once more, and a
     /// force looks once more whether its future has returned. The machine goes on where this says.
     #[inline]
     pub fn is_met_again(&self) -> bool {
         match self {
-            SiteKind::Sample { .. } | SiteKind::SampleDist | SiteKind::SampleIndexed | SiteKind::Force => {
-                true
-            }
-            SiteKind::Call { .. }
-            | SiteKind::Apply
-            | SiteKind::Loop(_)
-            | SiteKind::Observe { .. }
-            | SiteKind::ObserveDist
-            | SiteKind::ObserveIndexed
-            | SiteKind::Factor
-            | SiteKind::Condition
-            | SiteKind::Query
-            | SiteKind::Emit
-            | SiteKind::Future { .. }
-            | SiteKind::FutureApply { .. }
-            | SiteKind::Cell { .. }
-            | SiteKind::Append { .. }
-            | SiteKind::Read => false,
+            SiteKind::Sample(_) | SiteKind::Force => true,
+            SiteKind::Call { .. } | SiteKind::Apply | SiteKind::Loop(_) => false,
+            SiteKind::Future { .. } | SiteKind::FutureApply { .. } => false,
+            SiteKind::Observe(_) | SiteKind::Factor | SiteKind::Condition => false,
+            SiteKind::Query | SiteKind::Emit => false,
+            SiteKind::Cell { .. } | SiteKind::Append { .. } | SiteKind::Read => false,
         }
+    }
+
+    /// Whether what it gives is a future.
+    #[inline]
+    pub fn gives_future(&self) -> bool {
+        matches!(self, SiteKind::Future { detached: false, .. } | SiteKind::FutureApply { detached: false })
     }
 
     /// Whether the arguments are read once more when other activations have run, so that they must outlive the site.

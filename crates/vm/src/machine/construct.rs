@@ -122,7 +122,7 @@ impl<S: Scalar> Machine<'_, S> {
                 return Ok(());
             }
             Op::Assert { a, message } => {
-                if !crate::value::ops::truth(r.get(state, &self.scratch, a)) {
+                if !crate::value::ops::truth(r.get(state, &self.scratch, a))? {
                     let text = crate::value::str_of(r.get(state, &self.scratch, message))?;
                     return Err(Fault::new("assertion", text.to_string()));
                 }

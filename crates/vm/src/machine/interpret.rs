@@ -4,7 +4,7 @@ use super::answers::Answers;
 use super::keep::{Keep, put};
 use super::question::Halt;
 use super::registers::Registers;
-use super::state::{FutureId, NodeId, State, Status};
+use super::state::{FutureId, NodeId, State};
 use super::suspend::After;
 use super::{Here, Machine, PureCall, Stop, operate};
 use crate::builtins;
@@ -78,7 +78,7 @@ impl<S: Scalar> Machine<'_, S> {
                         if K::KEEPS {
                             keep.count(executed);
                         }
-                        self.here = Here { node, function: id, pc };
+                        self.here = Here { node, function: id, pc, scratch };
                         return Err(fault);
                     }
                 }
@@ -99,7 +99,7 @@ impl<S: Scalar> Machine<'_, S> {
                     }
                     Halt::Impossible => {
                         keep.count(executed);
-                        self.here = Here { node, function: id, pc };
+                        self.here = Here { node, function: id, pc, scratch };
                         return Ok(Stop::Impossible);
                     }
                     Halt::Fault(fault) => check!(Err(fault)),
@@ -210,17 +210,17 @@ impl<S: Scalar> Machine<'_, S> {
                     put!(to, value);
                 }
                 Op::Not { to, a } => {
-                    let value = ops::truth(get!(a));
+                    let value = check!(ops::truth(get!(a)));
                     put!(to, Value::Bool(!value));
                 }
                 Op::Jump { target } => goto!(target),
                 Op::JumpIf { a, target } => {
-                    if ops::truth(get!(a)) {
+                    if check!(ops::truth(get!(a))) {
                         goto!(target);
                     }
                 }
                 Op::JumpUnless { a, target } => {
-                    if !ops::truth(get!(a)) {
+                    if !check!(ops::truth(get!(a))) {
                         goto!(target);
                     }
                 }
@@ -241,7 +241,7 @@ impl<S: Scalar> Machine<'_, S> {
                             pc = next as usize;
                             continue;
                         }
-                        Ok(After::Pure { function, to, .. }) => call_pure!(function, to, false),
+                        Ok(After::Pure { function, to, as_future }) => call_pure!(function, to, as_future),
                         Ok(After::Stop(stop)) => return Ok(stop),
                         Err(halt) => stop!(halt, f.sites[number.0 as usize]),
                     }
@@ -249,20 +249,16 @@ impl<S: Scalar> Machine<'_, S> {
                 Op::Site { site: number } => {
                     let site = &f.sites[number.0 as usize];
                     match site.kind {
-                        SiteKind::Sample { .. } | SiteKind::SampleDist | SiteKind::SampleIndexed => {
-                            match self.choose(state, answers, r!(), node, site) {
+                        SiteKind::Sample(_) => match self.choose(state, answers, r!(), node, site) {
+                            Ok(()) => {}
+                            Err(halt) => stop!(halt, site),
+                        },
+                        SiteKind::Observe(_) | SiteKind::Factor | SiteKind::Condition => {
+                            match self.factor(state, answers, r!(), node, site) {
                                 Ok(()) => {}
                                 Err(halt) => stop!(halt, site),
                             }
                         }
-                        SiteKind::Observe { .. }
-                        | SiteKind::ObserveDist
-                        | SiteKind::ObserveIndexed
-                        | SiteKind::Factor
-                        | SiteKind::Condition => match self.factor(state, answers, r!(), node, site) {
-                            Ok(()) => {}
-                            Err(halt) => stop!(halt, site),
-                        },
                         SiteKind::Call { function } => {
                             let inner = check!(self.call_known(state, r!(), node, number, site, function));
                             step!();
@@ -303,6 +299,9 @@ impl<S: Scalar> Machine<'_, S> {
                 }
                 Op::Host { to, constant, args } => {
                     gather!(args);
+                    for value in &self.buffer {
+                        check!(value.refuse_futures("given to what runs outside of the model"));
+                    }
                     let value = check!(answers.host(constant, &self.buffer));
                     put!(to, value);
                 }
@@ -348,11 +347,7 @@ impl<S: Scalar> Machine<'_, S> {
                         code = &f.code;
                         scratch = call.scratch;
                         pc = call.pc;
-                        let value = if call.as_future {
-                            Value::Future(state.new_future(Status::Returned(value), false).0)
-                        } else {
-                            value
-                        };
+                        let value = if call.as_future { Value::returned(value) } else { value };
                         put!(call.to, value);
                         continue;
                     }

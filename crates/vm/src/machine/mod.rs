@@ -81,10 +81,13 @@ struct PureCall {
 }
 
 /// Where the machine is, for the call stack of a fault.
+#[derive(Clone, Copy)]
 struct Here {
     node: NodeId,
     function: FunctionId,
     pc: usize,
+    /// The first register of a pure function.
+    scratch: usize,
 }
 
 /// Runs programs. It holds scratch space only, so one machine serves any number of states.
@@ -112,7 +115,7 @@ impl<'p, S: Scalar> Machine<'p, S> {
             shapes: Vec::new(),
             known: Known::default(),
             logs: LastLog::default(),
-            here: Here { node: NodeId::NONE, function: program.entry, pc: 0 },
+            here: Here { node: NodeId::NONE, function: program.entry, pc: 0, scratch: 0 },
         }
     }
 

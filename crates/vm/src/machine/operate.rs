@@ -77,10 +77,10 @@ fn holds_of_others<S: Scalar>(op: Binary, a: &Value<S>, b: &Value<S>) -> Result<
     match op {
         Binary::Eq => equal(a, b),
         Binary::Ne => equal(a, b).map(|same| !same),
-        Binary::Lt => ops::lt(a, b).map(|v| ops::truth(&v)),
-        Binary::Le => ops::le(a, b).map(|v| ops::truth(&v)),
-        Binary::Gt => ops::gt(a, b).map(|v| ops::truth(&v)),
-        _ => ops::ge(a, b).map(|v| ops::truth(&v)),
+        Binary::Lt => ops::lt(a, b).and_then(|v| ops::truth(&v)),
+        Binary::Le => ops::le(a, b).and_then(|v| ops::truth(&v)),
+        Binary::Gt => ops::gt(a, b).and_then(|v| ops::truth(&v)),
+        _ => ops::ge(a, b).and_then(|v| ops::truth(&v)),
     }
 }
 

@@ -8,7 +8,7 @@ use super::answers::{Answer, Answers, At, Factor};
 use super::registers::Registers;
 use super::state::{NodeId, State};
 use crate::builtins::{make_dist, quick_dist, value_to_draw};
-use crate::code::{Args, Site, SiteKind};
+use crate::code::{Args, Site, SiteKind, Source};
 use crate::fault::Fault;
 use crate::value::{Value, index, ops};
 use niwaki_math::{Dist, Family, Scalar};
@@ -125,8 +125,8 @@ impl<S: Scalar> Machine<'_, S> {
             };
         }
         match site.kind {
-            SiteKind::SampleDist | SiteKind::ObserveDist => as_dist(get!(0)),
-            SiteKind::Sample { family } | SiteKind::Observe { family } => {
+            SiteKind::Sample(Source::Value) | SiteKind::Observe(Source::Value) => as_dist(get!(0)),
+            SiteKind::Sample(Source::Family(family)) | SiteKind::Observe(Source::Family(family)) => {
                 if let [only] = r.f.operands[args.range()]
                     && let Some(row) = self.known.row(r.get(state, &self.scratch, only))
                 {
@@ -181,7 +181,7 @@ impl<S: Scalar> Machine<'_, S> {
         let (factor, log) = match site.kind {
             SiteKind::Factor => (Factor::Factor, as_real(get!(last))?),
             SiteKind::Condition => {
-                let log = if ops::truth(get!(last)) { 0.0 } else { f64::NEG_INFINITY };
+                let log = if ops::truth(get!(last))? { 0.0 } else { f64::NEG_INFINITY };
                 (Factor::Condition, S::from_f64(log))
             }
             _ => {

@@ -1,10 +1,12 @@
 //! The model's own call stack, for the message of a fault.
 
-use super::Machine;
+use super::registers::Registers;
 use super::state::{NodeId, State};
-use crate::code::{FunctionId, Mode};
+use super::{Here, Machine};
+use crate::code::{FunctionId, Mode, Op, SiteKind};
 use crate::core::{Name, Span};
 use crate::fault::Fault;
+use crate::passes::reads_and_writes;
 use niwaki_math::Scalar;
 
 /// One call of a stack.
@@ -41,12 +43,26 @@ impl std::fmt::Display for RunFault {
     }
 }
 
+/// Faults that a value of another kind may be the cause of.
+const OF_KIND: [&str; 9] = [
+    "type-mismatch",
+    "bad-argument",
+    "bad-parameter",
+    "bad-shape",
+    "bad-format",
+    "missing-key",
+    "missing-field",
+    "missing-method",
+    "not-callable",
+];
+
 /// Calls kept at each end of a deep stack.
 const ENDS: usize = 8;
 
 impl<S: Scalar> Machine<'_, S> {
     /// The fault with the call stack at the place where the machine is.
     pub(super) fn report(&self, state: &State<S>, fault: Fault) -> RunFault {
+        let fault = self.of_future(state, fault);
         let call = |function: FunctionId, pc: usize| {
             let f = self.program.function(function);
             Call { function: f.name.clone(), file: f.file, span: f.spans.get(pc).copied().unwrap_or(f.span) }
@@ -89,6 +105,32 @@ impl<S: Scalar> Machine<'_, S> {
         }
         let path = if omitted > 0 { String::new() } else { state.path(self.program, self.here.node) };
         RunFault { fault, stack, omitted, path }
+    }
+
+    /// The same fault, as that of a future that is not forced where the instruction met one.
+    fn of_future(&self, state: &State<S>, fault: Fault) -> Fault {
+        let Here { node, function, pc, scratch } = self.here;
+        let f = self.program.function(function);
+        let Some(op) = f.code.get(pc).filter(|_| node != NodeId::NONE && OF_KIND.contains(&fault.code))
+        else {
+            return fault;
+        };
+        // Operators, calls and indices look at their operands; built-in functions and questions look inside, too.
+        let looks_inside = match op {
+            Op::Builtin { .. } | Op::Dist { .. } => true,
+            Op::Site { site } => !matches!(
+                f.sites[site.0 as usize].kind,
+                SiteKind::Apply | SiteKind::FutureApply { .. } | SiteKind::Read | SiteKind::Loop(_)
+            ),
+            _ => false,
+        };
+        let (own, outer) = if f.mode == Mode::Pure { (0, 0) } else { self.bases(state, f, node) };
+        let r = Registers { f, own, outer, scratch };
+        let met = reads_and_writes(f, op).0.into_iter().any(|o| {
+            let value = r.get(state, &self.scratch, o);
+            if looks_inside { value.holds_future() } else { value.is_future() }
+        });
+        if met { Fault::not_forced(fault.message.clone()) } else { fault }
     }
 
     fn is_body(&self, call: &Call) -> bool {

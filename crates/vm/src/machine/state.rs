@@ -179,7 +179,7 @@ impl<S: Scalar> State<S> {
             Some(Status::Returned(v)) => Some(v.clone()),
             _ => None,
         };
-        if self.futures.len() > 1 { value.replace_futures(&known) } else { value.clone() }
+        value.replace_futures(&known)
     }
 
     /// The state of a run that has ended with this value.

@@ -61,6 +61,7 @@ impl<S: Scalar> Machine<'_, S> {
         }
         match &site.kind {
             SiteKind::Query => {
+                get!(0).refuse_futures("the key of a query")?;
                 answers.query(&at!(), get!(0), get!(1))?;
                 Ok(After::Next)
             }
@@ -85,7 +86,7 @@ impl<S: Scalar> Machine<'_, S> {
             SiteKind::Future { function, detached } => {
                 r.gather(state, &self.scratch, site.args, &mut self.buffer);
                 if program.function(*function).mode == Mode::Pure {
-                    return Ok(After::Pure { function: *function, to: site.to, as_future: true });
+                    return Ok(After::Pure { function: *function, to: site.to, as_future: !detached });
                 }
                 self.call(state, node, site_id, site, *function, Some(*detached))
             }
@@ -93,18 +94,20 @@ impl<S: Scalar> Machine<'_, S> {
                 r.gather(state, &self.scratch, site.args, &mut self.buffer);
                 let (function, pure) = self.unwrap_callee()?;
                 if pure {
-                    return Ok(After::Pure { function, to: site.to, as_future: true });
+                    return Ok(After::Pure { function, to: site.to, as_future: !detached });
                 }
                 self.call(state, node, site_id, site, function, Some(*detached))
             }
             SiteKind::Force => {
-                let Value::Future(wanted) = *get!(0) else {
-                    let value = get!(0).clone();
-                    state.registers[r.own + site.to.index()].store(value);
-                    return Ok(After::Next);
+                let (wanted, value) = match get!(0) {
+                    Value::Future(id) => match &state.futures[*id as usize].status {
+                        Status::Returned(value) => (*id, Some(value)),
+                        _ => (*id, None),
+                    },
+                    Value::Returned(value) => (0, Some(&value.items()[0])),
+                    other => (0, Some(other)),
                 };
-                if let Status::Returned(value) = &state.futures[wanted as usize].status {
-                    let value = value.clone();
+                if let Some(value) = value.cloned() {
                     state.registers[r.own + site.to.index()].store(value);
                     return Ok(After::Next);
                 }
@@ -286,13 +289,8 @@ impl<S: Scalar> Machine<'_, S> {
             (parent.function, parent.registers as usize)
         };
         let site = &self.program.function(function).sites[number];
-        let value = match site.kind {
-            // Depth first: the future has returned before anyone sees its handle.
-            SiteKind::Future { detached, .. } | SiteKind::FutureApply { detached } if !detached => {
-                Value::Future(state.new_future(Status::Returned(value), false).0)
-            }
-            _ => value,
-        };
+        // Depth first, a future has returned before anyone sees it.
+        let value = if site.kind.gives_future() { Value::returned(value) } else { value };
         let register = &mut state.registers[own + site.to.index()];
         // A function that returns nothing, called where it was called before.
         if !matches!((&value, &register), (Value::None, Value::None)) {

@@ -6,7 +6,7 @@
 
 use super::CompileError;
 use super::emit::{Builder, Result};
-use crate::code::{Args, Op, Operand, Place, Site, SiteId, SiteKind, Visible};
+use crate::code::{Args, Op, Operand, Place, Site, SiteId, SiteKind, Source, Visible};
 use crate::core::{Expr, ExprKind, Name, readable};
 use crate::machine::address;
 use niwaki_math::{Family, Scalar};
@@ -110,26 +110,26 @@ impl<S: Scalar> Builder<'_, '_, S> {
 
     /// The site kind of a choice or observation, fused with the making of its distribution where possible.
     fn distribution(&mut self, d: &Expr, sample: bool) -> Result<(SiteKind, Name, Vec<Operand>)> {
-        let pick = |a: SiteKind, b: SiteKind| if sample { a } else { b };
+        let kind = if sample { SiteKind::Sample } else { SiteKind::Observe };
         match &d.kind {
             ExprKind::Dist(name, args) => {
                 let family = family(name)?;
                 let operands = self.exprs(args)?;
                 if let Some(made) = self.folded(d, &operands) {
                     let made = self.constant(made);
-                    return Ok((pick(SiteKind::SampleDist, SiteKind::ObserveDist), name.clone(), vec![made]));
+                    return Ok((kind(Source::Value), name.clone(), vec![made]));
                 }
-                Ok((pick(SiteKind::Sample { family }, SiteKind::Observe { family }), name.clone(), operands))
+                Ok((kind(Source::Family(family)), name.clone(), operands))
             }
             ExprKind::Op(op, parts)
                 if &**op == "index" && parts.len() == 2 && !self.unit.collections.contains(d) =>
             {
                 let operands = self.exprs(parts)?;
-                Ok((pick(SiteKind::SampleIndexed, SiteKind::ObserveIndexed), Name::from("dist"), operands))
+                Ok((kind(Source::Element), Name::from("dist"), operands))
             }
             _ => {
                 let at = self.expr(d)?;
-                Ok((pick(SiteKind::SampleDist, SiteKind::ObserveDist), Name::from("dist"), vec![at]))
+                Ok((kind(Source::Value), Name::from("dist"), vec![at]))
             }
         }
     }
@@ -201,7 +201,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
         let key = self.occurrence(&format!("{}|{what}|{target}", self.name));
         let (given, named) = label;
         let repeated = self.occurrence(&format!("label {named}")).1;
-        if matches!(kind, SiteKind::Sample { .. } | SiteKind::SampleDist | SiteKind::SampleIndexed) {
+        if matches!(kind, SiteKind::Sample(_)) {
             self.keep_scope();
         }
         let label = match (given, repeated) {

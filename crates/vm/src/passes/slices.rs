@@ -48,14 +48,8 @@ pub(crate) fn slice<S: Scalar>(f: &mut Function<S>) {
                 results.extend(&f.operands[l.out.range()]);
                 results.extend(l.exit.into_iter().flat_map(|(how, value)| [how, value]));
             }
-            SiteKind::Sample { .. }
-            | SiteKind::SampleDist
-            | SiteKind::SampleIndexed
-            | SiteKind::Call { .. }
-            | SiteKind::Apply
-            | SiteKind::Future { .. }
-            | SiteKind::FutureApply { .. }
-            | SiteKind::Read => {}
+            SiteKind::Sample(_) | SiteKind::Read => {}
+            kind if kind.makes_activation() => {}
             // No run begins after one of the others.
             _ => continue,
         }
@@ -153,9 +147,7 @@ impl Slice {
                     slice.take(at, hit && !matches!(site.kind, SiteKind::Query));
                     let is_changed = match site.kind {
                         // Whether they leave something else is known when they have run.
-                        SiteKind::Sample { .. }
-                        | SiteKind::SampleDist
-                        | SiteKind::SampleIndexed
+                        SiteKind::Sample(_)
                         | SiteKind::Call { .. }
                         | SiteKind::Loop(_)
                         | SiteKind::Query

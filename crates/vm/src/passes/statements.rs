@@ -239,16 +239,15 @@ impl<S: Scalar> Builder<'_, '_, S> {
             iteration = Some((x, held, index, length));
             variables_set.insert(x.clone());
         }
-        let live = self.heads.at(s).clone();
         // Each variable that a round can hand to the next, or to what follows, has a register for the whole loop.
         let mut variables = Vec::new();
         let mut unset_before = Vec::new();
-        for x in variables_set.iter().filter(|x| live.contains(*x)) {
+        for x in self.handed_on(s, &variables_set) {
             let to = self.register()?;
-            let from = self.current(x);
+            let from = self.current(&x);
             self.op(Op::Move { to, from });
-            unset_before.push(self.env.get(x).is_none_or(|b| b.maybe_unset));
-            variables.push((x.clone(), to));
+            unset_before.push(self.env.get(&x).is_none_or(|b| b.maybe_unset));
+            variables.push((x, to));
         }
         for ((x, at), maybe_unset) in variables.iter().zip(&unset_before) {
             self.env.insert(x.clone(), Binding { at: *at, maybe_unset: *maybe_unset });
@@ -280,6 +279,17 @@ impl<S: Scalar> Builder<'_, '_, S> {
         Ok(true)
     }
 
+    /// Of the variables that a loop assigns, those that one iteration hands to the next, or to what follows.
+    fn handed_on(&self, s: &Stmt, assigned: &Names) -> Vec<Name> {
+        let live = self.heads.at(s);
+        assigned.iter().filter(|x| live.contains(*x) || self.is_kept(x)).cloned().collect()
+    }
+
+    /// Whether it is to be seen where choices stand.
+    fn is_kept(&self, x: &Name) -> bool {
+        self.unit.kept.iter().any(|name| **name == *readable(x))
+    }
+
     fn loop_body(
         &mut self,
         body: &[Stmt],
@@ -309,18 +319,17 @@ impl<S: Scalar> Builder<'_, '_, S> {
             Some((_, over)) => Some(self.expr(over)?),
             None => None,
         };
-        let live = self.heads.at(s).clone();
         let mut set = assigned(body);
         set.extend(each.map(|(x, _)| x.clone()));
-        let carried: Vec<Name> = set.iter().filter(|x| live.contains(*x)).cloned().collect();
+        let carried = self.handed_on(s, &set);
         let mut reads = Names::new();
         test.into_iter().for_each(|t| t.reads(&mut reads));
         crate::core::walk::each_stmt(body, &mut |s| {
             s.expressions().into_iter().for_each(|e| e.reads(&mut reads))
         });
         // What is kept for choices in the body; a variable that the body assigns is the iteration's own.
-        let kept = self.env.keys().filter(|x| self.unit.kept.iter().any(|name| **name == *readable(x)));
-        reads.extend(kept.filter(|x| !set.contains(*x)).cloned());
+        let kept = self.env.keys().filter(|x| self.is_kept(x) && !set.contains(*x));
+        reads.extend(kept.cloned());
         let captured: Vec<Name> =
             reads.into_iter().filter(|x| !carried.contains(x) && self.env.contains_key(x)).collect();
         let capture_at: Vec<Operand> = captured.iter().map(|x| self.env[x].at).collect();

@@ -13,6 +13,7 @@ pub struct Tuple<S: Scalar = f64>(pub(super) Arc<TupleBody<S>>);
 
 /// The elements of a tuple. Points, pairs and colours are most of the tuples of a model: they live in place.
 pub(super) enum TupleBody<S: Scalar> {
+    One([Value<S>; 1]),
     Two([Value<S>; 2]),
     Three([Value<S>; 3]),
     Four([Value<S>; 4]),
@@ -22,6 +23,7 @@ pub(super) enum TupleBody<S: Scalar> {
 impl<S: Scalar> TupleBody<S> {
     pub(super) fn items_mut(&mut self) -> &mut [Value<S>] {
         match self {
+            TupleBody::One(items) => items,
             TupleBody::Two(items) => items,
             TupleBody::Three(items) => items,
             TupleBody::Four(items) => items,
@@ -41,6 +43,7 @@ impl<S: Scalar> Tuple<S> {
     #[inline]
     pub fn items(&self) -> &[Value<S>] {
         match &*self.0 {
+            TupleBody::One(items) => items,
             TupleBody::Two(items) => items,
             TupleBody::Three(items) => items,
             TupleBody::Four(items) => items,
@@ -70,6 +73,10 @@ impl<S: Scalar> From<Vec<Value<S>>> for Tuple<S> {
     fn from(items: Vec<Value<S>>) -> Tuple<S> {
         let items = match <[Value<S>; 2]>::try_from(items) {
             Ok(two) => return Tuple(Arc::new(TupleBody::Two(two))),
+            Err(items) => items,
+        };
+        let items = match <[Value<S>; 1]>::try_from(items) {
+            Ok(one) => return Tuple(Arc::new(TupleBody::One(one))),
             Err(items) => items,
         };
         let items = match <[Value<S>; 3]>::try_from(items) {

@@ -17,9 +17,17 @@ use crate::fault::Fault;
 /// would otherwise take exponential time.
 const BUDGET: usize = 1 << 26;
 
+/// What cannot be done with a future; nor with a value that holds one, wherever the two differ.
+const COMPARED: &str = "compared";
+
 /// Python's `a == b`.
 #[inline]
 pub fn equal<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Result<bool, Fault> {
+    if let Some(order) = leaves_ordered(a, b) {
+        return Ok(order == Some(Ordering::Equal));
+    }
+    a.refuse_futures(COMPARED)?;
+    b.refuse_futures(COMPARED)?;
     match leaves_equal(a, b) {
         Some(answer) => Ok(answer),
         None => Ok(first_difference(a, b)?.is_none()),
@@ -32,6 +40,8 @@ pub fn order<S: Scalar>(a: &Value<S>, b: &Value<S>, sign: &str) -> Result<Option
     if let Some(order) = leaves_ordered(a, b) {
         return Ok(order);
     }
+    a.refuse_futures(COMPARED)?;
+    b.refuse_futures(COMPARED)?;
     let (mut left, mut right) = (a, b);
     if Items::both_sequences(a, b) {
         match first_difference(a, b)? {
@@ -94,7 +104,6 @@ fn leaves_equal<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Option<bool> {
         (Value::Rotation(a), Value::Rotation(b)) => scalars_equal(&a[..], &b[..]),
         (Value::Shape(a), Value::Shape(b)) => a == b,
         (Value::Dist(a), Value::Dist(b)) => Arc::ptr_eq(a, b) || a == b,
-        (Value::Future(a), Value::Future(b)) => a == b,
         (Value::Tuple(a), Value::Tuple(b)) if a.ptr_eq(b) => true,
         (Value::List(a), Value::List(b)) if a.ptr_eq(b) => true,
         (Value::Record(a), Value::Record(b)) if Arc::ptr_eq(a, b) => true,

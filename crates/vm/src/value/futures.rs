@@ -1,6 +1,8 @@
-//! Handles of futures inside values: values, equality and queries see the result, never the handle.
+//! Futures inside values. A model may pass a future on, and only `force` looks at it: before that its value may not be
+//! there. What leaves the model shows the value.
 
 use super::{Closure, Dict, List, Record, Scalar, Value};
+use crate::fault::Fault;
 use std::sync::Arc;
 
 /// What is left to do: look at a value, or put one together from those that are done.
@@ -12,10 +14,60 @@ enum Work<S: Scalar> {
     Changed,
 }
 
+/// Values that one search for a future may visit: a value that shares parts of itself could hold far more.
+const BUDGET: usize = 1 << 26;
+
 impl<S: Scalar> Value<S> {
-    /// The value with the handle of each future that `known` has a value for replaced by that value, at any depth.
+    /// A future that has returned this value.
+    pub fn returned(value: Value<S>) -> Value<S> {
+        Value::Returned(vec![value].into())
+    }
+
+    /// Whether it is a future.
+    #[inline(always)]
+    pub fn is_future(&self) -> bool {
+        matches!(self, Value::Future(_) | Value::Returned(_))
+    }
+
+    /// Whether it is a future or holds one, at any depth.
+    pub fn holds_future(&self) -> bool {
+        let (mut work, mut visited) = (Vec::new(), 0);
+        let mut next = Some(self);
+        while let Some(value) = next {
+            visited += 1;
+            let found = value.is_future()
+                || any_part(value, &mut |part| {
+                    if part.holds_values() {
+                        work.push(part);
+                    }
+                    part.is_future()
+                });
+            if found || visited > BUDGET {
+                return found;
+            }
+            next = work.pop();
+        }
+        false
+    }
+
+    /// Lets pass what is no future and holds none.
+    ///
+    /// # Errors
+    /// The future is not forced, and `done` says what cannot be done with it.
+    #[inline]
+    pub fn refuse_futures(&self, done: &str) -> Result<(), Fault> {
+        if (self.is_future() || self.holds_values()) && self.holds_future() {
+            return Err(Fault::not_forced(format!("a future cannot be {done}")));
+        }
+        Ok(())
+    }
+
+    /// The value with each future that has returned, or that `known` has a value for, replaced by its value, at any depth.
     /// What holds no such handle stays the same in memory, so that identity keeps its short-cuts.
     pub fn replace_futures(&self, known: &dyn Fn(u32) -> Option<Value<S>>) -> Value<S> {
+        if !self.holds_future() {
+            return self.clone();
+        }
         let mut work = vec![Work::Look(self.clone())];
         // What is done, and whether it differs from what was looked at.
         let mut done: Vec<(Value<S>, bool)> = Vec::new();
@@ -26,6 +78,9 @@ impl<S: Scalar> Value<S> {
                     Some(value) => work.extend([Work::Changed, Work::Look(value)]),
                     None => done.push((Value::Future(id), false)),
                 },
+                Work::Look(Value::Returned(value)) => {
+                    work.extend([Work::Changed, Work::Look(value.items()[0].clone())]);
+                }
                 Work::Look(value) => {
                     let parts = if may_hold_futures(&value) { parts(&value) } else { Vec::new() };
                     if parts.is_empty() {
@@ -57,13 +112,17 @@ impl<S: Scalar> Value<S> {
 
 /// False when none of a value's own parts is a handle or holds values: one scan spares the copy of most lists.
 fn may_hold_futures<S: Scalar>(value: &Value<S>) -> bool {
-    let may = |part: &Value<S>| part.holds_values() || matches!(part, Value::Future(_));
+    any_part(value, &mut |part| part.holds_values() || part.is_future())
+}
+
+/// Whether one of the values that a value holds passes the test; those before it are seen, too.
+fn any_part<'v, S: Scalar>(value: &'v Value<S>, test: &mut dyn FnMut(&'v Value<S>) -> bool) -> bool {
     match value {
-        Value::Tuple(tuple) => tuple.items().iter().any(may),
-        Value::List(list) => list.iter().any(may),
-        Value::Record(record) => record.fields.iter().any(may),
-        Value::Dict(dict) => dict.values().iter().any(may),
-        Value::Function(closure) => closure.captures.iter().any(may),
+        Value::Tuple(tuple) => tuple.items().iter().any(test),
+        Value::List(list) => list.iter().any(test),
+        Value::Record(record) => record.fields.iter().any(test),
+        Value::Dict(dict) => dict.values().iter().any(test),
+        Value::Function(closure) => closure.captures.iter().any(test),
         _ => false,
     }
 }
@@ -99,20 +158,21 @@ mod tests {
     #[test]
     fn handles_are_replaced_at_any_depth_and_the_rest_is_shared() {
         let untouched = Value::<f64>::list((0..50).map(Value::Int).collect());
-        let inner = Value::list(vec![Value::Future(1), untouched.clone()]);
+        let inner = Value::list(vec![Value::Future(1), Value::returned(untouched.clone())]);
         let value = Value::tuple(vec![inner, untouched.clone(), Value::Future(7)]);
         // Future 1 returned a pair that holds future 2.
         let known = |id| match id {
-            1 => Some(Value::tuple(vec![Value::Future(2), Value::Int(5)])),
+            1 => Some(Value::tuple(vec![Value::Future(2), Value::returned(Value::Int(5))])),
             2 => Some(Value::str("done")),
             _ => None,
         };
         let replaced = value.replace_futures(&known);
         let Value::Tuple(parts) = &replaced else { panic!("a tuple") };
         assert!(matches!((&parts.items()[1], &untouched), (Value::List(a), Value::List(b)) if a.ptr_eq(b)));
-        let mut text = format!("{replaced:?}");
-        text.truncate(24);
-        assert_eq!(text, "([('done', 5), [0, 1, 2,");
+        assert!(value.holds_future() && !untouched.holds_future());
+        let mut text = format!("{:?}", parts.items()[0]);
+        text.truncate(23);
+        assert_eq!(text, "[('done', 5), [0, 1, 2,");
         assert!(matches!(parts.items()[2], Value::Future(7)));
     }
 

@@ -224,8 +224,10 @@ fn bounds<S: Scalar>(len: usize, lo: &Value<S>, hi: &Value<S>, step: &Value<S>) 
 
 /// `item in value`.
 pub fn contains<S: Scalar>(value: &Value<S>, item: &Value<S>) -> Result<bool, Fault> {
+    item.refuse_futures("looked for")?;
     match (value, item) {
         (Value::List(list), _) => {
+            value.refuse_futures("compared")?;
             for own in list.iter() {
                 if equal(own, item)? {
                     return Ok(true);
@@ -250,6 +252,7 @@ pub fn contains<S: Scalar>(value: &Value<S>, item: &Value<S>) -> Result<bool, Fa
             }))
         }
         _ => {
+            value.refuse_futures("compared")?;
             for at in 0..iter_len(value)? {
                 if equal(&iter_get(value, at), item)? {
                     return Ok(true);

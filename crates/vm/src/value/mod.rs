@@ -53,7 +53,7 @@ pub enum Value<S: Scalar = f64> {
     Int(i64),
     /// A real number.
     Real(S),
-    /// A future, by the machine's number for it.
+    /// A future that may still run, by the machine's number for it.
     Future(u32),
     /// What a variable holds before it is assigned; no model ever sees it.
     Unset,
@@ -61,6 +61,8 @@ pub enum Value<S: Scalar = f64> {
     Cell(Cell),
     /// A string.
     Str(Text),
+    /// A future that has returned; its value, the one element, is seen by `force` alone.
+    Returned(Tuple<S>),
     /// A tuple.
     Tuple(Tuple<S>),
     /// A persistent list.
@@ -136,6 +138,7 @@ impl<S: Scalar> Value<S> {
             Value::Unset => Value::Unset,
             Value::Cell(cell) => Value::Cell(*cell),
             Value::Str(text) => Value::Str(text.clone()),
+            Value::Returned(value) => Value::Returned(value.clone()),
             Value::Tuple(tuple) => Value::Tuple(tuple.clone()),
             Value::List(list) => Value::List(list.clone()),
             Value::Dict(dict) => Value::Dict(dict.clone()),
@@ -250,7 +253,7 @@ impl<S: Scalar> Value<S> {
             Value::Shape(_) => "shape",
             Value::Dist(_) => "distribution",
             Value::Function(_) => "function",
-            Value::Future(_) => "future",
+            Value::Future(_) | Value::Returned(_) => "future",
             Value::Unset => "unassigned",
             Value::Cell(_) => "cell",
         }
@@ -272,7 +275,12 @@ impl<S: Scalar> Value<S> {
     pub fn holds_values(&self) -> bool {
         matches!(
             self,
-            Value::Tuple(_) | Value::List(_) | Value::Dict(_) | Value::Record(_) | Value::Function(_)
+            Value::Tuple(_)
+                | Value::Returned(_)
+                | Value::List(_)
+                | Value::Dict(_)
+                | Value::Record(_)
+                | Value::Function(_)
         )
     }
 }
@@ -281,7 +289,7 @@ impl<S: Scalar> std::fmt::Debug for Value<S> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match repr(self) {
             Ok(text) => f.write_str(&text),
-            Err(_) => f.write_str("<a value too large to print>"),
+            Err(fault) => write!(f, "<{fault}>"),
         }
     }
 }

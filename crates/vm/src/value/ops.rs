@@ -125,9 +125,12 @@ pub fn pos<S: Scalar>(a: &Value<S>) -> Answer<S> {
 }
 
 /// Python's truth of a value: zero and empty are false.
+///
+/// # Errors
+/// Of a future that is not forced.
 #[inline]
-pub fn truth<S: Scalar>(a: &Value<S>) -> bool {
-    match a {
+pub fn truth<S: Scalar>(a: &Value<S>) -> Result<bool, Fault> {
+    Ok(match a {
         Value::Bool(b) => *b,
         Value::Int(n) => *n != 0,
         Value::Real(x) => *x != S::from_f64(0.0),
@@ -137,14 +140,17 @@ pub fn truth<S: Scalar>(a: &Value<S>) -> bool {
         Value::List(list) => !list.is_empty(),
         Value::Dict(dict) => !dict.is_empty(),
         Value::Range(range) => range.len > 0,
+        Value::Future(_) | Value::Returned(_) => {
+            return Err(Fault::not_forced("a future is neither true nor false"));
+        }
         _ => true,
-    }
+    })
 }
 
 /// `not a`.
 #[inline]
 pub fn not_<S: Scalar>(a: &Value<S>) -> Answer<S> {
-    Ok(Value::Bool(!truth(a)))
+    truth(a).map(|truth| Value::Bool(!truth))
 }
 
 macro_rules! comparisons {
@@ -512,8 +518,10 @@ mod tests {
     fn zero_and_empty_are_false() {
         let falses =
             [V::None, V::Int(0), V::real(-0.0), V::str(""), ints(&[]), V::tuple(vec![]), V::Bool(false)];
-        assert!(!falses.iter().any(truth));
+        assert!(falses.iter().all(|value| truth(value) == Ok(false)));
         let trues = [V::real(f64::NAN), V::str(" "), ints(&[0]), V::vector(&[0.0, 0.0])];
-        assert!(trues.iter().all(truth));
+        assert!(trues.iter().all(|value| truth(value) == Ok(true)));
+        let future = truth(&Value::<f64>::returned(Value::Bool(true)));
+        assert_eq!(future.unwrap_err().code, "future-not-forced");
     }
 }

@@ -160,7 +160,9 @@ fn begin<'a, S: Scalar>(value: &'a Value<S>, out: &mut String) -> Result<Option<
         Value::Shape(shape) => out.push_str(&format!("<{}>", shape.kind())),
         Value::Dist(dist) => out.push_str(&format!("<{} distribution>", dist.family().name())),
         Value::Function(closure) => out.push_str(&format!("<function {}>", closure.function)),
-        Value::Future(n) => out.push_str(&format!("<future {n}>")),
+        Value::Future(_) | Value::Returned(_) => {
+            return Err(Fault::not_forced("a future cannot be written as text"));
+        }
         Value::Unset => out.push_str("<unassigned>"),
         Value::Cell(_) => out.push_str("<cell>"),
     }

@@ -32,7 +32,7 @@ pub(super) fn gather<S: Scalar>(items: &mut [Value<S>], work: &mut Vec<Value<S>>
 #[inline]
 fn goes_with_us<S: Scalar>(value: &Value<S>) -> bool {
     match value {
-        Value::Tuple(tuple) => Arc::strong_count(&tuple.0) == 1,
+        Value::Tuple(tuple) | Value::Returned(tuple) => Arc::strong_count(&tuple.0) == 1,
         Value::List(list) => list.has_one_owner(),
         Value::Dict(dict) => Arc::strong_count(dict) == 1,
         Value::Record(record) => Arc::strong_count(record) == 1,
@@ -45,7 +45,7 @@ fn goes_with_us<S: Scalar>(value: &Value<S>) -> bool {
 fn run<S: Scalar>(mut work: Vec<Value<S>>) {
     while let Some(value) = work.pop() {
         match value {
-            Value::Tuple(tuple) => {
+            Value::Tuple(tuple) | Value::Returned(tuple) => {
                 if let Some(mut body) = Arc::into_inner(tuple.0) {
                     gather(body.items_mut(), &mut work);
                 }
@@ -87,6 +87,7 @@ mod tests {
     fn chains_of_a_million_are_dropped_without_the_host_stack() {
         drop(chain(|inner| Value::tuple(vec![inner])));
         drop(chain(|inner| Value::tuple(vec![Value::Int(0), inner])));
+        drop(chain(Value::returned));
         drop(chain(|inner| Value::list(vec![inner])));
         drop(chain(|inner| Value::Function(Arc::new(Closure { function: 0, captures: vec![inner] }))));
         drop(chain(|inner| Value::Dict(Arc::new(Dict::new(vec![(Value::Int(1), inner)])))));

@@ -110,7 +110,9 @@ fn glance_behind<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Glance {
         (Value::Range(a), Value::Range(b)) => ((a.start, a.stop, a.step) == (b.start, b.stop, b.step)).into(),
         (Value::Shape(a), Value::Shape(b)) => same_shape(a, b).into(),
         (Value::Dist(a), Value::Dist(b)) => (Arc::ptr_eq(a, b) || same_dist(a, b)).into(),
-        (Value::Tuple(a), Value::Tuple(b)) => look_if(a.ptr_eq(b), may_be_same(a.items(), b.items())),
+        (Value::Tuple(a), Value::Tuple(b)) | (Value::Returned(a), Value::Returned(b)) => {
+            look_if(a.ptr_eq(b), may_be_same(a.items(), b.items()))
+        }
         (Value::List(a), Value::List(b)) => look_if(
             a.ptr_eq(b),
             a.len() == b.len() && !a.get(0).zip(b.get(0)).is_some_and(|(a, b)| are_other_numbers(a, b)),
@@ -163,7 +165,9 @@ pub fn same_within<'a, S: Scalar>(a: &'a Value<S>, b: &'a Value<S>, mut budget: 
         let mut meet_all =
             |a: &'a [Value<S>], b: &'a [Value<S>]| a.iter().zip(b).try_for_each(|(a, b)| meet(a, b));
         let outcome = match (a, b) {
-            (Value::Tuple(a), Value::Tuple(b)) => meet_all(a.items(), b.items()),
+            (Value::Tuple(a), Value::Tuple(b)) | (Value::Returned(a), Value::Returned(b)) => {
+                meet_all(a.items(), b.items())
+            }
             (Value::List(a), Value::List(b)) => List::visit_unshared(a, b, &mut |_, a, b| meet(a, b)),
             (Value::Record(a), Value::Record(b)) => meet_all(&a.fields, &b.fields),
             (Value::Function(a), Value::Function(b)) => meet_all(&a.captures, &b.captures),

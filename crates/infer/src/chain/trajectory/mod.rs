@@ -25,21 +25,16 @@ use super::accept::Rules;
 use super::metropolis::Decision;
 use super::state::Fresh;
 use crate::gradient::follow::reason;
-use crate::hamiltonian::chains::Length;
-use crate::hamiltonian::hmc::Hmc;
-use crate::hamiltonian::nuts::Nuts;
+use crate::hamiltonian::chains::{Length, MAX_ENERGY_ERROR};
 use crate::hamiltonian::step_size::first_guess;
 use crate::hamiltonian::{Cause, Kernel};
 use crate::{Failure, Task, gradient};
-use niwaki_grad::{Continuous, Model, Scope, Transform};
+use niwaki_grad::{Continuous, Model, Transform};
 use niwaki_vm::machine::Machine;
 use niwaki_vm::machine::kept::{Changed, Proposed};
 use scales::Scales;
 use structures::{Moving, Structures};
 use travel::Travel;
-
-/// An energy error above this many nats is a divergence, as in Stan.
-const MAX_ENERGY_ERROR: f64 = 1000.0;
 
 /// Trajectories of one leaf of a kernel.
 pub(crate) struct Trajectory {
@@ -75,12 +70,8 @@ impl std::fmt::Debug for Trajectory {
 
 impl Trajectory {
     pub fn new(length: Length, step: f64, target: f64) -> Trajectory {
-        let kernel = match length {
-            Length::Fixed { steps, jitter } => Kernel::Hmc(Hmc::new(steps, jitter, MAX_ENERGY_ERROR)),
-            Length::NoUTurn { max_depth } => Kernel::Nuts(Nuts::new(max_depth, MAX_ENERGY_ERROR)),
-        };
         Trajectory {
-            kernel,
+            kernel: length.kernel(MAX_ENERGY_ERROR),
             scales: Scales::new(step, target),
             structures: Structures::default(),
             model: None,
@@ -93,10 +84,9 @@ impl Trajectory {
     ///
     /// # Errors
     /// Sketches, which have no gradient.
-    pub fn prepare<R: Rules>(&mut self, task: &Task) -> Result<(), Failure> {
+    pub fn prepare(&mut self, task: &Task) -> Result<(), Failure> {
         if self.model.is_none() {
-            let scope = Scope { drops_jacobian: R::DROPS_JACOBIAN, ..Scope::default() };
-            self.model = Some(Model { scope, ..gradient::model(task)? });
+            self.model = Some(gradient::model(task)?);
         }
         Ok(())
     }
@@ -125,7 +115,7 @@ impl<R: Rules> Chain<R> {
         let (visit, program) = (self.visit, &*task.program);
         self.visit += 1;
         self.last = Decision { same: true, accepted: true, log_ratio: 0.0 };
-        own.prepare::<R>(task)?;
+        own.prepare(task)?;
         let Some(model) = &own.model else { return Ok(()) };
         if own.warming.is_none() {
             own.scales.freeze();
@@ -149,7 +139,7 @@ impl<R: Rules> Chain<R> {
             Ok(phase) => phase,
             Err(stop) => {
                 let fault = || reason(target.live(), &target.all(&[]));
-                own.travel.refused(stop.cause, own.warming.is_some(), fault);
+                own.travel.refused(stop, own.warming.is_some(), fault);
                 self.count_many(self.last);
                 return Ok(());
             }
@@ -164,7 +154,7 @@ impl<R: Rules> Chain<R> {
             own.scales.guessed(guess, dim);
         }
         let step = own.scales.step(dim);
-        let made = R::travel(&mut own.kernel, target, &metric, step, &mut phase, &mut key.at(0));
+        let made = own.kernel.step(target, &metric, step, &mut phase, &mut key.at(0));
         if let Some(share) = own.warming {
             own.scales.learn(labels, &phase.gradient, made.accept, share);
         }

@@ -5,6 +5,7 @@
 //! [`Live`] keeps those. Graphs are dropped when they together hold too many operations, the longest unused first. Machine
 //! code gives the same bits as a structure's tape, so that nothing depends on when it is ready.
 
+use super::super::state::choices;
 use super::scales::LabelId;
 use crate::Failure;
 use crate::hamiltonian::potential::evaluate;
@@ -82,7 +83,7 @@ fn is_continuous(value: &Value) -> bool {
 }
 
 impl Structures {
-    /// Makes the structure of a trace the present one: it is recorded where it is new. `moves` tells of a choice's number
+    /// Makes the structure of a trace the present one: it is recorded where it is new. `moves` says of a choice's number
     /// whether it may move.
     ///
     /// # Errors
@@ -168,10 +169,9 @@ impl Structure {
         let scope = Scope {
             held: (!held.is_empty()).then(|| Arc::new(held)),
             power: (beta != 1.0).then_some(beta),
-            ..model.scope.clone()
         };
         let model = Model { scope, ..model.clone() };
-        let recorded = model.record(&choices(trace, program))?;
+        let recorded = model.record(&choices(trace, program).collect())?;
         let known = recorded.choices.iter().map(|choice| choice.address);
         let known = known.chain(recorded.fixed.iter().map(|(address, _)| *address)).collect();
         let numbers: Vec<usize> = recorded
@@ -210,12 +210,6 @@ impl Structure {
     }
 }
 
-/// The values of a trace by address.
-fn choices(trace: &Trace, program: &Program) -> HashMap<u128, Value> {
-    let one = |choice| (trace.address(program, choice), trace.choice(program, choice).0.clone());
-    trace.numbers().map(one).collect()
-}
-
 impl Target {
     /// Whether nothing moves.
     pub fn is_still(&self) -> bool {
@@ -248,7 +242,7 @@ impl Target {
             }
             Some(x)
         };
-        if let Some(x) = self.live.locate(&mut coordinates, &mut || choices(trace, program)) {
+        if let Some(x) = self.live.locate(&mut coordinates, &mut || choices(trace, program).collect()) {
             self.full = x;
         }
         let x: Vec<f64> = self.moving.iter().map(|k| self.full[*k]).collect();

@@ -1,6 +1,6 @@
 //! What became of trajectories.
 
-use crate::hamiltonian::{Cause, Transition};
+use crate::hamiltonian::{BrokenOff, Cause, Stop, Transition};
 use niwaki_vm::machine::stack::RunFault;
 
 /// Counts over the transitions of one leaf.
@@ -18,18 +18,14 @@ pub struct Travel {
     pub accept: f64,
     /// Gradients, without those of first guesses of a step.
     pub gradients: u64,
-    /// Trajectories after the warm-up that the target refused, by [`Cause`].
-    pub refused: [u64; Cause::COUNT],
-    /// Trajectories after the warm-up whose energy drifted too far.
-    pub drifted: u64,
-    /// Trajectories of the warm-up that broke off.
-    pub warmup_divergences: u64,
+    /// Those that broke off.
+    pub broken: BrokenOff,
     /// What the first of them met that came to a point without a finite gradient.
     pub fault: Option<Box<RunFault>>,
 }
 
 impl Travel {
-    /// Counts a transition; `fault` tells why its gradient was no number, where it was none.
+    /// Counts a transition; `fault` says why its gradient was no number, where it was none.
     pub(crate) fn count(
         &mut self,
         made: &Transition,
@@ -42,34 +38,33 @@ impl Travel {
             self.settled += 1;
             self.accept += made.accept;
         }
-        let Some(divergence) = &made.divergence else { return };
-        match divergence.stop {
-            Some(stop) => self.broke_off(stop.cause, warming, fault),
-            None if warming => self.warmup_divergences += 1,
-            None => self.drifted += 1,
+        if let Some(divergence) = &made.divergence {
+            self.broke_off(divergence.stop, warming, fault);
         }
     }
 
     /// Counts a transition that could not begin: the density has no finite gradient where the trace stands.
     pub(crate) fn refused(
         &mut self,
-        cause: Cause,
+        stop: Stop,
         warming: bool,
         fault: impl FnOnce() -> Option<Box<RunFault>>,
     ) {
         self.made += 1;
         self.settled += u64::from(!warming);
-        self.broke_off(cause, warming, fault);
+        self.broke_off(Some(stop), warming, fault);
     }
 
-    fn broke_off(&mut self, cause: Cause, warming: bool, fault: impl FnOnce() -> Option<Box<RunFault>>) {
-        if warming {
-            self.warmup_divergences += 1;
-        } else {
-            self.refused[cause as usize] += 1;
-            if cause == Cause::NotFinite && self.fault.is_none() {
-                self.fault = fault();
-            }
+    fn broke_off(
+        &mut self,
+        stop: Option<Stop>,
+        warming: bool,
+        fault: impl FnOnce() -> Option<Box<RunFault>>,
+    ) {
+        self.broken.count(stop, warming);
+        let is_faulty = !warming && stop.is_some_and(|stop| stop.cause == Cause::NotFinite);
+        if is_faulty && self.fault.is_none() {
+            self.fault = fault();
         }
     }
 }
@@ -82,9 +77,7 @@ impl std::ops::AddAssign<&Travel> for Travel {
         self.settled += other.settled;
         self.accept += other.accept;
         self.gradients += other.gradients;
-        self.refused.iter_mut().zip(other.refused).for_each(|(sum, one)| *sum += one);
-        self.drifted += other.drifted;
-        self.warmup_divergences += other.warmup_divergences;
+        self.broken += other.broken;
         if self.fault.is_none() {
             self.fault.clone_from(&other.fault);
         }

@@ -40,7 +40,7 @@ fn values_from(
     (0..seeds)
         .map(|seed| {
             let exact = rejection(exact, 1, BOUND, 1_000_000, seed + 1_000_000, &mut |_| true).unwrap();
-            let from = exact.samples[0].record.log.entries();
+            let from = exact.runs[0].log.entries();
             let own = Settings { seed, ..settings.clone() };
             let chain = particle_gibbs(task, &own, ancestors, sweeps, Some(&from), &mut |_| true).unwrap();
             repr(&chain.states.last().unwrap().value).unwrap()
@@ -194,6 +194,25 @@ fn pimh_waits_for_a_population_that_lives() {
     }
     // Of 300 expected: 139 and 105 (0.9 to the power of 2, less that of 10; of 10).
     assert!((90..190).contains(&late) && (60..150).contains(&failed), "{late} and {failed}");
+}
+
+/// Particle Gibbs starts from the first population that lives, and fails where none of as many as PIMH has does.
+#[test]
+fn particle_gibbs_waits_for_a_population_that_lives() {
+    let (mut late, mut failed) = (0, 0);
+    for seed in 0..300 {
+        let own = Settings { seed, ..small(2, Order::Stochastic) };
+        match particle_gibbs(&task(RARE), &own, Ancestors::Sampled, 9, None, &mut |_| true) {
+            Ok(chain) => {
+                assert!(chain.died < 10 && chain.states.len() == 9);
+                late += usize::from(chain.died > 0);
+            }
+            Err(crate::Failure::Impossible { barrier: 1, .. }) => failed += 1,
+            Err(other) => panic!("{other}"),
+        }
+    }
+    // Of 300 expected: 207 and 36 (0.81, less its power of 10; that power).
+    assert!((160..250).contains(&late) && (12..70).contains(&failed), "{late} and {failed}");
 }
 
 /// A proposal whose population died is one that was rejected: the state stands for one more sweep.

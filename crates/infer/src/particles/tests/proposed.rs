@@ -144,16 +144,14 @@ fn importance_sampling_weighs_what_a_proposal_draws() {
     for (name, task, proposal) in cases() {
         let exact = enumerate(&task, 100_000, &mut |_| true).unwrap();
         let found = importance(&task, Some(&proposal), 40_000, 3, &mut |_| true).unwrap();
-        let weight = |sample: &crate::forward::Sample| (sample.log_weight - exact.log_evidence).exp();
-        let all: Vec<f64> = found.samples.iter().map(weight).collect();
+        let weight = |sample: &crate::run::Run| (sample.log_weight - exact.log_evidence).exp();
+        let all: Vec<f64> = found.runs.iter().map(weight).collect();
         let z = z_of(&all, 1.0);
         assert!(z.abs() < LIMIT, "{name}: {z}");
         for (value, log) in &exact.outcomes {
             let own = repr(value).unwrap();
-            let share =
-                |s: &crate::forward::Sample| if repr(&s.value).unwrap() == own { weight(s) } else { 0.0 };
-            let z =
-                z_of(&found.samples.iter().map(share).collect::<Vec<_>>(), (log - exact.log_evidence).exp());
+            let share = |s: &crate::run::Run| if repr(&s.value).unwrap() == own { weight(s) } else { 0.0 };
+            let z = z_of(&found.runs.iter().map(share).collect::<Vec<_>>(), (log - exact.log_evidence).exp());
             assert!(z.abs() < LIMIT, "{name}, {own}: {z}");
         }
     }
@@ -289,7 +287,7 @@ fn a_draw_outside_of_the_prior_is_impossible() {
         (entry "m"))"#;
     let (task, proposal) = guided(text, &[("x", "(params) (return (dist gaussian 0.5 1.0))")]);
     let found = importance(&task, Some(&proposal), 20_000, 5, &mut |_| true).unwrap();
-    let all: Vec<f64> = found.samples.iter().map(|s| s.log_weight.exp()).collect();
+    let all: Vec<f64> = found.runs.iter().map(|s| s.log_weight.exp()).collect();
     assert!(all.contains(&0.0) && z_of(&all, 1.0).abs() < LIMIT);
     let (task, far) = guided(text, &[("x", "(params) (return (dist gaussian 99.0 1.0))")]);
     let causes = |found: crate::Failure| match found {

@@ -57,7 +57,7 @@ fn a_chooser_sees_the_scene_so_far() {
         let (seen, sample) = forward(&task, stream);
         let trace = crate::replay::replay(
             &task,
-            crate::replay::Source::Addresses(crate::replay::by_address(&sample.record.log.entries())),
+            crate::replay::Source::Addresses(crate::replay::by_address(&sample.log.entries())),
             crate::replay::Missing::Refuse,
         );
         let parts: Vec<Primitive> =

@@ -111,17 +111,12 @@ impl<S: Scalar> Trace<S> {
                 if held == Slot::NOTHING {
                     continue;
                 }
-                match site.kind {
-                    SiteKind::Call { .. }
-                    | SiteKind::Apply
-                    | SiteKind::Future { .. }
-                    | SiteKind::FutureApply { .. } => {
+                if site.kind.makes_activation() {
+                    if !matches!(site.kind, SiteKind::Loop(_)) {
                         calls += 1;
                         cached += usize::from(self.kept.sites.is_on(n.function, i as u32));
-                        work.push(NodeId(held));
                     }
-                    SiteKind::Loop(_) => work.push(NodeId(held)),
-                    _ => {}
+                    work.push(NodeId(held));
                 }
             }
         }

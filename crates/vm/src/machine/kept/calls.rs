@@ -30,7 +30,7 @@ impl<S: Scalar> Kept<S> {
         if machine.program.function(function).mode == Mode::Pure {
             // A future of a pure function.
             r.gather(state, &machine.scratch, site.args, &mut machine.buffer);
-            return Ok(After::Pure { function, to: site.to, as_future: false });
+            return Ok(After::Pure { function, to: site.to, as_future: site.kind.gives_future() });
         }
         let at = Kept::slot_at(state, node, number.0 as usize);
         let held = self.slots[at].held;
@@ -82,7 +82,7 @@ impl<S: Scalar> Kept<S> {
         let (function, pure) = machine.unwrap_callee()?;
         if pure {
             self.vacate(machine.program, state, node, number.0);
-            return Ok(After::Pure { function, to: site.to, as_future: false });
+            return Ok(After::Pure { function, to: site.to, as_future: site.kind.gives_future() });
         }
         let at = Kept::slot_at(state, node, number.0 as usize);
         let held = self.slots[at].held;
@@ -175,6 +175,7 @@ impl<S: Scalar> Kept<S> {
         let above = &state.nodes[parent.0 as usize];
         let (own, is_new) = (above.registers as usize, above.made == self.now);
         let site = &program.function(above.function).sites[number];
+        let value = if site.kind.gives_future() { Value::returned(value) } else { value };
         let changed = self.write_to(state, is_new, own + site.to.index(), value);
         if !changed {
             let (function, site) = Kept::caller(state, node);
@@ -203,11 +204,7 @@ impl<S: Scalar> Kept<S> {
         }
         let kind = &program.function(state.nodes[node.0 as usize].function).sites[site as usize].kind;
         match kind {
-            SiteKind::Call { .. }
-            | SiteKind::Apply
-            | SiteKind::Future { .. }
-            | SiteKind::FutureApply { .. }
-            | SiteKind::Loop(_) => self.remove(program, state, NodeId(slot.held)),
+            kind if kind.makes_activation() => self.remove(program, state, NodeId(slot.held)),
             SiteKind::Read => return self.withdraw(kind, at, node, site),
             _ => self.withdraw(kind, at, node, site),
         }
@@ -236,13 +233,10 @@ impl<S: Scalar> Kept<S> {
                 if !slot.is_filled() {
                     continue;
                 }
-                match &site.kind {
-                    SiteKind::Call { .. }
-                    | SiteKind::Apply
-                    | SiteKind::Future { .. }
-                    | SiteKind::FutureApply { .. }
-                    | SiteKind::Loop(_) => self.journal.removed.push(NodeId(slot.held)),
-                    kind => self.withdraw(kind, at, id, i as u16),
+                if site.kind.makes_activation() {
+                    self.journal.removed.push(NodeId(slot.held));
+                } else {
+                    self.withdraw(&site.kind, at, id, i as u16);
                 }
             }
         }

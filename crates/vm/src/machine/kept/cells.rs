@@ -224,9 +224,10 @@ impl<S: Scalar> Kept<S> {
         self.tangled |= self.confined;
     }
 
-    /// The elements themselves, of a value that may be a collection.
+    /// The elements themselves, of a value that may be a collection, with the values of futures.
     // Tuples that hold collections are no deeper than the text that makes them.
     pub(super) fn resolved(&self, state: &State<S>, value: &Value<S>) -> Value<S> {
+        let value = &value.replace_futures(&|_| None);
         if let Value::Tuple(tuple) = value
             && self.readers.len() > self.free_readers.len()
         {
@@ -237,7 +238,7 @@ impl<S: Scalar> Kept<S> {
             return value.clone();
         }
         let element = |item: &Value<S>| match item {
-            Value::Cell(cell) => state.registers[cell.register as usize].clone(),
+            Value::Cell(cell) => state.registers[cell.register as usize].replace_futures(&|_| None),
             other => other.clone(),
         };
         Value::List(List::from_vec(list.iter().map(element).collect()))
@@ -254,7 +255,7 @@ impl<S: Scalar> Machine<'_, S> {
             return false;
         };
         let site = &f.sites[number.0 as usize];
-        if !matches!(site.kind, SiteKind::Observe { .. } | SiteKind::ObserveDist | SiteKind::ObserveIndexed) {
+        if !matches!(site.kind, SiteKind::Observe(_)) {
             return false;
         }
         let (own, outer) = self.bases(state, f, node);

@@ -65,14 +65,10 @@ impl<S: Scalar> Trace<S> {
             }
             for (i, site) in f.sites.iter().enumerate() {
                 let slot = self.kept.slots[n.slots as usize + i];
-                match site.kind {
+                match &site.kind {
                     _ if !slot.is_filled() => {}
-                    SiteKind::Call { .. }
-                    | SiteKind::Apply
-                    | SiteKind::Future { .. }
-                    | SiteKind::FutureApply { .. }
-                    | SiteKind::Loop(_) => work.push((NodeId(slot.held), level + 1)),
-                    SiteKind::Sample { .. } | SiteKind::SampleDist | SiteKind::SampleIndexed => {
+                    kind if kind.makes_activation() => work.push((NodeId(slot.held), level + 1)),
+                    SiteKind::Sample(_) => {
                         let number = (slot.held & Slot::BORN == 0).then_some(slot.held as usize);
                         each(self.place_at(program, node, i as u16), number, level);
                     }

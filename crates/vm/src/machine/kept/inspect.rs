@@ -86,15 +86,7 @@ impl<S: Scalar> Trace<S> {
             found.push(Activation { key: n.path, parent, label, function: f.name.to_string(), depth });
             for (i, site) in f.sites.iter().enumerate().rev() {
                 let slot = self.kept.slots[n.slots as usize + i];
-                let calls = matches!(
-                    site.kind,
-                    SiteKind::Call { .. }
-                        | SiteKind::Apply
-                        | SiteKind::Future { .. }
-                        | SiteKind::FutureApply { .. }
-                        | SiteKind::Loop(_)
-                );
-                if calls && slot.is_filled() {
+                if site.kind.makes_activation() && slot.is_filled() {
                     work.push((NodeId(slot.held), n.path, depth + 1));
                 }
             }
@@ -154,14 +146,12 @@ impl<S: Scalar> Trace<S> {
                         work.push((NodeId(slot.held), 0));
                         break;
                     }
-                    SiteKind::Sample { .. } | SiteKind::SampleDist | SiteKind::SampleIndexed => {
+                    SiteKind::Sample(_) => {
                         each(place, Item::Choice(value(site.to), slot.log));
                     }
-                    SiteKind::Observe { .. }
-                    | SiteKind::ObserveDist
-                    | SiteKind::ObserveIndexed
-                    | SiteKind::Factor
-                    | SiteKind::Condition => each(place, Item::Factor(slot.log)),
+                    SiteKind::Observe(_) | SiteKind::Factor | SiteKind::Condition => {
+                        each(place, Item::Factor(slot.log))
+                    }
                     SiteKind::Emit => {
                         if let Some(primitive) = &self.kept.emits[slot.held as usize] {
                             each(place, Item::Emit(primitive));

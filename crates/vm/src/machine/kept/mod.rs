@@ -14,7 +14,7 @@
 //! * `ahead`: memory that the next proposal will need;
 //! * [`inspect`]: what a trace holds, in program order.
 //!
-//! Futures run where they are made, so a future's handle is its value.
+//! Futures run where they are made, so what a future gives has returned.
 //!
 //! Source: C3, dissertation chapter 3: its cache is the slots, its continuations are (node, program counter).
 

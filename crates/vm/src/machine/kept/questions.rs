@@ -9,7 +9,7 @@ use super::super::suspend::After;
 use super::cells::Reader;
 use super::journal::Birth;
 use super::{Kept, Slot};
-use crate::code::{Args, Operand, Site, SiteId, SiteKind};
+use crate::code::{Args, Operand, Site, SiteId, SiteKind, Source};
 use crate::fault::Fault;
 use crate::value::{Value, ops, same};
 use niwaki_geom::{Primitive, Shape};
@@ -60,7 +60,7 @@ fn observed_number<S: Scalar>(
     r: Registers<'_, S>,
     site: &Site,
 ) -> Option<f64> {
-    let (SiteKind::Observe { family }, false, [a, b, x]) =
+    let (SiteKind::Observe(Source::Family(family)), false, [a, b, x]) =
         (&site.kind, site.is_read, &r.f.operands[site.args.range()])
     else {
         return None;
@@ -95,15 +95,11 @@ impl<S: Scalar> Kept<S> {
     ) -> Result<After, Halt> {
         let site = &r.f.sites[number.0 as usize];
         match &site.kind {
-            SiteKind::Sample { .. } | SiteKind::SampleDist | SiteKind::SampleIndexed => {
+            SiteKind::Sample(_) => {
                 let drawn = self.choose(machine, state, answers, r, node, number, site)?;
                 Ok(self.after(r.f, site, drawn))
             }
-            SiteKind::Observe { .. }
-            | SiteKind::ObserveDist
-            | SiteKind::ObserveIndexed
-            | SiteKind::Factor
-            | SiteKind::Condition => {
+            SiteKind::Observe(_) | SiteKind::Factor | SiteKind::Condition => {
                 self.factor(machine, state, r, node, number, site)?;
                 Ok(After::Next)
             }
@@ -115,6 +111,8 @@ impl<S: Scalar> Kept<S> {
             }
             SiteKind::Loop(l) => Ok(self.begin_loop(machine, state, r, node, number, site, l)?),
             SiteKind::Query => {
+                let key = r.get(state, &machine.scratch, r.f.operands[site.args.start as usize]);
+                key.refuse_futures("the key of a query")?;
                 let at = Kept::slot_at(state, node, number.0 as usize);
                 if !self.slots[at].is_filled() {
                     self.write_slot(self.quiet, at, Slot { held: 0, mark: 0, log: 0.0 });
@@ -136,8 +134,10 @@ impl<S: Scalar> Kept<S> {
                 Ok(After::Next)
             }
             SiteKind::Force => {
-                // A future has returned when its handle is seen: the handle is its value.
-                let value = r.get(state, &machine.scratch, r.f.operands[site.args.start as usize]).clone();
+                let value = match r.get(state, &machine.scratch, r.f.operands[site.args.start as usize]) {
+                    Value::Returned(value) => value.items()[0].clone(),
+                    other => other.clone(),
+                };
                 self.write_to(state, self.quiet, r.own + site.to.index(), value);
                 Ok(After::Next)
             }
@@ -166,7 +166,7 @@ impl<S: Scalar> Kept<S> {
         let (place, at) = (r.own + site.to.index(), Kept::slot_at(state, node, number.0 as usize));
         let program = machine.program;
         let slot = self.slots[at];
-        if let SiteKind::Sample { family } = site.kind
+        if let SiteKind::Sample(Source::Family(family)) = site.kind
             && slot.is_filled()
             && slot.mark & Slot::FAMILY == family as u32
             && let Value::Real(x) = state.registers[place]
@@ -234,7 +234,7 @@ impl<S: Scalar> Kept<S> {
         let log = match site.kind {
             SiteKind::Factor => as_real(r.get(state, &machine.scratch, operand))?.value(),
             SiteKind::Condition => {
-                if ops::truth(r.get(state, &machine.scratch, operand)) {
+                if ops::truth(r.get(state, &machine.scratch, operand))? {
                     0.0
                 } else {
                     f64::NEG_INFINITY
@@ -312,7 +312,7 @@ impl<S: Scalar> Kept<S> {
         let slot = self.slots[at];
         self.leaves_its_activation();
         match kind {
-            SiteKind::Sample { .. } | SiteKind::SampleDist | SiteKind::SampleIndexed => {
+            SiteKind::Sample(_) => {
                 debug_assert!(slot.held & Slot::BORN == 0, "a site is met once in a transaction");
                 self.stale.add(slot.log);
                 self.forget_change(at);
@@ -320,11 +320,7 @@ impl<S: Scalar> Kept<S> {
                 self.totals.choices -= 1;
                 self.journal.deaths.push(slot.held);
             }
-            SiteKind::Observe { .. }
-            | SiteKind::ObserveDist
-            | SiteKind::ObserveIndexed
-            | SiteKind::Factor
-            | SiteKind::Condition => {
+            SiteKind::Observe(_) | SiteKind::Factor | SiteKind::Condition => {
                 self.totals.factors -= 1;
                 self.totals.log_factors.remove(slot.log);
             }

@@ -257,6 +257,7 @@ impl<S: Scalar> Machine<'_, S> {
                     node,
                     function: state.nodes[node.0 as usize].function,
                     pc: site.next as usize - 1,
+                    scratch: 0,
                 };
                 return Err(Box::new(self.report(state, fault)));
             }

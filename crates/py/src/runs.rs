@@ -1,0 +1,202 @@
+//! Finished runs, and the traces that they become when they are run once more.
+
+use crate::geometry::PyShape;
+use crate::values::Classes;
+use niwaki_infer::log::Entry;
+use niwaki_infer::particles::distinct::Choices;
+use niwaki_infer::replay::{self, Trace, by_address};
+use niwaki_infer::run::Run;
+use niwaki_vm::value::Value;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// One finished run: scores, and choices by hash.
+#[pyclass(frozen, name = "Run", module = "niwaki._engine")]
+pub struct PyRun {
+    run: Arc<Run>,
+    classes: Arc<Classes>,
+}
+
+impl PyRun {
+    pub fn new(run: Arc<Run>, classes: Arc<Classes>) -> PyRun {
+        PyRun { run, classes }
+    }
+
+    /// The run of what [`PyRun::data`] gave, without what the model returned.
+    pub fn of_data(data: &str, classes: Arc<Classes>) -> PyResult<PyRun> {
+        let run: Run = serde_json::from_str(data).map_err(unreadable)?;
+        Ok(PyRun::new(Arc::new(run), classes))
+    }
+
+    pub fn went_to_its_end(&self) -> bool {
+        self.run.has_ended
+    }
+
+    /// Its choices in the order made.
+    pub fn entries(&self) -> Vec<Entry> {
+        self.run.log.entries()
+    }
+
+    pub fn by_address(&self) -> HashMap<u128, Value> {
+        by_address(&self.entries())
+    }
+}
+
+fn unreadable(error: serde_json::Error) -> PyErr {
+    PyValueError::new_err(error.to_string())
+}
+
+#[pymethods]
+impl PyRun {
+    /// Factors, observations and sketches, nats.
+    #[getter]
+    fn log_score(&self) -> f64 {
+        self.run.log_score
+    }
+
+    /// Log density of the choices, nats.
+    #[getter]
+    fn log_prior(&self) -> f64 {
+        self.run.log_prior
+    }
+
+    /// Log weight in its population, nats.
+    #[getter]
+    fn log_weight(&self) -> f64 {
+        self.run.log_weight
+    }
+
+    /// Primitives of the scene.
+    #[getter]
+    fn primitives(&self) -> usize {
+        self.run.primitives
+    }
+
+    /// Share of cells equal in scene and target; None without a target.
+    #[getter]
+    fn similarity(&self) -> Option<f64> {
+        self.run.similarity
+    }
+
+    /// Whether the run went to its end.
+    #[getter]
+    fn has_ended(&self) -> bool {
+        self.run.has_ended
+    }
+
+    /// What made it impossible.
+    #[getter]
+    fn cause(&self) -> Option<&str> {
+        self.run.cause.as_deref()
+    }
+
+    /// Of a chain's state: the number of proposals before it.
+    #[getter]
+    fn visit(&self) -> u64 {
+        self.run.visit
+    }
+
+    /// What the model returned; None for a run that did not end.
+    #[getter]
+    fn value<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.classes.object(py, &self.run.value)
+    }
+
+    /// All that it holds but what the model returned, which a replay gives again: for `Task.run_of_data`.
+    fn data(&self) -> PyResult<String> {
+        serde_json::to_string(&*self.run).map_err(unreadable)
+    }
+
+    /// Order choices in the order made: (hash of the address of the future that ran, its place among the runnable).
+    fn order(&self) -> Vec<(u128, usize)> {
+        self.entries().iter().filter_map(|entry| Some((entry.address(), entry.which()?))).collect()
+    }
+}
+
+/// A choice with its name.
+#[pyclass(frozen, get_all, name = "Choice", module = "niwaki._engine")]
+pub struct PyChoice {
+    /// Its readable address.
+    path: String,
+    /// Hash of the address.
+    address: u128,
+    /// The family that it was drawn from.
+    family: &'static str,
+    /// Its value.
+    value: Py<PyAny>,
+    /// Its log density, nats.
+    log_density: f64,
+}
+
+impl PyChoice {
+    pub fn of(py: Python<'_>, choice: &replay::Choice, classes: &Classes) -> PyResult<Py<PyChoice>> {
+        let value = classes.object(py, &choice.value)?.unbind();
+        let (address, family, log_density) = (choice.address, choice.family, choice.log_density);
+        Py::new(py, PyChoice { path: choice.path.clone(), address, family, value, log_density })
+    }
+}
+
+/// A run with names.
+#[pyclass(frozen, get_all, name = "Trace", module = "niwaki._engine")]
+pub struct PyTrace {
+    /// The run.
+    run: Py<PyRun>,
+    /// Every choice in depth-first order.
+    choices: Vec<Py<PyChoice>>,
+    /// Primitives: (address, shapes).
+    parts: Vec<(String, Vec<Py<PyShape>>)>,
+    /// The query table.
+    queries: Py<PyDict>,
+}
+
+impl PyTrace {
+    pub fn new(py: Python<'_>, trace: Trace, classes: &Arc<Classes>) -> PyResult<PyTrace> {
+        let queries = PyDict::new(py);
+        for (key, value) in &trace.queries {
+            queries.set_item(classes.object(py, key)?, classes.object(py, value)?)?;
+        }
+        let choices = trace.choices.iter().map(|choice| PyChoice::of(py, choice, classes));
+        let mut parts = Vec::with_capacity(trace.parts.len());
+        for (path, shapes) in trace.parts {
+            let shapes = shapes.into_iter().map(|s| Py::new(py, PyShape(s))).collect::<PyResult<_>>()?;
+            parts.push((path, shapes));
+        }
+        Ok(PyTrace {
+            choices: choices.collect::<PyResult<_>>()?,
+            run: Py::new(py, PyRun::new(Arc::new(trace.run), classes.clone()))?,
+            parts,
+            queries: queries.unbind(),
+        })
+    }
+}
+
+fn choices_of(py: Python<'_>, runs: &[Py<PyRun>]) -> Choices {
+    py.detach(|| Choices::of(runs.iter().map(|run| &run.get().run.log)))
+}
+
+/// Of how many no other has more than half of the choices.
+#[pyfunction]
+fn unique_models(py: Python<'_>, runs: Vec<Py<PyRun>>) -> usize {
+    let choices = choices_of(py, &runs);
+    py.detach(|| choices.unique())
+}
+
+/// The places of up to ``k`` runs that differ from each other, taken greedily from the first on.
+#[pyfunction]
+fn different(py: Python<'_>, runs: Vec<Py<PyRun>>, k: usize) -> Vec<usize> {
+    let choices = choices_of(py, &runs);
+    let ranked: Vec<usize> = (0..runs.len()).collect();
+    py.detach(|| choices.choose(&ranked, k))
+}
+
+/// Puts this part into the module.
+pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_function(wrap_pyfunction!(unique_models, module)?)?;
+    module.add_function(wrap_pyfunction!(different, module)?)?;
+    module.add_class::<PyChoice>()?;
+    module.add_class::<PyRun>()?;
+    module.add_class::<PyTrace>()
+}

@@ -1,0 +1,14 @@
+"""What all other parts of the package raise: errors with a code, a place and a cure.
+
+kinds      the classes of errors, and the renderer that draws the carets
+files      files that come in or go out, and the errors about them
+extras     libraries that may be missing
+source     a file of a model, the places in it, and the syntax tree of a live function
+messages   every message by its code; `texts` holds them by who finds the error
+catalogue  a page of the manual for each message
+"""
+
+from niwaki.errors.files import FileError
+from niwaki.errors.kinds import Call, InputError, ModelError, ModelFault, NiwakiError
+
+__all__ = ["Call", "FileError", "InputError", "ModelError", "ModelFault", "NiwakiError"]

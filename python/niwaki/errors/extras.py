@@ -1,0 +1,16 @@
+"""Libraries that only some users of the package install."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
+
+from niwaki.errors.files import FileError
+
+
+def optional(module: str, task: str, extra: str) -> Any:
+    """Import a library that only an extra of the package installs, or say how to get it; `task` is what needs it."""
+    try:
+        return import_module(module)
+    except ImportError:
+        raise FileError("missing-extra", task=task, extra=extra) from None

@@ -1,0 +1,244 @@
+"""Every error that Niwaki raises on purpose, and the one renderer that draws them.
+
+ModelError   a model breaks a rule of the language; found when it is compiled, with one or two places in the source
+ModelFault   a model failed while it ran; with the model's own call stack
+InputError   a file, a setting or an argument cannot be used
+
+All texts live in one table, `niwaki.errors.messages`; `str(error)` is the message as it is meant to be read.
+"""
+
+from __future__ import annotations
+
+import linecache
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from niwaki.errors.messages import MESSAGES, Message
+from niwaki.errors.source import SourceFile, Span
+
+
+class NiwakiError(Exception):
+    """The parent of every error that Niwaki raises on purpose.
+
+    Attributes
+    ----------
+    code : str
+        The error's name, kebab-case; each has a page in docs/errors.
+    """
+
+    code: str = ""
+
+    def render(self) -> str:
+        """The whole message, as in the manual."""
+        raise NotImplementedError
+
+    def __str__(self) -> str:
+        return self.render()
+
+
+class ModelError(NiwakiError):
+    """A model breaks a rule of the language; raised when it is compiled.
+
+    Parameters
+    ----------
+    code
+        A code of the table of messages.
+    span
+        The smallest place that is wrong.
+    second
+        Another place that explains it.
+    values
+        What the message's templates name.
+    """
+
+    def __init__(self, code: str, span: Span, second: Span | None = None, **values: Any) -> None:
+        super().__init__(code)
+        self.code = code
+        self.span = span
+        self.second = second
+        self.values = values
+
+    def render(self) -> str:
+        """The message with its places."""
+        message = MESSAGES[self.code]
+        first = (self.span, fill(message.label, self.values))
+        other = (self.second, fill(message.second, self.values)) if self.second is not None else None
+        lines = [f"error[{self.code}]: {fill(message.title, self.values)}", *snippet(first, other)]
+        return "\n".join([*lines, *notes(message, self.values, margin=lines[-1].removesuffix("|"))])
+
+
+@dataclass(frozen=True)
+class Call:
+    """One line of a model's call stack: a function's name and the place it had reached."""
+
+    function: str
+    span: Span | None
+
+
+class ModelFault(NiwakiError):
+    """A model failed while it ran.
+
+    Parameters
+    ----------
+    code
+        The fault's name.
+    message
+        What happened, with the values; the table's title when empty.
+    help
+        What to do; the table's when None.
+    stack
+        The model's calls, outermost first; the last is where it happened.
+    replay
+        What is needed to run it again (seed, or choices).
+    values
+        What the table's templates name.
+    """
+
+    def __init__(
+        self,
+        code: str,
+        message: str = "",
+        help: str | None = None,
+        stack: Sequence[Call] = (),
+        replay: str = "",
+        **values: Any,
+    ) -> None:
+        super().__init__(code)
+        self.code = code
+        self.message = message
+        self.help = help
+        self.stack = tuple(stack)
+        self.replay = replay
+        self.values = values
+
+    @classmethod
+    def from_engine(
+        cls,
+        code: str,
+        message: str,
+        help: str | None,
+        stack: Sequence[tuple[str, str, tuple[int, int, int, int]]],
+        replay: str = "",
+    ) -> ModelFault:
+        """A fault as the engine reports it: each line of the stack is (function, path, (l, c, end l, end c))."""
+        calls = [Call(function, place(path, *span)) for function, path, span in stack]
+        return cls(code, message, help, calls, replay)
+
+    def render(self) -> str:
+        """The message with its place and the model's calls."""
+        message = MESSAGES.get(self.code, _UNKNOWN)
+        title = self.message or fill(message.title, self.values)
+        lines = [f"error[{self.code}]: {title}"]
+        last = self.stack[-1].span if self.stack else None
+        if last is not None:
+            lines += snippet((last, fill(message.label, self.values)), None)
+        else:
+            lines.append(" |")
+        margin = lines[-1].removesuffix("|")
+        if len(self.stack) > 1 or (self.stack and last is None):
+            lines.append(f"{margin}= calls:")
+            shown = self.stack if len(self.stack) <= 12 else (*self.stack[:6], None, *self.stack[-5:])
+            for call in shown:
+                if call is None:
+                    lines.append(
+                        f"{margin}     ... {len(self.stack) - 11 + self.values.get('omitted', 0)} more ..."
+                    )
+                    continue
+                where = f" at {call.span.file.path}:{call.span.line}" if call.span is not None else ""
+                lines.append(f"{margin}     {call.function}{where}")
+        lines += notes(message, self.values, self.help, margin)
+        if self.replay:
+            lines.append(f"{margin}= replay: {self.replay}")
+        return "\n".join(lines)
+
+
+class InputError(NiwakiError):
+    """A file, a setting or an argument cannot be used.
+
+    Parameters
+    ----------
+    code
+        A code of the table of messages.
+    values
+        What the message's templates name; `detail` is shown on a line of its own.
+    """
+
+    def __init__(self, code: str, **values: Any) -> None:
+        super().__init__(code)
+        self.code = code
+        self.values = values
+
+    def render(self) -> str:
+        """The message; it has no place in a model."""
+        message = MESSAGES.get(self.code, _UNKNOWN)
+        lines = [f"error[{self.code}]: {fill(message.title, self.values)}"]
+        if self.values.get("detail"):
+            lines.append(f" = found: {self.values['detail']}")
+        return "\n".join([*lines, *notes(message, self.values)])
+
+
+_UNKNOWN = Message("unknown", "the model failed")
+
+
+def fill(template: str, values: dict[str, Any]) -> str:
+    """A template with its names filled in; names that nobody gave become empty."""
+
+    class Given(dict[str, Any]):
+        def __missing__(self, key: str) -> str:
+            return ""
+
+    return template.format_map(Given(values))
+
+
+def place(path: str, line: int, column: int, end_line: int, end_column: int) -> Span:
+    """A span in a file known by its path."""
+    lines = tuple(text.rstrip("\r\n") for text in linecache.getlines(path))
+    return Span(SourceFile(path, lines), line, column, end_line, end_column)
+
+
+def notes(message: Message, values: dict[str, Any], help: str | None = None, margin: str = " ") -> list[str]:
+    """The lines `= why:` and `= help:`."""
+    why, cure = fill(message.why, values), help if help is not None else fill(message.help, values)
+    return [f"{margin}= {kind}: {text}" for kind, text in (("why", why), ("help", cure)) if text]
+
+
+def snippet(first: tuple[Span, str], second: tuple[Span, str] | None) -> list[str]:
+    """The source lines with carets under the first place and dashes under the second, in the order of the file."""
+    main = first[0]
+    elsewhere = second is not None and second[0].file.path != main.file.path
+    marks = [(main, first[1], "^")]
+    if second is not None and not elsewhere:
+        marks.append((second[0], second[1], "-"))
+    marks.sort(key=lambda mark: (mark[0].line, mark[0].column))
+    numbers = [span.line for span, _, _ in marks] + (
+        [second[0].line] if second is not None and elsewhere else []
+    )
+    width = max(len(str(number)) for number in numbers)
+    margin = " " * (width + 1)
+    lines = [f"{' ' * width}--> {main.file.path}:{main.line}:{main.column}", f"{margin}|"]
+    lines += _marked(marks, width)
+    if second is not None and elsewhere:
+        other = second[0]
+        lines += [
+            f"{margin}|",
+            f"{' ' * width}::: {other.file.path}:{other.line}:{other.column}",
+            f"{margin}|",
+        ]
+        lines += _marked([(other, second[1], "-")], width)
+    lines.append(f"{margin}|")
+    return lines
+
+
+def _marked(marks: Sequence[tuple[Span, str, str]], width: int) -> list[str]:
+    lines: list[str] = []
+    shown = 0
+    for span, label, sign in marks:
+        text = span.file.line(span.line)
+        if span.line != shown:
+            lines.append(f"{span.line:>{width}} | {text}".rstrip())
+            shown = span.line
+        end = span.end_column if span.end_line == span.line else len(text.rstrip()) + 1
+        carets = sign * max(end - span.column, 1)
+        lines.append(f"{' ' * width} | {' ' * (span.column - 1)}{carets} {label}".rstrip())
+    return lines

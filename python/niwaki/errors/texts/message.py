@@ -1,0 +1,37 @@
+"""The shape of one entry of the table of messages."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Message:
+    """A message's texts. `{name}` stands for a value that the place which raises it gives.
+
+    Attributes
+    ----------
+    code
+        The error's name, kebab-case.
+    title
+        What happened; stands alone, lower case, no full stop.
+    label, second
+        The text beside the carets, and beside the second place if there is one.
+    why
+        Why there is such a rule.
+    help
+        What to write or do instead.
+    example
+        A program or a command that is refused; for the language, a model that the tests compile.
+    cure
+        The same, put right; for the language, a model that the tests compile.
+    """
+
+    code: str
+    title: str
+    label: str = ""
+    second: str = ""
+    why: str = ""
+    help: str = ""
+    example: str = ""
+    cure: str = ""

@@ -1,0 +1,80 @@
+"""What is wrong with images to match, cameras, lights, receivers and obstacles."""
+
+from __future__ import annotations
+
+from niwaki.errors.texts.message import Message
+
+VIEWS = (
+    Message(
+        "bad-camera",
+        "this camera sees nothing",
+        why="{reason}",
+        help="give its position and look_at, an up that is not the direction of view, and its lens",
+        example="Camera.perspective((0, 2, 20), look_at=(0, 2, 20))",
+        cure="Camera.perspective((0, 2, 20), look_at=(0, 2, 0), fov_degrees=45)",
+    ),
+    Message(
+        "behind-camera",
+        "the target `{name}` is behind the camera",
+        why="the camera at {position} looks at {look_at}, away from the whole target",
+        help="turn the camera, or exchange its position and look_at",
+        example="volume_match(ship) * match_image(front, a camera that looks away from the ship)",
+        cure="volume_match(ship) * match_image(front, a camera that looks at the ship)",
+    ),
+    Message(
+        "receiver-unseen",
+        "the camera sees nothing of the receiver `{receiver}`",
+        why="{reason}, so no pixel can be in shadow",
+        help="point the camera at the receiver, or leave the camera out to see the receiver along the light",
+        example="match_shadow(face, (0, -1, 0), floor, a camera that looks at the sky)",
+        cure="match_shadow(face, (0, -1, 0), floor)",
+    ),
+    Message(
+        "light-grazes",
+        "the light passes along the receiver `{receiver}`",
+        why="{reason}, so nothing could cast a shadow on it",
+        help="tilt the light towards the receiver: for a floor, (-1, -0.3, 0) is light from a low sun",
+        example="match_shadow(face, (-1, 0, 0), floor)",
+        cure="match_shadow(face, (-1, -0.3, 0), floor)",
+    ),
+    Message(
+        "bad-image",
+        "this is not an image to match",
+        why="found {found}",
+        help="give a file, a Pillow image, or an array of rows and columns of truth values or of greys 0 to 255",
+        example="match_image(np.zeros(7), camera)",
+        cure='match_image("skyline.png", camera)',
+    ),
+    Message(
+        "image-one-color",
+        "`{name}` has one colour only",
+        why="all of its {size} pixels are {state}: a pixel is on where its red is above 0",
+        help="draw the shape in white on black; if it is black on white, invert the image",
+        example="a white page with a black skyline that was scanned as grey",
+        cure="a black page with a white skyline",
+    ),
+    Message(
+        "weight-size",
+        "the weight image `{name}` has another size than its image",
+        why="it is {found}, the image {expected}",
+        help="scale the weight image to {expected}",
+        example="a weight image of 200 x 200 for an image of 250 x 250",
+        cure="both of 250 x 250",
+    ),
+    Message(
+        "obstacle-at-start",
+        "the obstacle covers the place where the model starts",
+        why="at the first barrier all {count} particles were inside of the obstacle",
+        help="move the obstacle or the model's first shape, or use smaller cells (`voxel`), which keep a smaller distance",
+        example="avoid(a ball around the root) of a tree",
+        cure="avoid(a ball beside the root)",
+    ),
+    Message(
+        "mesh-too-large",
+        "the mesh `{name}` is too large for this machine's memory",
+        why="its {what} need about {needed}, and {free} are free",
+        help="simplify the mesh: a target of a hundred thousand triangles gives the same scores as one of ten million",
+        example="a scan of a hundred million triangles",
+        cure="the same scan, reduced to a hundred thousand triangles",
+    ),
+)

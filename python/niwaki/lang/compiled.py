@@ -1,0 +1,164 @@
+"""Models for the engine: their programs, their arguments, and the engine's faults as our errors."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from difflib import get_close_matches
+from types import FunctionType
+from typing import Any
+
+from niwaki import _engine
+from niwaki.errors import InputError, ModelFault
+from niwaki.lang.core import Core
+from niwaki.lang.lower import lower
+from niwaki.lang.marks import Marked, P, T
+
+
+class Compiled(Marked[P, T]):
+    """A marked function with its core form and its program for the engine, each made at the first call and kept."""
+
+    def __init__(self, function: Callable[P, T]) -> None:
+        if not isinstance(function, FunctionType):
+            raise InputError("model-of-a-value", found=repr(function))
+        super().__init__(function)
+        self._core: Core | None = None
+        self._program: _engine.Program | None = None
+
+    def core(self) -> Core:
+        """The model in core form."""
+        if self._core is None:
+            self._core = lower(self.function)
+        return self._core
+
+    def program(self) -> _engine.Program:
+        """The model compiled for the engine."""
+        if self._program is None:
+            self._program = compile_core(self.core())
+        return self._program
+
+
+def compile_core(core: Core) -> _engine.Program:
+    """The engine's program of a model in core form."""
+    with translated(core.entry):
+        return _engine.Program(core.text, list(core.constants), list(core.classes))
+
+
+def task(
+    model: Compiled[..., Any],
+    args: Sequence[Any] = (),
+    kwargs: Mapping[str, Any] | None = None,
+    sketches: Sequence[_engine.SketchSpec] = (),
+    max_steps: int = 20_000_000,
+    max_memory: int = 1 << 30,
+) -> _engine.Task:
+    """A model with its arguments and sketches, ready to be searched."""
+    for name, found, least in (("max_steps", max_steps, 1), ("max_memory", max_memory, 1 << 20)):
+        if not isinstance(found, int) or not least <= found < 2**63:
+            raise InputError(
+                "bad-setting",
+                name=name,
+                found=repr(found),
+                expected=f"a whole number, at least {least}",
+                suggestion=f"{least} or more",
+            )
+    program = model.program()
+    given = arguments(model, args, kwargs or {})
+    try:
+        return _engine.Task(program, given, list(sketches), max_steps, max_memory)
+    except (TypeError, OverflowError) as error:
+        raise _bad_argument(model, program, given, error) from error
+
+
+def _bad_argument(
+    model: Compiled[..., Any], program: _engine.Program, given: list[Any], error: Exception
+) -> InputError:
+    """Which argument the engine cannot take."""
+    for number, value in enumerate(given, 1):
+        try:
+            _engine.Task(program, [value])
+        except (TypeError, OverflowError) as found:
+            return InputError("argument-value", number=number, name=model.name, found=str(found))
+    return InputError("argument-value", number="?", name=model.name, found=str(error))
+
+
+def arguments(model: Compiled[..., Any], args: Sequence[Any], kwargs: Mapping[str, Any]) -> list[Any]:
+    """The arguments by position, without the defaults that nobody changed at the end."""
+    core = model.core()
+    try:
+        bound = _signature(model, max(len(args), core.required)).bind(*args, **kwargs)
+    except TypeError as error:
+        least, most = core.required, len(core.parameters)
+        many = f"{least} to {most}" if least < most else str(most)
+        raise InputError(
+            "model-arguments",
+            name=model.name,
+            expected=f"{many} argument{'' if many == '1' else 's'}",
+            found=str(len(args) + len(kwargs)),
+            parameters=", ".join(core.parameters) or "none",
+            detail=str(error),
+        ) from error
+    given = set(bound.arguments)
+    bound.apply_defaults()
+    last = max((n for n, name in enumerate(core.parameters, 1) if name in given), default=0)
+    return [bound.arguments[name] for name in core.parameters[:last]]
+
+
+def _signature(model: Compiled[..., Any], given: int) -> inspect.Signature:
+    """The signature of a model; of one without its Python function, the names of its first parameters."""
+    if hasattr(model, "function"):
+        return inspect.signature(model.function)
+    kind = inspect.Parameter.POSITIONAL_ONLY
+    return inspect.Signature([inspect.Parameter(name, kind) for name in model.core().parameters[:given]])
+
+
+@contextmanager
+def translated(name: str, replay: str = "", choices: Mapping[str, Any] | None = None) -> Iterator[None]:
+    """Inside, a fault of the engine is raised as `ModelFault` or `InputError`."""
+    try:
+        yield
+    except _engine.EngineFault as fault:
+        raise _error(fault, name, replay, choices or {}) from None
+
+
+def as_fault(found: BaseException | None, name: str, replay: str = "") -> ModelFault | None:
+    """A fault that the engine kept, as ours; None for anything else."""
+    if not isinstance(found, _engine.EngineFault):
+        return None
+    error = _error(found, name, replay, {})
+    return error if isinstance(error, ModelFault) else None
+
+
+def _error(fault: Any, name: str, replay: str, choices: Mapping[str, Any]) -> Exception:
+    if fault.code == "missing-choice":
+        address = fault.message.partition("`")[2].rstrip("`")
+        near = get_close_matches(address, list(choices), n=3, cutoff=0.0)
+        nearest = ", ".join(f'"{one}"' for one in near) or "none"
+        return InputError("missing-choice", address=address, nearest=nearest)
+    if fault.kind == "run":
+        error = ModelFault.from_engine(fault.code, fault.message, fault.help, fault.stack, replay)
+        error.values |= {"omitted": fault.omitted, "invalid": fault.invalid}
+        return error
+    if fault.kind == "compile":
+        return InputError("machine-limit", found=fault.message)
+    if fault.code == "no-continuous-choices":
+        return InputError(fault.code)
+    if fault.code == "no-address":
+        pattern = fault.message.partition("`")[2].partition("`")[0]
+        return InputError("no-address", pattern=pattern, name=name, nearest=fault.help or "none")
+    if fault.kind == "no-start":
+        if fault.barrier == 0:
+            given = "this one is not"
+            return InputError("no-start", name=name, tried="the run that was given is", constraint=given)
+        causes = ", ".join(f"{cause} ({count})" for cause, count in fault.causes)
+        tried = f"all of {fault.barrier} forward runs were"
+        return InputError("no-start", name=name, tried=tried, constraint=f"these were not: {causes}")
+    if fault.kind == "impossible":
+        total = sum(count for _, count in fault.causes)
+        if fault.barrier == 1 and all(cause == "avoid" for cause, _ in fault.causes):
+            return InputError("obstacle-at-start", count=total)
+        causes = ", ".join(f"{cause} ({count})" for cause, count in fault.causes)
+        place = f"barrier {fault.barrier}" if fault.barrier else "the end"
+        return InputError("everything-impossible", barrier=place, count=total, constraint=causes)
+    return InputError(fault.code, name=name, found=fault.message, detail=fault.message)

@@ -1,0 +1,135 @@
+"""Futures of a plain run: values that are there already, and that only `force` shows.
+
+In the engine the value of a future may not be there yet, so that a look at it without `force` is an error. Here every
+other use of a future is the same error.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from types import FunctionType
+from typing import Any
+
+from niwaki import words
+from niwaki.lang import vocabulary
+
+#: What is looked at by Python's own functions and operators, and not by the name of an attribute.
+_LOOKS = """bool eq ne lt le gt ge hash len iter next contains getitem call str repr format int float complex index
+round trunc floor ceil abs neg pos invert reversed divmod rdivmod array"""
+_OPERATORS = "add sub mul matmul truediv floordiv mod pow and or xor lshift rshift"
+#: What takes futures and does not look at them.
+_PASSING = frozenset({words.force, words.future, words.query, words.choose})
+
+
+class NotForced(Exception):
+    """A future was looked at that is not forced."""
+
+
+class Future:
+    """What `future` gives in a plain run."""
+
+    __slots__ = ("held",)
+
+    def __init__(self, value: Any) -> None:
+        self.held = value
+
+    def __getattribute__(self, name: str) -> Any:
+        if name == "__class__":
+            return Future
+        raise NotForced(f"a future has no field `{name}`")
+
+
+def _refuse(*_: Any) -> Any:
+    raise NotForced("a future is not the value that it will have")
+
+
+for _name in (*_LOOKS.split(), *(f"{side}{name}" for name in _OPERATORS.split() for side in ("", "r"))):
+    setattr(Future, f"__{_name}__", _refuse)
+
+
+def forced(value: Any) -> Any:
+    """The value of a future; of anything else, itself."""
+    return object.__getattribute__(value, "held") if type(value) is Future else value
+
+
+def opened(value: Any) -> Any:
+    """A value that leaves the run, with the values of the futures that it holds."""
+    value = forced(value)
+    if not holds_future(value):
+        return value
+    if isinstance(value, (list, tuple)):
+        parts = [opened(part) for part in value]
+        return type(value)(*parts) if hasattr(value, "_fields") else type(value)(parts)
+    if isinstance(value, dict):
+        return {key: opened(part) for key, part in value.items()}
+    if dataclasses.is_dataclass(value) and not isinstance(value, type):
+        parts = [opened(getattr(value, field.name)) for field in dataclasses.fields(value)]
+        return type(value)(*parts)
+    return value
+
+
+def holds_future(*values: Any) -> bool:
+    """Whether one of the values is a future or holds one, at any depth."""
+    work, seen = list(values), set()
+    while work:
+        value = work.pop()
+        if type(value) is Future:
+            return True
+        parts = _parts(value)
+        if parts and id(value) not in seen:
+            seen.add(id(value))
+            work += parts
+    return False
+
+
+def _parts(value: Any) -> Sequence[Any]:
+    """The values that a value holds."""
+    if isinstance(value, (list, tuple)):
+        return value
+    if isinstance(value, dict):
+        return [*value.values()]
+    if isinstance(value, FunctionType):
+        return [cell.cell_contents for cell in value.__closure__ or () if _is_filled(cell)]
+    if dataclasses.is_dataclass(value) and not isinstance(value, type):
+        return [getattr(value, field.name) for field in dataclasses.fields(value)]
+    return ()
+
+
+def _is_filled(cell: Any) -> bool:
+    try:
+        return cell.cell_contents is not cell
+    except ValueError:
+        return False
+
+
+def compared(value: Any) -> Any:
+    """A side of a comparison: a future has no value to compare yet, nor has what holds one."""
+    if holds_future(value):
+        raise NotForced("a future cannot be compared")
+    return value
+
+
+def searched(value: Any) -> Any:
+    """The right side of `in`; of a dict only the keys are compared."""
+    return value if isinstance(value, dict) else compared(value)
+
+
+def refuse(function: Callable[..., Any], args: Iterable[Any], keywords: Mapping[str, Any]) -> None:
+    """Refuse futures as arguments of what is no model code and looks at its arguments."""
+    if function in _PASSING:
+        return
+    owner, name = getattr(function, "__self__", None), getattr(function, "__name__", "")
+    given = [*args, *keywords.values()]
+    if isinstance(owner, dict):
+        given = given[:1]
+    if function in vocabulary.ALL_WORDS or isinstance(owner, str):
+        found = holds_future(*given)
+    elif isinstance(owner, (list, tuple)):
+        found = holds_future(owner, *given)
+    elif isinstance(function, type) and (hasattr(function, "_fields") or dataclasses.is_dataclass(function)):
+        return
+    else:
+        found = any(type(part) is Future for part in given)
+    if found:
+        raise NotForced(f"`{name}` looks at a future")

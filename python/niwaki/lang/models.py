@@ -1,0 +1,54 @@
+"""`@model` marks a Python function as a model: it can be run forwards, searched and drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, cast
+
+from niwaki.lang.compiled import Compiled
+from niwaki.lang.marks import P, T
+from niwaki.lang.plain import run
+
+
+class Model(Compiled[P, T]):
+    """A function that can be run forwards, searched and drawn.
+
+    Attributes
+    ----------
+    name : str
+        The function's name.
+    function : FunctionType
+        The Python function as it was written.
+    """
+
+    def __call__(self, *args: P.args, **kwargs: P.kwargs) -> T:
+        """Run the model once as plain Python with a fresh seed, and keep only its value."""
+        return cast(T, run(self.function, args, kwargs).value)
+
+    def __repr__(self) -> str:
+        return f"<model {self.name}>"
+
+
+def model(function: Callable[P, T]) -> Model[P, T]:
+    """Mark a function as a model.
+
+    Parameters
+    ----------
+    function
+        A function written in the modelling language.
+
+    Examples
+    --------
+    >>> from niwaki import model
+    >>> @model
+    ... def half(x):
+    ...     return x / 2
+    >>> half
+    <model half>
+    """
+    return Model(function)
+
+
+def as_model(model: Model[..., Any] | Callable[..., Any]) -> Model[..., Any]:
+    """The model itself, or a plain function of the modelling language as one."""
+    return model if isinstance(model, Model) else Model(model)

@@ -1,0 +1,455 @@
+"""Markov kernels as values, for `niwaki.mh(kernel=...)`.
+
+Leaves propose: `mh`, `drift`, `neighbour`, `proposal` change one choice, `block` and `regenerate` many; `hmc` and
+`nuts` move the continuous ones along their gradient. Branches say which leaf is next: `cycle`, `mixture`, `repeat`;
+`on` restricts a kernel to some choices, `odds` weighs them, `anneal` and `temper` change the power of the score. One
+application of `cycle(a, b)` is one of `a` and then one of `b`.
+
+>>> from niwaki import kernels
+>>> kernel = kernels.cycle(kernels.on("z", kernels.mh()), kernels.repeat(3, kernels.on("mean*", kernels.drift())))
+
+Patterns are compared with readable addresses: `*` and `?` stand for text within one component, `**` for any text; a
+pattern without `/` is compared with the last component.
+"""
+
+from __future__ import annotations
+
+import ast
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from difflib import get_close_matches
+from typing import Any
+
+from niwaki.errors import InputError
+
+__all__ = [
+    "Kernel",
+    "anneal",
+    "block",
+    "cycle",
+    "drift",
+    "hmc",
+    "mh",
+    "mixture",
+    "neighbour",
+    "nuts",
+    "odds",
+    "on",
+    "original",
+    "parse",
+    "proposal",
+    "regenerate",
+    "repeat",
+    "temper",
+]
+
+#: Depths for which a function of the depth is asked; the last holds for all beyond.
+_DEEPEST = 256
+
+#: Steps of a trajectory are counted in 32 bits.
+_MOST = 2**32 - 1
+
+
+@dataclass(frozen=True)
+class Kernel:
+    """A Markov kernel: a name, its settings by name, and the kernels in it."""
+
+    name: str
+    settings: Mapping[str, Any] = field(default_factory=dict)
+    parts: tuple[Kernel, ...] = ()
+    function: Any = field(default=None, compare=False)
+
+    def data(self, function: Callable[[Any], Any]) -> dict[str, Any]:
+        """The kernel as plain data; `function` writes a user's proposal."""
+        found: dict[str, Any] = {"name": self.name}
+        if self.settings:
+            found["settings"] = dict(self.settings)
+        if self.parts:
+            found["parts"] = [part.data(function) for part in self.parts]
+        if self.function is not None:
+            found["function"] = function(self.function)
+        return found
+
+    @classmethod
+    def of_data(cls, data: Mapping[str, Any], function: Callable[[Any], Any]) -> Kernel:
+        """The kernel of its data; `function` reads a user's proposal."""
+        parts = tuple(cls.of_data(part, function) for part in data.get("parts", ()))
+        own = function(data["function"]) if "function" in data else None
+        return cls(data["name"], dict(data.get("settings", {})), parts, own)
+
+    def leaves(self) -> list[Kernel]:
+        """The kernels that propose, in order, each with the restrictions that hold for it."""
+        if not self.parts:
+            return [self]
+        inner = [leaf for part in self.parts for leaf in part.leaves()]
+        return [Kernel("on", self.settings, (leaf,)) for leaf in inner] if self.name == "on" else inner
+
+    def first(self, *names: str) -> Kernel | None:
+        """The first kernel of one of these names, this one or one in it."""
+        if self.name in names:
+            return self
+        return next((found for part in self.parts if (found := part.first(*names)) is not None), None)
+
+    @property
+    def follows(self) -> bool:
+        """Whether a leaf of it follows the gradient."""
+        return self.first("hmc", "nuts") is not None
+
+    def __repr__(self) -> str:
+        own = self.settings
+        if self.name in ("hmc", "nuts"):
+            shown = [f"{key}={value}" for key, value in own.items() if key not in ("steps", "max_depth")]
+            length = str(own["steps" if self.name == "hmc" else "max_depth"])
+            return f"{self.name}({', '.join([length, *(one for one in shown if one != 'jitter=0.0')])})"
+        if self.name == "on":
+            (inner,) = self.parts
+            if own["sites"]:
+                return f"on({own['sites'][0]!r}, {inner!r})"
+            depth = ", depth=..." if own["depth"] else ""
+            sites = f", sites={dict(own['odds'])!r}" if own["odds"] else ""
+            return f"odds({inner!r}{depth}{sites})"
+        if self.name == "mixture":
+            weights = ", ".join(map(repr, own["weights"]))
+            return f"mixture({weights}, {', '.join(map(repr, self.parts))})"
+        parts = [repr(one) for one in (*own.values(), *self.parts)]
+        if self.function is not None:
+            parts.append(getattr(self.function, "name", getattr(self.function, "__name__", "function")))
+        return f"{self.name}({', '.join(parts)})"
+
+
+def mh() -> Kernel:
+    """One choice, drawn from its own distribution (dissertation 3.2)."""
+    return Kernel("prior")
+
+
+def drift(step: float = 0.5, target: float = 0.44) -> Kernel:
+    """One continuous choice moves a little; discrete ones are drawn from their own distribution.
+
+    Positive numbers move by a factor, those of an interval by a factor of their odds, entries of a simplex by factors;
+    angles go around.
+
+    Parameters
+    ----------
+    step
+        First step, in standard deviations of the choice's distribution (where it is bell-shaped) or as the logarithm
+        of the factor.
+    target
+        The acceptance to which the step of each site is adapted during the warm-up; it is frozen afterwards.
+    """
+    return Kernel("drift", {"step": _positive("step", step), "target": _share("target", target)})
+
+
+def neighbour(reach: int = 1) -> Kernel:
+    """One discrete choice moves to a value near by; continuous ones are drawn from their own distribution.
+
+    A truth value turns, a whole number goes up or down by at most `reach`, a category becomes another.
+    """
+    return Kernel("neighbour", {"reach": _whole("reach", reach, 1)})
+
+
+def block(step: float = 0.2, share: float = 1.0, target: float = 0.234) -> Kernel:
+    """Many choices move a little at once.
+
+    Parameters
+    ----------
+    step
+        First step, in spreads of each site's distribution in the first state.
+    share
+        Probability with which each choice takes part.
+    target
+        The acceptance to which the step is adapted during the warm-up.
+    """
+    if not _number(share) or not 0 < share <= 1:
+        raise _wrong("share", share, "a number above 0 and up to 1", "0.5")
+    return Kernel(
+        "block",
+        {"step": _positive("step", step), "share": float(share), "target": _share("target", target)},
+    )
+
+
+def regenerate(levels: int = 0) -> Kernel:
+    """A call and all that it makes are drawn anew: the one that stands `levels` calls or iterations above a choice."""
+    return Kernel("regenerate", {"levels": _whole("levels", levels, 0)})
+
+
+def hmc(steps: int = 10, step: float = 0.1, jitter: float = 0.0, target: float = 0.8) -> Kernel:
+    """All continuous choices move together along their gradient, for a fixed number of steps (dissertation 4.3, 7.1).
+
+    Discrete choices keep their values, and with them the structure of the run: other kernels of the same chain move
+    those. A trajectory that reaches another structure is rejected, so put a kernel beside that moves continuous choices
+    too, such as `mh()`, where they decide the structure. Under `on` only the choices that match move.
+
+    Parameters
+    ----------
+    steps
+        Leapfrog steps of a trajectory; each costs one gradient.
+    step
+        First step for one coordinate, in standard deviations of bell-shaped choices and in logarithms of bounded ones;
+        `d` coordinates take `d ** -0.25` of it. Step and scales are adapted in the warm-up, and frozen afterwards.
+    jitter
+        The number of steps varies by this share of itself, [0, 1].
+    target
+        The acceptance to which the step is adapted.
+    """
+    if not _number(jitter) or not 0 <= jitter <= 1:
+        raise _wrong("jitter", jitter, "a share in [0, 1]", "0.5")
+    settings = {
+        "steps": _whole("steps", steps, 1, _MOST),
+        "step": _positive("step", step),
+        "jitter": float(jitter),
+        "target": _share("target", target),
+    }
+    return Kernel("hmc", settings)
+
+
+def nuts(max_depth: int = 8, step: float = 0.1, target: float = 0.8) -> Kernel:
+    """All continuous choices move together along their gradient until they turn back; else as for `hmc`.
+
+    Parameters
+    ----------
+    max_depth
+        Most doublings of a trajectory: 2^max_depth - 1 steps; up to 20.
+    step, target
+        As for `hmc`.
+    """
+    settings = {
+        "max_depth": _whole("max_depth", max_depth, 1, 20),
+        "step": _positive("step", step),
+        "target": _share("target", target),
+    }
+    return Kernel("nuts", settings)
+
+
+def proposal(function: Callable[..., Any]) -> Kernel:
+    """One choice, from a distribution of your own, for chains, particles and importance sampling alike.
+
+    Parameters
+    ----------
+    function
+        A function of the modelling language that gives a distribution over new values, such as
+        `lambda old: Gaussian(old, 0.1)` or `lambda x: Gaussian(0.9 * x, 0.3)`. It makes no choice itself. Its
+        parameters are names: `old` is the value before, which only a chain has; any other one is a variable of the
+        model that is in scope at the choice and holds a number or a truth value. Use it under `on`, for sites whose
+        values it proposes.
+    """
+    return Kernel("proposal", function=function)
+
+
+def cycle(*kernels: Kernel) -> Kernel:
+    """One application of each, in order."""
+    return Kernel("cycle", {}, _parts("cycle", kernels))
+
+
+def mixture(*kernels: Kernel, weights: Sequence[float] | None = None) -> Kernel:
+    """One application of one of them, drawn by weight; evenly when no weights are given."""
+    parts = _parts("mixture", kernels)
+    given = [1.0] * len(parts) if weights is None else [_positive("weights", one) for one in weights]
+    if len(given) != len(parts):
+        raise _wrong("weights", weights, "one weight for each kernel", "such a list")
+    return Kernel("mixture", {"weights": given}, parts)
+
+
+def repeat(times: int, kernel: Kernel) -> Kernel:
+    """So many applications of a kernel."""
+    return Kernel("repeat", {"times": _whole("times", times, 1)}, _parts("repeat", (kernel,)))
+
+
+def on(sites: str | Sequence[str], kernel: Kernel) -> Kernel:
+    """A kernel restricted to the choices whose address matches a pattern, or one of several."""
+    patterns = [sites] if isinstance(sites, str) else list(sites)
+    if not patterns or not all(isinstance(one, str) and one for one in patterns):
+        raise _wrong("sites", sites, "a pattern over addresses, or several", '"tree/width"')
+    return Kernel("on", _selection(sites=[patterns]), _parts("on", (kernel,)))
+
+
+def odds(
+    kernel: Kernel,
+    *,
+    depth: Callable[[int], float] | None = None,
+    sites: Mapping[str, float] | None = None,
+    calls: str = "",
+) -> Kernel:
+    """A kernel that picks choices by weight instead of evenly; the acceptance takes that into account.
+
+    Parameters
+    ----------
+    depth
+        The odds of a choice with so many calls above it.
+    sites
+        Odds by pattern over addresses; the first that matches holds, and 1 where none does. Zero leaves a choice out.
+    calls
+        The name, in addresses, of the calls that count as depth; all calls when left out.
+    """
+    by_depth = [] if depth is None else [_weight("depth", depth(n)) for n in range(_DEEPEST)]
+    by_site = [[pattern, _weight("sites", one)] for pattern, one in (sites or {}).items()]
+    return Kernel("on", _selection(depth=by_depth, odds=by_site, calls=calls), _parts("odds", (kernel,)))
+
+
+def anneal(kernel: Kernel, steps: int, start: float = 10.0, end: float = 0.1) -> Kernel:
+    """A kernel under which the score counts more and more: its log is divided by a temperature.
+
+    The temperature goes from `start` to `end` in so many proposals, geometrically, and stays there. The prior is never
+    tempered. The samples are not those of the posterior; take the best.
+    """
+    settings = {
+        "start": _positive("start", start),
+        "end": _positive("end", end),
+        "steps": _whole("steps", steps, 1),
+    }
+    return Kernel("anneal", settings, _parts("anneal", (kernel,)))
+
+
+def temper(kernel: Kernel, temperatures: Sequence[float] = (1.0, 2.0, 4.0, 8.0), every: int = 100) -> Kernel:
+    """Parallel tempering: a chain at each temperature of the score; neighbours exchange states now and then.
+
+    It can only be outermost. The first temperature must be 1: its chain gives the samples.
+
+    Parameters
+    ----------
+    temperatures
+        Rising from 1.
+    every
+        Proposals between two exchanges.
+    """
+    rising = [_positive("temperatures", one) for one in temperatures]
+    if not rising or rising[0] != 1.0 or rising != sorted(rising):
+        raise _wrong("temperatures", temperatures, "temperatures that rise from 1", "(1, 2, 4, 8)")
+    return Kernel(
+        "temper",
+        {"temperatures": rising, "every": _whole("every", every, 1)},
+        _parts("temper", (kernel,)),
+    )
+
+
+def original(sharpen: float = 16.0, nesting: str | None = None) -> Kernel:
+    """The original's Metropolis-Hastings, with its settings (the baseline of dissertation 5.6).
+
+    One choice by its family: a coin is always turned, a Gaussian number drifts by its own standard deviation, anything
+    else is drawn from its distribution. It is run on the same models as everything else; a number whose interval
+    moves away from under it is rejected here, where the original kept its place in the interval.
+
+    Parameters
+    ----------
+    sharpen
+        The power of the score: 16 makes a sigma of 0.02 one of 0.005, as the original did. Reported scores are never
+        sharpened.
+    nesting
+        The name of a function: choices within so many nested calls of it get odds exp(-n), as on the original's tree,
+        where n counts branches and not segments (for our gnarly tree `"side_branch"`). All alike when left out.
+    """
+    kernel = Kernel("by_family")
+    if nesting is not None:
+        kernel = odds(kernel, depth=lambda n: math.exp(-n), calls=nesting)
+    power = 1.0 / _positive("sharpen", sharpen)
+    return kernel if power == 1.0 else anneal(kernel, 1, power, power)
+
+
+def parse(text: str) -> Kernel:
+    """A kernel as it is written: `cycle(on("z", mh()), repeat(3, drift(0.2)))`.
+
+    Calls of the functions of this module with numbers, texts, lists and kernels; nothing else is carried out.
+    """
+    try:
+        made = _made(ast.parse(text.strip(), mode="eval").body)
+    except (SyntaxError, ValueError, TypeError) as error:
+        raise InputError("unreadable-kernel", found=text, reason=str(error).split(" (<")[0]) from None
+    if not isinstance(made, Kernel):
+        raise InputError(
+            "unreadable-kernel", found=text, reason="it is not a call of a kernel, such as `mh()`"
+        )
+    return made
+
+
+def _made(part: ast.expr) -> Any:
+    if isinstance(part, ast.Name) and part.id in _WRITTEN:
+        return _WRITTEN[part.id]()
+    if isinstance(part, ast.Call) and isinstance(part.func, ast.Name) and part.func.id in _WRITTEN:
+        given = {word.arg: _made(word.value) for word in part.keywords if word.arg is not None}
+        return _WRITTEN[part.func.id](*(_made(one) for one in part.args), **given)
+    if isinstance(part, (ast.List, ast.Tuple)):
+        return [_made(one) for one in part.elts]
+    if isinstance(part, (ast.Name, ast.Call)):
+        name = ast.unparse(part.func if isinstance(part, ast.Call) else part)
+        near = get_close_matches(name, _WRITTEN, n=1)
+        hint = f"; did you mean `{near[0]}`?" if near else f"; there are {', '.join(_WRITTEN)}"
+        raise ValueError(f"there is no kernel `{name}`{hint}")
+    try:
+        return ast.literal_eval(part)
+    except ValueError:
+        raise ValueError(f"`{ast.unparse(part)}` is no call, number, text or list") from None
+
+
+#: What can be written as text.
+_WRITTEN: dict[str, Callable[..., Kernel]] = {
+    made.__name__: made
+    for made in (
+        mh,
+        drift,
+        neighbour,
+        block,
+        regenerate,
+        hmc,
+        nuts,
+        cycle,
+        mixture,
+        repeat,
+        on,
+        odds,
+        anneal,
+        temper,
+        original,
+    )
+}
+
+
+def _selection(**given: Any) -> dict[str, Any]:
+    """Which choices a kernel may change: patterns of which each list needs one, and odds by depth and by pattern."""
+    return {"sites": [], "depth": [], "odds": [], "calls": "", **given}
+
+
+def _parts(name: str, kernels: Sequence[Any]) -> tuple[Kernel, ...]:
+    if not kernels:
+        raise _wrong(name, "nothing", "at least one kernel", "`kernels.mh()`")
+    for one in kernels:
+        if not isinstance(one, Kernel):
+            raise _wrong(name, one, "kernels", "one of `niwaki.kernels`, such as `kernels.mh()`")
+        if one.name == "temper":
+            raise _wrong(
+                name, one, "kernels other than `temper`, which can only be outermost", "`temper` around it"
+            )
+    return tuple(kernels)
+
+
+def _wrong(name: str, found: Any, expected: str, suggestion: str) -> InputError:
+    return InputError("bad-setting", name=name, found=repr(found), expected=expected, suggestion=suggestion)
+
+
+def _number(value: Any) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def _positive(name: str, value: Any) -> float:
+    if not _number(value) or value <= 0:
+        raise _wrong(name, value, "a number above 0", "0.5")
+    return float(value)
+
+
+def _weight(name: str, value: Any) -> float:
+    if not _number(value) or value < 0:
+        raise _wrong(name, value, "selection weights, which are numbers of 0 or more", "1.0")
+    return float(value)
+
+
+def _share(name: str, value: Any) -> float:
+    if not _number(value) or not 0 < value < 1:
+        raise _wrong(name, value, "a number between 0 and 1", "0.44")
+    return float(value)
+
+
+def _whole(name: str, value: Any, least: int, most: int | None = None) -> int:
+    if not isinstance(value, int) or isinstance(value, bool) or value < least:
+        raise _wrong(name, value, f"a whole number, at least {least}", str(least))
+    if most is not None and value > most:
+        raise _wrong(name, value, f"a whole number, at most {most}", str(most))
+    return value

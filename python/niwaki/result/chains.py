@@ -1,0 +1,234 @@
+"""What Markov chains say of their search: best states, acceptance by site, trajectories."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from niwaki import _engine
+from niwaki.errors import InputError, ModelFault
+from niwaki.lang.compiled import as_fault
+from niwaki.methods import Mh
+from niwaki.methods.kernels import Kernel
+from niwaki.result.diagnostics import Divergences
+from niwaki.result.hmc import SOME, diverged, kept, listed, refused, say, without_slope
+from niwaki.result.info import Info
+from niwaki.result.progress import EngineWatch
+from niwaki.result.sample import Sample
+
+if TYPE_CHECKING:
+    from niwaki.search import Search
+
+
+@dataclass(frozen=True)
+class Acceptance:
+    """Proposals at one site of a model.
+
+    Attributes
+    ----------
+    function, site : str
+        Where it stands: the function, and the site as it is written in addresses.
+    line : int
+        Its line in the source.
+    proposed, accepted : int
+        How many proposals there were, and how many were kept. A proposal of the old value counts as kept.
+    outside : int
+        How many lay outside the support of the distribution.
+    """
+
+    function: str
+    site: str
+    line: int
+    proposed: int
+    accepted: int
+    outside: int
+
+    @property
+    def rate(self) -> float:
+        """The share that was kept."""
+        return self.accepted / self.proposed if self.proposed else math.nan
+
+
+@dataclass(frozen=True)
+class Trajectories:
+    """What became of the trajectories of one `hmc` or `nuts` in a kernel, all chains together.
+
+    Attributes
+    ----------
+    kernel : Kernel
+        The leaf, with the restrictions that hold for it.
+    made, moved : int
+        Transitions, those of the warm-up included, and how many of them moved the chain.
+    settled : int
+        Transitions after the warm-up.
+    acceptance : float
+        Mean acceptance of the trajectories' points after the warm-up: what the step was adapted to.
+    divergences : Divergences
+        Trajectories after the warm-up that broke off, by the reason; each was rejected.
+    warmup_divergences : int
+        Those of the warm-up.
+    unwritten : int
+        Ends that the run itself did not take: it goes another way there than its recording, which is a matter of
+        rounding.
+    gradients : int
+        Gradients taken, without those that first guesses of a step took.
+    structures, recordings : int
+        Structures met (sets of choices, with the values of discrete ones), and how often the model was recorded.
+    step : tuple of float
+        The step for one coordinate, by chain (and temperature).
+    fault : ModelFault or None
+        With its line: what the first trajectory met that came to a point without a finite gradient.
+    """
+
+    kernel: Kernel
+    made: int
+    moved: int
+    settled: int
+    acceptance: float
+    divergences: Divergences
+    warmup_divergences: int
+    unwritten: int
+    gradients: int
+    structures: int
+    recordings: int
+    step: tuple[float, ...]
+    fault: ModelFault | None = None
+
+
+class Running(NamedTuple):
+    """Chains on the engine, and what they need to go on."""
+
+    chains: _engine.Chains
+    counted: _engine.Task
+    watch: EngineWatch
+    threads: int | None
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class MhInfo(Info):
+    """Of `mh`: what its chains say of themselves, looked at when it is asked for.
+
+    Attributes
+    ----------
+    search, method, seed
+        What was asked of the chains.
+    seconds : tuple of float
+        Wall and processor time so far.
+    visits : list of list of int
+        Of each chain, the numbers of proposals before its samples.
+    """
+
+    search: Search
+    method: Mh
+    seed: int
+    _running: Running | None
+    seconds: tuple[float, float] = (0.0, 0.0)
+    visits: list[list[int]] = field(default_factory=list)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """All that can be asked; the chains themselves stay where they are."""
+        for name in ("bests", "last", "acceptance", "trajectories", "counters"):
+            getattr(self, name)
+        return {**self.__dict__, "_running": None}
+
+    @property
+    def running(self) -> Running:
+        """The chains on the engine.
+
+        Raises
+        ------
+        InputError
+            The result was pickled, and its chains stayed behind.
+        """
+        if self._running is None:
+            raise InputError("chains-gone", name=self.search.model.name)
+        return self._running
+
+    def samples_of(self, runs: Iterable[_engine.Run]) -> list[Sample]:
+        """Runs as samples of this search."""
+        return [Sample(run, self.search, self.seed, *self.seconds) for run in runs]
+
+    @cached_property
+    def bests(self) -> list[Sample]:
+        """The best state that each chain reached, whether it was sampled or not."""
+        return self.samples_of(self.running.chains.best())
+
+    @cached_property
+    def last(self) -> list[Sample]:
+        """The present state of each chain."""
+        return self.samples_of(self.running.chains.now())
+
+    @cached_property
+    def acceptance(self) -> dict[str, Acceptance]:
+        """Proposals by site (`function/site`), all chains together; most proposed first."""
+        sites = sorted(self.running.chains.sites(), key=lambda one: -one.proposed)
+        names = [f"{one.function}/{one.site}" for one in sites]
+        return {
+            name if names.count(name) == 1 else f"{name} line {one.line}": Acceptance(
+                one.function, one.site, one.line, one.proposed, one.accepted, one.outside
+            )
+            for name, one in zip(names, sites, strict=True)
+        }
+
+    @cached_property
+    def trajectories(self) -> list[Trajectories]:
+        """What became of the trajectories of each `hmc` and `nuts` of the kernel, in its order."""
+        leaves = [leaf for leaf in self._leaves if leaf.follows]
+        return [self._travelled(*one) for one in zip(leaves, self.running.chains.trajectories(), strict=True)]
+
+    def _travelled(self, leaf: Kernel, counts: dict[str, Any]) -> Trajectories:
+        fault = as_fault(counts["fault"], self.search.model.name, f"seed={self.seed}")
+        own = {"kernel": leaf, "divergences": Divergences(**counts["divergences"]), "fault": fault}
+        return Trajectories(**{**counts, **own})
+
+    @cached_property
+    def counters(self) -> dict[str, int]:
+        """Work done, and the size of the present states, all chains together.
+
+        Proposals, activations entered, calls skipped, instructions, primitives taken out of the scene or put into it
+        (`moved`); primitives, choices and bytes of the present states.
+        """
+        return self.running.chains.counters()
+
+    @property
+    def _leaves(self) -> list[Kernel]:
+        return [] if self.method.kernel is None else self.method.kernel.leaves()
+
+    def warn(self) -> None:
+        """Say what a person must know of the trajectories before using the samples."""
+        name = self.search.model.name
+        if self._leaves and all(leaf.name in ("hmc", "nuts") for leaf in self._leaves):
+            values = (item for sample in self.last for item in sample.choices.items())
+            if held := sorted({path for path, value in values if isinstance(value, (bool, int))}):
+                say(kept(held, name))
+        for one in self.trajectories:
+            broke = one.divergences
+            if broke.structure and (unmoved := self._unmoved()):
+                say(
+                    f"{refused(broke.structure, one.settled, name)}; no other kernel of the chain moves "
+                    f"{listed(unmoved)}, so the samples may be given the structure of its start; put `kernels.mh()` "
+                    f"beside: `kernels.cycle(kernels.mh(), ...)`"
+                )
+            if broke.energy:
+                smaller = (
+                    "raise its `target`" if self.method.warmup else "give it a smaller `step`, or a `warmup`"
+                )
+                say(diverged(broke.energy, one.settled, name, f"{smaller} (`{one.kernel!r}`)"))
+            if broke.not_finite > SOME * one.made:
+                say(without_slope(broke.not_finite, name, one.fault))
+
+    def _unmoved(self) -> list[str]:
+        """The continuous choices of the present states, by site, that no kernel without a gradient has moved."""
+        if any(not leaf.follows and leaf.name != "on" for leaf in self._leaves):
+            return []
+        proposed = {one.site for one in self.acceptance.values()}
+        sites = {
+            path.rsplit("/", 1)[-1]
+            for sample in self.last
+            for path, value in sample.choices.items()
+            if not isinstance(value, (bool, int))
+        }
+        return sorted(sites - proposed)

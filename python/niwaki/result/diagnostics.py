@@ -1,0 +1,467 @@
+"""Whether draws of Markov chains can be trusted, and what they are worth; NumPy alone.
+
+Draws of one quantity are an array (chains, draws). R-hat and effective sample sizes are those of Vehtari, Gelman,
+Simpson, Carpenter & Buerkner 2021 ("Rank-normalization, folding, and localization"); the vector autocorrelation is
+that of the dissertation's Figures 4.3 and 4.5, with each chain's own mean and variance, not one method's for all.
+"""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Mapping, Sequence
+from dataclasses import astuple, dataclass
+from operator import add
+from statistics import NormalDist
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from niwaki.errors import InputError
+
+Reals = NDArray[np.float64]
+
+
+def rhat(draws: ArrayLike) -> float:
+    """Rank-normalised split R-hat: 1 when the chains agree in place and in spread; above 1.01 they have not mixed.
+
+    Parameters
+    ----------
+    draws
+        (chains, draws), at least 4 draws.
+
+    Returns
+    -------
+    float
+        The larger of the R-hats of the ranks and of the folded ranks (Vehtari et al. 2021, section 4.1); NaN for draws
+        that are not finite, too few, or all the same.
+    """
+    x = _split(_chains(draws))
+    if not _usable(x):
+        return math.nan
+    folded = np.abs(x - np.median(x))
+    return max(_plain_rhat(_normal_scores(x)), _plain_rhat(_normal_scores(folded)))
+
+
+def ess_bulk(draws: ArrayLike) -> float:
+    """Effective sample size for the middle of a distribution: of the rank-normalised split chains.
+
+    Parameters
+    ----------
+    draws
+        (chains, draws), at least 4 draws.
+    """
+    x = _split(_chains(draws))
+    return _ess(_normal_scores(x)) if _usable(x) else _worthless(x)
+
+
+def ess_tail(draws: ArrayLike) -> float:
+    """Effective sample size for its tails: the smaller of those of the 5 % and the 95 % quantile.
+
+    Parameters
+    ----------
+    draws
+        (chains, draws), at least 4 draws.
+    """
+    x = _chains(draws)
+    return min(ess_quantile(x, 0.05), ess_quantile(x, 0.95))
+
+
+def ess_mean(draws: ArrayLike) -> float:
+    """Effective sample size for the mean, of the split chains as they are.
+
+    Parameters
+    ----------
+    draws
+        (chains, draws), at least 4 draws.
+    """
+    x = _split(_chains(draws))
+    return _ess(x / _unit(x)) if _usable(x) else _worthless(x)
+
+
+def ess_quantile(draws: ArrayLike, share: float) -> float:
+    """Effective sample size for a quantile: of the draws' being below it (Vehtari et al. 2021, section 4.3).
+
+    Parameters
+    ----------
+    draws
+        (chains, draws), at least 4 draws.
+    share
+        Which quantile, in (0, 1).
+    """
+    whole = _chains(draws)
+    if not _usable(_split(whole)):
+        return _worthless(_split(whole))
+    below = _split((whole <= np.quantile(whole, share)).astype(np.float64))
+    return _ess(below) if np.ptp(below) > 0 else _worthless(below)
+
+
+def mcse_mean(draws: ArrayLike) -> float:
+    """Monte Carlo standard error of the mean.
+
+    Parameters
+    ----------
+    draws
+        (chains, draws), at least 4 draws.
+    """
+    x = _chains(draws)
+    return _deviation(x) / math.sqrt(ess_mean(x))
+
+
+def mcse_quantile(draws: ArrayLike, share: float) -> float:
+    """Monte Carlo standard error of a quantile, from the quantiles one standard error of its share to both sides.
+
+    Parameters
+    ----------
+    draws
+        (chains, draws), at least 4 draws.
+    share
+        Which quantile, in (0, 1).
+
+    Notes
+    -----
+    Half of the distance between order statistics: those at the 16 % and 84 % quantiles of the Beta distribution of the
+    share (Vehtari et al. 2021, section 4.4), which is taken here as normal with the same mean and deviation.
+    """
+    x = np.sort(_chains(draws).ravel())
+    size = ess_quantile(draws, share)
+    if not math.isfinite(size):
+        return math.nan
+    a, b = size * share + 1.0, size * (1.0 - share) + 1.0
+    middle, spread = a / (a + b), math.sqrt(a * b / (a + b + 1.0)) / (a + b)
+    low = x[math.floor(max((middle - spread) * len(x), 0.0))]
+    high = x[math.ceil(min((middle + spread) * len(x), len(x) - 1.0))]
+    return float(high - low) / 2.0
+
+
+def autocorrelation(draws: ArrayLike) -> Reals:
+    """The autocorrelation of one chain at every lag, with its own mean and variance.
+
+    Parameters
+    ----------
+    draws
+        (draws,) of a number, or (draws, coordinates) of a vector, whose inner products count (dissertation fig. 4.3).
+
+    Returns
+    -------
+    (draws,) float64
+        `AC(t) = 1 / ((n - t) V) sum_i (v_i - m) . (v_{i+t} - m)` with the mean m and V the mean squared distance to
+        it. Far lags are noise. (The dissertation takes m and V of the HMC run for every method's chain.)
+    """
+    x = np.asarray(draws, dtype=np.float64)
+    x = x[:, None] if x.ndim == 1 else x
+    n = len(x)
+    centred = x - x.mean(axis=0)
+    lagged = _lagged_sums(centred.T).sum(axis=0)
+    scale = lagged[0] / n
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return np.asarray(lagged / (n - np.arange(n)) / scale)
+
+
+def ess_vector(draws: ArrayLike) -> float:
+    """Effective sample size of vectors, from their autocorrelation up to where it is lost in noise.
+
+    Parameters
+    ----------
+    draws
+        (draws, coordinates) of one chain, or (chains, draws, coordinates).
+
+    Returns
+    -------
+    float
+        `n / (1 + 2 sum of AC)` of n draws in all, with Geyer's initial monotone positive sequence. One chain is
+        measured by its own mean and variance; several also by how far their means lie apart, as in Vehtari et al. 2021,
+        eq. 10, with inner products for products: chains that stay each in its own place are worth about one draw each.
+    """
+    x = np.asarray(draws, dtype=np.float64)
+    if x.ndim == 3 and len(x) > 1:
+        chains, n, _ = x.shape
+        centred = x - x.mean(axis=1, keepdims=True)
+        lagged = _lagged_sums(np.moveaxis(centred, 1, 2)).sum(axis=1) / n
+        return _worth(lagged, float(x.mean(axis=1).var(axis=0, ddof=1).sum()))
+    x = x[0] if x.ndim == 3 else x
+    n = len(x)
+    # Geyer's pairs are of the biased estimate, whose far lags shrink.
+    rho = autocorrelation(x) * (n - np.arange(n)) / n
+    return n / _time(rho)
+
+
+def ebfmi(energy: ArrayLike) -> Reals:
+    """Energy Bayesian fraction of missing information of each chain; below 0.3 momentum hardly moves the energy.
+
+    Parameters
+    ----------
+    energy
+        (chains, draws) of the Hamiltonian at each draw, nats.
+
+    Returns
+    -------
+    (chains,) float64
+        The mean squared change of the energy over its variance (Betancourt 2016, eq. 8).
+    """
+    e = _chains(energy)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return np.asarray(np.square(np.diff(e, axis=1)).mean(axis=1) / np.var(e, axis=1, ddof=1))
+
+
+@dataclass(frozen=True)
+class Summary:
+    """The figures of one quantity.
+
+    Attributes
+    ----------
+    name : str
+        Of the quantity.
+    mean, sd : float
+        Over all draws.
+    mcse : float
+        Standard error of the mean.
+    ess_bulk, ess_tail : float
+        Effective sample sizes.
+    rhat : float
+        Rank-normalised split R-hat.
+    """
+
+    name: str
+    mean: float
+    sd: float
+    mcse: float
+    ess_bulk: float
+    ess_tail: float
+    rhat: float
+
+
+@dataclass(frozen=True)
+class Divergences:
+    """Trajectories that broke off after the warm-up, by the reason; each was rejected.
+
+    Attributes
+    ----------
+    energy : int
+        Diverged: the energy drifted, because the step is too large for how sharply the density bends there.
+    structure : int
+        Refused for structure: the run would make other choices there.
+    impossible : int
+        The density is zero there.
+    not_finite : int
+        The density or its gradient is no number there; see `HmcInfo.fault`.
+    """
+
+    energy: int = 0
+    structure: int = 0
+    impossible: int = 0
+    not_finite: int = 0
+
+    def __add__(self, other: Divergences) -> Divergences:
+        """Those of both."""
+        return Divergences(*map(add, astuple(self), astuple(other)))
+
+    @property
+    def total(self) -> int:
+        """All of them."""
+        return sum(astuple(self))
+
+    @property
+    def named(self) -> list[str]:
+        """Each count above 0 with its name, as results print them."""
+        names = ("diverged", "refused for structure", "impossible", "not finite")
+        return [f"{count} {name}" for count, name in zip(astuple(self), names, strict=True) if count]
+
+
+class Summaries(tuple[Summary, ...]):
+    """Summaries of several quantities; printed, they are a table.
+
+    Attributes
+    ----------
+    divergences : Divergences
+        Trajectories that broke off, of chains that follow the gradient; printed under the table.
+    """
+
+    divergences: Divergences = Divergences()
+
+    def __repr__(self) -> str:
+        heads = ("", "mean", "sd", "mcse", "ess bulk", "ess tail", "r-hat")
+        rows = [heads]
+        for s in self:
+            sizes = (f"{s.ess_bulk:.0f}", f"{s.ess_tail:.0f}", f"{s.rhat:.3f}")
+            rows.append((s.name, f"{s.mean:.4g}", f"{s.sd:.4g}", f"{s.mcse:.2g}", *sizes))
+        widths = [max(len(row[k]) for row in rows) for k in range(len(heads))]
+        lines = [
+            "  ".join(
+                [row[0].ljust(widths[0]), *(c.rjust(w) for c, w in zip(row[1:], widths[1:], strict=True))]
+            )
+            for row in rows
+        ]
+        if self.divergences.total:
+            lines.append(f"trajectories: {', '.join(self.divergences.named)}")
+        return "\n".join(line.rstrip() for line in lines)
+
+
+def summarise(draws: Mapping[str, ArrayLike], divergences: Divergences | None = None) -> Summaries:
+    """Mean, deviation, standard error, effective sizes and R-hat of each quantity.
+
+    Parameters
+    ----------
+    draws
+        Arrays (chains, draws, ...) by name; the elements of a vector are summarised one by one.
+    divergences
+        Trajectories that broke off, of chains that follow the gradient.
+    """
+    found = []
+    for name, values in draws.items():
+        x = np.asarray(values, dtype=np.float64)
+        for place in np.ndindex(*x.shape[2:]):
+            one = x[(slice(None), slice(None), *place)]
+            label = f"{name}[{', '.join(map(str, place))}]" if place else name
+            mean, sd = float(one.mean()), _deviation(one) if one.size > 1 else math.nan
+            found.append(Summary(label, mean, sd, mcse_mean(one), ess_bulk(one), ess_tail(one), rhat(one)))
+    summaries = Summaries(found)
+    if divergences is not None:
+        summaries.divergences = divergences
+    return summaries
+
+
+def to_arviz(draws: Mapping[str, ArrayLike], stats: Mapping[str, ArrayLike] | None = None) -> Any:
+    """Draws and their statistics for ArviZ: a `DataTree` with 1.x, an `InferenceData` before.
+
+    Parameters
+    ----------
+    draws
+        Arrays (chains, draws, ...) by name.
+    stats
+        Arrays (chains, draws) by the names that ArviZ knows: `energy`, `diverging`, `acceptance_rate`, `n_steps`,
+        `tree_depth`, `step_size`, `lp`; others are kept under their own names.
+
+    Raises
+    ------
+    InputError
+        ArviZ is not installed.
+    """
+    try:
+        with warnings.catch_warnings():
+            # 0.23 announces its successor whenever it is imported.
+            warnings.simplefilter("ignore", FutureWarning)
+            import arviz
+    except ImportError:
+        raise InputError("no-arviz") from None
+    posterior = {name: np.asarray(values) for name, values in draws.items()}
+    groups: dict[str, Any] = {"posterior": posterior}
+    if stats:
+        groups["sample_stats"] = {name: np.asarray(values) for name, values in stats.items()}
+    if int(arviz.__version__.split(".")[0]) >= 1:
+        return arviz.from_dict(groups)
+    return arviz.from_dict(**groups)
+
+
+def _chains(draws: ArrayLike) -> Reals:
+    """(chains, draws) float64; a single chain may come as (draws,)."""
+    x = np.asarray(draws, dtype=np.float64)
+    return x[None, :] if x.ndim == 1 else x
+
+
+def _unit(x: Reals) -> float:
+    """A power of two near the largest number where squares of that may leave the range of numbers; else 1."""
+    most = float(np.abs(x).max(initial=0.0))
+    return 2.0 ** (math.frexp(most)[1] - 1) if 0.0 < most < math.inf and not 1e-100 < most < 1e100 else 1.0
+
+
+def _deviation(x: Reals) -> float:
+    """Standard deviation of all draws."""
+    unit = _unit(x)
+    return float(np.std(x / unit, ddof=1)) * unit
+
+
+def _split(x: Reals) -> Reals:
+    """Each chain as two; the middle draw of an odd number is left out."""
+    half = x.shape[1] // 2
+    return np.concatenate([x[:, :half], x[:, x.shape[1] - half :]])
+
+
+def _usable(x: Reals) -> bool:
+    return x.shape[1] >= 2 and bool(np.isfinite(x).all()) and float(np.ptp(x)) > 0.0
+
+
+def _worthless(x: Reals) -> float:
+    """The size of draws that have none to speak of: NaN, or their number when all are the same."""
+    constant = x.shape[1] >= 2 and bool(np.isfinite(x).all())
+    return float(x.size) if constant else math.nan
+
+
+def _normal_scores(x: Reals) -> Reals:
+    """Normal quantiles of the ranks over all chains, ties at their mean rank (Blom 1958)."""
+    flat = x.ravel()
+    _, where, counts = np.unique(flat, return_inverse=True, return_counts=True)
+    ranks = np.cumsum(counts) - 0.5 * (counts - 1)
+    normal = NormalDist()
+    scores = np.array([normal.inv_cdf(share) for share in (ranks - 0.375) / (flat.size + 0.25)])
+    return np.asarray(scores[where].reshape(x.shape))
+
+
+def _plain_rhat(x: Reals) -> float:
+    """R-hat of chains as they are: the deviation over all chains by that within them."""
+    n = x.shape[1]
+    within = float(x.var(axis=1, ddof=1).mean())
+    between = float(x.mean(axis=1).var(ddof=1))
+    if within == 0.0:
+        return math.nan
+    return math.sqrt((n - 1) / n + between / within)
+
+
+def _lagged_sums(x: Reals) -> Reals:
+    """`sum_i x_i x_{i+t}` of each row at every lag, by the fast Fourier transform."""
+    n = x.shape[-1]
+    size = 2 ** math.ceil(math.log2(2 * n))
+    spectrum = np.fft.rfft(x, size, axis=-1)
+    return np.asarray(np.fft.irfft(np.square(np.abs(spectrum)), size, axis=-1)[..., :n])
+
+
+def _ess(x: Reals) -> float:
+    """Effective sample size of chains as they are (Vehtari et al. 2021, eq. 10 to 13)."""
+    chains, n = x.shape
+    lagged = _lagged_sums(x - x.mean(axis=1, keepdims=True)) / n
+    return _worth(lagged, float(x.mean(axis=1).var(ddof=1)) if chains > 1 else 0.0)
+
+
+def _worth(lagged: Reals, between: float) -> float:
+    """Effective sample size from each chain's autocovariances at every lag and the variance of the chains' means."""
+    chains, n = lagged.shape
+    within = lagged[:, 0].mean() * n / (n - 1)
+    total = within * (n - 1) / n + between
+    rho = 1.0 - (within - lagged.mean(axis=0)) / total
+    rho[0] = 1.0
+    # A chain that alternates may be worth more than its draws, but not without bound.
+    return float(chains * n / max(_time(rho), 1.0 / math.log10(chains * n)))
+
+
+def _time(rho: Reals) -> float:
+    """The autocorrelation time from pairs of lags while they are positive, none above its elder (Geyer 1992, 3.3)."""
+    pairs = max((len(rho) - 1) // 2, 1)
+    sums = rho[0 : 2 * pairs : 2] + rho[1 : 2 * pairs : 2]
+    negative = np.flatnonzero(sums <= 0.0)
+    last = int(negative[0]) if len(negative) else pairs - 1
+    kept = np.minimum.accumulate(sums[:last]) if last else np.zeros(0)
+    # The first lag of the pair that ends the sum still counts, once, where it is positive.
+    return float(-1.0 + 2.0 * kept.sum() + max(float(rho[2 * last]), 0.0))
+
+
+def rank_histogram(values: Sequence[float], draws: ArrayLike, bins: int) -> NDArray[np.int64]:
+    """How often the rank of a value among its draws falls into each of equal bins: flat when calibrated.
+
+    Parameters
+    ----------
+    values
+        (n,) values that the data were made from.
+    draws
+        (n, draws) draws given those data; `draws + 1` a multiple of `bins`.
+    bins
+        How many.
+
+    Returns
+    -------
+    (bins,) int64
+        The counts (Talts et al. 2018, algorithm 1).
+    """
+    x = np.asarray(draws, dtype=np.float64)
+    ranks = (x < np.asarray(values, dtype=np.float64)[:, None]).sum(axis=1)
+    return np.bincount(ranks * bins // (x.shape[1] + 1), minlength=bins)

@@ -1,0 +1,372 @@
+"""What a search gives back: samples, each with its scene, choices and scores, and the numbers of the whole."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import replace
+from functools import cached_property
+from itertools import accumulate, pairwise
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from niwaki import _engine, draw
+from niwaki.draw.scene import Scene
+from niwaki.errors import InputError
+from niwaki.lang.compiled import translated
+from niwaki.lang.models import Model
+from niwaki.methods import Method, Mh, at_least_one
+from niwaki.methods.checks import bad
+from niwaki.result import diagnostics
+from niwaki.result.chains import MhInfo
+from niwaki.result.hmc import HmcInfo, together
+from niwaki.result.info import EnumerationInfo, Info
+from niwaki.result.progress import Watch
+from niwaki.result.sample import Sample
+from niwaki.targets.sketches import Score
+
+if TYPE_CHECKING:
+    from niwaki.search import Search
+
+
+class Result(Sequence[Sample]):
+    """What a search found; a sequence of its samples.
+
+    What the method says of its search beside the samples is its `info`, and can be read of the result itself: after
+    `mh(...)` there are `result.acceptance` and `result.bests`, after `nuts(...)` `result.step_size`.
+
+    Attributes
+    ----------
+    search : Search
+        What was asked.
+    method : Method
+        How it was searched: the method of the search, or that of its polishing.
+    samples : sequence of Sample
+        Of `grow`: one for each run. Of `smc`: the particles. Of chains: those of the first chain first. Else: the runs.
+    sizes : list of int
+        How many samples each chain has; all in one where there are no chains.
+    seed : int
+        Of the (first) search.
+    info : Info
+        What the method says of its search: see `niwaki.result.info`.
+    interrupted : bool
+        Whether it was stopped before its end.
+    seconds, cpu_seconds : float
+        Wall and processor time of the search alone.
+    invalid : dict of str to int
+        How many runs, proposals and points of trajectories were outside of the model's support because the numbers
+        given to a distribution were out of its range: by that distribution and its line, such as
+        "`uniform` at line 12". A run counts where it met the first of them.
+    """
+
+    def __init__(
+        self,
+        search: Search,
+        samples: Sequence[Sample],
+        seed: int,
+        *,
+        method: Method | None = None,
+        info: Info = Info(),  # noqa: B008
+        sizes: Sequence[int] | None = None,
+        interrupted: bool = False,
+        invalid: Mapping[str, int] | None = None,
+        seconds: tuple[float, float] | None = None,
+    ) -> None:
+        self.search, self.samples, self.seed, self.info = search, samples, seed, info
+        self.method: Method = method or search.method
+        self.sizes = [len(samples)] if sizes is None else list(sizes)
+        self.interrupted = interrupted
+        self.invalid: dict[str, int] = dict(invalid or {})
+        if seconds is None:
+            seconds = sum(one.seconds for one in samples), sum(one.cpu_seconds for one in samples)
+        self.seconds, self.cpu_seconds = seconds
+
+    def __getattr__(self, name: str) -> Any:
+        """What `info` has; only asked for where the result itself has no such attribute."""
+        if name == "info" or name.startswith("_"):
+            raise AttributeError(name)
+        try:
+            return getattr(self.info, name)
+        except AttributeError as error:
+            raise AttributeError(f"a result of `{self.method.NAME}` has no `{name}`") from error
+
+    @property
+    def model(self) -> Model[..., Any]:
+        """What was run."""
+        return self.search.model
+
+    @property
+    def score(self) -> Score:
+        """What its scene should be like."""
+        return self.search.score
+
+    @property
+    def log_evidence(self) -> float | None:
+        """Log of the model's total probability, nats, where the method gives it."""
+        return self.info.log_evidence
+
+    def __len__(self) -> int:
+        return len(self.samples)
+
+    def __iter__(self) -> Iterator[Sample]:
+        return iter(self.samples)
+
+    @property
+    def by_chain(self) -> list[Sequence[Sample]]:
+        """The samples of each chain; all in one where there are no chains."""
+        ends = [0, *accumulate(self.sizes)]
+        return [self.samples[a:b] for a, b in pairwise(ends)]
+
+    @property
+    def draws(self) -> dict[str, NDArray[Any]]:
+        """Values of choices by address, (chains, draws) or (chains, draws, n) for lists of n numbers.
+
+        Of the choices that every sample has, with values that are numbers (of chains that follow a gradient, of the
+        continuous choices); of as many samples as the shortest chain has. Where samples have weights, they are not
+        among these: see `weights`.
+        """
+        if isinstance(self.info, HmcInfo):
+            return self.info.draws
+        least = min(self.sizes, default=0)
+        return together([_columns(chain[:least]) for chain in self.by_chain])
+
+    def to_arviz(self) -> Any:
+        """The draws for ArviZ, with the samples' statistics: a `DataTree` with 1.x, an `InferenceData` before.
+
+        Raises
+        ------
+        InputError
+            ArviZ is not installed.
+        """
+        if isinstance(self.info, HmcInfo):
+            return diagnostics.to_arviz(self.draws, self.info.statistics())
+        numbers = {"lp": self._numbers("log_joint"), "log_weight": self._numbers("log_weight")}
+        return diagnostics.to_arviz(self.draws, numbers)
+
+    def summary(self) -> diagnostics.Summaries:
+        """Mean, deviation, standard error, effective sizes and R-hat of every number of the draws.
+
+        After `hmc` and `nuts` also of the log density over coordinates, and what broke off.
+
+        Raises
+        ------
+        InputError
+            The samples do not weigh the same.
+        """
+        if isinstance(self.info, HmcInfo):
+            return diagnostics.summarise(
+                {**self.draws, "log density": self.info.log_density}, self.info.divergences
+            )
+        if len({sample.log_weight for sample in self.samples}) > 1:
+            raise bad("method", self.method, "samples that weigh the same", "`draws` with `weights`")
+        return diagnostics.summarise(self.draws)
+
+    def _numbers(self, name: str) -> NDArray[np.float64]:
+        """A number of each sample, (chains, samples of the shortest chain)."""
+        least = min(self.sizes, default=0)
+        rows = [[getattr(one, name) for one in chain[:least]] for chain in self.by_chain]
+        return np.array(rows, dtype=np.float64)
+
+    @property
+    def trace(self) -> NDArray[np.float64]:
+        """Log scores of the samples, (chains, samples of the shortest chain), nats."""
+        return self._numbers("log_score")
+
+    def __getitem__(self, index: Any) -> Any:
+        return self.samples[index]
+
+    @property
+    def best(self) -> Sample:
+        """The sample of the best log score; runs that ended come first. Of `mh`, any state that a chain reached."""
+        pool: Sequence[Sample] = self.samples
+        if isinstance(self.info, MhInfo):
+            pool = self.info.bests
+        elif isinstance(self.info, HmcInfo) and len(pool):
+            pool = [self.samples[self.info.best_draw]]
+        if not len(pool):
+            raise InputError("no-runs", detail=repr(self))
+        possible = [s for s in pool if s.has_ended and s.log_score > -math.inf]
+        return max(possible or pool, key=lambda sample: sample.log_score)
+
+    def more(self, steps: int) -> Result:
+        """Go on with the chains of `mh` from where they are: the result itself, with more in it.
+
+        Parameters
+        ----------
+        steps
+            Proposals in each chain.
+        """
+        at_least_one("steps", steps)
+        if not isinstance(self.info, MhInfo):
+            raise bad(
+                "method", self.method, "a result of `mh`, whose chains can go on", "`result.polish(mh(...))`"
+            )
+        chains, counted, watch, threads = self.info.running
+        wall, cpu = time.perf_counter(), time.process_time()
+        try:
+            with translated(self.model.name, f"seed={self.seed}"):
+                self.interrupted = chains.advance(steps, threads, watch)
+        finally:
+            self.seconds += time.perf_counter() - wall
+            self.cpu_seconds += time.process_time() - cpu
+            by_chain = chains.samples()
+            visits = [[run.visit for run in runs] for runs in by_chain]
+            self.info = replace(self.info, visits=visits, seconds=(self.seconds, self.cpu_seconds))
+            self.samples = self.info.samples_of(run for runs in by_chain for run in runs)
+            self.sizes = [len(runs) for runs in by_chain]
+            self.invalid = counted.invalid()
+        self.info.warn()
+        return self
+
+    def polish(
+        self,
+        method: Mh,
+        *,
+        seed: int | None = None,
+        threads: int | None = None,
+        progress: Watch | None = None,
+    ) -> Result:
+        """Go on from the best sample by Markov chains; their `best` is at least as good.
+
+        Parameters
+        ----------
+        method
+            `niwaki.mh(...)`: how many proposals, and by which kernel.
+        seed, threads, progress
+            As for `niwaki.run`; the seed of this search when left out.
+
+        Returns
+        -------
+        Result
+            That of the chains, whose seconds are those of this search and their own.
+        """
+        return self.search.polished(self, method, seed=seed, threads=threads, progress=progress)
+
+    @cached_property
+    def unique_models(self) -> int:
+        """Of how many samples no other shares more than half of its choices, as (address, value) pairs."""
+        return _engine.unique_models([sample._run for sample in self.samples])
+
+    @property
+    def value(self) -> Any:
+        """What the best sample returned."""
+        return self.best.value
+
+    @property
+    def scene(self) -> Scene:
+        """The scene of the best sample."""
+        return self.best.scene
+
+    @property
+    def weights(self) -> NDArray[np.float64]:
+        """The samples' weights, (n,), summing to one; an error where every sample is impossible.
+
+        Particles of several runs have none: a weight says what a particle is beside those of its own population.
+        """
+        if self.search.runs > 1 and self.search.method.NAME == "smc":
+            raise InputError("weights-of-runs", runs=self.search.runs)
+        logs = np.array([sample.log_weight for sample in self.samples], dtype=np.float64)
+        if len(logs) == 0:
+            return logs
+        if logs.max() == -math.inf:
+            causes = Counter(sample.cause or "weights" for sample in self.samples)
+            listed = ", ".join(f"{cause} ({count})" for cause, count in causes.most_common())
+            raise InputError("everything-impossible", barrier="the end", count=len(logs), constraint=listed)
+        raw = np.exp(logs - logs.max())
+        return np.asarray(raw / raw.sum())
+
+    def distribution(self) -> dict[Any, float]:
+        """The probability of each value: exact for enumeration, weighted shares of the samples else.
+
+        Values that cannot be keys of a dict stand under their `repr`.
+        """
+        if isinstance(self.info, EnumerationInfo):
+            total = self.log_evidence or 0.0
+            rows = [(value, math.exp(log - total)) for value, log in self.info.table]
+        else:
+            # A run that is impossible stopped on its way and has no value.
+            rows = [(s.value, float(w)) for s, w in zip(self.samples, self.weights, strict=True) if w > 0.0]
+        found: dict[Any, float] = {}
+        for value, share in rows:
+            key = value if _can_be_key(value) else repr(value)
+            found[key] = found.get(key, 0.0) + share
+        return found
+
+    def export(
+        self, path: str | PathLike[str], *, scale: float | None = None, fuse: float | None = None
+    ) -> Path:
+        """Write the best scene as .glb, .obj, .ply, .stl, .3mf, .gif or .apng."""
+        return self.best.export(path, scale=scale, fuse=fuse)
+
+    def save(self, path: str | PathLike[str], **settings: Any) -> Path:
+        """Draw the best scene into an image file."""
+        return self.best.save(path, **settings)
+
+    def sheet(self, **settings: Any) -> Any:
+        """All samples side by side, best first, with their numbers."""
+        ranked = sorted(self.samples, key=lambda sample: -sample.log_score)
+        scenes = [sample.scene for sample in ranked]
+        return draw.sheet.sheet(scenes, [caption(sample) for sample in ranked], self.score.target, **settings)
+
+    def _repr_png_(self) -> bytes | None:
+        return self.best._repr_png_() if self.samples else None
+
+    def _outside(self) -> list[str]:
+        """What is said of runs in which a distribution was invalid."""
+        return [f"{sum(self.invalid.values())} invalid"] if self.invalid else []
+
+    def __repr__(self) -> str:
+        parts = [f"{len(self)} sample{'' if len(self) == 1 else 's'}"]
+        if isinstance(self.info, EnumerationInfo):
+            parts = [f"{len(self.info.table)} values, {self.info.runs} runs"]
+        elif isinstance(self.info, HmcInfo):
+            parts = [*parts, f"{self.info.gradients} gradients", *self.info.divergences.named]
+        elif self.samples or isinstance(self.info, MhInfo):
+            parts.append(f"best log score {self.best.log_score:.2f}")
+            if self.best.similarity is not None:
+                parts.append(f"similarity {self.best.similarity:.3f}")
+        if self.log_evidence is not None:
+            parts.append(f"log evidence {self.log_evidence:.4g}")
+        if isinstance(self.info, MhInfo | HmcInfo):
+            count = len(self.sizes)
+            parts.insert(0, f"{count} chain{'' if count == 1 else 's'}")
+        parts.append(f"seed {self.seed}")
+        parts.append(f"{self.seconds:.2f} s")
+        parts += self._outside()
+        if self.interrupted:
+            parts.append("interrupted")
+        return f"<Result of {self.model.name}: {', '.join(parts)}>"
+
+
+def _columns(chain: Sequence[Sample]) -> dict[str, NDArray[Any]]:
+    """The choices that all of these samples have, where their values are numbers: (draws,) or (draws, n)."""
+    rows = [sample.choices for sample in chain]
+    found: dict[str, NDArray[Any]] = {}
+    for address in rows[0] if rows else ():
+        if all(address in row for row in rows):
+            with suppress(ValueError, TypeError):
+                array = np.array([row[address] for row in rows])
+                if array.dtype.kind in "biuf":
+                    found[address] = array
+    return found
+
+
+def caption(sample: Sample) -> str:
+    """A line for a contact sheet."""
+    close = f"   {100 * sample.similarity:.1f} %" if sample.similarity is not None else ""
+    return f"seed {sample.seed}   {sample.log_score:.2f}{close}"
+
+
+def _can_be_key(value: Any) -> bool:
+    try:
+        hash(value)
+    except TypeError:
+        return False
+    return True

@@ -1,0 +1,201 @@
+"""One run of a model: its scores, choices, scene and value."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from niwaki import _engine, draw
+from niwaki.draw.scene import Part, Scene
+from niwaki.errors import InputError
+from niwaki.lang.compiled import translated
+from niwaki.result.gradient import LogDensity
+from niwaki.targets.target import Target
+
+if TYPE_CHECKING:
+    from niwaki.search import Search
+
+
+class Sample:
+    """One run of a model.
+
+    Scores are natural logarithms (nats) and never tempered.
+
+    Attributes
+    ----------
+    log_score : float
+        Factors, observations and sketches.
+    log_prior : float
+        The log density of the choices.
+    log_weight : float
+        The weight in its population; 0 where all weigh the same.
+    similarity : float or None
+        Share of cells that are equal in the scene and its target.
+    primitives : int
+        How many primitives the scene has.
+    has_ended : bool
+        Whether the run went to its end; a search that was stopped may leave others.
+    cause : str or None
+        What made the run impossible.
+    search : Search
+        What was asked.
+    seed : int or None
+        Of the run of that search.
+    seconds, cpu_seconds : float
+        Wall and processor time of that search.
+    """
+
+    def __init__(
+        self,
+        run: _engine.Run,
+        search: Search,
+        seed: int | None = None,
+        seconds: float = 0.0,
+        cpu_seconds: float = 0.0,
+    ) -> None:
+        self._run = run
+        self._is_restored = False
+        self.search = search
+        self.log_score: float = run.log_score
+        self.log_prior: float = run.log_prior
+        self.log_weight: float = run.log_weight
+        self.similarity: float | None = run.similarity
+        self.primitives: int = run.primitives
+        self.has_ended: bool = run.has_ended
+        self.cause: str | None = run.cause
+        self.seed, self.seconds, self.cpu_seconds = seed, seconds, cpu_seconds
+
+    @classmethod
+    def of_trace(cls, trace: _engine.Trace, search: Search, *rest: Any) -> Sample:
+        """A run whose choices were given."""
+        sample = cls(trace.run, search, *rest)
+        sample.__dict__["_trace"] = trace
+        return sample
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restored, (self.search, self._run.data(), self.seed, self.seconds, self.cpu_seconds)
+
+    @cached_property
+    def _trace(self) -> _engine.Trace:
+        """The run once more, with names."""
+        with translated("model"):
+            return self.search.task.trace(self._run)
+
+    def log_density(self) -> LogDensity:
+        """The log density around this run over its continuous choices: see `niwaki.log_density`."""
+        with translated("model"):
+            return LogDensity(self.search.task.density(self._run))
+
+    @property
+    def log_joint(self) -> float:
+        """Choices and score together, nats."""
+        return self.log_prior + self.log_score
+
+    @property
+    def value(self) -> Any:
+        """What the model returned; None for a run that did not end."""
+        try:
+            return (self._trace.run if self._is_restored else self._run).value
+        except TypeError as error:
+            raise InputError("value-too-deep", found=str(error)) from None
+
+    @property
+    def target(self) -> Target | None:
+        """What the scene should fill."""
+        return self.search.score.target
+
+    @property
+    def choices(self) -> dict[str, Any]:
+        """Every choice by its readable address; give them to `run(choices=...)` to get the same run."""
+        return {choice.path: choice.value for choice in self._trace.choices}
+
+    @property
+    def families(self) -> dict[str, str]:
+        """The distribution of every choice."""
+        return {choice.path: choice.family for choice in self._trace.choices}
+
+    @property
+    def order(self) -> list[tuple[int, int]]:
+        """Order choices: the hash of the future that ran, and its place among those that could."""
+        return self._run.order()
+
+    @property
+    def queries(self) -> dict[Any, Any]:
+        """The model's answers by key."""
+        return dict(self._trace.queries)
+
+    @cached_property
+    def scene(self) -> Scene:
+        """The primitives, by the addresses of their `emit`."""
+        return Scene(self._trace.parts)
+
+    def export(
+        self, path: str | PathLike[str], *, scale: float | None = None, fuse: float | None = None
+    ) -> Path:
+        """Write the scene as .glb, .obj, .ply, .stl, .3mf, .gif or .apng; see `niwaki.draw.files.export`."""
+        if Path(path).suffix.lower() in draw.animation.FORMATS and scale is None and fuse is None:
+            return self.animate(path)
+        return self.scene.export(path, scale=scale, fuse=fuse)
+
+    def animate(
+        self, path: str | PathLike[str], target: Target | None | bool = True, **settings: Any
+    ) -> Path:
+        """Write the scene growing, in the order in which a run adds its parts, as .gif or .apng.
+
+        Settings are those of `niwaki.draw.animation.growth`; the target is a ghost unless it is None.
+        """
+        parts = [Part(address, tuple(shapes)) for address, shapes in self._trace.parts]
+        return self.scene.animate(path, self._ghost(target), parts=parts, **settings)
+
+    def picture(self, target: Target | None | bool = True, **settings: Any) -> Any:
+        """Draw the scene, with the target as a ghost; `target=None` leaves that out."""
+        return self.scene.picture(self._ghost(target), **settings)
+
+    def save(self, path: str | PathLike[str], target: Target | None | bool = True, **settings: Any) -> Path:
+        """Draw the scene into an image file, with the target as a ghost; `target=None` leaves that out."""
+        return self.scene.save(path, self._ghost(target), **settings)
+
+    def _ghost(self, target: Target | None | bool) -> Target | None:
+        if isinstance(target, bool):
+            return self.target if target else None
+        return target
+
+    def _repr_png_(self) -> bytes | None:
+        return draw.picture.png(self.picture(size=(800, 600))) if self.primitives else None
+
+    def __repr__(self) -> str:
+        parts = [f"log score {self.log_score:.2f}", f"log prior {self.log_prior:.2f}"]
+        if self.similarity is not None:
+            parts.append(f"similarity {self.similarity:.3f}")
+        if self.primitives:
+            parts.append(f"{self.primitives} primitives")
+        if not self.has_ended:
+            parts.append("not ended")
+        return f"<Sample: {', '.join(parts)}>"
+
+
+def _restored(search: Search, data: str, *rest: Any) -> Sample:
+    """The sample of its pickled data: what the model returned comes from running it once more, when it is asked for."""
+    sample = Sample(search.task.run_of_data(data), search, *rest)
+    sample._is_restored = True
+    return sample
+
+
+def log_density(sample: Sample) -> LogDensity:
+    """The log density of a model around one of its runs: priors, factors and observations, with the Jacobians.
+
+    Parameters
+    ----------
+    sample : Sample
+        Of any result: `nw.run(model, seed=1).best`, for example.
+
+    Raises
+    ------
+    InputError
+        The scene is scored by a sketch, which has no gradient, or there are no continuous choices.
+    ModelFault
+        An operation on the way to the score has no derivative, or the run is impossible; with the line.
+    """
+    return sample.log_density()

@@ -1,0 +1,40 @@
+"""What is refused before a search starts: seeds, threads, and methods that cannot polish."""
+
+from __future__ import annotations
+
+import secrets
+from typing import Any
+
+from niwaki.methods import Mh
+from niwaki.methods.checks import bad
+
+
+def check_seed(seed: int) -> int:
+    """The seed, where it makes sense."""
+    if not isinstance(seed, int) or isinstance(seed, bool) or not 0 <= seed < 2**64:
+        raise bad("seed", seed, "a whole number from 0 to 2**64 - 1", "such a number, or leave it out")
+    return seed
+
+
+def check_polish(method: Any) -> None:
+    """Refuse what is not Metropolis-Hastings."""
+    if not isinstance(method, Mh):
+        suggestion = "`mh(20_000)`, or with a kernel `mh(20_000, kernel=kernels.drift())`"
+        raise bad("polish", method, "Metropolis-Hastings", suggestion)
+
+
+def check_threads(threads: int | None) -> int | None:
+    """The number of threads, where it makes sense."""
+    if threads is not None and (not isinstance(threads, int) or not 1 <= threads <= 1024):
+        raise bad(
+            "threads",
+            threads,
+            "a whole number from 1 to 1024",
+            "such a number, or leave it out for all cores",
+        )
+    return threads
+
+
+def fresh(seed: int | None) -> int:
+    """The seed, or a fresh one."""
+    return secrets.randbits(32) if seed is None else check_seed(seed)

@@ -1,0 +1,97 @@
+"""Finding a model by what a person writes: a name of the gallery, or `file.py:function`."""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import dataclass
+from difflib import get_close_matches
+from pathlib import Path
+from types import FunctionType, ModuleType
+from typing import Any
+
+from niwaki.errors import InputError, NiwakiError
+from niwaki.gallery import Entry, entries, entry
+from niwaki.lang.models import Model
+
+
+@dataclass(frozen=True)
+class Found:
+    """A model and how to find it again.
+
+    Attributes
+    ----------
+    reference : str
+        A gallery name, or `path:function` with the whole path.
+    model : Model
+        The model.
+    entry : Entry or None
+        Its place in the gallery.
+    """
+
+    reference: str
+    model: Model[..., Any]
+    entry: Entry | None = None
+
+
+def find(reference: str) -> Found:
+    """Find a model by its gallery name or `file.py:function`."""
+    place, colon, name = reference.rpartition(":")
+    if reference.endswith(".py"):
+        place, colon, name = reference, ":", ""
+    if colon and place.endswith(".py"):
+        return _in_file(reference, Path(place), name)
+    known = entry(reference)
+    if known is not None:
+        return Found(known.name, known.model, known)
+    names = [one.name for one in entries()]
+    near = get_close_matches(reference, names, n=1)
+    reason = f"did you mean `{near[0]}`?" if near else f"the gallery has {', '.join(names)}"
+    raise InputError("unknown-model", name=reference, reason=reason)
+
+
+def _in_file(reference: str, place: Path, name: str) -> Found:
+    if not place.is_file():
+        raise InputError("unknown-model", name=reference, reason=f"there is no file {place.absolute()}")
+    space = vars(_imported(place.resolve()))
+    models = {key: value for key, value in space.items() if isinstance(value, Model)}
+    if not name and len(models) == 1:
+        name = next(iter(models))
+    found = space.get(name)
+    if isinstance(found, FunctionType):
+        found = Model(found)
+    if not isinstance(found, Model):
+        here = ", ".join(models) or "no function marked with `@model`"
+        raise InputError("unknown-model", name=reference, reason=f"{place} defines {here}")
+    return Found(f"{place.resolve()}:{name}", found)
+
+
+def _imported(place: Path) -> ModuleType:
+    """Run a file as a module, with its own folder importable, as `python file.py` would."""
+    module = ModuleType(place.stem)
+    module.__file__ = str(place)
+    sys.path.insert(0, str(place.parent))
+    try:
+        # Not through the import system: its cache takes two edits within a second for one.
+        code = compile(place.read_bytes(), str(place), "exec", dont_inherit=True)
+        sys.modules[place.stem] = module
+        exec(code, module.__dict__)
+    except NiwakiError:
+        raise
+    except Exception as error:
+        line = _last_line(error, place)
+        raise InputError(
+            "model-file-failed", path=place, reason=f"{type(error).__name__}: {error}{line}"
+        ) from error
+    finally:
+        sys.path.remove(str(place.parent))
+    return module
+
+
+def _last_line(error: BaseException, place: Path) -> str:
+    """Where in the file it stopped."""
+    found, trace = "", error.__traceback__
+    while trace is not None:
+        if trace.tb_frame.f_code.co_filename == str(place):
+            found = f" (line {trace.tb_lineno})"
+        trace = trace.tb_next
+    return found

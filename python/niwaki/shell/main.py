@@ -1,0 +1,47 @@
+"""The command line: every command of `niwaki.shell`, and the exit codes.
+
+Exit codes: 0 done, 1 a model that does not compile (`check`), 2 an error with a message, 130 stopped by Ctrl-C (what
+was found is written first).
+"""
+
+from __future__ import annotations
+
+import sys
+import warnings
+from typing import Any, NoReturn
+
+from niwaki.errors import NiwakiError
+from niwaki.shell import (
+    check,
+    color,
+    explain,
+    grow,
+    models,
+    replay,
+    sample,
+)  # each puts its command on the application
+from niwaki.shell.app import app
+
+__all__ = ["app", "check", "color", "explain", "grow", "main", "models", "replay", "sample"]
+
+
+def main() -> NoReturn:
+    """Run the command line; errors that we raise on purpose have no traceback."""
+    warnings.showwarning = _warned  # type: ignore[assignment]
+    try:
+        app(standalone_mode=True)
+    except NiwakiError as error:
+        print(error, file=sys.stderr)
+        raise SystemExit(2) from None
+    except KeyboardInterrupt:
+        print("stopped", file=sys.stderr)
+        raise SystemExit(130) from None
+    raise SystemExit(0)
+
+
+def _warned(message: Warning | str, category: type[Warning], *_: Any) -> None:
+    print(f"warning: {message}", file=sys.stderr)
+
+
+if __name__ == "__main__":
+    main()

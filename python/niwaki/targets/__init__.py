@@ -1,0 +1,16 @@
+"""What a scene should be like.
+
+target     meshes: the volume to fill, and surfaces that shadows fall on
+reading    meshes from files
+memory     whether there is memory enough for a mesh
+camera     from where an image is seen
+images     which pixels of an image should be on
+sketches   scores of a scene, as values that multiply
+views      a scene as the sketch of an image or a shadow sees it, as a picture
+outline    the outline of a room, from a file
+examples   targets and images of our own, made by code
+"""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

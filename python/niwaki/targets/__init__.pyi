@@ -1,0 +1,3 @@
+from . import examples as examples
+from . import images as images
+from . import reading as reading

@@ -1,0 +1,100 @@
+"""Targets of our own design, made by code: solids to fill or to avoid, and images to match.
+
+- `ships`, `towns`, `trees`  solids to fill
+- `obstacles`                solids to avoid, and what to fill around them
+- `images`                   pictures of silhouettes and shadows
+- `lofts`                    what the solids are built from
+
+All lengths are scene units, y is up.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from os import PathLike
+from pathlib import Path
+
+from PIL import Image
+
+from niwaki.targets.examples import images
+from niwaki.targets.examples.obstacles import emblem, funnel, gem, ledges
+from niwaki.targets.examples.ships import dart, ship
+from niwaki.targets.examples.towns import crescent, downtown
+from niwaki.targets.examples.trees import bent_tube, fan, forked_tree, niwaki, umbrella
+from niwaki.targets.target import Target
+
+__all__ = [
+    "IMAGES",
+    "TARGETS",
+    "bent_tube",
+    "crescent",
+    "dart",
+    "downtown",
+    "emblem",
+    "fan",
+    "find",
+    "forked_tree",
+    "funnel",
+    "gem",
+    "image",
+    "ledges",
+    "niwaki",
+    "ship",
+    "umbrella",
+    "write_all",
+]
+
+SOLIDS = (
+    bent_tube,
+    crescent,
+    dart,
+    fan,
+    downtown,
+    emblem,
+    forked_tree,
+    funnel,
+    gem,
+    ledges,
+    niwaki,
+    ship,
+    umbrella,
+)
+
+TARGETS: dict[str, Callable[[], Target]] = {make.__name__: make for make in SOLIDS}
+
+IMAGES = ("digits", "face", "face_stroke", "ship_front", "skyline")
+
+
+def image(name: str) -> Image.Image:
+    """Draw the image of that name, one of `IMAGES`."""
+    drawn: Image.Image = getattr(images, name)()
+    return drawn
+
+
+def find(source: str) -> Target:
+    """The target of a `Target.source`: a file, or `gallery:` and the name of a target here."""
+    made = TARGETS.get(source.removeprefix("gallery:").replace("-", "_"))
+    if source.startswith("gallery:") and made is not None:
+        found = made()
+        found.source = f"gallery:{made.__name__}"
+        return found
+    return Target.load(source)
+
+
+def write_all(folder: str | PathLike[str]) -> list[Path]:
+    """Write every target into a folder, solids as OBJ and images as PNG files, and return their paths."""
+    place = Path(folder)
+    place.mkdir(parents=True, exist_ok=True)
+    written = []
+    for name, make in TARGETS.items():
+        target = make()
+        lines = [f"# niwaki target: {name}", f"o {name}"]
+        lines += ["v " + " ".join(f"{c:.6f}" for c in vertex) for vertex in target.vertices]
+        lines += ["f " + " ".join(str(i + 1) for i in face) for face in target.faces]
+        path = place / f"{name}.obj"
+        path.write_text("\n".join(lines) + "\n", encoding="ascii")
+        written.append(path)
+    for name in IMAGES:
+        written.append(place / f"{name}.png")
+        image(name).save(written[-1])
+    return written

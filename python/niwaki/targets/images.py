@@ -1,0 +1,138 @@
+"""Images to match: which pixels should be on, and how much each matters.
+
+A pixel is on when its red is above zero, so that the grey edge of a smoothed shape counts as on; pixels that are
+wholly transparent are off. No flip: the image as one sees it is what the camera should see.
+"""
+
+from __future__ import annotations
+
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from PIL import Image as Pil
+from PIL import UnidentifiedImageError
+
+from niwaki.errors import FileError, InputError
+from niwaki.errors.files import existing
+
+if TYPE_CHECKING:
+    from PIL.Image import Image as PilImage
+
+    Image = str | PathLike[str] | PilImage | ArrayLike
+else:
+    Image = Any
+
+#: Formats that are read; the content decides, the name is for people.
+FORMATS = (".png", ".jpg", ".jpeg", ".webp", ".bmp", ".gif", ".tif", ".tiff")
+
+#: Most pixels of an image to match.
+MOST_PIXELS = 1 << 24
+
+
+def silhouette(image: Image) -> NDArray[np.bool_]:
+    """Tell which pixels should be on, (rows, columns).
+
+    Raises
+    ------
+    FileError
+        The file is missing or cannot be read as an image.
+    InputError
+        `bad-image` for an array of another shape; `image-one-color` when all pixels are alike.
+    """
+    values = _values(image)
+    on = values if values.dtype == np.bool_ else _red(values) > 0
+    lit = int(on.sum())
+    if lit in (0, on.size):
+        raise InputError(
+            "image-one-color", name=name_of(image), size=_size(on), state="off" if lit == 0 else "on"
+        )
+    return np.ascontiguousarray(on)
+
+
+def weights(image: Image, like: NDArray[Any]) -> NDArray[np.uint8]:
+    """Read the greys of a weight image, (rows, columns) uint8, of the same size as the image that it weighs.
+
+    Raises
+    ------
+    InputError
+        `weight-size` when the sizes differ.
+    """
+    values = _values(image)
+    if values.shape[:2] != like.shape[:2]:
+        raise InputError("weight-size", name=name_of(image), found=_size(values), expected=_size(like))
+    if values.dtype == np.bool_:
+        return np.where(values, np.uint8(255), np.uint8(0))
+    grey = np.rint(_grey(values)).clip(0, 255)
+    return np.ascontiguousarray(grey.astype(np.uint8))
+
+
+def name_of(image: Image) -> str:
+    """What to call an image in a message."""
+    return str(image) if isinstance(image, (str, PathLike)) else "the image"
+
+
+def _values(image: Image) -> NDArray[Any]:
+    """Return (rows, columns) bool or numbers in 0 to 255, or (rows, columns, channels) of the latter."""
+    if isinstance(image, (str, PathLike)):
+        return _read(Path(image))
+    if hasattr(image, "convert") and hasattr(image, "getbands"):
+        return _of_pil(image)
+    values = np.asarray(image)
+    whole = values.ndim == 2 or (values.ndim == 3 and values.shape[2] in (1, 3, 4))
+    if not whole or values.size == 0 or values.dtype.kind not in "buif":
+        found = f"an array of shape {values.shape} and type {values.dtype}"
+        raise InputError("bad-image", found=found)
+    if values.dtype.kind == "f" and not np.isfinite(values).all():
+        raise InputError("bad-image", found="an array with values that are not finite")
+    if values.shape[0] * values.shape[1] > MOST_PIXELS:
+        raise InputError("bad-image", found=f"{_size(values)} pixels, more than {MOST_PIXELS}")
+    return values
+
+
+def _read(place: Path) -> NDArray[Any]:
+    existing(place)
+    try:
+        with Pil.open(place) as opened:
+            columns, rows = opened.size
+            if columns * rows > MOST_PIXELS:
+                found = f"{columns} x {rows} pixels in `{place}`, more than {MOST_PIXELS}"
+                raise InputError("bad-image", found=found)
+            return _of_pil(opened)
+    except (UnidentifiedImageError, OSError, ValueError, SyntaxError, EOFError) as error:
+        reason = " ".join(str(error).split()) or type(error).__name__
+        raise FileError("file-unreadable", place, suffix="an image", reason=reason) from error
+
+
+def _of_pil(image: Any) -> NDArray[Any]:
+    """Channels in 0 to 255, red first, alpha last where there is one."""
+    alpha = "A" in image.getbands() or "transparency" in image.info
+    if image.mode == "1":
+        return np.asarray(image, dtype=np.bool_)
+    if image.mode.startswith(("I", "F")):
+        # Sixteen bits and more: scaled by the brightest, since only zero and not zero matter for what is on.
+        values = np.asarray(image, dtype=np.float64)
+        return values * (255.0 / max(float(values.max()), 1.0))
+    return np.asarray(image.convert("RGBA" if alpha else "RGB"))
+
+
+def _red(values: NDArray[Any]) -> NDArray[Any]:
+    if values.ndim == 2:
+        return values
+    red = values[:, :, 0]
+    return np.where(values[:, :, 3] > 0, red, 0) if values.shape[2] == 4 else red
+
+
+def _grey(values: NDArray[Any]) -> NDArray[np.float64]:
+    """Mean of red, green and blue, over black where the image is transparent."""
+    numbers = values.astype(np.float64)
+    if numbers.ndim == 2:
+        return numbers
+    grey: NDArray[np.float64] = numbers[:, :, :3].mean(axis=2)
+    return grey * numbers[:, :, 3] / 255.0 if numbers.shape[2] == 4 else grey
+
+
+def _size(values: NDArray[Any]) -> str:
+    return f"{values.shape[1]} x {values.shape[0]}"

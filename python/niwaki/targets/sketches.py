@@ -1,0 +1,437 @@
+"""What a scene should be like: sketches as values that multiply, given by whoever runs a model and not by the model.
+
+    score = no_self_intersection() * volume_match(target, voxel=0.25)
+    score = no_self_intersection() * floor(0) * avoid("wall.obj") * match_image("skyline.png", "cam.json")
+
+Log scores add. The order is the order of asking: cheap questions that may forbid a scene come first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from math import isfinite
+from os import PathLike
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from niwaki import _engine, targets
+from niwaki.errors import InputError
+from niwaki.targets.camera import Camera
+from niwaki.targets.target import Receiver, Target
+
+if TYPE_CHECKING:
+    from niwaki.draw.scene import Scene
+    from niwaki.targets.images import Image
+
+    Place = str | PathLike[str]
+    CameraLike = Camera | Place | Mapping[str, Any]
+
+RULES = ("solid", "surface")
+
+#: Cells of a grid whose size nobody gave: as fine as the eye wants, as coarse as the search likes.
+CELLS = 65_000
+
+
+@dataclass(frozen=True)
+class View:
+    """An image to match, with what it takes to draw a scene as its sketch sees it.
+
+    Attributes
+    ----------
+    kind : str
+        "image" for a silhouette, "shadow" for the shadow on a receiver.
+    camera : Camera
+        From where the image is seen.
+    image : (rows, columns) bool
+        Which pixels should be on.
+    receiver : Receiver or None
+        What the shadow falls on.
+    light : tuple of float or None
+        Direction in which the light travels.
+    """
+
+    kind: str
+    camera: Camera
+    image: NDArray[np.bool_]
+    picture: _engine.Picture
+    receiver: Receiver | None = None
+    light: tuple[float, float, float] | None = None
+
+    def check_sees(self, target: Target) -> None:
+        """Refuse a target that is wholly behind the camera."""
+        forward = np.subtract(self.camera.look_at, self.camera.position)
+        depth = (target.vertices - np.asarray(self.camera.position)) @ forward
+        if depth.max() <= 0:
+            raise InputError(
+                "behind-camera",
+                name=target.name,
+                position=self.camera.position,
+                look_at=self.camera.look_at,
+            )
+
+    def mask(self, scene: Scene) -> NDArray[np.bool_]:
+        """Which pixels of a scene are on, (rows, columns)."""
+        return self.picture.mask([shape for part in scene.parts for shape in part.shapes])
+
+
+@dataclass(frozen=True)
+class Ask:
+    """One sketch: the function of this module that makes it, what that is given, and what the engine has of it."""
+
+    function: str
+    given: Mapping[str, Any]
+    spec: _engine.SketchSpec
+
+
+@dataclass(frozen=True)
+class Score:
+    """A product of sketches.
+
+    Attributes
+    ----------
+    asks : tuple of Ask
+        The sketches, in the order of asking.
+    target : Target or None
+        What the scene should fill, for pictures.
+    views : tuple of View
+        Images that the scene or its shadow should match, for pictures.
+    """
+
+    asks: tuple[Ask, ...] = ()
+    target: Target | None = None
+    views: tuple[View, ...] = ()
+
+    @property
+    def specs(self) -> list[_engine.SketchSpec]:
+        """What the engine has of the sketches."""
+        return [ask.spec for ask in self.asks]
+
+    def data(self, write: Callable[[Any], Any]) -> list[dict[str, Any]]:
+        """The sketches as plain data; `write` writes what one is given."""
+        return [
+            {"sketch": ask.function, "given": {name: write(value) for name, value in ask.given.items()}}
+            for ask in self.asks
+        ]
+
+    @classmethod
+    def of_data(cls, data: Sequence[Mapping[str, Any]], read: Callable[[Any], Any]) -> Score:
+        """The sketches of their data; `read` reads what one is given."""
+        score = cls()
+        for one in data:
+            make = SKETCHES.get(one["sketch"])
+            if make is None:
+                raise InputError("bad-run-file", path="the search", reason=f"no sketch {one['sketch']!r}")
+            score *= make(**{name: read(value) for name, value in one["given"].items()})
+        return score
+
+    def __mul__(self, other: Score) -> Score:
+        if not isinstance(other, Score):
+            return NotImplemented
+        target = self.target if self.target is not None else other.target
+        views = self.views + other.views
+        if target is not None:
+            for view in views:
+                view.check_sees(target)
+        return Score(self.asks + other.asks, target, views)
+
+    def __repr__(self) -> str:
+        return " * ".join(ask.spec.name for ask in self.asks) or "no score"
+
+
+def no_self_intersection(rule: str = "solid") -> Score:
+    """Forbids scenes in which two primitives intersect.
+
+    Parameters
+    ----------
+    rule
+        "solid": solids intersect when they overlap, touching is free; "surface": when their surfaces do, also where
+        they only touch.
+    """
+    if rule not in RULES:
+        raise InputError(
+            "bad-setting",
+            name="rule",
+            found=repr(rule),
+            expected='"solid" or "surface"',
+            suggestion='"solid"',
+        )
+    return _score("no_self_intersection", {"rule": rule}, _engine.no_self_intersection(rule))
+
+
+def volume_match(target: Target, voxel: float | None = None, sigma: float = 0.02) -> Score:
+    """Scores a scene by how well it fills a target, cell by cell.
+
+    Parameters
+    ----------
+    target
+        What to fill.
+    voxel
+        Size of a cell, scene units; about 65 thousand cells around the target when left out.
+    sigma
+        Standard deviation of the share of cells that may be wrong: smaller is stricter.
+    """
+    size = check_positive("voxel", automatic_voxel(target) if voxel is None else voxel)
+    check_positive("sigma", sigma)
+    with geometry_errors(target, size):
+        grid = _engine.Target(target.vertices, target.faces, size)
+        spec = _engine.volume_match(grid, sigma)
+    return _score("volume_match", {"target": target, "voxel": size, "sigma": sigma}, spec, target)
+
+
+def match_image(
+    image: Image,
+    camera: CameraLike,
+    *,
+    weight_image: Image | None = None,
+    weight: float = 10.0,
+    sigma: float = 0.02,
+) -> Score:
+    """Scores a scene by how well its silhouette, seen by a camera, is an image.
+
+    Parameters
+    ----------
+    image
+        A file, a Pillow image or an array; a pixel should be covered where red is above zero.
+    camera
+        A `Camera`, its JSON file, or the names and values of one.
+    weight_image
+        Of the same size; where it is white, a pixel weighs `1 + weight`, where it is black, 1.
+    weight
+        How much more white weighs than black.
+    sigma
+        Standard deviation of the share of the weight that may be wrong: smaller is stricter.
+    """
+    seen_by = Camera.of(camera)
+    on, greys = _wish(image, weight_image)
+    check_positive("sigma", sigma)
+    with picture_errors():
+        picture = _engine.Picture(seen_by.lens(), on, greys, check_not_negative("weight", weight))
+        spec = _engine.match_image(picture, sigma)
+    given = {"image": on, "camera": seen_by, "weight_image": greys, "weight": weight, "sigma": sigma}
+    return _score("match_image", given, spec, views=(View("image", seen_by, on, picture),))
+
+
+def match_shadow(
+    image: Image,
+    light: Sequence[float],
+    receiver: Receiver | Place,
+    camera: CameraLike | None = None,
+    *,
+    weight_image: Image | None = None,
+    weight: float = 10.0,
+    sigma: float = 0.02,
+) -> Score:
+    """Scores a scene by how well the shadow that it casts on a receiver is an image.
+
+    Parameters
+    ----------
+    image, weight_image, weight, sigma
+        As for `match_image`; a pixel should be in shadow where red is above zero.
+    light
+        Direction in which the light travels, any length: (0, -1, 0) is a sun right above.
+    receiver
+        What the shadow falls on: a `Receiver`, or a mesh file. It need not be closed or thick.
+    camera
+        Who sees the shadow; when left out, an orthographic camera that looks along the light at the middle of the
+        receiver and shows its whole extent along x.
+    """
+    on, greys = _wish(image, weight_image)
+    check_positive("sigma", sigma)
+    floor = receiver if isinstance(receiver, Receiver) else Receiver.load(receiver)
+    direction = _direction("light", light)
+    seen_by = floor.camera(direction, on.shape[1] / on.shape[0]) if camera is None else Camera.of(camera)
+    with picture_errors(floor.name):
+        picture = _engine.Picture(
+            seen_by.lens(),
+            on,
+            greys,
+            check_not_negative("weight", weight),
+            (floor.vertices, floor.faces),
+            direction,
+        )
+        spec = _engine.match_shadow(picture, sigma)
+    given = {
+        "image": on,
+        "light": direction,
+        "receiver": floor,
+        "camera": seen_by,
+        "weight_image": greys,
+        "weight": weight,
+        "sigma": sigma,
+    }
+    views = (View("shadow", seen_by, on, picture, floor, direction),)
+    return _score("match_shadow", given, spec, views=views)
+
+
+def avoid(obstacle: Target | Place, voxel: float | None = None) -> Score:
+    """Forbids scenes that come near an obstacle: no cell may be filled by both.
+
+    Parameters
+    ----------
+    obstacle
+        A solid: a `Target`, or a mesh file.
+    voxel
+        Size of a cell, scene units; the scene keeps up to two cells away. About 65 thousand cells around the obstacle
+        when left out.
+    """
+    solid = obstacle if isinstance(obstacle, Target) else Target.load(obstacle)
+    size = check_positive("voxel", automatic_voxel(solid) if voxel is None else voxel)
+    with geometry_errors(solid, size):
+        spec = _engine.avoid(_engine.Target(solid.vertices, solid.faces, size))
+    return _score("avoid", {"obstacle": solid, "voxel": size}, spec)
+
+
+def floor(y: float = 0.0) -> Score:
+    """Forbids scenes that reach below a height; standing on it is free."""
+    height = check_finite("y", y)
+    return _score("floor", {"y": height}, _engine.floor(height))
+
+
+def overshoot(
+    domain: Target | tuple[Sequence[float], Sequence[float]] | NDArray[np.float64], sigma: float = 0.02
+) -> Score:
+    """Scores a scene by how far it reaches out of a box.
+
+    `volume_match` has it already; it goes with images and shadows, which do not see what leaves them.
+
+    Parameters
+    ----------
+    domain
+        A target, whose box it is, or the low and the high corner.
+    sigma
+        Standard deviation of the lengths outside, summed over the six sides, as shares of the box.
+    """
+    check_positive("sigma", sigma)
+    corners = domain.bounds if isinstance(domain, Target) else domain
+    try:
+        low, high = (_direction("domain", corner, zero=True) for corner in corners)
+    except (TypeError, ValueError):
+        raise InputError(
+            "bad-setting",
+            name="domain",
+            found=repr(domain),
+            expected="a target, or the low and the high corner of a box",
+            suggestion="such a box, for instance ((-5, 0, -5), (5, 10, 5))",
+        ) from None
+    if not all(a < b for a, b in zip(low, high, strict=True)):
+        raise InputError(
+            "bad-setting",
+            name="domain",
+            found=f"{low} to {high}",
+            expected="a low corner below the high one along x, y and z",
+            suggestion="such a box, for instance ((-5, 0, -5), (5, 10, 5))",
+        )
+    given = {"domain": (low, high), "sigma": sigma}
+    return _score("overshoot", given, _engine.overshoot(low, high, sigma))
+
+
+#: The functions that make sketches, by name.
+SKETCHES: dict[str, Callable[..., Score]] = {
+    make.__name__: make
+    for make in (no_self_intersection, volume_match, match_image, match_shadow, avoid, floor, overshoot)
+}
+
+
+def _score(
+    function: str,
+    given: dict[str, Any],
+    spec: _engine.SketchSpec,
+    target: Target | None = None,
+    views: tuple[View, ...] = (),
+) -> Score:
+    """A score of one sketch."""
+    return Score((Ask(function, given, spec),), target, views)
+
+
+def _wish(image: Image, weight_image: Image | None) -> tuple[NDArray[np.bool_], NDArray[np.uint8] | None]:
+    on = targets.images.silhouette(image)
+    return on, None if weight_image is None else targets.images.weights(weight_image, on)
+
+
+def _direction(name: str, value: Any, zero: bool = False) -> tuple[float, float, float]:
+    try:
+        x, y, z = (float(number) for number in value)
+    except (TypeError, ValueError):
+        x = y = z = float("nan")
+    if not all(map(isfinite, (x, y, z))) or (not zero and x == y == z == 0):
+        raise InputError(
+            "bad-setting",
+            name=name,
+            found=repr(value),
+            expected="three finite numbers" + ("" if zero else ", not all zero"),
+            suggestion="such numbers, for instance (0, -1, 0)",
+        )
+    return (x, y, z)
+
+
+@contextmanager
+def picture_errors(receiver: str = "") -> Iterator[None]:
+    """Inside, what views refuse is raised as an `InputError`."""
+    try:
+        yield
+    except ValueError as error:
+        code = getattr(error, "code", "")
+        if code not in ("receiver-unseen", "light-grazes", "bad-camera"):
+            raise
+        raise InputError(code, reason=str(error), receiver=receiver) from None
+
+
+def automatic_voxel(target: Target) -> float:
+    """A cell size that gives about `CELLS` cells, to two digits."""
+    x, y, z = (float(length) for length in target.size)
+    return float(f"{(x * y * z / CELLS) ** (1 / 3):.2g}")
+
+
+def check_positive(name: str, value: float) -> float:
+    """The number, when it is finite and above zero."""
+    number = isinstance(value, (int, float)) and not isinstance(value, bool)
+    if not number or not 0 < value < float("inf"):
+        raise InputError(
+            "bad-setting",
+            name=name,
+            found=repr(value),
+            expected="a finite number above 0",
+            suggestion="a positive number",
+        )
+    return float(value)
+
+
+def check_finite(name: str, value: float) -> float:
+    """The number, when it is finite."""
+    number = isinstance(value, (int, float)) and not isinstance(value, bool)
+    if not number or not abs(value) < float("inf"):
+        raise InputError(
+            "bad-setting",
+            name=name,
+            found=repr(value),
+            expected="a finite number",
+            suggestion="such a number",
+        )
+    return float(value)
+
+
+def check_not_negative(name: str, value: float) -> float:
+    """The number, when it is finite and not below zero."""
+    if check_finite(name, value) < 0:
+        raise InputError(
+            "bad-setting", name=name, found=repr(value), expected="0 or more", suggestion="0 or more"
+        )
+    return float(value)
+
+
+@contextmanager
+def geometry_errors(target: Target, size: float) -> Iterator[None]:
+    """Inside, what geometry refuses is raised as an `InputError`."""
+    name, cells = target.name, " x ".join(f"{length / size:.0f}" for length in target.size)
+    try:
+        yield
+    except ValueError as error:
+        code = getattr(error, "code", "")
+        codes = {"no-cell-filled": "no-cell-filled", "large-grid": "too-many-cells"}
+        if code not in codes:
+            raise
+        raise InputError(codes[code], path=name, size=f"{size:g}", found=cells) from None

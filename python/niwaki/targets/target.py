@@ -1,0 +1,287 @@
+"""Targets: the volumes that a scene should fill, and receivers of shadows, from OBJ, STL, PLY and GLB files or arrays.
+
+Coordinates are taken as they are in the file: no centring, no scaling, no change of units or axes. A file
+with several objects is one target; its closed parts may overlap.
+"""
+
+from __future__ import annotations
+
+import sys
+import warnings
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from niwaki import draw, targets
+from niwaki._engine import Shape
+from niwaki.draw.scene import Scene
+from niwaki.errors import FileError
+from niwaki.targets.camera import Camera
+from niwaki.targets.memory import BYTES_PER_TRIANGLE, check_memory
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
+
+
+class TargetWarning(UserWarning):
+    """A target can be used, but perhaps not as its author meant."""
+
+
+class _Mesh(Protocol):
+    source: str | None
+
+
+M = TypeVar("M", bound=_Mesh)
+
+
+def _from(path: str | PathLike[str], mesh: M) -> M:
+    """The mesh, with the file that it was read from."""
+    mesh.source = str(Path(path).resolve())
+    return mesh
+
+
+class Target:
+    """A triangle mesh to fill.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float64
+        Scene units, finite.
+    faces : (m, 3) int64
+        Counter-clockwise seen from outside.
+    name
+        For captions and messages.
+
+    Attributes
+    ----------
+    open_edges : int
+        Edges that do not lie between exactly two triangles; 0 for a closed mesh.
+    source : str or None
+        Where it can be found again: the file that it was read from, with its whole path, or `gallery:` and a name.
+
+    Examples
+    --------
+    >>> tetrahedron = Target([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
+    ...                      [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
+    >>> tetrahedron.open_edges, round(tetrahedron.volume, 6)
+    (0, 0.166667)
+    """
+
+    def __init__(self, vertices: ArrayLike, faces: ArrayLike, name: str = "target") -> None:
+        self.vertices: NDArray[np.float64] = np.array(vertices, dtype=np.float64).reshape(-1, 3)
+        self.faces: NDArray[np.int64] = np.array(faces, dtype=np.int64).reshape(-1, 3)
+        self.name = name
+        self.source: str | None = None
+        count = len(self.faces)
+        check_memory(name, f"{count:,} triangles", count * BYTES_PER_TRIANGLE)
+        _check(self.vertices, self.faces, name)
+        self.vertices, self.faces = _welded(self.vertices, self.faces)
+        if len(self.faces) == 0:
+            raise FileError("target-empty", name, reason="all of its triangles have no area")
+        self.vertices.setflags(write=False)
+        self.faces.setflags(write=False)
+        self.open_edges = _open_edges(self.faces)
+        if self.open_edges:
+            warnings.warn(
+                f"{name}: the mesh is not closed: {self.open_edges} open edges; "
+                "inside and outside are decided by majority, so close the holes if the fill looks wrong",
+                TargetWarning,
+                stacklevel=_outside(),
+            )
+
+    @classmethod
+    def load(cls, path: str | PathLike[str]) -> Target:
+        """Read a target from a file whose name ends in .obj, .stl, .ply, .glb or .gltf.
+
+        Raises
+        ------
+        FileError
+            The file is missing, cut short or of another format; it has no triangles, no thickness, or
+            coordinates that are not finite.
+
+        Warns
+        -----
+        TargetWarning
+            The mesh is not closed; counts its open edges.
+        """
+        vertices, faces = targets.reading.load(path)
+        return _from(path, cls(vertices, faces, name=str(path)))
+
+    def __repr__(self) -> str:
+        """Name, triangles, extent."""
+        x, y, z = self.size
+        return f"<Target {self.name}: {len(self.faces)} triangles, {x:.3g} x {y:.3g} x {z:.3g}>"
+
+    @property
+    def bounds(self) -> NDArray[np.float64]:
+        """Low and high corner, (2, 3)."""
+        used = self.vertices[self.faces.ravel()]
+        return np.stack([used.min(axis=0), used.max(axis=0)])
+
+    @property
+    def size(self) -> NDArray[np.float64]:
+        """Extent along x, y and z, (3,)."""
+        low, high = self.bounds
+        return np.asarray(high - low)
+
+    @property
+    def volume(self) -> float:
+        """Signed volume of a closed mesh; overlapping parts count twice."""
+        a, b, c = (self.vertices[self.faces[:, k]] for k in range(3))
+        return float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6.0)
+
+    def picture(self, **settings: Any) -> Image:
+        """Draw the target as a solid of grey clay; settings as for a scene's picture."""
+        clay = Shape.mesh(self.vertices, self.faces, color=(0.72, 0.71, 0.69))
+        return Scene([(self.name, [clay])]).picture(**settings)
+
+    def _repr_png_(self) -> bytes:
+        return draw.picture.png(self.picture(size=(800, 600)))
+
+
+class Receiver:
+    """A surface that a shadow falls on: a floor, a wall, any mesh. It may be flat and open.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float64
+        Scene units, finite.
+    faces : (m, 3) int64
+        Either way round.
+    name
+        For messages.
+
+    Examples
+    --------
+    >>> Receiver.floor(0.0, (-5, -5), (5, 5)).bounds.tolist()
+    [[-5.0, 0.0, -5.0], [5.0, 0.0, 5.0]]
+    """
+
+    def __init__(self, vertices: ArrayLike, faces: ArrayLike, name: str = "receiver") -> None:
+        self.vertices: NDArray[np.float64] = np.array(vertices, dtype=np.float64).reshape(-1, 3)
+        self.faces: NDArray[np.int64] = np.array(faces, dtype=np.int64).reshape(-1, 3)
+        self.name = name
+        self.source: str | None = None
+        _check_arrays(self.vertices, self.faces, name)
+        self.vertices.setflags(write=False)
+        self.faces.setflags(write=False)
+
+    @classmethod
+    def load(cls, path: str | PathLike[str]) -> Receiver:
+        """Read a receiver from a mesh file; formats as for `Target.load`."""
+        vertices, faces = targets.reading.load(path)
+        return _from(path, cls(vertices, faces, name=str(path)))
+
+    @classmethod
+    def floor(
+        cls,
+        y: float = 0.0,
+        low: tuple[float, float] = (-10.0, -10.0),
+        high: tuple[float, float] = (10.0, 10.0),
+    ) -> Receiver:
+        """Make a flat rectangle at height `y` between two corners (x, z)."""
+        (x0, z0), (x1, z1) = low, high
+        corners = [[x0, y, z0], [x0, y, z1], [x1, y, z1], [x1, y, z0]]
+        return cls(corners, [[0, 1, 2], [0, 2, 3]], name="floor")
+
+    def __repr__(self) -> str:
+        """Name and triangles."""
+        return f"<Receiver {self.name}: {len(self.faces)} triangles>"
+
+    @property
+    def bounds(self) -> NDArray[np.float64]:
+        """Low and high corner, (2, 3)."""
+        used = self.vertices[self.faces.ravel()]
+        return np.stack([used.min(axis=0), used.max(axis=0)])
+
+    def camera(self, light: tuple[float, float, float], aspect: float = 1.0) -> Camera:
+        """Make the light's own view: orthographic, along the light, as wide as the receiver along x.
+
+        Parameters
+        ----------
+        light
+            Direction in which the light travels.
+        aspect
+            Width of the picture over its height.
+        """
+        low, high = self.bounds
+        middle, extent = (low + high) / 2, high - low
+        along = np.asarray(light, dtype=np.float64)
+        along = along / np.linalg.norm(along)
+        eye = middle - along * (float(np.linalg.norm(extent)) + 1.0)
+        # Away from the viewer, as the original has it: -z is the top of a picture seen from above.
+        up = (0.0, 0.0, -1.0) if abs(along[2]) < 0.999 else (0.0, 1.0, 0.0)
+        width = float(extent[0]) or float(np.linalg.norm(extent))
+        return Camera.orthographic(eye.tolist(), middle.tolist(), up, height=width / aspect)
+
+
+def _check_arrays(vertices: NDArray[np.float64], faces: NDArray[np.int64], name: str) -> None:
+    if len(faces) == 0:
+        raise FileError("target-empty", name, reason=f"it has {len(vertices)} vertices and no faces")
+    if faces.min() < 0 or faces.max() >= len(vertices):
+        reason = f"a face names vertex {int(faces.max())}, but there are {len(vertices)}, counted from 0"
+        raise FileError("file-unreadable", name, suffix="a mesh", reason=reason)
+    wrong = np.flatnonzero(~np.isfinite(vertices).all(axis=1))
+    if len(wrong):
+        raise FileError("target-not-finite", name, count=len(wrong), total=len(vertices), first=int(wrong[0]))
+
+
+def _check(vertices: NDArray[np.float64], faces: NDArray[np.int64], name: str) -> None:
+    _check_arrays(vertices, faces, name)
+    used = vertices[faces.ravel()]
+    extent = used.max(axis=0) - used.min(axis=0)
+    if (extent <= 1e-9 * extent.max()).any():
+        axis = "xyz"[int(extent.argmin())]
+        raise FileError("target-flat", name, axis=axis, extent=" x ".join(f"{e:.4g}" for e in extent))
+
+
+def _welded(
+    vertices: NDArray[np.float64], faces: NDArray[np.int64]
+) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """One vertex for each place that is used, in order of first use; faces without three places left out."""
+    is_used = np.zeros(len(vertices), dtype=bool)
+    is_used[faces.ravel()] = True
+    used = np.flatnonzero(is_used)
+    # -0.0 and 0.0 are one place. Sorted by coordinates, equal places follow each other; the sort is stable, so that
+    # the first of them is the one with the lowest number.
+    points = vertices[used] + 0.0
+    order = np.lexsort(points.T[::-1])
+    rows = points[order]
+    starts = np.ones(len(order), dtype=bool)
+    starts[1:] = (rows[1:] != rows[:-1]).any(axis=1)
+    first = np.empty_like(order)
+    first[order] = order[starts][np.cumsum(starts) - 1]
+    kept = first == np.arange(len(first))
+    number = np.empty(len(vertices), dtype=np.int64)
+    number[used] = (np.cumsum(kept) - 1)[first]
+    merged = number[faces]
+    a, b, c = merged.T
+    return points[kept], merged[(a != b) & (b != c) & (c != a)]
+
+
+def _open_edges(faces: NDArray[np.int64]) -> int:
+    count = int(faces.max()) + 1
+    # An edge is one number, whichever way round: there are fewer than 2^31 vertices.
+    edges = np.concatenate(
+        [
+            np.minimum(faces[:, k], faces[:, k - 1]) * count + np.maximum(faces[:, k], faces[:, k - 1])
+            for k in range(3)
+        ]
+    )
+    edges.sort()
+    ends = np.flatnonzero(np.append(edges[1:] != edges[:-1], True))
+    uses = np.diff(ends, prepend=-1)
+    # Two closed parts may share an edge; an odd count is a hole.
+    return int((uses % 2 == 1).sum())
+
+
+def _outside() -> int:
+    """How far up the caller's own code is, for a warning's place."""
+    depth = 2
+    frame = sys._getframe(2)
+    while frame is not None and frame.f_globals.get("__name__") == __name__ and frame.f_back is not None:
+        depth, frame = depth + 1, frame.f_back
+    return depth

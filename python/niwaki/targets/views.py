@@ -1,0 +1,117 @@
+"""A result as its image or shadow sketch sees it: what was wanted, what was made, where the two differ.
+
+In the difference, ink is right, blue is missing, orange is too much. The last panel is the scene itself from the same
+camera; for a shadow it lies over the shadow that it casts.
+"""
+
+from __future__ import annotations
+
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image, ImageDraw, ImageFont
+
+from niwaki.draw.picture import Camera as Eye
+from niwaki.draw.picture import picture, save_image
+from niwaki.draw.scene import Scene
+from niwaki.targets.camera import Camera
+from niwaki.targets.sketches import View
+
+Rgb = tuple[int, int, int]
+
+PAPER: Rgb = (243, 241, 236)
+INK: Rgb = (58, 60, 66)
+MISSING: Rgb = (92, 148, 204)
+SURPLUS: Rgb = (226, 138, 84)
+SHADE: Rgb = (186, 181, 172)
+#: Vertical field of view, degrees, that stands for parallel rays.
+FLAT = 1.5
+
+
+def view_sheet(
+    scene: Scene, view: View, *, height: int = 360, samples: int = 16, captions: bool = True
+) -> Image.Image:
+    """Draws a scene through the camera of an image or shadow sketch, beside the image that was asked for.
+
+    Parameters
+    ----------
+    scene
+        What was made.
+    view
+        One of `score.views`.
+    height
+        Of each panel, pixels.
+    samples
+        Rays for each pixel of the panel that shows the scene itself.
+    captions
+        Whether to write what each panel is.
+
+    Returns
+    -------
+    PIL.Image.Image
+        RGB; four panels from left to right: wanted, made, difference, scene.
+    """
+    wanted, made = view.image, view.mask(scene)
+    rows, columns = wanted.shape
+    size = (max(1, round(height * columns / rows)), height)
+    similarity = float((wanted == made).mean())
+    panels = [
+        (colored([(wanted, INK)], size), "wanted"),
+        (colored([(made, INK)], size), "silhouette" if view.kind == "image" else "shadow"),
+        (
+            colored([(wanted & made, INK), (wanted & ~made, MISSING), (made & ~wanted, SURPLUS)], size),
+            f"difference: {100 * similarity:.1f} % of pixels agree",
+        ),
+        (through_camera(scene, view, size, samples=samples), "from its camera"),
+    ]
+    gap = max(2, height // 90)
+    letters = max(11, round(height / 24))
+    strip = round(2.2 * letters) if captions else 0
+    page = Image.new("RGB", (4 * (size[0] + gap) - gap, height + strip), (255, 255, 255))
+    pen, font = ImageDraw.Draw(page), ImageFont.load_default(letters)
+    for k, (panel, caption) in enumerate(panels):
+        x = k * (size[0] + gap)
+        page.paste(panel, (x, 0))
+        if captions:
+            pen.text((x + size[0] / 2, height + 0.5 * strip), caption, (84, 82, 78), font, anchor="mm")
+    return page
+
+
+def through_camera(scene: Scene, view: View, size: tuple[int, int], *, samples: int = 16) -> Image.Image:
+    """Draws the scene itself from the camera of a sketch; for a shadow, over the shadow that it casts."""
+    under = colored([(view.mask(scene), SHADE)] if view.kind == "shadow" else [], size)
+    if len(scene) == 0:
+        return under
+    # Far below the picture: the renderer's own floor and its shadow are not what this panel is about.
+    image = picture(scene, size=size, samples=samples, camera=eye(view.camera), backdrop="clear", lift=1e3)
+    under.paste(image, (0, 0), image)
+    return under
+
+
+def eye(camera: Camera) -> Eye:
+    """The renderer's camera: parallel rays are those from far away."""
+    if camera.kind == "perspective":
+        return (camera.position, camera.look_at, camera.up, camera.fov_degrees)
+    away = np.subtract(camera.position, camera.look_at)
+    away = away / np.linalg.norm(away) * (camera.height / 2 / np.tan(np.radians(FLAT / 2)))
+    x, y, z = (np.asarray(camera.look_at) + away).tolist()
+    return ((x, y, z), camera.look_at, camera.up, FLAT)
+
+
+def colored(layers: list[tuple[NDArray[np.bool_], Rgb]], size: tuple[int, int]) -> Image.Image:
+    """Masks in their colours on paper, at another size with smooth edges."""
+    page = Image.new("RGB", size, PAPER)
+    for mask, color in layers:
+        alpha = Image.fromarray(np.where(mask, np.uint8(255), np.uint8(0)), "L")
+        small = size[0] < mask.shape[1]
+        alpha = alpha.resize(size, Image.Resampling.BOX if small else Image.Resampling.BICUBIC)
+        page.paste(color, (0, 0), alpha)
+    return page
+
+
+def save_view(path: str | PathLike[str], scene: Scene, view: View, **settings: Any) -> Path:
+    """Draws `view_sheet` into an image file."""
+    return save_image(lambda: view_sheet(scene, view, **settings), path)

@@ -1,0 +1,32 @@
+"""Claim: a scene is a bag of parts kept in the order of their addresses, with honest bounds and meshes."""
+
+from __future__ import annotations
+
+import numpy as np
+from niwaki._engine import Shape
+from niwaki.draw.scene import Scene
+
+
+def test_order_of_emission_has_no_meaning() -> None:
+    a, b = Shape.box((0, 0, 0), (1, 1, 1)), Shape.cylinder((3, 0, 0), 0.5, 2.0)
+    one = Scene([("wing[10]", [a]), ("wing[9]", [b]), ("body", [a])])
+    two = Scene([("body", [a]), ("wing[9]", [b]), ("wing[10]", [a])])
+    assert [part.address for part in one] == ["body", "wing[9]", "wing[10]"]
+    assert one.parts == two.parts
+
+
+def test_bounds_and_meshes() -> None:
+    scene = Scene([("a", [Shape.box((0, 0, 0), (2, 2, 2))]), ("b", [Shape.box((4, 0, 0), (2, 2, 2))])])
+    assert scene.bounds.tolist() == [[-1, -1, -1], [5, 1, 1]]
+    for fine in (False, True):
+        vertices, faces = scene.merged(fine)
+        a, b, c = (vertices[faces[:, k]] for k in range(3))
+        volume = np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6
+        assert 15.5 < volume <= 16.0 + 1e-9
+    assert len(Scene([])) == 0 and Scene([]).bounds.tolist() == [[0, 0, 0], [0, 0, 0]]
+
+
+def test_notebooks_see_a_png() -> None:
+    scene = Scene([("a", [Shape.box((0, 0, 0), (2, 2, 2))])])
+    assert scene._repr_png_().startswith(b"\x89PNG")
+    assert Scene([])._repr_png_().startswith(b"\x89PNG")

@@ -1,0 +1,184 @@
+"""Claim: the controls score what Python's own arithmetic scores, they multiply, and bad input costs a message."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import log, pi
+from pathlib import Path
+from typing import Any
+
+import niwaki as nw
+import numpy as np
+import pytest
+from niwaki import _engine
+from niwaki.targets.sketches import Score
+from niwaki.targets.target import TargetWarning
+
+GOLDEN = Path(__file__).parents[2] / "golden"
+
+CAMERA = nw.Camera.orthographic((0, 0, 20), (0, 0, 0), height=10)
+ON = np.zeros((100, 100), dtype=bool)
+ON[30:60, 20:80] = True
+
+
+def shape(center: tuple[float, float, float], size: tuple[float, float, float]) -> Any:
+    return _engine.Shape.box(center, size)
+
+
+def cube(at: tuple[float, float, float] = (0, 0, 0), size: float = 2.0) -> nw.Target:
+    box = shape(at, (size, size, size))
+    return nw.Target(box.vertices(), box.faces(), "cube")
+
+
+def log_normal(x: float, mean: float, sd: float) -> float:
+    return -0.5 * log(2 * pi) - log(sd) - (x - mean) ** 2 / (2 * sd**2)
+
+
+def started(score: Score) -> Any:
+    return _engine.Sketch(score.specs)
+
+
+def test_an_image_is_scored_by_the_weight_of_equal_pixels() -> None:
+    weight = np.zeros((100, 100), dtype=np.uint8)
+    weight[25:35] = np.arange(100)
+    score = nw.match_image(ON, CAMERA, weight_image=weight, weight=7.0, sigma=0.05)
+    sketch = started(score)
+    weights = 1 + 7.0 * weight / 255
+    assert sketch.similarity() == pytest.approx(1 - (weights * ON).sum() / weights.sum())
+    # A box from row 20 to 50 and column 40 to 90; a unit is ten pixels.
+    sketch.add([shape((1.5, 1.5, 0), (5, 3, 1))])
+    made = np.zeros_like(ON)
+    made[20:50, 40:90] = True
+    similarity = (weights * (made == ON)).sum() / weights.sum()
+    assert sketch.similarity() == pytest.approx(similarity)
+    assert sketch.log_score() == pytest.approx(log_normal(similarity, 1, 0.05))
+    assert (score.views[0].picture.mask([shape((1.5, 1.5, 0), (5, 3, 1))]) == made).all()
+
+
+def test_a_shadow_in_the_lights_own_view_is_a_plan() -> None:
+    floor = nw.Receiver.floor(0, (-5, -5), (5, 5))
+    score = nw.match_shadow(ON, (0, -2, 0), floor)
+    assert score.views[0].camera.height == 10
+    shapes = [shape((0, 3, -0.5), (6, 1, 3)), shape((0, -3, 0), (9, 1, 9))]
+    assert (score.views[0].picture.mask(shapes) == ON).all()
+    assert score.views[0].picture.seen().all()
+    sketch = started(score)
+    sketch.add(shapes)
+    assert sketch.similarity() == 1
+    assert sketch.log_score() == pytest.approx(log_normal(1, 1, 0.02))
+
+
+def test_a_slanted_light_throws_the_shadow_aside() -> None:
+    floor = nw.Receiver.floor(0, (-10, -10), (10, 10))
+    above = nw.Camera.orthographic((0, 30, 0), (0, 0, 0), (0, 0, -1), height=20)
+    view = nw.match_shadow(ON, (-1, -0.5, 0), floor, above).views[0]
+    # A cube one unit wide whose middle is 2 above the floor: twice its height to the left.
+    rows, columns = np.nonzero(view.picture.mask([shape((4, 2, 0.1), (1, 1, 0.98))]))
+    low, high = (columns.min() / 5 - 10, (columns.max() + 1) / 5 - 10)
+    assert (low, high) == (pytest.approx(-1.5, abs=0.21), pytest.approx(1.5, abs=0.21))
+    assert rows.max() - rows.min() + 1 == 5
+
+
+def test_two_views_are_told_apart_in_the_measures() -> None:
+    side = nw.Camera.orthographic((20, 0, 0), (0, 0, 0), height=10)
+    score = nw.volume_match(cube()) * nw.match_image(ON, CAMERA) * nw.match_image(ON, side)
+    assert [name for name in started(score).measures() if name.startswith("similarity")] == [
+        "similarity",
+        "similarity_2",
+        "similarity_3",
+    ]
+    assert repr(score) == "volume_match * match_image * match_image"
+    assert len(score.views) == 2 and score.target is not None
+
+
+def test_limits() -> None:
+    score = nw.floor(0) * nw.avoid(cube(), voxel=0.1) * nw.overshoot(((-3, -3, -3), (3, 3, 3)))
+    sketch = started(score)
+    assert sketch.log_score() == pytest.approx(log_normal(0, 0, 0.02))
+    assert sketch.add([shape((0, 2.5, 0), (1, 1, 1))]) is None
+    assert sketch.add([shape((0, 1, 0), (1, 1, 1))]) == "avoid"
+    assert sketch.add([shape((2.5, 0, 0), (1, 1.1, 1))]) == "floor"
+    assert nw.overshoot(cube(size=6.0)).specs[0].name == "overshoot"
+
+
+@nw.model
+def tower() -> None:
+    nw.emit(nw.box((0, 0.5, 0), (1, 1, 1)))
+    nw.emit(nw.box((0, nw.uniform(1.5, 9.0), 0), (1, 1, 1)))
+
+
+def test_an_obstacle_above_is_kept_clear() -> None:
+    score = nw.floor() * nw.avoid(cube((0, 4, 0)), voxel=0.1)
+    result = nw.run(tower, score=score, method=nw.smc(particles=50), seed=1)
+    for sample in result:
+        low, high = sample.scene.parts[1].shapes[0].aabb()
+        assert high[1] < 3 or low[1] > 5
+
+
+def warned(make: Callable[[], Any]) -> str:
+    with pytest.warns(TargetWarning) as found:
+        make()
+    return f"{found[0].category.__name__}: {found[0].message}"
+
+
+def refused(make: Callable[[], Any]) -> str:
+    with pytest.raises(nw.NiwakiError) as found:
+        make()
+    return str(found.value)
+
+
+def test_messages(golden: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    floor = nw.Receiver.floor(0, (-5, -5), (5, 5))
+    away = nw.Camera.perspective((0, 5, 20), (0, 5, 40))
+    flat = nw.Receiver.floor()
+    covered = nw.avoid(cube((0, 0.5, 0)), voxel=0.2)
+    lines = tmp_path / "far.obj"
+    lines.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")
+    found = [
+        refused(lambda: nw.match_image(np.zeros((50, 40)), CAMERA)),
+        refused(lambda: nw.match_image(np.ones((50, 40)), CAMERA)),
+        refused(lambda: nw.match_image(np.zeros(7), CAMERA)),
+        refused(lambda: nw.match_image(ON, CAMERA, weight_image=np.zeros((200, 200)))),
+        refused(lambda: nw.match_image(ON, CAMERA, weight=-1)),
+        refused(lambda: nw.match_image(ON, CAMERA, sigma=0)),
+        refused(lambda: nw.volume_match(cube()) * nw.match_image(ON, away)),
+        refused(lambda: nw.match_image(ON, {"position": [0, 0, 1], "look_at": [0, 0, 1]})),
+        refused(lambda: nw.match_shadow(ON, (0, -1, 0), floor, away)),
+        refused(
+            lambda: nw.match_shadow(
+                ON, (0, -1, 0), floor, nw.Camera.perspective((90, 5, 0), (90, 0, 0), (0, 0, 1))
+            )
+        ),
+        refused(
+            lambda: nw.match_shadow(
+                ON, (-1, 0, 0), floor, nw.Camera.perspective((0, 5, 0), (0, 0, 0), (0, 0, 1))
+            )
+        ),
+        refused(lambda: nw.match_shadow(ON, (-1, 0, 0), floor)),
+        refused(lambda: nw.match_shadow(ON, (0, 0, 0), flat)),
+        refused(lambda: nw.match_shadow(ON, (0, float("nan"), 0), flat)),
+        refused(lambda: nw.floor(float("inf"))),
+        refused(lambda: nw.avoid(cube(), voxel=-1)),
+        refused(lambda: nw.overshoot(((0, 0, 0), (1, 0, 1)))),
+        refused(lambda: nw.overshoot(3)),  # type: ignore[arg-type]
+        refused(lambda: nw.run(tower, score=covered, method=nw.smc(particles=20), seed=1)),
+    ]
+    whole = cube()
+    found.append(warned(lambda: nw.Target(whole.vertices, whole.faces[1:], "a cube with a hole")))
+    monkeypatch.setattr("niwaki.targets.memory._free_memory", lambda: 1000)
+    found += [
+        refused(lambda: nw.Target(np.eye(3), np.tile([0, 1, 2], (10_000_000, 1)), "a scan")),
+        refused(lambda: nw.Receiver.load(lines)).replace(str(tmp_path), "targets"),
+    ]
+    golden(GOLDEN / "controls.txt", "\n\n".join(found) + "\n")
+
+
+def test_an_open_obstacle_is_warned_of(tmp_path: Path) -> None:
+    whole = cube()
+    path = tmp_path / "open.obj"
+    text = "".join(f"v {x} {y} {z}\n" for x, y, z in whole.vertices)
+    path.write_text(text + "".join(f"f {a + 1} {b + 1} {c + 1}\n" for a, b, c in whole.faces[1:]))
+    with pytest.warns(TargetWarning, match="3 open edges"):
+        nw.avoid(path)
+    # A receiver may be open: no warning.
+    nw.match_shadow(ON, (0, -1, 0), path)
