@@ -169,7 +169,6 @@ impl Structure {
         let scope = Scope {
             held: (!held.is_empty()).then(|| Arc::new(held)),
             power: (beta != 1.0).then_some(beta),
-            ..model.scope.clone()
         };
         let model = Model { scope, ..model.clone() };
         let recorded = model.record(&choices(trace, program).collect())?;
