@@ -23,12 +23,12 @@ from .methods import particle_gibbs as particle_gibbs
 from .methods import pimh as pimh
 from .methods import rejection as rejection
 from .methods import smc as smc
+from .result import Progress as Progress
 from .result import Result as Result
 from .result import Sample as Sample
 from .result import diagnostics as diagnostics
 from .result.gradient import LogDensity as LogDensity
 from .result.sample import log_density as log_density
-from .search import Progress as Progress
 from .search import Search as Search
 from .search import grow as grow
 from .search import run as run

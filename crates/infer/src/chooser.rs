@@ -8,13 +8,14 @@
 //! ```
 //!
 //! [`Prior`] draws from `p` itself, [`Known`] takes values that are given, [`Guided`] asks a user's [`Proposal`]; the last
-//! two leave what they do not know to another chooser.
+//! two leave what they do not know to another chooser. A chooser may look at the scene so far ([`Context`]).
 
 use crate::chain::glob::{last, matches};
 use crate::chain::kernel::{Kernel, Selection};
 use crate::chain::select::{labels, no_choice};
 use crate::chain::user::User;
 use crate::record::log_density;
+use niwaki_geom::sketch::product::Sketches;
 use niwaki_math::{Dist, StreamKey};
 use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::code::Program;
@@ -35,24 +36,60 @@ pub struct Chosen {
     pub log_drawn: f64,
 }
 
+impl Chosen {
+    /// A value that was given.
+    ///
+    /// # Errors
+    /// A value that no distribution can draw.
+    pub fn given(value: Value, dist: &Dist) -> Result<Chosen, Fault> {
+        Ok(Chosen { log_prior: log_density(dist, &value)?, value, log_drawn: 0.0 })
+    }
+}
+
+/// What a chooser may look at beside the choice.
+#[derive(Clone, Copy, Default)]
+pub struct Context<'a> {
+    /// The sketches of the scene so far; none where there are none, or where they do not show the run at this choice (a run
+    /// that is followed again, a Markov chain's).
+    pub sketches: Option<&'a Sketches>,
+}
+
 /// Whoever gives choices their values.
 pub trait Chooser {
     /// Whether every value is drawn from the choice's own distribution, so that all weights are zero.
     const IS_PRIOR: bool = false;
 
-    /// A value for the choice.
+    /// A value for the choice; none where the run is to pause before it.
     ///
     /// # Errors
     /// A fault ends the run.
-    fn choose(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Chosen, Fault>;
+    fn choose(
+        &mut self,
+        at: &At<'_, f64>,
+        dist: &Dist,
+        context: Context<'_>,
+    ) -> Result<Option<Chosen>, Fault>;
 
-    /// The same value, where nobody asks for its densities.
+    /// The same value, where nobody asks for its densities and there is no scene to look at.
     ///
     /// # Errors
     /// As for [`Chooser::choose`].
     #[inline]
-    fn draw(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Value, Fault> {
-        Ok(self.choose(at, dist)?.value)
+    fn draw(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Option<Value>, Fault> {
+        Ok(self.choose(at, dist, Context::default())?.map(|chosen| chosen.value))
+    }
+}
+
+impl<C: Chooser> Chooser for &mut C {
+    const IS_PRIOR: bool = C::IS_PRIOR;
+
+    fn choose(
+        &mut self,
+        at: &At<'_, f64>,
+        dist: &Dist,
+        context: Context<'_>,
+    ) -> Result<Option<Chosen>, Fault> {
+        (**self).choose(at, dist, context)
     }
 }
 
@@ -64,14 +101,14 @@ impl Chooser for Prior {
     const IS_PRIOR: bool = true;
 
     #[inline(always)]
-    fn choose(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Chosen, Fault> {
+    fn choose(&mut self, at: &At<'_, f64>, dist: &Dist, _: Context<'_>) -> Result<Option<Chosen>, Fault> {
         let (draw, log) = dist.sample_and_score(&mut self.0.at(at.address()));
-        Ok(Chosen { value: draw_to_value(draw), log_prior: log, log_drawn: log })
+        Ok(Some(Chosen { value: draw_to_value(draw), log_prior: log, log_drawn: log }))
     }
 
     #[inline(always)]
-    fn draw(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Value, Fault> {
-        Ok(draw_to_value(dist.sample(&mut self.0.at(at.address()))))
+    fn draw(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Option<Value>, Fault> {
+        Ok(Some(draw_to_value(dist.sample(&mut self.0.at(at.address())))))
     }
 }
 
@@ -91,21 +128,34 @@ impl<C> Known<'_, C> {
 }
 
 impl<C: Chooser> Chooser for Known<'_, C> {
-    fn choose(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Chosen, Fault> {
+    fn choose(
+        &mut self,
+        at: &At<'_, f64>,
+        dist: &Dist,
+        context: Context<'_>,
+    ) -> Result<Option<Chosen>, Fault> {
         match self.find(at) {
-            Some(value) => {
-                Ok(Chosen { value: value.clone(), log_prior: log_density(dist, value)?, log_drawn: 0.0 })
-            }
-            None => self.otherwise.choose(at, dist),
+            Some(value) => Chosen::given(value.clone(), dist).map(Some),
+            None => self.otherwise.choose(at, dist, context),
         }
     }
 
     #[inline]
-    fn draw(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Value, Fault> {
+    fn draw(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Option<Value>, Fault> {
         match self.find(at) {
-            Some(value) => Ok(value.clone()),
+            Some(value) => Ok(Some(value.clone())),
             None => self.otherwise.draw(at, dist),
         }
+    }
+}
+
+/// Nobody: a choice that is asked for is a fault, with this help.
+pub struct Refuse(pub &'static str);
+
+impl Chooser for Refuse {
+    fn choose(&mut self, at: &At<'_, f64>, _: &Dist, _: Context<'_>) -> Result<Option<Chosen>, Fault> {
+        let message = format!("there is no value for the choice `{}`", at.path());
+        Err(Fault::new("missing-choice", message).with_help(self.0))
     }
 }
 
@@ -120,12 +170,17 @@ pub struct Guided<'a, C> {
 }
 
 impl<C: Chooser> Chooser for Guided<'_, C> {
-    fn choose(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Chosen, Fault> {
-        let Some(own) = self.proposal.dist(at, dist)? else { return self.otherwise.choose(at, dist) };
+    fn choose(
+        &mut self,
+        at: &At<'_, f64>,
+        dist: &Dist,
+        context: Context<'_>,
+    ) -> Result<Option<Chosen>, Fault> {
+        let Some(own) = self.proposal.dist(at, dist)? else {
+            return self.otherwise.choose(at, dist, context);
+        };
         let (draw, log_drawn) = own.sample_and_score(&mut self.stream.at(at.address()));
-        let value = draw_to_value(draw);
-        let log_prior = log_density(dist, &value)?;
-        Ok(Chosen { value, log_prior, log_drawn })
+        Ok(Some(Chosen { log_drawn, ..Chosen::given(draw_to_value(draw), dist)? }))
     }
 }
 
@@ -133,22 +188,15 @@ impl<C: Chooser> Chooser for Guided<'_, C> {
 #[derive(Clone, Debug)]
 pub struct Proposal {
     parts: Vec<(Selection, Arc<User>)>,
-    /// A deliberate error that the statistical tests must reject: nothing is asked of a proposal's support.
-    #[cfg(test)]
-    pub(crate) any_support: bool,
 }
 
 impl Proposal {
-    /// The proposals of a kernel made of `proposal`, of `on` around it, and of `cycle` around those.
+    /// The proposals of a kernel that consists of `proposal`, of `on` around it, and of `cycle` around those.
     ///
     /// # Errors
     /// Any other kernel; a function that asks for the value before, which such a run has not.
     pub fn of(kernel: &Kernel) -> Result<Proposal, Fault> {
-        let mut proposal = Proposal {
-            parts: vec![],
-            #[cfg(test)]
-            any_support: false,
-        };
+        let mut proposal = Proposal { parts: vec![] };
         proposal.add(kernel, &Selection::default())?;
         Ok(proposal)
     }
@@ -202,9 +250,9 @@ impl Proposal {
         let Some(own) = self.dist(at, dist)? else { return Ok(None) };
         let log = log_density(&own, value)?;
         if log == f64::NEG_INFINITY {
-            let found =
+            let message =
                 format!("the proposal of the choice `{}` never draws the value {}", at.path(), repr(value)?);
-            return Err(Fault::new("proposal-support", found).with_help(WIDER));
+            return Err(Fault::new("proposal-support", message).with_help(WIDER));
         }
         Ok(Some(log))
     }
@@ -218,25 +266,21 @@ impl Proposal {
             return Ok(None);
         };
         let own = user.dist(at, None)?;
-        #[cfg(test)]
-        if self.any_support {
-            return Ok(Some(own));
-        }
         let (name, site, family) = (user.name(), at.path(), dist.family());
         if !own.compares_with(dist) {
-            let found = format!(
+            let message = format!(
                 "the proposal `{name}` draws from `{}` for the choice `{site}`, which draws from `{family}`: values of \
                  another kind",
                 own.family()
             );
-            return Err(Fault::new("proposal-kind", found)
+            return Err(Fault::new("proposal-kind", message)
                 .with_help("propose values of the kind that the choice's own distribution draws"));
         }
         if let Some(missing) = own.lacks(dist) {
-            let found = format!(
+            let message = format!(
                 "the proposal `{name}` of the choice `{site}` never draws {missing}, which its `{family}` does"
             );
-            return Err(Fault::new("proposal-support", found).with_help(WIDER));
+            return Err(Fault::new("proposal-support", message).with_help(WIDER));
         }
         Ok(Some(own))
     }

@@ -3,15 +3,15 @@
 //! `p(outcome, score) = sum over runs of exp(log_prior + log_score)`, an outcome being the program's value.
 
 use crate::Failure;
-use crate::forward::factor_name;
+use crate::chooser::{Chooser, Chosen, Context};
+use crate::forward::Forward;
 use crate::importance::log_sum_exp;
-use crate::record::{AllInvalid, Record, check_factor};
-use crate::task::{Hosts, Task};
-use niwaki_geom::Shape;
+use crate::record::{AllInvalid, Record};
+use crate::task::Task;
 use niwaki_math::Dist;
 use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::fault::Fault;
-use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
+use niwaki_vm::machine::answers::At;
 use niwaki_vm::machine::state::State;
 use niwaki_vm::value::{Value, repr};
 use std::collections::HashMap;
@@ -26,25 +26,23 @@ pub struct Enumerated {
     pub runs: usize,
 }
 
-/// A run up to its next open choice.
+/// A run up to an open choice, and the value that it goes on with.
 struct Branch {
     state: State,
     record: Record,
-    next: Option<(Value, f64)>,
+    next: Option<Chosen>,
 }
 
-struct Ask<'a> {
-    record: &'a mut Record,
-    hosts: &'a dyn Hosts,
-    next: Option<(Value, f64)>,
-    open: Vec<(Value, f64)>,
+/// Gives the next choice its value; at the one after that the run pauses, with all of its values.
+struct Branching {
+    next: Option<Chosen>,
+    open: Vec<Chosen>,
 }
 
-impl Answers<f64> for Ask<'_> {
-    fn choice(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Answer<Value>, Fault> {
-        if let Some((value, log_density)) = self.next.take() {
-            self.record.choose(at.address(), &value, log_density);
-            return Ok(Answer::Go(value));
+impl Chooser for Branching {
+    fn choose(&mut self, at: &At<'_, f64>, dist: &Dist, _: Context<'_>) -> Result<Option<Chosen>, Fault> {
+        if self.next.is_some() {
+            return Ok(self.next.take());
         }
         let Some(draws) = dist.enumerate() else {
             return Err(Fault::new(
@@ -54,35 +52,17 @@ impl Answers<f64> for Ask<'_> {
             .with_help("use particles or importance sampling for continuous and unbounded choices"));
         };
         for draw in draws {
-            let log_density = dist.log_density(&draw);
-            if log_density > f64::NEG_INFINITY {
-                self.open.push((draw_to_value(draw), log_density));
+            let log = dist.log_density(&draw);
+            if log > f64::NEG_INFINITY {
+                self.open.push(Chosen { value: draw_to_value(draw), log_prior: log, log_drawn: log });
             }
         }
-        Ok(Answer::Pause)
-    }
-
-    fn score(&mut self, at: &At<'_, f64>, factor: Factor, log: f64) -> Result<Answer<()>, Fault> {
-        self.record.factor(check_factor(log)?, || factor_name(at, factor));
-        Ok(if self.record.cause.is_some() { Answer::Pause } else { Answer::Go(()) })
-    }
-
-    fn emit(&mut self, _: &At<'_, f64>, shapes: &[Shape]) -> Result<Answer<()>, Fault> {
-        self.record.emit(shapes);
-        Ok(if self.record.cause.is_some() { Answer::Pause } else { Answer::Go(()) })
-    }
-
-    fn query(&mut self, _: &At<'_, f64>, _: &Value, _: &Value) -> Result<(), Fault> {
-        Ok(())
-    }
-
-    fn host(&mut self, constant: u16, args: &[Value]) -> Result<Value, Fault> {
-        self.hosts.call(constant, args)
+        Ok(None)
     }
 }
 
-/// Enumerates every run of the program, at most `max_runs`, those that prove impossible included. `watch` is told the
-/// number of runs after each; when it answers false, the search is given up.
+/// Enumerates every run of the program, at most `max_runs`, those that prove impossible included. `watch` is called with
+/// the number of runs after each; when it answers false, the search is given up.
 ///
 /// # Errors
 /// A choice that cannot be enumerated, more runs than allowed, runs that are all impossible, or a fault of the program: also
@@ -102,16 +82,11 @@ pub fn enumerate(
     let mut causes: HashMap<String, usize> = HashMap::new();
     while let Some(mut branch) = open.pop() {
         let hosts = &*task.hosts;
-        let mut ask = Ask { record: &mut branch.record, hosts, next: branch.next.take(), open: Vec::new() };
-        while ask.open.is_empty() && ask.record.cause.is_none() && !branch.state.has_ended() {
-            let Some(future) = branch.state.runnable().first().copied() else {
-                return Err(Box::new(machine.waiting_cycle(&branch.state)).into());
-            };
-            if let Err(met) = machine.resume(&mut branch.state, future, &mut ask) {
-                ask.record.forgive(task, met)?;
-            }
-        }
-        let values = std::mem::take(&mut ask.open);
+        let (record, chooser) = (&mut branch.record, Branching { next: branch.next, open: Vec::new() });
+        let mut answers =
+            Forward { record, chooser, log_ratio: 0.0, hosts, barriers: false, complete: false };
+        answers.run(task, &mut machine, &mut branch.state)?;
+        let values = answers.chooser.open;
         if branch.record.cause.is_some() || branch.state.has_ended() {
             met += 1;
             if met > max_runs {

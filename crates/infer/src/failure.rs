@@ -18,7 +18,7 @@ pub enum Failure {
         /// What killed them: constraint and count, most frequent first.
         causes: Vec<(String, usize)>,
     },
-    /// A chain found no state to start from.
+    /// A chain has no state to start from.
     NoStart {
         /// How many forward runs were tried; none where the run was given.
         tries: u64,
@@ -35,6 +35,11 @@ impl Failure {
         let mut causes: Vec<(String, usize)> = counts.into_iter().map(|(c, n)| (c.to_string(), n)).collect();
         causes.sort_by(|a, b| b.1.cmp(&a.1).then_with(|| a.0.cmp(&b.0)));
         Failure::Impossible { barrier, causes }
+    }
+
+    /// A run that was given is impossible: nothing was tried.
+    pub(crate) fn no_start() -> Failure {
+        Failure::NoStart { tries: 0, causes: vec![] }
     }
 
     /// Whether all that was tried was impossible, be it by its scores or because distributions were invalid.

@@ -1,7 +1,7 @@
 //! Forward runs: every choice gets its value from a chooser; as a rule from its prior, by the random stream at its address.
 
 use crate::Failure;
-use crate::chooser::{Chooser, Prior};
+use crate::chooser::{Chooser, Context, Prior};
 use crate::record::{Record, check_factor};
 use crate::run::Run;
 use crate::task::{Hosts, Task};
@@ -9,6 +9,8 @@ use niwaki_geom::Shape;
 use niwaki_math::{Dist, StreamKey};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
+use niwaki_vm::machine::state::State;
+use niwaki_vm::machine::{Machine, Stop};
 use niwaki_vm::value::Value;
 
 /// Asks for choices and keeps the record.
@@ -28,6 +30,25 @@ pub struct Forward<'a, C> {
 }
 
 impl<C: Chooser> Forward<'_, C> {
+    /// Runs on, depth first, until the run has ended or pauses: where it is impossible, at a barrier, or for its chooser.
+    ///
+    /// # Errors
+    /// A fault of the program, or of the chooser.
+    pub fn run(&mut self, task: &Task, machine: &mut Machine<'_>, state: &mut State) -> Result<(), Failure> {
+        while !state.has_ended() && (self.complete || self.record.cause.is_none()) {
+            let Some(next) = state.runnable().first().copied() else {
+                return Err(Box::new(machine.waiting_cycle(state)).into());
+            };
+            match machine.resume(state, next, self) {
+                Ok(Stop::Paused) => break,
+                Ok(_) => {}
+                Err(met) if self.complete => return Err(met.into()),
+                Err(met) => self.record.forgive(task, met)?,
+            }
+        }
+        Ok(())
+    }
+
     #[inline(always)]
     fn barrier(&self) -> Answer<()> {
         if self.barriers || (self.record.cause.is_some() && !self.complete) {
@@ -62,7 +83,10 @@ pub(crate) fn named(factor: Factor, line: u32) -> String {
 impl<C: Chooser> Answers<f64> for Forward<'_, C> {
     #[inline(always)]
     fn choice(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Answer<Value>, Fault> {
-        let chosen = self.chooser.choose(at, dist)?;
+        let sketches = Some(&self.record.sketches).filter(|sketches| !sketches.is_empty());
+        let Some(chosen) = self.chooser.choose(at, dist, Context { sketches })? else {
+            return Ok(Answer::Pause);
+        };
         if !C::IS_PRIOR {
             if chosen.log_prior == f64::NEG_INFINITY {
                 self.record.factor(f64::NEG_INFINITY, || outside(at));
@@ -94,8 +118,8 @@ impl<C: Chooser> Answers<f64> for Forward<'_, C> {
     }
 }
 
-/// One forward run from the prior, depth first; unless it is to be `complete`, it stops when its score becomes minus infinity, or where a
-/// distribution is invalid.
+/// One forward run from the prior, depth first; unless it is to be `complete`, it stops when its score becomes minus
+/// infinity, or where a distribution is invalid.
 ///
 /// # Errors
 /// A fault of the program.
@@ -114,16 +138,7 @@ pub fn forward_by(task: &Task, chooser: impl Chooser, complete: bool) -> Result<
     let hosts = &*task.hosts;
     let mut answers =
         Forward { record: &mut record, chooser, log_ratio: 0.0, hosts, barriers: false, complete };
-    while !state.has_ended() && (complete || answers.record.cause.is_none()) {
-        let Some(next) = state.runnable().first().copied() else {
-            return Err(Box::new(machine.waiting_cycle(&state)).into());
-        };
-        match machine.resume(&mut state, next, &mut answers) {
-            Ok(_) => {}
-            Err(met) if complete => return Err(met.into()),
-            Err(met) => answers.record.forgive(task, met)?,
-        }
-    }
+    answers.run(task, &mut machine, &mut state)?;
     let log_ratio = answers.log_ratio;
     let value = if state.has_ended() { state.result() } else { Value::None };
     let log_weight = record.log_score() + log_ratio;

@@ -24,8 +24,8 @@ pub struct Weighted {
     pub log_evidence: f64,
 }
 
-/// `n` forward runs in parallel, some of their choices drawn by a `proposal` where there is one. `watch` is told now and then how many there are; when it answers false, those are
-/// given.
+/// `n` forward runs in parallel, some of their choices drawn by a `proposal` where there is one. `watch` is called now and
+/// then with their number; when it answers false, those are given.
 ///
 /// # Errors
 /// A fault of the program, or distributions that are invalid in every run; no runs asked for; runs that are all impossible.

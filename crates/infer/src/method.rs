@@ -12,7 +12,7 @@ use crate::hamiltonian::{self, Shape};
 use crate::importance::importance;
 use crate::log::Entry;
 use crate::particles::{
-    self, Ancestors, Moment, Progress, Rejuvenation, Resampling, Settings, Walks, particle_gibbs, pimh,
+    self, Ancestors, FinalChains, Moment, Progress, Rejuvenation, Resampling, Settings, particle_gibbs, pimh,
     populations, within,
 };
 use crate::rejection::rejection;
@@ -351,7 +351,7 @@ impl Smc {
                 kernel: form.kernel(given.functions)?,
                 moves: self.moves,
                 at: self.at,
-                walks: self.draws.map(|draws| Walks { chains: self.chains, draws }),
+                final_chains: self.draws.map(|draws| FinalChains { chains: self.chains, draws }),
             }),
         };
         let particles = self.plan().first().copied().unwrap_or(0);

@@ -71,8 +71,8 @@ impl Inner {
         if let Method::Mh(mh) = &self.method {
             return self.of_chains(task, mh, &given);
         }
-        let found = self.method.search(task, &given, &mut |_, _, _| true)?;
-        match found.info {
+        let result = self.method.search(task, &given, &mut |_, _, _| true)?;
+        match result.info {
             Info::Enumeration(exact) => {
                 let probability = |(value, log): (Value, f64)| (value, (log - exact.log_evidence).exp());
                 let mut pairs: Vec<(Value, f64)> = exact.outcomes.into_iter().map(probability).collect();
@@ -81,24 +81,24 @@ impl Inner {
                 let pair = |(value, p): (Value, f64)| Value::tuple(vec![value, Value::Real(p)]);
                 Ok(Value::list(pairs.into_iter().map(pair).collect()))
             }
-            _ => self.kept(seed, found.runs),
+            _ => self.kept(seed, result.runs),
         }
     }
 
     /// The last or the best state of Markov chains. The last state of a chain is a sample; one chain is as good as another.
     fn of_chains(&self, task: &Task, mh: &Mh, given: &Given<'_>) -> Result<Value, Failure> {
         let settings = chain::Settings { thin: 0, ..mh.settings(given)? };
-        let mut found: Chains = Chains::start(task, &settings, mh.chains, None)?;
-        found.advance(task, mh.steps, &|_, _| true)?;
-        let score = |at: &usize| found.chains[*at].best_score();
+        let mut search: Chains = Chains::start(task, &settings, mh.chains, None)?;
+        search.advance(task, mh.steps, &|_, _| true)?;
+        let score = |at: &usize| search.chains[*at].best_score();
         match self.keep {
             Keep::Sample => {
-                let first = found.chains.first().and_then(|chain| chain.rungs.first());
+                let first = search.chains.first().and_then(|chain| chain.rungs.first());
                 first.map(|rung| rung.now(&task.program).value).ok_or_else(impossible)
             }
             Keep::Best => {
-                let best = (0..found.chains.len()).max_by(|a, b| score(a).total_cmp(&score(b)));
-                let rung = best.and_then(|at| found.chains[at].best()).ok_or_else(impossible)?;
+                let best = (0..search.chains.len()).max_by(|a, b| score(a).total_cmp(&score(b)));
+                let rung = best.and_then(|at| search.chains[at].best()).ok_or_else(impossible)?;
                 Ok(rung.best.get(&rung.state, task)?.value)
             }
         }
@@ -226,12 +226,12 @@ impl Inferences {
             invalid: Arc::default(),
         };
         let name = &self.program.function(FunctionId(model.function)).name;
-        method.value(&task, seed).map_err(|failure| told(name, failure))
+        method.value(&task, seed).map_err(|failure| fault_of(name, failure))
     }
 }
 
 /// The failure of an inner search as a fault of the run around it.
-fn told(name: &str, failure: Failure) -> Fault {
+fn fault_of(name: &str, failure: Failure) -> Fault {
     match failure {
         Failure::Run(inner) => {
             let line = inner.stack.last().map_or(0, |call| call.span.line);

@@ -172,6 +172,21 @@ pub fn log_density(dist: &Dist, value: &Value) -> Result<f64, Fault> {
     Ok(dist.log_density(&draw))
 }
 
+/// The log score of sketches, nats.
+///
+/// # Errors
+/// One of them scores NaN.
+pub fn score_of(sketches: &Sketches) -> Result<Total, Fault> {
+    let total = sketches.total();
+    if total.value().is_nan() {
+        let guilty = sketches.iter().find(|sketch| sketch.log_score().is_nan());
+        let name = guilty.map_or("a sketch", |sketch| sketch.name());
+        return Err(Fault::new("non-finite-score", format!("the sketch `{name}` scores nan"))
+            .with_help("look for shapes whose measures are not numbers"));
+    }
+    Ok(total)
+}
+
 /// A factor, on the grid: it must be a number below plus infinity.
 ///
 /// # Errors

@@ -3,10 +3,10 @@
 //! that was stopped is followed future by future, each as far as its choices go.
 
 use crate::Failure;
-use crate::chooser::{Chooser, Prior};
+use crate::chooser::{Chooser, Chosen, Context, Prior, Refuse};
 use crate::forward::factor_name;
 use crate::log::Entry;
-use crate::record::{Record, check_factor, log_density};
+use crate::record::{Record, check_factor};
 use crate::run::Run;
 use crate::task::Task;
 use niwaki_geom::Shape;
@@ -72,10 +72,42 @@ pub enum Missing {
     Stop,
 }
 
-struct Replay<'a> {
-    task: &'a Task,
+/// Gives choices the values of a source.
+struct Sourced<'a> {
     source: Source<'a>,
     missing: Missing,
+}
+
+impl Chooser for Sourced<'_> {
+    fn choose(
+        &mut self,
+        at: &At<'_, f64>,
+        dist: &Dist,
+        context: Context<'_>,
+    ) -> Result<Option<Chosen>, Fault> {
+        let known = match &self.source {
+            Source::Addresses(map) => map.get(&at.address()),
+            Source::Paths(map) => map.get(&at.path()),
+        };
+        let value = match (known, self.missing) {
+            (Some(value), _) => value.clone(),
+            // It has one value, which a density leaves out.
+            (None, _) if let Dist::Delta(value) = dist => draw_to_value(value.clone()),
+            (None, Missing::Draw { seed, stream }) => {
+                return Prior(StreamKey::new(seed, stream, 0)).choose(at, dist, context);
+            }
+            (None, Missing::Stop) => return Ok(None),
+            (None, Missing::Refuse) => {
+                return Refuse("replay with the same model that made the choices").choose(at, dist, context);
+            }
+        };
+        Chosen::given(value, dist).map(Some)
+    }
+}
+
+struct Replay<'a> {
+    task: &'a Task,
+    chooser: Sourced<'a>,
     trace: Trace,
     record: Record,
     written: HashMap<String, u32>,
@@ -83,32 +115,14 @@ struct Replay<'a> {
 
 impl Answers<f64> for Replay<'_> {
     fn choice(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Answer<Value>, Fault> {
-        let path = at.path();
-        let found = match &self.source {
-            Source::Addresses(map) => map.get(&at.address()),
-            Source::Paths(map) => map.get(&path),
+        let Some(chosen) = self.chooser.choose(at, dist, Context::default())? else {
+            return Ok(Answer::Pause);
         };
-        let value = match (found.cloned(), self.missing) {
-            (Some(value), _) => value,
-            // It has one value, which a density leaves out.
-            (None, _) if let Dist::Delta(value) = dist => draw_to_value(value.clone()),
-            (None, Missing::Draw { seed, stream }) => {
-                Prior(StreamKey::new(seed, stream, 0)).draw(at, dist)?
-            }
-            (None, Missing::Stop) => return Ok(Answer::Pause),
-            (None, Missing::Refuse) => {
-                return Err(Fault::new(
-                    "missing-choice",
-                    format!("there is no value for the choice `{path}`"),
-                )
-                .with_help("replay with the same model that made the choices"));
-            }
-        };
-        let log_density = log_density(dist, &value)?;
+        let Chosen { value, log_prior: log_density, .. } = chosen;
         self.record.choose(at.address(), &value, log_density);
         let family = dist.family().name();
         self.trace.choices.push(Choice {
-            path,
+            path: at.path(),
             address: at.address(),
             family,
             value: value.clone(),
@@ -161,7 +175,8 @@ pub fn replay(task: &Task, source: Source<'_>, missing: Missing) -> Result<Trace
     let mut state = task.start(&machine, missing != Missing::Stop)?;
     state.remember_origins();
     let (trace, record) = (Trace::default(), Record::start(&task.sketches));
-    let mut answers = Replay { task, source, missing, trace, record, written: HashMap::new() };
+    let chooser = Sourced { source, missing };
+    let mut answers = Replay { task, chooser, trace, record, written: HashMap::new() };
     if missing == Missing::Stop {
         let mut stuck = Vec::new();
         while let Some(next) = state.runnable().iter().copied().find(|future| !stuck.contains(future)) {

@@ -135,7 +135,7 @@ fn terms_that_cancel_leave_the_same_particles() {
     };
     let drift = Kernel::Drift { step: 0.7, target: 0.44 };
     for rejuvenate in
-        [None, Some(Rejuvenation { kernel: drift, moves: 2, at: Moment::Resampled, walks: None })]
+        [None, Some(Rejuvenation { kernel: drift, moves: 2, at: Moment::Resampled, final_chains: None })]
     {
         let without = run(0.0, &rejuvenate);
         for large in [1e9, 1e18, 1e300] {

@@ -4,13 +4,14 @@
 //! log a =   log prior' - log prior + beta (log score' - log score)
 //!         + stale - fresh          choices that went or were drawn anew: their log densities, before and after
 //!         + backward - forward     log densities of proposing the changed values, back and there
-//!         + log odds' - log odds   log probability that this move is chosen, back and there
+//!         + selection              log probability that this move is chosen, back less there
 //! ```
 //!
 //! Differences are exact before they are rounded, so that a ratio is right however large the terms are that cancel in it.
-//! Dissertation 3.2, with the odds of a choice in place of the ratio of the numbers of choices.
+//! Dissertation 3.2, with selection weights in place of the numbers of choices.
 
-use niwaki_math::{Total, grid};
+use niwaki_math::streams::open_unit;
+use niwaki_math::{Stream, Total, grid};
 
 /// What decides over a proposal, nats.
 #[derive(Clone, Copy, Debug)]
@@ -30,7 +31,7 @@ pub struct Terms<'a> {
     /// Log density of proposing the new values from the old ones.
     pub forward: f64,
     /// Log probability of choosing this move, afterwards less before.
-    pub odds: f64,
+    pub selection: f64,
 }
 
 impl Terms<'_> {
@@ -47,19 +48,33 @@ impl Terms<'_> {
         sum.remove(grid(self.forward));
         if self.beta == 1.0 {
             sum.add_total(self.score);
-            return sum.value() + self.odds;
+            return sum.value() + self.selection;
         }
-        sum.value() + self.beta * self.score.value() + self.odds
+        sum.value() + self.beta * self.score.value() + self.selection
     }
 }
 
-/// How a chain decides. Searches use [`MetropolisHastings`]; the tests also hold mutants of it, which must be found out.
+/// Log probability of picking a choice whose own weight is what it was, afterwards less before: the weights of all choices
+/// sum to these.
+#[inline(always)]
+pub(crate) fn selected(total: u64, after: u64) -> f64 {
+    if after == total { 0.0 } else { (total as f64 / after as f64).ln() }
+}
+
+/// Whether a proposal is accepted: with probability `min(1, exp(log_ratio))`, by the next number of `rng`.
+#[inline(always)]
+pub(crate) fn accepts(log_ratio: f64, rng: &mut Stream) -> bool {
+    let u = open_unit(rng);
+    log_ratio >= 0.0 || u.ln() < log_ratio
+}
+
+/// How a chain decides. Searches use [`MetropolisHastings`]; the tests also hold mutants of it, which they must reject.
 pub trait Rules: Send {
     /// Log of the acceptance ratio; NaN where two infinities meet, which counts as impossible.
     #[inline(always)]
     fn log_ratio(t: &Terms<'_>) -> f64 {
         let (prior, score, stale, fresh) = (t.prior.near(), t.score.near(), t.stale.near(), t.fresh.near());
-        let ratio = (prior + t.beta * score) + (stale - fresh) + (t.backward - t.forward) + t.odds;
+        let ratio = (prior + t.beta * score) + (stale - fresh) + (t.backward - t.forward) + t.selection;
         if ratio.is_nan() { t.wide_log_ratio() } else { ratio }
     }
 

@@ -7,8 +7,8 @@
 
 use super::Chain;
 use super::accept::Rules;
-use super::decide::Decision;
 use super::drift::{adapt, normal};
+use super::metropolis::Decision;
 use super::neighbour::near;
 use super::state::Fresh;
 use crate::{Failure, Task};
@@ -88,7 +88,7 @@ impl<R: Rules> Chain<R> {
                 Ok(change) => change,
                 Err(met) => self.give_up(task, met)?,
             };
-        let decision = self.decide(task, change, beta, &mut rng, |_, _| 0.0, |_| moved)?;
+        let decision = self.decide(task, change, beta, &mut rng, |_| 0.0, moved)?;
         self.count_many(decision);
         if block.adapting && !decision.same {
             adapt(&mut block.log_step, &mut block.adapted, decision, block.target);

@@ -3,7 +3,7 @@
 //! deviation, anything else is drawn from its distribution. Turns and drifts are as likely back as there.
 
 use super::drift::normal;
-use super::single::{FromPrior, Move};
+use super::proposal::{FromPrior, Move};
 use niwaki_math::{Dist, Stream};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;

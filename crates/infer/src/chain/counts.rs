@@ -43,6 +43,13 @@ impl Counts {
         Counts { first, sites: vec![Count::default(); count as usize], many: Count::default() }
     }
 
+    /// All proposals together.
+    pub fn all(&self) -> Count {
+        let mut all = self.many;
+        self.sites.iter().for_each(|site| all += *site);
+        all
+    }
+
     /// Number of a site.
     #[inline(always)]
     pub fn number(&self, (function, site): (FunctionId, u16)) -> usize {

@@ -3,8 +3,8 @@
 //! The step in the coordinate z is Gaussian ([`Support::moved`]), so the density of going from x to x' is symmetric but for
 //! log q(x' | x) = log dz/dx at x' + what is the same both ways. Leaving that out draws from the wrong distribution.
 
-use super::decide::Decision;
-use super::single::{FromPrior, Move};
+use super::metropolis::Decision;
+use super::proposal::{FromPrior, Move};
 use niwaki_math::{Dist, Draw, Interval, Space, Stream, Support};
 use niwaki_vm::builtins::{draw_to_value, value_to_draw};
 use niwaki_vm::fault::Fault;

@@ -1,11 +1,12 @@
 //! Markov chains over kept runs: Metropolis-Hastings with kernels as values (dissertation chapter 3).
 //!
 //! * [`state`]: where a chain is; [`streams`]: its random numbers;
-//! * [`kernel`]: kernels as values, and [`form`] as data; `plan`: which leaf is next; `select`, [`glob`], [`odds`]: which choice it changes;
-//! * `single`: proposals that change one choice: from the prior, [`drift`], [`neighbour`], `by_family`, by the [`user`]'s function;
-//!   [`block`], `regenerate`: proposals that change many;
+//! * [`kernel`]: kernels as values, and [`form`] as data; `plan`: which leaf is next; `leaf`: how it proposes; `select`, [`glob`],
+//!   [`odds`]: which choice it changes;
+//! * `metropolis`: the algorithm, for one choice; [`accept`]: the acceptance ratio, in plain letters;
+//! * `proposal`: a new value for one choice: from the prior, [`drift`], [`neighbour`], `by_family`, by the [`user`]'s function;
+//! * [`block`], `regenerate`: proposals that change many choices;
 //! * [`trajectory`]: the continuous choices move together along their gradient;
-//! * [`accept`]: the acceptance ratio, in plain letters; `decide`: a proposal is kept or undone;
 //! * [`counts`], [`best`], [`samples`]: what is reported afterwards;
 //! * [`ladder`]: parallel tempering; [`many`]: several searches side by side;
 //! * [`agreement`]: four strategies in step, compared to the bit; [`explain`]: what each of them does for one proposal.
@@ -18,21 +19,22 @@ pub mod best;
 pub mod block;
 pub(crate) mod by_family;
 pub mod counts;
-pub(crate) mod decide;
 pub mod drift;
 pub mod explain;
 pub mod form;
 pub mod glob;
 pub mod kernel;
 pub mod ladder;
+pub(crate) mod leaf;
 pub mod many;
+pub(crate) mod metropolis;
 pub mod neighbour;
 pub mod odds;
 pub(crate) mod plan;
+pub(crate) mod proposal;
 mod regenerate;
 pub mod samples;
 pub(crate) mod select;
-pub(crate) mod single;
 pub mod state;
 pub mod streams;
 pub mod trajectory;
@@ -42,22 +44,24 @@ use crate::run::Run;
 use crate::{Failure, Task, gradient};
 use accept::{MetropolisHastings, Rules};
 use best::Best;
-use by_family::ByFamily;
+use block::Block;
 use counts::Counts;
-use decide::Decision;
 use kernel::Kernel;
+use leaf::{Proposer, Target};
+use metropolis::Decision;
 use niwaki_vm::code::Program;
 use niwaki_vm::machine::Machine;
 use niwaki_vm::machine::kept::Strategy;
 use niwaki_vm::value::Value;
 use odds::Table;
-use plan::{Plan, Way};
+use plan::Plan;
+use proposal::{FromPrior, Move};
 use samples::Samples;
-use single::{Ahead, FromPrior};
 use state::State;
 use std::collections::HashMap;
 use std::marker::PhantomData;
-use streams::Streams;
+use streams::{Ahead, Streams};
+use trajectory::Trajectory;
 use trajectory::travel::Travel;
 
 /// What a chain is asked for.
@@ -152,7 +156,7 @@ impl<R: Rules> Chain<R> {
             if !leaf.selection.is_all() {
                 leaf.selection.check(&state.trace, &task.program)?;
             }
-            if matches!(leaf.way, Way::Trajectory(_))
+            if matches!(leaf.proposer, Proposer::Trajectory(_))
                 && !leaf.selection.may_be_continuous(&state.trace, &task.program)
             {
                 return Err(gradient::nothing_continuous().into());
@@ -177,9 +181,7 @@ impl<R: Rules> Chain<R> {
         let counts = Counts::new(program);
         let mut tables = Vec::new();
         for leaf in &mut plan.leaves {
-            if let Way::Trajectory(own) = &mut leaf.way {
-                own.prepare(task)?;
-            }
+            leaf.prepare(task)?;
             if !leaf.selection.is_all() {
                 leaf.table = Some(tables.len());
                 tables.push(Table::new(Box::new(leaf.selection.clone()), &state.trace, program));
@@ -228,7 +230,7 @@ impl<R: Rules> Chain<R> {
         self.state.run(program, self.visit)
     }
 
-    /// Makes `steps` proposals. `watch` is told their number and the best score now and then; when it answers false,
+    /// Makes `steps` proposals. `watch` is called with their number and the best score now and then; when it answers false,
     /// the chain stops where it is.
     ///
     /// # Errors
@@ -266,28 +268,9 @@ impl<R: Rules> Chain<R> {
         while self.visit < until {
             let (leaf, power) = self.plan.next(&mut self.streams.schedule(self.visit));
             let (table, beta) = (self.plan.leaves[leaf].table, self.beta * power);
-            let adapting = self.visit < self.settings.warmup;
-            let mut way = std::mem::replace(&mut self.plan.leaves[leaf].way, Way::Prior);
-            let done = match &mut way {
-                Way::Prior => self.single(task, machine, &mut FromPrior, table, beta),
-                Way::Drift(drift) => {
-                    drift.adapting = adapting;
-                    self.single(task, machine, &mut **drift, table, beta)
-                }
-                Way::ByFamily => self.single(task, machine, &mut ByFamily, table, beta),
-                Way::Neighbour(neighbour) => self.single(task, machine, neighbour, table, beta),
-                Way::Block(block) => {
-                    block.adapting = adapting;
-                    self.block(task, machine, block, table, beta)
-                }
-                Way::Regenerate(levels) => self.regenerate(task, machine, *levels, table, beta),
-                Way::Trajectory(own) => {
-                    own.warming = adapting.then(|| self.visit as f64 / self.settings.warmup as f64);
-                    self.trajectory(task, machine, own, table, beta)
-                }
-                Way::User(user) => self.single(task, machine, &mut user::Asking(user), table, beta),
-            };
-            self.plan.leaves[leaf].way = way;
+            let mut proposer = std::mem::replace(&mut self.plan.leaves[leaf].proposer, Proposer::Prior);
+            let done = proposer.apply(&mut Proposing { chain: self, task, machine, table, beta });
+            self.plan.leaves[leaf].proposer = proposer;
             done?;
         }
         Ok(())
@@ -307,5 +290,38 @@ impl<R: Rules> Chain<R> {
         std::mem::swap(&mut self.state, &mut other.state);
         std::mem::swap(&mut self.tables, &mut other.tables);
         std::mem::swap(&mut self.best, &mut other.best);
+    }
+}
+
+/// A chain, and what its next proposal is made with.
+struct Proposing<'a, 'm, R: Rules> {
+    chain: &'a mut Chain<R>,
+    task: &'a Task,
+    machine: &'a mut Machine<'m>,
+    table: Option<usize>,
+    beta: f64,
+}
+
+impl<R: Rules> Target for Proposing<'_, '_, R> {
+    fn warming(&self) -> Option<f64> {
+        let (visit, warmup) = (self.chain.visit, self.chain.settings.warmup);
+        (visit < warmup).then(|| visit as f64 / warmup as f64)
+    }
+
+    #[inline(always)]
+    fn single<M: Move>(&mut self, how: &mut M) -> Result<(), Failure> {
+        self.chain.single(self.task, self.machine, how, self.table, self.beta)
+    }
+
+    fn block(&mut self, block: &mut Block) -> Result<(), Failure> {
+        self.chain.block(self.task, self.machine, block, self.table, self.beta)
+    }
+
+    fn regenerate(&mut self, levels: usize) -> Result<(), Failure> {
+        self.chain.regenerate(self.task, self.machine, levels, self.table, self.beta)
+    }
+
+    fn trajectory(&mut self, own: &mut Trajectory) -> Result<(), Failure> {
+        self.chain.trajectory(self.task, self.machine, own, self.table, self.beta)
     }
 }

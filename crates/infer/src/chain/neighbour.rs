@@ -2,7 +2,7 @@
 //!
 //! Each is as likely back as there, so nothing enters the acceptance ratio; numbers that leave the support are rejected.
 
-use super::single::{FromPrior, Move};
+use super::proposal::{FromPrior, Move};
 use niwaki_math::{Dist, Space, Stream, Support};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;
@@ -32,7 +32,7 @@ impl Move for Neighbour {
             (_, Value::Int(k)) => Some(Value::Int(match dist.support() {
                 Support::Categories(n @ 2..) => {
                     // One of the others: those from the old one on stand one further.
-                    let other = super::decide::below(rng, n as u64 - 1) as i64;
+                    let other = super::streams::below(rng, n as u64 - 1) as i64;
                     other + i64::from(other >= *k)
                 }
                 _ => near(*k, self.reach, rng),
@@ -48,7 +48,7 @@ impl Move for Neighbour {
 
 /// A whole number at most `reach` from another, and not the same.
 pub(super) fn near(k: i64, reach: u64, rng: &mut Stream) -> i64 {
-    let at = super::decide::below(rng, 2 * reach);
+    let at = super::streams::below(rng, 2 * reach);
     let by = (at / 2 + 1) as i64;
     k.saturating_add(if at.is_multiple_of(2) { by } else { -by })
 }

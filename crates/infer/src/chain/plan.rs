@@ -5,35 +5,12 @@
 use super::block::Block;
 use super::drift::Drift;
 use super::kernel::{Kernel, Selection};
+use super::leaf::{Leaf, Proposer};
 use super::neighbour::Neighbour;
 use super::trajectory::Trajectory;
-use super::user::User;
 use crate::Failure;
 use niwaki_math::Stream;
 use niwaki_vm::fault::Fault;
-use std::sync::Arc;
-
-/// How a leaf proposes.
-#[derive(Clone, Debug)]
-pub(crate) enum Way {
-    Prior,
-    Drift(Box<Drift>),
-    Neighbour(Neighbour),
-    ByFamily,
-    Block(Box<Block>),
-    Regenerate(usize),
-    Trajectory(Box<Trajectory>),
-    User(Arc<User>),
-}
-
-/// A leaf: how it proposes, and for which choices.
-#[derive(Clone, Debug)]
-pub(crate) struct Leaf {
-    pub way: Way,
-    pub selection: Selection,
-    /// The table with its weights; none where all choices weigh the same.
-    pub table: Option<usize>,
-}
 
 #[derive(Clone, Debug)]
 enum Branch {
@@ -90,24 +67,26 @@ impl Plan {
     }
 
     fn add(&mut self, kernel: &Kernel, selection: &Selection, sites: usize) -> Result<usize, Failure> {
-        let leaf = |way| Ok(way);
-        let way: Result<Way, Branch> = match kernel {
-            Kernel::Prior => leaf(Way::Prior),
-            Kernel::Drift { step, target } => leaf(Way::Drift(Box::new(Drift::new(*step, *target, sites)))),
-            Kernel::Neighbour { reach } => leaf(Way::Neighbour(Neighbour { reach: (*reach).max(1) })),
-            Kernel::Block { step, share, target } => leaf(Way::Block(Box::new(Block {
+        let leaf = |proposer| Ok(proposer);
+        let part: Result<Proposer, Branch> = match kernel {
+            Kernel::Prior => leaf(Proposer::Prior),
+            Kernel::Drift { step, target } => {
+                leaf(Proposer::Drift(Box::new(Drift::new(*step, *target, sites))))
+            }
+            Kernel::Neighbour { reach } => leaf(Proposer::Neighbour(Neighbour { reach: (*reach).max(1) })),
+            Kernel::Block { step, share, target } => leaf(Proposer::Block(Box::new(Block {
                 log_step: step.ln(),
                 adapted: 0,
                 share: *share,
                 target: *target,
                 adapting: false,
             }))),
-            Kernel::Regenerate { levels } => leaf(Way::Regenerate(*levels)),
+            Kernel::Regenerate { levels } => leaf(Proposer::Regenerate(*levels)),
             Kernel::Trajectory { length, step, target } => {
-                leaf(Way::Trajectory(Box::new(Trajectory::new(*length, *step, *target))))
+                leaf(Proposer::Trajectory(Box::new(Trajectory::new(*length, *step, *target))))
             }
-            Kernel::ByFamily => leaf(Way::ByFamily),
-            Kernel::User(user) => leaf(Way::User(user.clone())),
+            Kernel::ByFamily => leaf(Proposer::ByFamily),
+            Kernel::User(user) => leaf(Proposer::User(user.clone())),
             Kernel::On(inner, kernel) => return self.add(kernel, &selection.and(inner), sites),
             Kernel::Cycle(kernels) => {
                 if kernels.is_empty() {
@@ -143,9 +122,9 @@ impl Plan {
                 Err(Branch::Anneal { hot: *hot, cold: *cold, steps: *steps, done: 0, inner })
             }
         };
-        let branch = match way {
-            Ok(way) => {
-                self.leaves.push(Leaf { way, selection: selection.clone(), table: None });
+        let branch = match part {
+            Ok(proposer) => {
+                self.leaves.push(Leaf { proposer, selection: selection.clone(), table: None });
                 Branch::Leaf(self.leaves.len() - 1)
             }
             Err(branch) => branch,
@@ -156,8 +135,8 @@ impl Plan {
 
     /// The leaves that follow the gradient.
     pub fn trajectories(&self) -> impl Iterator<Item = &Trajectory> {
-        self.leaves.iter().filter_map(|leaf| match &leaf.way {
-            Way::Trajectory(own) => Some(&**own),
+        self.leaves.iter().filter_map(|leaf| match &leaf.proposer {
+            Proposer::Trajectory(own) => Some(&**own),
             _ => None,
         })
     }
@@ -165,7 +144,7 @@ impl Plan {
     /// Whether it is one leaf that draws from the prior, all choices alike.
     pub fn is_plain(&self) -> bool {
         self.leaves.len() == 1
-            && matches!(self.leaves[0], Leaf { way: Way::Prior, table: None, .. })
+            && matches!(self.leaves[0], Leaf { proposer: Proposer::Prior, table: None, .. })
             && !self.branches.iter().any(|branch| matches!(branch, Branch::Anneal { .. }))
     }
 
@@ -174,12 +153,12 @@ impl Plan {
     pub fn next(&mut self, rng: &mut Stream) -> (usize, f64) {
         match &self.flat {
             Some((sums, leaves)) => (leaves[picked(sums, rng)], 1.0),
-            None => self.walk(rng),
+            None => self.next_of_any(rng),
         }
     }
 
     /// The next leaf of any plan.
-    fn walk(&mut self, rng: &mut Stream) -> (usize, f64) {
+    fn next_of_any(&mut self, rng: &mut Stream) -> (usize, f64) {
         loop {
             let Some((branch, begun)) = self.cursor.last_mut() else {
                 self.cursor.push((self.root, 0));

@@ -6,8 +6,8 @@
 
 use super::Chain;
 use super::accept::Rules;
-use super::decide::below;
 use super::state::Fresh;
+use super::streams::below;
 use crate::{Failure, Task};
 use niwaki_vm::code::Program;
 use niwaki_vm::machine::Machine;
@@ -44,19 +44,14 @@ impl<R: Rules> Chain<R> {
                 Ok(change) => change,
                 Err(met) => self.give_up(task, met)?,
             };
-        let decision = self.decide(
-            task,
-            change,
-            beta,
-            &mut rng,
-            |chain, trace| {
-                let after =
-                    table.map_or(trace.len_after() as u64, |t| chain.tables[t].total_after(trace, program));
-                let leading = chain.leading(program, activation, levels, table);
-                (leading as f64 / after as f64).ln() - (weight as f64 / total as f64).ln()
-            },
-            |_| moved,
-        )?;
+        let selection = |chain: &Self| {
+            let trace = &chain.state.trace;
+            let after =
+                table.map_or(trace.len_after() as u64, |t| chain.tables[t].total_after(trace, program));
+            let leading = chain.leading(program, activation, levels, table);
+            (leading as f64 / after as f64).ln() - (weight as f64 / total as f64).ln()
+        };
+        let decision = self.decide(task, change, beta, &mut rng, selection, moved)?;
         self.count_many(decision);
         Ok(())
     }

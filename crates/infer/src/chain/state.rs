@@ -3,7 +3,7 @@
 use super::drift::plain_spread;
 use super::streams::Streams;
 use crate::chooser::{Chooser, Known, Prior};
-use crate::record::AllInvalid;
+use crate::record::{AllInvalid, score_of};
 use crate::run::Run;
 use crate::task::{Hosts, Task};
 use crate::{Failure, forward};
@@ -47,7 +47,7 @@ impl Answers<f64> for Fresh<'_> {
         if let Some(spreads) = &mut self.spreads {
             spreads.entry(at.site.key).or_insert_with(|| plain_spread(dist));
         }
-        Ok(Answer::Go(self.chooser.draw(at, dist)?))
+        Ok(self.chooser.draw(at, dist)?.map_or(Answer::Pause, Answer::Go))
     }
 
     // A kept run holds its own scores, scene and queries.
@@ -225,19 +225,8 @@ impl State {
         self.before = Some((self.sketches.fork(), self.log_sketches.clone()));
         let kept = self.sketches.exchange(self.trace.retracted(), self.trace.emitted());
         debug_assert!(kept, "the sketches and the trace hold the same scene");
-        self.log_sketches = self.sketches.total();
-        if self.log_sketches.value().is_nan() {
-            return Err(self.nan().into());
-        }
+        self.log_sketches = score_of(&self.sketches)?;
         Ok(())
-    }
-
-    #[cold]
-    fn nan(&self) -> Fault {
-        let guilty = self.sketches.iter().find(|sketch| sketch.log_score().is_nan());
-        let name = guilty.map_or("a sketch", |sketch| sketch.name());
-        Fault::new("non-finite-score", format!("the sketch `{name}` scores nan"))
-            .with_help("look for shapes whose measures are not numbers")
     }
 
     /// What the open transaction adds to the sketches' log score, where it changed the scene.

@@ -1,7 +1,7 @@
 //! The random streams of a chain: a function of (seed, chain, address, visit), where the visit is the number of the
 //! proposal, so that no draw depends on how much of the program was run again.
 
-use niwaki_math::{Stream, StreamKey};
+use niwaki_math::{RngCore, Stream, StreamKey};
 
 /// Streams of one chain, by what is drawn from them. A chain's numbers are eight times its own and more.
 const STREAMS: u64 = 8;
@@ -45,4 +45,40 @@ impl Streams {
     pub fn schedule(self, visit: u64) -> Stream {
         self.schedule.revisited(visit).at(0)
     }
+}
+
+/// The random numbers that decide over a proposal, drawn while the one before runs, so that what it will need can be
+/// asked for.
+pub(crate) struct Ahead {
+    /// The number of the proposal.
+    pub visit: u64,
+    /// The first number: which choice.
+    first: u64,
+    /// The numbers after it.
+    pub rest: Stream,
+}
+
+impl Ahead {
+    /// Of that visit.
+    pub fn of(streams: &Streams, visit: u64) -> Ahead {
+        let mut rest = streams.decisions(visit);
+        Ahead { visit, first: rest.next_u64(), rest }
+    }
+
+    /// The first number as one below `n`.
+    #[inline(always)]
+    pub fn below(&self, n: u64) -> u64 {
+        scaled(self.first, n)
+    }
+}
+
+/// A number below `n`, evenly (up to `n / 2^64`).
+#[inline(always)]
+pub(crate) fn below(rng: &mut Stream, n: u64) -> u64 {
+    scaled(rng.next_u64(), n)
+}
+
+#[inline(always)]
+fn scaled(bits: u64, n: u64) -> u64 {
+    ((u128::from(bits) * u128::from(n)) >> 64) as u64
 }

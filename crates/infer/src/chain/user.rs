@@ -7,7 +7,7 @@
 //! x' ~ f(x, s)        forward = log f(x, s)(x')        backward = log f(x', s)(x)
 //! ```
 
-use super::single::Move;
+use super::proposal::Move;
 use super::state::Fresh;
 use crate::Task;
 use niwaki_math::{Dist, Stream, StreamKey, grid};

@@ -1,14 +1,13 @@
 //! One particle, and how it runs to its next barrier.
 
-use super::settings::{Order, Settings};
+use super::settings::Settings;
 use crate::Failure;
 use crate::chooser::{Chooser, Guided, Prior};
 use crate::forward::Forward;
 use crate::record::Record;
 use crate::task::Task;
 use niwaki_math::{Stream, StreamKey, Total};
-use niwaki_vm::machine::stack::RunFault;
-use niwaki_vm::machine::state::{FutureId, State};
+use niwaki_vm::machine::state::State;
 use niwaki_vm::machine::{Machine, Stop};
 
 /// Order choices have streams of their own: this visit of the particle's stream.
@@ -50,65 +49,53 @@ impl Particle {
         settings: &Settings,
     ) -> Result<(), Failure> {
         self.was_ended = self.state.has_ended();
+        let (stream, otherwise) = (self.stream, Prior(self.stream));
         while self.is_running() {
-            let runnable = self.state.runnable();
-            let future = match runnable.len() {
+            let which = match self.state.runnable().len() {
                 0 => return Err(Box::new(machine.waiting_cycle(&self.state)).into()),
-                1 => runnable[0],
-                n => {
-                    debug_assert_eq!(settings.order, Order::Stochastic);
-                    let which = self.pick(n, settings.seed);
-                    #[cfg(test)]
-                    if settings.is(super::tests::Mutant::WeightedOrder) {
-                        self.log_weight -= (n as f64).ln();
-                    }
-                    let future = self.state.runnable()[which];
-                    self.record.log.push_order(self.state.path_of(future), which);
-                    future
-                }
+                1 => 0,
+                n => self.pick(n, settings.seed),
             };
-            let prior = Prior(self.stream);
-            let stop = match settings.proposal.as_deref() {
-                None => self.run(machine, task, future, prior),
-                Some(proposal) => {
-                    let own = Guided { proposal, stream: self.stream, otherwise: prior };
-                    self.run(machine, task, future, own)
-                }
+            let met = match settings.proposal.as_deref() {
+                None => self.run(machine, task, which, otherwise),
+                Some(proposal) => self.run(machine, task, which, Guided { proposal, stream, otherwise }),
             };
-            match stop {
-                Ok(Stop::Paused) => return Ok(()),
-                Ok(_) => {}
-                #[cfg(test)]
-                Err(met) if settings.is(super::tests::Mutant::KeepsInvalid) => {
-                    self.record.cause = met.invalid_site();
-                }
-                Err(met) => self.record.forgive(task, met)?,
+            if met? {
+                break;
             }
         }
         Ok(())
     }
 
-    /// Runs a future, its new choices by a chooser.
+    /// Runs the future that stands at a place among those that can run, its new choices by a chooser. Whether it paused.
     #[inline(always)]
-    fn run(
+    pub fn run(
         &mut self,
         machine: &mut Machine<'_>,
         task: &Task,
-        future: FutureId,
+        which: usize,
         chooser: impl Chooser,
-    ) -> Result<Stop, Box<RunFault>> {
+    ) -> Result<bool, Failure> {
+        let runnable = self.state.runnable();
+        let future = runnable[which];
+        if runnable.len() > 1 {
+            self.picks += 1;
+            self.record.log.push_order(self.state.path_of(future), which);
+        }
         let (record, hosts) = (&mut self.record, &*task.hosts);
         let mut answers =
             Forward { record, chooser, log_ratio: self.pending, hosts, barriers: true, complete: false };
         let stop = machine.resume(&mut self.state, future, &mut answers);
         self.pending = answers.log_ratio;
-        stop
+        match stop {
+            Ok(stop) => Ok(stop == Stop::Paused),
+            Err(met) => self.record.forgive(task, met).map(|()| false),
+        }
     }
 
     /// A uniform draw among the runnable futures.
-    fn pick(&mut self, n: usize, seed: u64) -> usize {
-        self.picks += 1;
-        let u = Stream::new(seed, self.lineage, u128::from(self.picks), ORDER).uniform();
+    fn pick(&self, n: usize, seed: u64) -> usize {
+        let u = Stream::new(seed, self.lineage, u128::from(self.picks + 1), ORDER).uniform();
         ((u * n as f64) as usize).min(n - 1)
     }
 

@@ -4,13 +4,13 @@
 use super::advance::Particle;
 use std::collections::VecDeque;
 
-/// Fewer copies of one parent are not worth to be taken to another thread before it asks for them.
+/// At least so many copies of one parent are taken to another thread before it asks for them.
 const FEW: usize = 4;
 
 /// Which copies are still to be made.
 #[derive(Default)]
 pub(super) struct Copies {
-    /// How often each row survives; empty where no copy waits to be made.
+    /// How often each particle survives; empty where no copy waits to be made.
     counts: Vec<usize>,
     /// Parent and place, parents ascending.
     moves: Vec<(usize, usize)>,
@@ -20,27 +20,28 @@ pub(super) struct Copies {
     lineage: u64,
 }
 
-/// A row of a population on its way.
-pub(super) struct Row<'a> {
-    pub number: usize,
+/// A particle and its index.
+pub(super) struct Indexed<'a> {
+    pub index: usize,
     pub particle: &'a mut Particle,
-    /// Where it is to be a copy of the last row before it that is none: the lineage that it gets.
+    /// Where it is to be a copy of the last one before it that is none: the lineage that it gets.
     lineage: Option<u64>,
 }
 
 impl Copies {
-    /// Row `i` is to survive `counts[i]` times. `ancestor` becomes that of the new rows; `lineages` counts those given out.
+    /// Particle `i` is to survive `counts[i]` times. `ancestor` becomes that of the survivors; `lineages` counts those given
+    /// out.
     pub fn plan(counts: &[usize], ancestor: &mut [usize], lineages: &mut u64) -> Copies {
-        let mut free = counts.iter().enumerate().filter(|(_, c)| **c == 0).map(|(row, _)| row);
+        let mut free = counts.iter().enumerate().filter(|(_, c)| **c == 0).map(|(index, _)| index);
         let mut moves: Vec<(usize, usize)> = Vec::with_capacity(counts.len());
-        for (row, &count) in counts.iter().enumerate() {
-            moves.extend((1..count).map_while(|_| free.next().map(|to| (row, to))));
+        for (parent, &count) in counts.iter().enumerate() {
+            moves.extend((1..count).map_while(|_| free.next().map(|to| (parent, to))));
         }
         let lineage = *lineages;
         // Lineages are given out in this order, whatever thread copies.
         *lineages += moves.len() as u64;
-        for &(row, to) in &moves {
-            ancestor[to] = ancestor[row];
+        for &(parent, to) in &moves {
+            ancestor[to] = ancestor[parent];
         }
         let threads = Vec::new();
         if moves.is_empty() {
@@ -53,9 +54,9 @@ impl Copies {
     /// Decides which thread runs each copy: that of its parent, but for the rest of a large family where that has too
     /// much to do.
     pub fn share_out(&mut self, particles: &mut [Particle], threads: usize) {
-        let home = |row: usize| particles[row].home % threads;
+        let home = |index: usize| particles[index].home % threads;
         let mut load = vec![0; threads];
-        self.counts.iter().enumerate().for_each(|(row, count)| load[home(row)] += count);
+        self.counts.iter().enumerate().for_each(|(index, count)| load[home(index)] += count);
         let fair = particles.len().div_ceil(threads);
         self.threads.clear();
         for family in self.moves.chunk_by(|a, b| a.0 == b.0) {
@@ -76,8 +77,8 @@ impl Copies {
         self.give_near(particles);
     }
 
-    /// Lets each place hold what the thread that is to run there made last, which is overwritten: that thread then
-    /// gives the memory back that it asked for itself. Places hold nothing else before the copies are made.
+    /// Lets each place hold, to be overwritten, a particle of the thread that is to run there: that thread then frees memory
+    /// that it allocated itself. Places hold nothing of use before the copies are made.
     fn give_near(&self, particles: &mut [Particle]) {
         // Places that another thread ought to have, by the thread whose they are.
         let mut strange: Vec<Vec<usize>> = Vec::new();
@@ -101,21 +102,21 @@ impl Copies {
         }
     }
 
-    /// How often a row is there once all copies are made.
-    pub fn count(&self, row: usize) -> usize {
-        self.counts.get(row).copied().unwrap_or(1)
+    /// How often a particle is there once all copies are made.
+    pub fn count(&self, index: usize) -> usize {
+        self.counts.get(index).copied().unwrap_or(1)
     }
 
     /// Makes all of them.
     pub fn make(&mut self, particles: &mut [Particle], seed: u64) {
-        for (&(row, to), lineage) in self.moves.iter().zip(self.lineage..) {
-            let [parent, child] = pair(particles, row, to);
+        for (&(parent, to), lineage) in self.moves.iter().zip(self.lineage..) {
+            let [parent, child] = pair(particles, parent, to);
             child.copy_from(parent, lineage, seed);
         }
         self.clear();
     }
 
-    /// The rows in batches of about `size`, for each of the `threads` those that it ran last and their copies, which
+    /// The particles in batches of about `size`, for each of the `threads` those that it ran last and their copies, which
     /// are to be made.
     pub fn batches<'a>(
         &mut self,
@@ -123,34 +124,35 @@ impl Copies {
         seed: u64,
         size: usize,
         threads: usize,
-    ) -> Vec<VecDeque<Vec<Row<'a>>>> {
-        let mut lists: Vec<VecDeque<Vec<Row<'a>>>> = (0..threads).map(|_| VecDeque::new()).collect();
-        let mut open: Vec<Vec<Row<'a>>> = (0..threads).map(|_| Vec::with_capacity(size)).collect();
-        let mut rows: Vec<Option<&mut Particle>> = particles.iter_mut().map(Some).collect();
+    ) -> Vec<VecDeque<Vec<Indexed<'a>>>> {
+        let mut lists: Vec<VecDeque<Vec<Indexed<'a>>>> = (0..threads).map(|_| VecDeque::new()).collect();
+        let mut open: Vec<Vec<Indexed<'a>>> = (0..threads).map(|_| Vec::with_capacity(size)).collect();
+        let mut all: Vec<Option<&mut Particle>> = particles.iter_mut().map(Some).collect();
         let mut moves = self.moves.iter().zip(&self.threads).zip(self.lineage..).peekable();
-        let mut next_batch = |open: &mut Vec<Row<'a>>, thread: usize| {
+        let mut next_batch = |open: &mut Vec<Indexed<'a>>, thread: usize| {
             if open.len() >= size {
                 lists[thread].push_back(std::mem::replace(open, Vec::with_capacity(size)));
             }
             open.len()
         };
-        for number in 0..rows.len() {
-            if self.count(number) == 0 {
+        for index in 0..all.len() {
+            if self.count(index) == 0 {
                 continue;
             }
-            let Some(particle) = rows[number].take() else { continue };
+            let Some(particle) = all[index].take() else { continue };
             let mut thread = particle.home % threads;
             let mut parent = next_batch(&mut open[thread], thread);
-            open[thread].push(Row { number, particle, lineage: None });
-            while let Some(((&(_, to), &own), lineage)) = moves.next_if(|(((row, _), _), _)| *row == number) {
-                let Some(particle) = rows[to].take() else { continue };
+            open[thread].push(Indexed { index, particle, lineage: None });
+            while let Some(((&(_, to), &own), lineage)) = moves.next_if(|(((from, _), _), _)| *from == index)
+            {
+                let Some(particle) = all[to].take() else { continue };
                 let mut waits = Some(lineage);
                 if own != thread || open[thread].len() >= size {
                     // The rest of a large family is copied from its first copy.
                     particle.copy_from(open[thread][parent].particle, lineage, seed);
                     (thread, parent, waits) = (own, next_batch(&mut open[own], own), None);
                 }
-                open[thread].push(Row { number: to, particle, lineage: waits });
+                open[thread].push(Indexed { index: to, particle, lineage: waits });
             }
         }
         for (list, batch) in lists.iter_mut().zip(open) {
@@ -166,19 +168,19 @@ impl Copies {
 }
 
 /// Makes the copies of a batch.
-pub(super) fn copy(batch: &mut [Row<'_>], seed: u64) {
+pub(super) fn copy(batch: &mut [Indexed<'_>], seed: u64) {
     let mut parent = 0;
     for at in 0..batch.len() {
-        let (before, row) = batch.split_at_mut(at);
-        match row[0].lineage.take() {
+        let (before, rest) = batch.split_at_mut(at);
+        match rest[0].lineage.take() {
             None => parent = at,
-            Some(lineage) => row[0].particle.copy_from(before[parent].particle, lineage, seed),
+            Some(lineage) => rest[0].particle.copy_from(before[parent].particle, lineage, seed),
         }
     }
 }
 
-/// Two different rows.
-pub(super) fn pair(particles: &mut [Particle], a: usize, b: usize) -> [&mut Particle; 2] {
+/// Two different particles.
+fn pair(particles: &mut [Particle], a: usize, b: usize) -> [&mut Particle; 2] {
     if a < b {
         let (left, right) = particles.split_at_mut(b);
         [&mut left[a], &mut right[0]]

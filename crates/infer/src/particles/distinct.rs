@@ -28,8 +28,8 @@ impl Choices {
         Choices { runs: runs.collect() }
     }
 
-    /// Whether run `b` has more than half of the choices of run `a`. A run without choices is had by another such run
-    /// only.
+    /// Whether run `b` has more than half of the choices of run `a`. A run without choices shares them with another
+    /// such run only.
     pub fn has_most_of(&self, b: usize, a: usize) -> bool {
         let (a, b) = (&self.runs[a], &self.runs[b]);
         if a.is_empty() {
@@ -64,14 +64,14 @@ impl Choices {
     /// How many runs there are of which no other has more than half of the choices.
     pub fn unique(&self) -> usize {
         let n = self.runs.len();
-        // A copy of another run is near it as a rule: rows of one family are looked at first.
+        // A copy of another run is near it as a rule: runs beside each other are looked at first.
         let mut partner = 0;
         (0..n)
             .filter(|&a| {
                 let first = (partner != a && self.has_most_of(partner, a)).then_some(partner);
-                let found = first.or_else(|| (0..n).find(|&b| b != a && self.has_most_of(b, a)));
-                partner = found.unwrap_or(partner);
-                found.is_none()
+                let other = first.or_else(|| (0..n).find(|&b| b != a && self.has_most_of(b, a)));
+                partner = other.unwrap_or(partner);
+                other.is_none()
             })
             .count()
     }

@@ -2,8 +2,8 @@
 //! as it is, for any number of particles above one (Andrieu, Doucet & Holenstein 2010, section 2.4.3; Lindsten, Jordan
 //! & Schon 2014, algorithm 2).
 //!
-//! A sweep is SMC in which one row holds the run that the chain is at, its order choices and barriers included; at a
-//! resampling the other rows are drawn by weight. Then one of the final set is drawn by weight, and is the run that
+//! A sweep is SMC in which one particle holds the run that the chain is at, its order choices and barriers included; at a
+//! resampling the others are drawn by weight. Then one of the final set is drawn by weight, and is the run that
 //! the chain goes to. With ancestor sampling the held run's past is drawn anew at each resampling. Prefix `i` with
 //! weight `w_i` is followed by the rest `x'` of the held run with probability in proportion to
 //!
@@ -14,17 +14,18 @@
 //! in which a proposal for the choices has no part: the law that the sweep holds is that of the choices, `p s^T`, and the rest
 //! is not drawn but held, so its density under the prior stands (Lindsten et al., eq. 15: the target of the whole over that
 //! of the prefix). What the proposal drew of the prefix is in `w_i`. The held run's own weight counts `log p - log q` of its
-//! choices like any other row's, though nobody drew them: it is found anew as the run is followed, and so by the prefix
-//! that it has after its ancestor was drawn.
+//! choices like that of any other particle, though nobody drew them: it is computed anew as the run is followed, and so by
+//! the prefix that it has after its ancestor was drawn.
 //!
 //! The weight above is zero where the prefix leads to other addresses, other barriers or another family at an address. Only
 //! multinomial resampling has this simple conditional form, so that is what it uses.
 
+use super::advance::Particle;
 use super::many::Watch;
-use super::path::Path;
+use super::partial_run::{PartialRun, Step, With};
 use super::population::{Population, RESAMPLING};
 use super::resampling::multinomial;
-use super::settings::{Anneal, Settings, Weights};
+use super::settings::{Anneal, Order, Settings, Weights};
 use super::smc::{Outcome, Progress, outcome, run};
 use super::weights::Normalised;
 use crate::log::Entry;
@@ -43,20 +44,20 @@ const ORDERS: u64 = u64::MAX - 4;
 /// The runs that a chain of whole runs went through.
 #[derive(Default)]
 pub struct Chain {
-    /// Where it was after each sweep, from the first one that found a possible run; weights are equal.
+    /// Where it was after each sweep, from the first one that had a possible run; weights are equal.
     pub states: Vec<Outcome>,
     /// How often it could have moved: ancestors drawn for the held run; proposals.
     pub tries: usize,
-    /// How often it did: ancestors that were another row; proposals accepted.
+    /// How often it did: ancestors that were another particle's; proposals accepted.
     pub moves: usize,
-    /// The share of choices that each of these sweeps made new.
+    /// The share of choices that each of these sweeps renewed.
     pub renewed: Vec<f64>,
     /// Populations in which every particle became impossible; their estimate is zero, and counts.
     pub died: usize,
     /// Log of the mean of the populations' estimates of the evidence, nats; where they are independent of the chain,
     /// at temperature 1 and not stopped.
     pub log_evidence: Option<f64>,
-    /// Whether it was stopped before all sweeps were made.
+    /// Whether it was stopped before the last sweep.
     pub interrupted: bool,
 }
 
@@ -75,8 +76,8 @@ pub(super) fn sweep_seed(seed: u64, sweep: usize) -> u64 {
 }
 
 /// Which of the final set a chain goes to.
-pub(super) fn draw_row(weights: &Normalised, seed: u64, sweep: usize) -> usize {
-    weights.row(Stream::new(seed, SWEEPS, sweep as u128, 1).uniform())
+pub(super) fn draw_index(weights: &Normalised, seed: u64, sweep: usize) -> usize {
+    weights.index(Stream::new(seed, SWEEPS, sweep as u128, 1).uniform())
 }
 
 /// Refuses settings that a chain of whole runs cannot have.
@@ -98,8 +99,8 @@ pub(super) fn check_chain(settings: &Settings, sweeps: usize) -> Result<(), Faul
     Ok(())
 }
 
-/// `sweeps` sweeps of particle Gibbs. It starts from a run with the choices `from`, or from one that SMC finds.
-/// `watch` is told after each barrier; when it answers false, the sweeps so far are given.
+/// `sweeps` sweeps of particle Gibbs. It starts from a run with the choices `from`, or from one of SMC's final set.
+/// `watch` is called after each barrier; when it answers false, the sweeps so far are given.
 ///
 /// # Errors
 /// Settings that a chain cannot have, fewer than two particles, a fault of the program, or first populations that all
@@ -123,26 +124,34 @@ pub fn particle_gibbs(
     }
     let mut chain = Chain::default();
     let mut orders = Stream::new(settings.seed, ORDERS, 0, 0);
-    let mut path = match from {
-        Some(entries) => Path::of(task, settings, entries, &mut orders)?,
+    let mut machine = task.machine();
+    let depth_first = settings.order == Order::DepthFirst;
+    let with = With { task, depth_first, origins: false, weigh: &|_| Box::default() };
+    let mut held = |entries: &[Entry]| {
+        let mut draw = |n: usize| ((orders.uniform() * n as f64) as usize).min(n - 1);
+        let run = PartialRun::of(with, &mut machine, entries, usize::MAX, &mut draw)?;
+        run.ok_or_else(Failure::no_start)
+    };
+    let mut now = match from {
+        Some(entries) => held(entries)?,
         None => {
             let Some(first) = first_run(task, settings, sweeps, &mut chain, watch)? else {
                 chain.interrupted = true;
                 return Ok(chain);
             };
-            Path::of(task, settings, &first.record.log.entries(), &mut orders)?
+            held(&first.record.log.entries())?
         }
     };
     for sweep in 1..=sweeps {
         let own = Settings { seed: sweep_seed(settings.seed, sweep), ..settings.clone() };
-        let Some(next) = conditional(task, &own, ancestors, &path, &mut chain, watch)? else {
+        let Some(state) = conditional(task, &own, ancestors, &now, &mut chain, watch)? else {
             chain.interrupted = true;
             break;
         };
-        let new = Path::of(task, settings, &next.record.log.entries(), &mut orders)?;
-        chain.renewed.push(new.renewed(&path));
-        chain.states.push(next);
-        path = new;
+        let next = held(&state.record.log.entries())?;
+        chain.renewed.push(next.renewed(&now));
+        chain.states.push(state);
+        now = next;
     }
     Ok(chain)
 }
@@ -158,11 +167,11 @@ fn first_run(
     let mut seed = settings.seed;
     loop {
         match run(task, &Settings { seed, ..settings.clone() }, false, watch) {
-            Ok(found) if found.interrupted => return Ok(None),
-            Ok(mut found) => {
+            Ok(result) if result.interrupted => return Ok(None),
+            Ok(mut result) => {
                 let mut weights = Normalised::default();
-                weights.read(found.particles.iter().map(|p| p.log_weight));
-                return Ok(Some(found.particles.swap_remove(draw_row(&weights, seed, 0))));
+                weights.read(result.particles.iter().map(|p| p.log_weight));
+                return Ok(Some(result.particles.swap_remove(draw_index(&weights, seed, 0))));
             }
             Err(failure) if failure.is_impossible() && chain.died < sweeps => chain.died += 1,
             Err(failure) => return Err(failure),
@@ -171,32 +180,28 @@ fn first_run(
     }
 }
 
-/// One sweep: SMC with the path held, and a draw from its final set. `None` when it was stopped.
+/// One sweep: SMC with a run held, and a draw from its final set. `None` when it was stopped.
 fn conditional(
     task: &Task,
     settings: &Settings,
     ancestors: Ancestors,
-    path: &Path,
+    run: &PartialRun,
     chain: &mut Chain,
     watch: &mut Watch<'_>,
 ) -> Result<Option<Outcome>, Failure> {
     let mut population = Population::start(task, settings, false)?;
     let task = population.task.clone();
     let mut machine = task.machine();
-    let segments = &path.segments;
-    let proposal = settings.proposal.as_deref();
-    // The row of the held run.
+    let segments = run.segments();
+    // The index of the particle that holds the run.
     let mut held = 0;
     while population.count().0 > 0 {
         population.advance(Some(held))?;
         if let Some(segment) = segments.get(population.barriers) {
             let last = population.barriers + 1 == segments.len();
-            let row = &mut population.particles[held];
-            #[cfg(test)]
-            let proposal = proposal.filter(|_| !settings.is(super::tests::Mutant::HeldByPrior));
-            if row.follow(&mut machine, &task, segment, last, proposal)?.is_none() {
-                // Nothing was tried: the run was given.
-                return Err(Failure::NoStart { tries: 0, causes: vec![] });
+            let (particle, proposal) = (&mut population.particles[held], settings.proposal.as_deref());
+            if particle.follow(&mut machine, &task, segment, last, proposal)?.is_none() {
+                return Err(Failure::no_start());
             }
         }
         let seen = population.weigh()?;
@@ -208,38 +213,33 @@ fn conditional(
         }
         let mut parent = held;
         if ancestors == Ancestors::Sampled {
-            parent = sample_ancestor(&mut population, segments, held)?;
+            parent = sample_ancestor(&mut population, &segments, held)?;
             chain.tries += 1;
             chain.moves += usize::from(parent != held);
         }
         let mut random = Stream::new(settings.seed, RESAMPLING, population.barriers as u128, 0);
         let others = population.particles.len() - 1;
-        #[cfg(test)]
-        super::tests::corrupt_draw(&mut population, held);
         let mut copies = multinomial(&population.weights.relative, others, &mut random);
         copies[parent] += 1;
-        // The first copy stays where its parent is: there the path goes on.
+        // The first copy stays where its parent is: there the held run goes on.
         population.survive(&copies);
         held = parent;
     }
     population.finish();
-    let row = draw_row(&population.weights, settings.seed, 0);
-    Ok(Some(outcome(population.particles.swap_remove(row))).map(|mut chosen| {
-        chosen.log_weight = 0.0;
-        chosen
-    }))
+    let index = draw_index(&population.weights, settings.seed, 0);
+    let chosen = outcome(population.particles.swap_remove(index));
+    Ok(Some(Outcome { log_weight: 0.0, ..chosen }))
 }
 
-/// Draws which row's past the rest of the held run gets.
+/// Draws whose past the rest of the held run gets: the index of a particle.
 fn sample_ancestor(
     population: &mut Population<'_>,
-    segments: &[Vec<super::path::Event>],
+    segments: &[&[Step]],
     held: usize,
 ) -> Result<usize, Failure> {
     let rest = segments.get(population.barriers..).unwrap_or(&[]);
-    let (task, temper) = (&population.task, population.temper);
-    let settings = population.settings;
-    let log_weight = |p: &mut super::advance::Particle| -> Result<f64, Failure> {
+    let (task, settings, temper) = (&population.task, population.settings, population.temper);
+    let log_weight = |p: &mut Particle| -> Result<f64, Failure> {
         if p.log_weight == f64::NEG_INFINITY {
             return Ok(f64::NEG_INFINITY);
         }
@@ -257,14 +257,6 @@ fn sample_ancestor(
                 Some(log) => log_order += log,
                 None => return Ok(f64::NEG_INFINITY),
             }
-        }
-        #[cfg(test)]
-        if settings.is(super::tests::Mutant::BlindAncestors) {
-            return Ok(p.log_weight);
-        }
-        #[cfg(test)]
-        if settings.is(super::tests::Mutant::OrderFreeAncestors) {
-            log_order = 0.0;
         }
         let log_prior = trial.record.log_prior.less(&p.record.log_prior).value();
         let score = trial.record.score();
@@ -285,5 +277,5 @@ fn sample_ancestor(
         return Ok(held);
     }
     let mut random = Stream::new(settings.seed, ANCESTORS, population.barriers as u128, 0);
-    Ok(weights.row(random.uniform()))
+    Ok(weights.index(random.uniform()))
 }

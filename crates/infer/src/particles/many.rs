@@ -66,7 +66,7 @@ const PILOT_SHARE: f64 = 0.1;
 const PILOT_LIMIT: f64 = 0.25;
 /// Share of the time left that one population is planned to take: three are then complete though they cost a tenth more.
 const SHARE: f64 = 0.3;
-/// Fewer particles than this are not worth a population.
+/// A population has at least so many particles.
 const LEAST: usize = 16;
 
 /// The seed of the `number`-th population; of the first, the seed itself.
@@ -77,8 +77,8 @@ fn population_seed(seed: u64, number: usize) -> u64 {
 /// Whoever watches several populations at once.
 pub type Watch<'a> = dyn FnMut(Progress) -> bool + Send + 'a;
 
-/// Populations of these sizes, side by side. `watch` is told now and then how far one of them is; when it answers
-/// false, they stop and give what they have.
+/// Populations of these sizes, side by side. `watch` is called now and then with the progress of one of them; when it
+/// answers false, they stop and give what they have.
 ///
 /// # Errors
 /// As for [`smc`](super::smc()); populations may die as long as one lives.
@@ -95,7 +95,7 @@ pub fn populations(
     let one = |(number, &particles): (usize, &usize)| {
         let own = Settings { particles, seed: population_seed(settings.seed, number), ..settings.clone() };
         run(task, &own, !alone, &mut |progress| {
-            // A thread that finds another one telling goes on.
+            // A thread that meets another one here goes on.
             if let Ok(mut watch) = watch.try_lock()
                 && !watch(progress)
             {
@@ -104,13 +104,13 @@ pub fn populations(
             !stopped.load(Ordering::Relaxed)
         })
     };
-    let found: Vec<_> = if alone {
+    let results: Vec<_> = if alone {
         plan.iter().enumerate().map(one).collect()
     } else {
         plan.par_iter().enumerate().map(one).collect()
     };
     let stopped = stopped.load(Ordering::Relaxed);
-    combine(plan, found, stopped)
+    combine(plan, results, stopped)
 }
 
 /// Populations of one size, one after the other until `time` is spent: the rule of the module's page. The result's plan
@@ -128,7 +128,7 @@ pub fn within(
     by_clock(task, settings, time, &|| began.elapsed(), watch)
 }
 
-/// The same by any clock, which tells the time since the search began.
+/// The same by any clock, which gives the time since the search began.
 pub(super) fn by_clock(
     task: &Task,
     settings: &Settings,
@@ -145,11 +145,11 @@ pub(super) fn by_clock(
     // A population that is given up at the first barrier after `end`; and whether the whole search was stopped.
     let mut one = |particles: usize, seed: u64, end: Duration| {
         let own = Settings { particles, seed, ..settings.clone() };
-        let found = run(task, &own, false, &mut |progress| {
+        let result = run(task, &own, false, &mut |progress| {
             stopped |= !watch(progress);
             !stopped && clock() <= end
         });
-        (found, stopped)
+        (result, stopped)
     };
 
     let (mut size, limit) = (PILOT, time.mul_f64(PILOT_LIMIT));
@@ -159,7 +159,7 @@ pub(super) fn by_clock(
         let seed = Stream::new(settings.seed, PILOTS, number, 0).next_u64();
         match one(size, seed, limit) {
             (Ok(_) | Err(Failure::Impossible { .. }), false) => {}
-            (found, _) => return found.map(without_evidence),
+            (result, _) => return result.map(without_evidence),
         }
         let now = clock();
         let cost = now.saturating_sub(start).as_secs_f64() / size as f64;
@@ -174,18 +174,9 @@ pub(super) fn by_clock(
     let affordable = SHARE * time.saturating_sub(began).as_secs_f64() / cost;
     let size = (affordable.min(GROWTH * size as f64) as usize).max(LEAST);
 
-    let (mut plan, mut found) = (Vec::new(), Vec::new());
+    let (mut plan, mut results) = (Vec::new(), Vec::new());
     loop {
         let is_first = plan.is_empty();
-        #[cfg(test)]
-        let (is_first, size) = super::tests::corrupt_plan(
-            settings,
-            is_first,
-            &plan,
-            size,
-            clock() - began,
-            time.saturating_sub(clock()),
-        );
         let end = if is_first { Duration::MAX } else { time };
         let (population, stopped) = one(size, population_seed(settings.seed, plan.len()), end);
         let is_late = clock() > time;
@@ -193,35 +184,35 @@ pub(super) fn by_clock(
             break;
         }
         plan.push(size);
-        found.push(population);
+        results.push(population);
         if stopped {
-            return combine(&plan, found, true).map(without_evidence);
+            return combine(&plan, results, true).map(without_evidence);
         }
         if is_late {
             break;
         }
     }
-    combine(&plan, found, false)
+    combine(&plan, results, false)
 }
 
 /// A search that was stopped: which populations are complete was not decided by a deadline.
-fn without_evidence(found: Result) -> Result {
-    Result { log_normaliser: None, log_evidence: None, ..found }
+fn without_evidence(result: Result) -> Result {
+    Result { log_normaliser: None, log_evidence: None, ..result }
 }
 
 /// The populations as one.
 fn combine(
     plan: &[usize],
-    found: Vec<std::result::Result<Result, Failure>>,
+    results: Vec<std::result::Result<Result, Failure>>,
     interrupted: bool,
 ) -> std::result::Result<Result, Failure> {
     let mut lived: Vec<(f64, Result)> = Vec::new();
     let mut died = None;
     let mut deaths = 0;
-    for (one, size) in found.into_iter().zip(plan) {
+    for (one, size) in results.into_iter().zip(plan) {
         match one {
             Ok(result) => lived.push((*size as f64, result)),
-            // The first death is told when all died.
+            // The first death is reported where all died.
             Err(failure) if failure.is_impossible() => {
                 deaths += 1;
                 died.get_or_insert(failure);

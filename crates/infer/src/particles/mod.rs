@@ -10,12 +10,12 @@
 //!    tempered.
 //! 3. *Resample* ([`resampling`]): at every barrier, or when the effective sample size is low; weights are reset. Copies
 //!    (`copies`) are made when the particles run again, by the thread that ran their parent (`shared`).
-//! 4. *Rejuvenate*, where asked for ([`rejuvenation`]): each particle is moved by a Markov kernel that keeps `F_n`; of one
-//!    that still runs the way is done again with other values (`course`, `moves`). In the end chains may start from a few
-//!    of the final set, and their states take its place (`walks`).
+//! 4. *Rejuvenate*, where asked for ([`rejuvenation`]): each particle is moved by a Markov kernel that keeps `F_n` (`moves`);
+//!    one that still runs is followed again from its start with other values (`partial_run`). In the end chains may start
+//!    from a few of the final set, and their states take its place (`final_chains`).
 //!
 //! The temperature may differ from barrier to barrier ([`Anneal`]): weights then count `s(r_n)^(T_n) / s(r_{n-1})^(T_{n-1})`, and
-//! the final set is weighed by the declared `T`, so that the way there changes neither law nor constant.
+//! the final set is weighed by the declared `T`, so that the schedule changes neither law nor constant.
 //!
 //! The evidence is the score of the empty scene times the product of the mean weights at each resampling, times
 //! the last mean weight; it is unbiased for `T = 1` and ratio weights, under any order policy (appendix C). The
@@ -30,12 +30,12 @@
 
 mod advance;
 mod copies;
-mod course;
 pub mod distinct;
+mod final_chains;
 mod gibbs;
 mod many;
 mod moves;
-mod path;
+mod partial_run;
 mod pimh;
 mod population;
 pub mod rejuvenation;
@@ -43,12 +43,12 @@ pub mod resampling;
 mod settings;
 mod shared;
 mod smc;
-mod walks;
 mod weights;
 
 #[cfg(test)]
 mod tests;
 
+pub use final_chains::FinalChains;
 pub use gibbs::{Ancestors, Chain, particle_gibbs};
 pub use many::{Watch, populations, within};
 pub use pimh::pimh;
@@ -56,4 +56,3 @@ pub use rejuvenation::{Moment, Moved, Rejuvenation};
 pub use resampling::Resampling;
 pub use settings::{Anneal, Order, Settings, Weights, When};
 pub use smc::{Outcome, Progress, Result, smc};
-pub use walks::Walks;

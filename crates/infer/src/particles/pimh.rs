@@ -12,7 +12,7 @@
 //! beforehand and they do not depend on the chain, so the mean is unbiased, where a call in which all died counts as zero.
 //! To go on until one lives and then make all sweeps would not be: the number of populations would depend on them.
 
-use super::gibbs::{Chain, check_chain, draw_row, sweep_seed};
+use super::gibbs::{Chain, check_chain, draw_index, sweep_seed};
 use super::many::Watch;
 use super::settings::Settings;
 use super::smc::{Outcome, run};
@@ -24,7 +24,7 @@ use niwaki_math::Stream;
 /// The stream of the acceptance draws: no lineage has this number.
 const ACCEPTANCE: u64 = u64::MAX - 5;
 
-/// `sweeps` sweeps after a first population. `watch` is told after each barrier; when it answers false, the sweeps so far
+/// `sweeps` sweeps after a first population. `watch` is called after each barrier; when it answers false, the sweeps so far
 /// are given.
 ///
 /// # Errors
@@ -43,17 +43,16 @@ pub fn pimh(
     for sweep in 0..=sweeps {
         let own = Settings { seed: sweep_seed(settings.seed, sweep), ..settings.clone() };
         let proposed = match run(task, &own, false, watch) {
-            Ok(found) if found.interrupted => {
+            Ok(result) if result.interrupted => {
                 chain.interrupted = true;
                 break;
             }
-            Ok(mut found) => {
-                let log = found.log_normaliser.unwrap_or(f64::NEG_INFINITY);
+            Ok(mut result) => {
+                let log = result.log_normaliser.unwrap_or(f64::NEG_INFINITY);
                 let mut weights = Normalised::default();
-                weights.read(found.particles.iter().map(|p| p.log_weight));
-                let mut one = found.particles.swap_remove(draw_row(&weights, own.seed, 0));
-                one.log_weight = 0.0;
-                Some((log, one))
+                weights.read(result.particles.iter().map(|p| p.log_weight));
+                let drawn = result.particles.swap_remove(draw_index(&weights, own.seed, 0));
+                Some((log, Outcome { log_weight: 0.0, ..drawn }))
             }
             Err(failure) if failure.is_impossible() => {
                 chain.died += 1;
@@ -70,7 +69,7 @@ pub fn pimh(
         chain.tries += 1;
         let u = Stream::new(settings.seed, ACCEPTANCE, sweep as u128, 0).uniform();
         let log_now = now.as_ref().map_or(f64::NEG_INFINITY, |at| at.0);
-        let accepted = proposed.filter(|(log, _)| accepts(settings, u, log - log_now));
+        let accepted = proposed.filter(|(log, _)| u.ln() < log - log_now);
         chain.moves += usize::from(accepted.is_some());
         let renewed = f64::from(u8::from(accepted.is_some()));
         now = accepted.or(now);
@@ -79,23 +78,12 @@ pub fn pimh(
             chain.states.push(at.copy());
         }
     }
-    #[cfg(test)]
-    super::tests::forget_deaths(settings, &mut estimates);
     if let (Some(death), None, false) = (first_death, &now, chain.interrupted) {
         return Err(death);
     }
-    // When a search is stopped may depend on what it found so far.
+    // When a search is stopped may depend on its results so far.
     if settings.temper == 1.0 && !chain.interrupted {
         chain.log_evidence = Some(log_mean_exp(estimates.into_iter()));
     }
     Ok(chain)
-}
-
-fn accepts(settings: &Settings, u: f64, log_ratio: f64) -> bool {
-    #[cfg(test)]
-    if settings.is(super::tests::Mutant::AcceptsAll) {
-        return true;
-    }
-    let _ = settings;
-    u.ln() < log_ratio
 }

@@ -1,8 +1,8 @@
 //! The population: its steps are to advance, to weigh and to resample; [`smc`](super::smc()) takes them in turn, and
-//! conditional SMC with one row held.
+//! conditional SMC with one particle held.
 
 use super::advance::Particle;
-use super::copies::{Copies, Row, copy};
+use super::copies::{Copies, Indexed, copy};
 use super::rejuvenation::{Moved, Mover};
 use super::settings::{Anneal, Order, Settings, Weights, When};
 use super::shared::share;
@@ -11,6 +11,7 @@ use crate::record::{AllInvalid, Record};
 use crate::{Failure, Task};
 use niwaki_math::{Stream, StreamKey, Total};
 use niwaki_vm::machine::Limits;
+use std::collections::HashSet;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -30,7 +31,7 @@ pub(super) struct Population<'a> {
     pub task: Task,
     pub settings: &'a Settings,
     pub particles: Vec<Particle>,
-    /// The row at the first barrier that each row descends from.
+    /// The particle index at the first barrier that each particle descends from.
     pub ancestor: Vec<usize>,
     pub lineages: u64,
     pub barriers: usize,
@@ -59,7 +60,7 @@ pub(super) struct Population<'a> {
     logs: Vec<f64>,
 }
 
-/// What a barrier brought.
+/// What is known at a barrier.
 pub(super) struct Seen {
     pub best: f64,
     pub ended: usize,
@@ -125,17 +126,17 @@ impl<'a> Population<'a> {
         })
     }
 
-    /// Runs every particle to its next barrier, except in the row that is `held`.
+    /// Runs every particle to its next barrier, except the one whose index is `held`.
     pub fn advance(&mut self, held: Option<usize>) -> Result<(), Failure> {
         let (task, settings, seed) = (&self.task, self.settings, self.settings.seed);
         if !self.parallel {
             self.copies.make(&mut self.particles, seed);
             let mut machine = task.machine();
-            let rows = self.particles.iter_mut().enumerate().filter(|(row, _)| Some(*row) != held);
-            return rows.map(|(_, p)| p).try_for_each(|p| p.advance(&mut machine, task, settings));
+            let mut others = self.particles.iter_mut().enumerate().filter(|(index, _)| Some(*index) != held);
+            return others.try_for_each(|(_, p)| p.advance(&mut machine, task, settings));
         }
-        // Of several faults, the one of the first row is reported, whatever thread met its own first. Rows behind one
-        // that failed need not run: an endless model would use up its budget once for each.
+        // Of several faults, the one of the first particle is reported, whatever thread met its own first. Particles behind
+        // one that failed need not run: an endless model would use up its budget once for each.
         let (failed, fault) = (AtomicUsize::new(usize::MAX), Mutex::new(None));
         let threads = self.apart.len();
         let size = (self.particles.len() / (TASKS * threads)).clamp(1, BATCH);
@@ -145,19 +146,19 @@ impl<'a> Population<'a> {
             let task = &apart[thread];
             let mut machine = task.machine();
             let (failed, fault) = (&failed, &fault);
-            move |mut batch: Vec<Row<'_>>| {
+            move |mut batch: Vec<Indexed<'_>>| {
                 copy(&mut batch, seed);
-                for Row { number, particle, .. } in batch {
+                for Indexed { index, particle, .. } in batch {
                     particle.home = thread;
-                    if Some(number) == held || number > failed.load(Ordering::Relaxed) {
+                    if Some(index) == held || index > failed.load(Ordering::Relaxed) {
                         continue;
                     }
                     if let Err(own) = particle.advance(&mut machine, task, settings)
-                        && failed.fetch_min(number, Ordering::Relaxed) > number
+                        && failed.fetch_min(index, Ordering::Relaxed) > index
                     {
                         let mut first = fault.lock().unwrap_or_else(PoisonError::into_inner);
-                        if first.as_ref().is_none_or(|(row, _)| *row > number) {
-                            *first = Some((number, own));
+                        if first.as_ref().is_none_or(|(before, _)| *before > index) {
+                            *first = Some((index, own));
                         }
                     }
                 }
@@ -175,8 +176,8 @@ impl<'a> Population<'a> {
     /// How many run, and how many have ended: in one pass, as a population is too large for the processor's nearest
     /// memory.
     pub fn count(&self) -> (usize, usize) {
-        self.particles.iter().enumerate().fold((0, 0), |(running, ended), (row, p)| {
-            let times = self.copies.count(row);
+        self.particles.iter().enumerate().fold((0, 0), |(running, ended), (index, p)| {
+            let times = self.copies.count(index);
             (running + times * usize::from(p.is_running()), ended + times * usize::from(p.state.has_ended()))
         })
     }
@@ -195,7 +196,11 @@ impl<'a> Population<'a> {
             self.scores.push(score);
             ended += usize::from(p.state.has_ended());
         }
-        self.count_proposals();
+        // What a proposal drew since the last barrier. The prior is not tempered, so neither is this; the temperature is
+        // chosen by what the scores then add.
+        if self.settings.proposal.is_some() {
+            self.particles.iter_mut().for_each(|p| p.log_weight += std::mem::take(&mut p.pending));
+        }
         let next = self.next_temper();
         self.logs.clear();
         for (p, score) in self.particles.iter_mut().zip(&self.scores) {
@@ -205,10 +210,6 @@ impl<'a> Population<'a> {
                 Weights::Absolute => p.log_weight = self.settings.temper * score.value(),
             }
             p.weighed.clone_from(score);
-            #[cfg(test)]
-            if self.settings.is(super::tests::Mutant::ForgetsOldScore) {
-                p.weighed = Total::default();
-            }
             self.logs.push(p.log_weight);
         }
         self.temper = next;
@@ -222,27 +223,11 @@ impl<'a> Population<'a> {
         Ok(Seen { best, ended })
     }
 
-    /// Counts in the weights what the proposal drew since the last barrier. The prior is not tempered, so neither is this;
-    /// the temperature is chosen by what the scores then add.
-    fn count_proposals(&mut self) {
-        if self.settings.proposal.is_none() {
-            return;
-        }
-        for p in &mut self.particles {
-            let pending = std::mem::take(&mut p.pending);
-            #[cfg(test)]
-            if self.settings.is(super::tests::Mutant::ForgetsProposal) {
-                continue;
-            }
-            p.log_weight += pending;
-        }
-    }
-
     /// The temperature at this barrier.
     fn next_temper(&self) -> f64 {
         match &self.settings.anneal {
             Anneal::Constant => self.temper,
-            Anneal::Schedule(path) => path[(self.barriers - 1).min(path.len() - 1)],
+            Anneal::Schedule(powers) => powers[(self.barriers - 1).min(powers.len() - 1)],
             Anneal::Adaptive(share) => self.adapted(*share),
         }
     }
@@ -283,7 +268,7 @@ impl<'a> Population<'a> {
         self.survive(&copies);
     }
 
-    /// Row `i` survives `copies[i]` times, once the copies are made; weights are reset.
+    /// Particle `i` survives `copies[i]` times; weights are reset. The copies themselves wait for [`Population::settle`].
     pub fn survive(&mut self, copies: &[usize]) {
         self.log_normaliser += self.weights.log_mean;
         self.resampled += 1;
@@ -292,14 +277,12 @@ impl<'a> Population<'a> {
             self.copies.share_out(&mut self.particles, self.apart.len());
         }
         self.particles.iter_mut().for_each(|p| p.log_weight = 0.0);
-        #[cfg(test)]
-        super::tests::corrupt(self, copies);
     }
 
     /// Weighs the final set by the declared temperature, and reads its weights; false when none is possible.
     pub fn finish(&mut self) -> bool {
         self.settle();
-        if self.temper != self.settings.temper && !self.keeps_last_temper() {
+        if self.temper != self.settings.temper {
             let change = self.settings.temper - self.temper;
             for p in &mut self.particles {
                 if !p.weighed.is_impossible() {
@@ -315,22 +298,9 @@ impl<'a> Population<'a> {
         possible
     }
 
-    #[cfg(test)]
-    fn keeps_last_temper(&self) -> bool {
-        self.settings.is(super::tests::Mutant::KeepsLastTemper)
-    }
-
-    #[cfg(not(test))]
-    fn keeps_last_temper(&self) -> bool {
-        false
-    }
-
-    /// How many rows of the first barrier the final set descends from.
+    /// How many particles of the first barrier the final set descends from.
     pub fn ancestors(&self) -> usize {
-        let mut rows = self.ancestor.clone();
-        rows.sort_unstable();
-        rows.dedup();
-        rows.len()
+        self.ancestor.iter().collect::<HashSet<_>>().len()
     }
 }
 

@@ -2,9 +2,10 @@
 //! again (Gilks & Berzuini 2001).
 //!
 //! The law at barrier n is `F_n(x, order) = p_n(x) q(order | x) s(x)^T`, over runs that are paused at their n-th
-//! barrier and runs that ended before it. A particle that still runs keeps its skeleton (`course`); what a changed value
-//! reaches is done again up to where each activation is suspended, and stops there. One that has ended may change its
-//! structure, but not become longer: a longer run is, at this barrier, a run that is paused, and has its weight there. Moves see the score so far and no later one.
+//! barrier and runs that ended before it. A particle that still runs keeps its skeleton (`partial_run`); what a changed
+//! value reaches is done again up to where each activation is suspended, and stops there. One that has ended may change its
+//! structure, but not become longer: a longer run is, at this barrier, a run that is paused, and has its weight there.
+//! Moves see the score so far and no later one.
 //!
 //! The moves that a particle makes must not depend on what became of the others: a kernel that is the same whatever the
 //! population looks like leaves each expectation as it is, one that is left out because all others have ended does not.
@@ -12,17 +13,19 @@
 //! has, and not again until the end, when all are moved once without bound. For the same reason the evidence is unbiased
 //! for moves at fixed barriers, and consistent for moves after a resampling that is itself decided by the weights.
 
+use super::advance::Particle;
+use super::final_chains::FinalChains;
 use super::moves::{move_ended, move_running};
 use super::population::{BATCH, Population};
 use super::settings::{Settings, Weights};
-use super::walks::Walks;
 use crate::chain::counts::Count;
 use crate::chain::kernel::Kernel;
-use crate::chain::plan::{Plan, Way};
+use crate::chain::plan::Plan;
 use crate::chain::state::Fresh;
 use crate::{Failure, Task};
 use niwaki_math::{Stream, StreamKey};
 use niwaki_vm::fault::Fault;
+use niwaki_vm::machine::answers::At;
 use rayon::prelude::*;
 use serde::Deserialize;
 use std::collections::HashMap;
@@ -34,41 +37,17 @@ const SPREADS: u64 = u64::MAX - 7;
 /// Forward runs from which the spreads of the sites' distributions are read.
 const FIRST_RUNS: u64 = 4;
 
-/// When to move.
+/// When to move. People write a number of barriers, or a word.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
-#[serde(from = "At")]
+#[serde(rename_all = "snake_case")]
 pub enum Moment {
-    /// At every so-many-th barrier, and once when all have ended.
-    Every(usize),
     /// After each resampling, and once when all have ended.
     Resampled,
     /// Once, when all have ended.
     End,
-}
-
-/// The same as people write it: a number of barriers, or a word.
-#[derive(Deserialize)]
-#[serde(untagged)]
-enum At {
+    /// At every so-many-th barrier, and once when all have ended.
+    #[serde(untagged)]
     Every(usize),
-    Named(Named),
-}
-
-#[derive(Deserialize)]
-#[serde(rename_all = "snake_case")]
-enum Named {
-    Resampled,
-    End,
-}
-
-impl From<At> for Moment {
-    fn from(at: At) -> Moment {
-        match at {
-            At::Every(barriers) => Moment::Every(barriers),
-            At::Named(Named::Resampled) => Moment::Resampled,
-            At::Named(Named::End) => Moment::End,
-        }
-    }
 }
 
 /// How particles are moved.
@@ -80,8 +59,8 @@ pub struct Rejuvenation {
     pub moves: u64,
     /// When.
     pub at: Moment,
-    /// What becomes of the final set; every particle is moved where there is none.
-    pub walks: Option<Walks>,
+    /// What takes the place of the final set; where there is none, every particle of it is moved.
+    pub final_chains: Option<FinalChains>,
 }
 
 impl Rejuvenation {
@@ -91,8 +70,8 @@ impl Rejuvenation {
             return Err(Fault::new("bad-setting", "absolute weights have no law that a move could keep")
                 .with_help("use ratio weights"));
         }
-        let stand = self.walks.is_some_and(|walks| walks.chains == 0 || walks.draws == 0);
-        if self.moves == 0 || self.at == Moment::Every(0) || stand {
+        let none = self.final_chains.is_some_and(|asked| asked.chains == 0 || asked.draws == 0);
+        if self.moves == 0 || self.at == Moment::Every(0) || none {
             return Err(Fault::new("bad-setting", "no move was asked for").with_help("ask for at least one"));
         }
         if self.kernel.any(&|part| matches!(part, Kernel::Anneal { .. })) {
@@ -110,7 +89,7 @@ impl Rejuvenation {
     }
 }
 
-/// Moves made: of particles that still ran, and of those that had ended.
+/// Counts of moves: of particles that still ran, and of those that had ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Moved {
     /// Of particles that still ran.
@@ -136,7 +115,7 @@ pub(super) struct Mover {
     pub numbers: HashMap<u128, usize>,
     /// Places in the plan of the leaves that do not take all choices alike.
     pub choosy: Vec<usize>,
-    /// Rounds made.
+    /// Rounds so far.
     rounds: u64,
 }
 
@@ -146,7 +125,7 @@ pub(super) struct Round<'a> {
     pub settings: &'a Settings,
     pub mover: &'a Mover,
     /// Which leaf proposes, move by move.
-    pub leaves: Vec<usize>,
+    pub schedule: Vec<usize>,
     /// The power of the score in the law that the particles follow.
     pub temper: f64,
     /// Barriers so far.
@@ -163,11 +142,7 @@ impl Mover {
         let sites = task.program.functions.iter().flat_map(|f| &f.sites);
         let numbers: HashMap<u128, usize> = sites.enumerate().map(|(n, site)| (site.key, n)).collect();
         let mut plan = Plan::new(&rejuvenation.kernel, numbers.len())?;
-        for leaf in &mut plan.leaves {
-            if let Way::Trajectory(own) = &mut leaf.way {
-                own.prepare(task)?;
-            }
-        }
+        plan.leaves.iter_mut().try_for_each(|leaf| leaf.prepare(task))?;
         let choosy = (0..plan.leaves.len()).filter(|n| !plan.leaves[*n].selection.is_all()).collect();
         let mut spreads = HashMap::new();
         for run in 0..FIRST_RUNS {
@@ -182,6 +157,13 @@ impl Mover {
             }
         }
         Ok(Some(Mover { plan, spreads, numbers, choosy, rounds: 0 }))
+    }
+
+    /// The selection weights of a choice, for each leaf that does not take all alike.
+    pub fn weights(&self, at: &At<'_, f64>) -> Box<[u64]> {
+        let depth = || at.path().split('/').filter(|part| !part.contains('[')).count() - 1;
+        let selections = self.choosy.iter().map(|n| &self.plan.leaves[*n].selection);
+        selections.map(|selection| selection.weigh(|| at.path(), depth)).collect()
     }
 
     /// The spread at a site.
@@ -210,30 +192,26 @@ impl Population<'_> {
         let number = mover.rounds;
         mover.rounds += 1;
         let mut rng = Stream::new(self.settings.seed, SCHEDULE, u128::from(number), 0);
-        let leaves = (0..rejuvenation.moves).map(|_| mover.plan.next(&mut rng).0).collect();
+        let schedule = (0..rejuvenation.moves).map(|_| mover.plan.next(&mut rng).0).collect();
         let ending = resampled.map(|_| self.barriers - 1);
-        let last = ending.is_none();
-        #[cfg(test)]
-        let last = last || self.settings.is(super::tests::Mutant::MovesOn);
-        #[cfg(test)]
-        let ending = ending.filter(|_| !self.settings.is(super::tests::Mutant::EndsLate));
         let round = Round {
             task: &self.task,
             settings: self.settings,
             mover: &before,
-            leaves,
+            schedule,
             temper: self.temper,
             barriers: self.barriers,
             ending,
             number,
         };
-        let batch = |particles: &mut [super::advance::Particle]| {
+        let batch = |particles: &mut [Particle]| {
             let (mut machine, mut moved) = (round.task.machine(), Moved::default());
-            for p in particles.iter_mut().filter(|p| !p.weighed.is_impossible() && (last || !p.was_ended)) {
+            let mut leaves = round.mover.plan.leaves.clone();
+            for p in particles.iter_mut().filter(|p| !p.weighed.is_impossible()) {
                 if p.state.has_ended() {
                     moved.ended += move_ended(p, &round)?;
                 } else {
-                    moved.running += move_running(p, &mut machine, &round)?;
+                    moved.running += move_running(p, &mut machine, &round, &mut leaves)?;
                 }
             }
             Ok(moved)

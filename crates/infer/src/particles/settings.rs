@@ -36,37 +36,18 @@ pub enum When {
     EffectiveBelow(f64),
 }
 
-/// The way of the temperature from barrier to barrier. Whatever it is, the final law is that of the declared
+/// The schedule of the temperature from barrier to barrier. Whatever it is, the final law is that of the declared
 /// temperature: what a barrier's temperature over- or understates, the weights take back.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
-#[serde(from = "Powers")]
+#[serde(untagged)]
 pub enum Anneal {
     /// The declared temperature at every barrier.
     Constant,
     /// The temperature at each barrier, the last one also at those after it.
-    Schedule(Arc<[f64]>),
+    Schedule(Vec<f64>),
     /// From zero up to the declared temperature, at each barrier as far as the conditional effective sample size
     /// (Zhou, Johansen & Aston 2016, eq. 13) stays at this share of the particles.
     Adaptive(f64),
-}
-
-/// The same as people write it: nothing, a share, or one power for each barrier.
-#[derive(Deserialize)]
-#[serde(untagged)]
-enum Powers {
-    Constant(()),
-    Share(f64),
-    Schedule(Vec<f64>),
-}
-
-impl From<Powers> for Anneal {
-    fn from(powers: Powers) -> Anneal {
-        match powers {
-            Powers::Constant(()) => Anneal::Constant,
-            Powers::Share(share) => Anneal::Adaptive(share),
-            Powers::Schedule(schedule) => Anneal::Schedule(schedule.into()),
-        }
-    }
 }
 
 /// Reads the share of effective particles below which to resample; nothing for always.
@@ -87,7 +68,7 @@ pub struct Settings {
     pub weights: Weights,
     /// The power to which the score is raised in the final law (1: the posterior).
     pub temper: f64,
-    /// The power on the way there.
+    /// The power at each barrier before.
     pub anneal: Anneal,
     /// Resampling method.
     pub resampling: Resampling,
@@ -103,10 +84,6 @@ pub struct Settings {
     /// Seed.
     #[serde(skip)]
     pub seed: u64,
-    /// Deliberate errors that the statistical tests must reject.
-    #[cfg(test)]
-    #[serde(skip)]
-    pub mutant: Option<super::tests::Mutant>,
 }
 
 impl Default for Settings {
@@ -122,8 +99,6 @@ impl Default for Settings {
             rejuvenate: None,
             proposal: None,
             seed: 0,
-            #[cfg(test)]
-            mutant: None,
         }
     }
 }
@@ -132,8 +107,8 @@ impl Settings {
     /// Refuses settings that make no sense.
     ///
     /// # Errors
-    /// No particles, a temperature that is not positive, a threshold outside `[0, 1]`, a way of the temperature that
-    /// is empty or that absolute weights cannot take.
+    /// No particles, a temperature that is not positive, a threshold outside `[0, 1]`, a schedule of temperatures that
+    /// is empty or beside absolute weights.
     pub fn check(&self) -> Result<(), Fault> {
         if self.particles == 0 {
             return Err(
@@ -159,24 +134,22 @@ impl Settings {
         }
         let fits = match &self.anneal {
             Anneal::Constant => return Ok(()),
-            Anneal::Schedule(path) => !path.is_empty() && path.iter().all(|t| *t >= 0.0 && t.is_finite()),
+            Anneal::Schedule(powers) => {
+                !powers.is_empty() && powers.iter().all(|t| *t >= 0.0 && t.is_finite())
+            }
             Anneal::Adaptive(share) => *share > 0.0 && *share < 1.0,
         };
         if !fits {
-            return Err(Fault::new("bad-anneal", format!("{:?} is no way of the temperature", self.anneal))
-                .with_help(
-                    "give the temperature at each barrier, or a share of the particles between 0 and 1",
-                ));
+            return Err(Fault::new(
+                "bad-anneal",
+                format!("{:?} is no schedule of temperatures", self.anneal),
+            )
+            .with_help("give the temperature at each barrier, or a share of the particles between 0 and 1"));
         }
         if self.weights == Weights::Absolute {
-            return Err(Fault::new("bad-anneal", "absolute weights have no way of the temperature")
+            return Err(Fault::new("bad-anneal", "absolute weights have no schedule of temperatures")
                 .with_help("use ratio weights"));
         }
         Ok(())
-    }
-
-    #[cfg(test)]
-    pub(super) fn is(&self, mutant: super::tests::Mutant) -> bool {
-        self.mutant == Some(mutant)
     }
 }

@@ -6,8 +6,8 @@
 use std::collections::VecDeque;
 use std::sync::{Mutex, PoisonError};
 
-/// Does every item of `lists`, one list for each thread of the pool. `worker` makes what a thread works with; it is
-/// told the thread's number.
+/// Does every item of `lists`, one list for each thread of the pool. `worker` makes what a thread works with, given
+/// the thread's number.
 pub(super) fn share<T: Send, W: FnMut(T)>(lists: Vec<VecDeque<T>>, worker: impl Fn(usize) -> W + Sync) {
     let lists: Vec<Mutex<VecDeque<T>>> = lists.into_iter().map(Mutex::new).collect();
     let work = || {

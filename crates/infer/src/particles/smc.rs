@@ -1,4 +1,4 @@
-//! One population from its start to its end, and what it found.
+//! One population from its start to its end, and its result.
 
 use super::advance::Particle;
 use super::population::Population;
@@ -42,7 +42,7 @@ impl From<Outcome> for Run {
     }
 }
 
-/// What SMC found.
+/// The result of SMC.
 pub struct Result {
     /// The final set.
     pub particles: Vec<Outcome>,
@@ -50,7 +50,7 @@ pub struct Result {
     /// nats. `None` for absolute weights, which have none, and where the search was stopped.
     pub log_normaliser: Option<f64>,
     /// The same where it is the model's evidence: at temperature 1. Unbiased (as a number, not its log), unless the
-    /// way of the temperature was adapted, or particles moved after resamplings that the weights decided: then
+    /// temperatures were adapted, or particles moved after resamplings that the weights decided: then
     /// consistent.
     pub log_evidence: Option<f64>,
     /// How many barriers there were; of several populations, most.
@@ -85,7 +85,7 @@ pub struct Progress {
     pub best: f64,
 }
 
-/// Runs a population of particles. `watch` is told after each barrier; when it answers false, the run stops and
+/// Runs a population of particles. `watch` is called after each barrier; when it answers false, the run stops and
 /// gives what it has.
 ///
 /// # Errors
@@ -127,9 +127,9 @@ pub(super) fn run(
         population.rejuvenate(Some(resampled))?;
     }
     population.finish();
-    let walked = if interrupted { None } else { population.walk(watch)? };
-    let stopped = walked.as_ref().is_some_and(|(_, stopped)| *stopped);
-    if walked.is_none() {
+    let chains = if interrupted { None } else { population.final_chains(watch)? };
+    let stopped = chains.as_ref().is_some_and(|(_, stopped)| *stopped);
+    if chains.is_none() {
         population.rejuvenate(None)?;
     }
     let log_normaliser =
@@ -149,7 +149,7 @@ pub(super) fn run(
             Anneal::Constant => Vec::new(),
             Anneal::Schedule(_) | Anneal::Adaptive(_) => population.temperatures,
         },
-        particles: match walked {
+        particles: match chains {
             Some((states, _)) => states,
             None => population.particles.into_iter().map(outcome).collect(),
         },

@@ -1,4 +1,4 @@
-//! Log weights: normalising, means, effective sample size. Sums run in the order of the rows, so that they are
+//! Log weights: normalising, means, effective sample size. Sums run in the order of the particles, so that they are
 //! the same for any number of threads.
 
 use crate::importance::log_sum_exp;
@@ -33,8 +33,8 @@ impl Normalised {
         true
     }
 
-    /// The row into whose share of the total `u`, between 0 and 1, falls.
-    pub fn row(&self, u: f64) -> usize {
+    /// The particle index into whose share of the total `u`, between 0 and 1, falls.
+    pub fn index(&self, u: f64) -> usize {
         let mut left = u * self.relative.iter().sum::<f64>();
         let last = self.relative.iter().rposition(|w| *w > 0.0).unwrap_or(0);
         self.relative[..last]
@@ -97,9 +97,9 @@ mod tests {
     }
 
     #[test]
-    fn a_row_is_drawn_by_its_share() {
+    fn an_index_is_drawn_by_its_share() {
         let mut w = Normalised::default();
         assert!(w.read([0.0f64.ln(), 1.0f64.ln(), 3.0f64.ln(), 0.0f64.ln()].into_iter()));
-        assert_eq!([0.001, 0.2499, 0.2501, 0.9999].map(|u| w.row(u)), [1, 1, 2, 2]);
+        assert_eq!([0.001, 0.2499, 0.2501, 0.9999].map(|u| w.index(u)), [1, 1, 2, 2]);
     }
 }

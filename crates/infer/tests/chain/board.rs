@@ -237,7 +237,7 @@ fn a_step_that_is_not_adapted_finds_both_peaks() {
 pub struct NoCountRatio;
 impl Rules for NoCountRatio {
     fn log_ratio(t: &Terms<'_>) -> f64 {
-        MetropolisHastings::log_ratio(&Terms { odds: 0.0, ..*t })
+        MetropolisHastings::log_ratio(&Terms { selection: 0.0, ..*t })
     }
 }
 

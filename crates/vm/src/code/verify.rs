@@ -270,7 +270,15 @@ mod tests {
             if matches!(f.mode, Mode::Pure | Mode::Loop) {
                 continue;
             }
-            kinds.extend(f.sites.iter().map(|site| std::mem::discriminant(&site.kind)));
+            kinds.extend(f.sites.iter().map(|site| {
+                let source = match &site.kind {
+                    SiteKind::Sample(source) | SiteKind::Observe(source) => {
+                        Some(std::mem::discriminant(source))
+                    }
+                    _ => None,
+                };
+                (std::mem::discriminant(&site.kind), source)
+            }));
             // What a loop runs over is in the node for speed.
             let over: Vec<Operand> = f
                 .sites
@@ -290,7 +298,7 @@ mod tests {
                 );
             }
         }
-        assert_eq!(kinds.len(), 19, "every kind of site");
+        assert_eq!(kinds.len(), 19, "every kind of site, and every source of a distribution");
     }
 
     #[test]

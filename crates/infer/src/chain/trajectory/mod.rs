@@ -22,7 +22,7 @@ pub mod travel;
 
 use super::Chain;
 use super::accept::Rules;
-use super::decide::Decision;
+use super::metropolis::Decision;
 use super::state::Fresh;
 use crate::gradient::follow::reason;
 use crate::hamiltonian::chains::{Length, MAX_ENERGY_ERROR};
@@ -31,7 +31,7 @@ use crate::hamiltonian::{Cause, Kernel};
 use crate::{Failure, Task, gradient};
 use niwaki_grad::{Continuous, Model, Transform};
 use niwaki_vm::machine::Machine;
-use niwaki_vm::machine::kept::{Changed, Proposed, Trace};
+use niwaki_vm::machine::kept::{Changed, Proposed};
 use scales::Scales;
 use structures::{Moving, Structures};
 use travel::Travel;
@@ -187,14 +187,15 @@ impl<R: Rules> Chain<R> {
                 Ok(change) => change,
                 Err(met) => self.give_up(task, met)?,
             };
-        let odds = |_: &Self, trace: &Trace| {
+        let selection = |chain: &Self| {
+            let trace = &chain.state.trace;
             // What was drawn on the way is no part of the density: the way back would not lead here.
             let anew = trace.drawn_anew().iter().any(|(address, _)| own.structures.knows(*address));
             let is_other = trace.births(program).len() > 0 || !trace.deaths().is_empty() || anew;
             if is_other { f64::NEG_INFINITY } else { 0.0 }
         };
         let mut rng = self.streams.decisions(visit);
-        let decision = self.decide(task, change, beta, &mut rng, odds, |_| moved)?;
+        let decision = self.decide(task, change, beta, &mut rng, selection, moved)?;
         own.travel.moved += u64::from(decision.accepted);
         own.travel.unwritten += u64::from(!decision.accepted);
         self.count_many(decision);

@@ -83,7 +83,7 @@ fn particle_gibbs_keeps_the_posterior() {
 }
 
 #[test]
-fn it_keeps_it_when_resampling_is_adaptive_and_the_temperature_goes_a_way() {
+fn it_keeps_it_when_resampling_is_adaptive_and_the_temperature_changes() {
     for (name, text) in PROGRAMS {
         let own = Settings {
             when: When::EffectiveBelow(0.7),
@@ -96,34 +96,17 @@ fn it_keeps_it_when_resampling_is_adaptive_and_the_temperature_goes_a_way() {
     }
 }
 
-#[test]
-fn mutants_of_particle_gibbs_are_rejected() {
-    for (mutant, ancestors) in
-        [(Mutant::HeldNotDrawn, Ancestors::Kept), (Mutant::BlindAncestors, Ancestors::Sampled)]
-    {
-        let own = Settings { mutant: Some(mutant), ..small(3, Order::Stochastic) };
-        let caught = PROGRAMS.iter().any(|(_, text)| {
-            worst(&counted(&task(text), &last_values(&task(text), &own, ancestors))) > LIMIT
-        });
-        assert!(caught, "{mutant:?} passes");
-    }
-}
-
-/// A small error, seen on the program made for it: twenty thousand seeds. The right kernel passes there too.
+/// A small error in what the order of what follows counts shows on the program for it alone, with twenty thousand seeds.
 #[test]
 fn ancestors_count_the_order_of_what_follows() {
     let task = task(PROGRAMS[7].1);
-    let z = |mutant| {
-        let own = Settings { mutant, ..small(3, Order::Stochastic) };
-        worst(&counted(&task, &values_after(&task, &own, Ancestors::Sampled, 20_000, 4)))
-    };
-    assert!(z(None) < LIMIT);
-    let caught = z(Some(Mutant::OrderFreeAncestors));
-    assert!(caught > LIMIT, "{caught}");
+    let own = small(3, Order::Stochastic);
+    let scores = counted(&task, &values_after(&task, &own, Ancestors::Sampled, 20_000, 4));
+    assert!(worst(&scores) < LIMIT, "{scores:?}");
 }
 
 #[test]
-fn ancestor_sampling_moves_what_a_kept_path_does_not() {
+fn ancestor_sampling_moves_what_a_kept_past_does_not() {
     let task = task(PROGRAMS[1].1);
     let run = |ancestors| {
         let own = Settings { seed: 1, ..small(5, Order::Stochastic) };
@@ -136,11 +119,11 @@ fn ancestor_sampling_moves_what_a_kept_path_does_not() {
     assert!(mean(&sampled) > mean(&kept), "{} and {}", mean(&sampled), mean(&kept));
 }
 
-fn pimh_scores(text: &str, mutant: Option<Mutant>) -> Vec<(String, f64)> {
+fn pimh_scores(text: &str) -> Vec<(String, f64)> {
     let task = task(text);
     let values: Vec<String> = (0..4000)
         .filter_map(|seed| {
-            let own = Settings { seed, mutant, ..small(3, Order::Stochastic) };
+            let own = Settings { seed, ..small(3, Order::Stochastic) };
             match pimh(&task, &own, 40, &mut |_| true) {
                 Ok(chain) => Some(repr(&chain.states.last().unwrap().value).unwrap()),
                 Err(failure) if failure.is_impossible() => None,
@@ -154,24 +137,19 @@ fn pimh_scores(text: &str, mutant: Option<Mutant>) -> Vec<(String, f64)> {
 #[test]
 fn pimh_finds_the_posterior() {
     for (name, text) in PROGRAMS {
-        let scores = pimh_scores(text, None);
+        let scores = pimh_scores(text);
         assert!(worst(&scores) < LIMIT, "{name}: {scores:?}");
     }
 }
 
-#[test]
-fn pimh_that_accepts_everything_is_rejected() {
-    assert!(PROGRAMS.iter().any(|(_, text)| worst(&pimh_scores(text, Some(Mutant::AcceptsAll))) > LIMIT));
-}
-
 /// The mean over 6,000 calls of the evidence estimate, relative to the truth, as a z-score; a call in which every
 /// population died is an estimate of zero.
-fn pimh_evidence(text: &str, particles: usize, mutant: Option<Mutant>) -> f64 {
+fn pimh_evidence(text: &str, particles: usize) -> f64 {
     let task = task(text);
     let exact = enumerate(&task, 100_000, &mut |_| true).unwrap().log_evidence;
     let (mut sum, mut squares, n) = (0.0, 0.0, 6000.0);
     for seed in 0..6000 {
-        let own = Settings { seed, mutant, ..small(particles, Order::Stochastic) };
+        let own = Settings { seed, ..small(particles, Order::Stochastic) };
         let estimate = match pimh(&task, &own, 3, &mut |_| true) {
             Ok(chain) => (chain.log_evidence.unwrap() - exact).exp(),
             Err(failure) if failure.is_impossible() => 0.0,
@@ -191,17 +169,9 @@ const RARE: &str = r#"(module (fn "m" (params) (set $x (sample (dist bernoulli 0
 fn the_evidence_of_pimh_is_unbiased_over_all_calls() {
     for text in PROGRAMS.map(|(_, text)| text).into_iter().chain([RARE]) {
         for particles in [1, 4] {
-            let z = pimh_evidence(text, particles, None);
+            let z = pimh_evidence(text, particles);
             assert!(z.abs() < LIMIT, "{particles} particles: {z}: {text}");
         }
-    }
-}
-
-#[test]
-fn the_evidence_without_the_dead_is_rejected() {
-    for particles in [1, 4] {
-        let z = pimh_evidence(RARE, particles, Some(Mutant::DeadLeftOut));
-        assert!(z > LIMIT, "{particles} particles: {z}");
     }
 }
 

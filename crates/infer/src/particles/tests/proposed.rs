@@ -1,6 +1,5 @@
 //! The claim: with any proposal that covers the prior, importance sampling, SMC in both orders, particle Gibbs and PIMH
-//! give the same evidence and the same posterior as without one; and the errors that people make with proposals are
-//! caught by the same tests.
+//! give the same evidence and the same posterior as without one.
 //!
 //! The answers come from enumeration, as in the parent module, and for numbers from the densities of Gaussian vectors. A z
 //! beyond 5 happens once in 1.7 million; about 400 are looked at, so a re-seeded suite fails once in 4,000 runs.
@@ -102,7 +101,8 @@ fn evidence_and_posterior_do_not_depend_on_the_proposal() {
 fn nor_do_they_beside_other_settings() {
     for (name, task, proposal) in cases() {
         let plain = with(&proposal, Order::Stochastic, 8);
-        let moved = Rejuvenation { kernel: Kernel::Prior, moves: 2, at: Moment::Every(1), walks: None };
+        let moved =
+            Rejuvenation { kernel: Kernel::Prior, moves: 2, at: Moment::Every(1), final_chains: None };
         for own in [
             Settings { when: When::EffectiveBelow(0.5), ..plain.clone() },
             Settings { anneal: Anneal::Schedule([0.3, 2.5, 0.7].as_slice().into()), ..plain.clone() },
@@ -179,9 +179,9 @@ fn numbers_have_the_known_evidence() {
     let log_evidence =
         -0.5 * (y[0] * solved[0] + y[1] * solved[1]) - 0.5 * determinant.ln() - std::f64::consts::TAU.ln();
     let mean = 0.9 * solved[0] + 1.06 * solved[1];
-    let look = |order, particles, seeds: u64, mutant| {
+    let look = |order, particles, seeds: u64| {
         let one = |seed| {
-            let own = Settings { seed, mutant, ..with(&proposal, order, particles) };
+            let own = Settings { seed, ..with(&proposal, order, particles) };
             let run = smc(&task, &own, &mut |_| true).unwrap();
             let evidence = (run.log_evidence.unwrap() - log_evidence).exp();
             let total: f64 = run.particles.iter().map(|p| p.log_weight.exp()).sum();
@@ -195,12 +195,10 @@ fn numbers_have_the_known_evidence() {
     };
     for order in [Order::DepthFirst, Order::Stochastic] {
         for (particles, seeds) in [(1, 20_000), (5, 4000), (100, 400)] {
-            let z = look(order, particles, seeds, None);
+            let z = look(order, particles, seeds);
             assert!(z.iter().all(|z| z.abs() < LIMIT), "{order:?}, {particles}: {z:?}");
         }
     }
-    let z = look(Order::DepthFirst, 5, 4000, Some(Mutant::ForgetsProposal));
-    assert!(z.iter().any(|z| z.abs() > LIMIT), "{z:?}");
 }
 
 #[test]
@@ -234,23 +232,6 @@ fn pimh_keeps_the_posterior_under_a_proposal() {
     }
 }
 
-#[test]
-fn mutants_of_proposals_are_rejected() {
-    let forgets = |(_, task, proposal): (&str, Task, Arc<Proposal>)| {
-        let own = Settings { mutant: Some(Mutant::ForgetsProposal), ..with(&proposal, Order::Stochastic, 8) };
-        worst(&z_scores(&task, &own, 0..2000)) > LIMIT
-    };
-    assert!(cases().all(forgets));
-    for ancestors in [Ancestors::Kept, Ancestors::Sampled] {
-        let held = |(_, task, proposal): (&str, Task, Arc<Proposal>)| {
-            let mutant = Some(Mutant::HeldByPrior);
-            let own = Settings { mutant, proposal: Some(proposal), ..small(3, Order::Stochastic) };
-            worst(&counted(&task, &values_after(&task, &own, ancestors, 3000, 3))) > LIMIT
-        };
-        assert!(cases().any(held), "{ancestors:?}");
-    }
-}
-
 fn code<T>(found: std::result::Result<T, crate::Failure>) -> (&'static str, String) {
     match found {
         Err(crate::Failure::Run(met)) => (met.fault.code, met.fault.message.to_string()),
@@ -260,19 +241,15 @@ fn code<T>(found: std::result::Result<T, crate::Failure>) -> (&'static str, Stri
     }
 }
 
-/// Where the check is switched off, the values that are never drawn are missing from the answer.
 #[test]
 fn a_proposal_that_leaves_values_out_is_refused() {
     let text = PROGRAMS[0].1;
     let narrow = &[("b", "(params $a) (return (dist bernoulli (cond $a 1.0 0.5)))")];
-    let (task, mut proposal) = guided(text, narrow);
-    let own = with(&Arc::new(proposal.clone()), Order::Stochastic, 8);
+    let (task, proposal) = guided(text, narrow);
+    let own = with(&Arc::new(proposal), Order::Stochastic, 8);
     let (code, message) = code(smc(&task, &own, &mut |_| true));
     assert_eq!(code, "proposal-support");
     assert_eq!(message, "the proposal `q` of the choice `b` never draws False, which its `bernoulli` does");
-    proposal.any_support = true;
-    let scores = z_scores(&task, &with(&Arc::new(proposal), Order::Stochastic, 8), 0..2000);
-    assert!(worst(&scores) > LIMIT, "{scores:?}");
 }
 
 #[test]

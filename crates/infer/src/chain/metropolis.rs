@@ -1,0 +1,182 @@
+//! Metropolis-Hastings with one choice (dissertation 3.2).
+//!
+//! 1. *Pick* a choice of the present run: evenly, or by selection weights; `W` is their sum.
+//! 2. *Propose* a new value `x' ~ q(. | x)` for it ([`proposal`](super::proposal)).
+//! 3. *Run on* from there. What reads the value is run again; choices that come are drawn from their priors.
+//! 4. *Accept* with probability `min(1, a)`, where `p` is the density of all choices and `s` the score:
+//!
+//! ```text
+//! log a =   log p' - log p + beta (log s' - log s)
+//!         + stale - fresh                        choices that went, choices that came: their log densities
+//!         + log q(x | x') - log q(x' | x)        backward - forward
+//!         + log 1 / W' - log 1 / W               selection: the picked choice weighs the same before and after
+//! ```
+//!
+//! 5. *Keep* the run that was proposed, or *undo* it, on the trace and on the sketches together.
+//!
+//! Kernels that change many choices differ in the first two steps and in the selection, and share the others (`decide`).
+
+use super::Chain;
+use super::accept::{Rules, Terms, accepts, selected};
+use super::proposal::{Asked, Move};
+use super::state::Fresh;
+use super::streams::Ahead;
+use crate::{Failure, Task};
+use niwaki_math::Stream;
+use niwaki_vm::machine::Machine;
+use niwaki_vm::machine::kept::Change;
+use niwaki_vm::machine::stack::RunFault;
+use niwaki_vm::value::Value;
+
+/// What became of a proposal.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Decision {
+    /// Whether the proposal was the present state.
+    pub same: bool,
+    /// Whether it was kept.
+    pub accepted: bool,
+    /// Log of the acceptance ratio; minus infinity for an impossible proposal.
+    pub log_ratio: f64,
+}
+
+impl<R: Rules> Chain<R> {
+    /// One proposal; choices are picked evenly, or by the weights of a table.
+    #[inline(always)]
+    pub(super) fn single<M: Move>(
+        &mut self,
+        task: &Task,
+        machine: &mut Machine<'_>,
+        how: &mut M,
+        table: Option<usize>,
+        beta: f64,
+    ) -> Result<(), Failure> {
+        let visit = self.visit;
+        self.visit += 1;
+        let ahead = std::mem::replace(&mut self.ahead, Ahead::of(&self.streams, visit + 1));
+        let now = if ahead.visit == visit { ahead } else { Ahead::of(&self.streams, visit) };
+
+        let total = table.map_or(self.state.trace.len() as u64, |t| self.tables[t].total());
+        if total == 0 {
+            return Ok(());
+        }
+        let at = now.below(total);
+        let choice = table.map_or(at as usize, |t| self.tables[t].find(at));
+        let next = self.ahead.below(total) as usize;
+        if table.is_none() {
+            self.state.trace.approach(next);
+        }
+
+        let site = self.counts.number(self.state.trace.site_of(choice));
+        let noting = self.best.is_noting();
+        let mut asked = Asked { how, site, key: self.streams.moves(visit), noting, old: None };
+        let mut answers = Fresh::plain(self.streams.fresh(visit), &*task.hosts);
+        let (trace, strategy) = (&mut self.state.trace, self.settings.strategy);
+        let change = match machine.propose(trace, choice, strategy, &mut asked, &mut answers) {
+            Ok(change) => change,
+            Err(met) => self.give_up(task, met)?,
+        };
+        let trace = &mut self.state.trace;
+        if table.is_none() {
+            trace.approach_closer(&task.program, next);
+        }
+
+        let (old, outside) = (asked.old.take(), trace.left_support());
+        let selection = |chain: &Self| {
+            let trace = &chain.state.trace;
+            let after =
+                table.map_or(trace.len_after() as u64, |t| chain.tables[t].total_after(trace, &task.program));
+            selected(total, after)
+        };
+        let mut rng = now.rest;
+        let decision = self.decide(task, change, beta, &mut rng, selection, old)?;
+        let count = &mut self.counts.sites[site];
+        count.proposed += 1;
+        count.accepted += u64::from(decision.accepted);
+        count.outside += u64::from(outside);
+        if !decision.same {
+            how.learn(site, decision);
+        }
+        Ok(())
+    }
+
+    /// Decides over the open transaction. `selection` is the log probability of choosing the move, afterwards less before;
+    /// `moved` names the choices that the proposal itself changed, with their values before. The acceptance draw is
+    /// the next number of `rng`.
+    #[inline(always)]
+    pub(super) fn decide(
+        &mut self,
+        task: &Task,
+        change: Change,
+        beta: f64,
+        rng: &mut Stream,
+        selection: impl FnOnce(&Self) -> f64,
+        moved: impl IntoIterator<Item = (u128, Value)>,
+    ) -> Result<Decision, Failure> {
+        let program = &*task.program;
+        match change {
+            Change::Same => {
+                self.state.trace.commit(program);
+                self.last = Decision { same: true, accepted: true, log_ratio: 0.0 };
+                return Ok(self.last);
+            }
+            Change::Impossible => {
+                self.state.trace.rollback(program);
+                self.last = Decision { same: false, accepted: false, log_ratio: f64::NEG_INFINITY };
+                return Ok(self.last);
+            }
+            Change::Done => {}
+        }
+        if let Err(failure) = self.state.look() {
+            self.state.look_back();
+            self.state.trace.rollback(program);
+            return Err(failure);
+        }
+        let trace = &self.state.trace;
+        let (totals, changed) = (trace.totals(), trace.change());
+        let (fresh, stale) = trace.fresh_and_stale();
+        let (forward, backward) = trace.forward_and_backward();
+        let with_sketches = self.state.sketch_change().map(|change| changed.log_factors.plus(&change));
+        let terms = Terms {
+            prior: &changed.log_prior,
+            score: with_sketches.as_ref().unwrap_or(&changed.log_factors),
+            beta,
+            stale,
+            fresh,
+            backward,
+            forward,
+            selection: selection(self),
+        };
+        let log_ratio = R::log_ratio(&terms);
+        let barriers = || self.state.primitives as i64 + totals.factors + changed.factors;
+        let fits = self.barriers.is_none_or(|n| barriers() == n as i64);
+        let accepted = accepts(log_ratio, rng) && fits && !changed.is_impossible() && !self.undoing;
+        if accepted {
+            if self.best.is_noting() {
+                self.best.note(&self.state, program, moved);
+            }
+            for table in &mut self.tables {
+                table.follow(&self.state.trace, program);
+            }
+            self.state.trace.commit(program);
+            self.best.compare(&self.state, program, self.visit);
+        } else {
+            self.state.look_back();
+            self.state.trace.rollback(program);
+        }
+        self.last = Decision { same: false, accepted, log_ratio };
+        Ok(self.last)
+    }
+
+    /// A proposal met a fault. Where a distribution is invalid, the proposal is impossible, and counted.
+    ///
+    /// # Errors
+    /// Any other fault; the chain is back in its last state.
+    #[cold]
+    pub(super) fn give_up(&mut self, task: &Task, met: Box<RunFault>) -> Result<Change, Failure> {
+        if task.invalid.count(&met).is_some() {
+            return Ok(Change::Impossible);
+        }
+        self.state.trace.rollback(&task.program);
+        Err(met.into())
+    }
+}

@@ -1,0 +1,80 @@
+//! Proposals for one choice: a new value, and the log densities of proposing it and of proposing the old one from it.
+
+use super::metropolis::Decision;
+use niwaki_math::{Dist, Stream, StreamKey, grid};
+use niwaki_vm::builtins::draw_to_value;
+use niwaki_vm::fault::Fault;
+use niwaki_vm::machine::answers::At;
+use niwaki_vm::machine::kept::{Propose, Proposed};
+use niwaki_vm::value::Value;
+
+/// Moves one choice.
+pub(crate) trait Move {
+    /// Whether it draws from the choice's own distribution, and gives the log density of what it drew.
+    const FROM_PRIOR: bool = false;
+
+    /// A new value for a choice at the site of that number, its random bits from `rng`.
+    fn propose(
+        &mut self,
+        at: &At<'_, f64>,
+        site: usize,
+        dist: &Dist,
+        old: &Value,
+        log_density: f64,
+        rng: &mut Stream,
+    ) -> Result<Proposed<f64>, Fault>;
+
+    /// Adapts it to what became of its proposal.
+    #[inline(always)]
+    fn learn(&mut self, _site: usize, _decision: Decision) {}
+}
+
+/// From the choice's own distribution, whatever its value was.
+pub(crate) struct FromPrior;
+
+impl Move for FromPrior {
+    const FROM_PRIOR: bool = true;
+
+    #[inline(always)]
+    fn propose(
+        &mut self,
+        _: &At<'_, f64>,
+        _: usize,
+        dist: &Dist,
+        _: &Value,
+        log_density: f64,
+        rng: &mut Stream,
+    ) -> Result<Proposed<f64>, Fault> {
+        let (draw, log) = dist.sample_and_score(rng);
+        Ok(Proposed { value: draw_to_value(draw), forward: grid(log), backward: log_density })
+    }
+}
+
+/// What the machine asks for a new value.
+pub(super) struct Asked<'a, M> {
+    pub how: &'a mut M,
+    pub site: usize,
+    pub key: StreamKey,
+    /// Whether the value before is wanted afterwards.
+    pub noting: bool,
+    pub old: Option<(u128, Value)>,
+}
+
+impl<M: Move> Propose<f64> for Asked<'_, M> {
+    const FROM_PRIOR: bool = M::FROM_PRIOR;
+
+    #[inline]
+    fn propose(
+        &mut self,
+        at: &At<'_, f64>,
+        dist: &Dist,
+        old: &Value,
+        log_density: f64,
+    ) -> Result<Proposed<f64>, Fault> {
+        let address = at.address();
+        if self.noting {
+            self.old = Some((address, old.clone()));
+        }
+        self.how.propose(at, self.site, dist, old, log_density, &mut self.key.at(address))
+    }
+}
