@@ -1,4 +1,4 @@
-"""Distinct results on the gnarly tree: what moves, walks, particle Gibbs and separate rows do to copies.
+"""Distinct results on the gnarly tree: what moves, final chains, particle Gibbs and separate populations do to copies.
 
     .venv/bin/python benches/rejuvenation.py [SEEDS FIRST [WAY ...]]
 

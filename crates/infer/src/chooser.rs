@@ -63,12 +63,7 @@ pub trait Chooser {
     ///
     /// # Errors
     /// A fault ends the run.
-    fn choose(
-        &mut self,
-        at: &At<'_, f64>,
-        dist: &Dist,
-        context: Context<'_>,
-    ) -> Result<Option<Chosen>, Fault>;
+    fn choose(&mut self, at: &At<'_, f64>, dist: &Dist, seen: Context<'_>) -> Result<Option<Chosen>, Fault>;
 
     /// The same value, where nobody asks for its densities and there is no scene to look at.
     ///
@@ -83,13 +78,8 @@ pub trait Chooser {
 impl<C: Chooser> Chooser for &mut C {
     const IS_PRIOR: bool = C::IS_PRIOR;
 
-    fn choose(
-        &mut self,
-        at: &At<'_, f64>,
-        dist: &Dist,
-        context: Context<'_>,
-    ) -> Result<Option<Chosen>, Fault> {
-        (**self).choose(at, dist, context)
+    fn choose(&mut self, at: &At<'_, f64>, dist: &Dist, seen: Context<'_>) -> Result<Option<Chosen>, Fault> {
+        (**self).choose(at, dist, seen)
     }
 }
 
@@ -128,15 +118,10 @@ impl<C> Known<'_, C> {
 }
 
 impl<C: Chooser> Chooser for Known<'_, C> {
-    fn choose(
-        &mut self,
-        at: &At<'_, f64>,
-        dist: &Dist,
-        context: Context<'_>,
-    ) -> Result<Option<Chosen>, Fault> {
+    fn choose(&mut self, at: &At<'_, f64>, dist: &Dist, seen: Context<'_>) -> Result<Option<Chosen>, Fault> {
         match self.find(at) {
             Some(value) => Chosen::given(value.clone(), dist).map(Some),
-            None => self.otherwise.choose(at, dist, context),
+            None => self.otherwise.choose(at, dist, seen),
         }
     }
 
@@ -170,14 +155,9 @@ pub struct Guided<'a, C> {
 }
 
 impl<C: Chooser> Chooser for Guided<'_, C> {
-    fn choose(
-        &mut self,
-        at: &At<'_, f64>,
-        dist: &Dist,
-        context: Context<'_>,
-    ) -> Result<Option<Chosen>, Fault> {
+    fn choose(&mut self, at: &At<'_, f64>, dist: &Dist, seen: Context<'_>) -> Result<Option<Chosen>, Fault> {
         let Some(own) = self.proposal.dist(at, dist)? else {
-            return self.otherwise.choose(at, dist, context);
+            return self.otherwise.choose(at, dist, seen);
         };
         let (draw, log_drawn) = own.sample_and_score(&mut self.stream.at(at.address()));
         Ok(Some(Chosen { log_drawn, ..Chosen::given(draw_to_value(draw), dist)? }))

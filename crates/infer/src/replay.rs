@@ -79,12 +79,7 @@ struct Sourced<'a> {
 }
 
 impl Chooser for Sourced<'_> {
-    fn choose(
-        &mut self,
-        at: &At<'_, f64>,
-        dist: &Dist,
-        context: Context<'_>,
-    ) -> Result<Option<Chosen>, Fault> {
+    fn choose(&mut self, at: &At<'_, f64>, dist: &Dist, seen: Context<'_>) -> Result<Option<Chosen>, Fault> {
         let known = match &self.source {
             Source::Addresses(map) => map.get(&at.address()),
             Source::Paths(map) => map.get(&at.path()),
@@ -94,11 +89,11 @@ impl Chooser for Sourced<'_> {
             // It has one value, which a density leaves out.
             (None, _) if let Dist::Delta(value) = dist => draw_to_value(value.clone()),
             (None, Missing::Draw { seed, stream }) => {
-                return Prior(StreamKey::new(seed, stream, 0)).choose(at, dist, context);
+                return Prior(StreamKey::new(seed, stream, 0)).choose(at, dist, seen);
             }
             (None, Missing::Stop) => return Ok(None),
             (None, Missing::Refuse) => {
-                return Refuse("replay with the same model that made the choices").choose(at, dist, context);
+                return Refuse("replay with the same model that made the choices").choose(at, dist, seen);
             }
         };
         Chosen::given(value, dist).map(Some)

@@ -52,7 +52,7 @@ def test_moves_make_copies_different(score):
     assert unique(rejuvenate=kernels.on(SHAPE, kernels.block(0.002)), moves=8, at="end") > 10
 
 
-def test_walks_take_the_place_of_the_final_set(score):
+def test_final_chains_take_the_place_of_the_final_set(score):
     """Two chains of twenty states: each is what its choices say, and most are no copy of another."""
     kernel = kernels.cycle(kernels.repeat(4, kernels.mh()), kernels.on(SHAPE, kernels.block(0.001)))
     method = niwaki.smc(20, temper=4.0, rejuvenate=kernel, moves=5, at="end", draws=20, chains=2)

@@ -329,15 +329,10 @@ impl<P> Chooser for Changed<'_, P>
 where
     P: FnMut(&At<'_, f64>, &Choice, &Dist) -> Result<Option<Proposed<f64>>, Fault>,
 {
-    fn choose(
-        &mut self,
-        at: &At<'_, f64>,
-        dist: &Dist,
-        context: Context<'_>,
-    ) -> Result<Option<Chosen>, Fault> {
+    fn choose(&mut self, at: &At<'_, f64>, dist: &Dist, seen: Context<'_>) -> Result<Option<Chosen>, Fault> {
         let known = self.before.find(at.address(), &mut self.at);
         let Some(choice) = known.filter(|c| c.family == dist.family() && fits(dist, &c.value)) else {
-            let chosen = self.fresh.choose(at, dist, context)?;
+            let chosen = self.fresh.choose(at, dist, seen)?;
             chosen.iter().for_each(|chosen| self.densities.fresh.add(grid(chosen.log_prior)));
             return Ok(chosen);
         };

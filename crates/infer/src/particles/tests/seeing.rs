@@ -29,10 +29,10 @@ impl Chooser for Noting<'_> {
         &mut self,
         at: &At<'_, f64>,
         dist: &Dist,
-        context: Context<'_>,
+        seen: Context<'_>,
     ) -> std::result::Result<Option<Chosen>, Fault> {
-        self.seen.push(context.sketches.map(|sketches| sketches.total().value()));
-        self.prior.choose(at, dist, context)
+        self.seen.push(seen.sketches.map(|sketches| sketches.total().value()));
+        self.prior.choose(at, dist, seen)
     }
 }
 
