@@ -277,6 +277,19 @@ fn ancestors_count_the_power_that_is_to_come() {
     }
 }
 
+/// The second coin depends on the first, so a prefix with the other first coin makes the rest of the held run unlikely.
+#[test]
+fn ancestors_count_how_likely_the_rest_of_the_held_run_is() {
+    let task = task(
+        r#"(module (fn "m" (params)
+            (set $a (sample (dist bernoulli 0.5))) (do (factor (cond $a 0.3 0.0)))
+            (set $b (sample (dist bernoulli (cond $a 0.95 0.1)))) (do (factor (cond $b 0.4 -0.4)))
+            (return (tuple $a $b))) (entry "m"))"#,
+    );
+    let scores = counted(&task, &last_values(&task, &small(4, Order::DepthFirst), Ancestors::Sampled));
+    assert!(worst(&scores) < LIMIT, "{scores:?}");
+}
+
 #[test]
 fn a_chain_is_the_same_on_any_number_of_threads() {
     let run = |threads: usize| {
