@@ -166,10 +166,8 @@ impl Structure {
                 held.insert(address);
             }
         }
-        let scope = Scope {
-            held: (!held.is_empty()).then(|| Arc::new(held)),
-            power: (beta != 1.0).then_some(beta),
-        };
+        let scope =
+            Scope { held: (!held.is_empty()).then(|| Arc::new(held)), power: (beta != 1.0).then_some(beta) };
         let model = Model { scope, ..model.clone() };
         let recorded = model.record(&choices(trace, program).collect())?;
         let known = recorded.choices.iter().map(|choice| choice.address);
