@@ -39,9 +39,9 @@ from .targets.sketches import avoid as avoid
 from .targets.sketches import floor as floor
 from .targets.sketches import match_image as match_image
 from .targets.sketches import match_shadow as match_shadow
+from .targets.sketches import match_volume as match_volume
 from .targets.sketches import no_self_intersection as no_self_intersection
 from .targets.sketches import overshoot as overshoot
-from .targets.sketches import volume_match as volume_match
 from .targets.target import Receiver as Receiver
 from .targets.target import Target as Target
 from .words import Bark as Bark

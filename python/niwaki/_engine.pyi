@@ -49,7 +49,7 @@ __all__ = [
     "render",
     "support",
     "unique_models",
-    "volume_match",
+    "match_volume",
 ]
 
 __version__: str
@@ -161,7 +161,7 @@ class Sketch:
     def measures(self) -> dict[str, float]: ...
     def fork(self) -> Sketch: ...
 
-def volume_match(target: Target, sigma: float = 0.02) -> SketchSpec: ...
+def match_volume(target: Target, sigma: float = 0.02) -> SketchSpec: ...
 def no_self_intersection(rule: str = "solid") -> SketchSpec: ...
 
 @final

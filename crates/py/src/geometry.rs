@@ -5,8 +5,8 @@
 
 use crate::values::Classes;
 use niwaki_geom::{
-    GeomError, Primitive, Rule, Shape, SketchSpec, Sketches, Target, TriMesh, Vec3, no_self_intersection,
-    volume_match,
+    GeomError, Primitive, Rule, Shape, SketchSpec, Sketches, Target, TriMesh, Vec3, match_volume,
+    no_self_intersection,
 };
 use niwaki_vm::builtins::{builtin, builtin_id, shapes};
 use niwaki_vm::fault::Fault;
@@ -250,10 +250,10 @@ impl PySketchSpec {
 }
 
 /// Scores a scene by how well it fills ``target``; ``sigma`` is the standard deviation of both its terms.
-#[pyfunction(name = "volume_match")]
+#[pyfunction(name = "match_volume")]
 #[pyo3(signature = (target, sigma=0.02))]
 fn py_volume_match(py: Python<'_>, target: &PyTarget, sigma: f64) -> PyResult<PySketchSpec> {
-    volume_match(target.0.clone(), sigma).map(PySketchSpec).map_err(|e| value_error(py, &e))
+    match_volume(target.0.clone(), sigma).map(PySketchSpec).map_err(|e| value_error(py, &e))
 }
 
 /// Forbids scenes whose primitives intersect, by ``rule`` "solid" or "surface".

@@ -18,7 +18,7 @@ from niwaki.shell.app import Folder, ModelName, app, made_folder, progress_line
 
 @app.command()
 @settings.with_settings(
-    *settings.METHODS.values(), temper="16, with absolute weights 1", particles="the model's own, or 300"
+    *settings.METHODS.values(), power="16, with absolute weights 1", particles="the model's own, or 300"
 )
 def grow(
     model: ModelName,

@@ -24,7 +24,7 @@ from niwaki.shell.app import Folder, ModelName, app, made_folder
 
 
 @app.command()
-@settings.with_settings(Mh, chains="4", warmup="a fifth of all", keep="100", kernel="mh()")
+@settings.with_settings(Mh, chains="4", warmup="a fifth of all", keep="100", kernel="prior()")
 def sample(
     model: ModelName,
     target: Annotated[
@@ -52,10 +52,10 @@ def sample(
     found = shell.finding.find(model)
     score = nw.Score()
     if target is not None:
-        score = nw.no_self_intersection() * nw.volume_match(nw.Target.find(target), voxel, sigma)
+        score = nw.no_self_intersection() * nw.match_volume(nw.Target.find(target), voxel, sigma)
     given = settings.typed(given)
     steps = given.get("steps", Mh.steps)
-    method = Mh(**{"kernel": kernels.mh(), "chains": 4, "warmup": steps // 5, "keep": 100, **given})
+    method = Mh(**{"kernel": kernels.prior(), "chains": 4, "warmup": steps // 5, "keep": 100, **given})
     with _shown(found.reference, method.steps * method.chains) as progress:
         result = nw.run(
             found.model, method=method, score=score, seed=seed, threads=threads, progress=progress

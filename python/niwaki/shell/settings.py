@@ -32,7 +32,9 @@ Polish = Annotated[
 PolishKernel = Annotated[
     str | None,
     typer.Option(
-        "--polish-kernel", metavar="KERNEL", help='With --polish: the kernel of the chain; default: "mh()".'
+        "--polish-kernel",
+        metavar="KERNEL",
+        help='With --polish: the kernel of the chain; default: "prior()".',
     ),
 ]
 
@@ -153,7 +155,7 @@ def method(name: str, given: dict[str, Any], usual: int) -> Method:
                     cure=f"give only one of them; run.json contains the numbers for {said['seconds']:g} s",
                 )
     said = {"particles": usual, **said}
-    return search.sharpened(said) if chosen is Smc else chosen(**{"temper": 16.0, **said})
+    return search.sharpened(said) if chosen is Smc else chosen(**{"power": 16.0, **said})
 
 
 def typed(given: dict[str, Any]) -> dict[str, Any]:

@@ -59,7 +59,7 @@ def test_grow_writes_and_replay_gives_the_same_bytes(tmp_path: Path) -> None:
     assert (first / "best.glb").read_bytes() == (again / "best.glb").read_bytes()
     data = json.loads((first / "run.json").read_text())
     assert data["search"]["seed"] == 3 and [one["seed"] for one in data["runs"]] == [3, 4]
-    assert data["search"]["method"]["temper"] == 16.0
+    assert data["search"]["method"]["power"] == 16.0
     assert data["search"]["score"][-1]["given"]["voxel"] == 0.5
     choice = data["runs"][0]["choices"][0]
     assert choice["family"] and choice["address"] and "value" in choice

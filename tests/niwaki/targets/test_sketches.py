@@ -81,13 +81,13 @@ def test_a_slanted_light_throws_the_shadow_aside() -> None:
 
 def test_two_views_are_told_apart_in_the_measures() -> None:
     side = nw.Camera.orthographic((20, 0, 0), (0, 0, 0), height=10)
-    score = nw.volume_match(cube()) * nw.match_image(ON, CAMERA) * nw.match_image(ON, side)
+    score = nw.match_volume(cube()) * nw.match_image(ON, CAMERA) * nw.match_image(ON, side)
     assert [name for name in started(score).measures() if name.startswith("similarity")] == [
         "similarity",
         "similarity_2",
         "similarity_3",
     ]
-    assert repr(score) == "volume_match * match_image * match_image"
+    assert repr(score) == "match_volume * match_image * match_image"
     assert len(score.views) == 2 and score.target is not None
 
 
@@ -141,7 +141,7 @@ def test_messages(golden: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
         refused(lambda: nw.match_image(ON, CAMERA, weight_image=np.zeros((200, 200)))),
         refused(lambda: nw.match_image(ON, CAMERA, weight=-1)),
         refused(lambda: nw.match_image(ON, CAMERA, sigma=0)),
-        refused(lambda: nw.volume_match(cube()) * nw.match_image(ON, away)),
+        refused(lambda: nw.match_volume(cube()) * nw.match_image(ON, away)),
         refused(lambda: nw.match_image(ON, {"position": [0, 0, 1], "look_at": [0, 0, 1]})),
         refused(lambda: nw.match_shadow(ON, (0, -1, 0), floor, away)),
         refused(

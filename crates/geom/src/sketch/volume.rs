@@ -92,14 +92,14 @@ struct VolumeSpec {
 ///
 /// # Errors
 /// `bad-sigma` when it is not positive.
-pub fn volume_match(target: Arc<Target>, sigma: f64) -> Result<Arc<dyn SketchSpec>, GeomError> {
+pub fn match_volume(target: Arc<Target>, sigma: f64) -> Result<Arc<dyn SketchSpec>, GeomError> {
     super::check_sigma(sigma)?;
     Ok(Arc::new(VolumeSpec { target, sigma }))
 }
 
 impl SketchSpec for VolumeSpec {
     fn name(&self) -> &'static str {
-        "volume_match"
+        "match_volume"
     }
 
     fn start(&self) -> Box<dyn Sketch> {
@@ -195,7 +195,7 @@ impl PartialEq for VolumeMatch {
 
 impl Sketch for VolumeMatch {
     fn name(&self) -> &'static str {
-        "volume_match"
+        "match_volume"
     }
 
     fn add(&mut self, primitive: &Primitive) {

@@ -20,7 +20,7 @@ pub struct Terms<'a> {
     pub prior: &'a Total,
     /// Change of factors, observations and sketches.
     pub score: &'a Total,
-    /// The inverse temperature: the power of the score.
+    /// The power of the score.
     pub beta: f64,
     /// Log densities of the choices that went, or were drawn anew.
     pub stale: &'a Total,

@@ -1,5 +1,5 @@
 //! Four strategies in step: the same proposals, decisions, exchanges, scores and scenes to the bit, rollbacks that leave
-//! nothing, and sums that are those of a run from the start. With several temperatures this holds for each rung.
+//! nothing, and sums that are those of a run from the start. With several powers this holds for each rung.
 
 use super::ladder::Ladder;
 use super::state::State;

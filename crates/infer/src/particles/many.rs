@@ -243,7 +243,7 @@ fn combine(
         plan: plan.to_vec(),
         died: deaths,
         moved: Moved::default(),
-        temperatures: std::mem::take(&mut lived[0].1.temperatures),
+        powers: std::mem::take(&mut lived[0].1.powers),
     };
     for (n, mut one) in lived {
         if let (Some(own), Some(all)) = (one.log_normaliser, log_normaliser) {

@@ -28,7 +28,7 @@ fn kernels(task: &Task) -> Vec<(&'static str, Kernel)> {
     let regenerate = |levels| Kernel::Regenerate { levels };
     let deep = Selection { depth: vec![1.0, 3.0, 0.5], ..Selection::default() };
     let first = choices(task).swap_remove(0).0;
-    let by_site = Selection { odds: vec![(first, 3.0)], ..Selection::default() };
+    let by_site = Selection { weights: vec![(first, 3.0)], ..Selection::default() };
     let all = Kernel::Cycle(vec![
         Kernel::Prior,
         Kernel::Repeat(2, Box::new(drift())),
@@ -43,10 +43,10 @@ fn kernels(task: &Task) -> Vec<(&'static str, Kernel)> {
         ("block", block()),
         ("regenerate 0", regenerate(0)),
         ("regenerate 2", regenerate(2)),
-        ("odds by depth", Kernel::On(deep, Box::new(Kernel::Cycle(vec![Kernel::Prior, regenerate(1)])))),
-        ("odds by site", Kernel::On(by_site, Box::new(Kernel::Prior))),
+        ("weights by depth", Kernel::On(deep, Box::new(Kernel::Cycle(vec![Kernel::Prior, regenerate(1)])))),
+        ("weights by site", Kernel::On(by_site, Box::new(Kernel::Prior))),
         ("own proposals", own_proposals(task)),
-        ("annealed", Kernel::Anneal { hot: 4.0, cold: 0.5, steps: 200, kernel: Box::new(all.clone()) }),
+        ("annealed", Kernel::Anneal { start: 0.25, end: 2.0, steps: 200, kernel: Box::new(all.clone()) }),
         ("all", all),
     ]
 }
@@ -106,9 +106,9 @@ fn four_strategies_make_the_same_ladder() {
     for (name, text) in PROGRAMS {
         let task = task(text);
         for (kind, kernel) in kernels(&task) {
-            if matches!(kind, "drift" | "all" | "odds by depth" | "own proposals") {
-                let temperatures = vec![1.0, 3.0, f64::INFINITY];
-                let settings = Settings { seed: 6, kernel, temperatures, every: 4, ..settings() };
+            if matches!(kind, "drift" | "all" | "weights by depth" | "own proposals") {
+                let powers = vec![1.0, 0.3, 0.0];
+                let settings = Settings { seed: 6, kernel, powers, every: 4, ..settings() };
                 let (found, seen) = compare(&task, &settings, 120, 30).expect("a ladder");
                 assert!(found.is_none(), "{name}, {kind}: {}", found.unwrap_or_default());
                 exchanges += seen.exchanges;
@@ -141,8 +141,8 @@ fn settings() -> Settings {
 fn rungs_of_a_ladder_draw_numbers_of_their_own() {
     let differ = |text: &str| {
         let task = task(text);
-        // Equal temperatures and no exchange: with shared streams both chains would be the same.
-        let settings = Settings { temperatures: vec![1.0, 1.0], every: 1000, ..settings() };
+        // Equal powers and no exchange: with shared streams both chains would be the same.
+        let settings = Settings { powers: vec![1.0, 1.0], every: 1000, ..settings() };
         let mut ladder: Ladder = Ladder::start(&task, &settings, 0, None).expect("a ladder");
         ladder.advance(&task, 100, &mut |_, _| true).expect("proposals");
         let [first, second] = [0, 1].map(|rung| format!("{:?}", ladder.rungs[rung].state.trace.result()));

@@ -83,7 +83,7 @@ fn particle_gibbs_keeps_the_posterior() {
 }
 
 #[test]
-fn it_keeps_it_when_resampling_is_adaptive_and_the_temperature_changes() {
+fn it_keeps_it_when_resampling_is_adaptive_and_the_power_changes() {
     for (name, text) in PROGRAMS {
         let own = Settings {
             when: When::EffectiveBelow(0.7),
@@ -250,10 +250,10 @@ fn a_population_that_died_is_a_proposal_that_was_rejected() {
     }
 }
 
-/// At temperature 2.5, with weights that count nothing before the end: all of the temperature is still to come where
+/// At power 2.5, with weights that count nothing before the end: all of the power is still to come where
 /// ancestors are drawn, for those that have ended as for those that have not.
 #[test]
-fn ancestors_count_the_temperature_that_is_to_come() {
+fn ancestors_count_the_power_that_is_to_come() {
     let text = |power: &str| {
         format!(
             r#"(module (fn "m" (params)
@@ -268,7 +268,7 @@ fn ancestors_count_the_temperature_that_is_to_come() {
     let (plain, sharp) = (task(&text("1.0")), task(&text("2.5")));
     for ancestors in [Ancestors::Kept, Ancestors::Sampled] {
         let own = Settings {
-            temper: 2.5,
+            power: 2.5,
             anneal: Anneal::Schedule([0.0; 6].as_slice().into()),
             ..small(4, Order::Stochastic)
         };
