@@ -221,11 +221,13 @@ class EngineFault(RuntimeError):
     code: str
     message: str
     help: str | None
+    subject: str | None
     stack: list[tuple[str, str, tuple[int, int, int, int]]]
     omitted: int
     path: str
     invalid: bool
     barrier: int
+    tries: int
     causes: list[tuple[str, int]]
 
 def log_density(family: str, params: Sequence[Any], x: Any) -> float: ...

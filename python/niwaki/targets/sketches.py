@@ -431,7 +431,6 @@ def geometry_errors(target: Target, size: float) -> Iterator[None]:
         yield
     except ValueError as error:
         code = getattr(error, "code", "")
-        codes = {"no-cell-filled": "no-cell-filled", "large-grid": "too-many-cells"}
-        if code not in codes:
+        if code not in ("no-cell-filled", "too-many-cells"):
             raise
-        raise InputError(codes[code], path=name, size=f"{size:g}", found=cells) from None
+        raise InputError(code, path=name, size=f"{size:g}", found=cells) from None

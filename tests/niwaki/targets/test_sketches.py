@@ -115,6 +115,14 @@ def test_an_obstacle_above_is_kept_clear() -> None:
         assert high[1] < 3 or low[1] > 5
 
 
+def test_each_of_two_obstacles_is_kept_in_the_record() -> None:
+    near, far = cube((0, 1, 0)), cube((0, 7, 0))
+    score = nw.avoid(near, voxel=0.1) * nw.avoid(far, voxel=0.2)
+    given = [one["given"] for one in score.data(lambda value: value)]
+    found = [(one["obstacle"].vertices[:, 1].min(), one["voxel"]) for one in given]
+    assert found == [(near.vertices[:, 1].min(), 0.1), (far.vertices[:, 1].min(), 0.2)]
+
+
 def warned(make: Callable[[], Any]) -> str:
     with pytest.warns(TargetWarning) as found:
         make()

@@ -96,7 +96,7 @@ fn trace_has(known: &[String], pattern: &str) -> bool {
 pub(crate) fn no_choice(pattern: &str, known: &[String]) -> Fault {
     let near: Vec<String> = nearest(pattern, known).iter().map(|p| format!("`{p}`")).collect();
     let near = if near.is_empty() { "the model has no choice".into() } else { near.join(", ") };
-    Fault::new("no-address", format!("`{pattern}` matches no choice")).with_help(near)
+    Fault::new("no-address", format!("`{pattern}` matches no choice")).about(pattern).with_help(near)
 }
 
 /// The readable components of the program's choices.

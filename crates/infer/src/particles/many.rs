@@ -137,7 +137,7 @@ pub(super) fn by_clock(
     watch: &mut Watch<'_>,
 ) -> std::result::Result<Result, Failure> {
     if time.is_zero() {
-        return Err(Fault::new("no-time", "no time was given to the search")
+        return Err(Fault::new("bad-setting", "no time was given to the search")
             .with_help("give it a number of seconds above 0")
             .into());
     }
