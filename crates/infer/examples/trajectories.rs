@@ -64,8 +64,8 @@ fn density(model: &str) -> Density {
 
 fn milliseconds<T>(f: impl FnOnce() -> T) -> (T, f64) {
     let start = Instant::now();
-    let made = f();
-    (made, start.elapsed().as_secs_f64() * 1e3)
+    let result = f();
+    (result, start.elapsed().as_secs_f64() * 1e3)
 }
 
 /// Seconds of CPU time of this thread.
@@ -87,7 +87,7 @@ fn startup(model: &str) -> String {
     let (_, code) = milliseconds(|| Native::compile(&density).is_ok());
     let code_cpu = (cpu() - busy) * 1e3;
     let (_, behind) = milliseconds(|| {
-        // As a chain does it: gradients by tape while the code is made, a value at the end of each trajectory.
+        // As in a chain: gradients by tape while the code is compiled, a value at the end of each trajectory.
         while !compiled.is_native() {
             (0..100).for_each(|_| {
                 compiled.gradient(&point, &mut g);

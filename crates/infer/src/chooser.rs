@@ -1,4 +1,4 @@
-//! Where a choice gets its value: one place for every algorithm.
+//! How a choice gets its value, in one place for every algorithm.
 //!
 //! A chooser answers a choice with a value and with two log densities of it: under the choice's own distribution, `p`,
 //! and under the one that the value was drawn from, `q`. An algorithm that draws from `q` and wants `p` weighs by
@@ -7,8 +7,8 @@
 //! log p(x) - log q(x)        summed over the choices of a run
 //! ```
 //!
-//! [`Prior`] draws from `p` itself, [`Known`] takes values that are given, [`Guided`] asks a user's [`Proposal`]; the last
-//! two leave what they do not know to another chooser. A chooser may look at the scene so far ([`Context`]).
+//! [`Prior`] draws from `p` itself, [`Known`] uses given values, [`Guided`] draws from a user's [`Proposal`]; the
+//! last two pass other choices to another chooser. A chooser may look at the scene so far ([`Context`]).
 
 use crate::chain::glob::{last, matches};
 use crate::chain::kernel::{Kernel, Selection};
@@ -32,12 +32,12 @@ pub struct Chosen {
     pub value: Value,
     /// Its log density under the choice's own distribution, nats.
     pub log_prior: f64,
-    /// Its log density under the distribution that it was drawn from, nats; 0 for one that was given.
+    /// Its log density under the distribution that it was drawn from, nats; 0 for a given value.
     pub log_drawn: f64,
 }
 
 impl Chosen {
-    /// A value that was given.
+    /// A given value.
     ///
     /// # Errors
     /// A value that no distribution can draw.
@@ -46,26 +46,26 @@ impl Chosen {
     }
 }
 
-/// What a chooser may look at beside the choice.
+/// What a chooser may use beside the choice.
 #[derive(Clone, Copy, Default)]
 pub struct Context<'a> {
-    /// The sketches of the scene so far; none where there are none, or where they do not show the run at this choice (a run
-    /// that is followed again, a Markov chain's).
+    /// The sketches of the scene so far. `None` for a task without sketches, and where they are not up to date at this
+    /// choice (a run that is followed again, a Markov chain).
     pub sketches: Option<&'a Sketches>,
 }
 
-/// Whoever gives choices their values.
+/// Gives choices their values.
 pub trait Chooser {
     /// Whether every value is drawn from the choice's own distribution, so that all weights are zero.
     const IS_PRIOR: bool = false;
 
-    /// A value for the choice; none where the run is to pause before it.
+    /// A value for the choice; `None` where the run is to pause before it.
     ///
     /// # Errors
     /// A fault ends the run.
     fn choose(&mut self, at: &At<'_, f64>, dist: &Dist, seen: Context<'_>) -> Result<Option<Chosen>, Fault>;
 
-    /// The same value, where nobody asks for its densities and there is no scene to look at.
+    /// The same value, where its densities are not needed and there is no scene.
     ///
     /// # Errors
     /// As for [`Chooser::choose`].
@@ -106,7 +106,7 @@ impl Chooser for Prior {
 pub struct Known<'a, C> {
     /// The values.
     pub values: Option<&'a HashMap<u128, Value>>,
-    /// Who answers the other choices.
+    /// The chooser of all other choices.
     pub otherwise: C,
 }
 
@@ -134,7 +134,7 @@ impl<C: Chooser> Chooser for Known<'_, C> {
     }
 }
 
-/// Nobody: a choice that is asked for is a fault, with this help.
+/// No values: any choice is a fault, with this help.
 pub struct Refuse(pub &'static str);
 
 impl Chooser for Refuse {
@@ -151,7 +151,7 @@ pub struct Guided<'a, C> {
     pub proposal: &'a Proposal,
     /// The stream of its random bits.
     pub stream: StreamKey,
-    /// Who answers the other choices.
+    /// The chooser of all other choices.
     pub otherwise: C,
 }
 
@@ -175,7 +175,7 @@ impl Proposal {
     /// The proposals of a kernel that consists of `proposal`, of `on` around it, and of `cycle` around those.
     ///
     /// # Errors
-    /// Any other kernel; a function that asks for the value before, which such a run has not.
+    /// Any other kernel; a function that needs the value before, which a new run does not have.
     pub fn of(kernel: &Kernel) -> Result<Proposal, Fault> {
         let mut proposal = Proposal { parts: vec![] };
         proposal.add(kernel, &Selection::default())?;
@@ -184,7 +184,7 @@ impl Proposal {
 
     fn add(&mut self, kernel: &Kernel, selection: &Selection) -> Result<(), Fault> {
         match kernel {
-            Kernel::User(user) if user.asks_old() => Err(Fault::new(
+            Kernel::User(user) if user.needs_old() => Err(Fault::new(
                 "bad-proposal",
                 format!(
                     "the proposal `{}` asks for `old`, the value before, which a new run has not",
@@ -218,7 +218,7 @@ impl Proposal {
         Ok(())
     }
 
-    /// Whether it looks at more of an address than its last component, which a future must then know.
+    /// Whether a pattern uses more of an address than its last component; futures must then remember their origin.
     pub fn needs_origins(&self) -> bool {
         self.parts.iter().any(|(selection, _)| selection.sites.iter().flatten().any(|p| is_deep(p)))
     }
@@ -267,15 +267,15 @@ impl Proposal {
     }
 }
 
-/// The cure of a proposal that leaves values out.
+/// The help for a proposal that leaves values out.
 const WIDER: &str = "propose from a distribution that reaches all values of the choice's own";
 
-/// Whether a pattern looks at more of an address than its last component.
+/// Whether a pattern uses more of an address than its last component.
 fn is_deep(pattern: &str) -> bool {
     pattern.contains('/') || pattern.contains("**")
 }
 
-/// Whether a selection by patterns takes the choice: the whole address is written out only where a pattern looks at it.
+/// Whether a selection by patterns takes the choice. The whole address is built only where a pattern needs it.
 fn takes(selection: &Selection, at: &At<'_, f64>) -> bool {
     let mut path = None;
     selection.sites.iter().all(|patterns| {

@@ -33,7 +33,7 @@ struct Branch {
     next: Option<Chosen>,
 }
 
-/// Gives the next choice its value; at the one after that the run pauses, with all of its values.
+/// Gives the next choice its value. At the choice after it the run pauses, with all values of that choice.
 struct Branching {
     next: Option<Chosen>,
     open: Vec<Chosen>,
@@ -61,8 +61,8 @@ impl Chooser for Branching {
     }
 }
 
-/// Enumerates every run of the program, at most `max_runs`, those that prove impossible included. `watch` is called with
-/// the number of runs after each; when it answers false, the search is given up.
+/// Enumerates every run of the program, at most `max_runs`, impossible ones included. `watch` is called with the
+/// number of runs after each; when it returns false, the search stops without a result.
 ///
 /// # Errors
 /// A choice that cannot be enumerated, more runs than allowed, runs that are all impossible, or a fault of the program: also
@@ -154,7 +154,7 @@ mod tests {
             }
             other => panic!("{other:?}"),
         };
-        // Both conditions stand in line 0.
+        // Both conditions are in line 0.
         assert_eq!(causes(enumerate(&task, 10, &mut |_| true).err()), [10]);
         let fault = enumerate(&task, 9, &mut |_| true).err();
         assert!(matches!(fault, Some(Failure::Setting(fault)) if fault.code == "too-many-runs"));

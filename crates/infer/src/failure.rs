@@ -9,13 +9,13 @@ use std::collections::HashMap;
 pub enum Failure {
     /// The program met a fault.
     Run(Box<RunFault>),
-    /// A setting makes no sense, or the question suits the algorithm badly.
+    /// A setting makes no sense, or the algorithm does not suit the task.
     Setting(Fault),
     /// Every particle, or every run, is impossible.
     Impossible {
         /// The barrier at which the last particle died, from 1; 0 for runs, which have none.
         barrier: usize,
-        /// What killed them: constraint and count, most frequent first.
+        /// What made them impossible: constraint and count, most frequent first.
         causes: Vec<(String, usize)>,
     },
     /// A chain has no state to start from.
@@ -28,7 +28,7 @@ pub enum Failure {
 }
 
 impl Failure {
-    /// Every particle is impossible at this barrier (0: every run is), so many because of each of these.
+    /// Every particle is impossible at this barrier (0: every run is); `causes` are constraints with counts.
     pub(crate) fn impossible<'a>(barrier: usize, causes: impl Iterator<Item = (&'a str, usize)>) -> Failure {
         let mut counts: HashMap<&str, usize> = HashMap::new();
         causes.for_each(|(cause, n)| *counts.entry(cause).or_insert(0) += n);
@@ -42,7 +42,7 @@ impl Failure {
         Failure::NoStart { tries: 0, causes: vec![] }
     }
 
-    /// Whether all that was tried was impossible, be it by its scores or because distributions were invalid.
+    /// Whether every run or particle was impossible, by scores or by invalid distributions.
     pub fn is_impossible(&self) -> bool {
         match self {
             Failure::Run(met) => met.fault.out_of_range.is_some(),

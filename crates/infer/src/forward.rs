@@ -1,4 +1,4 @@
-//! Forward runs: every choice gets its value from a chooser; as a rule from its prior, by the random stream at its address.
+//! Forward runs: every choice gets its value from a chooser, usually from its prior by the random stream at its address.
 
 use crate::Failure;
 use crate::chooser::{Chooser, Context, Prior};
@@ -13,11 +13,11 @@ use niwaki_vm::machine::state::State;
 use niwaki_vm::machine::{Machine, Stop};
 use niwaki_vm::value::Value;
 
-/// Asks for choices and keeps the record.
+/// Answers the machine's questions and keeps the record.
 pub struct Forward<'a, C> {
     /// The record so far.
     pub record: &'a mut Record,
-    /// Who gives choices their values.
+    /// The chooser of all values.
     pub chooser: C,
     /// Log of prior over proposal, `log p - log q`, of the choices so far, nats; zero where all are from their priors.
     pub log_ratio: f64,
@@ -25,12 +25,12 @@ pub struct Forward<'a, C> {
     pub hosts: &'a dyn Hosts,
     /// Whether emits, factors and observations pause the run.
     pub barriers: bool,
-    /// Whether the run goes on although its score is minus infinity.
+    /// Whether the run goes on when its score is minus infinity.
     pub complete: bool,
 }
 
 impl<C: Chooser> Forward<'_, C> {
-    /// Runs on, depth first, until the run has ended or pauses: where it is impossible, at a barrier, or for its chooser.
+    /// Runs depth first until the run ends or pauses: where it is impossible, at a barrier, or where the chooser pauses it.
     ///
     /// # Errors
     /// A fault of the program, or of the chooser.
@@ -59,18 +59,18 @@ impl<C: Chooser> Forward<'_, C> {
     }
 }
 
-/// What a person calls a factor.
+/// The readable name of a factor.
 pub(crate) fn factor_name(at: &At<'_, f64>, factor: Factor) -> String {
     named(factor, at.site.span.line)
 }
 
-/// What a person calls a value of a choice that its distribution cannot draw.
+/// The readable name of a value outside of the support of its choice.
 #[cold]
 fn outside(at: &At<'_, f64>) -> String {
     format!("the choice `{}` at line {}: a proposal outside of its support", at.path(), at.site.span.line)
 }
 
-/// What a person calls a factor of that kind at that line.
+/// The readable name of a factor of this kind at this line.
 pub(crate) fn named(factor: Factor, line: u32) -> String {
     let what = match factor {
         Factor::Observe => "observe",
@@ -127,7 +127,7 @@ pub fn forward(task: &Task, seed: u64, stream: u64, complete: bool) -> Result<Ru
     Ok(Run { log_weight: 0.0, ..forward_by(task, Prior(StreamKey::new(seed, stream, 0)), complete)? })
 }
 
-/// One forward run by a chooser, as [`forward`]. It weighs its score, and prior over proposal of its choices.
+/// One forward run by a chooser, as [`forward`]. Its weight is its score times prior over proposal of its choices.
 ///
 /// # Errors
 /// A fault of the program, or of the chooser.

@@ -12,7 +12,7 @@ use niwaki_math::StreamKey;
 use niwaki_vm::fault::Fault;
 use rayon::prelude::*;
 
-/// Runs between two looks of whoever watches.
+/// Runs between two calls of `watch`.
 const BLOCK: u64 = 256;
 
 /// Independent weighted runs.
@@ -20,15 +20,15 @@ pub struct Weighted {
     /// The runs, with their weights.
     pub runs: Vec<Run>,
     /// Log of the mean weight, nats: an unbiased estimate of the evidence (not of its log), unless `watch` stopped
-    /// the runs for what they were.
+    /// the search because of its results.
     pub log_evidence: f64,
 }
 
-/// `n` forward runs in parallel, some of their choices drawn by a `proposal` where there is one. `watch` is called now and
-/// then with their number; when it answers false, those are given.
+/// `n` forward runs in parallel, some of their choices drawn by `proposal` where there is one. `watch` is called
+/// regularly with the number of runs; when it returns false, the runs so far are returned.
 ///
 /// # Errors
-/// A fault of the program, or distributions that are invalid in every run; no runs asked for; runs that are all impossible.
+/// A fault of the program, or distributions that are invalid in every run; `n` zero; runs that are all impossible.
 pub fn importance(
     task: &Task,
     proposal: Option<&Proposal>,

@@ -1,12 +1,12 @@
-//! The search: algorithms that answer the machine's questions and decide.
+//! The search: algorithms that answer the machine's questions.
 //!
-//! * [`task`]: what is asked for: a program, its arguments, the sketches that score its scene;
+//! * [`task`]: what a search runs on: a program, its arguments, the sketches that score its scene;
 //! * [`log`]: the choices of a run, shared between copies of a particle;
 //! * [`record`]: choices and score of one run, the same for every algorithm;
 //! * [`chooser`]: where a choice gets its value;
 //! * [`forward`]: a run of new choices; [`replay`]: take every choice from a log, and name it;
 //! * [`enumeration`], [`rejection`], [`importance`]: exact and direct answers, the oracles for the rest;
-//! * [`method`]: a search as it is written down, and [`run`]: what it finds;
+//! * [`method`]: a search as data; [`run`]: a finished run;
 //! * [`nested`]: inference inside a model;
 //! * [`particles`]: sequential Monte Carlo, in program order and in stochastic order;
 //! * [`chain`]: Metropolis-Hastings over kept runs, kernels as values;

@@ -1,6 +1,6 @@
 //! The choices of a run: an append-only log that copies of a particle share.
 //!
-//! Entries made since the last copy are the particle's own; at a copy they are frozen and shared. Forking costs
+//! Entries since the last copy belong to the particle alone; at a copy they are frozen and shared. Forking costs
 //! the entries since the last fork, not the length of the run.
 
 use niwaki_math::Draw;
@@ -11,10 +11,10 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use smallvec::SmallVec;
 use std::sync::Arc;
 
-/// Most barriers are a few choices apart: that many need no allocation of their own.
+/// Entries stored without an allocation: most barriers are a few choices apart.
 type Few = SmallVec<[Entry; 4]>;
 
-/// Own entries beyond this many are put aside: a list that grows without copies would be half empty.
+/// Own entries beyond this many are frozen: a list that grows without copies would be half empty.
 const BLOCK: usize = 64;
 
 /// One choice.
@@ -55,7 +55,7 @@ impl Entry {
     }
 }
 
-/// Entries that no one changes any more, and those before them.
+/// Entries that do not change any more, and those before them.
 #[derive(Debug)]
 struct Frozen {
     entries: Box<[Entry]>,
@@ -102,7 +102,7 @@ impl Log {
 
     fn freeze(&mut self) {
         if !self.own.is_empty() {
-            // As large as they are, and not a bit larger.
+            // With no spare capacity.
             let mut entries = Vec::with_capacity(self.own.len());
             entries.extend(self.own.drain(..));
             let entries = entries.into_boxed_slice();

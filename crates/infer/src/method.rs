@@ -1,4 +1,4 @@
-//! Methods as data: how a search is written down, read by the callers of a task and by `infer` inside a model alike.
+//! Methods as data. The binding and `infer` inside a model both read them.
 //!
 //! The fields are those of Python's classes of the same names, which describe them.
 
@@ -25,7 +25,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// About how many samples of a chain are kept where nothing is said.
+/// About how many samples of a chain are kept by default.
 const KEPT: u64 = 1000;
 
 /// How a task is searched.
@@ -122,7 +122,7 @@ pub struct Mh {
 pub struct Hmc {
     steps: u32,
     jitter: f64,
-    /// Decides what a person is warned of, and nothing here.
+    /// Read by Python for its warnings; not used here.
     #[serde(rename = "designs")]
     _designs: bool,
     #[serde(flatten)]
@@ -141,7 +141,7 @@ pub struct Nuts {
     rest: Rest,
 }
 
-/// What both have.
+/// The settings that HMC and NUTS share.
 #[derive(Clone, Debug, Deserialize)]
 struct Trajectories {
     draws: u32,
@@ -161,7 +161,7 @@ fn strategy<'de, D: serde::Deserializer<'de>>(from: D) -> Result<Strategy, D::Er
     Strategy::from_name(&name).ok_or_else(|| serde::de::Error::custom(format!("no strategy `{name}`")))
 }
 
-/// What a search is told beside its method.
+/// The inputs of a search beside its method.
 #[derive(Clone, Copy, Default)]
 pub struct Given<'a> {
     /// Decides every random number.
@@ -172,17 +172,17 @@ pub struct Given<'a> {
     pub start: Option<&'a [Entry]>,
 }
 
-/// What a search found.
-pub struct Found {
+/// The result of a search.
+pub struct Results {
     /// Finished runs.
     pub runs: Vec<Run>,
-    /// Whether it was stopped before its end.
+    /// Whether the search was stopped before its end.
     pub interrupted: bool,
-    /// What else the method says of its search.
+    /// Further results, by the kind of method.
     pub info: Info,
 }
 
-/// What a method says of its search.
+/// Further results of a search, by the kind of method.
 pub enum Info {
     /// Of forward runs.
     Forward,
@@ -204,7 +204,7 @@ pub enum Info {
     Chain(particles::Chain),
 }
 
-/// Whoever watches a search: done, ended, best log score; whether to go on.
+/// A callback that gets the progress of a search (done, ended, best log score) and returns whether to go on.
 pub type Watch<'a> = dyn FnMut(u64, usize, f64) -> bool + Send + 'a;
 
 impl Method {
@@ -229,15 +229,16 @@ impl Method {
         }
     }
 
-    /// Searches a task, by any method but those whose chains go on afterwards: see
+    /// Searches a task, by any method except those whose chains can go on afterwards: see
     /// [`Mh::settings`] and [`Method::trajectories`].
     ///
     /// # Errors
-    /// What the method meets.
-    pub fn search(&self, task: &Task, given: &Given<'_>, watch: &mut Watch<'_>) -> Result<Found, Failure> {
+    /// The failure of the method.
+    pub fn search(&self, task: &Task, given: &Given<'_>, watch: &mut Watch<'_>) -> Result<Results, Failure> {
         let seed = given.seed;
-        let bare = |runs, interrupted, info| Found { runs, interrupted, info };
+        let bare = |runs, interrupted, info| Results { runs, interrupted, info };
         let none = f64::NEG_INFINITY;
+        let mut progress = |p: Progress| watch(p.barriers as u64, p.ended, p.best);
         match self {
             Method::Forward { n } => {
                 let mut runs = Vec::new();
@@ -249,45 +250,43 @@ impl Method {
             }
             Method::Importance { n, proposal } => {
                 let proposal = proposed(proposal.as_ref(), given)?;
-                let found =
+                let result =
                     importance(task, proposal.as_deref(), *n, seed, &mut |runs| watch(runs as u64, 0, none))?;
-                let interrupted = found.runs.len() < *n;
-                let log_evidence = (!interrupted).then_some(found.log_evidence);
-                Ok(bare(found.runs, interrupted, Info::Importance { log_evidence }))
+                let interrupted = result.runs.len() < *n;
+                let log_evidence = (!interrupted).then_some(result.log_evidence);
+                Ok(bare(result.runs, interrupted, Info::Importance { log_evidence }))
             }
             Method::Rejection { n, bound, max_tries } => {
-                let found =
+                let result =
                     rejection(task, *n, *bound, *max_tries, seed, &mut |tries| watch(tries, 0, none))?;
-                Ok(bare(found.runs, found.interrupted, Info::Rejection { tries: found.tries }))
+                Ok(bare(result.runs, result.interrupted, Info::Rejection { tries: result.tries }))
             }
             Method::EnumerateAll { max_runs } => {
-                let found = enumerate(task, *max_runs, &mut |runs| watch(runs as u64, 0, none))?;
-                Ok(bare(vec![], false, Info::Enumeration(found)))
+                let result = enumerate(task, *max_runs, &mut |runs| watch(runs as u64, 0, none))?;
+                Ok(bare(vec![], false, Info::Enumeration(result)))
             }
             Method::Smc(own) => {
                 let settings = own.settings(given)?;
-                let mut look = |p: Progress| watch(p.barriers as u64, p.ended, p.best);
-                let mut found = match own.seconds {
+                let mut result = match own.seconds {
                     Some(time) => {
                         let time = Duration::try_from_secs_f64(time).unwrap_or(Duration::ZERO);
-                        within(task, &settings, time, &mut look)?
+                        within(task, &settings, time, &mut progress)?
                     }
-                    None => populations(task, &settings, &own.plan(), &mut look)?,
+                    None => populations(task, &settings, &own.plan(), &mut progress)?,
                 };
-                let runs = std::mem::take(&mut found.particles).into_iter().map(Run::from);
-                Ok(bare(runs.collect(), found.interrupted, Info::Populations(found)))
+                let runs = std::mem::take(&mut result.particles).into_iter().map(Run::from);
+                Ok(bare(runs.collect(), result.interrupted, Info::Populations(result)))
             }
             Method::ParticleGibbs(own) => {
                 let settings = own.settings(given)?;
                 let ancestors = if own.ancestors { Ancestors::Sampled } else { Ancestors::Kept };
-                let mut look = |p: Progress| watch(p.barriers as u64, p.ended, p.best);
-                let found = particle_gibbs(task, &settings, ancestors, own.sweeps, given.start, &mut look)?;
-                Ok(of_chain(found))
+                let result =
+                    particle_gibbs(task, &settings, ancestors, own.sweeps, given.start, &mut progress)?;
+                Ok(of_chain(result))
             }
             Method::Pimh(own) => {
                 let settings = own.settings(given)?;
-                let mut look = |p: Progress| watch(p.barriers as u64, p.ended, p.best);
-                Ok(of_chain(pimh(task, &settings, own.sweeps, &mut look)?))
+                Ok(of_chain(pimh(task, &settings, own.sweeps, &mut progress)?))
             }
             Method::Mh(_) | Method::Hmc(_) | Method::Nuts(_) => {
                 Err(bad("a method whose chains go on is started, not searched".into()).into())
@@ -317,7 +316,7 @@ impl Method {
         Some((settings, own.chains, own.tries))
     }
 
-    /// Refuses what an inference inside a model cannot honour: it gives one value, the same for the same seed.
+    /// Refuses settings that make no sense for an inference inside a model, which gives one value for each seed.
     ///
     /// # Errors
     /// Such a setting, by name, or a method whose result is not a sample.
@@ -376,7 +375,7 @@ impl ParticleGibbs {
         Ok(Settings {
             particles: self.particles,
             seed: given.seed,
-            // The one whose conditional form is simple: see `particle_gibbs`.
+            // Its conditional form is simple: see `particle_gibbs`.
             resampling: Resampling::Multinomial,
             proposal: proposed(self.proposal.as_ref(), given)?,
             ..self.settings.clone()
@@ -392,10 +391,10 @@ impl Pimh {
 }
 
 impl Mh {
-    /// What its chains are told.
+    /// The settings of its chains.
     ///
     /// # Errors
-    /// A kernel that there is not.
+    /// An unknown kernel.
     pub fn settings(&self, given: &Given<'_>) -> Result<chain::Settings, Fault> {
         let plain = chain::Settings::default();
         let own = self.kernel.as_ref().map(|form| form.tempered(given.functions)).transpose()?;
@@ -431,9 +430,9 @@ fn proposed(form: Option<&Form>, given: &Given<'_>) -> Result<Option<Arc<Proposa
     Ok(Some(Arc::new(Proposal::of(&form.kernel(given.functions)?)?)))
 }
 
-fn of_chain(mut found: particles::Chain) -> Found {
-    let runs = std::mem::take(&mut found.states).into_iter().map(Run::from).collect();
-    Found { runs, interrupted: found.interrupted, info: Info::Chain(found) }
+fn of_chain(mut chain: particles::Chain) -> Results {
+    let runs = std::mem::take(&mut chain.states).into_iter().map(Run::from).collect();
+    Results { runs, interrupted: chain.interrupted, info: Info::Chain(chain) }
 }
 
 fn bad(message: String) -> Fault {

@@ -1,10 +1,10 @@
 //! Inference inside a model: `infer(model, method, ...)`, dissertation 2.3.1.
 //!
 //! To the run around it an `infer` is a pure function of its model, its arguments and a seed: the seed is a choice of
-//! that run, drawn where `infer` stands, so that a replay, a copy of a particle and a Markov chain treat it as they treat
-//! every choice. The choices, factors and shapes of the inner runs are their own.
+//! that run, drawn at the call of `infer`. So a replay, a copy of a particle and a Markov chain treat it as they treat
+//! every choice. The choices, factors and shapes of the inner runs are not part of the outer run.
 //!
-//! The machine asks for it with the question `host`, as for any function that it cannot compute itself.
+//! The machine calls it by the question `host`, as any function that it cannot compute itself.
 
 use crate::Failure;
 use crate::chain;
@@ -26,7 +26,7 @@ const PICK: u64 = u64::MAX - 1;
 /// How many `infer` may be inside one another. Each takes some of the host's stack.
 const DEPTH: usize = 16;
 
-/// What an `infer` gives.
+/// What an `infer` returns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Keep {
     /// The value of one sample, drawn by weight.
@@ -45,7 +45,7 @@ pub struct Inner {
 }
 
 impl Inner {
-    /// Reads the constant that stands for an inference: `("infer", keep, text of the method)`. `None` for any other
+    /// Reads the constant of an inference: `("infer", keep, text of the method)`. `None` for any other
     /// constant.
     ///
     /// # Errors
@@ -65,7 +65,7 @@ impl Inner {
     /// Runs the search of a task and gives what it keeps.
     ///
     /// # Errors
-    /// What the search itself meets.
+    /// The failure of the search.
     pub fn value(&self, task: &Task, seed: u64) -> Result<Value, Failure> {
         let given = Given { seed, ..Given::default() };
         if let Method::Mh(mh) = &self.method {
@@ -121,7 +121,7 @@ impl Inner {
                     left -= w;
                     left < 0.0
                 });
-                // By rounding nothing may be left over at the end: then the last that is possible.
+                // By rounding the sum may end too early: then the last possible run.
                 passed.or_else(|| weights.iter().rposition(|w| *w > 0.0)).unwrap_or(0)
             }
         };
@@ -153,8 +153,8 @@ pub struct Inferences {
 /// How many answers are remembered.
 const REMEMBERED: usize = 16;
 
-/// The latest answers, so that a call that is merely run again (a replay, a changed choice elsewhere in the same
-/// activation) is not searched again. An inner search is a function of what it is given, so this changes no result.
+/// The latest answers. A call that is run again (in a replay, or after another choice of the same activation changed)
+/// is not searched again. An inner search is a function of its inputs, so this changes no result.
 #[derive(Default)]
 pub struct Known(Mutex<VecDeque<Answered>>);
 
@@ -199,10 +199,10 @@ impl Hosts for Inferences {
 }
 
 impl Inferences {
-    /// What an `infer` of that model with these arguments gives.
+    /// The value of an `infer` of this model with these arguments.
     ///
     /// # Errors
-    /// Whatever keeps the search from finding anything, as a fault of the run around it.
+    /// The failure of the search, as a fault of the run around it.
     pub fn infer(
         &self,
         method: &Inner,

@@ -1,7 +1,7 @@
-//! What a run has chosen and scored so far, the same for every algorithm.
+//! The choices and scores of a run so far, the same for every algorithm.
 //!
 //! `log_prior` is the sum of the log densities of its choices, `log_score` that of factors, observations and
-//! sketches. The sums are exact and free of order.
+//! sketches. The sums are exact, so their order does not matter.
 
 use crate::log::Log;
 use crate::{Failure, Task};
@@ -15,7 +15,7 @@ use niwaki_vm::machine::stack::RunFault;
 use niwaki_vm::value::Value;
 use std::sync::Arc;
 
-/// What a run has chosen and scored so far.
+/// The choices and scores of a run so far.
 #[derive(Default)]
 pub struct Record {
     /// The choices.
@@ -32,7 +32,7 @@ pub struct Record {
     pub primitives: usize,
     /// What made the run impossible.
     pub cause: Option<String>,
-    /// The fault of the distribution that did, where it was one with invalid parameters.
+    /// The fault, where that was a distribution with invalid parameters.
     pub invalid: Option<Arc<RunFault>>,
 }
 
@@ -88,7 +88,7 @@ impl Record {
         self.log.push(address, value.clone());
     }
 
-    /// Adds a factor; `name` is asked what a person calls it only where it makes the run impossible.
+    /// Adds a factor. `name` gives its readable name; it is called only where the factor makes the run impossible.
     #[inline]
     pub fn factor(&mut self, log: f64, name: impl FnOnce() -> String) {
         self.log_factors.add(log);
@@ -97,8 +97,8 @@ impl Record {
         }
     }
 
-    /// The run met a fault. Where a distribution cannot have its parameters, the run is outside of the model's support: its
-    /// score is minus infinity, and it is counted.
+    /// Handles a fault of the run. Where the parameters of a distribution are invalid, the run is outside of the model's
+    /// support: its score becomes minus infinity, and it is counted.
     ///
     /// # Errors
     /// Any other fault.
@@ -110,7 +110,7 @@ impl Record {
         Ok(())
     }
 
-    /// Adds a primitive to the scene. Once the score is minus infinity, the sketches behind are not asked.
+    /// Adds a primitive to the scene. Once the score is minus infinity, later sketches are not evaluated.
     pub fn emit(&mut self, shapes: &[Shape]) {
         self.primitives += 1;
         if self.sketches.is_empty() {
@@ -123,8 +123,8 @@ impl Record {
     }
 }
 
-/// What a search says whose runs were all invalid: the first one's fault, as it stands in the model. A fault that every
-/// run meets is the model's.
+/// Finds out whether all runs of a search were invalid. A fault in every run is a fault of the model, so the first one is
+/// reported.
 #[derive(Default)]
 pub(crate) struct AllInvalid {
     first: Option<Arc<RunFault>>,
@@ -132,7 +132,7 @@ pub(crate) struct AllInvalid {
 }
 
 impl AllInvalid {
-    /// Takes note of a run: what made it invalid, if anything did.
+    /// Notes a run and its fault, if it is invalid.
     pub fn note(&mut self, invalid: Option<&Arc<RunFault>>) {
         match invalid {
             Some(met) => {

@@ -16,12 +16,12 @@ pub struct Accepted {
     pub runs: Vec<Run>,
     /// How many runs it took.
     pub tries: u64,
-    /// Whether it was stopped before all samples were found.
+    /// Whether the search was stopped before it had all samples.
     pub interrupted: bool,
 }
 
 /// `n` exact samples, where no run scores above `bound` nats (zero serves for conditions). Gives up after
-/// `max_tries` runs. `watch` is told the number of runs after each; when it answers false, what was found is given.
+/// `max_tries` runs. `watch` is called with the number of runs after each; when it returns false, the samples so far are returned.
 ///
 /// # Errors
 /// A run that scores above the bound, too many tries, or a fault of the program: also of distributions, where they were

@@ -1,6 +1,6 @@
-//! Replays: every choice is taken from a log, by its address. What is replayed is named: readable addresses,
-//! parts of the scene, queries. It runs depth first, whatever order the log was made in; only the log of a run
-//! that was stopped is followed future by future, each as far as its choices go.
+//! Replays: every choice is taken from a log, by its address. A replay gives readable addresses, the parts of the scene
+//! and the queries. It runs depth first, in whatever order the first run chose; only the log of a run that was stopped is
+//! followed future by future, each as far as its choices go.
 
 use crate::Failure;
 use crate::chooser::{Chooser, Chosen, Context, Prior, Refuse};
@@ -48,7 +48,7 @@ pub struct Trace {
     pub queries: Vec<(Value, Value)>,
 }
 
-/// Where the values of a replay come from.
+/// The source of the values of a replay.
 pub enum Source<'a> {
     /// By the hash of an address.
     Addresses(HashMap<u128, Value>),
@@ -68,7 +68,7 @@ pub enum Missing {
         /// The stream.
         stream: u64,
     },
-    /// The future that asks stops there: the log is of a run that was stopped.
+    /// The future stops there: the log is of a run that was stopped.
     Stop,
 }
 
@@ -86,7 +86,7 @@ impl Chooser for Sourced<'_> {
         };
         let value = match (known, self.missing) {
             (Some(value), _) => value.clone(),
-            // It has one value, which a density leaves out.
+            // A choice with one value is not part of a density.
             (None, _) if let Dist::Delta(value) = dist => draw_to_value(value.clone()),
             (None, Missing::Draw { seed, stream }) => {
                 return Prior(StreamKey::new(seed, stream, 0)).choose(at, dist, seen);

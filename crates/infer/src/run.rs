@@ -1,4 +1,4 @@
-//! A finished run, whatever found it: its choices as a log of addresses and values, its scores, its measures.
+//! A finished run of any method: its choices as a log of addresses and values, its scores, its measures.
 
 use crate::log::Log;
 use crate::record::Record;
@@ -7,10 +7,10 @@ use niwaki_vm::value::Value;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// A finished run. Scores are in nats. As data it has all but its value, which a replay gives again, and the fault.
+/// A finished run. Scores are in nats. Its serialised form lacks the value, which a replay gives again, and the fault.
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub struct Run {
-    /// Its choices, in the order made; order choices of particles are among them.
+    /// Its choices in order, with the order choices of particles.
     pub log: Log,
     /// What the program returned (`None` for a run that did not end).
     #[serde(skip)]
@@ -28,11 +28,11 @@ pub struct Run {
     pub primitives: usize,
     /// Share of cells that are equal in the scene and its target.
     pub similarity: Option<f64>,
-    /// Whether it went to its end.
+    /// Whether it ended.
     pub has_ended: bool,
     /// What made it impossible.
     pub cause: Option<String>,
-    /// The fault of the distribution that did, where it was one with invalid parameters.
+    /// The fault, where that was a distribution with invalid parameters.
     #[serde(skip)]
     pub invalid: Option<Arc<RunFault>>,
     /// Of a chain's state: the number of proposals before it.
@@ -40,7 +40,7 @@ pub struct Run {
 }
 
 impl Run {
-    /// Of a record, whose sketches are not kept.
+    /// The run of a record; the sketches are dropped.
     pub fn of(record: Record, value: Value, log_weight: f64, has_ended: bool) -> Run {
         Run {
             value,

@@ -1,4 +1,4 @@
-//! What a search is asked: a program with its arguments, and the sketches that score its scene.
+//! The task of a search: a program with its arguments, and the sketches that score its scene.
 
 use niwaki_geom::sketch::SketchSpec;
 use niwaki_vm::code::Program;
@@ -12,12 +12,12 @@ use niwaki_vm::machine::{Limits, Machine};
 use niwaki_vm::value::{Closure, Value};
 use std::sync::Arc;
 
-/// Pure functions of the host, by the number of the constant that names them.
+/// Pure functions of the host, by the number of their constant.
 pub trait Hosts: Send + Sync {
-    /// Calls one.
+    /// Calls a function.
     ///
     /// # Errors
-    /// Whatever it raises, as a fault.
+    /// The exception of the function, as a fault.
     fn call(&self, constant: u16, args: &[Value]) -> Result<Value, Fault>;
 }
 
@@ -30,7 +30,7 @@ impl Hosts for NoHosts {
     }
 }
 
-/// What a search is asked.
+/// The task of a search.
 #[derive(Clone)]
 pub struct Task {
     /// The compiled model.
@@ -39,11 +39,11 @@ pub struct Task {
     pub model: Option<Arc<Closure>>,
     /// The arguments of that function.
     pub args: Vec<Value>,
-    /// What its scene should be like; log scores add.
+    /// The sketches that score its scene; log scores add.
     pub sketches: Vec<Arc<dyn SketchSpec>>,
     /// Its host functions.
     pub hosts: Arc<dyn Hosts>,
-    /// How much one run may use.
+    /// The limits of one run.
     pub limits: Limits,
     /// Counts the runs of its searches in which a distribution is invalid; clones count together.
     pub invalid: Arc<Invalid>,

@@ -85,7 +85,7 @@ fn check(body: &str, seed: u64) -> usize {
     let recorded = record(&task, &choices(&task, seed)).unwrap_or_else(|failure| panic!("{body}: {failure}"));
     let (n, density) = (recorded.dim(), &recorded.density);
     assert!(n > 0, "{body}");
-    // A little beside the run, so that nothing rests on what was known there.
+    // Near the run and not at it, so that recorded values cannot hide an error.
     let x: Vec<f64> = recorded.start.iter().enumerate().map(|(k, x)| x + 0.01 * (k as f64 + 1.0)).collect();
     let mut g = vec![0.0; n];
     let value = density.interpret(&x, &mut g);
@@ -97,7 +97,7 @@ fn check(body: &str, seed: u64) -> usize {
     let size = g.iter().fold(1e-2, |m: f64, x| m.max(x.abs()));
     for (k, derivative) in g.iter().enumerate() {
         let difference = slope(&|t| density.interpret(&moved(&x, k, t), &mut vec![0.0; n]), 1e-3);
-        // A step that leaves the guards tells nothing.
+        // A step that leaves the guards is no test.
         let close = difference.is_nan() || (difference - derivative).abs() < 1e-6 * size;
         assert!(close, "{body}, seed {seed}: {} by differences {difference}", derivative);
     }

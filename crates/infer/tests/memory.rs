@@ -1,7 +1,7 @@
 //! What a population holds for each primitive, by an allocator that counts bytes: less than the 700 that a thousand
 //! particles of a thousand primitives may take on average for 0.7 GB.
 
-#![allow(unsafe_code)] // Who counts what is allocated is an allocator.
+#![allow(unsafe_code)] // An allocator that counts bytes.
 
 use niwaki_geom::{Rule, Shape, Target, Vec3, match_volume, no_self_intersection, vec3};
 use niwaki_infer::Task;
@@ -17,7 +17,7 @@ struct Counting;
 
 static HELD: AtomicUsize = AtomicUsize::new(0);
 
-// SAFETY: every call is handed on as it came.
+// SAFETY: every call is passed on unchanged.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         HELD.fetch_add(layout.size(), Ordering::Relaxed);

@@ -103,9 +103,9 @@ fn terms_that_cancel_leave_the_same_chain() {
         let without = run(&cancelling(0.0, 0.0));
         for (large, huge) in sizes {
             let task = cancelling(large, huge);
-            let (found, seen) = compare(&task, &settings, 400, 20).expect("a chain");
-            assert!(found.is_none(), "{large} {huge}: {}", found.unwrap_or_default());
-            assert!(seen.accepted > 100 && seen.accepted < seen.proposals, "{seen:?}");
+            let (difference, compared) = compare(&task, &settings, 400, 20).expect("a chain");
+            assert!(difference.is_none(), "{large} {huge}: {}", difference.unwrap_or_default());
+            assert!(compared.accepted > 100 && compared.accepted < compared.proposals, "{compared:?}");
             assert_eq!(run(&task), without, "{large} {huge}");
         }
     }

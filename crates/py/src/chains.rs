@@ -1,4 +1,4 @@
-//! Markov chains for Python: they stay alive between two calls, so that a search goes on where it stopped.
+//! Markov chains for Python. They are kept between two calls, so that a search can go on.
 
 use crate::faults;
 use crate::runs::PyRun;
@@ -6,10 +6,10 @@ use crate::search::{PyTask, detached};
 use crate::trajectories::broken_off;
 use niwaki_infer::chain::agreement::compare;
 use niwaki_infer::chain::counts::{Count, Counts};
-use niwaki_infer::chain::explain::What;
+use niwaki_infer::chain::explain::Event;
 use niwaki_infer::chain::ladder::Ladder;
 use niwaki_infer::chain::many::Chains;
-use niwaki_infer::chain::trajectory::travel::Travel;
+use niwaki_infer::chain::trajectory::counts::TrajectoryCounts;
 use niwaki_infer::chain::{Chain, Settings};
 use niwaki_infer::method::{Given, Method, Mh};
 use niwaki_infer::run::Run;
@@ -51,7 +51,7 @@ impl PyChains {
     /// samples of one chain hold together.
     #[new]
     #[pyo3(signature = (task, method, seed, *, functions=Vec::new(), room=1 << 22, start=None, threads=None))]
-    #[expect(clippy::too_many_arguments, reason = "what chains are asked for")]
+    #[expect(clippy::too_many_arguments, reason = "the settings of chains")]
     fn new(
         py: Python<'_>,
         task: Py<PyTask>,
@@ -66,11 +66,11 @@ impl PyChains {
         let (method, settings, kept) = settings(py, own, method, seed, &functions)?;
         let settings = Settings { room, ..settings };
         let known = start.map(PyRun::by_address);
-        let (made, _) = detached(py, &kept.program, threads, None, |_| {
+        let (chains, _) = detached(py, &kept.program, threads, None, |_| {
             Chains::start(&kept, &settings, method.chains, known.as_ref())
         })?;
         let task = Py::new(py, PyTask { task: kept, model: own.model.clone_ref(py) })?;
-        Ok(PyChains { task, chains: Mutex::new(made) })
+        Ok(PyChains { task, chains: Mutex::new(chains) })
     }
 
     /// Makes ``steps`` proposals in each chain; whether it was interrupted.
@@ -159,34 +159,34 @@ impl PyChains {
     /// and ``fault``, an exception or None.
     fn trajectories<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
         let (program, chains) = (&self.task.get().task.program, self.lock());
-        let mut all: Vec<(Travel, Vec<f64>, u64, u64)> = Vec::new();
+        let mut all: Vec<(TrajectoryCounts, Vec<f64>, u64, u64)> = Vec::new();
         for chain in chains.chains.iter().flat_map(|ladder| &ladder.rungs) {
-            for (leaf, (travel, step, (structures, recordings))) in chain.trajectories().enumerate() {
+            for (leaf, (counts, step, (structures, recordings))) in chain.trajectories().enumerate() {
                 if all.len() == leaf {
-                    all.push((Travel::default(), vec![], 0, 0));
+                    all.push((TrajectoryCounts::default(), vec![], 0, 0));
                 }
                 let sum = &mut all[leaf];
-                sum.0 += travel;
+                sum.0 += counts;
                 sum.1.push(step);
                 (sum.2, sum.3) = (sum.2 + structures, sum.3 + recordings);
             }
         }
-        let row = |(travel, steps, structures, recordings): (Travel, Vec<f64>, u64, u64)| {
+        let row = |(counts, steps, structures, recordings): (TrajectoryCounts, Vec<f64>, u64, u64)| {
             let facts = PyDict::new(py);
-            facts.set_item("made", travel.made)?;
-            facts.set_item("moved", travel.moved)?;
-            facts.set_item("unwritten", travel.unwritten)?;
-            facts.set_item("settled", travel.settled)?;
-            facts.set_item("acceptance", travel.accept / travel.settled as f64)?;
-            facts.set_item("gradients", travel.gradients)?;
+            facts.set_item("made", counts.transitions)?;
+            facts.set_item("moved", counts.moved)?;
+            facts.set_item("unwritten", counts.unwritten)?;
+            facts.set_item("settled", counts.settled)?;
+            facts.set_item("acceptance", counts.accept / counts.settled as f64)?;
+            facts.set_item("gradients", counts.gradients)?;
             facts.set_item("structures", structures)?;
             facts.set_item("recordings", recordings)?;
-            facts.set_item("divergences", broken_off(py, &travel.broken)?)?;
-            facts.set_item("warmup_divergences", travel.broken.in_warmup)?;
+            facts.set_item("divergences", broken_off(py, &counts.broken)?)?;
+            facts.set_item("warmup_divergences", counts.broken.in_warmup)?;
             facts.set_item("step", PyTuple::new(py, steps)?)?;
             facts.set_item(
                 "fault",
-                travel.fault.map(|fault| faults::raise(py, &Failure::Run(fault), program)),
+                counts.fault.map(|fault| faults::raise(py, &Failure::Run(fault), program)),
             )?;
             Ok(facts)
         };
@@ -215,7 +215,7 @@ impl PyChains {
     }
 }
 
-/// Metropolis-Hastings of a text, what its chains are asked for, and the task that keeps what their proposals ask for.
+/// Metropolis-Hastings of a text, the settings of its chains, and the task that keeps the variables of their proposals.
 fn settings(
     py: Python<'_>,
     task: &PyTask,
@@ -232,8 +232,8 @@ fn settings(
     Ok((method, settings, task.keeping(py, &functions)?))
 }
 
-/// Runs ``steps`` proposals under each of the four strategies and compares everything to the bit: what the first
-/// disagreement is (None: there is none), the proposals of each, those kept, and those that met a fault.
+/// Runs ``steps`` proposals under each of the four strategies and compares everything to the bit. Returns the first
+/// disagreement (or None), the proposals of each strategy, those accepted, and those with a fault.
 #[pyfunction]
 #[pyo3(signature = (task, method, seed, steps, every=20, functions=Vec::new()))]
 fn agreement(
@@ -248,9 +248,9 @@ fn agreement(
     let own = task.get();
     let (_, settings, kept) = settings(py, own, method, seed, &functions)?;
     let settings = Settings { thin: 0, ..settings };
-    let ((found, seen), _) =
+    let ((difference, compared), _) =
         detached(py, &kept.program, None, None, |_| compare(&kept, &settings, steps, every.max(1)))?;
-    Ok((found, seen.proposals, seen.accepted, seen.faults))
+    Ok((difference, compared.proposals, compared.accepted, compared.faults))
 }
 
 /// One proposal to the choice at ``address``, under each strategy: a dict with ``activations`` (label, function, depth,
@@ -266,31 +266,31 @@ fn explain<'py>(
     tries: u64,
 ) -> PyResult<Bound<'py, PyDict>> {
     let own = task.get();
-    let (found, _) = detached(py, &own.task.program, None, None, |_| {
+    let (explained, _) = detached(py, &own.task.program, None, None, |_| {
         niwaki_infer::chain::explain::explain(&own.task, seed, tries, address)
     })?;
     let number: HashMap<u128, usize> =
-        found.activations.iter().enumerate().map(|(i, a)| (a.key, i)).collect();
+        explained.activations.iter().enumerate().map(|(i, a)| (a.key, i)).collect();
     let facts = PyDict::new(py);
-    let rows = found
+    let rows = explained
         .activations
         .iter()
         .map(|a| (a.label.clone(), a.function.clone(), a.depth, number.get(&a.parent).copied()));
     facts.set_item("activations", rows.collect::<Vec<_>>())?;
-    facts.set_item("home", found.home)?;
-    facts.set_item("path", &found.path)?;
-    facts.set_item("old", own.model.get().classes.object(py, &found.old)?)?;
-    facts.set_item("new", own.model.get().classes.object(py, &found.new)?)?;
+    facts.set_item("home", explained.home)?;
+    facts.set_item("path", &explained.path)?;
+    facts.set_item("old", own.model.get().classes.object(py, &explained.old)?)?;
+    facts.set_item("new", own.model.get().classes.object(py, &explained.new)?)?;
     let runs = PyDict::new(py);
-    for run in found.runs {
-        let what = |what: What| match what {
-            What::Made => "made",
-            What::Invoked => "invoked",
-            What::Unwound => "unwound",
-            What::Skipped => "skipped",
-            What::Removed => "removed",
+    for run in explained.runs {
+        let name = |event: Event| match event {
+            Event::Created => "made",
+            Event::Invoked => "invoked",
+            Event::Unwound => "unwound",
+            Event::Skipped => "skipped",
+            Event::Removed => "removed",
         };
-        let steps: Vec<(&str, usize)> = run.steps.iter().map(|(w, at)| (what(*w), *at)).collect();
+        let steps: Vec<(&str, usize)> = run.steps.iter().map(|(event, at)| (name(*event), *at)).collect();
         runs.set_item(run.strategy.name(), (steps, run.is_complete))?;
     }
     facts.set_item("runs", runs)?;

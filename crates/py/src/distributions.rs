@@ -16,7 +16,7 @@ pyo3::create_exception!(
      Attributes: `family`, `parameter`, `found` (as a person would write it), `expected`."
 );
 
-/// The exception that carries what the engine found wrong.
+/// The exception with the engine's fault.
 pub fn bad_parameter(py: Python<'_>, bad: &math::BadParameter) -> PyErr {
     let error = BadParameter::new_err(bad.to_string());
     let attributes = [
@@ -214,7 +214,7 @@ fn parameter_names(family: &str) -> PyResult<Vec<&'static str>> {
     Ok(named(family)?.parameters().to_vec())
 }
 
-/// Adds this part's names to the engine.
+/// Adds this part to the module.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("BadParameter", module.py().get_type::<BadParameter>())?;
     module.add_function(wrap_pyfunction!(log_density, module)?)?;

@@ -1,6 +1,6 @@
-//! Faults as data: one exception that carries what the engine knows. Python draws the carets.
+//! Faults as data: one exception with all facts of the engine. Python draws the carets.
 //!
-//! `kind` is "run" (the model failed: message, help, stack), "setting" (the question makes no sense), "impossible"
+//! `kind` is "run" (the model failed: message, help, stack), "setting" (a setting makes no sense), "impossible"
 //! (every particle is, or at barrier 0 every run: barrier and causes), "no-start" (every first state of a chain is: tries
 //! and causes) or "compile" (a defect of the text or a limit of the machine).
 
@@ -73,11 +73,11 @@ fn note(facts: &Bound<'_, PyDict>, fault: &Fault, kind: &str) -> PyResult<()> {
 /// The exception of a setting that makes no sense.
 pub fn setting(py: Python<'_>, fault: &Fault) -> PyErr {
     let facts = PyDict::new(py);
-    let made = note(&facts, fault, "setting").and_then(|()| with_facts(py, fault.message.clone(), &facts));
-    made.unwrap_or_else(|other| other)
+    let error = note(&facts, fault, "setting").and_then(|()| with_facts(py, fault.message.clone(), &facts));
+    error.unwrap_or_else(|other| other)
 }
 
-/// The exception of a program that the machine cannot take.
+/// The exception of a program that cannot be compiled.
 pub fn uncompiled(py: Python<'_>, message: String) -> PyErr {
     let facts = PyDict::new(py);
     let set = || -> PyResult<PyErr> {

@@ -1,7 +1,7 @@
-//! Shapes, targets and sketches, as Python sees them.
+//! Shapes, targets and sketches for Python.
 //!
-//! Every error is a `ValueError` with an attribute `code` (`bad-shape`, `bad-shape`, `bad-shape`, ...), for which
-//! Python's table of messages has the words.
+//! Every error is a `ValueError` with an attribute `code` (such as `bad-shape`); Python's table
+//! of messages has the text for each code.
 
 use crate::values::Classes;
 use niwaki_geom::{
@@ -74,9 +74,9 @@ fn faces_of<'py>(py: Python<'py>, mesh: &TriMesh) -> Bound<'py, PyArray2<i64>> {
     Array2::from_shape_fn((faces.len(), 3), |(i, k)| i64::from(faces[i][k])).into_pyarray(py)
 }
 
-/// The shape that a word makes of its arguments: positions, then names. The machine reads them, as in a model; a mesh comes
-/// in arrays.
-fn made(
+/// The shape of a word with these arguments, by position and by name. They are read as in a model; a mesh is given by
+/// arrays.
+fn shape_from(
     (word, parameters): (&'static str, &[&str]),
     args: &Bound<'_, PyTuple>,
     named: Option<&Bound<'_, PyDict>>,
@@ -123,7 +123,7 @@ pub struct PyShape(pub Shape);
 
 #[pymethods]
 impl PyShape {
-    /// What it is made with, as JSON.
+    /// Its serialised form, JSON.
     fn data(&self) -> PyResult<String> {
         serde_json::to_string(&self.0).map_err(|error| PyValueError::new_err(error.to_string()))
     }
@@ -271,7 +271,7 @@ fn py_no_self_intersection(py: Python<'_>, rule: &str) -> PyResult<PySketchSpec>
     Ok(PySketchSpec(no_self_intersection(rule)))
 }
 
-/// The running score of a scene that one adds to and takes from.
+/// The score of a scene, updated as primitives are added and removed.
 #[pyclass(name = "Sketch", module = "niwaki._engine")]
 pub struct PySketch(Sketches);
 
@@ -293,7 +293,7 @@ impl PySketch {
         self.0.add(&primitive(shapes))
     }
 
-    /// Takes one primitive out; a ``ValueError`` when the scene has none like it.
+    /// Removes one primitive; a ``ValueError`` when the scene has none like it.
     fn remove(&mut self, py: Python<'_>, shapes: Vec<PyShape>) -> PyResult<()> {
         if self.0.remove(&primitive(shapes)) {
             return Ok(());
@@ -311,7 +311,7 @@ impl PySketch {
         self.0.measures().into_iter().find(|(name, _)| *name == "similarity").map(|(_, value)| value)
     }
 
-    /// Named numbers behind the score; those of a second sketch with the same names are numbered.
+    /// Named terms of the score; those of a second sketch with the same names are numbered.
     fn measures<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let measures = PyDict::new(py);
         for (name, value) in self.0.measures() {
@@ -340,7 +340,7 @@ pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let (py, words) = (module.py(), PyDict::new(module.py()));
     for &(word, parameters) in shapes::WORDS {
         let make = move |args: &Bound<'_, PyTuple>, named: Option<&Bound<'_, PyDict>>| {
-            made((word, parameters), args, named)
+            shape_from((word, parameters), args, named)
         };
         let function = PyCFunction::new_closure(py, None, None, make)?;
         py.get_type::<PyShape>().setattr(word, function)?;

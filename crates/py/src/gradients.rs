@@ -11,7 +11,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// A continuous choice as a sampler sees it: its coordinates are `x[first : first + count]`.
+/// A continuous choice of a sampler: its coordinates are `x[first : first + count]`.
 #[pyclass(frozen, get_all, name = "Coordinates", module = "niwaki._engine")]
 pub struct PyCoordinates {
     /// Its readable address.
@@ -134,7 +134,7 @@ impl PyDensity {
     /// Values of the choices at ``x``, by path.
     fn values<'py>(&self, py: Python<'py>, x: PyReadonlyArray1<'py, f64>) -> PyResult<Bound<'py, PyDict>> {
         let point = self.point(py, &x)?;
-        // Values follow by the path that the point is on; where there is none, by the one used last.
+        // By the path of the point; where it has none, by the path used last.
         let (recorded, values) = self.with(|live| {
             let values = live.values(point);
             let recorded = live.recorded().clone();
@@ -150,7 +150,7 @@ impl PyDensity {
         Ok(found)
     }
 
-    /// Machine code now, instead of after a while; whether this machine has any.
+    /// Compiles machine code now instead of later; returns whether this machine supports it.
     fn compile(&self, py: Python<'_>) -> bool {
         py.detach(|| {
             self.with(|live| {

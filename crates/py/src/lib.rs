@@ -1,11 +1,11 @@
-//! The border between Python and the engine: the only crate that knows Python.
+//! The binding between Python and the engine: the only crate that knows Python.
 //!
-//! One file for each part; this one only registers them.
+//! One file for each part; this file only registers them.
 //!
 //! * `values`: Python's objects to the machine's values, and back; `faults`: faults as data;
 //! * `model`: compiled models; `search`: algorithms; `chains`: Markov chains;
-//!   `runs`: what they find; `gradients`: log densities with their gradients; `trajectories`: chains that follow them;
-//! * `distributions`, `geometry`, `views`, `pictures`: what lies below, by itself.
+//!   `runs`: finished runs; `gradients`: log densities with their gradients; `trajectories`: chains that follow them;
+//! * `distributions`, `geometry`, `views`, `pictures`: parts of the lower crates.
 
 mod chains;
 mod distributions;

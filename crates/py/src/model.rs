@@ -1,4 +1,4 @@
-//! A compiled model for Python: from the text of its core form and the objects that travel beside it.
+//! A compiled model for Python: from the text of its core form and the objects that come with it.
 
 use crate::faults;
 use crate::values::Classes;
@@ -62,13 +62,13 @@ impl PyProgram {
         if self.methods.is_empty() { self.hosts.clone() } else { Arc::new(self.inferences(limits)) }
     }
 
-    /// The program compiled so that these variables can be read at choices; what it does is the same.
+    /// The program compiled so that these variables can be read at choices; otherwise it is the same.
     pub fn keeping(&self, py: Python<'_>, names: &[Name]) -> PyResult<Arc<Program>> {
-        let made = compile_keeping(&self.module, self.data.clone(), names);
-        made.map(Arc::new).map_err(|e| faults::uncompiled(py, e.to_string()))
+        let compiled = compile_keeping(&self.module, self.data.clone(), names);
+        compiled.map(Arc::new).map_err(|e| faults::uncompiled(py, e.to_string()))
     }
 
-    /// What carries out every `infer` of the program.
+    /// The inferences inside of the program.
     pub fn inferences(&self, limits: Limits) -> Inferences {
         Inferences {
             program: self.program.clone(),
@@ -138,15 +138,15 @@ impl PyProgram {
     /// Readable components of the sites at which random choices are made: (function, component, line).
     #[getter]
     fn choices(&self) -> Vec<(String, String, u32)> {
-        let mut found = Vec::new();
+        let mut sites = Vec::new();
         for f in &self.program.functions {
             for site in &f.sites {
                 if matches!(site.kind, SiteKind::Sample(_)) {
-                    found.push((f.name.to_string(), site.label.to_string(), site.span.line));
+                    sites.push((f.name.to_string(), site.label.to_string(), site.span.line));
                 }
             }
         }
-        found
+        sites
     }
 
     /// The bytecode, readable.

@@ -1,6 +1,6 @@
 //! Pictures: meshes in, pixels out.
 //!
-//! Arrays are copied at the border and the interpreter is released while rays fly.
+//! Arrays are copied, and the interpreter's lock is released while rays are traced.
 
 use crate::geometry::PyShape;
 use niwaki_geom::render::{self, Backdrop, Camera, Shot, Surface, View};

@@ -1,4 +1,4 @@
-//! Finished runs, and the traces that they become when they are run once more.
+//! Finished runs, and their replays with names.
 
 use crate::geometry::PyShape;
 use crate::values::Classes;
@@ -105,7 +105,7 @@ impl PyRun {
         self.classes.object(py, &self.run.value)
     }
 
-    /// All that it holds but what the model returned, which a replay gives again: for `Task.run_of_data`.
+    /// Its data without the returned value, which a replay gives again: for `Task.run_of_data`.
     fn data(&self) -> PyResult<String> {
         serde_json::to_string(&*self.run).map_err(unreadable)
     }
@@ -177,7 +177,7 @@ fn choices_of(py: Python<'_>, runs: &[Py<PyRun>]) -> Choices {
     py.detach(|| Choices::of(runs.iter().map(|run| &run.get().run.log)))
 }
 
-/// Of how many no other has more than half of the choices.
+/// How many runs there are of which no other has more than half of the choices.
 #[pyfunction]
 fn unique_models(py: Python<'_>, runs: Vec<Py<PyRun>>) -> usize {
     let choices = choices_of(py, &runs);

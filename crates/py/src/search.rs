@@ -1,7 +1,7 @@
 //! Searches for Python: a task and the algorithms that answer it.
 //!
-//! The interpreter's lock is released while the engine works. Whoever watches is called every [`PAUSE`]; if that
-//! raises `KeyboardInterrupt` (or Ctrl-C was pressed), the search stops at its next barrier and gives what it has.
+//! The interpreter's lock is released while the engine works. The callback `watch` is called every [`PAUSE`]. If it
+//! raises `KeyboardInterrupt` (or Ctrl-C was pressed), the search stops at its next barrier and returns its results so far.
 
 use crate::faults;
 use crate::geometry::PySketchSpec;
@@ -29,10 +29,10 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-/// Time between two calls of whoever watches.
+/// Time between two calls of the callback.
 const PAUSE: Duration = Duration::from_millis(50);
 
-/// What a search reports to whoever watches, and whether it should stop.
+/// The progress of a search, and whether it should stop.
 #[derive(Default)]
 pub(crate) struct Watch {
     stop: AtomicBool,
@@ -41,14 +41,14 @@ pub(crate) struct Watch {
 }
 
 impl Watch {
-    /// Notes how far the search is; whether to go on.
+    /// Stores the progress of the search; returns whether to go on.
     pub(crate) fn look(&self, done: u64, ended: usize, best: f64) -> bool {
         *self.now.lock().unwrap_or_else(PoisonError::into_inner) = (done, ended, best);
         !self.stop.load(Ordering::Relaxed)
     }
 
-    /// Looks for Ctrl-C and calls `callable(done, ended, best)`, on the thread that Python lent us: only there are
-    /// signals seen.
+    /// Checks for Ctrl-C and calls `callable(done, ended, best)`, on the thread of the Python caller, because only there
+    /// are signals handled.
     fn tell(&self, callable: Option<&Py<PyAny>>) -> Result<(), PyErr> {
         let now = *self.now.lock().unwrap_or_else(PoisonError::into_inner);
         Python::attach(|py| {
@@ -59,8 +59,8 @@ impl Watch {
 }
 
 /// Runs `work` without the interpreter's lock on a thread of its own, its parallel parts on so many threads (`None`:
-/// all of the machine's); meanwhile this thread watches. Also answers whether Ctrl-C was pressed, be it too late to
-/// stop anything.
+/// all of the machine's); meanwhile this thread watches. Also returns whether Ctrl-C was pressed, even if that was
+/// too late to stop anything.
 pub(crate) fn detached<T: Send>(
     py: Python<'_>,
     program: &Program,
@@ -100,15 +100,15 @@ pub(crate) fn detached<T: Send>(
             worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
         })
     });
-    // However short the search was, whoever watches hears how it ended.
+    // The callback gets the final progress, however short the search was.
     if raised.is_none() && done.is_ok() {
         raised = watch.tell(callable).err();
     }
     let pressed = raised.is_some();
     match raised {
-        // Stopped by Ctrl-C: what was found is a result.
+        // Stopped by Ctrl-C: the results so far are returned.
         Some(error) if done.is_err() || !error.is_instance_of::<PyKeyboardInterrupt>(py) => Err(error),
-        _ => done.map(|found| (found, pressed)).map_err(|failure| faults::raise(py, &failure, program)),
+        _ => done.map(|result| (result, pressed)).map_err(|failure| faults::raise(py, &failure, program)),
     }
 }
 
@@ -157,11 +157,11 @@ impl PyTask {
         self.task.invalid.counts().into_iter().collect()
     }
 
-    /// Searches by a method, given as its text: the finished runs, whether the search was interrupted, and a dict of what
-    /// the method says of its search. ``functions`` are the users' proposals that kernels name by number; ``start`` is the
+    /// Searches by a method, given as its text: the finished runs, whether the search was interrupted, and a dict of
+    /// further results of the method. ``functions`` are the users' proposals that kernels name by number; ``start`` is the
     /// run that a chain of whole runs starts from.
     #[pyo3(signature = (method, seed, *, functions=Vec::new(), start=None, threads=None, watch=None))]
-    #[expect(clippy::too_many_arguments, reason = "what a search is asked")]
+    #[expect(clippy::too_many_arguments, reason = "the settings of a search")]
     fn search<'py>(
         &self,
         py: Python<'py>,
@@ -179,15 +179,15 @@ impl PyTask {
         let given = Given { seed, functions: &functions, start: start.as_deref() };
         let task = self.keeping(py, &functions)?;
         let find = |watch: &mut method::Watch<'_>| method.search(&task, &given, watch);
-        let (found, pressed) = if let Method::Forward { n: 1 } = method {
+        let (result, pressed) = if let Method::Forward { n: 1 } = method {
             (self.at_once(py, || find(&mut |_, _, _| true))?, false)
         } else {
             detached(py, &task.program, threads, watch.as_ref(), |watch| {
                 find(&mut |done, ended, best| watch.look(done, ended, best))
             })?
         };
-        let runs = found.runs.into_iter().map(|run| PyRun::new(Arc::new(run), classes.clone())).collect();
-        Ok((runs, found.interrupted || pressed, self.info(py, found.info)?))
+        let runs = result.runs.into_iter().map(|run| PyRun::new(Arc::new(run), classes.clone())).collect();
+        Ok((runs, result.interrupted || pressed, self.info(py, result.info)?))
     }
 
     /// The value that an ``infer`` of this task gives to the model around it; ``constant`` as the front end writes it.
@@ -213,7 +213,7 @@ impl PyTask {
         Ok(PyDensity::new(live, self.task.program.clone(), self.model.get().classes.clone()))
     }
 
-    /// Runs once more with the choices of a run; one that had not ended as far as its choices go.
+    /// Replays a run with its choices; a run that had not ended is replayed as far as its choices go.
     fn trace(&self, py: Python<'_>, run: &PyRun) -> PyResult<PyTrace> {
         let missing = if run.went_to_its_end() { Missing::Refuse } else { Missing::Stop };
         let source = Source::Addresses(run.by_address());
@@ -227,7 +227,7 @@ impl PyTask {
     }
 
     /// Runs with the choices of ``choices``, by readable address. Others are drawn from ``seed`` where there is one;
-    /// else they are a fault, or with ``partial`` the end of the future that asks.
+    /// else they are a fault, or with ``partial`` the end of their future.
     #[pyo3(signature = (choices, seed=None, partial=false))]
     fn replay(
         &self,
@@ -252,7 +252,7 @@ impl PyTask {
 }
 
 impl PyTask {
-    /// Runs something short without the interpreter's lock.
+    /// Runs a short function without the interpreter's lock.
     fn at_once<T: Send>(
         &self,
         py: Python<'_>,
@@ -269,11 +269,11 @@ impl PyTask {
     /// The users' proposals that are the entry functions of these tasks.
     pub(crate) fn proposals(&self, py: Python<'_>, tasks: &[Py<PyTask>]) -> PyResult<Vec<Arc<User>>> {
         let own = |task: &Py<PyTask>| User::new(task.get().task.clone()).map(Arc::new);
-        let made = tasks.iter().map(own).collect::<Result<_, _>>();
-        made.map_err(|fault| faults::setting(py, &fault))
+        let users = tasks.iter().map(own).collect::<Result<_, _>>();
+        users.map_err(|fault| faults::setting(py, &fault))
     }
 
-    /// The task, its program compiled to keep the variables that these proposals ask for.
+    /// The task, its program compiled to keep the variables of these proposals.
     pub(crate) fn keeping(&self, py: Python<'_>, functions: &[Arc<User>]) -> PyResult<Task> {
         let mut names: Vec<Name> = functions.iter().flat_map(|own| own.variables().cloned()).collect();
         names.sort();
@@ -284,39 +284,39 @@ impl PyTask {
         Ok(Task { program: self.model.get().keeping(py, &names)?, ..self.task.clone() })
     }
 
-    /// What a method says of its search.
+    /// Further results of a search, as a dict.
     fn info<'py>(&self, py: Python<'py>, info: Info) -> PyResult<Bound<'py, PyDict>> {
         let dict = PyDict::new(py);
         match info {
             Info::Forward => {}
             Info::Importance { log_evidence } => dict.set_item("log_evidence", log_evidence)?,
             Info::Rejection { tries } => dict.set_item("tries", tries)?,
-            Info::Enumeration(found) => {
+            Info::Enumeration(result) => {
                 let pair = |(value, log): &(Value, f64)| Ok((self.object(py, value)?, *log));
-                let table = found.outcomes.iter().map(pair).collect::<PyResult<Vec<_>>>()?;
+                let table = result.outcomes.iter().map(pair).collect::<PyResult<Vec<_>>>()?;
                 dict.set_item("table", PyTuple::new(py, table)?)?;
-                dict.set_item("log_evidence", found.log_evidence)?;
-                dict.set_item("runs", found.runs)?;
+                dict.set_item("log_evidence", result.log_evidence)?;
+                dict.set_item("runs", result.runs)?;
             }
-            Info::Populations(found) => {
-                dict.set_item("log_evidence", found.log_evidence)?;
-                dict.set_item("barriers", found.barriers)?;
-                dict.set_item("steps", found.steps)?;
-                dict.set_item("resampled", found.resampled)?;
-                dict.set_item("ancestors", found.ancestors)?;
-                dict.set_item("plan", PyTuple::new(py, found.plan)?)?;
-                dict.set_item("died", found.died)?;
-                dict.set_item("powers", PyTuple::new(py, found.powers)?)?;
+            Info::Populations(result) => {
+                dict.set_item("log_evidence", result.log_evidence)?;
+                dict.set_item("barriers", result.barriers)?;
+                dict.set_item("steps", result.steps)?;
+                dict.set_item("resampled", result.resampled)?;
+                dict.set_item("ancestors", result.ancestors)?;
+                dict.set_item("plan", PyTuple::new(py, result.plan)?)?;
+                dict.set_item("died", result.died)?;
+                dict.set_item("powers", PyTuple::new(py, result.powers)?)?;
                 let pair = |count: Count| (count.proposed, count.accepted);
-                dict.set_item("moved_running", pair(found.moved.running))?;
-                dict.set_item("moved_ended", pair(found.moved.ended))?;
+                dict.set_item("moved_running", pair(result.moved.running))?;
+                dict.set_item("moved_ended", pair(result.moved.ended))?;
             }
-            Info::Chain(found) => {
-                dict.set_item("tries", found.tries)?;
-                dict.set_item("moves", found.moves)?;
-                dict.set_item("renewed", PyTuple::new(py, found.renewed)?)?;
-                dict.set_item("died", found.died)?;
-                dict.set_item("log_evidence", found.log_evidence)?;
+            Info::Chain(result) => {
+                dict.set_item("tries", result.tries)?;
+                dict.set_item("moves", result.moves)?;
+                dict.set_item("renewed", PyTuple::new(py, result.renewed)?)?;
+                dict.set_item("died", result.died)?;
+                dict.set_item("log_evidence", result.log_evidence)?;
             }
         }
         Ok(dict)
@@ -327,7 +327,7 @@ impl PyTask {
     }
 }
 
-/// Refuses a method, given as its text, that an inference inside a model cannot honour.
+/// Refuses a method, given as its text, that makes no sense for an inference inside a model.
 #[pyfunction]
 fn check_inside(py: Python<'_>, method: &str) -> PyResult<()> {
     let checked = Method::read(method).and_then(|method| method.check_inside());

@@ -14,7 +14,7 @@ use pyo3::types::PyDict;
 
 type Reals<'py> = Bound<'py, PyArray1<f64>>;
 
-/// What several chains of one seed found.
+/// The draws of several chains of one seed.
 #[pyclass(frozen, name = "Trajectories", module = "niwaki._engine")]
 pub struct PyTrajectories {
     task: Py<PyTask>,
@@ -43,11 +43,11 @@ impl PyTrajectories {
             .ok_or_else(|| PyTypeError::new_err("this method does not follow the gradient"))?;
         let known = start.map(PyRun::by_address);
         let plan = Plan { settings: &settings, seed, chains, tries, known: known.as_ref() };
-        let (found, pressed) = detached(py, &own.task.program, threads, watch.as_ref(), |watch| {
+        let (chains, pressed) = detached(py, &own.task.program, threads, watch.as_ref(), |watch| {
             explore(&own.task, &plan, &|done| watch.look(done, 0, f64::NEG_INFINITY))
         })?;
-        let interrupted = pressed || found.iter().any(|chain| chain.draws.interrupted);
-        Ok(PyTrajectories { task, chains: found, interrupted })
+        let interrupted = pressed || chains.iter().any(|chain| chain.draws.interrupted);
+        Ok(PyTrajectories { task, chains, interrupted })
     }
 
     /// How many chains there are.
@@ -96,8 +96,8 @@ impl PyTrajectories {
 
     /// Of each draw of a chain, by running it: log densities of the choices, and of factors and observations, nats.
     fn scores<'py>(&self, py: Python<'py>, chain: usize) -> PyResult<(Reals<'py>, Reals<'py>)> {
-        let (own, found) = (self.task.get(), self.chain(chain)?);
-        let scores = py.detach(|| found.scores(&own.task));
+        let (own, chain) = (self.task.get(), self.chain(chain)?);
+        let scores = py.detach(|| chain.scores(&own.task));
         let scores = scores.map_err(|failure| faults::raise(py, &failure, &own.task.program))?;
         let (prior, score): (Vec<f64>, Vec<f64>) = scores.into_iter().unzip();
         Ok((PyArray1::from_vec(py, prior), PyArray1::from_vec(py, score)))
@@ -112,7 +112,7 @@ impl PyTrajectories {
         Ok(facts)
     }
 
-    /// What the first trajectory of a chain met that came to a point without a finite gradient: an exception, or None.
+    /// The fault of the first trajectory of a chain that reached a point without a finite gradient: an exception, or None.
     fn fault(&self, py: Python<'_>, chain: usize) -> PyResult<Option<PyErr>> {
         let program = &self.task.get().task.program;
         let fault = self.chain(chain)?.fault.clone();

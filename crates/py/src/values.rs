@@ -1,4 +1,4 @@
-//! Values at the border: Python's objects to the machine's values, and back.
+//! Conversion of Python's objects to the machine's values, and back.
 //!
 //! | Python | machine |
 //! | --- | --- |
@@ -20,7 +20,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyRange, PyString, PyTuple, PyType};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// How deep values may be nested when they pass.
+/// The deepest nesting of values that are converted.
 const DEPTH: usize = 400;
 
 /// Record classes that both sides know, by number.
@@ -28,7 +28,7 @@ const DEPTH: usize = 400;
 pub struct Classes(Mutex<Vec<(Py<PyType>, Arc<Class>)>>);
 
 impl Classes {
-    /// The classes of a program, with Python's beside the machine's.
+    /// The classes of a program, for Python and for the machine.
     pub fn new(types: Vec<Py<PyType>>, classes: &[Arc<Class>]) -> Classes {
         Classes(Mutex::new(types.into_iter().zip(classes.iter().cloned()).collect()))
     }
@@ -106,8 +106,8 @@ impl Classes {
         }
         if let Ok(range) = object.cast::<PyRange>() {
             let end = |name| range.getattr(name)?.extract::<i64>();
-            let made = Range::new(end("start")?, end("stop")?, end("step")?);
-            return made
+            let range = Range::new(end("start")?, end("stop")?, end("step")?);
+            return range
                 .map(|r| Value::Range(Arc::new(r)))
                 .ok_or_else(|| PyTypeError::new_err("a range too long"));
         }
@@ -146,11 +146,11 @@ impl Classes {
                 PyList::new(py, items)?.into_any()
             }
             Value::Dict(dict) => {
-                let made = PyDict::new(py);
+                let object = PyDict::new(py);
                 for (key, value) in dict.keys().iter().zip(dict.values()) {
-                    made.set_item(inner(key)?, inner(value)?)?;
+                    object.set_item(inner(key)?, inner(value)?)?;
                 }
-                made.into_any()
+                object.into_any()
             }
             Value::Record(record) => {
                 let fields: Vec<_> = record.fields.iter().map(inner).collect::<PyResult<_>>()?;
@@ -177,7 +177,7 @@ impl Classes {
     }
 }
 
-/// A value that stays inside: a function of a model.
+/// A value that Python only passes back: a function of a model.
 #[pyclass(frozen, name = "Opaque", module = "niwaki._engine")]
 pub struct Opaque(pub &'static str);
 
@@ -190,7 +190,7 @@ impl Opaque {
 
 type Each<'a> = dyn Fn(Vec<Bound<'_, PyAny>>) -> PyResult<Vec<Value>> + 'a;
 
-/// The words that are dataclasses on Python's side and values of their own on the machine's.
+/// The words that are dataclasses in Python and have their own kind of value in the machine.
 fn word(object: &Bound<'_, PyAny>, each: &Each<'_>) -> PyResult<Option<Value>> {
     let module = object.get_type().getattr("__module__")?;
     let module = module.extract::<String>().unwrap_or_default();

@@ -1,4 +1,4 @@
-//! Images to match, obstacles and floors, as Python sees them.
+//! Images to match, obstacles and floors, for Python.
 //!
 //! Every error is a `ValueError` with an attribute `code`, as in `geometry`.
 
@@ -105,8 +105,8 @@ impl PyPicture {
     }
 }
 
-fn spec(py: Python<'_>, made: Result<Arc<dyn SketchSpec>, GeomError>) -> PyResult<PySketchSpec> {
-    made.map(PySketchSpec).map_err(|e| value_error(py, &e))
+fn spec(py: Python<'_>, spec: Result<Arc<dyn SketchSpec>, GeomError>) -> PyResult<PySketchSpec> {
+    spec.map(PySketchSpec).map_err(|e| value_error(py, &e))
 }
 
 /// Scores a scene by how well its silhouette is ``picture``.

@@ -1,4 +1,4 @@
-//! The acceptance ratio of a proposal that may change what there is.
+//! The acceptance ratio of a proposal that may change the set of choices.
 //!
 //! ```text
 //! log a =   log prior' - log prior + beta (log score' - log score)
@@ -13,7 +13,7 @@
 use niwaki_math::streams::open_unit;
 use niwaki_math::{Stream, Total, grid};
 
-/// What decides over a proposal, nats.
+/// The terms of the acceptance ratio, nats.
 #[derive(Clone, Copy, Debug)]
 pub struct Terms<'a> {
     /// Change of the log density of the choices.
@@ -22,9 +22,9 @@ pub struct Terms<'a> {
     pub score: &'a Total,
     /// The power of the score.
     pub beta: f64,
-    /// Log densities of the choices that went, or were drawn anew.
+    /// Log densities of the choices that were removed or drawn anew, before.
     pub stale: &'a Total,
-    /// Log densities of the choices that came, or were drawn anew.
+    /// Log densities of the choices that are new or drawn anew, after.
     pub fresh: &'a Total,
     /// Log density of proposing the old values from the new ones.
     pub backward: f64,
@@ -68,7 +68,7 @@ pub(crate) fn accepts(log_ratio: f64, rng: &mut Stream) -> bool {
     log_ratio >= 0.0 || u.ln() < log_ratio
 }
 
-/// How a chain decides. Searches use [`MetropolisHastings`]; the tests also hold mutants of it, which they must reject.
+/// How a chain accepts. Searches use [`MetropolisHastings`]; the tests also hold mutants of it, which they must reject.
 pub trait Rules: Send {
     /// Log of the acceptance ratio; NaN where two infinities meet, which counts as impossible.
     #[inline(always)]

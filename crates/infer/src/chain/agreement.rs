@@ -1,5 +1,5 @@
-//! Four strategies in step: the same proposals, decisions, exchanges, scores and scenes to the bit, rollbacks that leave
-//! nothing, and sums that are those of a run from the start. With several powers this holds for each rung.
+//! Compares the four strategies step by step: proposals, decisions, exchanges, scores and scenes are equal to the bit,
+//! rollbacks leave nothing behind, and sums equal those of a run from the start. With several powers, on each rung.
 
 use super::ladder::Ladder;
 use super::state::State;
@@ -14,16 +14,16 @@ use std::fmt::Write;
 
 const STRATEGIES: [Strategy; 4] = [Strategy::Rerun, Strategy::Resume, Strategy::Cache, Strategy::C3];
 
-/// What was looked at.
+/// The size of a comparison.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Seen {
+pub struct Compared {
     /// Proposals, of each rung of each strategy.
     pub proposals: u64,
     /// Those that were kept.
     pub accepted: u64,
     /// Those at which every strategy met the same fault.
     pub faults: u64,
-    /// Exchanges of states between rungs that were made.
+    /// Exchanges of states between rungs.
     pub exchanges: u64,
     /// Proposals with invalid distributions, those of first states included.
     pub invalid: u64,
@@ -58,9 +58,9 @@ pub fn compare(
     settings: &Settings,
     steps: u64,
     every: u64,
-) -> Result<(Option<String>, Seen), Failure> {
+) -> Result<(Option<String>, Compared), Failure> {
     let program = &*task.program;
-    let (mut seen, mut ladders) = (Seen::default(), Vec::<Ladder>::new());
+    let (mut compared, mut ladders) = (Compared::default(), Vec::<Ladder>::new());
     let tasks = STRATEGIES.map(|_| task.uncounted());
     for (strategy, task) in STRATEGIES.into_iter().zip(&tasks) {
         ladders.push(Ladder::start(task, &Settings { strategy, ..settings.clone() }, 0, None)?);
@@ -83,25 +83,25 @@ pub fn compare(
             let (found, first) = ((outcome, &ladder.exchanges), (&outcomes[0], &ladders[0].exchanges));
             if found != first {
                 let found = format!("proposal {step}, {strategy:?}: {found:?}\n  but a rerun: {first:?}");
-                return Ok((Some(found), seen));
+                return Ok((Some(found), compared));
             }
         }
         let rungs = ladders[0].rungs.len();
-        seen.proposals += rungs as u64;
-        seen.accepted += ladders[0].rungs.iter().map(|rung| u64::from(rung.last.accepted)).sum::<u64>();
-        seen.faults += outcomes[0].iter().map(|told| u64::from(told.starts_with("fault"))).sum::<u64>();
-        seen.invalid = tasks[0].invalid.counts().iter().map(|site| site.1).sum();
-        seen.exchanges = ladders[0].exchanges.iter().map(|pair| pair.1).sum();
+        compared.proposals += rungs as u64;
+        compared.accepted += ladders[0].rungs.iter().map(|rung| u64::from(rung.last.accepted)).sum::<u64>();
+        compared.faults += outcomes[0].iter().map(|line| u64::from(line.starts_with("fault"))).sum::<u64>();
+        compared.invalid = tasks[0].invalid.counts().iter().map(|site| site.1).sum();
+        compared.exchanges = ladders[0].exchanges.iter().map(|pair| pair.1).sum();
         if (step + 1) % every == 0 {
             for rung in 0..rungs {
                 let mut chains: Vec<_> = ladders.iter_mut().map(|ladder| &mut ladder.rungs[rung]).collect();
                 if let Some(found) = look_closer(task, program, &mut machine, &mut chains, step) {
-                    return Ok((Some(found), seen));
+                    return Ok((Some(found), compared));
                 }
             }
         }
     }
-    Ok((None, seen))
+    Ok((None, compared))
 }
 
 fn look_closer(
@@ -121,7 +121,7 @@ fn look_closer(
         }
     }
     for ((strategy, before), chain) in STRATEGIES.iter().zip(&dumps).zip(chains.iter_mut()) {
-        // A proposal that no other has the number of, undone.
+        // A proposal with a number that no other has, undone.
         let visit = chain.visit;
         chain.visit = visit | 1 << 40;
         chain.undoing = true;

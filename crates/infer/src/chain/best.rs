@@ -1,8 +1,8 @@
 //! The best state that a chain reached.
 //!
-//! It is not copied at each record, which would cost the length of the trace at each step uphill: it is the present state
-//! with a list of changes undone. Only when that list has become as long as the trace is a copy made. What is reported of it
-//! is that of a run with its choices.
+//! It is not copied each time, because a copy costs the length of the trace. It is stored as the present state with a list
+//! of changes to undo, and copied only when that list is as long as the trace. The reported state is that of a run with
+//! its choices.
 
 use super::state::State;
 use super::streams::Streams;
@@ -21,7 +21,7 @@ pub struct Best {
     scores: Run,
     /// Its choices, where they were copied.
     copied: Option<Vec<(u128, Value)>>,
-    /// What leads from the present state back to it, where they were not.
+    /// The changes that lead from the present state back to it, where they were not copied.
     since: Vec<Undo>,
 }
 

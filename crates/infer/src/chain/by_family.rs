@@ -1,6 +1,6 @@
 //! The original's single-site proposals (Ritchie's prototype, the Metropolis-Hastings baseline of dissertation 5.6), by
-//! the family of the choice: a coin is always turned, a Gaussian number drifts by its own distribution's standard
-//! deviation, anything else is drawn from its distribution. Turns and drifts are as likely back as there.
+//! the family of the choice: a coin is always flipped, a Gaussian number drifts by its own distribution's standard
+//! deviation, anything else is drawn from its distribution. Flips and drifts are symmetric.
 
 use super::drift::normal;
 use super::proposal::{FromPrior, Move};

@@ -1,7 +1,7 @@
 //! Drift: a continuous choice moves a little, in coordinates in which it has no bounds.
 //!
-//! The step in the coordinate z is Gaussian ([`Support::moved`]), so the density of going from x to x' is symmetric but for
-//! log q(x' | x) = log dz/dx at x' + what is the same both ways. Leaving that out draws from the wrong distribution.
+//! The step in the coordinate z is Gaussian ([`Support::moved`]), so the density of going from x to x' is symmetric except for a
+//! Jacobian: log q(x' | x) = log dz/dx at x' + a symmetric term. Leaving it out draws from the wrong distribution.
 
 use super::metropolis::Decision;
 use super::proposal::{FromPrior, Move};
@@ -12,7 +12,7 @@ use niwaki_vm::machine::answers::At;
 use niwaki_vm::machine::kept::Proposed;
 use niwaki_vm::value::Value;
 
-/// Drift with a step for each site, adapted while the chain warms up and frozen then.
+/// Drift with a step for each site, adapted while the chain warms up and frozen afterwards.
 #[derive(Clone, Debug)]
 pub struct Drift {
     /// The steps and their logs, by number of the site.
@@ -85,7 +85,7 @@ pub(super) fn normal(rng: &mut Stream) -> f64 {
     }
 }
 
-/// About how far a distribution's values lie from each other, in the coordinate in which they drift.
+/// The approximate spread of a distribution, in the coordinate in which its values drift.
 pub(super) fn spread(dist: &Dist) -> f64 {
     let own = if dist.family().space() == Space::Components { None } else { dist.scale() };
     own.unwrap_or(1.0)

@@ -1,4 +1,4 @@
-//! What each strategy does for one proposal: which activations it makes, enters, goes back into, skips and takes away
+//! What each strategy does for one proposal: which activations it creates, invokes, unwinds into, skips and removes
 //! (dissertation figure 3.1, for any program).
 
 use super::glob::matches;
@@ -17,16 +17,16 @@ use std::collections::HashMap;
 
 /// What happened to an activation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum What {
-    /// It was made and run.
-    Made,
+pub enum Event {
+    /// It was created and run.
+    Created,
     /// It was run from its start.
     Invoked,
     /// It was run on from a call that had returned, or from the choice.
     Unwound,
-    /// It was passed by: its inputs were unchanged.
+    /// It was skipped: its inputs were unchanged.
     Skipped,
-    /// It was taken away.
+    /// It was removed.
     Removed,
 }
 
@@ -36,7 +36,7 @@ pub struct Run {
     /// The strategy.
     pub strategy: Strategy,
     /// What happened.
-    pub steps: Vec<(What, usize)>,
+    pub steps: Vec<(Event, usize)>,
     /// Whether the run came to its end (it may meet a score of minus infinity before).
     pub is_complete: bool,
 }
@@ -44,7 +44,7 @@ pub struct Run {
 /// One proposal under every strategy.
 #[derive(Clone, Debug)]
 pub struct Explained {
-    /// Activations before and after, each before what it calls; `depth` is where it stands.
+    /// Activations before and after, each before its callees; `depth` is its depth in the call tree.
     pub activations: Vec<Activation>,
     /// Which of them holds the choice.
     pub home: usize,
@@ -59,7 +59,7 @@ pub struct Explained {
 }
 
 /// What happened, in order, by key of the activation.
-type Keyed = Vec<(What, u128)>;
+type Keyed = Vec<(Event, u128)>;
 
 struct Draws {
     key: StreamKey,
@@ -159,7 +159,7 @@ pub fn explain(task: &Task, seed: u64, tries: u64, address: &str) -> Result<Expl
     })
 }
 
-/// The machine's notes by key. An activation is unwound into where one that it called has just returned, or where the
+/// The machine's steps by key. An activation is unwound into where one that it called has just returned, or where the
 /// run began inside it.
 fn named(state: &State, task: &Task, noted: &[Step]) -> Keyed {
     let (trace, program) = (&state.trace, &*task.program);
@@ -167,14 +167,14 @@ fn named(state: &State, task: &Task, noted: &[Step]) -> Keyed {
     let mut returned = None;
     for (i, step) in noted.iter().enumerate() {
         let (what, node) = match step {
-            Step::Made(node) => (What::Made, *node),
+            Step::Made(node) => (Event::Created, *node),
             Step::Entered(node) => {
                 let from_below = returned.is_some_and(|below| trace.stands_below(below, *node));
                 let at_start = i == 0 && *node != niwaki_vm::machine::state::NodeId(0);
-                (if from_below || at_start { What::Unwound } else { What::Invoked }, *node)
+                (if from_below || at_start { Event::Unwound } else { Event::Invoked }, *node)
             }
-            Step::Skipped(node) => (What::Skipped, *node),
-            Step::Removed(node) => (What::Removed, *node),
+            Step::Skipped(node) => (Event::Skipped, *node),
+            Step::Removed(node) => (Event::Removed, *node),
             Step::Unwound(node) => {
                 returned = Some(*node);
                 continue;
@@ -184,15 +184,15 @@ fn named(state: &State, task: &Task, noted: &[Step]) -> Keyed {
             returned = None;
         }
         let Some(key) = trace.key_of(program, node) else { continue };
-        // What is made is entered at once.
-        if !(what == What::Invoked && steps.last() == Some(&(What::Made, key))) {
+        // A created activation is entered at once.
+        if !(what == Event::Invoked && steps.last() == Some(&(Event::Created, key))) {
             steps.push((what, key));
         }
     }
     steps
 }
 
-/// The activations of two outlines, in the order of the first; what only the second has stands after what it follows.
+/// The activations of two outlines, in the order of the first; an activation that only the second has comes after its predecessor there.
 fn merged(before: Vec<Activation>, after: Vec<Activation>) -> Vec<Activation> {
     let mut children: HashMap<u128, Vec<Activation>> = HashMap::new();
     let mut seen = std::collections::HashSet::new();

@@ -22,12 +22,12 @@ pub struct Form {
     settings: Map<String, Value>,
     #[serde(default)]
     parts: Vec<Form>,
-    /// Of a user's proposal: which of the functions that travel beside the form.
+    /// Of a user's proposal: its number among the functions that come with the form.
     #[serde(default)]
     function: Option<usize>,
 }
 
-/// A chain's kernel with what stands around it: powers, and the proposals between two exchanges.
+/// A chain's kernel, with the powers of tempering and the proposals between two exchanges.
 pub(crate) struct Tempered {
     pub kernel: Kernel,
     pub powers: Vec<f64>,
@@ -52,7 +52,7 @@ impl Form {
     /// The kernel; `functions` are the users' proposals, by number.
     ///
     /// # Errors
-    /// A name, a setting or a function that there is not.
+    /// An unknown name, setting or function.
     pub fn kernel(&self, functions: &[Arc<User>]) -> Result<Kernel, Fault> {
         let mut own = self.own();
         let kernel = match self.name.as_str() {
@@ -108,18 +108,18 @@ impl Form {
         own.end(kernel)
     }
 
-    fn own(&self) -> Own<'_> {
-        Own { form: self, left: self.settings.clone() }
+    fn own(&self) -> Unread<'_> {
+        Unread { form: self, left: self.settings.clone() }
     }
 }
 
-/// What of a form has not been read.
-struct Own<'a> {
+/// The settings of a form that have not been read.
+struct Unread<'a> {
     form: &'a Form,
     left: Map<String, Value>,
 }
 
-impl Own<'_> {
+impl Unread<'_> {
     fn wrong(&self, what: &str) -> Fault {
         Fault::new("bad-kernel", format!("the kernel `{}` {what}", self.form.name))
             .with_help("see `niwaki.kernels`")
@@ -139,9 +139,9 @@ impl Own<'_> {
         part.kernel(functions)
     }
 
-    fn end<T>(self, made: T) -> Result<T, Fault> {
+    fn end<T>(self, kernel: T) -> Result<T, Fault> {
         match self.left.keys().next() {
-            None => Ok(made),
+            None => Ok(kernel),
             Some(name) => Err(self.wrong(&format!("has no setting `{name}`"))),
         }
     }

@@ -1,13 +1,13 @@
-//! Patterns over readable addresses: `*` and `?` stand for text within one component, `**` for any text.
+//! Patterns over readable addresses: `*` and `?` match text within one component, `**` matches any text.
 //!
-//! A pattern without `/` is compared with the last component, any other with the whole address. Brackets are what they
-//! look like: the number of an iteration.
+//! A pattern without `/` is compared with the last component, any other with the whole address. Brackets are plain
+//! text: the number of an iteration.
 
 /// Whether a pattern matches an address.
 pub fn matches(pattern: &str, address: &str) -> bool {
     let text = if pattern.contains('/') || pattern.contains("**") { address } else { last(address) };
     let (pattern, text): (Vec<char>, Vec<char>) = (pattern.chars().collect(), text.chars().collect());
-    // The furthest place to return to: in the pattern behind a star, in the text one on from what it ate.
+    // Where to backtrack to: in the pattern after the last star, in the text one character after its match.
     let (mut p, mut t) = (0, 0);
     let mut returns: Vec<(usize, usize)> = Vec::new();
     loop {
@@ -96,7 +96,7 @@ mod tests {
     }
 
     #[test]
-    fn the_nearest_are_told() {
+    fn the_nearest_are_named() {
         let known: Vec<String> =
             ["tree/width", "tree/height", "tree/depth", "colour"].map(String::from).into();
         assert_eq!(nearest("heigt", &known), ["tree/height", "tree/depth", "tree/width"]);

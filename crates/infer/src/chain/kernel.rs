@@ -1,4 +1,4 @@
-//! Kernels as values: a tree whose leaves propose and whose branches say which leaf is next.
+//! Kernels as values: a tree whose leaves propose and whose branches choose the next leaf.
 //!
 //! One *application* of `cycle(a, b)` is one of `a` and then one of `b`; a chain applies its kernel again and again, and
 //! counts proposals, so it may stop in the middle of a cycle and go on there.
@@ -12,11 +12,11 @@ use std::sync::Arc;
 pub struct Selection {
     /// Patterns over readable addresses: of each list, one must match.
     pub sites: Vec<Vec<String>>,
-    /// Odds by number of calls above the choice; the last holds for all beyond.
+    /// Selection weights by number of calls above the choice; the last one counts for all deeper choices.
     pub depth: Vec<f64>,
-    /// What the calls that count as depth are called in addresses; all of them, where it is empty.
+    /// The names in addresses of the calls that count as depth; all calls where it is empty.
     pub calls: String,
-    /// Odds by pattern over readable addresses; the first that matches holds, and 1 where none does.
+    /// Selection weights by pattern over readable addresses; the first match counts, and 1 where none matches.
     pub weights: Vec<(String, f64)>,
 }
 
@@ -37,7 +37,7 @@ pub enum Kernel {
         /// How far at most.
         reach: u64,
     },
-    /// One choice, in the way that the original's baseline moved its family.
+    /// One choice, by the move that the original's baseline has for its family.
     ByFamily,
     /// Many choices move a little at once.
     Block {
@@ -50,7 +50,7 @@ pub enum Kernel {
     },
     /// A call and all below it are drawn anew.
     Regenerate {
-        /// How many levels above the picked choice the call stands.
+        /// How many levels the call is above the picked choice.
         levels: usize,
     },
     /// The continuous choices move together along their gradient.
@@ -62,7 +62,7 @@ pub enum Kernel {
         /// Acceptance that the step is adapted to while the chain warms up.
         target: f64,
     },
-    /// One choice, from a distribution that a model function makes of its value.
+    /// One choice, from a distribution that a model function computes from its value.
     User(Arc<User>),
     /// One after the other.
     Cycle(Vec<Kernel>),

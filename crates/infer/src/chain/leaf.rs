@@ -1,5 +1,5 @@
-//! A leaf of a kernel: how it proposes, and for which choices. What it is applied to is the kept run of a chain or the
-//! partial run of a particle; which proposal is made is decided here, for both.
+//! A leaf of a kernel: how it proposes, and for which choices. It is applied to the kept run of a chain or to the partial
+//! run of a particle; the dispatch to a proposal is here, for both.
 
 use super::block::Block;
 use super::by_family::ByFamily;
@@ -8,7 +8,7 @@ use super::kernel::Selection;
 use super::neighbour::Neighbour;
 use super::proposal::{FromPrior, Move};
 use super::trajectory::Trajectory;
-use super::user::{Asking, User};
+use super::user::{User, UserMove};
 use crate::{Failure, Task};
 use std::sync::Arc;
 
@@ -35,7 +35,7 @@ pub(crate) enum Proposer {
 }
 
 impl Leaf {
-    /// Makes ready what it needs of a task, once.
+    /// Prepares the leaf for a task, once.
     ///
     /// # Errors
     /// Sketches, which have no gradient that a trajectory could follow.
@@ -44,7 +44,7 @@ impl Leaf {
     }
 }
 
-/// What proposals are made to, accepted and rejected. What it cannot do leaves it as it is.
+/// The run to which proposals are applied. A proposal that it does not support leaves it unchanged.
 pub(crate) trait Target {
     /// The share of the warm-up that is over, as long as steps are adapted.
     fn warming(&self) -> Option<f64> {
@@ -84,7 +84,7 @@ impl Proposer {
             }
             Proposer::ByFamily => target.single(&mut ByFamily),
             Proposer::Neighbour(neighbour) => target.single(neighbour),
-            Proposer::User(user) => target.single(&mut Asking(user)),
+            Proposer::User(user) => target.single(&mut UserMove(user)),
             Proposer::Block(block) => {
                 block.adapting = warming.is_some();
                 target.block(block)

@@ -1,4 +1,4 @@
-//! Several chains of one seed, side by side on as many threads as there are; each is the same on any number of them.
+//! Several chains of one seed, in parallel. Each chain is the same on any number of threads.
 
 use super::Settings;
 use super::accept::{MetropolisHastings, Rules};
@@ -33,8 +33,8 @@ impl<R: Rules> Chains<R> {
         Ok(Chains { chains: chains.collect::<Result<Vec<_>, _>>()? })
     }
 
-    /// Makes `steps` proposals in each. `watch` is told how many all of them have made, and the best score; when it
-    /// answers false, they stop. Answers whether they were stopped.
+    /// Makes `steps` proposals in each. `watch` is called with the proposals of all chains so far and the best score;
+    /// when it returns false, the chains stop. Returns whether they were stopped.
     ///
     /// # Errors
     /// As for [`Ladder::advance`]: the failure of the first chain that failed.
@@ -45,24 +45,24 @@ impl<R: Rules> Chains<R> {
         watch: &(dyn Fn(u64, f64) -> bool + Sync),
     ) -> Result<bool, Failure> {
         let each: Vec<(u64, f64)> = self.chains.iter().map(|c| (c.visit(), c.best_score())).collect();
-        let told = Mutex::new((each, false));
+        let progress = Mutex::new((each, false));
         self.chains
             .par_iter_mut()
             .enumerate()
             .map(|(i, chain)| {
                 chain.advance(task, steps, &mut |visit, best| {
-                    let mut told = told.lock().unwrap_or_else(PoisonError::into_inner);
-                    told.0[i] = (visit, best);
-                    let done = told.0.iter().map(|c| c.0).sum();
-                    let best = told.0.iter().map(|c| c.1).fold(f64::NEG_INFINITY, f64::max);
+                    let mut progress = progress.lock().unwrap_or_else(PoisonError::into_inner);
+                    progress.0[i] = (visit, best);
+                    let done = progress.0.iter().map(|c| c.0).sum();
+                    let best = progress.0.iter().map(|c| c.1).fold(f64::NEG_INFINITY, f64::max);
                     let go_on = watch(done, best);
-                    told.1 |= !go_on;
+                    progress.1 |= !go_on;
                     go_on
                 })
             })
             .collect::<Vec<_>>()
             .into_iter()
             .collect::<Result<(), Failure>>()?;
-        Ok(told.into_inner().unwrap_or_else(PoisonError::into_inner).1)
+        Ok(progress.into_inner().unwrap_or_else(PoisonError::into_inner).1)
     }
 }

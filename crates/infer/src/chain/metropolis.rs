@@ -2,7 +2,7 @@
 //!
 //! 1. *Pick* a choice of the present run: evenly, or by selection weights; `W` is their sum.
 //! 2. *Propose* a new value `x' ~ q(. | x)` for it ([`proposal`](super::proposal)).
-//! 3. *Run on* from there. What reads the value is run again; choices that come are drawn from their priors.
+//! 3. *Run on* from there. Everything that reads the value is run again; new choices are drawn from their priors.
 //! 4. *Accept* with probability `min(1, a)`, where `p` is the density of all choices and `s` the score:
 //!
 //! ```text
@@ -18,7 +18,7 @@
 
 use super::Chain;
 use super::accept::{Rules, Terms, accepts, selected};
-use super::proposal::{Asked, Move};
+use super::proposal::{Move, MoveProposal};
 use super::state::Fresh;
 use super::streams::Ahead;
 use crate::{Failure, Task};
@@ -28,7 +28,7 @@ use niwaki_vm::machine::kept::Change;
 use niwaki_vm::machine::stack::RunFault;
 use niwaki_vm::value::Value;
 
-/// What became of a proposal.
+/// The decision on a proposal.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Decision {
     /// Whether the proposal was the present state.
@@ -68,10 +68,10 @@ impl<R: Rules> Chain<R> {
 
         let site = self.counts.number(self.state.trace.site_of(choice));
         let noting = self.best.is_noting();
-        let mut asked = Asked { how, site, key: self.streams.moves(visit), noting, old: None };
+        let mut proposal = MoveProposal { how, site, key: self.streams.moves(visit), noting, old: None };
         let mut answers = Fresh::plain(self.streams.fresh(visit), &*task.hosts);
         let (trace, strategy) = (&mut self.state.trace, self.settings.strategy);
-        let change = match machine.propose(trace, choice, strategy, &mut asked, &mut answers) {
+        let change = match machine.propose(trace, choice, strategy, &mut proposal, &mut answers) {
             Ok(change) => change,
             Err(met) => self.give_up(task, met)?,
         };
@@ -80,7 +80,7 @@ impl<R: Rules> Chain<R> {
             trace.approach_closer(&task.program, next);
         }
 
-        let (old, outside) = (asked.old.take(), trace.left_support());
+        let (old, outside) = (proposal.old.take(), trace.left_support());
         let selection = |chain: &Self| {
             let trace = &chain.state.trace;
             let after =
@@ -126,8 +126,8 @@ impl<R: Rules> Chain<R> {
             }
             Change::Done => {}
         }
-        if let Err(failure) = self.state.look() {
-            self.state.look_back();
+        if let Err(failure) = self.state.update_sketches() {
+            self.state.restore_sketches();
             self.state.trace.rollback(program);
             return Err(failure);
         }
@@ -160,14 +160,14 @@ impl<R: Rules> Chain<R> {
             self.state.trace.commit(program);
             self.best.compare(&self.state, program, self.visit);
         } else {
-            self.state.look_back();
+            self.state.restore_sketches();
             self.state.trace.rollback(program);
         }
         self.last = Decision { same: false, accepted, log_ratio };
         Ok(self.last)
     }
 
-    /// A proposal met a fault. Where a distribution is invalid, the proposal is impossible, and counted.
+    /// A proposal raised a fault. Where a distribution is invalid, the proposal is impossible, and counted.
     ///
     /// # Errors
     /// Any other fault; the chain is back in its last state.

@@ -1,6 +1,6 @@
 //! Markov chains over kept runs: Metropolis-Hastings with kernels as values (dissertation chapter 3).
 //!
-//! * [`state`]: where a chain is; [`streams`]: its random numbers;
+//! * [`state`]: the state of a chain; [`streams`]: its random numbers;
 //! * [`kernel`]: kernels as values, and [`form`] as data; `plan`: which leaf is next; `leaf`: how it proposes; `select`, [`glob`],
 //!   [`weights`]: which choice it changes;
 //! * `metropolis`: the algorithm, for one choice; [`accept`]: the acceptance ratio, in plain letters;
@@ -8,8 +8,8 @@
 //! * [`block`], `regenerate`: proposals that change many choices;
 //! * [`trajectory`]: the continuous choices move together along their gradient;
 //! * [`counts`], [`best`], [`samples`]: what is reported afterwards;
-//! * [`ladder`]: parallel tempering; [`many`]: several searches side by side;
-//! * [`agreement`]: four strategies in step, compared to the bit; [`explain`]: what each of them does for one proposal.
+//! * [`ladder`]: parallel tempering; [`many`]: several searches in parallel;
+//! * [`agreement`]: the four strategies, compared to the bit; [`explain`]: what each of them does for one proposal.
 //!
 //! A chain's states depend on its seed and number only: not on the strategy, not on the number of threads.
 
@@ -61,17 +61,17 @@ use std::collections::HashMap;
 use std::marker::PhantomData;
 use streams::{Ahead, Streams};
 use trajectory::Trajectory;
-use trajectory::travel::Travel;
+use trajectory::counts::TrajectoryCounts;
 use weights::Table;
 
-/// What a chain is asked for.
+/// The settings of a chain.
 #[derive(Clone, Debug)]
 pub struct Settings {
     /// Decides every random number.
     pub seed: u64,
     /// How it proposes.
     pub kernel: Kernel,
-    /// How much of a run is done again.
+    /// How much of a run is executed again.
     pub strategy: Strategy,
     /// Proposals before the first sample, in which step sizes are adapted.
     pub warmup: u64,
@@ -103,9 +103,9 @@ impl Default for Settings {
     }
 }
 
-/// One chain, alive between two calls.
+/// One chain; it can go on at any time.
 pub struct Chain<R: Rules = MetropolisHastings> {
-    /// Where it is.
+    /// Its state.
     pub state: State,
     /// Proposals by site.
     pub counts: Counts,
@@ -126,16 +126,16 @@ pub struct Chain<R: Rules = MetropolisHastings> {
     visit: u64,
     /// The decisions of the next proposal.
     ahead: Ahead,
-    /// What became of the last proposal.
+    /// The last decision.
     last: Decision,
-    /// Whether every proposal is undone, to see that nothing is left.
+    /// Whether every proposal is undone, to test that nothing is left behind.
     undoing: bool,
     /// How many primitives, factors and observations together a state must have, where that is fixed.
     barriers: Option<usize>,
     rules: PhantomData<R>,
 }
 
-/// Proposals between two looks of whoever watches.
+/// Proposals between two calls of `watch`.
 const BLOCK: u64 = 1024;
 
 impl<R: Rules> Chain<R> {
@@ -208,7 +208,7 @@ impl<R: Rules> Chain<R> {
         })
     }
 
-    /// From now on it follows this power of the score, over states with so many barriers where that is fixed:
+    /// From now on the chain follows this power of the score, over states with so many barriers where that is fixed:
     /// primitives, factors and observations together.
     pub(crate) fn restrict(&mut self, beta: f64, barriers: Option<usize>) {
         (self.beta, self.barriers) = (beta, barriers);
@@ -219,10 +219,10 @@ impl<R: Rules> Chain<R> {
         self.visit
     }
 
-    /// What became of the trajectories of each leaf that follows the gradient, in the order of the kernel: their counts,
+    /// Of each leaf that follows the gradient, in the order of the kernel: the counts of its trajectories,
     /// the step for one coordinate, structures met and runs recorded.
-    pub fn trajectories(&self) -> impl Iterator<Item = (&Travel, f64, (u64, u64))> {
-        self.plan.trajectories().map(|own| (&own.travel, own.step(), own.recorded()))
+    pub fn trajectories(&self) -> impl Iterator<Item = (&TrajectoryCounts, f64, (u64, u64))> {
+        self.plan.trajectories().map(|own| (&own.counts, own.step(), own.recorded()))
     }
 
     /// The present state.
@@ -230,8 +230,8 @@ impl<R: Rules> Chain<R> {
         self.state.run(program, self.visit)
     }
 
-    /// Makes `steps` proposals. `watch` is called with their number and the best score now and then; when it answers false,
-    /// the chain stops where it is.
+    /// Makes `steps` proposals. `watch` is called regularly with their number and the best score; when it returns
+    /// false, the chain stops.
     ///
     /// # Errors
     /// A fault of the program, or of a proposal; the chain is then in its last state before.
@@ -293,7 +293,7 @@ impl<R: Rules> Chain<R> {
     }
 }
 
-/// A chain, and what its next proposal is made with.
+/// A chain with the context of its next proposal.
 struct Proposing<'a, 'm, R: Rules> {
     chain: &'a mut Chain<R>,
     task: &'a Task,

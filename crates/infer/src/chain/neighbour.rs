@@ -1,6 +1,6 @@
-//! Neighbour moves: a truth value turns, a whole number goes a few up or down, a category becomes another.
+//! Neighbour moves: a truth value flips, a whole number moves up or down by a few, a category becomes another.
 //!
-//! Each is as likely back as there, so nothing enters the acceptance ratio; numbers that leave the support are rejected.
+//! The moves are symmetric, so nothing enters the acceptance ratio; numbers that leave the support are rejected.
 
 use super::proposal::{FromPrior, Move};
 use niwaki_math::{Dist, Space, Stream, Support};
@@ -31,7 +31,7 @@ impl Move for Neighbour {
             (_, Value::Bool(b)) => Some(Value::Bool(!b)),
             (_, Value::Int(k)) => Some(Value::Int(match dist.support() {
                 Support::Categories(n @ 2..) => {
-                    // One of the others: those from the old one on stand one further.
+                    // One of the other categories: numbers from the old one on are one higher.
                     let other = super::streams::below(rng, n as u64 - 1) as i64;
                     other + i64::from(other >= *k)
                 }

@@ -1,4 +1,4 @@
-//! A kernel ready to run: its leaves with what they adapt, and a cursor that says which is next.
+//! A kernel ready to run: its leaves with their adapted steps, and a cursor to the next one.
 //!
 //! The cursor is a stack of places in the tree, so a chain can stop between any two proposals.
 
@@ -36,7 +36,7 @@ pub(crate) struct Plan {
     root: usize,
     /// Of a mixture of leaves and nothing else: cumulative weights, and the leaves.
     flat: Option<(Vec<f64>, Vec<usize>)>,
-    /// Branches that are being applied, and how many applications of what is in them have begun.
+    /// Branches that are being applied, each with the number of applications begun inside.
     cursor: Vec<(usize, u64)>,
 }
 
@@ -185,7 +185,7 @@ impl Plan {
         }
     }
 
-    /// The product of the powers of the annealings that the next proposal stands in; they go on by one.
+    /// The product of the powers of the annealings around the next proposal; each of them advances by one.
     fn power(&mut self) -> f64 {
         let mut power = 1.0;
         for (branch, _) in &self.cursor {

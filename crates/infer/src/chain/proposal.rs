@@ -8,12 +8,12 @@ use niwaki_vm::machine::answers::At;
 use niwaki_vm::machine::kept::{Propose, Proposed};
 use niwaki_vm::value::Value;
 
-/// Moves one choice.
+/// A move of one choice.
 pub(crate) trait Move {
     /// Whether it draws from the choice's own distribution, and gives the log density of what it drew.
     const FROM_PRIOR: bool = false;
 
-    /// A new value for a choice at the site of that number, its random bits from `rng`.
+    /// A new value for a choice at the site with this number; random bits come from `rng`.
     fn propose(
         &mut self,
         at: &At<'_, f64>,
@@ -24,7 +24,7 @@ pub(crate) trait Move {
         rng: &mut Stream,
     ) -> Result<Proposed<f64>, Fault>;
 
-    /// Adapts it to what became of its proposal.
+    /// Adapts to the decision on its proposal.
     #[inline(always)]
     fn learn(&mut self, _site: usize, _decision: Decision) {}
 }
@@ -50,17 +50,17 @@ impl Move for FromPrior {
     }
 }
 
-/// What the machine asks for a new value.
-pub(super) struct Asked<'a, M> {
+/// A move of the choice at one site, in the form that the machine calls.
+pub(super) struct MoveProposal<'a, M> {
     pub how: &'a mut M,
     pub site: usize,
     pub key: StreamKey,
-    /// Whether the value before is wanted afterwards.
+    /// Whether to keep the old value in `old`.
     pub noting: bool,
     pub old: Option<(u128, Value)>,
 }
 
-impl<M: Move> Propose<f64> for Asked<'_, M> {
+impl<M: Move> Propose<f64> for MoveProposal<'_, M> {
     const FROM_PRIOR: bool = M::FROM_PRIOR;
 
     #[inline]

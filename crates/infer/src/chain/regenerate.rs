@@ -1,7 +1,7 @@
-//! Regeneration: a call and all that it makes are drawn anew from the prior, in program order.
+//! Regeneration: a call and everything below it are drawn anew from the prior, in program order.
 //!
-//! A choice is picked, and with it the activation that stands so many levels above it. The activation keeps its place
-//! whatever is drawn below, so the probability of choosing it is the weight of the choices that lead to it over the weight
+//! A choice is picked, and with it the activation a fixed number of levels above it. The activation keeps its place
+//! for any draws below, so the probability of choosing it is the weight of the choices that lead to it over the weight
 //! of all, before and after.
 
 use super::Chain;
@@ -56,8 +56,8 @@ impl<R: Rules> Chain<R> {
         Ok(())
     }
 
-    /// The weight of the choices that lead to an activation: those so many levels below, and above the root, which
-    /// stands for all that lie too high, those nearer to it.
+    /// The weight of the choices that lead to an activation: those `levels` below it. The root also takes
+    /// the choices that are nearer to it, because their activation would be above the root.
     fn leading(&self, program: &Program, activation: NodeId, levels: usize, table: Option<usize>) -> u64 {
         let (mut weight, trace) = (0, &self.state.trace);
         let root = activation == NodeId(0);

@@ -1,4 +1,4 @@
-//! Samples of a chain, thinned, in bounded room.
+//! Samples of a chain, thinned, in bounded memory.
 
 use super::state::State;
 use crate::run::Run;
@@ -9,7 +9,7 @@ use std::sync::Arc;
 pub struct Samples {
     /// The samples, shared with whoever reads them.
     pub all: Vec<Arc<Run>>,
-    /// Proposals between two samples; doubled when they take too much room. Zero: no samples.
+    /// Proposals between two samples; doubled when they take too much memory. Zero: no samples.
     pub thin: u64,
     /// Most choices that all samples together may hold.
     room: usize,
@@ -22,8 +22,8 @@ impl Samples {
         Samples { all: vec![], thin, room: room.max(1), held: 0 }
     }
 
-    /// Keeps the present state. When room runs out every other sample goes, and those left are the ones that twice the
-    /// thinning would have kept; `warmup` is where the first interval began.
+    /// Keeps the present state. When the samples hold too many choices, every other one is dropped; those left are the ones that
+    /// twice the thinning would have kept; `warmup` is where the first interval began.
     pub fn keep(&mut self, state: &State, program: &Program, visit: u64, warmup: u64) {
         self.held += state.trace.len() + 1;
         self.all.push(Arc::new(state.run(program, visit)));

@@ -1,4 +1,4 @@
-//! Selections as weights: patterns over addresses and weights by depth, asked once for each choice that is born.
+//! Selections as weights: patterns over addresses and weights by depth, computed once for each new choice.
 
 use super::glob::{last, matches, nearest};
 use super::kernel::Selection;
@@ -33,8 +33,8 @@ impl Selection {
         *self == Selection::default()
     }
 
-    /// Whether one of the program's sites that it may take may draw real numbers: where the text does not say, the trace
-    /// does, if it came there.
+    /// Whether a selected site may draw real numbers. Where the program does not decide this, the trace does, if it reached
+    /// the site.
     pub(super) fn may_be_continuous(&self, trace: &Trace, program: &Program) -> bool {
         let mut seen: HashMap<_, bool> = HashMap::new();
         for choice in trace.numbers() {
@@ -63,7 +63,7 @@ impl Selection {
     }
 
     /// A selection that no address of the trace matches is an error, unless it names a site that the program has
-    /// and this run did not come to.
+    /// and this run did not reach.
     pub(super) fn check(&self, trace: &Trace, program: &Program) -> Result<(), Failure> {
         for patterns in self.sites.iter().chain(std::iter::once(
             &self.weights.iter().map(|(pattern, _)| pattern.clone()).collect::<Vec<_>>(),
@@ -136,7 +136,7 @@ impl Selection {
                 .get(nested.filter(|_| !self.calls.is_empty()).unwrap_or_else(depth))
                 .unwrap_or(deepest);
         }
-        // What is to be chosen at all keeps a chance.
+        // A weight above zero stays above zero.
         if weight > 0.0 { ((weight * UNIT).round() as u64).max(1) } else { 0 }
     }
 }

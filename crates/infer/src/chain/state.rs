@@ -1,4 +1,4 @@
-//! Where a chain is: a kept run and the sketches of its scene. A proposal opens a transaction on both.
+//! The state of a chain: a kept run and the sketches of its scene. A proposal opens a transaction on both.
 
 use super::drift::plain_spread;
 use super::streams::Streams;
@@ -19,9 +19,9 @@ use niwaki_vm::value::Value;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// Gives what a kept run has no value for: a known one, else one from its distribution.
+/// Gives values to the new choices of a kept run: known ones, else draws from their distributions.
 pub struct Fresh<'a> {
-    /// Who gives choices their values; new ones at this visit.
+    /// The chooser of the new values.
     pub chooser: Known<'a, Prior>,
     /// Host functions.
     pub hosts: &'a dyn Hosts,
@@ -68,7 +68,7 @@ impl Answers<f64> for Fresh<'_> {
     }
 }
 
-/// Where a chain is.
+/// The state of a chain.
 pub struct State {
     /// The run.
     pub trace: Trace,
@@ -130,7 +130,7 @@ impl State {
                 Some(impossible(&state.trace, &task.program))
             } else {
                 state.sketches.expect_removals();
-                state.look()?;
+                state.update_sketches()?;
                 state.sketches.forbidden_by().map(str::to_string)
             };
             match cause {
@@ -147,7 +147,7 @@ impl State {
         Err(Failure::NoStart { tries, causes })
     }
 
-    /// The state of a run with these values whose scene the sketches show already.
+    /// The state of a run with these values; the sketches already hold its scene.
     ///
     /// # Errors
     /// A fault of the program; values with which it is impossible.
@@ -181,7 +181,7 @@ impl State {
         Run { log: self.choices(program).collect(), value: self.trace.result(), ..self.scores(visit) }
     }
 
-    /// The same without choices and value, whose copies take as long as they are.
+    /// The same without choices and value, which are slow to copy.
     pub(super) fn scores(&self, visit: u64) -> Run {
         Run {
             log_prior: self.trace.totals().log_prior.value(),
@@ -206,12 +206,12 @@ impl State {
         self.trace.totals().log_factors.plus(&self.log_sketches)
     }
 
-    /// Shows the sketches what the open transaction did to the scene, once.
+    /// Applies the open transaction's changes of the scene to the sketches, once.
     ///
     /// # Errors
     /// A sketch scores NaN.
     #[inline]
-    pub fn look(&mut self) -> Result<(), Failure> {
+    pub fn update_sketches(&mut self) -> Result<(), Failure> {
         (self.primitives_before, self.before) = (self.primitives, None);
         let (gone, come) = (self.trace.retracted().count(), self.trace.emitted().count());
         if gone + come == 0 && self.primitives > 0 {
@@ -235,9 +235,9 @@ impl State {
         self.before.as_ref().map(|(_, log_before)| self.log_sketches.less(log_before))
     }
 
-    /// Undoes what [`State::look`] did; the trace is still to be rolled back.
+    /// Undoes what [`State::update_sketches`] did; the trace is still to be rolled back.
     #[inline]
-    pub fn look_back(&mut self) {
+    pub fn restore_sketches(&mut self) {
         if let Some(before) = self.before.take() {
             (self.sketches, self.log_sketches) = before;
         }

@@ -1,9 +1,9 @@
-//! The random streams of a chain: a function of (seed, chain, address, visit), where the visit is the number of the
-//! proposal, so that no draw depends on how much of the program was run again.
+//! The random streams of a chain: a function of (seed, chain, address, visit). The visit is the number of the
+//! proposal. So no draw depends on how much of the program was run again.
 
 use niwaki_math::{RngCore, Stream, StreamKey};
 
-/// Streams of one chain, by what is drawn from them. A chain's numbers are eight times its own and more.
+/// Stream numbers for each chain, one for each purpose.
 const STREAMS: u64 = 8;
 
 /// The streams of one chain.
@@ -22,33 +22,33 @@ impl Streams {
         Streams { fresh: key(0), moves: key(1), decisions: key(2), schedule: key(3) }
     }
 
-    /// Choices that a run makes for the first time, or anew.
+    /// For new choices, and for choices that are drawn anew.
     #[inline]
     pub fn fresh(self, visit: u64) -> StreamKey {
         self.fresh.revisited(visit)
     }
 
-    /// New values for old choices.
+    /// For new values of old choices.
     #[inline]
     pub fn moves(self, visit: u64) -> StreamKey {
         self.moves.revisited(visit)
     }
 
-    /// Which choice is changed, and whether the change is kept: the first two numbers.
+    /// For the choice that is changed, and for the acceptance: the first two numbers.
     #[inline]
     pub fn decisions(self, visit: u64) -> Stream {
         self.decisions.revisited(visit).at(0)
     }
 
-    /// Which kernel of a mixture is next.
+    /// For the next kernel of a mixture.
     #[inline]
     pub fn schedule(self, visit: u64) -> Stream {
         self.schedule.revisited(visit).at(0)
     }
 }
 
-/// The random numbers that decide over a proposal, drawn while the one before runs, so that what it will need can be
-/// asked for.
+/// The random numbers that decide on a proposal. They are drawn while the proposal before runs, so that memory can be
+/// prefetched.
 pub(crate) struct Ahead {
     /// The number of the proposal.
     pub visit: u64,

@@ -1,6 +1,6 @@
-//! A proposal of the user's own: a model function that makes a distribution of a choice's value.
+//! A user's proposal: a model function that returns a distribution for a new value.
 //!
-//! Its parameters are names: `old` is the value before, any other one a variable in scope where the choice stands. With
+//! Its parameters are names: `old` is the value before, any other name is a variable in scope at the choice. With
 //! `s` for those variables, which a change of the choice itself does not touch,
 //!
 //! ```text
@@ -20,14 +20,14 @@ use niwaki_vm::machine::kept::Proposed;
 use niwaki_vm::value::Value;
 use std::sync::{Arc, OnceLock};
 
-/// The parameter that is the value before.
+/// The parameter that receives the value before.
 const OLD: &str = "old";
 
-/// A function that gives a distribution, and its name.
+/// A function that returns a distribution, and its name.
 pub struct User {
     task: Task,
     name: String,
-    /// What it gives, where it takes nothing.
+    /// Its distribution, where it has no parameters.
     constant: OnceLock<Arc<Dist>>,
 }
 
@@ -55,7 +55,7 @@ impl User {
         Ok(User { task, name, constant: OnceLock::new() })
     }
 
-    /// What it is called.
+    /// Its name.
     pub fn name(&self) -> &str {
         &self.name
     }
@@ -64,12 +64,12 @@ impl User {
         &self.task.program.function(self.task.program.entry).parameters
     }
 
-    /// Whether it asks for the value before.
-    pub fn asks_old(&self) -> bool {
+    /// Whether it needs the value before.
+    pub fn needs_old(&self) -> bool {
         self.parameters().iter().any(|name| &**name == OLD)
     }
 
-    /// The variables that it asks for. A program must be compiled to keep them
+    /// The variables that it needs. A program must be compiled to keep them
     /// ([`compile_keeping`](niwaki_vm::passes::compile_keeping)).
     pub fn variables(&self) -> impl Iterator<Item = &Name> {
         self.parameters().iter().filter(|name| &***name != OLD)
@@ -85,8 +85,8 @@ impl User {
             if let Some(known) = self.constant.get() {
                 return Ok(known.clone());
             }
-            let made = Arc::new(self.given(&[])?);
-            return Ok(self.constant.get_or_init(|| made).clone());
+            let dist = Arc::new(self.given(&[])?);
+            return Ok(self.constant.get_or_init(|| dist).clone());
         }
         let value = |name: &Name| match (&**name, old) {
             (OLD, Some(old)) => Ok(old.clone()),
@@ -115,7 +115,7 @@ impl User {
         }
     }
 
-    /// What the function gives for these arguments.
+    /// The distribution for these arguments.
     fn given(&self, args: &[Value]) -> Result<Dist, Fault> {
         let wrong = |found: String| {
             Fault::new("bad-proposal", format!("the proposal `{}` {found}", self.name)).with_help(
@@ -135,10 +135,10 @@ impl User {
     }
 }
 
-/// The move that asks it.
-pub(crate) struct Asking<'a>(pub &'a User);
+/// The move that draws from it.
+pub(crate) struct UserMove<'a>(pub &'a User);
 
-impl Move for Asking<'_> {
+impl Move for UserMove<'_> {
     fn propose(
         &mut self,
         at: &At<'_, f64>,
@@ -161,8 +161,8 @@ impl Move for Asking<'_> {
             return Err(Fault::new("proposal-kind", found)
                 .with_help("propose values of the kind that the choice's own distribution draws"));
         }
-        // One that does not ask for the value before is the same there and back.
-        let back = if self.0.asks_old() { self.0.dist(at, Some(&value))? } else { there.clone() };
+        // A function that does not need the value before gives the same distribution for both directions.
+        let back = if self.0.needs_old() { self.0.dist(at, Some(&value))? } else { there.clone() };
         let backward = value_to_draw(old).map_or(f64::NEG_INFINITY, |old| back.log_density(&old));
         Ok(Proposed { value, forward: grid(there.log_density(&draw)), backward: grid(backward) })
     }

@@ -1,6 +1,6 @@
-//! Odds: with what weight each choice is chosen to be changed.
+//! Selection weights: the weight with which each choice is chosen to be changed.
 //!
-//! Weights are whole numbers (in units of [`UNIT`]), so that their sums are exact whatever came and went, and a tree of
+//! Weights are whole numbers (in units of [`UNIT`]), so that their sums are exact for any births and deaths, and a tree of
 //! partial sums (Fenwick 1994) finds a choice, adds one and drops one in O(log n).
 
 use niwaki_vm::code::Program;
@@ -10,7 +10,7 @@ use niwaki_vm::machine::kept::inspect::Place;
 /// The unit of selection weights.
 pub const UNIT: f64 = 65536.0;
 
-/// How a choice is weighed, by where it stands.
+/// How a choice is weighed, by its place in the trace.
 pub trait Weigh: Send + Sync {
     /// Its weight; it must not depend on any value.
     fn weight(&self, place: &Place<'_, f64>) -> u64;
@@ -23,7 +23,7 @@ pub struct Table {
     /// `sums[i]` covers the `lowbit(i + 1)` weights up to `i`.
     sums: Vec<u64>,
     total: u64,
-    /// As long as no choice came or went and all that have a weight have the same: that weight, and who they are.
+    /// While there were no births and deaths, and all weights above zero are equal: that weight, and its choices.
     alike: Option<(u64, Vec<u32>)>,
 }
 
@@ -56,12 +56,12 @@ impl Table {
         self.weights[choice]
     }
 
-    /// The weight that a choice standing there has.
+    /// The weight of a choice at this place.
     pub fn weigh(&self, place: &Place<'_, f64>) -> u64 {
         self.weigh.weight(place)
     }
 
-    /// The choice in whose stretch of the line of weights `at` lies, from 0 to below the total.
+    /// The choice whose part of the cumulative weights contains `at`, from 0 to below the total.
     #[inline]
     pub fn find(&self, at: u64) -> usize {
         debug_assert!(at < self.total);
@@ -151,7 +151,7 @@ fn lowest_bit(i: usize) -> usize {
 
 #[cfg(test)]
 mod tests {
-    //! The tree of sums finds what a walk along the weights finds, after any pushes, pops and changes.
+    //! The tree of sums gives the same choice as a linear search, after any pushes, pops and changes.
     use super::*;
 
     struct Same;
@@ -162,7 +162,7 @@ mod tests {
     }
 
     #[test]
-    fn finds_agree_with_a_walk() {
+    fn find_agrees_with_a_linear_search() {
         let mut table = Table { weigh: Box::new(Same), weights: vec![], sums: vec![], total: 0, alike: None };
         let mut state = 1u64;
         let mut next = |n: u64| {

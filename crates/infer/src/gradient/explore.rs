@@ -1,7 +1,7 @@
 //! Chains of a task that follow its gradient, each from a possible run of its own.
 //!
-//! What is discrete keeps the value that it has in that run, and so does the structure: a point at which the run would
-//! make other choices is refused, and its trajectory rejected.
+//! Discrete choices and the structure stay as they are in that run: a point at which the run would make other choices is
+//! refused, and its trajectory rejected.
 
 use super::follow::reason;
 use super::{live_of, model};
@@ -21,7 +21,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// What one chain found.
+/// The draws of one chain.
 pub struct Explored {
     /// Its draws, in coordinates.
     pub draws: Draws,
@@ -31,7 +31,7 @@ pub struct Explored {
     pub fixed: Vec<Choice>,
     /// The values of the continuous choices by rows, `(draws, sum of widths)`.
     pub numbers: Vec<f64>,
-    /// What the first trajectory met, after warm-up, that came to a point without a finite gradient.
+    /// The fault of the first trajectory after warm-up that reached a point without a finite gradient.
     pub fault: Option<Box<RunFault>>,
 }
 
@@ -62,7 +62,7 @@ impl Explored {
     }
 }
 
-/// What is asked for.
+/// The settings of a search.
 pub struct Plan<'a> {
     /// How each chain moves.
     pub settings: &'a Settings,
@@ -79,10 +79,10 @@ pub struct Plan<'a> {
 /// Lanes of chains that move together, where each thread has so many of them, and where it has fewer.
 const MANY: usize = 64;
 const FEW: usize = 16;
-/// Fewer chains go alone, each with machine code: empty lanes cost as much as full ones.
+/// Fewer chains run alone, each with machine code: empty lanes cost as much as full ones.
 const LEAST: usize = 12;
 
-/// A chain before it goes.
+/// A chain before it runs.
 struct Member {
     number: usize,
     target: Live,
@@ -92,15 +92,15 @@ struct Member {
     start: Vec<f64>,
 }
 
-/// Draws from a task's distribution. `watch` is called with the transitions of all chains now and then; when it answers false,
-/// they end with what they have.
+/// Draws from a task's distribution. `watch` is called regularly with the transitions of all chains; when it returns
+/// false, the chains end with their draws so far.
 ///
 /// Where each thread has a dozen chains or more of one structure, with trajectories of a fixed length and a metric of
-/// scales, they go in [`lanes`]. They draw the same there, to the bit, as alone.
+/// scales, they run in [`lanes`]. Their draws are the same to the bit as alone.
 ///
 /// # Errors
-/// Sketches, a run without continuous choices, no possible start, an operation without a derivative on the way to the
-/// score, a start without a finite gradient, a fault of the program.
+/// Sketches, a run without continuous choices, no possible start, an operation without a derivative on which the score
+/// depends, a start without a finite gradient, a fault of the program.
 pub fn explore(
     task: &Task,
     plan: &Plan<'_>,
@@ -146,7 +146,7 @@ fn grouped(settings: &Settings, members: &[Option<Member>]) -> Vec<Vec<usize>> {
     for (_, chains) in alike {
         let each = chains.len().div_ceil(rayon::current_num_threads());
         let alone = !lanes::suits(settings) || each < LEAST;
-        // In lanes all that a thread has: where one is on top of its summit, another takes its lane.
+        // In lanes, all ascents of a thread: where one has ended, the next one takes its lane.
         groups.extend(chains.chunks(if alone { 1 } else { each }).map(<[usize]>::to_vec));
     }
     groups
@@ -189,7 +189,7 @@ fn together(
     }
 }
 
-/// One after another.
+/// Runs chains one after another.
 fn alone(
     task: &Task,
     plan: &Plan<'_>,
@@ -205,7 +205,7 @@ fn alone(
     group.into_iter().map(go).collect()
 }
 
-/// Side by side.
+/// Runs chains in lanes.
 fn in_lanes<const L: usize>(
     task: &Task,
     plan: &Plan<'_>,
@@ -246,7 +246,7 @@ fn in_lanes<const L: usize>(
     .collect()
 }
 
-/// What a chain found, with values for its coordinates.
+/// The draws of a chain, with the values of its choices.
 fn explored(
     task: &Task,
     mut target: Live,
@@ -278,7 +278,7 @@ fn fixed(task: &Task, recorded: &Recorded, start: &[f64]) -> Result<Vec<Choice>,
     Ok(trace.choices.into_iter().filter(is_fixed).collect())
 }
 
-/// Why a chain could not start where it was put.
+/// Why a chain could not start.
 fn no_slope(target: &Live, start: &[f64]) -> Failure {
     match reason(target, start) {
         Some(fault) => Failure::Run(fault),

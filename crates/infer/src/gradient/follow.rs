@@ -1,4 +1,4 @@
-//! A task's density as a target: what a chain asks, and why a point was refused.
+//! A task's density as a target of chains, and why a point was refused.
 
 use crate::hamiltonian::lanes;
 use crate::hamiltonian::{Cause, Potential, Stop};
@@ -49,7 +49,7 @@ fn cause(refused: &Refused) -> Cause {
 }
 
 /// Why there is no finite log density or gradient at `x`: the run's fault there, or the first term to blame, with its
-/// line. None for a point that has run away to infinity: that says nothing about the model.
+/// line. `None` for a point that is not finite: that is no fault of the model.
 pub fn reason(live: &Live, x: &[f64]) -> Option<Box<RunFault>> {
     if x.iter().any(|x| !x.is_finite()) {
         return None;

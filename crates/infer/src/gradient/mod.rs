@@ -15,7 +15,7 @@ use niwaki_vm::value::Value;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// A task as something to record. Make it once for each task: it copies the program.
+/// A task in the form that can be recorded. Create it once for each task: it copies the program.
 ///
 /// # Errors
 /// A scene that sketches score: they count cells and pixels, which have no slope.
@@ -46,7 +46,7 @@ pub fn model(task: &Task) -> Result<Model, Failure> {
 /// The log density of a task around the run with these choices.
 ///
 /// # Errors
-/// A missing choice, an impossible run, an operation without a derivative on the way to the score, sketches.
+/// A missing choice, an impossible run, an operation without a derivative on which the score depends, sketches.
 pub fn record(task: &Task, choices: &HashMap<u128, Value>) -> Result<Recorded, Failure> {
     Ok(model(task)?.record(choices)?)
 }
@@ -59,7 +59,7 @@ pub fn live(task: &Task, choices: &HashMap<u128, Value>) -> Result<Live, Failure
     live_of(model(task)?, choices)
 }
 
-/// The same, of a model that is made already.
+/// The same, of a given model.
 pub(crate) fn live_of(model: Model, choices: &HashMap<u128, Value>) -> Result<Live, Failure> {
     let recorded = model.record(choices)?;
     if recorded.dim() == 0 {
@@ -68,7 +68,7 @@ pub(crate) fn live_of(model: Model, choices: &HashMap<u128, Value>) -> Result<Li
     Ok(Live::new(model, recorded))
 }
 
-/// There is nothing that a gradient could move.
+/// The fault of a run without continuous choices.
 #[cold]
 pub(crate) fn nothing_continuous() -> Fault {
     Fault::new("no-continuous-choices", "this run makes no continuous choices")

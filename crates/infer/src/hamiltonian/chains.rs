@@ -15,7 +15,7 @@ use super::warmup::Adaptation;
 use niwaki_math::Stream;
 use rayon::prelude::*;
 
-/// How the length of a trajectory is found.
+/// How the length of a trajectory is chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Length {
     /// A fixed number of leapfrog steps, jittered by a share of it.
@@ -45,14 +45,14 @@ impl Length {
 /// An energy error above this many nats is a divergence, as in Stan.
 pub const MAX_ENERGY_ERROR: f64 = 1000.0;
 
-/// What a chain is asked for.
+/// The settings of a chain.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
     /// How long trajectories are.
     pub length: Length,
     /// Steps uphill from the start, before the warm-up.
     pub climb: u32,
-    /// Transitions during which step size and metric are adapted; their draws are not given out.
+    /// Transitions during which step size and metric are adapted; their draws are not returned.
     pub warmup: u32,
     /// Draws afterwards.
     pub draws: u32,
@@ -99,7 +99,7 @@ impl Settings {
     }
 }
 
-/// What a stream of random bits is for.
+/// The purpose of a stream of random bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Purpose {
@@ -111,23 +111,23 @@ pub enum Purpose {
     Length,
 }
 
-/// One chain: where it stands and how it moves.
+/// One chain: its point and its kernel.
 pub struct Chain<P> {
-    /// What it draws from.
+    /// The target.
     pub target: P,
-    /// Where it stands.
+    /// Its point.
     pub phase: Phase,
     /// The metric in use.
     pub metric: Metric,
     /// The step size in use.
     pub step_size: f64,
-    /// How it moves.
+    /// The kernel.
     pub kernel: Kernel,
     /// The seed of all chains.
     pub seed: u64,
     /// Which chain.
     pub number: u64,
-    /// Transitions made.
+    /// Transitions so far.
     pub visit: u64,
     /// Gradients taken uphill.
     pub climbed: u32,
@@ -150,7 +150,7 @@ impl<P: Potential> Chain<P> {
         Chain::on_top(target, &start, climbed, settings, seed, number)
     }
 
-    /// A chain at `start`, which took so many gradients to find.
+    /// A chain at `start`, which was reached with so many gradients.
     ///
     /// # Errors
     /// The target's refusal of `start`.
@@ -173,8 +173,8 @@ impl<P: Potential> Chain<P> {
         Stream::new(self.seed, self.number, purpose as u128, self.visit)
     }
 
-    /// Random numbers for the length of the next transition: those of the first chain, for all chains. Side by side they
-    /// then move for as long.
+    /// Random numbers for the length of the next transition. All chains use those of the first chain, so that lanes have
+    /// equal lengths.
     pub(super) fn lengths(&self) -> Stream {
         Stream::new(self.seed, 0, Purpose::Length as u128, self.visit)
     }
@@ -194,14 +194,14 @@ impl<P: Potential> Chain<P> {
         }
     }
 
-    /// Sets the step size to one that suits a single step, found from a guess.
+    /// Sets the step size to one that suits a single step; the search starts from a guess.
     pub fn guess_step(&mut self, from: f64) {
         let mut stream = self.stream(Purpose::Guess);
         self.step_size = first_guess(&mut self.target, &self.metric, &self.phase, from, &mut stream);
     }
 }
 
-/// What a chain gave.
+/// The draws of one chain, with their statistics.
 #[derive(Clone, Debug, Default)]
 pub struct Draws {
     /// How many coordinates.
@@ -234,7 +234,7 @@ pub struct Draws {
     pub step_size: f64,
     /// The frozen metric.
     pub metric: Option<Metric>,
-    /// Whether it was stopped before its end.
+    /// Whether the chain was stopped before its end.
     pub interrupted: bool,
 }
 
@@ -255,31 +255,31 @@ impl Draws {
     }
 
     /// Counts a transition of the warm-up.
-    pub(super) fn count_warmup(&mut self, made: &Transition) {
-        self.warmup_gradients += u64::from(made.steps);
-        if let Some(divergence) = &made.divergence {
+    pub(super) fn count_warmup(&mut self, transition: &Transition) {
+        self.warmup_gradients += u64::from(transition.steps);
+        if let Some(divergence) = &transition.divergence {
             self.broken.count(divergence.stop, true);
         }
     }
 
-    /// Counts a transition after warm-up; how it broke off.
-    pub(super) fn count(&mut self, made: &Transition) -> Marks {
-        self.gradients += u64::from(made.steps);
-        let Some(divergence) = &made.divergence else { return Marks::default() };
+    /// Counts a transition after warm-up, and returns how it broke off.
+    pub(super) fn count(&mut self, transition: &Transition) -> Marks {
+        self.gradients += u64::from(transition.steps);
+        let Some(divergence) = &transition.divergence else { return Marks::default() };
         self.broken.count(divergence.stop, false);
         self.divergences.push(divergence.clone());
         let off_structure = divergence.stop.is_some_and(|stop| stop.cause == Cause::Guard);
         Marks { diverging: !off_structure, off_structure }
     }
 
-    /// Adds the point of a chain.
-    pub(super) fn push(&mut self, phase: &Phase, made: &Transition, broke_off: Marks) {
+    /// Adds the chain's point as a draw.
+    pub(super) fn push(&mut self, phase: &Phase, transition: &Transition, broke_off: Marks) {
         self.x.extend_from_slice(&phase.x);
         self.log_density.push(phase.log_density);
-        self.energy.push(made.energy);
-        self.accept.push(made.accept);
-        self.steps.push(made.steps);
-        self.depth.push(made.depth);
+        self.energy.push(transition.energy);
+        self.accept.push(transition.accept);
+        self.steps.push(transition.steps);
+        self.depth.push(transition.depth);
         self.diverging.push(broke_off.diverging);
         self.off_structure.push(broke_off.off_structure);
     }
@@ -301,10 +301,10 @@ pub struct BadStart {
     pub stop: Stop,
 }
 
-/// Called now and then with (chain, transitions made); the chains end, with what they have, when it answers false.
+/// Called regularly with (chain, transitions so far). When it returns false, the chains end with the draws so far.
 pub type Watch<'a> = &'a (dyn Fn(usize, u32) -> bool + Sync);
 
-/// Transitions between two looks of whoever watches.
+/// Transitions between two calls of `watch`.
 pub(crate) const GLANCE: u64 = 32;
 
 /// One chain for each start, in parallel; `make` gives each its own target.
@@ -318,7 +318,7 @@ pub fn sample<P: Potential>(
     seed: u64,
     watch: Watch,
 ) -> Result<Vec<Draws>, BadStart> {
-    let made: Vec<Result<Draws, BadStart>> = starts
+    let draws: Vec<Result<Draws, BadStart>> = starts
         .par_iter()
         .enumerate()
         .map(|(k, start)| {
@@ -327,15 +327,15 @@ pub fn sample<P: Potential>(
             Ok(run(chain, settings, &|done| watch(k, done)))
         })
         .collect();
-    made.into_iter().collect()
+    draws.into_iter().collect()
 }
 
 /// Warms a chain up, then draws.
 pub fn run<P: Potential>(chain: Chain<P>, settings: &Settings, watch: &dyn Fn(u32) -> bool) -> Draws {
     let mut ongoing = Ongoing::new(chain, settings);
     while !ongoing.is_over() {
-        let made = ongoing.chain.advance();
-        ongoing.take(&made);
+        let transition = ongoing.chain.advance();
+        ongoing.take(&transition);
         ongoing.look(watch);
     }
     ongoing.finish()
@@ -348,9 +348,9 @@ pub(super) struct Ongoing<'a, P> {
     adaptation: Adaptation,
     draws: Draws,
     warmed: u32,
-    /// Transitions still to make for the next draw.
+    /// Transitions left until the next draw.
     left: u32,
-    /// How those already made broke off.
+    /// How those since the last draw broke off.
     broke_off: Marks,
 }
 
@@ -368,25 +368,25 @@ impl<'a, P: Potential> Ongoing<'a, P> {
         self.draws.interrupted || self.warmed == self.settings.warmup && drawn
     }
 
-    /// Learns from a transition, or keeps what it led to.
-    pub(super) fn take(&mut self, made: &Transition) {
+    /// Adapts to a transition of the warm-up, or counts and keeps one after it.
+    pub(super) fn take(&mut self, transition: &Transition) {
         if self.warmed < self.settings.warmup {
             self.warmed += 1;
-            self.draws.count_warmup(made);
-            self.adaptation.learn(&mut self.chain, made);
+            self.draws.count_warmup(transition);
+            self.adaptation.learn(&mut self.chain, transition);
             return;
         }
-        let now = self.draws.count(made);
+        let now = self.draws.count(transition);
         self.broke_off.diverging |= now.diverging;
         self.broke_off.off_structure |= now.off_structure;
         self.left -= 1;
         if self.left == 0 {
-            self.draws.push(&self.chain.phase, made, self.broke_off);
+            self.draws.push(&self.chain.phase, transition, self.broke_off);
             (self.left, self.broke_off) = (self.settings.thin.max(1), Marks::default());
         }
     }
 
-    /// Asks whoever watches, now and then, whether to go on.
+    /// Calls `watch` regularly, and stops the chain when it returns false.
     pub(super) fn look(&mut self, watch: &dyn Fn(u32) -> bool) {
         let visit = self.chain.visit;
         self.draws.interrupted |= visit.is_multiple_of(GLANCE) && !watch(visit as u32);
@@ -401,7 +401,7 @@ impl<'a, P: Potential> Ongoing<'a, P> {
 
 #[cfg(test)]
 mod tests {
-    //! Chains do not depend on threads or on one another; they can be stopped; a bad start is named.
+    //! Chains do not depend on threads or on one another; they can be stopped; a bad start is reported with its chain.
     use super::*;
     use crate::hamiltonian::potential::tests::{By, normals};
 

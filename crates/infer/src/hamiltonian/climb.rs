@@ -1,10 +1,10 @@
-//! Steps uphill before a chain: from a run of the prior, which tight constraints leave thousands of nats below all that
-//! is likely, to where trajectories start well.
+//! Steps uphill before a chain. With tight constraints a run of the prior is thousands of nats below the likely runs;
+//! the ascent goes to a point where trajectories start well.
 //!
 //! Each coordinate moves by the size of its own slopes (Kingma & Ba 2015, algorithm 1). Coarse steps pass over small
-//! summits, which a line search would stop at; they become finer where the height wavers by more than it grows, and the
-//! ascent ends where it does neither by more than draws would. Where it ends is a start and no draw: the warm-up
-//! that follows makes it one, and chains from different runs end on different summits.
+//! maxima, where a line search would stop. Steps become finer where the height fluctuates more than it grows. The ascent
+//! ends where both are smaller than the fluctuation of draws. Its end is a start and not a draw; the warm-up follows.
+//! Chains from different runs may end at different maxima.
 
 use super::lanes::{Wide, finite};
 use super::potential::{Potential, evaluate};
@@ -12,14 +12,14 @@ use super::potential::{Potential, evaluate};
 /// Length of the first step, in unconstrained coordinates, and of one that is too short to go on with.
 const FIRST: f64 = 0.2;
 const LAST: f64 = 0.002;
-/// The share of a step that is left where the height wavers.
+/// The share of a step that is left where the height fluctuates.
 const FINER: f64 = 0.7;
 /// How much of the mean slope, and of the mean squared slope, is remembered from one step to the next.
 const MEMORY: f64 = 0.95;
-/// Steps between looks at how the height grows and wavers: this many, or a tenth of the steps so far.
+/// Steps between two checks of the height: this many, or a tenth of the steps so far.
 const LOOK: u32 = 20;
-/// Heights of draws waver by the root of half the dimension, if the density is near a normal's: a few times as much, from
-/// one look to the next, is no gain.
+/// Heights of draws fluctuate by the root of half the dimension, if the density is nearly normal. A gain between two
+/// checks below a few times this is no gain.
 const LITTLE: f64 = 3.0;
 /// Keeps a coordinate without any slope where it is.
 const TINY: f64 = 1e-9;
@@ -33,11 +33,11 @@ struct Ascent {
     height: f64,
     slope: Vec<f64>,
     size: Vec<f64>,
-    /// How much of the means of slopes and sizes is still what they began with.
+    /// The share of the initial zeros in the means of slopes and sizes.
     share: f64,
     step: f64,
     heights: Vec<f64>,
-    /// Mean height of the steps before the last look.
+    /// Mean height of the steps before the last check.
     before: f64,
     taken: u32,
     is_over: bool,
@@ -80,7 +80,7 @@ impl Ascent {
         }
     }
 
-    /// Every so often: whether steps are too long, or lead nowhere.
+    /// Checks regularly whether steps are too long, or bring no gain.
     fn look(&mut self, value: f64) {
         self.heights.push(value);
         if self.heights.len() < LOOK.max(self.taken / 10) as usize {
@@ -99,7 +99,7 @@ impl Ascent {
         self.heights.clear();
     }
 
-    /// The same, by what its own target says.
+    /// The same, by its own target.
     fn step_alone(&mut self, target: &mut (impl Potential + ?Sized), gradient: &mut [f64], steps: u32) {
         match evaluate(target, &self.at, gradient) {
             Ok(value) => self.step(value, gradient.iter().copied(), steps),
@@ -108,7 +108,7 @@ impl Ascent {
     }
 }
 
-/// Moves `x` uphill, to the highest point of at most `steps` steps; gives the number of gradients taken. A point that the
+/// Moves `x` uphill, to the highest point of at most `steps` steps; returns the number of gradients. A point that the
 /// target refuses ends the ascent before it.
 pub fn climb(target: &mut (impl Potential + ?Sized), x: &mut [f64], steps: u32) -> u32 {
     let (mut ascent, mut gradient) = (Ascent::from(x, steps), vec![0.0; x.len()]);
@@ -119,8 +119,8 @@ pub fn climb(target: &mut (impl Potential + ?Sized), x: &mut [f64], steps: u32) 
     ascent.taken
 }
 
-/// The same from several points, `L` of them side by side, each with a target of its own for where the wide density does
-/// not cover it. Where an ascent ends, the next point takes its lane.
+/// The same from several points, `L` of them in parallel. Each has its own target for points that the wide density does
+/// not cover. Where an ascent ends, the next point takes its lane.
 pub fn climb_in_lanes<const L: usize>(
     targets: &mut [&mut impl Potential],
     starts: &mut [&mut Vec<f64>],
@@ -134,7 +134,7 @@ pub fn climb_in_lanes<const L: usize>(
     let mut lanes: [Option<usize>; L] = [(); L].map(|()| waiting.next());
     while let Some(first) = lanes.iter().flatten().next().copied() {
         for (l, lane) in lanes.iter().enumerate() {
-            // Lanes without a point stand where the first one does.
+            // Lanes without a point copy the first lane.
             let ascent = &ascents[lane.unwrap_or(first)];
             x.iter_mut().zip(&ascent.at).for_each(|(row, x)| row[l] = *x);
         }
@@ -159,7 +159,8 @@ pub fn climb_in_lanes<const L: usize>(
 
 #[cfg(test)]
 mod tests {
-    //! It finds the top of what is steep in some coordinates and flat in others, stays where it may, and never ends lower.
+    //! The ascent finds the maximum when some coordinates are steep and others flat, stays inside the support, and never ends
+    //! lower.
     use super::*;
     use crate::hamiltonian::potential::tests::{By, normals};
     use crate::hamiltonian::potential::{Cause, Stop};

@@ -2,7 +2,7 @@
 //!
 //! Diagonal and dense metrics take the draws' covariance. The low-rank one looks at the gradients too, whose
 //! covariance is the inverse of the draws' on a normal target: `D_i = (var x_i / var g_i)^(1/4)` makes both agree,
-//! and within the directions in which either is still far from round, the metric is the geometric mean of the draws'
+//! and within the directions in which either is still far from the identity, the metric is the geometric mean of the draws'
 //! covariance and the inverse of the gradients' (the minimiser of the Fisher divergence, as in nutpie's engine). So a
 //! direction along which a constraint is tight is seen after fewer draws than there are coordinates.
 
@@ -18,7 +18,7 @@ const ENOUGH: usize = 3;
 const RIDGE: f64 = 1e-8;
 /// Most directions looked at, for the draws and for the gradients each.
 const MOST_DIRECTIONS: usize = 16;
-/// A direction whose variance lies within this factor of 1 is left round.
+/// A direction whose variance lies within this factor of 1 is left at 1.
 const ROUND: f64 = 2.0;
 /// Rounds of subspace iteration.
 const ROUNDS: usize = 12;
@@ -59,7 +59,7 @@ impl Window {
         self.gradients.extend_from_slice(gradient);
     }
 
-    /// The metric of this shape; None when the window holds too little to say.
+    /// The metric of this shape; `None` when the window has too few draws.
     pub fn metric(&self, shape: Shape) -> Option<Metric> {
         if self.len() < 3 || self.dim == 0 {
             return None;
@@ -137,19 +137,19 @@ fn centred(rows: &[f64], dim: usize) -> Vec<f64> {
     let n = (rows.len() / dim) as f64;
     let mut mean = vec![0.0; dim];
     rows.chunks_exact(dim).for_each(|row| add(&mut mean, 1.0 / n, row));
-    let mut made = rows.to_vec();
-    made.chunks_exact_mut(dim).for_each(|row| add(row, -1.0, &mean));
-    made
+    let mut result = rows.to_vec();
+    result.chunks_exact_mut(dim).for_each(|row| add(row, -1.0, &mean));
+    result
 }
 
 /// The variance of each column of centred rows.
 fn variances(rows: &[f64], dim: usize) -> Vec<f64> {
-    let mut made = vec![0.0; dim];
+    let mut result = vec![0.0; dim];
     for row in rows.chunks_exact(dim) {
-        made.iter_mut().zip(row).for_each(|(v, x)| *v += x * x);
+        result.iter_mut().zip(row).for_each(|(v, x)| *v += x * x);
     }
     let n = (rows.len() / dim) as f64;
-    made.iter().map(|v| v / (n - 1.0)).collect()
+    result.iter().map(|v| v / (n - 1.0)).collect()
 }
 
 /// Variances that may be divided by: a coordinate that did not move, or moved out of all bounds, counts as 1.
@@ -181,11 +181,11 @@ fn principal(rows: &[f64], dim: usize, count: usize) -> Vec<Vec<f64>> {
 
 /// Gram-Schmidt, twice for rounding; vectors that depend on those before them are left out.
 fn orthonormalise(vectors: &mut Vec<Vec<f64>>) {
-    let mut made: Vec<Vec<f64>> = Vec::new();
+    let mut result: Vec<Vec<f64>> = Vec::new();
     for mut v in vectors.drain(..) {
         let before = dot(&v, &v).sqrt();
         for _ in 0..2 {
-            for q in &made {
+            for q in &result {
                 let along = dot(q, &v);
                 add(&mut v, -along, q);
             }
@@ -193,23 +193,23 @@ fn orthonormalise(vectors: &mut Vec<Vec<f64>>) {
         let norm = dot(&v, &v).sqrt();
         if norm > 1e-8 * before && norm.is_finite() {
             v.iter_mut().for_each(|x| *x /= norm);
-            made.push(v);
+            result.push(v);
         }
     }
-    *vectors = made;
+    *vectors = result;
 }
 
 /// The covariance of centred rows in a basis, `(m, m)` by rows.
 fn projected(rows: &[f64], dim: usize, basis: &[Vec<f64>]) -> Vec<f64> {
     let m = basis.len();
     let n = (rows.len() / dim) as f64;
-    let mut made = vec![0.0; m * m];
+    let mut result = vec![0.0; m * m];
     for row in rows.chunks_exact(dim) {
         let seen: Vec<f64> = basis.iter().map(|q| dot(q, row)).collect();
-        (0..m).for_each(|i| add(&mut made[i * m..(i + 1) * m], seen[i] / (n - 1.0), &seen));
+        (0..m).for_each(|i| add(&mut result[i * m..(i + 1) * m], seen[i] / (n - 1.0), &seen));
     }
-    (0..m).for_each(|i| made[i * m + i] += RIDGE);
-    made
+    (0..m).for_each(|i| result[i * m + i] += RIDGE);
+    result
 }
 
 /// The symmetric `S` with `S B S = A`: `B^(-1/2) (B^(1/2) A B^(1/2))^(1/2) B^(-1/2)`.
@@ -221,24 +221,24 @@ fn geometric_mean(a: &[f64], b: &[f64], m: usize) -> Vec<f64> {
 }
 
 fn product(a: &[f64], b: &[f64], m: usize) -> Vec<f64> {
-    let mut made = vec![0.0; m * m];
+    let mut result = vec![0.0; m * m];
     for i in 0..m {
         for k in 0..m {
-            add(&mut made[i * m..(i + 1) * m], a[i * m + k], &b[k * m..(k + 1) * m]);
+            add(&mut result[i * m..(i + 1) * m], a[i * m + k], &b[k * m..(k + 1) * m]);
         }
     }
-    made
+    result
 }
 
 /// A power of a symmetric positive matrix.
 fn power(a: &[f64], m: usize, exponent: f64) -> Vec<f64> {
     let (values, vectors) = eigen(a, m);
-    let mut made = vec![0.0; m * m];
+    let mut result = vec![0.0; m * m];
     for (value, u) in values.iter().zip(&vectors) {
         let scale = value.max(1e-300).powf(exponent);
-        (0..m).for_each(|i| add(&mut made[i * m..(i + 1) * m], scale * u[i], u));
+        (0..m).for_each(|i| add(&mut result[i * m..(i + 1) * m], scale * u[i], u));
     }
-    made
+    result
 }
 
 /// Eigenvalues and orthonormal eigenvectors of a symmetric matrix by rows: cyclic Jacobi rotations (Golub & Van Loan
@@ -339,25 +339,25 @@ mod tests {
     #[test]
     fn low_rank_sees_tight_directions_dense_some_diagonal_none() {
         // The target's condition is 1e20 with the scales, 1e8 without them.
-        let (made, scales, directions) = window(2000, 10);
-        let left = |shape| spread(&made.metric(shape).expect("enough draws"), &scales, &directions);
+        let (window, scales, directions) = window(2000, 10);
+        let left = |shape| spread(&window.metric(shape).expect("enough draws"), &scales, &directions);
         assert!(left(Shape::Diagonal) > 1e6, "{}", left(Shape::Diagonal));
-        // What is mixed in, 5 of 2005 draws' worth of variances around 1e3, hides the direction of variance 1e-4.
+        // The mixed-in diagonal (weight 5 of 2005, variances around 1e3) hides the direction of variance 1e-4.
         assert!(left(Shape::Dense) < 1e-2 * left(Shape::Diagonal), "{}", left(Shape::Dense));
         assert!(left(Shape::LowRank) < 30.0, "{}", left(Shape::LowRank));
     }
 
     #[test]
     fn a_low_rank_metric_needs_fewer_draws_than_there_are_coordinates() {
-        let (made, scales, directions) = window(60, 120);
-        let left = spread(&made.metric(Shape::LowRank).expect("enough draws"), &scales, &directions);
+        let (window, scales, directions) = window(60, 120);
+        let left = spread(&window.metric(Shape::LowRank).expect("enough draws"), &scales, &directions);
         assert!(left < 100.0, "{left}");
     }
 
     #[test]
     fn a_dense_metric_is_made_of_few_draws() {
-        let (made, ..) = window(5, 12);
-        assert!(matches!(made.metric(Shape::Dense), Some(Metric::Dense { .. })));
+        let (window, ..) = window(5, 12);
+        assert!(matches!(window.metric(Shape::Dense), Some(Metric::Dense { .. })));
         assert_eq!(Window::new(4).metric(Shape::Dense), None);
     }
 

@@ -1,4 +1,4 @@
-//! Hamiltonian Monte Carlo with a length that is fixed beforehand: draw a momentum, roll, accept or stay.
+//! Hamiltonian Monte Carlo with a length that is fixed beforehand: draw a momentum, integrate, accept or stay.
 //!
 //! Accepts with probability `min(1, exp(H(x, p) - H(x', p')))` (dissertation 4.3; Neal 2011, section 3.3). The
 //! number of steps may be jittered: it is drawn before the trajectory starts, so that a length which happens to be a
@@ -19,7 +19,7 @@ pub struct Hmc {
     pub jitter: f64,
     /// An energy error above this many nats is a divergence.
     pub max_energy_error: f64,
-    /// Where the trajectory started, to go back to.
+    /// The start of the trajectory, to go back to.
     before: Option<Phase>,
 }
 
@@ -78,10 +78,10 @@ impl Hmc {
         Start { steps, energy: before.energy() }
     }
 
-    /// Stays where the trajectory led, or goes back. Momentum and velocity are those with which it came there.
+    /// Accepts the end of the trajectory, or goes back. Momentum and velocity are those at the end.
     ///
-    /// The gradient alone is asked for between the ends, so a trajectory that runs off is seen at its end, or where numbers
-    /// overflow: there its kinetic energy shows that it had diverged before.
+    /// Between the ends only the gradient is evaluated, so a divergence is noticed at the end, or where numbers overflow:
+    /// there the kinetic energy shows that the trajectory had diverged before.
     pub(super) fn end(
         &mut self,
         start: Start,
@@ -140,9 +140,9 @@ mod tests {
         let metric = Metric::unit(1);
         let mut phase = Phase::at(&mut walled, &[0.25]).expect("a point of the target");
         let mut hmc = Hmc::new(1000, 0.0, 1000.0);
-        let made = hmc.step(&mut walled, &metric, 0.5, &mut phase, &mut Stream::new(1, 0, 0, 0));
-        let divergence = made.divergence.expect("the wall is met");
-        assert_eq!((phase.x[0], made.moved, made.accept), (0.25, false, 0.0));
+        let result = hmc.step(&mut walled, &metric, 0.5, &mut phase, &mut Stream::new(1, 0, 0, 0));
+        let divergence = result.divergence.expect("the wall is met");
+        assert_eq!((phase.x[0], result.moved, result.accept), (0.25, false, 0.0));
         assert_eq!((divergence.stop, divergence.start), (Some(guard), vec![0.25]));
         assert!(divergence.end[0].abs() >= 1.0 && divergence.energy_error.is_nan());
     }
@@ -153,8 +153,8 @@ mod tests {
         let mut narrow = normals(vec![1e-3]);
         let mut phase = Phase::at(&mut narrow, &[1e-3]).expect("a point of the target");
         let mut hmc = Hmc::new(50, 0.0, 1000.0);
-        let made = hmc.step(&mut narrow, &Metric::unit(1), 1.0, &mut phase, &mut Stream::new(1, 0, 0, 0));
-        assert!(!made.moved && made.divergence.is_some() && made.accept == 0.0);
+        let result = hmc.step(&mut narrow, &Metric::unit(1), 1.0, &mut phase, &mut Stream::new(1, 0, 0, 0));
+        assert!(!result.moved && result.divergence.is_some() && result.accept == 0.0);
         assert_eq!(phase.x, [1e-3]);
     }
 
@@ -166,10 +166,10 @@ mod tests {
         });
         let mut phase = Phase::at(&mut narrow, &[3.0]).expect("a point of the target");
         let mut hmc = Hmc::new(50, 0.0, 1000.0);
-        let made = hmc.step(&mut narrow, &Metric::unit(1), 2.0, &mut phase, &mut Stream::new(1, 0, 0, 0));
-        let divergence = made.divergence.expect("steps of two are far too long");
+        let result = hmc.step(&mut narrow, &Metric::unit(1), 2.0, &mut phase, &mut Stream::new(1, 0, 0, 0));
+        let divergence = result.divergence.expect("steps of two are far too long");
         assert_eq!((divergence.stop, divergence.energy_error), (None, f64::INFINITY));
-        assert_eq!((phase.x[0], made.accept), (3.0, 0.0));
+        assert_eq!((phase.x[0], result.accept), (3.0, 0.0));
     }
 
     #[test]

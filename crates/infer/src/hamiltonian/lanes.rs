@@ -1,13 +1,13 @@
 //! Chains in lanes: trajectories of a fixed length, side by side in the lanes of one vector.
 //!
-//! Chains that move over one density differ in where they stand, and in step size and scales. A group of them takes
+//! Chains that move over one density differ in position, step size and scales. A group of them takes
 //! each leapfrog step together, with one evaluation for all; momentum, acceptance and adaptation are each chain's own.
 //! The operations on a lane are those of the leapfrog integrator, in its order, so a lane gives the bits that its chain
 //! gives alone, where the wide density gives the bits of the chain's own.
 //!
-//! A point that the wide density does not cover is asked of the chain's own target.
+//! Where the wide density does not cover a point, the chain's own target evaluates it.
 
-#![allow(unsafe_code)] // Calls of functions compiled for AVX2 or AVX-512, after asking whether there is that.
+#![allow(unsafe_code)] // Calls of functions compiled for AVX2 or AVX-512, after a check that the processor has it.
 
 use super::chains::{Chain, Draws, Ongoing, Purpose, Settings};
 use super::hmc::Start;
@@ -20,8 +20,8 @@ use niwaki_math::Stream;
 
 /// A log density at several points at once. Coordinate `k` of lane `l` is `x[k][l]`, shapes are `(dim, L)`.
 pub trait Wide<const L: usize> {
-    /// The log densities, nats, with the gradients in `gradient`, and which lanes are covered: the others have no
-    /// meaning, and their own target is asked.
+    /// The log densities, nats, with the gradients in `gradient`, and which lanes are covered. The values of
+    /// other lanes have no meaning; their own target evaluates those points.
     fn value_and_gradient(&mut self, x: &[[f64; L]], gradient: &mut [[f64; L]]) -> ([f64; L], [bool; L]);
 
     /// The gradients alone.
@@ -33,10 +33,10 @@ pub fn suits(settings: &Settings) -> bool {
     matches!(settings.kernel(), Kernel::Hmc(_)) && matches!(settings.shape, Shape::Unit | Shape::Diagonal)
 }
 
-/// More than this share of points outside of the wide density, and its chains go on alone.
+/// With more than this share of points outside of the wide density, its chains go on alone.
 const SHARE_OUTSIDE: f64 = 0.25;
 
-/// Warms chains up, then draws, in lanes; `watch` is called with (chain, transitions made). At most `L` chains, whose settings
+/// Warms chains up, then draws, in lanes; `watch` is called with (chain, transitions so far). At most `L` chains, whose settings
 /// [`suits`] accepts.
 ///
 /// # Panics
@@ -53,28 +53,28 @@ pub fn run_in_lanes<P: Potential, const L: usize>(
     let mut lanes = Lanes::<L>::new(first.chain.phase.x.len());
     while !all.iter().all(Ongoing::is_over) {
         let going: Vec<usize> = (0..all.len()).filter(|&l| !all[l].is_over()).collect();
-        let made = if lanes.outside > SHARE_OUTSIDE || going.len() * 4 < all.len() {
+        let transitions = if lanes.outside > SHARE_OUTSIDE || going.len() * 4 < all.len() {
             going.iter().map(|&l| all[l].chain.advance()).collect()
         } else {
             let mut group: Vec<_> =
                 all.iter_mut().filter(|c| !c.is_over()).map(|ongoing| &mut ongoing.chain).collect();
             lanes.advance(&mut group, wide)
         };
-        for (&l, made) in going.iter().zip(&made) {
-            all[l].take(made);
+        for (&l, transition) in going.iter().zip(&transitions) {
+            all[l].take(transition);
             all[l].look(&|done| watch(l, done));
         }
     }
     all.into_iter().map(Ongoing::finish).collect()
 }
 
-/// What the chains of one group work in.
+/// The memory of the chains of one group.
 struct Lanes<const L: usize> {
     x: Vec<[f64; L]>,
     p: Vec<[f64; L]>,
     gradient: Vec<[f64; L]>,
     variance: Vec<[f64; L]>,
-    /// For one point of one lane.
+    /// One point of one lane.
     one: (Vec<f64>, Vec<f64>),
     /// The share of the last transitions' points that the wide density did not cover.
     outside: f64,
@@ -150,7 +150,7 @@ fn finite_avx512<const L: usize>(rows: &[[f64; L]]) -> [bool; L] {
     finite_any(rows)
 }
 
-/// The kick and the step of each lane that still moves, `done` steps having been made; zeros for the others.
+/// The kick and the step of each lane that still moves, after `done` steps; zeros for the others.
 fn sizes<const L: usize>(lanes: &[Lane], done: u32) -> ([f64; L], [f64; L]) {
     let (mut kick, mut step) = ([0.0; L], [0.0; L]);
     for (l, lane) in lanes.iter().enumerate() {
@@ -191,14 +191,14 @@ impl<const L: usize> Lanes<L> {
     ) -> Vec<Transition> {
         let mut lanes: Vec<Lane> =
             chains.iter_mut().enumerate().map(|(l, chain)| self.begin(l, chain)).collect();
-        // Lanes without a chain stand where the first one does.
+        // Lanes without a chain copy the first lane.
         for l in chains.len()..L {
             for rows in [&mut self.x, &mut self.p, &mut self.gradient, &mut self.variance] {
                 rows.iter_mut().for_each(|row| row[l] = row[0]);
             }
         }
         let longest = lanes.iter().map(|lane| lane.start.steps).max().unwrap_or(0);
-        let (mut asked, mut outside, mut done) = (0_u64, 0_u64, 0);
+        let (mut evaluated, mut outside, mut done) = (0_u64, 0_u64, 0);
         let mut refused: Vec<usize> = vec![];
         let (mut kick, mut step, mut arrival) = ([0.0; L], [0.0; L], 0);
         while done < longest {
@@ -213,7 +213,7 @@ impl<const L: usize> Lanes<L> {
                 kick = step;
             }
             done += 1;
-            asked += lanes.len() as u64;
+            evaluated += lanes.len() as u64;
             let ends = done == arrival;
             let (values, covered) = if ends {
                 wide.value_and_gradient(&self.x, &mut self.gradient)
@@ -230,14 +230,14 @@ impl<const L: usize> Lanes<L> {
                     continue;
                 }
                 let last = lane.start.steps == done;
-                let found = if covered[l] && finite[l] && (!last || values[l].is_finite()) {
+                let value = if covered[l] && finite[l] && (!last || values[l].is_finite()) {
                     Ok(values[l])
                 } else {
                     outside += u64::from(!covered[l]);
                     self.alone(l, chains[l], last)
                 };
-                match found {
-                    // At once: the lane's numbers are of no use once the others have gone on.
+                match value {
+                    // At once: later steps of the other lanes overwrite the numbers of this lane.
                     Ok(value) if last => self.arrive(l, &mut chains[l].phase, lane.step, value),
                     Ok(_) => {}
                     Err(stop) => {
@@ -249,7 +249,7 @@ impl<const L: usize> Lanes<L> {
                     }
                 }
             }
-            // A refused lane rests where another one is: numbers that are not finite would hold up all others at each step.
+            // A refused lane copies another one: numbers that are not finite would slow down each later step.
             if let Some(sound) = (0..L).find(|&l| covered[l] && finite[l]) {
                 for l in refused.drain(..) {
                     self.x.iter_mut().for_each(|row| row[l] = row[sound]);
@@ -259,7 +259,7 @@ impl<const L: usize> Lanes<L> {
                 }
             }
         }
-        self.outside = outside as f64 / asked.max(1) as f64;
+        self.outside = outside as f64 / evaluated.max(1) as f64;
         chains.iter_mut().zip(lanes).map(|(chain, lane)| lane.end(chain)).collect()
     }
 
@@ -301,7 +301,7 @@ impl<const L: usize> Lanes<L> {
         }
     }
 
-    /// Asks a chain's own target about the point of its lane.
+    /// Evaluates the point of a lane by the chain's own target.
     #[cold]
     fn alone<P: Potential>(&mut self, l: usize, chain: &mut Chain<P>, last: bool) -> Result<f64, Stop> {
         let (x, g) = &mut self.one;
@@ -316,7 +316,7 @@ impl<const L: usize> Lanes<L> {
         Ok(value)
     }
 
-    /// Puts the end of a lane's trajectory, after its last half kick, where its chain keeps it.
+    /// Makes the last half kick of a lane's trajectory and writes its end to the chain's phase.
     fn arrive(&self, l: usize, phase: &mut Phase, step: f64, log_density: f64) {
         for k in 0..phase.x.len() {
             phase.x[k] = self.x[k][l];
@@ -328,7 +328,7 @@ impl<const L: usize> Lanes<L> {
 }
 
 impl Lane {
-    /// Accepts where the trajectory led, or goes back.
+    /// Accepts the end of the trajectory, or goes back to its start.
     fn end<P: Potential>(self, chain: &mut Chain<P>) -> Transition {
         let Lane { mut stream, start, refused, .. } = self;
         let Chain { kernel: Kernel::Hmc(hmc), metric, phase, .. } = chain else {

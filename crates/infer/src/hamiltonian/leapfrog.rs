@@ -14,14 +14,14 @@ use super::potential::{Potential, Stop, evaluate, evaluate_gradient};
 use niwaki_grad::Rolling;
 use niwaki_math::Stream;
 
-/// A point in phase space, with what is known of the target there.
+/// A point in phase space, with the target's value and gradient there.
 #[derive(Clone, Debug)]
 pub struct Phase {
     /// Position, `dim` unconstrained coordinates.
     pub x: Vec<f64>,
     /// Momentum.
     pub p: Vec<f64>,
-    /// Velocity, `M^-1 p`: up to date whenever nobody is in the middle of a step.
+    /// Velocity, `M^-1 p`: up to date between two steps.
     pub v: Vec<f64>,
     /// Gradient of the log density at `x`.
     pub gradient: Vec<f64>,
@@ -84,11 +84,11 @@ pub fn add(y: &mut [f64], a: f64, x: &[f64]) {
     }
 }
 
-/// `steps` leapfrog steps of size `step` (negative: backwards in time). Between two steps the half kicks are one, and the
-/// gradient is all that the target is asked for.
+/// `steps` leapfrog steps of size `step` (negative: backwards in time). Between two steps the two half kicks are one, and
+/// only the gradient is evaluated.
 ///
 /// # Errors
-/// The target's refusal of a position; the phase then stands there, its gradient unspecified.
+/// The target's refusal of a position; the phase is then at that position, its gradient unspecified.
 pub fn leapfrog(
     target: &mut (impl Potential + ?Sized),
     metric: &Metric,
@@ -98,7 +98,7 @@ pub fn leapfrog(
 ) -> Result<(), Stop> {
     let (mut kick, mut left) = (0.5 * step, steps);
     while left > 0 {
-        // What the target can do by itself; a step that it stops before is taken here, and its reason found.
+        // The target's own fast steps. A step that it stops before is taken here, to find the reason.
         if left > 1
             && let Metric::Diagonal { variance, .. } = metric
         {

@@ -102,7 +102,7 @@ impl Metric {
                     *v = p * s;
                 }
                 for (u, value) in directions {
-                    // The directions are orthonormal: what one adds, no other one sees.
+                    // The directions are orthonormal, so the terms are independent.
                     add(v, (value - 1.0) * dot(u, v), u);
                 }
                 for (v, s) in v.iter_mut().zip(deviation) {

@@ -1,4 +1,4 @@
-//! Hamiltonian Monte Carlo: a point that rolls over the log density, and is kept or put back.
+//! Hamiltonian Monte Carlo: a point moves along its gradient over the log density, and is accepted or put back.
 //!
 //! In the order of a step: momentum from the metric, leapfrog steps along the gradient, acceptance by the change of
 //! the total energy `H(x, p) = p . v / 2 - log_density(x)`, with velocity `v = M^-1 p` (dissertation 4.3).
@@ -6,13 +6,13 @@
 //! * [`potential`]: what a target is: a log density with its gradient, and what may stop a trajectory;
 //! * [`metric`]: the mass matrix `M`: diagonal, dense, or diagonal with a low-rank correction;
 //! * [`leapfrog`]: the integrator;
-//! * [`hmc`], [`nuts`]: one transition, with a fixed length and with one that it finds itself;
+//! * [`hmc`], [`nuts`]: one transition, with a fixed length and until it turns back;
 //! * [`transition`]: what both report, and the choice between them;
-//! * [`mod@climb`]: uphill from a start that is unlikely;
+//! * [`mod@climb`]: the ascent from an unlikely start;
 //! * [`step_size`], [`estimate`], [`warmup`]: what is adapted in warm-up and frozen afterwards;
-//! * [`chains`]: whole chains, side by side; [`lanes`]: many of them in the lanes of one vector.
+//! * [`chains`]: whole chains, in parallel; [`lanes`]: many of them in the lanes of one vector.
 //!
-//! Not here: programs, how a gradient is made, diagnostics of the draws (they are the package's).
+//! Not here: programs, how a gradient is computed, diagnostics of the draws (they are the package's).
 
 pub mod chains;
 pub mod climb;

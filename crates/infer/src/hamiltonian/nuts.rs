@@ -2,7 +2,7 @@
 //!
 //! A point of the trajectory is kept with probability proportional to `exp(-H)` (Betancourt 2017, appendix A.3.1:
 //! multinomial, with progressive sampling biased towards the newer half at the doublings). A stretch whose momenta
-//! sum to `rho` has turned when `v_first . rho <= 0` or `v_last . rho <= 0` (appendix A.4.2), asked of every subtree
+//! sum to `rho` has turned when `v_first . rho <= 0` or `v_last . rho <= 0` (appendix A.4.2), checked for every subtree
 //! and, as in Stan since 2.21, of each half together with the nearest end of the other.
 
 use super::leapfrog::{Phase, add, dot, leapfrog};
@@ -11,7 +11,7 @@ use super::potential::Potential;
 use super::transition::{Divergence, Transition, acceptance};
 use niwaki_math::Stream;
 
-/// A length that the trajectory finds.
+/// A trajectory that ends where it turns back.
 #[derive(Clone, Debug)]
 pub struct Nuts {
     /// Most doublings: a trajectory has at most `2^max_depth - 1` steps.
@@ -68,7 +68,7 @@ impl Stretch {
         from as usize * dim..(to as usize + 1) * dim
     }
 
-    /// Looks at it from the other end.
+    /// Reverses its direction.
     fn turn_around(&mut self) {
         let half = self.places(Part::FirstP, Part::FirstV).end;
         let (first, rest) = self.vectors.split_at_mut(half);
@@ -76,7 +76,7 @@ impl Stretch {
     }
 }
 
-/// What a trajectory carries along while it grows.
+/// The state of a trajectory while it grows.
 struct Growth<'a, P: ?Sized> {
     target: &'a mut P,
     metric: &'a Metric,
@@ -250,16 +250,16 @@ mod tests {
     fn it_goes_half_way_round_a_normal() {
         // A period is 2 pi: half of it is some 31 steps of 0.1. Doublings overshoot by at most a factor of 2 or so.
         for seed in 0..20 {
-            let made = transition(&mut normals(vec![1.0; 5]), &[0.5, -0.5, 1.0, 0.1, 0.7], 0.1, 10, seed);
-            assert!((15..=63).contains(&made.steps), "{made:?}");
-            assert!(made.divergence.is_none() && made.accept > 0.9);
+            let result = transition(&mut normals(vec![1.0; 5]), &[0.5, -0.5, 1.0, 0.1, 0.7], 0.1, 10, seed);
+            assert!((15..=63).contains(&result.steps), "{result:?}");
+            assert!(result.divergence.is_none() && result.accept > 0.9);
         }
     }
 
     #[test]
     fn trajectories_are_as_long_as_an_independent_samplers() {
         // BlackJAX 1.7.1's NUTS on the same normals (deviations 1 + i / dim, unit metric), 20 000 transitions: mean steps
-        // and acceptance. Both means have a standard error of about 0.3 %; ours ask the two halves as well, and BlackJAX
+        // and acceptance. Both means have a standard error of about 0.3 %; we check the two halves as well, and BlackJAX
         // takes half of the end momenta off the sum, which makes some 3 % at 50 coordinates.
         for (dim, step, steps, accept, within) in
             [(1, 0.9, 2.8635, 0.9386, 0.01), (10, 0.5, 12.528, 0.9672, 0.01), (50, 0.3, 20.514, 0.9755, 0.04)]
@@ -270,9 +270,9 @@ mod tests {
             let (mut total, mut accepts, n) = (0.0, 0.0, 20_000);
             for visit in 0..n {
                 let mut stream = Stream::new(5, 0, 0, visit);
-                let made = nuts.step(&mut target, &metric, step, &mut phase, &mut stream);
-                total += f64::from(made.steps) / n as f64;
-                accepts += made.accept / n as f64;
+                let result = nuts.step(&mut target, &metric, step, &mut phase, &mut stream);
+                total += f64::from(result.steps) / n as f64;
+                accepts += result.accept / n as f64;
             }
             assert!((total / steps - 1.0).abs() < within, "{dim}: {total}");
             assert!((accepts - accept).abs() < 0.002, "{dim}: {accepts}");
@@ -285,8 +285,8 @@ mod tests {
             g.copy_from_slice(&[1e-6, 0.0]);
             Ok(1e-6 * x[0])
         });
-        let made = transition(&mut slope, &[0.0, 0.0], 0.01, 6, 4);
-        assert_eq!((made.steps, made.depth), (63, 6));
+        let result = transition(&mut slope, &[0.0, 0.0], 0.01, 6, 4);
+        assert_eq!((result.steps, result.depth), (63, 6));
     }
 
     #[test]
@@ -299,9 +299,9 @@ mod tests {
         for seed in 0..50 {
             let mut phase = Phase::at(&mut walled, &[0.1]).expect("a point of the target");
             let mut stream = Stream::new(seed, 0, 0, 0);
-            let made =
+            let result =
                 Nuts::new(20, 1000.0).step(&mut walled, &Metric::unit(1), 0.3, &mut phase, &mut stream);
-            assert_eq!(made.divergence.as_ref().and_then(|d| d.stop), Some(guard));
+            assert_eq!(result.divergence.as_ref().and_then(|d| d.stop), Some(guard));
             assert!(phase.x[0].abs() < 2.0);
         }
     }

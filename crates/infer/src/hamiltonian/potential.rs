@@ -1,4 +1,4 @@
-//! What a gradient sampler asks of its target: the log density and its gradient over real coordinates.
+//! The target of a gradient sampler: a log density and its gradient over real coordinates.
 //!
 //! Coordinates are unconstrained: a bounded choice enters through its transform, and the log density has the
 //! transform's Jacobian (dissertation 4.3, "bounded variables"). The target may refuse a point; the trajectory that
@@ -17,8 +17,8 @@ pub trait Potential {
     /// A point that the target refuses; `gradient` is then unspecified.
     fn value_and_gradient(&mut self, x: &[f64], gradient: &mut [f64]) -> Result<f64, Stop>;
 
-    /// The gradient alone, to the bit that of [`Potential::value_and_gradient`]: all that the inside of a trajectory
-    /// asks for.
+    /// The gradient alone, to the bit that of [`Potential::value_and_gradient`]: all that is needed
+    /// inside of a trajectory.
     ///
     /// # Errors
     /// As for [`Potential::value_and_gradient`]; a density of zero may go unseen.
@@ -67,7 +67,7 @@ impl<P: Potential + ?Sized> Potential for Box<P> {
     }
 }
 
-/// Why a trajectory ended before its time.
+/// Why a trajectory ended early.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stop {
     /// The kind of reason.
@@ -119,7 +119,7 @@ pub fn evaluate_gradient(
     if all_finite(g) { Ok(()) } else { Err(not_finite(g)) }
 }
 
-/// A sum of zeros is a zero only where every term was finite; which one was not is asked afterwards.
+/// A sum of zeros is a zero only where every term was finite; which one was not is looked up afterwards.
 #[inline]
 pub(super) fn all_finite(g: &[f64]) -> bool {
     let mut sums = [0.0; 8];

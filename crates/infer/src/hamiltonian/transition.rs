@@ -1,4 +1,4 @@
-//! What every transition reports, and the choice between the two that there are.
+//! The report of a transition, and the choice between HMC and NUTS.
 
 use super::hmc::Hmc;
 use super::leapfrog::Phase;
@@ -69,7 +69,7 @@ impl std::ops::AddAssign for BrokenOff {
     }
 }
 
-/// A transition with the memory that it works in.
+/// A kernel with its working memory.
 #[derive(Clone, Debug)]
 pub enum Kernel {
     /// A fixed number of leapfrog steps.

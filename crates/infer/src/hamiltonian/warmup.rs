@@ -10,7 +10,7 @@ use super::potential::Potential;
 use super::step_size::DualAveraging;
 use super::transition::Transition;
 
-/// The lengths of the first stretch, the first window and the last stretch, where there is room for them.
+/// The lengths of the first stretch, the first window and the last stretch, where the warm-up is long enough for them.
 const FIRST: u32 = 75;
 const WINDOW: u32 = 25;
 const LAST: u32 = 50;
@@ -39,7 +39,7 @@ impl Schedule {
         let (mut end, stop) = (first, warmup - last);
         let mut ends = Vec::new();
         while end < stop {
-            // A window whose successor would not fit takes what is left.
+            // A window takes the rest of the warm-up when its successor would not fit.
             end = if end + 3 * length > stop { stop } else { end + length };
             ends.push(end);
             length *= 2;
@@ -72,12 +72,12 @@ impl Adaptation {
         }
     }
 
-    /// Learns from a transition that the chain has just made.
-    pub fn learn<P: Potential>(&mut self, chain: &mut Chain<P>, made: &Transition) {
+    /// Adapts to the last transition of the chain.
+    pub fn learn<P: Potential>(&mut self, chain: &mut Chain<P>, transition: &Transition) {
         self.done += 1;
         let adapts_step = self.settings.step_size.is_none();
         if adapts_step {
-            self.average.update(made.accept);
+            self.average.update(transition.accept);
             chain.step_size = self.average.current();
         }
         let in_window = self.done > self.schedule.first
@@ -89,7 +89,7 @@ impl Adaptation {
             if let Some(metric) = self.window.metric(self.settings.shape) {
                 chain.metric = metric;
                 if adapts_step {
-                    // The new metric has another scale: what was learnt of the old step does not hold for it.
+                    // The new metric has another scale: what was learnt about the old step does not hold for it.
                     chain.guess_step(chain.step_size);
                     self.average = DualAveraging::new(chain.step_size, self.settings.target_accept);
                 }

@@ -25,11 +25,11 @@ pub(super) struct Particle {
     pub picks: u64,
     /// Whether it had ended before the last barrier.
     pub was_ended: bool,
-    /// The score that its weight already counts.
+    /// The score that is already in its weight.
     pub weighed: Total,
     /// Log weight since the last resampling.
     pub log_weight: f64,
-    /// Log of prior over proposal of the choices since the last barrier: what its weight does not yet count.
+    /// Log of prior over proposal of the choices since the last barrier: not yet in its weight.
     pub pending: f64,
     /// The thread that ran it last.
     pub home: usize,
@@ -67,7 +67,7 @@ impl Particle {
         Ok(())
     }
 
-    /// Runs the future that stands at a place among those that can run, its new choices by a chooser. Whether it paused.
+    /// Runs the future at this place among the runnable ones; a chooser gives the new choices. Returns whether it paused.
     #[inline(always)]
     pub fn run(
         &mut self,
@@ -99,7 +99,7 @@ impl Particle {
         ((u * n as f64) as usize).min(n - 1)
     }
 
-    /// A copy, for a trial: it has the same lineage, so it must draw nothing.
+    /// A copy for a trial. It has the same lineage, so it must not draw random numbers.
     pub fn fork(&mut self) -> Particle {
         Particle {
             state: self.state.clone(),

@@ -1,18 +1,18 @@
-//! Copies at a resampling: survivors stay where they are, their further copies take the places of those that get
-//! none. They are made when the particles run again, each by the thread that runs it.
+//! Copies at a resampling: survivors keep their index, and their further copies replace the particles that got no copy.
+//! Copies are made when the particles run again, each by the thread that runs it.
 
 use super::advance::Particle;
 use std::collections::VecDeque;
 
-/// At least so many copies of one parent are taken to another thread before it asks for them.
+/// At least this many copies of one parent are given to another thread in advance.
 const FEW: usize = 4;
 
-/// Which copies are still to be made.
+/// The copies that are not made yet.
 #[derive(Default)]
 pub(super) struct Copies {
     /// How often each particle survives; empty where no copy waits to be made.
     counts: Vec<usize>,
-    /// Parent and place, parents ascending.
+    /// Parent and index of each copy, parents ascending.
     moves: Vec<(usize, usize)>,
     /// The thread that is to run each copy.
     threads: Vec<usize>,
@@ -24,13 +24,13 @@ pub(super) struct Copies {
 pub(super) struct Indexed<'a> {
     pub index: usize,
     pub particle: &'a mut Particle,
-    /// Where it is to be a copy of the last one before it that is none: the lineage that it gets.
+    /// For a particle that becomes a copy of the last particle before it that is no copy: its new lineage.
     lineage: Option<u64>,
 }
 
 impl Copies {
-    /// Particle `i` is to survive `counts[i]` times. `ancestor` becomes that of the survivors; `lineages` counts those given
-    /// out.
+    /// Particle `i` is to survive `counts[i]` times. `ancestor` becomes that of the survivors; `lineages` counts the
+    /// lineages so far.
     pub fn plan(counts: &[usize], ancestor: &mut [usize], lineages: &mut u64) -> Copies {
         let mut free = counts.iter().enumerate().filter(|(_, c)| **c == 0).map(|(index, _)| index);
         let mut moves: Vec<(usize, usize)> = Vec::with_capacity(counts.len());
@@ -38,7 +38,7 @@ impl Copies {
             moves.extend((1..count).map_while(|_| free.next().map(|to| (parent, to))));
         }
         let lineage = *lineages;
-        // Lineages are given out in this order, whatever thread copies.
+        // Lineages are assigned in this order, whatever thread copies.
         *lineages += moves.len() as u64;
         for &(parent, to) in &moves {
             ancestor[to] = ancestor[parent];
@@ -51,8 +51,8 @@ impl Copies {
         }
     }
 
-    /// Decides which thread runs each copy: that of its parent, but for the rest of a large family where that has too
-    /// much to do.
+    /// Decides which thread runs each copy: that of its parent, or another one where a large family would give this
+    /// thread too much work.
     pub fn share_out(&mut self, particles: &mut [Particle], threads: usize) {
         let home = |index: usize| particles[index].home % threads;
         let mut load = vec![0; threads];
@@ -64,8 +64,8 @@ impl Copies {
             let end = self.threads.len() + kept;
             self.threads.resize(end, own);
             while let Some(idle) = (0..threads).min_by_key(|thread| load[*thread]) {
-                let room = fair.saturating_sub(load[idle]);
-                let given = load[own].saturating_sub(fair).min(room).min(kept);
+                let spare = fair.saturating_sub(load[idle]);
+                let given = load[own].saturating_sub(fair).min(spare).min(kept);
                 if given < FEW {
                     break;
                 }
@@ -77,10 +77,10 @@ impl Copies {
         self.give_near(particles);
     }
 
-    /// Lets each place hold, to be overwritten, a particle of the thread that is to run there: that thread then frees memory
-    /// that it allocated itself. Places hold nothing of use before the copies are made.
+    /// Swaps the particles that copies will overwrite, so that each is overwritten by the thread that ran it: a thread
+    /// then frees memory that it allocated itself. These particles are not used any more.
     fn give_near(&self, particles: &mut [Particle]) {
-        // Places that another thread ought to have, by the thread whose they are.
+        // Indices whose particle another thread should overwrite, by the thread that ran the particle.
         let mut strange: Vec<Vec<usize>> = Vec::new();
         for (at, (&(_, place), &wanted)) in self.moves.iter().zip(&self.threads).enumerate() {
             let home = particles[place].home;
@@ -161,7 +161,7 @@ impl Copies {
         lists
     }
 
-    /// Forgets them: they are made.
+    /// Forgets the copies after they were made.
     pub fn clear(&mut self) {
         *self = Copies::default();
     }

@@ -64,7 +64,7 @@ impl Choices {
     /// How many runs there are of which no other has more than half of the choices.
     pub fn unique(&self) -> usize {
         let n = self.runs.len();
-        // A copy of another run is near it as a rule: runs beside each other are looked at first.
+        // Copies are usually next to each other, so neighbours are compared first.
         let mut partner = 0;
         (0..n)
             .filter(|&a| {
@@ -98,7 +98,7 @@ fn fingerprint(value: &Value) -> u64 {
         Value::Real(x) => (1, x.to_bits()).hash(&mut hasher),
         Value::Int(k) => (2, k).hash(&mut hasher),
         Value::Bool(b) => (3, b).hash(&mut hasher),
-        // What a distribution draws can be written down.
+        // Every drawn value can be serialised.
         other => niwaki_vm::value::repr(other).ok().hash(&mut hasher),
     }
     hasher.finish()

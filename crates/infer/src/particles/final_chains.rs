@@ -1,6 +1,6 @@
-//! Final chains: what a final set of copies becomes when a few of it are followed further. So many particles are drawn by
-//! weight, a chain that keeps the final law starts from each, and its states, so many proposals apart, take the place of
-//! the final set.
+//! Final chains replace a final set that is full of copies. A fixed number of particles is drawn by
+//! weight. A chain that leaves the final law invariant starts from each, and the states of the chains, a fixed number of
+//! proposals apart, replace the final set.
 //!
 //! Each state is one of a particle that was drawn by weight and then moved a number of times that is fixed beforehand:
 //! the first states of all chains once `moves`, the second ones twice, and so on. So each keeps expectations as they are,
@@ -29,8 +29,8 @@ pub struct FinalChains {
 }
 
 impl Population<'_> {
-    /// The states of final chains where they are asked for, those of the first chain first, all of equal weight, and whether
-    /// `watch` stopped them. It is called after every state of each chain.
+    /// The states of final chains, where these are set, and whether `watch` stopped them. The states of the first chain
+    /// come first; all have equal weight. `watch` is called after every state of each chain.
     ///
     /// # Errors
     /// A fault of the program, or a kernel that makes no sense for it.
@@ -39,19 +39,19 @@ impl Population<'_> {
         watch: &mut dyn FnMut(Progress) -> bool,
     ) -> Result<Option<(Vec<Outcome>, bool)>, Failure> {
         let Some(rejuvenation) = &self.settings.rejuvenate else { return Ok(None) };
-        let (Some(asked), Some(mover)) = (rejuvenation.final_chains, &self.mover) else { return Ok(None) };
+        let (Some(wanted), Some(mover)) = (rejuvenation.final_chains, &self.mover) else { return Ok(None) };
         if self.weights.relative.is_empty() {
             return Ok(None);
         }
         let (seed, moves) = (self.settings.seed, rejuvenation.moves);
-        let mut chains: Vec<(Chain, Vec<Outcome>)> = Vec::with_capacity(asked.chains);
-        for (number, index) in self.starts(asked.chains).into_iter().enumerate() {
+        let mut chains: Vec<(Chain, Vec<Outcome>)> = Vec::with_capacity(wanted.chains);
+        for (number, index) in self.starts(wanted.chains).into_iter().enumerate() {
             let record = &mut self.particles[index].record;
             let seed = Stream::new(seed, CHAINS, u128::from(u64::MAX), number as u64).next_u64();
             let sketches = record.sketches.fork();
             let mut chain = chain_from(record, sketches, &self.task, mover, seed)?;
             chain.restrict(self.power, None);
-            chains.push((chain, Vec::with_capacity(asked.draws)));
+            chains.push((chain, Vec::with_capacity(wanted.draws)));
         }
         let (task, first) = (&self.task, self.lineages);
         let next = |(number, (chain, states)): (usize, &mut (Chain, Vec<Outcome>))| -> Result<(), Failure> {
@@ -63,12 +63,12 @@ impl Population<'_> {
                 record: record_of(&mut chain.state, &task.program),
                 log_weight: 0.0,
                 has_ended: true,
-                lineage: first + (number * asked.draws + states.len()) as u64,
+                lineage: first + (number * wanted.draws + states.len()) as u64,
             });
             Ok(())
         };
         let mut stopped = false;
-        for _ in 0..asked.draws {
+        for _ in 0..wanted.draws {
             if self.parallel && chains.len() > 1 {
                 chains.par_iter_mut().enumerate().map(next).collect::<Result<Vec<()>, _>>()?;
             } else {

@@ -2,9 +2,9 @@
 //! as it is, for any number of particles above one (Andrieu, Doucet & Holenstein 2010, section 2.4.3; Lindsten, Jordan
 //! & Schon 2014, algorithm 2).
 //!
-//! A sweep is SMC in which one particle holds the run that the chain is at, its order choices and barriers included; at a
-//! resampling the others are drawn by weight. Then one of the final set is drawn by weight, and is the run that
-//! the chain goes to. With ancestor sampling the held run's past is drawn anew at each resampling. Prefix `i` with
+//! A sweep is SMC in which one particle holds the present run of the chain, its order choices and barriers included; at a
+//! resampling the others are drawn by weight. Then one of the final set is drawn by weight, and is the next run of
+//! the chain. With ancestor sampling the held run's past is drawn anew at each resampling. Prefix `i` with
 //! weight `w_i` is followed by the rest `x'` of the held run with probability in proportion to
 //!
 //! ```text
@@ -12,17 +12,17 @@
 //! ```
 //!
 //! in which a proposal for the choices has no part: the law that the sweep holds is that of the choices, `p s^T`, and the rest
-//! is not drawn but held, so its density under the prior stands (Lindsten et al., eq. 15: the target of the whole over that
+//! is not drawn but held, so its density under the prior remains (Lindsten et al., eq. 15: the target of the whole over that
 //! of the prefix). What the proposal drew of the prefix is in `w_i`. The held run's own weight counts `log p - log q` of its
-//! choices like that of any other particle, though nobody drew them: it is computed anew as the run is followed, and so by
+//! choices like that of any other particle, although they were not drawn: it is computed anew as the run is followed, and so by
 //! the prefix that it has after its ancestor was drawn.
 //!
-//! The weight above is zero where the prefix leads to other addresses, other barriers or another family at an address. Only
+//! The weight above is zero where the prefix leads to other addresses, to other barriers or to another family at an address. Only
 //! multinomial resampling has this simple conditional form, so that is what it uses.
 
 use super::advance::Particle;
 use super::many::Watch;
-use super::partial_run::{PartialRun, Step, With};
+use super::partial_run::{FollowSettings, PartialRun, Step};
 use super::population::{Population, RESAMPLING};
 use super::resampling::multinomial;
 use super::settings::{Anneal, Order, Settings, Weights};
@@ -44,7 +44,7 @@ const ORDERS: u64 = u64::MAX - 4;
 /// The runs that a chain of whole runs went through.
 #[derive(Default)]
 pub struct Chain {
-    /// Where it was after each sweep, from the first one that had a possible run; weights are equal.
+    /// Its state after each sweep, from the first one that had a possible run; weights are equal.
     pub states: Vec<Outcome>,
     /// How often it could have moved: ancestors drawn for the held run; proposals.
     pub tries: usize,
@@ -61,12 +61,12 @@ pub struct Chain {
     pub interrupted: bool,
 }
 
-/// How a held run meets the others.
+/// What happens to the past of the held run at a resampling.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ancestors {
-    /// It keeps its past.
+    /// It is kept.
     Kept,
-    /// Its past is drawn anew at each resampling.
+    /// It is drawn anew.
     Sampled,
 }
 
@@ -75,7 +75,7 @@ pub(super) fn sweep_seed(seed: u64, sweep: usize) -> u64 {
     Stream::new(seed, SWEEPS, sweep as u128, 0).next_u64()
 }
 
-/// Which of the final set a chain goes to.
+/// The index of the particle of the final set that becomes the next state of the chain.
 pub(super) fn draw_index(weights: &Normalised, seed: u64, sweep: usize) -> usize {
     weights.index(Stream::new(seed, SWEEPS, sweep as u128, 1).uniform())
 }
@@ -99,7 +99,7 @@ pub(super) fn check_chain(settings: &Settings, sweeps: usize) -> Result<(), Faul
 }
 
 /// `sweeps` sweeps of particle Gibbs. It starts from a run with the choices `from`, or from one of SMC's final set.
-/// `watch` is called after each barrier; when it answers false, the sweeps so far are given.
+/// `watch` is called after each barrier; when it returns false, the sweeps so far are returned.
 ///
 /// # Errors
 /// Settings that a chain cannot have, fewer than two particles, a fault of the program, or first populations that all
@@ -125,7 +125,7 @@ pub fn particle_gibbs(
     let mut orders = Stream::new(settings.seed, ORDERS, 0, 0);
     let mut machine = task.machine();
     let depth_first = settings.order == Order::DepthFirst;
-    let with = With { task, depth_first, origins: false, weigh: &|_| Box::default() };
+    let with = FollowSettings { task, depth_first, origins: false, weigh: &|_| Box::default() };
     let mut held = |entries: &[Entry]| {
         let mut draw = |n: usize| ((orders.uniform() * n as f64) as usize).min(n - 1);
         let run = PartialRun::of(with, &mut machine, entries, usize::MAX, &mut draw)?;
@@ -155,7 +155,7 @@ pub fn particle_gibbs(
     Ok(chain)
 }
 
-/// A run of the first population that lives, of at most one more than there are sweeps. `None` when it was stopped.
+/// A run of the first population that survives, of at most one more than there are sweeps. `None` when it was stopped.
 fn first_run(
     task: &Task,
     settings: &Settings,
@@ -220,7 +220,7 @@ fn conditional(
         let others = population.particles.len() - 1;
         let mut copies = multinomial(&population.weights.relative, others, &mut random);
         copies[parent] += 1;
-        // The first copy stays where its parent is: there the held run goes on.
+        // The first copy keeps the index of its parent: it is the held run.
         population.survive(&copies);
         held = parent;
     }
@@ -230,7 +230,7 @@ fn conditional(
     Ok(Some(Outcome { log_weight: 0.0, ..chosen }))
 }
 
-/// Draws whose past the rest of the held run gets: the index of a particle.
+/// Draws the particle whose past the held run gets; returns its index.
 fn sample_ancestor(
     population: &mut Population<'_>,
     segments: &[&[Step]],
@@ -244,7 +244,7 @@ fn sample_ancestor(
         }
         if rest.is_empty() || p.state.has_ended() {
             let both = rest.is_empty() && p.state.has_ended();
-            // Nothing follows: what the declared power adds is all.
+            // Nothing follows: only the declared power adds something.
             let change = (settings.power - power) * p.weighed.value();
             return Ok(if both { p.log_weight + change } else { f64::NEG_INFINITY });
         }

@@ -1,4 +1,4 @@
-//! Several independent populations as one search, side by side or until a time is spent.
+//! Several independent populations as one search, in parallel or until a time limit.
 //!
 //! Population `m` of `N_m` particles estimates the normalising constant by `Z_m` without bias, so the searches
 //! together estimate it by `Z = sum N_m Z_m / sum N_m`, and a particle of weight `w` in its population weighs
@@ -11,8 +11,8 @@
 //!
 //! # A search by time
 //!
-//! A population that is costly is often one with a high `Z_m` (particles that go on, and do not die). Whatever lets cost
-//! decide which populations count, or how much, therefore makes `Z` wrong, unless it treats those that count alike. The
+//! A population that costs much often has a high `Z_m`, because its particles survive. So a rule by which cost decides
+//! which populations count, or how much, makes `Z` biased, unless it treats all those that count in the same manner. The
 //! rule of [`within`]:
 //!
 //! 1. Pilot populations measure what a particle costs. They decide the size and are thrown away.
@@ -39,7 +39,7 @@
 //! A search that is stopped from outside keeps what it has, that population too which is not complete, and so has no
 //! evidence.
 
-use super::rejuvenation::Moved;
+use super::rejuvenation::MoveCounts;
 use super::settings::Settings;
 use super::smc::{Outcome, Progress, Result, run};
 use crate::importance::log_sum_exp;
@@ -62,9 +62,9 @@ const PILOT: usize = 32;
 const GROWTH: f64 = 8.0;
 /// Share of the time that the last pilot is planned to take.
 const PILOT_SHARE: f64 = 0.1;
-/// Share of the time after which a pilot is given up: it then costs at least so much.
+/// Share of the time after which a pilot is stopped: its cost is then at least this.
 const PILOT_LIMIT: f64 = 0.25;
-/// Share of the time left that one population is planned to take: three are then complete though they cost a tenth more.
+/// Share of the time left that one population is planned to take: three are then complete even if they cost a tenth more.
 const SHARE: f64 = 0.3;
 /// A population has at least so many particles.
 const LEAST: usize = 16;
@@ -74,28 +74,28 @@ fn population_seed(seed: u64, number: usize) -> u64 {
     if number == 0 { seed } else { Stream::new(seed, POPULATIONS, number as u128, 0).next_u64() }
 }
 
-/// Whoever watches several populations at once.
+/// The callback that watches several populations at once.
 pub type Watch<'a> = dyn FnMut(Progress) -> bool + Send + 'a;
 
-/// Populations of these sizes, side by side. `watch` is called now and then with the progress of one of them; when it
-/// answers false, they stop and give what they have.
+/// Populations of these sizes, in parallel. `watch` is called regularly with the progress of one of them; when it returns
+/// false, they stop and return the results so far.
 ///
 /// # Errors
-/// As for [`smc`](super::smc()); populations may die as long as one lives.
+/// As for [`smc`](super::smc()); populations may die as long as one survives.
 pub fn populations(
     task: &Task,
     settings: &Settings,
     plan: &[usize],
     watch: &mut Watch<'_>,
 ) -> std::result::Result<Result, Failure> {
-    // One by one, each in parallel inside, where there are too few to keep every thread busy.
+    // Where there are fewer populations than threads: one by one, each on all threads.
     let threads = rayon::current_num_threads();
     let alone = plan.len() < threads || threads == 1;
     let (watch, stopped) = (Mutex::new(watch), AtomicBool::new(false));
     let one = |(number, &particles): (usize, &usize)| {
         let own = Settings { particles, seed: population_seed(settings.seed, number), ..settings.clone() };
         run(task, &own, !alone, &mut |progress| {
-            // A thread that meets another one here goes on.
+            // Threads do not wait for each other here.
             if let Ok(mut watch) = watch.try_lock()
                 && !watch(progress)
             {
@@ -113,7 +113,7 @@ pub fn populations(
     combine(plan, results, stopped)
 }
 
-/// Populations of one size, one after the other until `time` is spent: the rule of the module's page. The result's plan
+/// Populations of one size, one after the other until `time` is over, by the rule in the module's documentation. The result's plan
 /// says how many there were and how large they are.
 ///
 /// # Errors
@@ -128,7 +128,7 @@ pub fn within(
     by_clock(task, settings, time, &|| began.elapsed(), watch)
 }
 
-/// The same by any clock, which gives the time since the search began.
+/// [`within`] with any clock; it returns the time since the search began.
 pub(super) fn by_clock(
     task: &Task,
     settings: &Settings,
@@ -142,7 +142,7 @@ pub(super) fn by_clock(
             .into());
     }
     let mut stopped = false;
-    // A population that is given up at the first barrier after `end`; and whether the whole search was stopped.
+    // Runs a population that stops at the first barrier after `end`; also whether the whole search was stopped.
     let mut one = |particles: usize, seed: u64, end: Duration| {
         let own = Settings { particles, seed, ..settings.clone() };
         let result = run(task, &own, false, &mut |progress| {
@@ -164,7 +164,7 @@ pub(super) fn by_clock(
         let now = clock();
         let cost = now.saturating_sub(start).as_secs_f64() / size as f64;
         let next = (PILOT_SHARE * time.as_secs_f64() / cost).min(GROWTH * size as f64) as usize;
-        // One that is hardly larger would say nothing new.
+        // A pilot that is hardly larger measures nothing new.
         if now > limit || next < 2 * size {
             break cost;
         }
@@ -195,7 +195,7 @@ pub(super) fn by_clock(
     combine(&plan, results, false)
 }
 
-/// A search that was stopped: which populations are complete was not decided by a deadline.
+/// The result of a search that was stopped. It has no evidence, because no deadline decided which populations are complete.
 fn without_evidence(result: Result) -> Result {
     Result { log_normaliser: None, log_evidence: None, ..result }
 }
@@ -242,7 +242,7 @@ fn combine(
         interrupted,
         plan: plan.to_vec(),
         died: deaths,
-        moved: Moved::default(),
+        moved: MoveCounts::default(),
         powers: std::mem::take(&mut lived[0].1.powers),
     };
     for (n, mut one) in lived {

@@ -10,7 +10,7 @@
 //!    raised to a power.
 //! 3. *Resample* ([`resampling`]): at every barrier, or when the effective sample size is low; weights are reset. Copies
 //!    (`copies`) are made when the particles run again, by the thread that ran their parent (`shared`).
-//! 4. *Rejuvenate*, where asked for ([`rejuvenation`]): each particle is moved by a Markov kernel that keeps `F_n` (`moves`);
+//! 4. *Rejuvenate*, where set ([`rejuvenation`]): each particle is moved by a Markov kernel that leaves `F_n` invariant (`moves`);
 //!    one that still runs is followed again from its start with other values (`partial_run`). In the end chains may start
 //!    from a few of the final set, and their states take its place (`final_chains`).
 //!
@@ -22,7 +22,7 @@
 //! original weighed by the whole score `s(r_n)` at every step ([`Weights::Absolute`]): an undeclared sharpening
 //! that grows with the model, kept under its own name, without evidence.
 //!
-//! On top of one population stand [`populations`] (several, by a plan or [`within`] a time), [`particle_gibbs`] and [`pimh`]
+//! Built on one population: [`populations`] (several, by a plan or [`within`] a time), [`particle_gibbs`] and [`pimh`]
 //! (chains of whole runs), and [`distinct`] (which results are really different).
 //!
 //! Random streams belong to a particle's lineage: at resampling the first copy keeps its parent's, every other
@@ -52,7 +52,7 @@ pub use final_chains::FinalChains;
 pub use gibbs::{Ancestors, Chain, particle_gibbs};
 pub use many::{Watch, populations, within};
 pub use pimh::pimh;
-pub use rejuvenation::{Moment, Moved, Rejuvenation};
+pub use rejuvenation::{Moment, MoveCounts, Rejuvenation};
 pub use resampling::Resampling;
 pub use settings::{Anneal, Order, Settings, Weights, When};
 pub use smc::{Outcome, Progress, Result, smc};

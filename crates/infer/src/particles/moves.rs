@@ -1,8 +1,8 @@
-//! Moves of one particle: of one that still runs by its partial run followed again, of one that has ended by a chain over its
-//! kept run.
+//! Moves of one particle. A particle that still runs is moved by following its partial run again, one that has ended by a
+//! chain over its kept run.
 
 use super::advance::Particle;
-use super::partial_run::{Choice, Densities, PartialRun, With};
+use super::partial_run::{Choice, Densities, FollowSettings, PartialRun};
 use super::rejuvenation::{Mover, Round};
 use super::settings::Order;
 use crate::chain::accept::{MetropolisHastings, Rules, Terms, accepts, selected};
@@ -37,7 +37,7 @@ struct Moving<'a, 'm> {
     now: PartialRun,
     machine: &'a mut Machine<'m>,
     round: &'a Round<'a>,
-    with: With<'a>,
+    with: FollowSettings<'a>,
     /// Which of a choice's selection weights counts; all choices weigh the same where none does.
     weight: Option<usize>,
     /// The first of the visits of this move.
@@ -47,7 +47,7 @@ struct Moving<'a, 'm> {
     count: Count,
 }
 
-/// Moves a particle that still runs. Its batch has leaves of its own, which learn nothing.
+/// Moves a particle that still runs. Its batch has its own leaves, which do not adapt.
 pub(super) fn move_running(
     p: &mut Particle,
     machine: &mut Machine<'_>,
@@ -60,7 +60,7 @@ pub(super) fn move_running(
         [] => Box::default(),
         _ => known.borrow_mut().entry(at.address()).or_insert_with(|| mover.weights(at)).clone(),
     };
-    let with = With {
+    let with = FollowSettings {
         task: round.task,
         depth_first: round.settings.order == Order::DepthFirst,
         origins: !mover.choosy.is_empty()
@@ -101,7 +101,7 @@ pub(super) fn move_running(
     Ok(count)
 }
 
-/// What regenerates a call changes what there is, and here that must stay; trajectories move particles at the end only.
+/// Calls are not regenerated here, because the skeleton must stay; trajectories move particles at the end only.
 impl Target for Moving<'_, '_> {
     fn single<M: Move>(&mut self, how: &mut M) -> Result<(), Failure> {
         let total = self.total(&self.now);
@@ -160,7 +160,7 @@ impl Moving<'_, '_> {
         run.choices().map(|choice| self.weight(choice)).sum()
     }
 
-    /// Accepts or rejects; the particle's sketches then show the scene of the run that holds. There is no next one where the
+    /// Accepts or rejects; the particle's sketches then show the scene of the run that is kept. `next` is `None` where the
     /// move leads to another skeleton or is impossible.
     fn decide(&mut self, next: Option<(PartialRun, Densities)>, selection: f64) -> Result<(), Failure> {
         self.count.proposed += 1;
@@ -188,7 +188,7 @@ impl Moving<'_, '_> {
             forward: densities.forward,
             selection,
         };
-        // A power of zero sees no score, but for the impossible.
+        // At power zero a score counts only where it is impossible.
         let possible = !record.log_sketches.is_impossible();
         if accepts(MetropolisHastings::log_ratio(&terms), &mut self.rng) && possible {
             self.count.accepted += 1;
@@ -201,7 +201,7 @@ impl Moving<'_, '_> {
     }
 }
 
-/// Moves a particle that has ended, by a chain that keeps its run: at the barrier at which that is seen, and at the end.
+/// Moves a particle that has ended, by a chain over its run: at the barrier at which this is noticed, and at the end.
 pub(super) fn move_ended(p: &mut Particle, round: &Round<'_>) -> Result<Count, Failure> {
     if p.was_ended && round.ending.is_some() {
         return Ok(Count::default());

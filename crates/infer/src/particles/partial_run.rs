@@ -1,8 +1,8 @@
-//! A partial run: what a run chose and met up to a barrier, or to its end; and the same run followed again, by another
+//! A partial run: the choices and barriers of a run up to a barrier, or to its end. It can be followed again, by another
 //! particle or with other values.
 //!
-//! What other values may not change is the *skeleton*: which futures could run at each pick, at which address each
-//! barrier stands, and where every future stands at the end. Under one skeleton the order policy gives equal order choices
+//! Other values must not change the *skeleton*: which futures could run at each pick, the address of each
+//! barrier, and where each future is suspended at the end. Under one skeleton the order policy gives equal order choices
 //! equal probability (one over the number of futures that can run, pick by pick), so it cancels in a ratio.
 
 use super::advance::Particle;
@@ -45,7 +45,7 @@ pub(super) enum Step {
         pick: Option<(usize, u128)>,
     },
     Chose(Choice),
-    /// A barrier: its address, the primitive of an `emit`, and whether that is another than in the run before.
+    /// A barrier: its address, the primitive of an `emit`, and whether it differs from the run before.
     Met {
         address: u128,
         primitive: Option<Primitive>,
@@ -58,13 +58,13 @@ pub(super) struct PartialRun {
     steps: Vec<Step>,
     pub log_prior: Total,
     pub log_factors: Total,
-    /// Where it stands.
+    /// The state of the machine.
     pub state: State,
 }
 
-/// What a run is followed with.
+/// How a run is followed.
 #[derive(Clone, Copy)]
-pub(super) struct With<'a> {
+pub(super) struct FollowSettings<'a> {
     pub task: &'a Task,
     pub depth_first: bool,
     /// Whether addresses are to be readable from the root.
@@ -88,7 +88,7 @@ impl PartialRun {
     /// # Errors
     /// Choices of another model, a fault of the program.
     pub fn of(
-        with: With<'_>,
+        with: FollowSettings<'_>,
         machine: &mut Machine<'_>,
         entries: &[Entry],
         barriers: usize,
@@ -112,7 +112,7 @@ impl PartialRun {
     /// A fault of the program or of `propose`.
     pub fn again(
         &self,
-        with: With<'_>,
+        with: FollowSettings<'_>,
         machine: &mut Machine<'_>,
         propose: impl FnMut(&At<'_, f64>, &Choice, &Dist) -> Result<Option<Proposed<f64>>, Fault>,
         fresh: StreamKey,
@@ -133,7 +133,7 @@ impl PartialRun {
 
     /// Runs from the start to the `barriers`-th barrier or to the end; with the skeleton of `before`, where it is given.
     fn run(
-        with: With<'_>,
+        with: FollowSettings<'_>,
         machine: &mut Machine<'_>,
         chooser: &mut impl Chooser,
         before: Option<&PartialRun>,
@@ -192,7 +192,7 @@ impl PartialRun {
         if all == 0 { 0.0 } else { self.choices().filter(is_new).count() as f64 / all as f64 }
     }
 
-    /// Primitives that it does not share with the run before it: what stood there, and what stands there now.
+    /// The primitives that differ from the run before: the old ones, and the new ones.
     pub fn exchanged<'a>(&'a self, before: &'a PartialRun) -> (Vec<&'a Primitive>, Vec<&'a Primitive>) {
         fn met(run: &PartialRun) -> impl Iterator<Item = (Option<&Primitive>, bool)> {
             run.steps.iter().filter_map(|step| match step {
@@ -247,11 +247,11 @@ impl Step {
     }
 }
 
-/// Writes the steps of a run down.
+/// Records the steps of a run.
 struct Recorder<'a, C> {
     chooser: &'a mut C,
-    with: With<'a>,
-    /// What is to come of the run whose skeleton is to be kept.
+    with: FollowSettings<'a>,
+    /// The remaining steps of the run whose skeleton is to be kept.
     skeleton: Option<std::slice::Iter<'a, Step>>,
     steps: Vec<Step>,
     log_prior: Total,
@@ -349,10 +349,10 @@ where
     }
 }
 
-/// Gives choices the values that they had in a segment, in its order; none once another one is asked for.
+/// Gives choices the values that they had in a segment, in its order; `None` at any other choice.
 struct Follow<'a> {
     steps: std::slice::Iter<'a, Step>,
-    /// Who would have drawn them, where their weights count.
+    /// The proposal that would have drawn them, where their weights count.
     proposal: Option<&'a Proposal>,
     lost: bool,
 }
@@ -373,9 +373,9 @@ impl Chooser for Follow<'_> {
 }
 
 impl Particle {
-    /// Goes through a segment of another run from wherever it is: to its next barrier, or to the end where the segment is
-    /// the run's `last`. The log probability of its order choices; `None` where it cannot, or not with density above zero
-    /// (it is then of no further use). With a `proposal` its choices count as drawn by it.
+    /// Follows a segment of another run from the present state: to its next barrier, or to the end where the segment is
+    /// the run's `last`. Returns the log probability of its order choices. `None` where the segment cannot be followed or
+    /// has density zero; the particle must then not be used again. With a `proposal` its choices count as drawn by it.
     pub fn follow(
         &mut self,
         machine: &mut Machine<'_>,

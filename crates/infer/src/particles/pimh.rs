@@ -5,12 +5,13 @@
 //! `min(1, Z' / Z)`, the ratio of the two populations' evidence estimates. The chain follows the posterior for any number
 //! of particles; more of them make `Z'` and `Z` alike, and acceptance frequent.
 //!
-//! A population that died has `Z' = 0` and is never accepted. Before the first one that lived the chain is nowhere, which
-//! counts as `Z = 0`: whatever lives is accepted, and there are fewer states than sweeps.
+//! A population that died has `Z' = 0` and is never accepted. Before the first population that survives, the chain has
+//! no state, which counts as `Z = 0`: any population that survives is accepted, and there are fewer states than sweeps.
 //!
 //! The evidence is the mean of `Z'` over all `sweeps + 1` populations, those that died as zero. Their number is fixed
 //! beforehand and they do not depend on the chain, so the mean is unbiased, where a call in which all died counts as zero.
-//! To go on until one lives and then make all sweeps would not be: the number of populations would depend on them.
+//! To go on until one survives and then make all sweeps would be biased: the number of populations would depend on the
+//! estimates.
 
 use super::gibbs::{Chain, check_chain, draw_index, sweep_seed};
 use super::many::Watch;
@@ -24,8 +25,8 @@ use niwaki_math::Stream;
 /// The stream of the acceptance draws: no lineage has this number.
 const ACCEPTANCE: u64 = u64::MAX - 5;
 
-/// `sweeps` sweeps after a first population. `watch` is called after each barrier; when it answers false, the sweeps so far
-/// are given.
+/// `sweeps` sweeps after a first population. `watch` is called after each barrier; when it returns false, the sweeps so
+/// far are returned.
 ///
 /// # Errors
 /// Settings that a chain cannot have, a fault of the program, or populations that all died.

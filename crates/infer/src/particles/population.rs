@@ -1,9 +1,9 @@
-//! The population: its steps are to advance, to weigh and to resample; [`smc`](super::smc()) takes them in turn, and
-//! conditional SMC with one particle held.
+//! The population and its steps: advance, weigh, resample. [`smc`](super::smc()) takes them in turn; so does
+//! conditional SMC, with one particle held.
 
 use super::advance::Particle;
 use super::copies::{Copies, Indexed, copy};
-use super::rejuvenation::{Moved, Mover};
+use super::rejuvenation::{MoveCounts, Mover};
 use super::settings::{Anneal, Order, Settings, Weights, When};
 use super::shared::share;
 use super::weights::{Normalised, conditional_share};
@@ -48,26 +48,26 @@ pub(super) struct Population<'a> {
     /// How it is rejuvenated.
     pub mover: Option<Mover>,
     /// Moves so far.
-    pub moved: Moved,
-    /// Whether its parts run on several threads.
+    pub moved: MoveCounts,
+    /// Whether it uses several threads.
     pub parallel: bool,
     /// The task for each thread, with a program of its own.
     apart: Vec<Task>,
-    /// Copies that the last resampling asked for.
+    /// The copies of the last resampling that are not made yet.
     copies: Copies,
     // Kept from barrier to barrier, so that none allocates.
     scores: Vec<Total>,
     logs: Vec<f64>,
 }
 
-/// What is known at a barrier.
-pub(super) struct Seen {
+/// The best score and the ended particles at a barrier.
+pub(super) struct BarrierSummary {
     pub best: f64,
     pub ended: usize,
 }
 
 impl<'a> Population<'a> {
-    /// A population that has not begun. `serial` keeps it on one thread: others are busy with other populations.
+    /// A population that has not begun. `serial` keeps it on one thread, because other populations use the others.
     pub fn start(task: &Task, settings: &'a Settings, serial: bool) -> Result<Self, Failure> {
         settings.check()?;
         let n = settings.particles;
@@ -116,7 +116,7 @@ impl<'a> Population<'a> {
             powers: Vec::new(),
             weights: Normalised::default(),
             mover: Mover::of(&task, settings)?,
-            moved: Moved::default(),
+            moved: MoveCounts::default(),
             parallel,
             apart: (0..if parallel { threads } else { 0 }).map(own).collect(),
             copies: Copies::default(),
@@ -135,8 +135,8 @@ impl<'a> Population<'a> {
             let mut others = self.particles.iter_mut().enumerate().filter(|(index, _)| Some(*index) != held);
             return others.try_for_each(|(_, p)| p.advance(&mut machine, task, settings));
         }
-        // Of several faults, the one of the first particle is reported, whatever thread met its own first. Particles behind
-        // one that failed need not run: an endless model would use up its budget once for each.
+        // Of several faults, that of the first particle is reported, so that threads do not matter. Particles after
+        // a failed one need not run: an endless model would use up its budget once for each.
         let (failed, fault) = (AtomicUsize::new(usize::MAX), Mutex::new(None));
         let threads = self.apart.len();
         let size = (self.particles.len() / (TASKS * threads)).clamp(1, BATCH);
@@ -168,13 +168,12 @@ impl<'a> Population<'a> {
         fault.into_inner().unwrap_or_else(PoisonError::into_inner).map_or(Ok(()), |(_, own)| Err(own))
     }
 
-    /// Makes the copies that the last resampling asked for.
+    /// Makes the copies of the last resampling.
     pub fn settle(&mut self) {
         self.copies.make(&mut self.particles, self.settings.seed);
     }
 
-    /// How many run, and how many have ended: in one pass, as a population is too large for the processor's nearest
-    /// memory.
+    /// How many run, and how many have ended. One pass, because a population does not fit into the cache.
     pub fn count(&self) -> (usize, usize) {
         self.particles.iter().enumerate().fold((0, 0), |(running, ended), (index, p)| {
             let times = self.copies.count(index);
@@ -186,7 +185,7 @@ impl<'a> Population<'a> {
     ///
     /// # Errors
     /// Every particle is impossible.
-    pub fn weigh(&mut self) -> Result<Seen, Failure> {
+    pub fn weigh(&mut self) -> Result<BarrierSummary, Failure> {
         self.barriers += 1;
         let (mut best, mut ended) = (f64::NEG_INFINITY, 0);
         self.scores.clear();
@@ -196,8 +195,8 @@ impl<'a> Population<'a> {
             self.scores.push(score);
             ended += usize::from(p.state.has_ended());
         }
-        // What a proposal drew since the last barrier. The prior is not raised to a power, so neither is this; the power is
-        // chosen by what the scores then add.
+        // The ratios of proposed choices since the last barrier. They are not raised to a power, as the prior is not; the
+        // power is chosen after they count.
         if self.settings.proposal.is_some() {
             self.particles.iter_mut().for_each(|p| p.log_weight += std::mem::take(&mut p.pending));
         }
@@ -220,7 +219,7 @@ impl<'a> Population<'a> {
             AllInvalid::check_all(self.particles.iter().map(|p| p.record.invalid.as_ref()))?;
             return Err(impossible(&self.particles, self.barriers));
         }
-        Ok(Seen { best, ended })
+        Ok(BarrierSummary { best, ended })
     }
 
     /// The power at this barrier.
@@ -252,7 +251,7 @@ impl<'a> Population<'a> {
         low
     }
 
-    /// Whether it is time to resample.
+    /// Whether to resample now.
     pub fn is_low(&self) -> bool {
         match self.settings.when {
             _ if self.settings.weights == Weights::Absolute => true,
@@ -261,7 +260,7 @@ impl<'a> Population<'a> {
         }
     }
 
-    /// Resamples, and resets the weights. What would move each particle without changing their law goes right after.
+    /// Resamples, and resets the weights. Moves of the particles follow directly.
     pub fn resample(&mut self) {
         let mut random = Stream::new(self.settings.seed, RESAMPLING, self.barriers as u128, 0);
         let copies = self.settings.resampling.copies(&self.weights.relative, &mut random);
@@ -279,7 +278,7 @@ impl<'a> Population<'a> {
         self.particles.iter_mut().for_each(|p| p.log_weight = 0.0);
     }
 
-    /// Weighs the final set by the declared power, and reads its weights; false when none is possible.
+    /// Weighs the final set by the declared power, and reads its weights; false when no particle is possible.
     pub fn finish(&mut self) -> bool {
         self.settle();
         if self.power != self.settings.power {
@@ -319,7 +318,7 @@ fn step(next: f64, score: &Total, power: f64, weighed: &Total) -> f64 {
     }
 }
 
-/// The memory budget of a task is that of its whole population.
+/// Divides the memory budget of the task among the particles.
 fn share_memory(task: &Task, n: usize) -> Task {
     let bytes = (task.limits.bytes / n).max(1 << 20);
     Task { limits: Limits { bytes, ..task.limits }, ..task.clone() }

@@ -1,4 +1,4 @@
-//! Rejuvenation: Markov moves that leave the particles' law at this barrier as it is, so that copies become different
+//! Rejuvenation: Markov moves that leave the particles' law at this barrier invariant and make copies different
 //! again (Gilks & Berzuini 2001).
 //!
 //! The law at barrier n is `F_n(x, order) = p_n(x) q(order | x) s(x)^T`, over runs that are paused at their n-th
@@ -7,8 +7,8 @@
 //! structure, but not become longer: a longer run is, at this barrier, a run that is paused, and has its weight there.
 //! Moves see the score so far and no later one.
 //!
-//! The moves that a particle makes must not depend on what became of the others: a kernel that is the same whatever the
-//! population looks like leaves each expectation as it is, one that is left out because all others have ended does not.
+//! The moves of a particle must not depend on the other particles. A kernel that is the same for every population
+//! leaves each expectation as it is. A kernel that is left out because all others have ended does not.
 //! So a particle that has ended is moved at the barrier at which that is seen, among runs with as many barriers as it
 //! has, and not again until the end, when all are moved once without bound. For the same reason the evidence is unbiased
 //! for moves at fixed barriers, and consistent for moves after a resampling that is itself decided by the weights.
@@ -37,7 +37,7 @@ const SPREADS: u64 = u64::MAX - 7;
 /// Forward runs from which the spreads of the sites' distributions are read.
 const FIRST_RUNS: u64 = 4;
 
-/// When to move. People write a number of barriers, or a word.
+/// When to move: a number of barriers, or a word.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 pub enum Moment {
@@ -59,18 +59,18 @@ pub struct Rejuvenation {
     pub moves: u64,
     /// When.
     pub at: Moment,
-    /// What takes the place of the final set; where there is none, every particle of it is moved.
+    /// The chains that replace the final set; where there are none, every particle of the set is moved.
     pub final_chains: Option<FinalChains>,
 }
 
 impl Rejuvenation {
-    /// Refuses what makes no sense.
+    /// Refuses settings that make no sense.
     pub(super) fn check(&self, weights: Weights) -> Result<(), Fault> {
         if weights == Weights::Absolute {
             return Err(Fault::new("bad-setting", "absolute weights have no law that a move could keep")
                 .with_help("use ratio weights"));
         }
-        let none = self.final_chains.is_some_and(|asked| asked.chains == 0 || asked.draws == 0);
+        let none = self.final_chains.is_some_and(|wanted| wanted.chains == 0 || wanted.draws == 0);
         if self.moves == 0 || self.at == Moment::Every(0) || none {
             return Err(Fault::new("bad-setting", "no move was asked for").with_help("ask for at least one"));
         }
@@ -91,15 +91,15 @@ impl Rejuvenation {
 
 /// Counts of moves: of particles that still ran, and of those that had ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Moved {
+pub struct MoveCounts {
     /// Of particles that still ran.
     pub running: Count,
     /// Of particles that had ended.
     pub ended: Count,
 }
 
-impl std::ops::AddAssign for Moved {
-    fn add_assign(&mut self, other: Moved) {
+impl std::ops::AddAssign for MoveCounts {
+    fn add_assign(&mut self, other: MoveCounts) {
         self.running += other.running;
         self.ended += other.ended;
     }
@@ -109,7 +109,7 @@ impl std::ops::AddAssign for Moved {
 #[derive(Clone, Debug)]
 pub(super) struct Mover {
     pub plan: Plan,
-    /// Spread of each site's distribution, by the site's key: it must not depend on where a particle is.
+    /// Spread of each site's distribution, by the site's key: it must not depend on the state of a particle.
     pub spreads: HashMap<u128, f64>,
     /// Numbers of the sites, by key.
     pub numbers: HashMap<u128, usize>,
@@ -119,7 +119,7 @@ pub(super) struct Mover {
     rounds: u64,
 }
 
-/// One round of moves, for every particle alike.
+/// One round of moves, the same for every particle.
 pub(super) struct Round<'a> {
     pub task: &'a Task,
     pub settings: &'a Settings,
@@ -130,7 +130,7 @@ pub(super) struct Round<'a> {
     pub power: f64,
     /// Barriers so far.
     pub barriers: usize,
-    /// How many barriers a run has that ended just now; none at the end, where any may.
+    /// How many barriers a run has that ended just now; `None` at the end, where any number is allowed.
     pub ending: Option<usize>,
     /// No other round has this number.
     pub number: u64,
@@ -149,7 +149,7 @@ impl Mover {
             let key = StreamKey::new(settings.seed, SPREADS, run);
             let mut answers = Fresh { spreads: Some(&mut spreads), ..Fresh::plain(key, &*task.hosts) };
             let mut machine = task.machine();
-            // Of an invalid run, what it has met.
+            // Of an invalid run, the sites up to its fault.
             if let Err(met) = task.begin(&mut machine, &mut answers)
                 && met.fault.out_of_range.is_none()
             {
@@ -173,8 +173,8 @@ impl Mover {
 }
 
 impl Population<'_> {
-    /// Moves the particles where it is time to. `resampled` says whether they were just resampled; `None` that all is
-    /// done, and weighed by the declared power.
+    /// Moves the particles where they are due. `resampled` says whether they were just resampled; `None` means that all
+    /// have ended and are weighed by the declared power.
     pub fn rejuvenate(&mut self, resampled: Option<bool>) -> Result<(), Failure> {
         let Some(rejuvenation) = &self.settings.rejuvenate else { return Ok(()) };
         let due = match (rejuvenation.at, resampled) {
@@ -205,7 +205,7 @@ impl Population<'_> {
             number,
         };
         let batch = |particles: &mut [Particle]| {
-            let (mut machine, mut moved) = (round.task.machine(), Moved::default());
+            let (mut machine, mut moved) = (round.task.machine(), MoveCounts::default());
             let mut leaves = round.mover.plan.leaves.clone();
             for p in particles.iter_mut().filter(|p| !p.weighed.is_impossible()) {
                 if p.state.has_ended() {
@@ -216,7 +216,7 @@ impl Population<'_> {
             }
             Ok(moved)
         };
-        let all: Vec<Result<Moved, Failure>> = if self.parallel {
+        let all: Vec<Result<MoveCounts, Failure>> = if self.parallel {
             self.particles.par_chunks_mut(BATCH).map(batch).collect()
         } else {
             vec![batch(&mut self.particles)]

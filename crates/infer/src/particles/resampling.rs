@@ -54,7 +54,7 @@ impl Resampling {
     }
 }
 
-/// Counts how many of the increasing points `at(0), at(1), ...` fall into each particle's share.
+/// Counts how many of the increasing points `at(0), at(1), ...` are in each particle's share.
 fn place(weights: &[f64], total: f64, at: impl Fn(usize) -> f64) -> Vec<usize> {
     let n = weights.len();
     let mut copies = vec![0; n];

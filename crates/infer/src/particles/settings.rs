@@ -1,4 +1,4 @@
-//! What can be set.
+//! The settings of SMC.
 
 use super::Resampling;
 use super::rejuvenation::Rejuvenation;
@@ -37,7 +37,7 @@ pub enum When {
 }
 
 /// The schedule of the power from barrier to barrier. Whatever it is, the final law is that of the declared
-/// power: what a barrier's power over- or understates, the weights take back.
+/// power: the weights correct for the power of each barrier.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(untagged)]
 pub enum Anneal {
@@ -50,12 +50,12 @@ pub enum Anneal {
     Adaptive(f64),
 }
 
-/// Reads the share of effective particles below which to resample; nothing for always.
+/// Reads the share of effective particles below which to resample; null for every barrier.
 fn when<'de, D: Deserializer<'de>>(from: D) -> Result<When, D::Error> {
     Ok(Option::deserialize(from)?.map_or(When::Always, When::EffectiveBelow))
 }
 
-/// What can be set.
+/// The settings of SMC.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(default)]
 pub struct Settings {
@@ -75,10 +75,10 @@ pub struct Settings {
     /// When to resample.
     #[serde(rename = "ess", deserialize_with = "when")]
     pub when: When,
-    /// How particles are moved within the law that they follow.
+    /// How particles are moved; none where they are not.
     #[serde(skip)]
     pub rejuvenate: Option<Rejuvenation>,
-    /// Who draws the choices that the prior does not.
+    /// The proposal for the choices that the prior does not draw.
     #[serde(skip)]
     pub proposal: Option<Arc<Proposal>>,
     /// Seed.

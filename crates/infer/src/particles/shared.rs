@@ -1,12 +1,12 @@
-//! Work shared out among the threads of the pool: each does its own first, then takes from those that have some left.
+//! Work shared among the threads of the pool: each thread does its own items first, then takes items of others.
 //!
-//! What a thread made last time is in the memory nearest to its processor, and was allocated there: given to the same
-//! thread again it costs no traffic between processors.
+//! A particle is in the cache of the thread that ran it last, and was allocated there. If the same thread runs it again,
+//! nothing moves between processors.
 
 use std::collections::VecDeque;
 use std::sync::{Mutex, PoisonError};
 
-/// Does every item of `lists`, one list for each thread of the pool. `worker` makes what a thread works with, given
+/// Processes every item of `lists`, one list for each thread of the pool. `worker` creates the function of a thread from
 /// the thread's number.
 pub(super) fn share<T: Send, W: FnMut(T)>(lists: Vec<VecDeque<T>>, worker: impl Fn(usize) -> W + Sync) {
     let lists: Vec<Mutex<VecDeque<T>>> = lists.into_iter().map(Mutex::new).collect();

@@ -2,7 +2,7 @@
 
 use super::advance::Particle;
 use super::population::Population;
-use super::rejuvenation::Moved;
+use super::rejuvenation::MoveCounts;
 use super::settings::{Anneal, Settings, Weights};
 use crate::record::Record;
 use crate::run::Run;
@@ -24,7 +24,7 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    /// The same run once more.
+    /// A copy.
     pub(super) fn copy(&mut self) -> Outcome {
         Outcome {
             record: self.record.fork(),
@@ -71,10 +71,10 @@ pub struct Result {
     /// lived.
     pub powers: Vec<f64>,
     /// Moves of rejuvenation.
-    pub moved: Moved,
+    pub moved: MoveCounts,
 }
 
-/// How far a run is, for whoever watches it.
+/// The progress of a run, for `watch`.
 #[derive(Clone, Copy, Debug)]
 pub struct Progress {
     /// Barriers so far.
@@ -85,8 +85,8 @@ pub struct Progress {
     pub best: f64,
 }
 
-/// Runs a population of particles. `watch` is called after each barrier; when it answers false, the run stops and
-/// gives what it has.
+/// Runs a population of particles. `watch` is called after each barrier; when it returns false, the run stops and
+/// returns the result so far.
 ///
 /// # Errors
 /// Settings that make no sense, a fault of the program, or a population in which every particle is impossible.
@@ -114,7 +114,7 @@ pub(super) fn run(
         }
         population.advance(None)?;
         let seen = population.weigh()?;
-        // Those that ended now met no barrier.
+        // Particles that ended now reached no barrier.
         population.steps += (running + had_ended - seen.ended) as u64;
         if !watch(Progress { barriers: population.barriers, ended: seen.ended, best: seen.best }) {
             interrupted = true;

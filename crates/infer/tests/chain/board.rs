@@ -19,7 +19,7 @@ use niwaki_vm::value::repr;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// Programs with few runs; `T` stands for the power of their factors.
+/// Programs with few runs; `T` is replaced by the power of their factors.
 const PROGRAMS: [(&str, &str); 6] = [
     (
         "two coins",
@@ -81,7 +81,7 @@ fn program(text: &str, power: &str) -> Task {
     task(&text.replace(" T ", &format!(" {power} ")))
 }
 
-/// The user's own: a distribution over whole numbers near the old one, skewed, so that its reverse matters.
+/// A user's proposal: a distribution over whole numbers near the old one, skewed, so that its reverse matters.
 fn skewed() -> Kernel {
     let text = r#"(module (fn "near" (params $old) (return (dist binomial 3 (cond (eq $old 0) 0.2 0.6)))) (entry "near"))"#;
     Kernel::User(Arc::new(User::new(task(text)).expect("a proposal")))
@@ -97,7 +97,7 @@ struct Row {
     powers: Vec<f64>,
     /// The power of the score that its states follow.
     power: &'static str,
-    /// Which program it is for; all, where it is empty.
+    /// The program it is for; all where it is empty.
     only: &'static str,
 }
 
@@ -233,7 +233,7 @@ fn a_step_that_is_not_adapted_finds_both_peaks() {
     }
 }
 
-/// Leaves out how likely the move was chosen, before and after.
+/// Leaves out the selection probability, before and after.
 pub struct NoCountRatio;
 impl Rules for NoCountRatio {
     fn log_ratio(t: &Terms<'_>) -> f64 {
@@ -241,7 +241,7 @@ impl Rules for NoCountRatio {
     }
 }
 
-/// Forgets the choices that went.
+/// Forgets the removed choices.
 pub struct StaleForgotten;
 impl Rules for StaleForgotten {
     fn log_ratio(t: &Terms<'_>) -> f64 {

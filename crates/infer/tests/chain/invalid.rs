@@ -1,6 +1,6 @@
 //! The claim: a run in which a distribution's parameters are out of range is one of probability zero, to every search. The
 //! posterior is that of enumeration or of quadrature, the four strategies agree to the bit and in what they count, and a
-//! rollback leaves nothing. What every run meets is raised as it stands in the model, and other faults are raised always.
+//! rollback leaves nothing. A fault of every run is raised, and other faults are always raised.
 //!
 //! Kernels start from an exact draw (by rejection) and make twelve proposals, so what comes out is again an exact draw, and
 //! the draws of different seeds are independent: counts are binomial, and means have the standard error of the posterior.
@@ -136,9 +136,13 @@ fn four_strategies_agree_and_count_the_same_sites() {
     for (name, text) in DISCRETE {
         let task = task(text);
         for (kind, kernel) in kernels(&task) {
-            let (found, seen) = compare(&task, &Settings { kernel, ..settings() }, 600, 20).expect("a chain");
-            assert!(found.is_none(), "{name}, {kind}: {}", found.unwrap_or_default());
-            assert!(seen.faults == 0 && seen.accepted > 0 && seen.invalid > 5, "{name}, {kind}: {seen:?}");
+            let (difference, compared) =
+                compare(&task, &Settings { kernel, ..settings() }, 600, 20).expect("a chain");
+            assert!(difference.is_none(), "{name}, {kind}: {}", difference.unwrap_or_default());
+            assert!(
+                compared.faults == 0 && compared.accepted > 0 && compared.invalid > 5,
+                "{name}, {kind}: {compared:?}"
+            );
         }
     }
 }
@@ -159,7 +163,7 @@ fn direct_methods_agree_with_enumeration() {
         let (mean, square) = weights.iter().fold((0.0, 0.0), |(m, s), w| (m + w / n, s + w * w / n));
         let z = (mean - exact.log_evidence.exp()) / ((square - mean * mean) / n).sqrt();
         assert!(z.abs() < LIMIT, "{name}: {z}");
-        // Those that are counted are those without weight, but for conditions.
+        // The counted runs are those without weight, except by conditions.
         let fresh = task.uncounted();
         let again = importance(&fresh, None, 20_000, 4, &mut |_| true).unwrap();
         let invalid = again.runs.iter().filter(|s| s.invalid.is_some()).count() as u64;
@@ -261,13 +265,13 @@ fn trajectories_in_a_chain_end_where_a_distribution_is_invalid() {
             let draws: Vec<(f64, f64)> = (0..1500).map(draw).collect();
             let z = worst(&draws, score);
             assert!(z < LIMIT, "{length:?}: {z}");
-            let (found, seen) =
+            let (difference, compared) =
                 compare(&task, &Settings { kernel: kernel.clone(), ..settings() }, 300, 30).unwrap();
-            assert!(found.is_none(), "{}", found.unwrap_or_default());
-            assert!(seen.faults == 0 && seen.accepted > 60 && seen.invalid > 20, "{seen:?}");
+            assert!(difference.is_none(), "{}", difference.unwrap_or_default());
+            assert!(compared.faults == 0 && compared.accepted > 60 && compared.invalid > 20, "{compared:?}");
         }
     }
-    // The test sees a wrong law: that in which the bounds may cross, and that which forgets one site.
+    // The test rejects a wrong law: one in which the bounds may cross, and one that forgets one site.
     let task = task(BORDER);
     let draws: Vec<_> = (0..1500).map(|seed| exact_values(&task, seed)).collect();
     assert!(worst(&draws, border) < LIMIT);
@@ -308,8 +312,8 @@ fn chains_of_the_gradient_end_their_trajectories_there_too() {
     }
 }
 
-/// What every search says of a program.
-fn said(text: &str) -> Vec<Result<(), Failure>> {
+/// The result of every search for a program.
+fn every_search(text: &str) -> Vec<Result<(), Failure>> {
     let task = task(text);
     let own = particles::Settings { particles: 20, ..particles::Settings::default() };
     let chain = || -> Result<Chain, Failure> { Chain::start(&task, &settings(), 0, None) };
@@ -332,7 +336,7 @@ fn what_every_run_meets_is_raised_as_it_stands_in_the_model() {
     let always = r#"(module (fn "leaf" (params $s) (return (sample (dist gaussian 0.0 $s))))
         (fn "m" (params) (set $a (sample (dist bernoulli 0.5)))
           (return (call "leaf" (cond $a -1.0 -2.0)))) (entry "m"))"#;
-    for (number, found) in said(always).into_iter().enumerate() {
+    for (number, found) in every_search(always).into_iter().enumerate() {
         let Err(Failure::Run(met)) = found else { panic!("{number}: {found:?}") };
         assert_eq!((met.fault.code, met.stack.len()), ("bad-parameter", 2), "{number}");
         assert!(met.fault.message.contains("`sd` of gaussian is -"), "{number}: {met}");
@@ -340,7 +344,7 @@ fn what_every_run_meets_is_raised_as_it_stands_in_the_model() {
     // Of several reasons, all are named.
     let both = r#"(module (fn "m" (params) (set $a (sample (dist bernoulli 0.5)))
         (if $a (then (do (condition false)))) (return (sample (dist poisson -1.0)))) (entry "m"))"#;
-    let found = said(both);
+    let found = every_search(both);
     let Err(Failure::NoStart { causes, .. }) = &found[0] else { panic!("{found:?}") };
     assert_eq!(causes.len(), 2, "{causes:?}");
     let Err(Failure::Impossible { causes, .. }) = &found[1] else { panic!("{found:?}") };
@@ -360,7 +364,7 @@ fn other_faults_are_raised_always() {
         let text = format!(
             r#"(module (fn "m" (params) (set $a (sample (dist bernoulli 0.5))) {body} (return $b)) (entry "m"))"#
         );
-        for (number, found) in said(&text).into_iter().enumerate() {
+        for (number, found) in every_search(&text).into_iter().enumerate() {
             match found {
                 Err(Failure::Run(met)) => assert_eq!((met.fault.code, met.fault.out_of_range), (code, None)),
                 // Enumeration and gradients have errors of their own.
@@ -369,7 +373,7 @@ fn other_faults_are_raised_always() {
             }
         }
     }
-    // A plain run says what it meets.
+    // A plain run reports its fault.
     let once = task(r#"(module (fn "m" (params) (return (sample (dist poisson -1.0)))) (entry "m"))"#);
     assert!(matches!(forward(&once, 1, 0, true), Err(Failure::Run(_))));
 }

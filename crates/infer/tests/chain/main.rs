@@ -1,5 +1,5 @@
-//! The claim: whatever the kernel, the four strategies make the same chain to the bit, a rollback leaves nothing, and
-//! the sums are those of a run from the start; on programs that make, take away and re-enter calls in every way.
+//! The claim: for every kernel the four strategies give the same chain to the bit, a rollback leaves nothing behind, and
+//! the sums are those of a run from the start; on programs that create, remove and re-enter calls in every combination.
 
 mod board;
 mod calibration;
@@ -63,7 +63,7 @@ fn choices(task: &Task) -> Vec<(String, Value)> {
     found
 }
 
-/// Proposals of the user's own, by what a choice holds in a first state: a real number, a whole one, a boolean.
+/// A user's proposals, by what a choice holds in a first state: a real number, a whole one, a boolean.
 fn own_proposals(task: &Task) -> Kernel {
     let mut sites: [Vec<String>; 3] = Default::default();
     for (site, value) in choices(task) {
@@ -93,9 +93,9 @@ fn four_strategies_make_the_same_chain() {
         let task = task(text);
         for (kind, kernel) in kernels(&task) {
             let settings = Settings { kernel, warmup: 150, ..settings() };
-            let (found, seen) = compare(&task, &settings, 300, 30).expect("a chain");
-            assert!(found.is_none(), "{name}, {kind}: {}", found.unwrap_or_default());
-            assert!(seen.accepted > 0, "{name}, {kind}: nothing was accepted");
+            let (difference, compared) = compare(&task, &settings, 300, 30).expect("a chain");
+            assert!(difference.is_none(), "{name}, {kind}: {}", difference.unwrap_or_default());
+            assert!(compared.accepted > 0, "{name}, {kind}: nothing was accepted");
         }
     }
 }
@@ -109,9 +109,9 @@ fn four_strategies_make_the_same_ladder() {
             if matches!(kind, "drift" | "all" | "weights by depth" | "own proposals") {
                 let powers = vec![1.0, 0.3, 0.0];
                 let settings = Settings { seed: 6, kernel, powers, every: 4, ..settings() };
-                let (found, seen) = compare(&task, &settings, 120, 30).expect("a ladder");
-                assert!(found.is_none(), "{name}, {kind}: {}", found.unwrap_or_default());
-                exchanges += seen.exchanges;
+                let (difference, compared) = compare(&task, &settings, 120, 30).expect("a ladder");
+                assert!(difference.is_none(), "{name}, {kind}: {}", difference.unwrap_or_default());
+                exchanges += compared.exchanges;
             }
         }
     }
@@ -127,9 +127,9 @@ fn four_strategies_score_the_same_scene() {
     let task = Task { sketches, ..task(text) };
     for (kind, kernel) in kernels(&task) {
         let settings = Settings { kernel, ..settings() };
-        let (found, seen) = compare(&task, &settings, 300, 30).expect("a chain");
-        assert!(found.is_none(), "{kind}: {}", found.unwrap_or_default());
-        assert!(0 < seen.accepted && seen.accepted < 300, "{kind}: {seen:?}");
+        let (difference, compared) = compare(&task, &settings, 300, 30).expect("a chain");
+        assert!(difference.is_none(), "{kind}: {}", difference.unwrap_or_default());
+        assert!(0 < compared.accepted && compared.accepted < 300, "{kind}: {compared:?}");
     }
 }
 

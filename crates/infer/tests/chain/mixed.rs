@@ -1,6 +1,6 @@
 //! The claim: a chain whose discrete choices move by Metropolis-Hastings and whose continuous ones move along their
 //! gradient leaves the posterior as it is, on programs that change their structure; it makes the same states under each
-//! strategy; and a chain that forgets how likely a trajectory's end was does not. (`tests/mutants` holds three more that
+//! strategy; and a chain that forgets the density at a trajectory's end does not. (`tests/mutants` has three more that
 //! do not: chains that drop a Jacobian, step by another metric or accept by the wrong sign.)
 //!
 //! The test is that of [`super::calibration`]: Gandy and Scott 2020, algorithm 1, 2,000 replicates against as many draws
@@ -34,7 +34,7 @@ const MIXTURE: &str = r#"
     DATA(gaussian (index $means $c) $s)
     (return (tuple $k $s (index $means 0) (index $means -1) $a (mul (index $means $a) $y) (mul $s (sub $y2 $y3))))"#;
 
-/// A branch on a real that moves bounds, one that changes what there is, and a held real whose bound moves.
+/// A branch on a real that moves bounds, one that changes the set of choices, and a held real whose bound moves.
 const BRANCHES: &str = r#"
     (set $side (sample (dist gaussian 0.3 1.0)))
     (set $low (cond (gt $side 0.0) 1.0 -2.0))
@@ -137,9 +137,9 @@ fn four_strategies_make_the_same_mixed_chain() {
     for text in [MIXTURE, BRANCHES] {
         for kernel in [all.clone(), annealed.clone()] {
             let settings = Settings { seed: 5, kernel, warmup: 150, thin: 0, ..Settings::default() };
-            let (found, seen) = compare(&module(text), &settings, 300, 30).expect("a chain");
-            assert!(found.is_none(), "{}", found.unwrap_or_default());
-            assert!(seen.accepted > 50 && seen.faults == 0, "{seen:?}");
+            let (difference, compared) = compare(&module(text), &settings, 300, 30).expect("a chain");
+            assert!(difference.is_none(), "{}", difference.unwrap_or_default());
+            assert!(compared.accepted > 50 && compared.faults == 0, "{compared:?}");
         }
     }
 }
@@ -150,19 +150,19 @@ fn what_became_of_trajectories_is_counted() {
     let settings = Settings { seed: 2, kernel: mixed(hmc(0.5)), warmup: 400, thin: 0, ..Settings::default() };
     let mut chain = Chain::<MetropolisHastings>::start(&task, &settings, 0, None).expect("a chain");
     chain.advance(&task, 4000, &mut |_, _| true).expect("proposals");
-    let (travel, step, (structures, recordings)) = chain.trajectories().next().expect("a leaf");
-    assert_eq!((travel.made, travel.settled), (2000, 1800));
-    assert!(travel.moved > 800 && travel.unwritten == 0, "{travel:?}");
-    // Over the place where `more` begins there are other choices.
-    assert!(travel.broken.refused[hamiltonian::Cause::Guard as usize] > 0, "{travel:?}");
-    let accept = travel.accept / travel.settled as f64;
+    let (counts, step, (structures, recordings)) = chain.trajectories().next().expect("a leaf");
+    assert_eq!((counts.transitions, counts.settled), (2000, 1800));
+    assert!(counts.moved > 800 && counts.unwritten == 0, "{counts:?}");
+    // Beyond the bound at which `more` begins there are other choices.
+    assert!(counts.broken.refused[hamiltonian::Cause::Guard as usize] > 0, "{counts:?}");
+    let accept = counts.accept / counts.settled as f64;
     assert!((0.6..0.95).contains(&accept) && step > 0.0, "{accept}");
     assert!(structures == 2 && recordings >= structures, "{structures} {recordings}");
-    assert!(travel.gradients > 2000 * 3 && travel.fault.is_none());
+    assert!(counts.gradients > 2000 * 3 && counts.fault.is_none());
 }
 
 #[test]
-fn what_has_no_gradient_is_told() {
+fn a_kernel_without_a_gradient_is_refused() {
     let start = |text: &str, kernel: Kernel| {
         let settings = Settings { kernel, thin: 0, ..Settings::default() };
         let task = task(text);

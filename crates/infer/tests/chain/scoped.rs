@@ -1,6 +1,6 @@
-//! The claim: a proposal that asks for variables in scope gives the exact answer, and the same chain to the bit under all four
-//! strategies: what it asks for is kept and brought up to date though nothing else in the model reads it. To keep
-//! variables changes nothing else: a chain that does not ask makes the same states.
+//! The claim: a proposal that uses variables in scope gives the exact answer, and the same chain to the bit under all four
+//! strategies: its variables are kept up to date even where nothing else in the model reads them. Keeping variables
+//! changes nothing else: a chain that does not use them has the same states.
 //!
 //! The shares of values are judged as in `board`: z beyond 6 once in 8 million, about 60 of them.
 
@@ -93,7 +93,7 @@ const PROGRAMS: [(&str, &str, &str, &str); 6] = [
     ),
 ];
 
-/// The program compiled to keep what the proposal asks for, and a kernel of the prior and the proposal.
+/// The program compiled to keep the proposal's variables, and a kernel of the prior and the proposal.
 fn case(text: &str, pattern: &str, function: &str) -> (Task, Kernel) {
     let user = User::new(task(&format!(r#"(module (fn "q" {function}) (entry "q"))"#))).expect("a proposal");
     let names: Vec<Name> = user.variables().cloned().collect();
@@ -126,9 +126,9 @@ fn a_proposal_with_variables_in_scope_gives_the_exact_answer() {
 fn four_strategies_agree_on_it() {
     for (name, text, pattern, function) in PROGRAMS {
         let (kept, kernel) = case(text, pattern, function);
-        let (found, seen) = compare(&kept, &settings(kernel), 2000, 30).expect("a chain");
-        assert!(found.is_none(), "{name}: {}", found.unwrap_or_default());
-        assert!(seen.accepted > 100, "{name}");
+        let (difference, compared) = compare(&kept, &settings(kernel), 2000, 30).expect("a chain");
+        assert!(difference.is_none(), "{name}: {}", difference.unwrap_or_default());
+        assert!(compared.accepted > 100, "{name}");
     }
 }
 

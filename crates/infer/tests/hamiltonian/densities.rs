@@ -28,7 +28,7 @@ impl Potential for By {
     }
 }
 
-/// A mutant: the value has the other sign, so that whoever accepts by it accepts by the wrong sign.
+/// A mutant: the value has the other sign, so that acceptance by it has the wrong sign.
 pub struct Negated<P>(pub P);
 
 impl<P: Potential> Potential for Negated<P> {
@@ -127,7 +127,7 @@ const SIMPLEX: Model = Model {
 /// `m ~ N(0, 1)`, `s = e^t ~ Gamma(3, rate 2)`, `theta_j ~ N(m, s)`, `y_j ~ N(theta_j, 1)` for three j.
 ///
 /// (With `s ~ Exponential(1)` the kernels' exact test passes as well, but whole chains of NUTS do not pass calibration:
-/// `s` near zero is a funnel whose neck no single step size enters. There the model must be written another way.)
+/// `s` near zero is a funnel whose neck no single step size enters. There the model must be parametrised differently.)
 const HIERARCHICAL: Model = Model {
     name: "hierarchical",
     draw: |stream| {

@@ -12,7 +12,7 @@ use niwaki_infer::hamiltonian::nuts::Nuts;
 use niwaki_infer::hamiltonian::{Kernel, Metric, Phase, Potential};
 use niwaki_math::Stream;
 
-/// The largest chi-square statistic over what a model watches, from this many chains.
+/// The largest chi-square statistic over a model's statistics, from this many chains.
 fn statistic<P: Potential>(
     model: &Model,
     make: impl Fn(Vec<f64>) -> P,
@@ -121,7 +121,7 @@ fn a_wrong_sign_in_the_acceptance_is_found() {
 fn a_momentum_of_another_metric_is_found() {
     // The mutant steps and accepts by the identity, and draws its momentum from a metric four times as wide. (One that
     // draws and accepts by a metric but steps without it is slow and yet correct: the map keeps volume and is
-    // reversible. Its energy error gives it away: see `leapfrog`.)
+    // reversible. Its energy error shows it: see `leapfrog`.)
     let mutant = |dim: usize| Metric::Diagonal { variance: vec![1.0; dim], deviation: vec![4.0; dim] };
     for model in &MODELS {
         for (name, kernel) in kernels() {

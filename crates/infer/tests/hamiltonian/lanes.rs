@@ -27,11 +27,11 @@ impl Potential for Banana {
     }
 }
 
-/// The same over lanes. Where `y` is above `top` it says that it does not know.
+/// The same over lanes. Points with `y` above `top` are not covered.
 struct Bananas {
     one: Banana,
     top: f64,
-    asked: u64,
+    evaluated: u64,
 }
 
 impl<const L: usize> Wide<L> for Bananas {
@@ -42,10 +42,10 @@ impl<const L: usize> Wide<L> for Bananas {
             if let Ok(value) = self.one.value_and_gradient(&[x[0][l], x[1][l]], &mut slope) {
                 (values[l], covered[l]) = (value, x[1][l] <= self.top);
             }
-            // What is not covered is of no consequence.
+            // Lanes that are not covered have no meaning.
             (0..2).for_each(|k| g[k][l] = if covered[l] { slope[k] } else { 1e300 });
         }
-        self.asked += 1;
+        self.evaluated += 1;
         (values, covered)
     }
     fn gradient(&mut self, x: &[[f64; L]], g: &mut [[f64; L]]) -> [bool; L] {
@@ -77,14 +77,14 @@ fn a_lane_gives_what_its_chain_gives_alone() {
         (0.0, Shape::Unit, f64::INFINITY),
         (0.5, Shape::Diagonal, f64::INFINITY),
         (0.5, Shape::Diagonal, 1.5),
-        // Covered nowhere: its chains go on alone.
+        // Covered nowhere: its chains run alone.
         (0.3, Shape::Diagonal, f64::NEG_INFINITY),
     ] {
         let settings = settings(jitter, shape);
         assert!(suits(&settings));
         let alone: Vec<Draws> =
             chains(&settings, 1.0).into_iter().map(|chain| run(chain, &settings, &|_| true)).collect();
-        let mut wide = Bananas { one: Banana { curve: 1.0 }, top, asked: 0 };
+        let mut wide = Bananas { one: Banana { curve: 1.0 }, top, evaluated: 0 };
         let together = run_in_lanes::<_, 8>(chains(&settings, 1.0), &mut wide, &settings, &|_, _| true);
         for (a, b) in alone.iter().zip(&together) {
             assert_eq!(bits(a), bits(b), "{jitter} {shape:?} {top}");
@@ -98,17 +98,17 @@ fn a_lane_gives_what_its_chain_gives_alone() {
             alone.iter().map(|a| a.broken.refused[Cause::Guard as usize]).sum::<u64>() > 0,
             "the wall is met"
         );
-        assert_eq!(wide.asked < 100, top == f64::NEG_INFINITY, "{}", wide.asked);
+        assert_eq!(wide.evaluated < 100, top == f64::NEG_INFINITY, "{}", wide.evaluated);
     }
 }
 
 #[test]
-fn a_way_uphill_in_a_lane_is_the_way_alone() {
+fn an_ascent_in_a_lane_is_the_ascent_alone() {
     for top in [f64::INFINITY, 0.5, f64::NEG_INFINITY] {
-        // The last but one meets the corner without a gradient, the last the wall: their ways end there.
+        // The last but one meets the corner without a gradient, the last the wall: their ascents end there.
         let starts = [[0.3, 1.5], [-1.0, -2.0], [1.5, 0.1], [0.2, -2.6], [1.9, 0.0]];
         let (mut one, mut wide) =
-            (Banana { curve: 1.0 }, Bananas { one: Banana { curve: 1.0 }, top, asked: 0 });
+            (Banana { curve: 1.0 }, Bananas { one: Banana { curve: 1.0 }, top, evaluated: 0 });
         let mut alone: Vec<Vec<f64>> = starts.iter().map(|start| start.to_vec()).collect();
         let taken: Vec<u32> = alone.iter_mut().map(|x| climb(&mut one, x, 50)).collect();
         let mut targets = vec![one; starts.len()];
@@ -129,7 +129,7 @@ fn a_way_uphill_in_a_lane_is_the_way_alone() {
 fn a_wide_density_that_is_another_one_is_found_out() {
     let settings = settings(0.5, Shape::Diagonal);
     let alone = chains(&settings, 1.0).into_iter().map(|chain| run(chain, &settings, &|_| true));
-    let mut wide = Bananas { one: Banana { curve: 1.0 + 1e-12 }, top: f64::INFINITY, asked: 0 };
+    let mut wide = Bananas { one: Banana { curve: 1.0 + 1e-12 }, top: f64::INFINITY, evaluated: 0 };
     let together = run_in_lanes::<_, 8>(chains(&settings, 1.0), &mut wide, &settings, &|_, _| true);
     assert!(alone.zip(&together).all(|(a, b)| bits(&a) != bits(b)));
 }
@@ -137,7 +137,7 @@ fn a_wide_density_that_is_another_one_is_found_out() {
 #[test]
 fn lanes_can_be_stopped_one_by_one() {
     let settings = settings(0.0, Shape::Unit);
-    let mut wide = Bananas { one: Banana { curve: 1.0 }, top: f64::INFINITY, asked: 0 };
+    let mut wide = Bananas { one: Banana { curve: 1.0 }, top: f64::INFINITY, evaluated: 0 };
     let found = run_in_lanes::<_, 8>(chains(&settings, 1.0), &mut wide, &settings, &|chain, done| {
         chain != 1 || done < 150
     });

@@ -3,22 +3,22 @@
 //!
 //! One transition, of fixed length or without a U-turn, in the coordinates of [`niwaki_grad::coordinates`]:
 //!
-//! 1. the trace's structure (which choices there are, and the values of the discrete ones) finds the graph of its density,
-//!    or a recording makes it: `structures`;
+//! 1. the trace's structure (which choices there are, and the values of the discrete ones) has a graph of its density,
+//!    which is recorded where it is new: `structures`;
 //! 2. a Hamiltonian transition goes from `x` to `x'`, with a step and scales that every structure shares: `scales`;
 //! 3. the values at `x'` are written as one block, through the same transaction as every other proposal, so that scores,
 //!    scene and queries stay exact.
 //!
-//! The second step leaves the recorded density `g` as it is. So it is a proposal that is as likely there as `g` says, and
-//! the transaction is kept with probability `min(1, p(x') g(x) / (p(x) g(x')))`, where `p` is what the trace itself says:
-//! 1 up to rounding, as the two are the same density (Liu 2001, section 9.4.3, calls a `g` that is not `p` a surrogate). A
-//! trajectory that reaches another structure, a density of zero or what is not a number is rejected, and counted.
+//! The second step leaves the recorded density `g` invariant. So it is a proposal that is reversible under `g`, and
+//! the transaction is kept with probability `min(1, p(x') g(x) / (p(x) g(x')))`, where `p` is the density of the trace
+//! itself. This is 1 up to rounding, as the two are the same density (Liu 2001, section 9.4.3, calls a `g` that is not `p` a surrogate). A
+//! trajectory that reaches another structure, a density of zero or a NaN is rejected, and counted.
 //!
-//! [`travel`]: what is counted.
+//! [`counts`] holds the counts.
 
+pub mod counts;
 pub(crate) mod scales;
 pub(crate) mod structures;
-pub mod travel;
 
 use super::Chain;
 use super::accept::Rules;
@@ -29,12 +29,12 @@ use crate::hamiltonian::chains::{Length, MAX_ENERGY_ERROR};
 use crate::hamiltonian::step_size::first_guess;
 use crate::hamiltonian::{Cause, Kernel};
 use crate::{Failure, Task, gradient};
+use counts::TrajectoryCounts;
 use niwaki_grad::{Continuous, Model, Transform};
 use niwaki_vm::machine::Machine;
 use niwaki_vm::machine::kept::{Changed, Proposed};
 use scales::Scales;
 use structures::{Moving, Structures};
-use travel::Travel;
 
 /// Trajectories of one leaf of a kernel.
 pub(crate) struct Trajectory {
@@ -42,21 +42,21 @@ pub(crate) struct Trajectory {
     scales: Scales,
     structures: Structures,
     model: Option<Model>,
-    /// What became of them.
-    pub travel: Travel,
+    /// Their counts.
+    pub counts: TrajectoryCounts,
     /// Whether step and scales are adapted now, and the share of the warm-up that is over.
     pub warming: Option<f64>,
 }
 
 impl Clone for Trajectory {
-    /// What was learnt is copied; graphs are recorded anew.
+    /// Copies what was adapted; graphs are recorded anew.
     fn clone(&self) -> Self {
         Trajectory {
             kernel: self.kernel.clone(),
             scales: self.scales.clone(),
             structures: Structures::default(),
             model: self.model.clone(),
-            travel: Travel::default(),
+            counts: TrajectoryCounts::default(),
             warming: self.warming,
         }
     }
@@ -64,7 +64,7 @@ impl Clone for Trajectory {
 
 impl std::fmt::Debug for Trajectory {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Trajectory").field("kernel", &self.kernel).field("travel", &self.travel).finish()
+        f.debug_struct("Trajectory").field("kernel", &self.kernel).field("counts", &self.counts).finish()
     }
 }
 
@@ -75,12 +75,12 @@ impl Trajectory {
             scales: Scales::new(step, target),
             structures: Structures::default(),
             model: None,
-            travel: Travel::default(),
+            counts: TrajectoryCounts::default(),
             warming: None,
         }
     }
 
-    /// Makes ready what it records; once for a task.
+    /// Prepares the recording; once for a task.
     ///
     /// # Errors
     /// Sketches, which have no gradient.
@@ -120,7 +120,7 @@ impl<R: Rules> Chain<R> {
         if own.warming.is_none() {
             own.scales.freeze();
         }
-        // The structure, its graph, and where the trace stands in its coordinates.
+        // The structure, its graph, and the coordinates of the trace.
         let (trace, tables) = (&self.state.trace, &self.tables);
         let moves = |choice: usize| table.is_none_or(|t| tables[t].weight(choice) > 0);
         let mut label = |number: usize, choice: &Continuous, place: usize| {
@@ -135,11 +135,11 @@ impl<R: Rules> Chain<R> {
             return Ok(());
         }
         self.last = Decision { same: false, accepted: false, log_ratio: f64::NEG_INFINITY };
-        let mut phase = match target.stand(trace, program, numbers, beta) {
+        let mut phase = match target.start_phase(trace, program, numbers, beta) {
             Ok(phase) => phase,
             Err(stop) => {
                 let fault = || reason(target.live(), &target.all(&[]));
-                own.travel.refused(stop, own.warming.is_some(), fault);
+                own.counts.refused(stop, own.warming.is_some(), fault);
                 self.count_many(self.last);
                 return Ok(());
             }
@@ -154,22 +154,23 @@ impl<R: Rules> Chain<R> {
             own.scales.guessed(guess, dim);
         }
         let step = own.scales.step(dim);
-        let made = own.kernel.step(target, &metric, step, &mut phase, &mut key.at(0));
+        let transition = own.kernel.step(target, &metric, step, &mut phase, &mut key.at(0));
         if let Some(share) = own.warming {
-            own.scales.learn(labels, &phase.gradient, made.accept, share);
+            own.scales.learn(labels, &phase.gradient, transition.accept, share);
         }
-        let faulty = made.divergence.as_ref().filter(|d| d.stop.is_some_and(|s| s.cause == Cause::NotFinite));
+        let faulty =
+            transition.divergence.as_ref().filter(|d| d.stop.is_some_and(|s| s.cause == Cause::NotFinite));
         let faulty = faulty.map(|divergence| target.all(&divergence.end));
-        own.travel.count(&made, own.warming.is_some(), || reason(target.live(), &faulty?));
-        self.last.log_ratio = made.accept.ln();
-        // The last point that was looked at may lie on another path than x'.
-        let there = if made.moved { target.look(&phase.x).ok() } else { None };
+        own.counts.count(&transition, own.warming.is_some(), || reason(target.live(), &faulty?));
+        self.last.log_ratio = transition.accept.ln();
+        // The last point that was evaluated may be on another path than x'.
+        let there = if transition.moved { target.log_density(&phase.x).ok() } else { None };
         let Some(log_density) = there else {
             self.count_many(self.last);
             return Ok(());
         };
 
-        // The values there, as one block. All of the proposal's density stands with its first choice.
+        // The values there, as one block. The first choice carries the whole density of the proposal.
         let (forward, values) = target.values(&phase.x, log_density);
         let noting = self.best.is_noting();
         let (mut moved, mut changes) = (Vec::new(), Vec::with_capacity(values.len()));
@@ -189,15 +190,15 @@ impl<R: Rules> Chain<R> {
             };
         let selection = |chain: &Self| {
             let trace = &chain.state.trace;
-            // What was drawn on the way is no part of the density: the way back would not lead here.
+            // New draws are not part of the recorded density: the reverse trajectory would not lead back here.
             let anew = trace.drawn_anew().iter().any(|(address, _)| own.structures.knows(*address));
             let is_other = trace.births(program).len() > 0 || !trace.deaths().is_empty() || anew;
             if is_other { f64::NEG_INFINITY } else { 0.0 }
         };
         let mut rng = self.streams.decisions(visit);
         let decision = self.decide(task, change, beta, &mut rng, selection, moved)?;
-        own.travel.moved += u64::from(decision.accepted);
-        own.travel.unwritten += u64::from(!decision.accepted);
+        own.counts.moved += u64::from(decision.accepted);
+        own.counts.unwritten += u64::from(!decision.accepted);
         self.count_many(decision);
         Ok(())
     }

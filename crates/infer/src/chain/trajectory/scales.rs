@@ -2,8 +2,8 @@
 //!
 //! A coordinate belongs to a *label*: the site of its choice, and its place in the choice's value. So a structure that was
 //! never seen has scales where its sites have. The scale of a label is `1 / sqrt(E[slope^2])` over its coordinates: the
-//! mean squared slope is the mean curvature of the log density (Fisher's identity), whatever else of the structure there
-//! is. The draws' own spread would not do: components that swap their names spread as wide as they lie apart.
+//! mean squared slope is the mean curvature of the log density (Fisher's identity), whatever else the structure
+//! contains. The variance of the draws cannot serve: components that swap their labels vary by the distance between them.
 //!
 //! Scales are learnt in windows that double in length, each of them a prior for the next, in the first three quarters of
 //! the warm-up; the step by dual averaging all along, begun anew with each window. A structure of `d` coordinates takes
@@ -15,12 +15,12 @@ use std::collections::HashMap;
 
 /// Transitions of the first window.
 const FIRST_WINDOW: u32 = 16;
-/// How many slopes what was known before a window counts for.
+/// The number of slopes that the estimate before a window counts for.
 const PRIOR_SLOPES: f64 = 5.0;
 /// The share of the warm-up after which scales stay.
 const SCALES_UNTIL: f64 = 0.75;
 
-/// What is known of one label.
+/// The estimate for one label.
 #[derive(Clone, Debug)]
 struct Label {
     /// The square of its scale.

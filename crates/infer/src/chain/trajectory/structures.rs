@@ -1,8 +1,8 @@
-//! Graphs by structure: which choices a trace has, and the values of those that no trajectory moves.
+//! Graphs by structure. A structure is the set of a trace's choices, with the values of those that no trajectory moves.
 //!
 //! A structure's key is a sum over its choices, so it does not depend on their order in the trace's table. What it leaves
-//! open are the values of continuous choices: along them one structure may have several paths, each with its guards, and
-//! [`Live`] keeps those. Graphs are dropped when they together hold too many operations, the longest unused first. Machine
+//! open are the values of continuous choices. Depending on them one structure may have several paths, each with its
+//! guards; [`Live`] keeps the paths. Graphs are dropped when they together hold too many operations, the longest unused first. Machine
 //! code gives the same bits as a structure's tape, so that nothing depends on when it is ready.
 
 use super::super::state::choices;
@@ -22,7 +22,7 @@ use std::sync::Arc;
 /// Operations that the graphs of one leaf hold together at most: some 100 MB with their tapes.
 const MOST_OPERATIONS: usize = 1 << 20;
 
-/// Gradients of a graph before machine code is asked for. Making it costs about what so many gradients by tape do, and a
+/// Gradients of a graph before machine code is compiled. Compiling costs about as much as this many gradients by tape, and a
 /// chain that changes its structure leaves most of its graphs sooner.
 const WARM: u32 = 10_000;
 
@@ -42,7 +42,7 @@ struct Structure {
     labels: Vec<LabelId>,
     /// Numbers of the continuous choices in the trace, when it was last here.
     numbers: Vec<usize>,
-    /// Every choice that keeps its value unless the density says otherwise.
+    /// Every choice that keeps its value unless the density changes it.
     known: HashSet<u128>,
     last: u64,
 }
@@ -64,7 +64,7 @@ pub(crate) struct Moving<'a> {
     pub numbers: &'a [usize],
 }
 
-/// What of a choice is part of the structure.
+/// The part of a choice that belongs to the structure, hashed.
 fn part(address: u128, family: Option<Family>, value: &Value, moves: bool) -> u128 {
     const ODD: u128 = 0x9E37_79B9_7F4A_7C15_F39C_C060_5CED_C835;
     let held = match value {
@@ -87,7 +87,7 @@ impl Structures {
     /// whether it may move.
     ///
     /// # Errors
-    /// An operation without a derivative on the way to the score, or another fault of the recorded run.
+    /// An operation without a derivative on which the score depends, or another fault of the recorded run.
     pub fn find(
         &mut self,
         model: &Model,
@@ -106,9 +106,9 @@ impl Structures {
         self.clock += 1;
         self.now = key;
         if !self.all.contains_key(&key) {
-            let made = Structure::record(model, trace, program, beta, moves, label)?;
+            let structure = Structure::record(model, trace, program, beta, moves, label)?;
             self.met += 1;
-            self.all.insert(key, made);
+            self.all.insert(key, structure);
             self.shrink();
         }
         if let Some(structure) = self.all.get_mut(&key) {
@@ -118,7 +118,7 @@ impl Structures {
         Ok(())
     }
 
-    /// Drops what was not used for longest, while there is too much.
+    /// Drops the graphs that were not used for longest, while there are too many operations.
     fn shrink(&mut self) {
         let mut size: usize = self.all.values().map(|one| one.target.live.size()).sum();
         while size > MOST_OPERATIONS && self.all.len() > 1 {
@@ -142,7 +142,7 @@ impl Structures {
         self.all.get(&self.now).is_some_and(|one| one.known.contains(&address))
     }
 
-    /// How many structures were met, those again that were dropped between, and how often the program was recorded.
+    /// How many structures were recorded (a dropped one counts again), and how often the program was recorded.
     pub fn recorded(&self) -> (u64, u64) {
         let recordings: usize = self.all.values().map(|one| one.target.live.recordings()).sum();
         (self.met, self.dropped + recordings as u64)
@@ -219,11 +219,11 @@ impl Target {
         &self.live
     }
 
-    /// The trace's place, at rest; `numbers` are its choices in the order of the structure.
+    /// The phase at the trace's coordinates, at rest; `numbers` are its choices in the order of the structure.
     ///
     /// # Errors
     /// The density has no finite value or gradient there.
-    pub fn stand(
+    pub fn start_phase(
         &mut self,
         trace: &Trace,
         program: &Program,
@@ -254,7 +254,7 @@ impl Target {
         full
     }
 
-    /// The log density over *values* at these coordinates, which lie on the path that was looked at last, and those of the
+    /// The log density over *values* at these coordinates, which are on the path that was used last, and those of the
     /// choices that move, each with its place among the structure's choices.
     pub fn values(&self, x: &[f64], log_density: f64) -> (f64, Vec<(usize, Value)>) {
         let recorded = self.live.recorded();
@@ -271,11 +271,11 @@ impl Target {
         (log_density - slope, values)
     }
 
-    /// Goes to the path of a point, and gives its log density.
+    /// Follows the path of a point, and returns its log density.
     ///
     /// # Errors
     /// The target's refusal.
-    pub fn look(&mut self, x: &[f64]) -> Result<f64, Stop> {
+    pub fn log_density(&mut self, x: &[f64]) -> Result<f64, Stop> {
         let mut slopes = vec![0.0; x.len()];
         evaluate(self, x, &mut slopes)
     }

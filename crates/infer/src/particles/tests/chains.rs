@@ -175,9 +175,9 @@ fn the_evidence_of_pimh_is_unbiased_over_all_calls() {
     }
 }
 
-/// It has no state before the first population that lives, and fails where none does.
+/// PIMH has no state before the first population that survives, and fails where none does.
 #[test]
-fn pimh_waits_for_a_population_that_lives() {
+fn pimh_waits_for_a_population_that_survives() {
     let (mut late, mut failed) = (0, 0);
     for seed in 0..300 {
         let own = Settings { seed, ..small(1, Order::Stochastic) };
@@ -196,9 +196,10 @@ fn pimh_waits_for_a_population_that_lives() {
     assert!((90..190).contains(&late) && (60..150).contains(&failed), "{late} and {failed}");
 }
 
-/// Particle Gibbs starts from the first population that lives, and fails where none of as many as PIMH has does.
+/// Particle Gibbs starts from the first population that survives. It tries as many populations as PIMH and fails where all
+/// of them die.
 #[test]
-fn particle_gibbs_waits_for_a_population_that_lives() {
+fn particle_gibbs_waits_for_a_population_that_survives() {
     let (mut late, mut failed) = (0, 0);
     for seed in 0..300 {
         let own = Settings { seed, ..small(2, Order::Stochastic) };
@@ -215,12 +216,12 @@ fn particle_gibbs_waits_for_a_population_that_lives() {
     assert!((160..250).contains(&late) && (12..70).contains(&failed), "{late} and {failed}");
 }
 
-/// A proposal whose population died is one that was rejected: the state stands for one more sweep.
+/// A proposal whose population died is a rejected one: the state stays for one more sweep.
 ///
 /// A population of one particle has the evidence 0, 1 or 3 with probability 0.6, 0.3, 0.1, and the value 1 or 2. A chain
 /// at 1 goes to 2 with probability 0.1 (if 2 is proposed), one at 2 to 1 with 0.3 / 3. So the share of 2 is
 /// `b' = 0.1 + 0.8 b`, from 1/4 where the first population lived. Chains that skip a dead sweep, or propose until one
-/// lives, move two and a half times as often: 0.375 after one sweep, not 0.3, which is 14 standard errors.
+/// survives, move two and a half times as often: 0.375 after one sweep, not 0.3, which is 14 standard errors.
 #[test]
 fn a_population_that_died_is_a_proposal_that_was_rejected() {
     let task = task(

@@ -246,7 +246,7 @@ fn fresh_seeds_agree_too() {
     }
 }
 
-/// Any order gives the right answer, so the tests above do not see who is picked: chi-square with 5 degrees of freedom,
+/// Any order gives the right answer, so the tests above do not show which future is picked: chi-square with 5 degrees of freedom,
 /// false alarm 1e-6, threshold 35.9.
 #[test]
 fn every_order_is_as_likely_as_any_other() {
@@ -293,7 +293,7 @@ fn copies_are_the_same_in_batches() {
     let settings = Settings { particles: 40, seed: 5, ..Settings::default() };
     let mut counts = vec![0; 40];
     (counts[7], counts[8], counts[30], counts[39]) = (1, 25, 3, 11);
-    let made = |batches: Option<(usize, usize)>| {
+    let copied = |batches: Option<(usize, usize)>| {
         let mut population = Population::start(&task, &settings, true).unwrap();
         population.advance(None).unwrap();
         let (mut ancestor, mut lineages) = ((0..40).collect::<Vec<_>>(), 40);
@@ -322,7 +322,7 @@ fn copies_are_the_same_in_batches() {
         (population.particles.iter().map(one).collect::<Vec<_>>(), ancestor, lineages)
     };
     for batches in [(1, 2), (4, 1), (4, 3), (16, 2)] {
-        assert_eq!(made(None), made(Some(batches)));
+        assert_eq!(copied(None), copied(Some(batches)));
     }
 }
 

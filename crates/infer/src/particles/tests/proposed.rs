@@ -57,7 +57,7 @@ const GUIDED: [(usize, &[(&str, &str)]); 7] = [
     ),
 ];
 
-/// A program that keeps what the proposals ask for, and the proposals.
+/// A program that keeps the variables of the proposals, and the proposals.
 fn guided(text: &str, parts: &[(&str, &str)]) -> (Task, Proposal) {
     let own = |(pattern, function): &(&str, &str)| {
         let user = User::new(task(&format!(r#"(module (fn "q" {function}) (entry "q"))"#))).unwrap();
@@ -96,7 +96,7 @@ fn evidence_and_posterior_do_not_depend_on_the_proposal() {
     }
 }
 
-/// Where weights wait for a resampling, powers change on the way, and particles are moved.
+/// With weights that wait for a resampling, powers that change, and particles that are moved.
 #[test]
 fn nor_do_they_beside_other_settings() {
     for (name, task, proposal) in cases() {
@@ -294,11 +294,11 @@ fn a_draw_outside_of_the_prior_is_impossible() {
         crate::Failure::Impossible { causes, .. } => causes,
         other => panic!("{other}"),
     };
-    let said = "the choice `x` at line 0: a proposal outside of its support".to_string();
+    let message = "the choice `x` at line 0: a proposal outside of its support".to_string();
     assert_eq!(
         causes(importance(&task, Some(&far), 50, 5, &mut |_| true).err().unwrap()),
-        [(said.clone(), 50)]
+        [(message.clone(), 50)]
     );
     let own = with(&Arc::new(far), Order::DepthFirst, 20);
-    assert_eq!(causes(smc(&task, &own, &mut |_| true).err().unwrap()), [(said, 20)]);
+    assert_eq!(causes(smc(&task, &own, &mut |_| true).err().unwrap()), [(message, 20)]);
 }

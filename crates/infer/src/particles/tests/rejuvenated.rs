@@ -6,7 +6,7 @@
 //! 300 counts are looked at, and a z beyond 5 comes once in 1.7 million (normal approximation; states that are expected
 //! fewer than 10 times are left out), so a re-seeded suite fails once in 5,000 runs.
 
-use super::super::partial_run::{PartialRun, With};
+use super::super::partial_run::{FollowSettings, PartialRun};
 use super::super::population::Population;
 use super::*;
 use crate::chain::kernel::Kernel;
@@ -91,7 +91,7 @@ fn log_order(
     barriers: usize,
 ) -> f64 {
     let depth_first = settings.order == Order::DepthFirst;
-    let with = With { task, depth_first, origins: false, weigh: &|_| Box::default() };
+    let with = FollowSettings { task, depth_first, origins: false, weigh: &|_| Box::default() };
     let mut machine = task.machine();
     let run = PartialRun::of(with, &mut machine, entries, barriers, &mut |_| panic!("the order is known"));
     let Some(run) = run.unwrap() else { return 0.0 };
@@ -107,7 +107,7 @@ fn log_order(
 }
 
 /// The worst z of the counts of moved draws from the law at a barrier, the number of states, and the moves.
-fn moved_draws(task: &Task, settings: &Settings, barriers: usize) -> (f64, usize, Moved) {
+fn moved_draws(task: &Task, settings: &Settings, barriers: usize) -> (f64, usize, MoveCounts) {
     let mut population = Population::start(task, settings, false).unwrap();
     let mut first = population.particles[0].fork();
     for _ in 0..barriers {
@@ -162,7 +162,7 @@ fn draws(kernel: Kernel, order: Order, power: f64) -> Settings {
 
 #[test]
 fn moves_of_partial_programs_leave_their_law_as_it_is() {
-    let mut all = Moved::default();
+    let mut all = MoveCounts::default();
     for (name, text) in programs() {
         let task = task(text);
         for (order, power) in [(Order::DepthFirst, 1.0), (Order::Stochastic, 1.7)] {

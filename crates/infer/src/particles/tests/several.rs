@@ -71,7 +71,7 @@ fn threads_change_nothing_in_populations() {
     }
 }
 
-/// A run that is worth much takes ten barriers, any other two; a barrier of a population is a second.
+/// A run with a high weight takes ten barriers, any other two; a barrier of a population takes one second.
 const COSTLY: &str = r#"(module (fn "m" (params) (set $x (sample (dist bernoulli 0.005)))
     (do (factor (cond $x 6.0 0.0)))
     (if $x (then (for $i (range 8) (body (do (factor 0.0)))))) (return $x)) (entry "m"))"#;
@@ -95,7 +95,7 @@ fn timed_scores(seconds: u64) -> Vec<(String, f64)> {
 /// Z-scores as in the parent module, over 6,000 searches each. In eight seconds one to three populations count, some of them
 /// alone and late; in twenty-five two to a dozen do.
 #[test]
-fn a_search_by_time_is_unbiased_though_what_is_worth_much_costs_much() {
+fn a_search_by_time_is_unbiased_though_runs_of_high_weight_cost_more() {
     for seconds in [8, 15, 25] {
         let scores = timed_scores(seconds);
         assert!(worst(&scores) < LIMIT, "{seconds}: {scores:?}");

@@ -1,16 +1,16 @@
-//! What became of trajectories.
+//! Counts of trajectories.
 
 use crate::hamiltonian::{BrokenOff, Cause, Stop, Transition};
 use niwaki_vm::machine::stack::RunFault;
 
 /// Counts over the transitions of one leaf.
 #[derive(Clone, Debug, Default)]
-pub struct Travel {
+pub struct TrajectoryCounts {
     /// Transitions, those of the warm-up included.
-    pub made: u64,
+    pub transitions: u64,
     /// Those whose end point the trace took.
     pub moved: u64,
-    /// Those whose end point it did not take, though the trajectory did: the run there is another than the recorded one.
+    /// Those whose end point the trajectory accepted and the trace did not: the run there differs from the recorded one.
     pub unwritten: u64,
     /// Transitions after the warm-up.
     pub settled: u64,
@@ -20,37 +20,37 @@ pub struct Travel {
     pub gradients: u64,
     /// Those that broke off.
     pub broken: BrokenOff,
-    /// What the first of them met that came to a point without a finite gradient.
+    /// The fault of the first one that reached a point without a finite gradient.
     pub fault: Option<Box<RunFault>>,
 }
 
-impl Travel {
-    /// Counts a transition; `fault` says why its gradient was no number, where it was none.
+impl TrajectoryCounts {
+    /// Counts a transition; `fault` gives the reason where its gradient was not finite.
     pub(crate) fn count(
         &mut self,
-        made: &Transition,
+        transition: &Transition,
         warming: bool,
         fault: impl FnOnce() -> Option<Box<RunFault>>,
     ) {
-        self.made += 1;
-        self.gradients += u64::from(made.steps);
+        self.transitions += 1;
+        self.gradients += u64::from(transition.steps);
         if !warming {
             self.settled += 1;
-            self.accept += made.accept;
+            self.accept += transition.accept;
         }
-        if let Some(divergence) = &made.divergence {
+        if let Some(divergence) = &transition.divergence {
             self.broke_off(divergence.stop, warming, fault);
         }
     }
 
-    /// Counts a transition that could not begin: the density has no finite gradient where the trace stands.
+    /// Counts a transition that could not begin: the density has no finite gradient at the trace.
     pub(crate) fn refused(
         &mut self,
         stop: Stop,
         warming: bool,
         fault: impl FnOnce() -> Option<Box<RunFault>>,
     ) {
-        self.made += 1;
+        self.transitions += 1;
         self.settled += u64::from(!warming);
         self.broke_off(Some(stop), warming, fault);
     }
@@ -69,9 +69,9 @@ impl Travel {
     }
 }
 
-impl std::ops::AddAssign<&Travel> for Travel {
-    fn add_assign(&mut self, other: &Travel) {
-        self.made += other.made;
+impl std::ops::AddAssign<&TrajectoryCounts> for TrajectoryCounts {
+    fn add_assign(&mut self, other: &TrajectoryCounts) {
+        self.transitions += other.transitions;
         self.moved += other.moved;
         self.unwritten += other.unwritten;
         self.settled += other.settled;
