@@ -358,7 +358,7 @@ impl Smc {
         Ok(Settings { particles, seed: given.seed, rejuvenate, proposal, ..self.settings.clone() })
     }
 
-    /// Sizes of its populations where no time decides them: results that differ need as many, unless chains find them.
+    /// Sizes of its populations without a time limit. Different results need one population each, unless chains give them.
     fn plan(&self) -> Vec<usize> {
         match &self.particles {
             Sizes::Own(sizes) => sizes.clone(),

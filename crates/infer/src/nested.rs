@@ -256,8 +256,8 @@ fn fault_of(name: &str, failure: Failure) -> Fault {
 
 #[cfg(test)]
 mod tests {
-    //! The claim: an `infer` gives a draw from the inner posterior, whatever the method, and the same draw for the same
-    //! seed; what goes wrong inside is a fault outside.
+    //! The claim: an `infer` gives a draw from the inner posterior with every method, and the same draw for the same
+    //! seed. A failure inside is a fault outside.
     //!
     //! The inner model is a coin with p = 0.3 whose tails cost 1.5 nats: p(heads) = 0.3 / (0.3 + 0.7 exp(-1.5)). Each share
     //! is over 4,000 seeds and within 4.9 standard errors (one false alarm in a million); the bias of 200 weighted runs is

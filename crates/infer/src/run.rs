@@ -73,7 +73,7 @@ mod bits {
 
 #[cfg(test)]
 mod tests {
-    //! A run comes back from its data to the bit.
+    //! A run is restored from its data to the bit.
     use super::*;
 
     #[test]

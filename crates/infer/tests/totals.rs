@@ -1,5 +1,5 @@
-//! The claim: totals are exact whatever the sizes of their terms. What a chain carries is what a run from the start with
-//! its choices has, and terms that cancel leave the same chain, and the same particles, as no such terms.
+//! The claim: totals are exact for terms of any size. The totals of a chain equal those of a run from the start with its
+//! choices. Terms that cancel do not change a chain or particles.
 
 use niwaki_infer::Task;
 use niwaki_infer::chain::agreement::compare;

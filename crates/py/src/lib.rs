@@ -22,7 +22,7 @@ mod views;
 
 use pyo3::prelude::*;
 
-/// Searches run on threads of their own and copy many small things; the system's allocator is slow at that.
+/// Searches copy many small objects on several threads, where the system's allocator is slow.
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 

@@ -81,7 +81,7 @@ impl PyRun {
         self.run.similarity
     }
 
-    /// Whether the run went to its end.
+    /// Whether the run ended.
     #[getter]
     fn has_ended(&self) -> bool {
         self.run.has_ended

@@ -58,7 +58,7 @@ impl Watch {
     }
 }
 
-/// Runs `work` without the interpreter's lock on a thread of its own, its parallel parts on so many threads (`None`:
+/// Runs `work` without the interpreter's lock on a new thread, its parallel parts on `threads` threads (`None`:
 /// all of the machine's); meanwhile this thread watches. Also returns whether Ctrl-C was pressed, even if that was
 /// too late to stop anything.
 pub(crate) fn detached<T: Send>(

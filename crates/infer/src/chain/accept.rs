@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! log a =   log prior' - log prior + beta (log score' - log score)
-//!         + stale - fresh          choices that went or were drawn anew: their log densities, before and after
+//!         + stale - fresh          log densities of removed choices, less new ones; those drawn anew are in both
 //!         + backward - forward     log densities of proposing the changed values, back and there
 //!         + selection              log probability that this move is chosen, back less there
 //! ```
@@ -54,8 +54,8 @@ impl Terms<'_> {
     }
 }
 
-/// Log probability of picking a choice whose own weight is what it was, afterwards less before: the weights of all choices
-/// sum to these.
+/// Log probability of picking a choice whose weight is unchanged, afterwards less before. The arguments are the sums of
+/// all weights.
 #[inline(always)]
 pub(crate) fn selected(total: u64, after: u64) -> f64 {
     if after == total { 0.0 } else { (total as f64 / after as f64).ln() }

@@ -29,7 +29,7 @@ pub struct Compared {
     pub invalid: u64,
 }
 
-/// Everything that a state holds, as text.
+/// The whole content of a state, as text.
 pub fn dump(state: &State, program: &Program) -> String {
     let trace = &state.trace;
     let mut text = format!("{:?} {:?} {:?}\n", trace.result(), trace.totals(), state.log_sketches);
@@ -89,7 +89,7 @@ pub fn compare(
         let rungs = ladders[0].rungs.len();
         compared.proposals += rungs as u64;
         compared.accepted += ladders[0].rungs.iter().map(|rung| u64::from(rung.last.accepted)).sum::<u64>();
-        compared.faults += outcomes[0].iter().map(|line| u64::from(line.starts_with("fault"))).sum::<u64>();
+        compared.faults += outcomes[0].iter().filter(|line| line.starts_with("fault")).count() as u64;
         compared.invalid = tasks[0].invalid.counts().iter().map(|site| site.1).sum();
         compared.exchanges = ladders[0].exchanges.iter().map(|pair| pair.1).sum();
         if (step + 1) % every == 0 {

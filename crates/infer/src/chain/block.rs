@@ -1,7 +1,7 @@
 //! Blocks: many choices move a little at once, each with a probability of taking part.
 //!
 //! The support of a choice can depend on another choice of the block, so steps must not depend on parameters: a choice moves
-//! in the coordinates of its *family* (positive ones by a factor, those with bounds of their own in plain steps, which
+//! in the coordinates of its *family* (positive ones by a factor, bounded ones in plain steps, which
 //! are rejected outside), by its spread in the chain's first state. The step of a choice that is gone after the
 //! proposal, or has another family, does not count in either direction.
 

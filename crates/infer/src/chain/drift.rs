@@ -1,7 +1,7 @@
 //! Drift: a continuous choice moves a little, in coordinates in which it has no bounds.
 //!
-//! The step in the coordinate z is Gaussian ([`Support::moved`]), so the density of going from x to x' is symmetric except for a
-//! Jacobian: log q(x' | x) = log dz/dx at x' + a symmetric term. Leaving it out draws from the wrong distribution.
+//! The step in the coordinate z is Gaussian ([`Support::moved`]), so the density of a move from x to x' is symmetric except
+//! for a Jacobian: log q(x' | x) = log dz/dx at x' + a symmetric term. Leaving it out draws from the wrong distribution.
 
 use super::metropolis::Decision;
 use super::proposal::{FromPrior, Move};
@@ -28,7 +28,7 @@ pub struct Drift {
 }
 
 impl Drift {
-    /// The same first step at each of so many sites.
+    /// The same first step at each site.
     pub fn new(step: f64, target: f64, sites: usize) -> Drift {
         let log_steps = vec![step.ln(); sites];
         let steps = log_steps.iter().map(|log| log.exp()).collect();

@@ -192,7 +192,8 @@ fn named(state: &State, task: &Task, noted: &[Step]) -> Keyed {
     steps
 }
 
-/// The activations of two outlines, in the order of the first; an activation that only the second has comes after its predecessor there.
+/// The activations of two outlines, in the order of the first. An activation of the second alone comes after its
+/// predecessor there.
 fn merged(before: Vec<Activation>, after: Vec<Activation>) -> Vec<Activation> {
     let mut children: HashMap<u128, Vec<Activation>> = HashMap::new();
     let mut seen = std::collections::HashSet::new();

@@ -7,7 +7,7 @@
 pub fn matches(pattern: &str, address: &str) -> bool {
     let text = if pattern.contains('/') || pattern.contains("**") { address } else { last(address) };
     let (pattern, text): (Vec<char>, Vec<char>) = (pattern.chars().collect(), text.chars().collect());
-    // Where to backtrack to: in the pattern after the last star, in the text one character after its match.
+    // Where to backtrack to: a star of the pattern, and one more character of the text.
     let (mut p, mut t) = (0, 0);
     let mut returns: Vec<(usize, usize)> = Vec::new();
     loop {

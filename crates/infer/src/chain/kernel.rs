@@ -68,11 +68,11 @@ pub enum Kernel {
     Cycle(Vec<Kernel>),
     /// One of several, by weight.
     Mixture(Vec<(f64, Kernel)>),
-    /// One, so many times.
+    /// One kernel, a number of times.
     Repeat(u64, Box<Kernel>),
     /// Restricted to some choices, or with other selection weights.
     On(Selection, Box<Kernel>),
-    /// The score's power goes from `start` to `end`, geometrically, in so many proposals.
+    /// The score's power goes from `start` to `end`, geometrically, in `steps` proposals.
     Anneal {
         /// First power.
         start: f64,

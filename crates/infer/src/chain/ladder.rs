@@ -21,7 +21,7 @@ pub struct Ladder<R: Rules = MetropolisHastings> {
     pub rungs: Vec<Chain<R>>,
     every: u64,
     streams: Streams,
-    /// Exchanges tried and made between each rung and the next.
+    /// Exchanges tried and accepted between each rung and the next.
     pub exchanges: Vec<(u64, u64)>,
 }
 
@@ -39,7 +39,7 @@ impl<R: Rules> Ladder<R> {
         Ladder::start_at(task, settings, number, |_| known)
     }
 
-    /// As [`Ladder::start`], each rung with first values of its own.
+    /// As [`Ladder::start`], with first values for each rung.
     ///
     /// # Errors
     /// As for [`Chain::start`].
@@ -92,7 +92,7 @@ impl<R: Rules> Ladder<R> {
         Ok(())
     }
 
-    /// Every other pair of neighbours, by turns, may exchange states, if this is the time.
+    /// Tries to exchange states between every other pair of neighbours, alternating, where an exchange is due.
     pub(super) fn exchange_if_due(&mut self) {
         if !self.visit().is_multiple_of(self.every) {
             return;

@@ -52,12 +52,12 @@ pub(crate) trait Target {
     }
 
     /// One choice moves.
-    fn single<M: Move>(&mut self, how: &mut M) -> Result<(), Failure>;
+    fn single<M: Move>(&mut self, proposer: &mut M) -> Result<(), Failure>;
 
     /// Many choices move a little at once.
     fn block(&mut self, block: &mut Block) -> Result<(), Failure>;
 
-    /// A call so many levels above a choice is drawn anew.
+    /// The call `levels` above a choice is drawn anew.
     fn regenerate(&mut self, _levels: usize) -> Result<(), Failure> {
         Ok(())
     }

@@ -7,7 +7,7 @@
 //!
 //! ```text
 //! log a =   log p' - log p + beta (log s' - log s)
-//!         + stale - fresh                        choices that went, choices that came: their log densities
+//!         + stale - fresh                        removed choices, new choices: their log densities
 //!         + log q(x | x') - log q(x' | x)        backward - forward
 //!         + log 1 / W' - log 1 / W               selection: the picked choice weighs the same before and after
 //! ```
@@ -46,7 +46,7 @@ impl<R: Rules> Chain<R> {
         &mut self,
         task: &Task,
         machine: &mut Machine<'_>,
-        how: &mut M,
+        proposer: &mut M,
         table: Option<usize>,
         beta: f64,
     ) -> Result<(), Failure> {
@@ -68,7 +68,7 @@ impl<R: Rules> Chain<R> {
 
         let site = self.counts.number(self.state.trace.site_of(choice));
         let noting = self.best.is_noting();
-        let mut proposal = MoveProposal { how, site, key: self.streams.moves(visit), noting, old: None };
+        let mut proposal = MoveProposal { proposer, site, key: self.streams.moves(visit), noting, old: None };
         let mut answers = Fresh::plain(self.streams.fresh(visit), &*task.hosts);
         let (trace, strategy) = (&mut self.state.trace, self.settings.strategy);
         let change = match machine.propose(trace, choice, strategy, &mut proposal, &mut answers) {
@@ -94,7 +94,7 @@ impl<R: Rules> Chain<R> {
         count.accepted += u64::from(decision.accepted);
         count.outside += u64::from(outside);
         if !decision.same {
-            how.learn(site, decision);
+            proposer.learn(site, decision);
         }
         Ok(())
     }

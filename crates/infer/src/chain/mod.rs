@@ -208,7 +208,7 @@ impl<R: Rules> Chain<R> {
         })
     }
 
-    /// From now on the chain follows this power of the score, over states with so many barriers where that is fixed:
+    /// From now on the chain follows this power of the score, over states with a fixed number of barriers where it is given:
     /// primitives, factors and observations together.
     pub(crate) fn restrict(&mut self, beta: f64, barriers: Option<usize>) {
         (self.beta, self.barriers) = (beta, barriers);
@@ -309,8 +309,8 @@ impl<R: Rules> Target for Proposing<'_, '_, R> {
     }
 
     #[inline(always)]
-    fn single<M: Move>(&mut self, how: &mut M) -> Result<(), Failure> {
-        self.chain.single(self.task, self.machine, how, self.table, self.beta)
+    fn single<M: Move>(&mut self, proposer: &mut M) -> Result<(), Failure> {
+        self.chain.single(self.task, self.machine, proposer, self.table, self.beta)
     }
 
     fn block(&mut self, block: &mut Block) -> Result<(), Failure> {

@@ -34,7 +34,7 @@ pub(crate) struct Plan {
     pub leaves: Vec<Leaf>,
     branches: Vec<Branch>,
     root: usize,
-    /// Of a mixture of leaves and nothing else: cumulative weights, and the leaves.
+    /// Of a mixture of leaves alone: cumulative weights, and the leaves.
     flat: Option<(Vec<f64>, Vec<usize>)>,
     /// Branches that are being applied, each with the number of applications begun inside.
     cursor: Vec<(usize, u64)>,
@@ -201,7 +201,7 @@ impl Plan {
 
 #[cfg(test)]
 mod tests {
-    //! Applications come in the order that the tree says, whatever the depth.
+    //! Applications have the order of the tree, at any depth.
     use super::*;
 
     fn order(kernel: &Kernel, n: usize) -> Vec<usize> {

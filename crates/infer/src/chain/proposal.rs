@@ -29,7 +29,7 @@ pub(crate) trait Move {
     fn learn(&mut self, _site: usize, _decision: Decision) {}
 }
 
-/// From the choice's own distribution, whatever its value was.
+/// From the choice's own distribution.
 pub(crate) struct FromPrior;
 
 impl Move for FromPrior {
@@ -52,7 +52,7 @@ impl Move for FromPrior {
 
 /// A move of the choice at one site, in the form that the machine calls.
 pub(super) struct MoveProposal<'a, M> {
-    pub how: &'a mut M,
+    pub proposer: &'a mut M,
     pub site: usize,
     pub key: StreamKey,
     /// Whether to keep the old value in `old`.
@@ -75,6 +75,6 @@ impl<M: Move> Propose<f64> for MoveProposal<'_, M> {
         if self.noting {
             self.old = Some((address, old.clone()));
         }
-        self.how.propose(at, self.site, dist, old, log_density, &mut self.key.at(address))
+        self.proposer.propose(at, self.site, dist, old, log_density, &mut self.key.at(address))
     }
 }

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 /// Samples, oldest first.
 pub struct Samples {
-    /// The samples, shared with whoever reads them.
+    /// The samples, shared with their readers.
     pub all: Vec<Arc<Run>>,
     /// Proposals between two samples; doubled when they take too much memory. Zero: no samples.
     pub thin: u64,

@@ -117,7 +117,7 @@ impl Weigh for Selection {
 }
 
 impl Selection {
-    /// The weight of a choice with that readable address and so many calls above it.
+    /// The weight of a choice with this readable address and number of calls above it.
     pub(crate) fn weigh(&self, path: impl FnOnce() -> String, depth: impl FnOnce() -> usize) -> u64 {
         let mut weight = 1.0;
         let mut nested = None;

@@ -1,4 +1,4 @@
-//! Chains of a task that follow its gradient, each from a possible run of its own.
+//! Chains of a task that follow its gradient, each from its own possible run.
 //!
 //! Discrete choices and the structure stay as they are in that run: a point at which the run would make other choices is
 //! refused, and its trajectory rejected.
@@ -76,7 +76,7 @@ pub struct Plan<'a> {
     pub known: Option<&'a HashMap<u128, Value>>,
 }
 
-/// Lanes of chains that move together, where each thread has so many of them, and where it has fewer.
+/// The number of lanes, where each thread has at least as many chains, and where it has fewer.
 const MANY: usize = 64;
 const FEW: usize = 16;
 /// Fewer chains run alone, each with machine code: empty lanes cost as much as full ones.
@@ -146,7 +146,7 @@ fn grouped(settings: &Settings, members: &[Option<Member>]) -> Vec<Vec<usize>> {
     for (_, chains) in alike {
         let each = chains.len().div_ceil(rayon::current_num_threads());
         let alone = !lanes::suits(settings) || each < LEAST;
-        // In lanes, all ascents of a thread: where one has ended, the next one takes its lane.
+        // In lanes, all chains of a thread: where one ascent has ended, the next one takes its lane.
         groups.extend(chains.chunks(if alone { 1 } else { each }).map(<[usize]>::to_vec));
     }
     groups
@@ -231,7 +231,7 @@ fn in_lanes<const L: usize>(
         drop(chains);
         return Err(no_slope(&group[at].target, &group[at].start));
     }
-    // Groups of one size, so that no few are left over.
+    // Groups of equal size, so that no small group is left.
     let even = chains.len().div_ceil(chains.len().div_ceil(L));
     let mut chains = chains.into_iter().peekable();
     let mut draws = Vec::with_capacity(chains.len());
@@ -259,7 +259,7 @@ fn explored(
     let mut numbers = Vec::new();
     let mut slope = vec![0.0; target.dim()];
     for (draw, x) in draws.rows().enumerate() {
-        // Values follow from coordinates by the path that the point is on.
+        // The path of the point gives the values for its coordinates.
         let on_path = target.gradient(x, &mut slope).is_ok();
         debug_assert!(on_path, "draw {draw} is a point of the density");
         numbers.extend(target.recorded().numbers(x));

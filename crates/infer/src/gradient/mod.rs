@@ -1,7 +1,7 @@
 //! Gradients of a task: its log density over the continuous choices of one run.
 //!
 //! * [`follow`]: that density as a target of chains, with the reasons for which it refuses a point;
-//! * [`explore`]: chains of a task, each from a possible run of its own.
+//! * [`explore`]: chains of a task, each from its own possible run.
 
 pub mod explore;
 pub mod follow;

@@ -25,7 +25,7 @@ pub enum Length {
         /// In `[0, 1]`.
         jitter: f64,
     },
-    /// Until it turns back, at most so many doublings.
+    /// Until it turns back.
     NoUTurn {
         /// Most doublings.
         max_depth: u32,
@@ -150,7 +150,7 @@ impl<P: Potential> Chain<P> {
         Chain::on_top(target, &start, climbed, settings, seed, number)
     }
 
-    /// A chain at `start`, which was reached with so many gradients.
+    /// A chain at `start`, which was reached with `climbed` gradients uphill.
     ///
     /// # Errors
     /// The target's refusal of `start`.
@@ -336,7 +336,7 @@ pub fn run<P: Potential>(chain: Chain<P>, settings: &Settings, watch: &dyn Fn(u3
     while !ongoing.is_over() {
         let transition = ongoing.chain.advance();
         ongoing.take(&transition);
-        ongoing.look(watch);
+        ongoing.check(watch);
     }
     ongoing.finish()
 }
@@ -387,7 +387,7 @@ impl<'a, P: Potential> Ongoing<'a, P> {
     }
 
     /// Calls `watch` regularly, and stops the chain when it returns false.
-    pub(super) fn look(&mut self, watch: &dyn Fn(u32) -> bool) {
+    pub(super) fn check(&mut self, watch: &dyn Fn(u32) -> bool) {
         let visit = self.chain.visit;
         self.draws.interrupted |= visit.is_multiple_of(GLANCE) && !watch(visit as u32);
     }

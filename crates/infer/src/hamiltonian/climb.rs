@@ -68,7 +68,7 @@ impl Ascent {
             self.top.copy_from_slice(&self.at);
         }
         self.taken += 1;
-        self.look(value);
+        self.check(value);
         self.is_over |= self.taken == steps;
         self.share *= MEMORY;
         let rows = self.at.iter_mut().zip(&mut self.slope).zip(&mut self.size).zip(gradient);
@@ -81,7 +81,7 @@ impl Ascent {
     }
 
     /// Checks regularly whether steps are too long, or bring no gain.
-    fn look(&mut self, value: f64) {
+    fn check(&mut self, value: f64) {
         self.heights.push(value);
         if self.heights.len() < LOOK.max(self.taken / 10) as usize {
             return;

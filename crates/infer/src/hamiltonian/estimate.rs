@@ -14,7 +14,7 @@ use niwaki_math::Stream;
 const PRIOR_DRAWS: f64 = 5.0;
 /// How many draws a direction of the low-rank metric needs.
 const ENOUGH: usize = 3;
-/// Added to the covariances within a basis, in units of the scales: a direction that did not move at all stays finite.
+/// Added to the covariances within a basis, in units of the scales: so that a direction without any movement stays finite.
 const RIDGE: f64 = 1e-8;
 /// Most directions looked at, for the draws and for the gradients each.
 const MOST_DIRECTIONS: usize = 16;
@@ -74,9 +74,9 @@ impl Window {
         }
     }
 
-    /// The draws' covariance, drawn to its own diagonal: positive definite however few draws there are, and in any
-    /// units. It costs the tightest directions some of their scale; taken as it is, the covariance of an early window,
-    /// in which the chain ran along one arm of a bent target, holds the chain to that arm for good.
+    /// The draws' covariance, shrunk to its diagonal: positive definite however few draws there are, and in any
+    /// units. The tightest directions lose some of their scale. Without this the covariance of an early window, in which
+    /// the chain moved along one arm of a bent target, would keep the chain in that arm.
     fn dense(&self) -> Option<Metric> {
         let (n, dim) = (self.len() as f64, self.dim);
         let rows = centred(&self.draws, dim);

@@ -3,7 +3,7 @@
 //! Chains that move over one density differ in position, step size and scales. A group of them takes
 //! each leapfrog step together, with one evaluation for all; momentum, acceptance and adaptation are each chain's own.
 //! The operations on a lane are those of the leapfrog integrator, in its order, so a lane gives the bits that its chain
-//! gives alone, where the wide density gives the bits of the chain's own.
+//! gives alone, where the wide density gives the bits of the chain's own target.
 //!
 //! Where the wide density does not cover a point, the chain's own target evaluates it.
 
@@ -62,7 +62,7 @@ pub fn run_in_lanes<P: Potential, const L: usize>(
         };
         for (&l, transition) in going.iter().zip(&transitions) {
             all[l].take(transition);
-            all[l].look(&|done| watch(l, done));
+            all[l].check(&|done| watch(l, done));
         }
     }
     all.into_iter().map(Ongoing::finish).collect()

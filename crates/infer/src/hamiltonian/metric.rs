@@ -74,7 +74,7 @@ impl Metric {
         Metric::LowRank { deviation, directions }
     }
 
-    /// How many coordinates.
+    /// The number of coordinates.
     pub fn dim(&self) -> usize {
         match self {
             Metric::Diagonal { variance, .. } => variance.len(),

@@ -200,8 +200,8 @@ impl<P: Potential + ?Sized> Growth<'_, P> {
         Some(older)
     }
 
-    /// Lengthens `older` by the `newer` stretch that follows it, whose chosen point it takes where `take` says so; true when
-    /// the two together have turned.
+    /// Lengthens `older` by the `newer` stretch that follows it; with `take` it takes the chosen point of `newer`. True when
+    /// the two together have turned back.
     fn join(&mut self, older: &mut Stretch, newer: Stretch, take: bool) -> bool {
         use Part::{FirstP, FirstV, Gradient, LastP, LastV, Rho, X};
         let turns = |v: &[f64], p: &[f64], rho: &[f64]| dot(v, p) + dot(v, rho) <= 0.0;

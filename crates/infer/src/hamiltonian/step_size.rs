@@ -58,7 +58,7 @@ impl DualAveraging {
 
 /// A step with which one leapfrog step is accepted with probability about 0.8: doubled or halved from `from` until
 /// the acceptance crosses that. The whole energy counts, kinetic too (Hoffman & Gelman 2014, algorithm 4; 0.8 as in
-/// Stan). Each try draws a momentum of its own.
+/// Stan). Each try draws a new momentum.
 pub fn first_guess(
     target: &mut (impl Potential + ?Sized),
     metric: &Metric,

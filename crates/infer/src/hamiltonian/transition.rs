@@ -7,7 +7,7 @@ use super::nuts::Nuts;
 use super::potential::{Cause, Potential, Stop};
 use niwaki_math::Stream;
 
-/// What one transition did.
+/// The result of one transition.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Transition {
     /// Mean acceptance probability over the trajectory's proposals, in `[0, 1]`: what the step size is adapted to.
@@ -46,7 +46,7 @@ pub struct BrokenOff {
     pub refused: [u64; Cause::COUNT],
     /// How many after the warm-up drifted in energy.
     pub drifted: u64,
-    /// How many in the warm-up, whatever the reason.
+    /// How many in the warm-up, for any reason.
     pub in_warmup: u64,
 }
 

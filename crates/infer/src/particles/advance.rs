@@ -10,7 +10,7 @@ use niwaki_math::{Stream, StreamKey, Total};
 use niwaki_vm::machine::state::State;
 use niwaki_vm::machine::{Machine, Stop};
 
-/// Order choices have streams of their own: this visit of the particle's stream.
+/// The visit of the particle's stream for order choices.
 const ORDER: u64 = 1;
 
 /// A particle.
@@ -21,7 +21,7 @@ pub(super) struct Particle {
     pub lineage: u64,
     /// That stream's key, for the choices of the model.
     pub stream: StreamKey,
-    /// How many order choices it has made.
+    /// How many order choices it has drawn.
     pub picks: u64,
     /// Whether it had ended before the last barrier.
     pub was_ended: bool,
@@ -115,7 +115,7 @@ impl Particle {
         }
     }
 
-    /// Becomes a copy of `parent`, with a random stream of its own.
+    /// Becomes a copy of `parent`, with a new random stream.
     pub fn copy_from(&mut self, parent: &mut Particle, lineage: u64, seed: u64) {
         self.state.clone_from(&parent.state);
         self.record.become_copy(&mut parent.record);

@@ -81,21 +81,21 @@ impl Copies {
     /// then frees memory that it allocated itself. These particles are not used any more.
     fn give_near(&self, particles: &mut [Particle]) {
         // Indices whose particle another thread should overwrite, by the thread that ran the particle.
-        let mut strange: Vec<Vec<usize>> = Vec::new();
+        let mut foreign: Vec<Vec<usize>> = Vec::new();
         for (at, (&(_, place), &wanted)) in self.moves.iter().zip(&self.threads).enumerate() {
             let home = particles[place].home;
             if wanted == home {
                 continue;
             }
-            if strange.len() <= wanted.max(home) {
-                strange.resize(wanted.max(home) + 1, Vec::new());
+            if foreign.len() <= wanted.max(home) {
+                foreign.resize(wanted.max(home) + 1, Vec::new());
             }
-            match strange[wanted].pop() {
-                None => strange[home].push(at),
+            match foreign[wanted].pop() {
+                None => foreign[home].push(at),
                 Some(other) => {
                     particles.swap(place, self.moves[other].1);
                     if self.threads[other] != home {
-                        strange[home].push(other);
+                        foreign[home].push(other);
                     }
                 }
             }

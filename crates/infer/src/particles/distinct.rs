@@ -98,7 +98,7 @@ fn fingerprint(value: &Value) -> u64 {
         Value::Real(x) => (1, x.to_bits()).hash(&mut hasher),
         Value::Int(k) => (2, k).hash(&mut hasher),
         Value::Bool(b) => (3, b).hash(&mut hasher),
-        // Every drawn value can be serialised.
+        // Every drawn value can be written as text.
         other => niwaki_vm::value::repr(other).ok().hash(&mut hasher),
     }
     hasher.finish()

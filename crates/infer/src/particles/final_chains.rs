@@ -2,10 +2,10 @@
 //! weight. A chain that leaves the final law invariant starts from each, and the states of the chains, a fixed number of
 //! proposals apart, replace the final set.
 //!
-//! Each state is one of a particle that was drawn by weight and then moved a number of times that is fixed beforehand:
+//! Each state is that of a particle that was drawn by weight and then moved a number of times that is fixed beforehand:
 //! the first states of all chains once `moves`, the second ones twice, and so on. So each keeps expectations as they are,
 //! as moves of every particle do, and the evidence is not touched. Final chains are cheaper, because a run is built once for
-//! a chain and not once for a copy, and they go further, because each state of a chain starts from the one before.
+//! a chain and not once for a copy, and they move further, because each state of a chain starts from the one before.
 
 use super::moves::{CHAINS, chain_from, record_of};
 use super::population::Population;

@@ -11,7 +11,7 @@
 //! w_i  p(x', order | prefix i)  s(prefix i, x')^T / s(prefix i)^(T_n)
 //! ```
 //!
-//! in which a proposal for the choices has no part: the law that the sweep holds is that of the choices, `p s^T`, and the rest
+//! A proposal for the choices has no part in it: the sweep leaves the law of the choices, `p s^T`, invariant, and the rest
 //! is not drawn but held, so its density under the prior remains (Lindsten et al., eq. 15: the target of the whole over that
 //! of the prefix). What the proposal drew of the prefix is in `w_i`. The held run's own weight counts `log p - log q` of its
 //! choices like that of any other particle, although they were not drawn: it is computed anew as the run is followed, and so by
@@ -46,9 +46,9 @@ const ORDERS: u64 = u64::MAX - 4;
 pub struct Chain {
     /// Its state after each sweep, from the first one that had a possible run; weights are equal.
     pub states: Vec<Outcome>,
-    /// How often it could have moved: ancestors drawn for the held run; proposals.
+    /// How many moves were tried: ancestors drawn for the held run, or proposals.
     pub tries: usize,
-    /// How often it did: ancestors that were another particle's; proposals accepted.
+    /// How many moves changed the state: ancestors of another particle, or accepted proposals.
     pub moves: usize,
     /// The share of choices that each of these sweeps renewed.
     pub renewed: Vec<f64>,

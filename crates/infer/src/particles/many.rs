@@ -31,12 +31,12 @@
 //! ```
 //!
 //! exactly, however short the time is (Glynn & Heidelberger 1990, "Bias properties of budget constrained simulations"). The
-//! same holds for the weighted sum of any function of the particles. What it does not allow: to finish the one that runs at
-//! the deadline and count it where others are complete, to leave `N = 0` out or count it as zero, to let the measured
-//! cost of one population decide the size of the next, or to count those that are complete of several that run at once.
-//! What it assumes of the machine is that no population is slower because of its place in the sequence.
+//! same holds for the weighted sum of any function of the particles. Not allowed are: to finish the population that
+//! runs at the deadline and count it with others; to leave `N = 0` out or count it as zero; to choose the size of a
+//! population by the measured cost of an earlier one; to run several at once and count the complete ones. The rule
+//! assumes that no population is slower because of its place in the sequence.
 //!
-//! A search that is stopped from outside keeps what it has, that population too which is not complete, and so has no
+//! A search that is stopped from outside keeps its particles, also those of an incomplete population. So it has no
 //! evidence.
 
 use super::rejuvenation::MoveCounts;
@@ -52,13 +52,13 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-/// The streams from which the seeds of further populations and of pilots come: no lineage has these numbers.
+/// The streams for the seeds of further populations and of pilots: no lineage has these numbers.
 const POPULATIONS: u64 = u64::MAX - 1;
 const PILOTS: u64 = u64::MAX - 10;
 
 /// Particles of the first pilot.
 const PILOT: usize = 32;
-/// How much larger a pilot may be than the one before it: what a particle costs is known for sizes like that.
+/// How much larger a pilot may be than the one before it: the measured cost of a particle holds for similar sizes.
 const GROWTH: f64 = 8.0;
 /// Share of the time that the last pilot is planned to take.
 const PILOT_SHARE: f64 = 0.1;
@@ -66,7 +66,7 @@ const PILOT_SHARE: f64 = 0.1;
 const PILOT_LIMIT: f64 = 0.25;
 /// Share of the time left that one population is planned to take: three are then complete even if they cost a tenth more.
 const SHARE: f64 = 0.3;
-/// A population has at least so many particles.
+/// A population has at least this many particles.
 const LEAST: usize = 16;
 
 /// The seed of the `number`-th population; of the first, the seed itself.
@@ -95,7 +95,7 @@ pub fn populations(
     let one = |(number, &particles): (usize, &usize)| {
         let own = Settings { particles, seed: population_seed(settings.seed, number), ..settings.clone() };
         run(task, &own, !alone, &mut |progress| {
-            // Threads do not wait for each other here.
+            // A thread does not wait here while another one calls `watch`.
             if let Ok(mut watch) = watch.try_lock()
                 && !watch(progress)
             {

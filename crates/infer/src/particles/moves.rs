@@ -28,7 +28,7 @@ use std::collections::HashMap;
 
 /// Visits of a particle's stream, four for each move: the model's own choices and the order have the first two.
 const VISITS: u64 = 4;
-/// The stream from which seeds of chains come: no lineage has this number.
+/// The stream for the seeds of chains: no lineage has this number.
 pub(super) const CHAINS: u64 = u64::MAX - 8;
 
 /// A particle that still runs, while it is moved.
@@ -40,7 +40,7 @@ struct Moving<'a, 'm> {
     with: FollowSettings<'a>,
     /// Which of a choice's selection weights counts; all choices weigh the same where none does.
     weight: Option<usize>,
-    /// The first of the visits of this move.
+    /// The first visit of this move.
     visit: u64,
     /// Which choice is changed, and whether the change is kept.
     rng: Stream,
@@ -103,7 +103,7 @@ pub(super) fn move_running(
 
 /// Calls are not regenerated here, because the skeleton must stay; trajectories move particles at the end only.
 impl Target for Moving<'_, '_> {
-    fn single<M: Move>(&mut self, how: &mut M) -> Result<(), Failure> {
+    fn single<M: Move>(&mut self, proposer: &mut M) -> Result<(), Failure> {
         let total = self.total(&self.now);
         if total == 0 {
             return Ok(());
@@ -121,7 +121,7 @@ impl Target for Moving<'_, '_> {
                 return Ok(None);
             }
             let site = numbers.get(&c.site).copied().unwrap_or(0);
-            how.propose(at, site, dist, &c.value, c.log, &mut values.at(c.address)).map(Some)
+            proposer.propose(at, site, dist, &c.value, c.log, &mut values.at(c.address)).map(Some)
         };
         let next = self.now.again(self.with, self.machine, propose, self.stream(0))?;
         let after = next.as_ref().map_or(total, |(next, _)| self.total(next));

@@ -36,7 +36,7 @@ pub(super) struct Choice {
     pub weights: Box<[u64]>,
 }
 
-/// One thing that happened.
+/// One step of a run.
 #[derive(Clone, Debug)]
 pub(super) enum Step {
     /// A future ran: its path; where several could, its place among them and a hash of their paths.
@@ -83,7 +83,7 @@ pub(super) struct Densities {
 
 impl PartialRun {
     /// The run with the choices of a log, to its `barriers`-th barrier or to its end. Futures run in the order of the log's
-    /// order choices; where one is missing, `draw` picks among so many. `None` where the run is impossible.
+    /// order choices; where one is missing, `draw` picks one of the given number. `None` where the run is impossible.
     ///
     /// # Errors
     /// Choices of another model, a fault of the program.
@@ -179,7 +179,7 @@ impl PartialRun {
         self.steps.iter().filter_map(Step::choice)
     }
 
-    /// What happened up to each barrier, and from the last one to the end.
+    /// The steps up to each barrier, and from the last one to the end.
     pub fn segments(&self) -> Vec<&[Step]> {
         self.steps.split(Step::is_barrier).collect()
     }
@@ -223,7 +223,7 @@ impl PartialRun {
         log
     }
 
-    /// The choice at an address: as a rule the first one from `at` on, which then moves behind it.
+    /// The choice at an address: usually the first one from `at` on. Then `at` moves behind it.
     fn find(&self, address: u128, at: &mut usize) -> Option<&Choice> {
         let is_it = |choice: &&Choice| choice.address == address;
         let (passed, ahead) = self.steps.split_at(*at);

@@ -1,7 +1,7 @@
 //! Particle independent Metropolis-Hastings: SMC as the proposal of a chain of whole runs (Andrieu, Doucet &
 //! Holenstein 2010, section 2.4.2).
 //!
-//! Each sweep runs a population of its own, draws a run from its final set by weight, and accepts it with probability
+//! Each sweep runs a new population, draws a run from its final set by weight, and accepts it with probability
 //! `min(1, Z' / Z)`, the ratio of the two populations' evidence estimates. The chain follows the posterior for any number
 //! of particles; more of them make `Z'` and `Z` alike, and acceptance frequent.
 //!

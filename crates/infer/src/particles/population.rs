@@ -51,7 +51,7 @@ pub(super) struct Population<'a> {
     pub moved: MoveCounts,
     /// Whether it uses several threads.
     pub parallel: bool,
-    /// The task for each thread, with a program of its own.
+    /// The task for each thread, with its own copy of the program.
     apart: Vec<Task>,
     /// The copies of the last resampling that are not made yet.
     copies: Copies,

@@ -70,7 +70,7 @@ fn place(weights: &[f64], total: f64, at: impl Fn(usize) -> f64) -> Vec<usize> {
     copies
 }
 
-/// How often each particle falls among so many independent draws by weight.
+/// How often each particle is drawn in `draws` independent draws by weight.
 pub(super) fn multinomial(weights: &[f64], draws: usize, random: &mut Stream) -> Vec<usize> {
     let cumulative: Vec<f64> = weights
         .iter()

@@ -28,9 +28,9 @@ pub(super) fn share<T: Send, W: FnMut(T)>(lists: Vec<VecDeque<T>>, worker: impl 
     });
 }
 
-/// The first of the thread's own, or the last of another's.
+/// The first item of the thread's list, or the last of another list.
 fn next<T>(lists: &[Mutex<VecDeque<T>>], own: usize) -> Option<T> {
-    // One lock at a time: two threads that look at each other's lists must not wait for each other.
+    // One lock at a time, so that two threads with each other's lists do not wait for each other.
     (0..lists.len()).find_map(|more| {
         let list = &lists[(own + more) % lists.len()];
         let mut list = list.lock().unwrap_or_else(PoisonError::into_inner);
@@ -43,12 +43,12 @@ mod tests {
     use super::*;
     use std::sync::atomic::{AtomicU64, Ordering};
 
-    /// Every item is done once, whoever has it in its list.
+    /// Every item is processed once, whichever list has it.
     #[test]
     fn everything_is_done_once() {
         for threads in [1, 2, 8] {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            // Many rounds: threads that wait for each other would, now and then, for ever.
+            // Many rounds, so that a deadlock would occur.
             for round in 0..2000 {
                 let lopsided = round % 2 == 0;
                 let mut lists: Vec<VecDeque<u32>> = vec![VecDeque::new(); threads];

@@ -257,7 +257,7 @@ impl Rules for NoReverse {
     }
 }
 
-/// Exchanges states of two powers whatever their scores.
+/// Exchanges states of two powers without regard to their scores.
 pub struct ExchangesAnyway;
 impl Rules for ExchangesAnyway {
     fn log_exchange(_: (f64, f64), _: f64) -> f64 {

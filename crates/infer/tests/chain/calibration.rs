@@ -2,7 +2,7 @@
 //! programs whose choices come and go; a chain that leaves out a term of its acceptance ratio does not.
 //!
 //! Gandy and Scott 2020, algorithm 1: draw parameters and data from the model, start a chain at those parameters with
-//! those data, and make some proposals. What comes out is again a draw from the prior, exactly, whatever the number of
+//! those data, and make some proposals. The result is again an exact draw from the prior, for any number of
 //! proposals; and the draws of different replicates are independent. So each coordinate is compared with fresh prior draws
 //! by the two-sample test of Kolmogorov and Smirnov: 4,000 against 4,000, at 2.86 sqrt(2 / 4000), which the true kernel
 //! exceeds once in 6 million (Smirnov's bound 2 exp(-2 d^2)); about 300 coordinates are looked at.

@@ -2,7 +2,7 @@
 //! posterior is that of enumeration or of quadrature, the four strategies agree to the bit and in what they count, and a
 //! rollback leaves nothing. A fault of every run is raised, and other faults are always raised.
 //!
-//! Kernels start from an exact draw (by rejection) and make twelve proposals, so what comes out is again an exact draw, and
+//! Kernels start from an exact draw (by rejection) and make twelve proposals, so the result is again an exact draw, and
 //! the draws of different seeds are independent: counts are binomial, and means have the standard error of the posterior.
 //! A z beyond 5 happens once in 1.7 million; about 250 are looked at.
 

@@ -74,7 +74,7 @@ fn metrics() -> [(&'static str, Make); 4] {
 
 /// A step that is rejected now and then in every model: the acceptance must matter.
 const STEP: f64 = 0.5;
-/// Chains for a mutant: it may mix badly, and must be found all the same.
+/// Chains for a mutant: it may mix badly, and must be rejected nevertheless.
 const MUTANT_CHAINS: u64 = 16_000;
 
 #[test]

@@ -5,7 +5,7 @@
 //!
 //! 1. the trace's structure (which choices there are, and the values of the discrete ones) has a graph of its density,
 //!    which is recorded where it is new: `structures`;
-//! 2. a Hamiltonian transition goes from `x` to `x'`, with a step and scales that every structure shares: `scales`;
+//! 2. a Hamiltonian transition goes from `x` to `x'`, with one step and one set of scales for all structures: `scales`;
 //! 3. the values at `x'` are written as one block, through the same transaction as every other proposal, so that scores,
 //!    scene and queries stay exact.
 //!
@@ -13,8 +13,6 @@
 //! the transaction is kept with probability `min(1, p(x') g(x) / (p(x) g(x')))`, where `p` is the density of the trace
 //! itself. This is 1 up to rounding, as the two are the same density (Liu 2001, section 9.4.3, calls a `g` that is not `p` a surrogate). A
 //! trajectory that reaches another structure, a density of zero or a NaN is rejected, and counted.
-//!
-//! [`counts`] holds the counts.
 
 pub mod counts;
 pub(crate) mod scales;

@@ -42,7 +42,7 @@ struct Structure {
     labels: Vec<LabelId>,
     /// Numbers of the continuous choices in the trace, when it was last here.
     numbers: Vec<usize>,
-    /// Every choice that keeps its value unless the density changes it.
+    /// The addresses of its choices, without those of one value.
     known: HashSet<u128>,
     last: u64,
 }
@@ -83,7 +83,7 @@ fn is_continuous(value: &Value) -> bool {
 }
 
 impl Structures {
-    /// Makes the structure of a trace the present one: it is recorded where it is new. `moves` says of a choice's number
+    /// Makes the structure of a trace the present one: it is recorded where it is new. `moves` returns for a choice's number
     /// whether it may move.
     ///
     /// # Errors
@@ -191,7 +191,7 @@ impl Structure {
         Ok(Structure { target, labels, numbers, known, last: 0 })
     }
 
-    /// Brings the numbers of the choices up to date: births and deaths elsewhere may have changed them, there and back.
+    /// Updates the numbers of the choices, which births and deaths elsewhere may have changed.
     fn follow(&mut self, trace: &Trace, program: &Program) {
         let recorded = self.target.live.recorded();
         let is_right = |(choice, number): (&Continuous, &usize)| {

@@ -1,4 +1,4 @@
-//! The claim: whatever the schedule of powers, the final law and the evidence are those of the declared one.
+//! The claim: for every schedule of powers, the final law and the evidence are those of the declared power.
 //!
 //! A schedule keeps the evidence unbiased, so it is tested as in the parent module (z beyond 5 once in 1.7 million). Adapted
 //! powers depend on the particles and are consistent only: they are adapted once by a pilot and then held, and the

@@ -1,6 +1,6 @@
 //! The claim: for any order policy and any resampling method, the evidence of ratio weights is unbiased and the
-//! final set follows the posterior, on programs with and without changing structure. (The errors that people make in particle
-//! filters are in the list of deliberate errors, each with the test here that rejects it.)
+//! final set follows the posterior, on programs with and without changing structure. (The list of
+//! deliberate errors has the common errors in particle filters, each with the test here that rejects it.)
 //!
 //! The answers come from enumeration. Each test averages `exp(log_evidence)` over 4,000 runs of 8 particles with
 //! fixed seeds and compares with a z-score. A z beyond 5 happens once in 1.7 million runs of a correct program
@@ -31,7 +31,7 @@ fn task(text: &str) -> Task {
     Task::new(Arc::new(compile(&parse(text).unwrap(), vec![]).unwrap()))
 }
 
-/// Programs whose answer enumeration knows.
+/// Programs whose answer is known by enumeration.
 const PROGRAMS: [(&str, &str); 10] = [
     (
         "two coins and a condition on each",
@@ -246,8 +246,8 @@ fn fresh_seeds_agree_too() {
     }
 }
 
-/// Any order gives the right answer, so the tests above do not show which future is picked: chi-square with 5 degrees of freedom,
-/// false alarm 1e-6, threshold 35.9.
+/// Any order gives the right answer, so the tests above do not show which future is picked. Chi-square with 5 degrees of
+/// freedom, false alarm 1e-6, threshold 35.9.
 #[test]
 fn every_order_is_as_likely_as_any_other() {
     let task = task(
@@ -286,7 +286,7 @@ fn threads_change_nothing() {
     assert_eq!(run(1), run(8));
 }
 
-/// Copies made in batches, by whichever thread, are those that are made one by one; the large family is divided.
+/// Copies in batches, by any thread, equal copies one by one; the large family is divided.
 #[test]
 fn copies_are_the_same_in_batches() {
     let task = task(PROGRAMS[5].1);

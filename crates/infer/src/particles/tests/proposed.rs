@@ -38,7 +38,7 @@ const GUIDED: [(usize, &[(&str, &str)]); 7] = [
         ],
     ),
     (3, &[("bernoulli", "(params $d) (return (dist bernoulli (div 1.0 (add $d 2))))")]),
-    // The first pattern that matches holds, and one that matches nothing is refused.
+    // The first matching pattern counts, and a pattern without a match is refused.
     (
         4,
         &[
@@ -114,7 +114,7 @@ fn nor_do_they_beside_other_settings() {
     }
 }
 
-/// The score alone has a power, and not the ratio of prior and proposal: the program whose factors are twice as large.
+/// Only the score has a power, not the ratio of prior and proposal: the answer is that of a program with doubled factors.
 #[test]
 fn a_proposal_has_no_power() {
     let (text, parts) = (PROGRAMS[0].1, GUIDED[0].1);
@@ -131,7 +131,7 @@ fn a_proposal_has_no_power() {
     assert!(z_of(&found, 1.0).abs() < LIMIT);
 }
 
-/// How many standard errors the mean of independent numbers is from what is expected.
+/// The distance of the mean of independent numbers from the expected one, in standard errors.
 fn z_of(found: &[f64], expected: f64) -> f64 {
     let n = found.len() as f64;
     let mean = found.iter().sum::<f64>() / n;
@@ -280,7 +280,7 @@ fn what_a_proposal_cannot_be_is_refused() {
     assert_eq!(absolute.check().unwrap_err().code, "bad-setting");
 }
 
-/// A draw that the prior cannot make weighs nothing, and is counted where all are such.
+/// A draw outside of the prior's support has weight zero; where all draws are outside, they are counted.
 #[test]
 fn a_draw_outside_of_the_prior_is_impossible() {
     let text = r#"(module (fn "m" (params) (set $x (sample (dist uniform 0.0 1.0))) (do (factor 0.0)) (return $x))

@@ -1,4 +1,4 @@
-//! The claim: moves leave the particles' law at every barrier as it is, so that the evidence stays unbiased and the
+//! The claim: moves leave the particles' law at every barrier invariant, so that the evidence stays unbiased and the
 //! final set follows the posterior.
 //!
 //! The law `F_n` is known to the bit: forward runs up to barrier n are collected until their probabilities sum to one.
@@ -11,8 +11,8 @@ use super::super::population::Population;
 use super::*;
 use crate::chain::kernel::Kernel;
 
-/// Programs in which moves have more to do: choices that come and go between two barriers, and values that a suspended
-/// activation holds.
+/// Programs in which moves have more to do: choices whose existence changes between two barriers, and values in a
+/// suspended activation.
 const MORE: [(&str, &str); 3] = [
     (
         "a choice that comes and goes within its barrier",
@@ -82,7 +82,7 @@ fn text(p: &Particle) -> String {
     format!("ended {}", own.concat())
 }
 
-/// The log probability of the order choices of a run up to so many barriers, or to its end.
+/// The log probability of the order choices of a run up to a number of barriers, or to its end.
 fn log_order(
     task: &Task,
     settings: &Settings,
@@ -133,7 +133,7 @@ fn moved_draws(task: &Task, settings: &Settings, barriers: usize) -> (f64, usize
     population.resample();
     population.power = settings.power;
     population.rejuvenate(Some(true)).unwrap();
-    // Those that ended earlier are left alone here, and are in the law.
+    // Particles that ended earlier are not moved here; the law includes them.
     let n = population.particles.len() as f64;
     let total: f64 = law.values().sum();
     let mut counts: HashMap<String, f64> = HashMap::new();
@@ -174,7 +174,7 @@ fn moves_of_partial_programs_leave_their_law_as_it_is() {
             }
         }
     }
-    // They do move.
+    // Some proposals are accepted.
     assert!(
         all.running.accepted * 20 > all.running.proposed && all.ended.accepted * 20 > all.ended.proposed,
         "{all:?}"
@@ -208,7 +208,7 @@ fn evidence_and_posterior_stay_right() {
 }
 
 /// Runs that end at once, with a good or a bad score, and long ones: of two particles of which one is long, the other is bad
-/// half of the time, and one time in five by its law. Coins that say nothing make a move of what matters rare, so that
+/// half of the time, and one time in five by its law. Coins without effect make moves of the other choices rare, so that
 /// many moves are far from one.
 const SOON: &str = r#"(module (fn "m" (params)
     (for $i (range 6) (body (set $coin (sample (dist bernoulli 0.5)))))
@@ -217,7 +217,7 @@ const SOON: &str = r#"(module (fn "m" (params)
     (if (eq $a 0) (then (for $i (range 12) (body (do (factor 0.0))))))
     (return $a)) (entry "m"))"#;
 
-/// Two particles, so that one decides much about the other.
+/// Two particles, so that one has a large effect on the other.
 #[test]
 fn who_is_moved_must_not_depend_on_the_others() {
     let settings = Settings {

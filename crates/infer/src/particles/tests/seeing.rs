@@ -1,5 +1,5 @@
-//! The claim: a chooser sees the scene so far at every choice of a forward run and of a particle, where it is the
-//! particle's own after it became a copy; where a task has no sketches, it sees none.
+//! The claim: a chooser gets the scene so far at every choice of a forward run and of a particle, also after the particle
+//! became a copy. For a task without sketches it gets none.
 
 use super::*;
 use crate::chooser::{Chooser, Chosen, Context, Prior};
