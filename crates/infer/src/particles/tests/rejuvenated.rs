@@ -72,7 +72,7 @@ fn rejuvenation(kernel: Kernel, moves: u64, at: Moment) -> Option<Rejuvenation> 
 
 /// A run as text: in order while it runs, as a set once it has ended.
 fn text(p: &Particle) -> String {
-    let one = |e: &crate::log::Entry| format!("{:x}={}", e.address(), repr(&e.value).unwrap());
+    let one = |e: &crate::log::Entry| format!("{:x}={}", e.address(), written(e));
     let entries = p.record.log.entries();
     if !p.state.has_ended() {
         return entries.iter().map(|e| if e.is_order() { format!("!{}", one(e)) } else { one(e) }).collect();
@@ -107,7 +107,7 @@ fn moved_draws(task: &Task, settings: &Settings, barriers: usize) -> (f64, usize
         let log_law = log_run + settings.temper * p.record.log_score();
         p.weighed = p.record.score();
         p.log_weight = f64::NEG_INFINITY;
-        let own: Vec<_> = entries.iter().map(|e| (e.address(), repr(&e.value).unwrap())).collect();
+        let own: Vec<_> = entries.iter().map(|e| (e.address(), written(e))).collect();
         if whole.insert(own, ()).is_none() {
             mass += log_run.exp();
             *law.entry(text(p)).or_insert(0.0) += log_law.exp();
