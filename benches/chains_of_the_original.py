@@ -25,7 +25,7 @@ AT_ONCE = 500
 
 def chains(nesting: str | None) -> dict[str, Any]:
     """Kernels, by name."""
-    hot = kernels.temper(kernels.original(16.0, nesting), [1.3**k for k in range(10)], every=10)
+    hot = kernels.tempering(kernels.original(16.0, nesting), [1.3**-k for k in range(10)], every=10)
     return {"original": kernels.original(16.0, nesting), "original, parallel tempering": hot}
 
 
@@ -48,13 +48,13 @@ def main(runs: int = 10, *names: str) -> int:
         if model is None or asked.fill is None:
             print(f"skipped: {name} fills no volume")
             continue
-        fill = niwaki.volume_match(named_target(asked.fill), voxel=asked.voxel, sigma=asked.sigma)
+        fill = niwaki.match_volume(named_target(asked.fill), voxel=asked.voxel, sigma=asked.sigma)
         score = niwaki.no_self_intersection() * fill
         found: dict[str, list[float]] = {}
         budget = []
         for seed in range(1, runs + 1):
             one = niwaki.run(
-                model.model, method=niwaki.smc(300, temper=16.0), score=score, seed=seed, threads=1
+                model.model, method=niwaki.smc(300, power=16.0), score=score, seed=seed, threads=1
             )
             found.setdefault("SOSMC, 300", []).append(one.best.log_score)
             budget.append(one.cpu_seconds)

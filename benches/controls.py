@@ -39,7 +39,7 @@ def scores() -> dict[str, Score]:
     camera = nw.Camera.perspective((0, 10, 40), (0, 10, 0))
     floor = nw.Receiver.floor(0.0, (-14.0, -14.0), (14.0, 14.0))
     return {
-        "volume_match": nw.volume_match(target, 0.25),
+        "match_volume": nw.match_volume(target, 0.25),
         "no_self_intersection": nw.no_self_intersection(),
         "match_image": nw.match_image(disc, camera, weight_image=disc),
         "match_shadow": nw.match_shadow(disc, (-0.4, -1.0, 0.2), floor),

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 Triple = tuple[float, float, float]
 
 #: How we would search instead of by whole scores: with correct weights, judging more sharply barrier by barrier.
-RECOMMENDED: dict[str, Any] = {"temper": 8.0, "anneal": [min(8.0, 2.0 + 0.2 * k) for k in range(1, 32)]}
+RECOMMENDED: dict[str, Any] = {"power": 8.0, "anneal": [min(8.0, 2.0 + 0.2 * k) for k in range(1, 32)]}
 
 
 @dataclass(frozen=True)
@@ -82,7 +82,7 @@ class Experiment:
         if self.avoid is not None:
             score = score * sketches.floor() * sketches.avoid(named_target(self.avoid), self.voxel)
         if self.fill is not None:
-            score = score * sketches.volume_match(named_target(self.fill), self.voxel, self.sigma)
+            score = score * sketches.match_volume(named_target(self.fill), self.voxel, self.sigma)
         return score if self.image is None else score * self._view(self.image)
 
     def _view(self, name: str) -> Score:
@@ -167,15 +167,15 @@ PLAN = {
 }
 
 #: Around obstacles many starts become impossible, and a sharp eye leaves too few others.
-AROUND: dict[str, Any] = {"particles": 300, "temper": 4.0, "anneal": None}
+AROUND: dict[str, Any] = {"particles": 300, "power": 4.0, "anneal": None}
 #: An image that is nearly empty is matched to nine tenths by nothing: scores are close together, so judge sharply.
-FRONT: dict[str, Any] = {"temper": 64.0, "anneal": None}
+FRONT: dict[str, Any] = {"power": 64.0, "anneal": None}
 #: Seven storeys on each other are rare: more particles find them.
 TOWERS: dict[str, Any] = {"particles": 1000, "anneal": None}
 #: Blocks hardly depend on each other, so that a move of one costs microseconds: one result of many is followed far.
 BLOCKS: dict[str, Any] = {
     "anneal": None,
-    "rejuvenate": kernels.mixture(kernels.mh(), kernels.drift(0.1), kernels.drift(0.02)),
+    "rejuvenate": kernels.mixture(kernels.prior(), kernels.drift(0.1), kernels.drift(0.02)),
     "moves": 1000,
     "at": "end",
     "draws": 100,
@@ -183,7 +183,7 @@ BLOCKS: dict[str, Any] = {
 #: A sigma of thirty pixels is sharp enough, too sharp at first: one pipe then outweighs all others. Nets that end early
 #: are a matter of luck, so there are eight populations. In a chain ends that have stopped grow
 #: on, and pipes in the wrong go.
-NETS: dict[str, Any] = {"populations": 8, "temper": 1.0, "anneal": 0.5}
+NETS: dict[str, Any] = {"populations": 8, "power": 1.0, "anneal": 0.5}
 FILLED = mh(200_000, keep=0)
 
 EXPERIMENTS = (

@@ -18,17 +18,19 @@ import numpy as np
 from niwaki import diagnostics, kernels
 from niwaki.gallery.harmonies import BOTH, KERNEL, harmonies
 
-RUNGS = (1, 4, 16, 64, 256, 1024)
-LABELS = kernels.repeat(3, kernels.on(["scheme", "of"], kernels.mh()))
+RUNGS = tuple(4.0**-k for k in range(6))
+LABELS = kernels.repeat(3, kernels.on(["scheme", "of"], kernels.prior()))
 KERNELS = {
-    "mh": kernels.mh(),
+    "mh": kernels.prior(),
     "mh and hmc": BOTH,
-    "mh, tempered": kernels.temper(kernels.mh(), RUNGS, every=8),
-    "mh and drift, tempered": kernels.temper(
+    "mh, tempered": kernels.tempering(kernels.prior(), RUNGS, every=8),
+    "mh and drift, tempered": kernels.tempering(
         kernels.cycle(LABELS, kernels.repeat(5, kernels.drift())), RUNGS, every=8
     ),
     "mh and hmc, tempered": KERNEL,
-    "mh and nuts, tempered": kernels.temper(kernels.cycle(LABELS, kernels.nuts(max_depth=6)), RUNGS, every=8),
+    "mh and nuts, tempered": kernels.tempering(
+        kernels.cycle(LABELS, kernels.nuts_step(max_depth=6)), RUNGS, every=8
+    ),
 }
 THIN = 10
 

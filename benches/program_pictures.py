@@ -77,7 +77,7 @@ def stages() -> Image.Image:
 def harmony_ribbons() -> Image.Image:
     """The same number of states of three chains, whose kernels can do more and more."""
     moves = {
-        "Metropolis-Hastings": kernels.mh(),
+        "Metropolis-Hastings": kernels.prior(),
         "discrete choices by Metropolis-Hastings, real ones along their gradient": harmonies.BOTH,
         "the same at six temperatures": harmonies.KERNEL,
     }

@@ -30,12 +30,12 @@ from niwaki.gallery.gnarly_tree import gnarly_tree
 from niwaki.search import SearchWarning
 
 N = 100
-TEMPER = 16.0
+POWER = 16.0
 
 
 def smc(particles: int = N, **settings: Any) -> Any:
-    """A population at the temper of `grow`."""
-    return niwaki.smc(particles, temper=TEMPER, **settings)
+    """A population at the power of `grow`."""
+    return niwaki.smc(particles, power=POWER, **settings)
 
 
 def moving(kernel: Any, moves: int, at: Any, **settings: Any) -> Any:
@@ -45,7 +45,7 @@ def moving(kernel: Any, moves: int, at: Any, **settings: Any) -> Any:
 
 def drifts() -> Any:
     """One choice at a time: small and large steps, and values from the prior."""
-    return kernels.mixture(kernels.drift(0.3), kernels.drift(0.05), kernels.mh(), weights=[4, 2, 1])
+    return kernels.mixture(kernels.drift(0.3), kernels.drift(0.05), kernels.prior(), weights=[4, 2, 1])
 
 
 def shake(step: float) -> Any:
@@ -55,7 +55,7 @@ def shake(step: float) -> Any:
 
 def walked(particles: int) -> Any:
     """One of the final set followed to a hundred results: twenty moves of one choice and two shakes between each."""
-    kernel = kernels.cycle(kernels.repeat(20, kernels.mh()), kernels.repeat(2, shake(0.0005)))
+    kernel = kernels.cycle(kernels.repeat(20, kernels.prior()), kernels.repeat(2, shake(0.0005)))
     return smc(particles, rejuvenate=kernel, moves=22, at="end", draws=N)
 
 
@@ -70,7 +70,7 @@ WAYS = {
     "rows of 10, diverse": lambda: smc(10, diverse=100),
     "walked, 100": lambda: walked(100),
     "walked, 300": lambda: walked(300),
-    "particle Gibbs, 10": lambda: niwaki.particle_gibbs(10, N, temper=TEMPER),
+    "particle Gibbs, 10": lambda: niwaki.particle_gibbs(10, N, power=POWER),
 }
 
 
@@ -139,7 +139,7 @@ def paired(ours: list[dict[str, Any] | None], plain: list[dict[str, Any] | None]
 def main(seeds: int = 20, first: int = 1, *names: str) -> int:
     """Measure, ways taking turns; one line for each way, and one for each with each plain one."""
     warnings.simplefilter("ignore", SearchWarning)
-    score = niwaki.no_self_intersection() * niwaki.volume_match(
+    score = niwaki.no_self_intersection() * niwaki.match_volume(
         named_target("bent_tube"), voxel=0.4, sigma=0.02
     )
     ways = names or tuple(WAYS)

@@ -25,17 +25,17 @@ STEPS = range(1, 200)
 #: Name and settings.
 WAYS = {
     "absolute": {"weights": "absolute"},
-    "ratio, 4": {"temper": 4.0},
-    "ratio, 8": {"temper": 8.0},
-    "ratio, 16": {"temper": 16.0},
-    "ratio, 64": {"temper": 64.0},
-    "ratio, 8, when half are effective": {"temper": 8.0, "ess": 0.5},
-    "ratio, 8, residual": {"temper": 8.0, "resampling": "residual"},
-    "ratio, half a step a barrier to 8": {"temper": 8.0, "anneal": [min(8.0, 0.5 * k) for k in STEPS]},
-    "ratio, 1 and half a step to 8": {"temper": 8.0, "anneal": [min(8.0, 1 + 0.5 * k) for k in STEPS]},
-    "ratio, 2 and a fifth of a step to 8": {"temper": 8.0, "anneal": [min(8.0, 2 + 0.2 * k) for k in STEPS]},
-    "ratio, adapted to 16 at 2 %": {"temper": 16.0, "anneal": 0.02},
-    "ratio, adapted to 16 at 20 %": {"temper": 16.0, "anneal": 0.2},
+    "ratio, 4": {"power": 4.0},
+    "ratio, 8": {"power": 8.0},
+    "ratio, 16": {"power": 16.0},
+    "ratio, 64": {"power": 64.0},
+    "ratio, 8, when half are effective": {"power": 8.0, "ess": 0.5},
+    "ratio, 8, residual": {"power": 8.0, "resampling": "residual"},
+    "ratio, half a step a barrier to 8": {"power": 8.0, "anneal": [min(8.0, 0.5 * k) for k in STEPS]},
+    "ratio, 1 and half a step to 8": {"power": 8.0, "anneal": [min(8.0, 1 + 0.5 * k) for k in STEPS]},
+    "ratio, 2 and a fifth of a step to 8": {"power": 8.0, "anneal": [min(8.0, 2 + 0.2 * k) for k in STEPS]},
+    "ratio, adapted to 16 at 2 %": {"power": 16.0, "anneal": 0.02},
+    "ratio, adapted to 16 at 20 %": {"power": 16.0, "anneal": 0.2},
 }
 
 

@@ -36,7 +36,7 @@ def draw(folder: Path) -> list[Path]:
 
 def grown(score: Score) -> Image.Image:
     """The best of a thousand ships, as its sketch sees it."""
-    result = run(spaceship, score=no_self_intersection() * score, method=smc(1000, temper=16.0), seed=2)
+    result = run(spaceship, score=no_self_intersection() * score, method=smc(1000, power=16.0), seed=2)
     return view_sheet(result.best.scene, score.views[0], height=300)
 
 

@@ -150,7 +150,7 @@ def lengths(report: Report, rounds: int, seconds: float, most: int = LENGTHS[-1]
 
 def middle_site(length: int) -> tuple[float, float]:
     """Activations entered and instructions executed for each proposal to step 50."""
-    chain = Timed(long_chain, length, kernel=kernels.on("n[49]/state", kernels.mh()), seed=5)
+    chain = Timed(long_chain, length, kernel=kernels.on("n[49]/state", kernels.prior()), seed=5)
     before = chain.engine.counters()
     chain.engine.advance(2000, 1, None)
     after = chain.engine.counters()

@@ -53,14 +53,14 @@ def weighted(*parts: tuple[int, str | list[str], Kernel]) -> Kernel:
 
 def of_gmm(points: int) -> Kernel:
     rest = ["weights", "deviations", "k"]
-    return weighted((4, "means", kernels.drift(0.02)), (5 + points, rest, kernels.mh()))
+    return weighted((4, "means", kernels.drift(0.02)), (5 + points, rest, kernels.prior()))
 
 
 def of_hlr(sequences: int) -> Kernel:
     return weighted(
         (1, "intercept", kernels.drift(0.02)),
         (1, "slope", kernels.drift(0.01)),
-        (3, ["intercept_spread", "slope_spread", "noise"], kernels.mh()),
+        (3, ["intercept_spread", "slope_spread", "noise"], kernels.prior()),
         (sequences, "a", kernels.drift(0.375)),
         (sequences, "b", kernels.drift(0.5)),
     )
@@ -69,7 +69,11 @@ def of_hlr(sequences: int) -> Kernel:
 PROGRAMS = {
     "hmm": Program("hmm", hmm, lambda _: None),
     "lda": Program(
-        "lda", lda, lambda _: None, kernels.on("topics", kernels.mh()), lambda documents: documents * 20 / 10
+        "lda",
+        lda,
+        lambda _: None,
+        kernels.on("topics", kernels.prior()),
+        lambda documents: documents * 20 / 10,
     ),
     "gmm": Program("gmm", gmm, of_gmm, kernels.on("means", kernels.drift(0.02)), lambda points: points / 4),
     "hlr": Program(

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from niwaki import _engine, kernels, mh, run, volume_match
+from niwaki import _engine, kernels, match_volume, mh, run
 from niwaki.draw.scene import Scene
 from niwaki.gallery.gnarly_tree import gnarly_tree
 from niwaki.targets.examples import bent_tube
@@ -46,7 +46,7 @@ class Measured:
 
 def score() -> Score:
     """How well a tree fills the tube."""
-    return volume_match(bent_tube(), VOXEL)
+    return match_volume(bent_tube(), VOXEL)
 
 
 def measured(smallest: float, seed: int, warmup: int, steps: int, windows: int = 4) -> Measured:
@@ -115,10 +115,10 @@ def scene_of(target: Target) -> Scene:
 
 def fitted(folder: Path, proposals: int, chains: int = 4) -> Any:
     """The best tree of some long chains that cool down: hot ones find the bend, cold ones fill the crown."""
-    moves = kernels.mixture(kernels.mh(), kernels.drift(0.3), kernels.regenerate(), weights=[3, 3, 1])
-    kernel = kernels.anneal(moves, 4 * proposals // 5, 100.0, 1.0)
+    moves = kernels.mixture(kernels.prior(), kernels.drift(0.3), kernels.regenerate(), weights=[3, 3, 1])
+    kernel = kernels.anneal(moves, 4 * proposals // 5, 0.01, 1.0)
     method = mh(steps=proposals, chains=chains, keep=0, kernel=kernel, warmup=proposals // 10)
-    wanted = volume_match(bent_tube(), VOXEL, STRICT)
+    wanted = match_volume(bent_tube(), VOXEL, STRICT)
     result = run(gnarly_tree, *LIMBS, method=method, score=wanted, seed=4, threads=1)
     best = result.best
     best.save(folder / "tree.png", size=(480, 640))

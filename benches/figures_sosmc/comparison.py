@@ -125,7 +125,7 @@ def measured(
 
 def score_of(target: nw.Target, voxel: float) -> nw.Score:
     """What is asked of all of them."""
-    return nw.no_self_intersection("surface") * nw.volume_match(target, voxel, SIGMA)
+    return nw.no_self_intersection("surface") * nw.match_volume(target, voxel, SIGMA)
 
 
 def moves(program: nw.Model) -> kernels.Kernel:

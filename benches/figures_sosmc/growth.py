@@ -95,7 +95,7 @@ def draw(folder: Path, tell: Callable[[dict], None], quick: bool) -> None:
 
 def score() -> nw.Score:
     """Volume alone, so wide that it hardly selects: nearly everything that grows is still there in the end."""
-    return nw.volume_match(targets.umbrella(), 0.4, 0.5)
+    return nw.match_volume(targets.umbrella(), 0.4, 0.5)
 
 
 def resident(solids: str, particles: int, primitives: int, sigma: float) -> float:
@@ -110,7 +110,7 @@ def resident(solids: str, particles: int, primitives: int, sigma: float) -> floa
 
 def populate(solids: str, particles: int, primitives: int, sigma: float) -> None:
     """Grow a population of such solids and print this process's largest resident set, megabytes."""
-    wanted = nw.no_self_intersection() * nw.volume_match(targets.gem(), 0.4, sigma)
+    wanted = nw.no_self_intersection() * nw.match_volume(targets.gem(), 0.4, sigma)
     method = nw.smc(particles)
     found = nw.run(
         MODELS[solids], primitives, method=method, score=wanted, seed=1, threads=1, max_memory=1 << 34

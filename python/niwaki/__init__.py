@@ -24,7 +24,7 @@ Searching a model:
 What a scene should be like:
 
     Target, Receiver, Camera                    a mesh to fill, a surface for shadows, a point of view
-    volume_match, match_image, match_shadow     scores: fill a volume, have a silhouette, cast a shadow
+    match_volume, match_image, match_shadow     scores: fill a volume, have a silhouette, cast a shadow
     no_self_intersection, avoid, floor          scores: what a scene must not do
 
 What a search gives back:

@@ -23,12 +23,12 @@ from .methods import particle_gibbs as particle_gibbs
 from .methods import pimh as pimh
 from .methods import rejection as rejection
 from .methods import smc as smc
+from .result import Progress as Progress
 from .result import Result as Result
 from .result import Sample as Sample
 from .result import diagnostics as diagnostics
 from .result.gradient import LogDensity as LogDensity
 from .result.sample import log_density as log_density
-from .search import Progress as Progress
 from .search import Search as Search
 from .search import grow as grow
 from .search import run as run
@@ -39,9 +39,9 @@ from .targets.sketches import avoid as avoid
 from .targets.sketches import floor as floor
 from .targets.sketches import match_image as match_image
 from .targets.sketches import match_shadow as match_shadow
+from .targets.sketches import match_volume as match_volume
 from .targets.sketches import no_self_intersection as no_self_intersection
 from .targets.sketches import overshoot as overshoot
-from .targets.sketches import volume_match as volume_match
 from .targets.target import Receiver as Receiver
 from .targets.target import Target as Target
 from .words import Bark as Bark

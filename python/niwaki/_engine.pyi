@@ -49,7 +49,7 @@ __all__ = [
     "render",
     "support",
     "unique_models",
-    "volume_match",
+    "match_volume",
 ]
 
 __version__: str
@@ -161,7 +161,7 @@ class Sketch:
     def measures(self) -> dict[str, float]: ...
     def fork(self) -> Sketch: ...
 
-def volume_match(target: Target, sigma: float = 0.02) -> SketchSpec: ...
+def match_volume(target: Target, sigma: float = 0.02) -> SketchSpec: ...
 def no_self_intersection(rule: str = "solid") -> SketchSpec: ...
 
 @final
@@ -221,11 +221,13 @@ class EngineFault(RuntimeError):
     code: str
     message: str
     help: str | None
+    subject: str | None
     stack: list[tuple[str, str, tuple[int, int, int, int]]]
     omitted: int
     path: str
     invalid: bool
     barrier: int
+    tries: int
     causes: list[tuple[str, int]]
 
 def log_density(family: str, params: Sequence[Any], x: Any) -> float: ...

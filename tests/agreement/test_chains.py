@@ -28,15 +28,17 @@ QUICK = (120, 120)
 LONG = (1200, 1000)
 
 KERNELS = (
-    kernels.mh(),
-    kernels.cycle(kernels.drift(), kernels.neighbour(), kernels.mh()),
-    kernels.mixture(kernels.regenerate(), kernels.regenerate(1), kernels.mh(), kernels.drift()),
+    kernels.prior(),
+    kernels.cycle(kernels.drift(), kernels.neighbour(), kernels.prior()),
+    kernels.mixture(kernels.regenerate(), kernels.regenerate(1), kernels.prior(), kernels.drift()),
     kernels.cycle(
-        kernels.block(share=0.5), kernels.mh(), kernels.odds(kernels.mh(), depth=lambda d: 1 / (1 + d))
+        kernels.block(share=0.5),
+        kernels.prior(),
+        kernels.weighted(kernels.prior(), depth=lambda d: 1 / (1 + d)),
     ),
     # What is not in scope, or of another kind, is a fault, and the same one under each strategy.
     kernels.cycle(
-        kernels.mh(),
+        kernels.prior(),
         kernels.on(
             ["y", "v*", "w*", "gaussian*"],
             kernels.proposal(

@@ -17,6 +17,7 @@ from test_engine import load
 HEAD = """import math
 from dataclasses import dataclass
 from niwaki.methods import enumerate_all
+from niwaki import model
 from niwaki.words import *
 
 @dataclass(frozen=True)
@@ -175,7 +176,7 @@ def test_a_look_is_refused_everywhere(look: str, callee: str) -> None:
         assert "force(f)" in str(fault)
 
 
-@pytest.mark.filterwarnings("ignore::niwaki.hmc_result.GradientWarning")
+@pytest.mark.filterwarnings("ignore::niwaki.result.hmc.GradientWarning")
 @pytest.mark.parametrize("look", PASSES)
 def test_what_passes_a_future_on_is_not_refused(look: str) -> None:
     model = load(text(look, "now"))

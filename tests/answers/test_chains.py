@@ -87,16 +87,16 @@ MODELS = loaded()
 NAMES = ("coins", "depth", "bounds", "shapes", "states", "later")
 
 KERNELS = {
-    "mh": k.mh(),
+    "mh": k.prior(),
     "drift": k.drift(),
     "neighbour": k.neighbour(2),
-    "block and mh": k.cycle(k.block(share=0.5), k.mh()),
+    "block and mh": k.cycle(k.block(share=0.5), k.prior()),
     "regenerate": k.regenerate(),
     "regenerate one above": k.regenerate(1),
-    "mixture": k.mixture(k.mh(), k.regenerate(), k.neighbour(), weights=[1, 2, 1]),
-    "repeat": k.repeat(2, k.cycle(k.mh(), k.neighbour())),
-    "odds by depth": k.odds(k.mh(), depth=lambda depth: 1 / (1 + depth) ** 2),
-    "temper": k.temper(k.mh(), (1, 3, 9), every=20),
+    "mixture": k.mixture(k.prior(), k.regenerate(), k.neighbour(), weights=[1, 2, 1]),
+    "repeat": k.repeat(2, k.cycle(k.prior(), k.neighbour())),
+    "odds by depth": k.weighted(k.prior(), depth=lambda depth: 1 / (1 + depth) ** 2),
+    "temper": k.tempering(k.prior(), (1, 1 / 3, 1 / 9), every=20),
 }
 
 
@@ -123,7 +123,7 @@ def test_kernels_answer_as_enumeration_does(kernel: str, name: str) -> None:
 
 @pytest.mark.parametrize("strategy", ["c3", "resume", "cache", "rerun"])
 def test_strategies_answer_as_enumeration_does(strategy: str) -> None:
-    assert t_values(MODELS["shapes"], k.mh(), strategy=strategy) < 6
+    assert t_values(MODELS["shapes"], k.prior(), strategy=strategy) < 6
 
 
 @pytest.mark.parametrize(
@@ -131,23 +131,23 @@ def test_strategies_answer_as_enumeration_does(strategy: str) -> None:
     [("coins", {"a": 3.0, "*": 0.5}), ("shapes", {"*bernoulli*": 0.3}), ("bounds", {"j": 4.0})],
 )
 def test_odds_by_site_answer_as_enumeration_does(name: str, sites: dict[str, float]) -> None:
-    assert t_values(MODELS[name], k.odds(k.mh(), sites=sites)) < 6
+    assert t_values(MODELS[name], k.weighted(k.prior(), sites=sites)) < 6
 
 
 def test_a_proposal_of_ones_own_answers_as_enumeration_does() -> None:
     """It prefers small numbers whatever the old one: without its reverse density the answer would be another."""
     own = k.on("j", k.proposal(lambda old: Binomial(3, 0.2 if old == 0 else 0.6)))
-    assert t_values(MODELS["bounds"], k.cycle(k.mh(), own)) < 6
+    assert t_values(MODELS["bounds"], k.cycle(k.prior(), own)) < 6
 
 
 def test_selections_leave_the_rest_alone() -> None:
-    result = nw.run(MODELS["coins"], nw.mh(steps=500, kernel=k.on("a", k.mh())), seed=1)
+    result = nw.run(MODELS["coins"], nw.mh(steps=500, kernel=k.on("a", k.prior())), seed=1)
     assert len({sample.value[1] for sample in result}) == 1
     assert len({sample.value[0] for sample in result}) == 2
 
 
 def test_annealing_finds_the_mode_and_the_prior_is_not_tempered() -> None:
-    result = nw.run(MODELS["depth"], nw.mh(steps=2000, kernel=k.anneal(k.mh(), 1500, 5.0, 0.05)), seed=2)
+    result = nw.run(MODELS["depth"], nw.mh(steps=2000, kernel=k.anneal(k.prior(), 1500, 0.2, 20.0)), seed=2)
     assert result.best.value == 4
     assert result.last[0].value == 4
 

@@ -212,10 +212,10 @@ def above(result: Any) -> tuple[float, float]:
     return share.mean(), abs(error) / diagnostics.mcse_mean(share)
 
 
-@pytest.mark.parametrize("kernel", [kernels.nuts(), kernels.hmc()], ids=repr)
+@pytest.mark.parametrize("kernel", [kernels.nuts_step(), kernels.hmc_step()], ids=repr)
 def test_a_structure_is_sampled_where_mh_stands_beside_the_gradient(kernel: kernels.Kernel) -> None:
     """What the warning advises gives the share 0.720; the gradient alone, its mutant, keeps to one side."""
-    method = nw.mh(steps=12_000, warmup=2000, chains=4, thin=4, kernel=kernels.cycle(kernels.mh(), kernel))
+    method = nw.mh(steps=12_000, warmup=2000, chains=4, thin=4, kernel=kernels.cycle(kernels.prior(), kernel))
     assert above(nw.run(halves, method, seed=3))[1] < 4.5
     with pytest.warns(GradientWarning, match="refused for structure"):
         mutant = nw.run(halves, nw.mh(steps=3000, warmup=500, chains=4, thin=4, kernel=kernel), seed=3)
@@ -248,7 +248,7 @@ def test_a_scale_of_the_model_is_no_matter(method: str, scale: float) -> None:
     are found out.
     """
     if method == "kernel":
-        chain = nw.mh(steps=3000, warmup=1000, chains=4, thin=1, kernel=kernels.nuts())
+        chain = nw.mh(steps=3000, warmup=1000, chains=4, thin=1, kernel=kernels.nuts_step())
         draws = nw.run(seen_at, chain, scale, seed=5).draws
     else:
         many = nw.hmc(draws=100, steps=8, jitter=0.5, warmup=200, chains=24)

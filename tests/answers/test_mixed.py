@@ -71,14 +71,14 @@ def seen(sample: nw.Sample) -> dict[str, float]:
 
 
 KERNELS = {
-    "hmc": k.cycle(k.mh(), k.mh(), k.hmc(steps=5, jitter=0.4)),
-    "nuts": k.cycle(k.mh(), k.repeat(2, k.mh()), k.nuts(max_depth=4)),
+    "hmc": k.cycle(k.prior(), k.prior(), k.hmc_step(steps=5, jitter=0.4)),
+    "nuts": k.cycle(k.prior(), k.repeat(2, k.prior()), k.nuts_step(max_depth=4)),
     "discrete by mh, means by hmc": k.cycle(
-        k.repeat(3, k.on(["count", "label"], k.mh())),
-        k.on("means", k.hmc(steps=6)),
+        k.repeat(3, k.on(["count", "label"], k.prior())),
+        k.on("means", k.hmc_step(steps=6)),
     ),
-    "mixture": k.mixture(k.mh(), k.hmc(steps=4), k.regenerate(), weights=[3, 1, 1]),
-    "temper": k.temper(k.cycle(k.mh(), k.mh(), k.hmc(steps=5)), (1, 3, 9), every=20),
+    "mixture": k.mixture(k.prior(), k.hmc_step(steps=4), k.regenerate(), weights=[3, 1, 1]),
+    "temper": k.tempering(k.cycle(k.prior(), k.prior(), k.hmc_step(steps=5)), (1, 1 / 3, 1 / 9), every=20),
 }
 
 

@@ -9,7 +9,7 @@
 #[path = "../tests/scenes/mod.rs"]
 mod scenes;
 
-use niwaki_geom::{Look, Primitive, Rule, Shape, Sketches, Target, no_self_intersection, vec3, volume_match};
+use niwaki_geom::{Look, Primitive, Rule, Shape, Sketches, Target, match_volume, no_self_intersection, vec3};
 use scenes::{Dice, ship::ship};
 use std::hint::black_box;
 use std::sync::Arc;
@@ -19,12 +19,12 @@ fn main() {
     let block = Shape::cuboid(vec3(0.03, 0.36, -2.29), vec3(18.44, 3.24, 15.22), &Look::default());
     let target = Target::new(block.expect("a block").world_mesh().clone(), 0.25).expect("a target");
     assert_eq!(target.grid().dims(), [75, 14, 62]);
-    let volume = volume_match(Arc::new(target), 0.02).expect("a sketch");
+    let volume = match_volume(Arc::new(target), 0.02).expect("a sketch");
     let intersection = no_self_intersection(Rule::Surface);
     for (name, specs) in [
         ("both sketches", vec![intersection.clone(), volume.clone()]),
         ("no_self_intersection", vec![intersection]),
-        ("volume_match", vec![volume]),
+        ("match_volume", vec![volume]),
     ] {
         let mut dice = Dice::new(4);
         let mut prices: Vec<f64> = Vec::new();

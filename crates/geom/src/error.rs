@@ -5,9 +5,9 @@ use std::fmt;
 /// A shape, mesh or target that cannot be made.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct GeomError {
-    /// Which rule was broken, in kebab case: `bad-shape`, `empty-mesh`, `non-finite-mesh`, `mesh-index`,
-    /// `no-cell-filled`, `bad-voxel`, `bad-sigma`, `large-grid`, `bad-camera`, `bad-light`, `light-grazes`,
-    /// `receiver-unseen`, `bad-picture`, `one-color`, `bad-weight`, `bad-floor`, `bad-domain`.
+    /// Which rule was broken, in kebab case: `bad-shape`, `bad-shape`, `bad-shape`, `bad-shape`,
+    /// `no-cell-filled`, `bad-setting`, `bad-setting`, `too-many-cells`, `bad-camera`, `bad-setting`, `light-grazes`,
+    /// `receiver-unseen`, `bad-image`, `image-one-color`, `bad-setting`, `bad-setting`, `bad-setting`.
     pub code: &'static str,
     /// What was found and what was expected.
     pub message: String,

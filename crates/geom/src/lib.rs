@@ -45,7 +45,7 @@ pub use sketch::intersection::{NoSelfIntersection, no_self_intersection};
 pub use sketch::overshoot::{Overshoot, no_overshoot};
 pub use sketch::picture::{Picture, PictureMatch, Wish, match_image, match_shadow};
 pub use sketch::product::Sketches;
-pub use sketch::volume::{Target, VolumeMatch, volume_match};
+pub use sketch::volume::{Target, VolumeMatch, match_volume};
 pub use sketch::{Sketch, SketchSpec};
 pub use voxel::{Grid, Voxels};
 pub use words::Look;

@@ -33,23 +33,23 @@ impl TriMesh {
     /// A mesh of `vertices` (scene units) and `triangles` (three indices each).
     ///
     /// # Errors
-    /// `empty-mesh` without a triangle, `non-finite-mesh` and `mesh-index` for the first bad entry.
+    /// `bad-shape` without a triangle, `bad-shape` and `bad-shape` for the first bad entry.
     pub fn new(vertices: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Result<TriMesh, GeomError> {
         if vertices.is_empty() || triangles.is_empty() {
             let (v, t) = (vertices.len(), triangles.len());
             return Err(GeomError::new(
-                "empty-mesh",
+                "bad-shape",
                 format!("a mesh needs a triangle, found {v} vertices and {t} faces"),
             ));
         }
         if let Some(i) = vertices.iter().position(|v| !v.is_finite()) {
             let message = format!("vertex {i} is {:?}, expected finite coordinates", vertices[i].to_array());
-            return Err(GeomError::new("non-finite-mesh", message));
+            return Err(GeomError::new("bad-shape", message));
         }
         let count = vertices.len();
         if let Some(i) = triangles.iter().position(|t| t.iter().any(|v| *v as usize >= count)) {
             let message = format!("face {i} is {:?}, but there are only {count} vertices", triangles[i]);
-            return Err(GeomError::new("mesh-index", message));
+            return Err(GeomError::new("bad-shape", message));
         }
         Ok(TriMesh { vertices, triangles })
     }

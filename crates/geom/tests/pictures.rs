@@ -372,10 +372,10 @@ fn a_perfect_match_has_similarity_one() {
 #[test]
 fn impossible_pictures_cameras_and_lights_are_refused() {
     let code = |made: Result<Picture, niwaki_geom::GeomError>| made.unwrap_err().code;
-    assert_eq!(code(first_on(0, None, 10.0)), "one-color");
-    assert_eq!(code(first_on(10_000, None, 10.0)), "one-color");
-    assert_eq!(code(first_on(10, Some(vec![0; 3]), 10.0)), "bad-picture");
-    assert_eq!(code(first_on(10, None, -1.0)), "bad-weight");
+    assert_eq!(code(first_on(0, None, 10.0)), "image-one-color");
+    assert_eq!(code(first_on(10_000, None, 10.0)), "image-one-color");
+    assert_eq!(code(first_on(10, Some(vec![0; 3]), 10.0)), "bad-image");
+    assert_eq!(code(first_on(10, None, -1.0)), "bad-setting");
     let lens = Lens::Perspective { fov: 0.8, near: 0.1 };
     let up = vec3(0.0, 1.0, 0.0);
     assert!(Camera::new(Vec3::ZERO, Vec3::ZERO, up, lens).is_err());

@@ -157,6 +157,7 @@ impl Answers<Var> for Recorder<'_> {
         let Some(given) = self.choices.get(&address) else {
             let path = at.path();
             return Err(Fault::new("missing-choice", format!("there is no value for the choice `{path}`"))
+                .about(path)
                 .with_help("record with the same model that made the choices"));
         };
         let unfit = || Fault::type_mismatch(format!("no distribution draws {}", given.described()));

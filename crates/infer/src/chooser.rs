@@ -139,8 +139,9 @@ pub struct Refuse(pub &'static str);
 
 impl Chooser for Refuse {
     fn choose(&mut self, at: &At<'_, f64>, _: &Dist, _: Context<'_>) -> Result<Option<Chosen>, Fault> {
-        let message = format!("there is no value for the choice `{}`", at.path());
-        Err(Fault::new("missing-choice", message).with_help(self.0))
+        let path = at.path();
+        let message = format!("there is no value for the choice `{path}`");
+        Err(Fault::new("missing-choice", message).about(path).with_help(self.0))
     }
 }
 

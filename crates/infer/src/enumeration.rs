@@ -98,7 +98,7 @@ pub fn enumerate(
                 .into());
             }
             if !watch(met) {
-                return Err(Fault::new("interrupted", format!("stopped after {met} runs")).into());
+                return Err(Fault::new("out-of-time", format!("stopped after {met} runs")).into());
             }
         }
         if let Some(cause) = branch.record.cause {

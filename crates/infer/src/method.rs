@@ -409,12 +409,9 @@ impl Mh {
         };
         Ok(match own {
             None => settings,
-            Some(own) => chain::Settings {
-                kernel: own.kernel,
-                temperatures: own.temperatures,
-                every: own.every,
-                ..settings
-            },
+            Some(own) => {
+                chain::Settings { kernel: own.kernel, powers: own.powers, every: own.every, ..settings }
+            }
         })
     }
 

@@ -327,7 +327,7 @@ mod tests {
         let error = 4.9 * (p * (1.0 - p) / SEEDS as f64).sqrt();
         let smc = |more: &str| {
             let plain = r#""populations": null, "diverse": null, "seconds": null, "moves": 2, "at": "end", "chains": 1,
-                "order": "stochastic", "weights": "ratio", "temper": 1, "resampling": "residual", "ess": 0.5"#;
+                "order": "stochastic", "weights": "ratio", "power": 1, "resampling": "residual", "ess": 0.5"#;
             format!(r#"{{"method": "smc", {plain}, {more}}}"#)
         };
         let mh = |kernel: &str, warmup: u32| {
@@ -344,9 +344,9 @@ mod tests {
             mh("null", 10),
             mh(r#"{"name": "repeat", "settings": {"times": 2}, "parts": [{"name": "by_family"}, {"name": "prior"}]}"#, 0)
                 .replace(r#", {"name": "prior"}"#, ""),
-            r#"{"method": "pimh", "particles": 20, "sweeps": 20, "order": "stochastic", "temper": 1.0, "ess": null,
+            r#"{"method": "pimh", "particles": 20, "sweeps": 20, "order": "stochastic", "power": 1.0, "ess": null,
                 "anneal": null, "resampling": "systematic"}"#.to_string(),
-            r#"{"method": "particle_gibbs", "particles": 20, "sweeps": 20, "order": "depth-first", "temper": 1.0,
+            r#"{"method": "particle_gibbs", "particles": 20, "sweeps": 20, "order": "depth-first", "power": 1.0,
                 "ess": null, "anneal": null, "ancestors": true}"#.to_string(),
         ];
         for method in methods {

@@ -8,7 +8,7 @@ use crate::{Failure, Task};
 use niwaki_geom::sketch::SketchSpec;
 use niwaki_geom::sketch::product::Sketches;
 use niwaki_geom::{Primitive, Shape};
-use niwaki_math::{Dist, Total};
+use niwaki_math::{Dist, Total, grid};
 use niwaki_vm::builtins::value_to_draw;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::stack::RunFault;
@@ -84,7 +84,7 @@ impl Record {
     /// Adds a choice and its log density.
     #[inline]
     pub fn choose(&mut self, address: u128, value: &Value, log_density: f64) {
-        self.log_prior.add(log_density);
+        self.log_prior.add(grid(log_density));
         self.log.push(address, value.clone());
     }
 
@@ -187,7 +187,7 @@ pub fn score_of(sketches: &Sketches) -> Result<Total, Fault> {
     Ok(total)
 }
 
-/// A factor must be a number below plus infinity.
+/// A factor, on the grid: it must be a number below plus infinity.
 ///
 /// # Errors
 /// NaN or plus infinity.
@@ -196,5 +196,5 @@ pub fn check_factor(log: f64) -> Result<f64, Fault> {
         return Err(Fault::new("non-finite-score", format!("a factor of {log} nats"))
             .with_help("a log factor is a finite number, or minus infinity for what is impossible"));
     }
-    Ok(log)
+    Ok(grid(log))
 }

@@ -3,7 +3,7 @@
 
 #![allow(unsafe_code)] // Who counts what is allocated is an allocator.
 
-use niwaki_geom::{Rule, Shape, Target, Vec3, no_self_intersection, vec3, volume_match};
+use niwaki_geom::{Rule, Shape, Target, Vec3, match_volume, no_self_intersection, vec3};
 use niwaki_infer::Task;
 use niwaki_infer::particles::{Settings, When, smc};
 use niwaki_vm::core::parse::parse;
@@ -48,7 +48,7 @@ fn a_box_and_its_choices_take_little_memory() {
     let program = compile(&parse(TOWER).expect("core form"), vec![]).expect("a program");
     let block = Shape::cuboid(Vec3::ZERO, vec3(2.0, 2.0, 2.0), &Default::default()).expect("a block");
     let target = Arc::new(Target::new(block.world_mesh().clone(), 0.4).expect("a target"));
-    let sketches = vec![no_self_intersection(Rule::Solid), volume_match(target, 1e3).expect("a score")];
+    let sketches = vec![no_self_intersection(Rule::Solid), match_volume(target, 1e3).expect("a score")];
     let task = Task { sketches, ..Task::new(Arc::new(program)) };
     // Particles that are not resampled share nothing.
     let settings = Settings { particles: 20, when: When::EffectiveBelow(0.0), ..Settings::default() };

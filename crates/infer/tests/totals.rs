@@ -81,12 +81,12 @@ fn terms_that_cancel_leave_the_same_chain() {
     let (drift, block) =
         (Kernel::Drift { step: 0.7, target: 0.44 }, Kernel::Block { step: 0.3, share: 0.5, target: 0.23 });
     let kernel = Kernel::Cycle(vec![Kernel::Prior, drift, block, Kernel::Regenerate { levels: 1 }]);
-    for temperatures in [vec![1.0], vec![1.0, 3.0]] {
+    for powers in [vec![1.0], vec![1.0, 0.3]] {
         let settings = Settings {
             kernel: kernel.clone(),
             warmup: 200,
             thin: 0,
-            temperatures,
+            powers,
             every: 4,
             ..Settings::default()
         };

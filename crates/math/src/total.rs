@@ -2,33 +2,22 @@
 //!
 //! A sum that is kept up to date (`total - old + new`) must come back to what it was when a term is taken away, and two
 //! runs that made the same choices in another order must agree in the last bit. With `f64` that holds only while every
-//! sum fits into 53 bits. A [`Total`] holds each term on the [`grid`](crate::grid) of 2^-32 nats without loss:
+//! sum fits into 53 bits. A [`Total`] holds terms on the [`grid`](crate::grid) of 2^-32 nats without loss:
 //!
-//! | terms | where |
+//! | sum | where |
 //! | --- | --- |
-//! | below 2^30 nats | one integer, in steps of 2^-32 nats, as long as it has room for their sum |
-//! | larger, finite; sums without room | an expansion: `f64` parts that do not overlap (Shewchuk 1997, theorem 10), on the heap while it is needed |
-//! | infinite | counted by sign, beside the expansion; NaN is counted as one of each, and comes back as NaN |
+//! | below 2^20 nats | one `f64`: 53 bits hold every multiple of 2^-32 of that size |
+//! | larger, finite | an expansion: `f64` parts that do not overlap (Shewchuk 1997, theorem 10), on the heap |
+//! | infinite terms | counted by sign, beside the expansion; NaN is counted as one of each, and comes back as NaN |
 
 use std::fmt;
 
-/// 1.5 * 2^20: in the sum of it and a number below 2^19, the last bit is worth 2^-32.
-const SHIFT: f64 = 1.5 * (1u64 << 20) as f64;
-/// Terms below this size have the quick addition, nats.
-const QUICK: f64 = (1u64 << 19) as f64;
-/// Terms below this size go into the integer, nats.
-const NEAR: f64 = (1u64 << 30) as f64;
-/// Steps in a nat.
-const STEPS: f64 = (1u64 << 32) as f64;
-/// A step, nats.
-const STEP: f64 = 1.0 / STEPS;
+/// A sum of multiples of 2^-32 that comes out below this size, nats, was not rounded.
+const NEAR: f64 = (1u64 << 20) as f64;
 /// Far terms are held times 2^-64, so that no partial sum overflows. All stay far above subnormal numbers.
-const SCALE: f64 = STEP * STEP;
-/// 2^20 nats in steps.
-const SMALL: i64 = 1 << 52;
+const SCALE: f64 = 1.0 / (1u128 << 64) as f64;
 
-/// An exact sum of terms, nats: finite terms of any size, and infinities. Each term is first rounded to the nearest
-/// multiple of 2^-32.
+/// An exact sum of terms, nats: multiples of 2^-32 of any size (see [`grid`](crate::grid)), and infinities.
 ///
 /// ```
 /// # use niwaki_math::Total;
@@ -39,17 +28,17 @@ const SMALL: i64 = 1 << 52;
 /// ```
 #[derive(Default)]
 pub struct Total {
-    /// Sum of the near terms, steps of 2^-32 nats.
-    near: i64,
-    /// What is not in `near`, if anything.
-    rest: Option<Box<Rest>>,
+    /// The sum, where it is below [`NEAR`]; else NaN.
+    near: f64,
+    /// The sum, where `near` is NaN; else what was once there, whose memory will be used again.
+    far: Option<Box<Far>>,
 }
 
-/// Terms that are not near.
-#[derive(Clone, Default, PartialEq)]
-struct Rest {
-    /// Sum of the finite ones, times [`SCALE`].
-    far: Expansion,
+/// A sum that is not near.
+#[derive(Clone, Default)]
+struct Far {
+    /// Sum of the finite terms, times [`SCALE`].
+    finite: Expansion,
     /// How many terms are minus infinity, and plus infinity; below zero, where more of them were taken away.
     infinite: [i32; 2],
 }
@@ -58,118 +47,76 @@ impl Total {
     /// Adds a term.
     #[inline(always)]
     pub fn add(&mut self, term: f64) {
-        if term.abs() < QUICK {
-            self.add_steps(quick_steps(term));
-        } else {
-            self.add_large(term, 1);
-        }
+        self.replace(0.0, term);
     }
 
     /// Takes a term away.
     #[inline(always)]
     pub fn remove(&mut self, term: f64) {
-        if term.abs() < QUICK {
-            self.remove_steps(quick_steps(term));
-        } else {
-            self.add_large(term, -1);
-        }
+        self.replace(term, 0.0);
     }
 
     /// Takes a term away and adds another.
     #[inline(always)]
     pub fn replace(&mut self, old: f64, new: f64) {
-        if old.abs() < QUICK && new.abs() < QUICK {
-            self.add_steps(quick_steps(new) - quick_steps(old));
+        // A difference that was rounded is 2^21 at least, and then the sum is not near.
+        let near = self.near + (new - old);
+        if near.abs() < NEAR {
+            self.near = near;
         } else {
-            self.remove(old);
-            self.add(new);
+            self.change(|far| {
+                far.add(old, -1);
+                far.add(new, 1);
+            });
         }
     }
 
     /// Takes every term away.
     #[inline(always)]
     pub fn clear(&mut self) {
-        self.near = 0;
-        if self.rest.is_some() {
-            self.copy_rest(&Total::default());
-        }
+        self.near = 0.0;
     }
 
+    /// What is not near, if anything.
     #[inline(always)]
-    fn add_steps(&mut self, steps: i64) {
-        match self.near.checked_add(steps) {
-            Some(near) => self.near = near,
-            None => self.make_room(steps, 1.0),
-        }
+    fn far(&self) -> Option<&Far> {
+        self.near.is_nan().then_some(self.far.as_deref()).flatten()
     }
 
-    #[inline(always)]
-    fn remove_steps(&mut self, steps: i64) {
-        match self.near.checked_sub(steps) {
-            Some(near) => self.near = near,
-            None => self.make_room(steps, -1.0),
-        }
-    }
-
-    /// Moves the near sum, and steps for which it has no room, to the far one.
+    /// Changes a sum that is not near, or will not be.
     #[cold]
     #[inline(never)]
-    fn make_room(&mut self, steps: i64, sign: f64) {
-        let near = std::mem::take(&mut self.near);
-        self.change_rest(|rest| {
-            parts(near).into_iter().for_each(|part| rest.far.grow(part));
-            parts(steps).into_iter().for_each(|part| rest.far.grow(sign * part));
-        });
-    }
-
-    #[cold]
-    #[inline(never)]
-    fn add_large(&mut self, term: f64, sign: i32) {
-        let signed = f64::from(sign) * term;
-        if term.abs() < NEAR {
-            self.add_steps((signed * STEPS).round_ties_even() as i64);
-        } else if term.is_finite() {
-            self.change_rest(|rest| rest.far.grow(signed * SCALE));
-        } else {
-            let is = [term != f64::INFINITY, term != f64::NEG_INFINITY];
-            self.change_rest(|rest| (0..2).for_each(|end| rest.infinite[end] += sign * i32::from(is[end])));
+    fn change(&mut self, change: impl FnOnce(&mut Far)) {
+        let far = self.far.get_or_insert_default();
+        if !self.near.is_nan() {
+            far.infinite = [0; 2];
+            far.finite.0.clear();
+            far.finite.grow(self.near * SCALE);
         }
-    }
-
-    /// Changes what is not near. What has become small is moved to the near sum, and nothing is held where nothing is left.
-    fn change_rest(&mut self, change: impl FnOnce(&mut Rest)) {
-        let mut rest = self.rest.take().unwrap_or_default();
-        change(&mut rest);
-        if let Some(near) = rest.far.steps().and_then(|steps| self.near.checked_add(steps)) {
-            (self.near, rest.far) = (near, Expansion::default());
-        }
-        self.rest = (*rest != Rest::default()).then_some(rest);
-    }
-
-    #[cold]
-    #[inline(never)]
-    fn add_rest(&mut self, other: &Rest, sign: i32) {
-        self.change_rest(|rest| {
-            other.far.0.iter().for_each(|part| rest.far.grow(f64::from(sign) * part));
-            (0..2).for_each(|end| rest.infinite[end] += sign * other.infinite[end]);
-        });
+        change(far);
+        let near = far.finite.rounded() / SCALE;
+        self.near = if far.infinite == [0; 2] && near.abs() < NEAR { near } else { f64::NAN };
     }
 
     /// Adds every term of another sum.
     #[inline(always)]
     pub fn add_total(&mut self, other: &Total) {
-        self.add_steps(other.near);
-        if let Some(rest) = &other.rest {
-            self.add_rest(rest, 1);
+        let near = self.near + other.near;
+        if near.abs() < NEAR {
+            self.near = near;
+        } else {
+            self.change(|far| far.add_total(other, 1));
         }
     }
 
     /// Takes every term of another sum away.
     #[inline(always)]
     pub fn remove_total(&mut self, other: &Total) {
-        self.remove_steps(other.near);
-        if let Some(rest) = &other.rest {
-            self.add_rest(rest, -1);
+        let near = self.near - other.near;
+        if near.abs() < NEAR {
+            self.near = near;
+        } else {
+            self.change(|far| far.add_total(other, -1));
         }
     }
 
@@ -192,59 +139,71 @@ impl Total {
     }
 
     /// Whether the sum is minus infinity, as a term is.
-    #[inline]
+    #[inline(always)]
     pub fn is_impossible(&self) -> bool {
-        self.rest.as_ref().is_some_and(|rest| rest.infinite[0] > 0 && rest.infinite[1] == 0)
+        self.far().is_some_and(|far| far.infinite[0] > 0 && far.infinite[1] == 0)
     }
 
-    /// The sum, where it is below 2^20 nats: it is then exact as an `f64`, and so is the sum of two such.
+    /// The sum, where it is below 2^20 nats and exact as an `f64`; else NaN.
     #[inline(always)]
-    pub fn small(&self) -> Option<f64> {
-        let fits = (self.near.wrapping_add(SMALL) as u64) < 2 * SMALL as u64;
-        (fits && self.rest.is_none()).then_some(self.near as f64 * STEP)
+    pub fn near(&self) -> f64 {
+        self.near
     }
 
     /// The nearest `f64`, ties to even. A term of minus infinity makes it minus infinity, and a term of each sign NaN.
     #[inline(always)]
     pub fn value(&self) -> f64 {
-        match &self.rest {
-            None => self.near as f64 * STEP,
-            Some(rest) => self.large_value(rest),
+        self.far().map_or(self.near, Far::value)
+    }
+}
+
+impl Far {
+    fn add(&mut self, term: f64, sign: i32) {
+        if term.is_finite() {
+            self.finite.grow(f64::from(sign) * term * SCALE);
+        } else {
+            let is = [term != f64::INFINITY, term != f64::NEG_INFINITY];
+            (0..2).for_each(|end| self.infinite[end] += sign * i32::from(is[end]));
+        }
+    }
+
+    fn add_total(&mut self, other: &Total, sign: i32) {
+        match other.far() {
+            None => self.add(other.near, sign),
+            Some(far) => {
+                far.finite.0.iter().for_each(|part| self.finite.grow(f64::from(sign) * part));
+                (0..2).for_each(|end| self.infinite[end] += sign * far.infinite[end]);
+            }
         }
     }
 
     #[cold]
     #[inline(never)]
-    fn large_value(&self, rest: &Rest) -> f64 {
-        let [lowest, highest] = rest.infinite;
+    fn value(&self) -> f64 {
+        let [lowest, highest] = self.infinite;
         // A term that was only taken away is one of the other sign.
         match (highest > 0 || lowest < 0, lowest > 0 || highest < 0) {
-            (true, true) => return f64::NAN,
-            (true, false) => return f64::INFINITY,
-            (false, true) => return f64::NEG_INFINITY,
-            (false, false) => {}
+            (true, true) => f64::NAN,
+            (true, false) => f64::INFINITY,
+            (false, true) => f64::NEG_INFINITY,
+            (false, false) => self.finite.rounded() / SCALE,
         }
-        let mut sum = rest.far.clone();
-        parts(self.near).into_iter().for_each(|part| sum.grow(part));
-        sum.rounded() / SCALE
     }
 }
 
 impl Clone for Total {
     #[inline(always)]
     fn clone(&self) -> Total {
-        let mut copy = Total { near: self.near, rest: None };
-        if self.rest.is_some() {
-            copy.copy_rest(self);
-        }
+        let mut copy = Total::default();
+        copy.clone_from(self);
         copy
     }
 
     #[inline(always)]
     fn clone_from(&mut self, other: &Total) {
         self.near = other.near;
-        if self.rest.is_some() || other.rest.is_some() {
-            self.copy_rest(other);
+        if self.near.is_nan() {
+            self.copy_far(other);
         }
     }
 }
@@ -252,30 +211,15 @@ impl Clone for Total {
 impl Total {
     #[cold]
     #[inline(never)]
-    fn copy_rest(&mut self, other: &Total) {
-        self.rest.clone_from(&other.rest);
+    fn copy_far(&mut self, other: &Total) {
+        self.far.clone_from(&other.far);
     }
-}
-
-/// Steps of 2^-32 nats in a term below 2^19 nats, to the nearest one: the last bits of its sum with [`SHIFT`].
-#[inline(always)]
-fn quick_steps(term: f64) -> i64 {
-    (term + SHIFT).to_bits() as i64 - SHIFT.to_bits() as i64
-}
-
-/// Steps as nats times [`SCALE`], exactly.
-fn parts(steps: i64) -> [f64; 2] {
-    [(steps >> 32) as f64 * SCALE, (steps & 0xFFFF_FFFF) as f64 * STEP * SCALE]
 }
 
 impl PartialEq for Total {
     /// Whether the exact sums are equal, whatever terms they were made of.
     fn eq(&self, other: &Total) -> bool {
-        let infinite = |of: &Total| of.rest.as_ref().map_or([0; 2], |rest| rest.infinite);
-        match (&self.rest, &other.rest) {
-            (None, None) => self.near == other.near,
-            _ => infinite(self) == infinite(other) && self.less(other).value() == 0.0,
-        }
+        self.less(other).near == 0.0
     }
 }
 
@@ -297,7 +241,7 @@ impl fmt::Debug for Total {
 }
 
 /// A number as the sum of parts that do not overlap, none zero, smallest first.
-#[derive(Clone, Default, PartialEq)]
+#[derive(Clone, Default)]
 struct Expansion(Vec<f64>);
 
 impl Expansion {
@@ -311,12 +255,6 @@ impl Expansion {
         if carried != 0.0 {
             self.0.push(carried);
         }
-    }
-
-    /// As steps, where it is small enough for the near sum.
-    fn steps(&self) -> Option<i64> {
-        let is_near = self.rounded().abs() < NEAR * SCALE;
-        is_near.then(|| self.0.iter().map(|part| (part / SCALE * STEPS) as i64).sum())
     }
 
     /// The nearest `f64`, ties to even.
@@ -364,15 +302,12 @@ mod tests {
             }
             let (bits, size) = (term.to_bits(), (term.to_bits() >> 52 & 0x7FF) as i32);
             let digits = u128::from(bits & ((1 << 52) - 1) | u64::from(size > 0) << 52);
-            // The term is `digits` steps, `shift` binary places up.
+            // The term is `digits` steps, `shift` binary places up: down only where the last places are zero.
             let shift = size.max(1) - 1075 + 32;
             let (digits, shift) = if shift >= 0 {
                 (digits, shift as usize)
-            } else if shift < -60 {
-                (0, 0)
             } else {
-                let (whole, rest, half) = (digits >> -shift, digits & ((1 << -shift) - 1), 1 << (-shift - 1));
-                (whole + u128::from(rest > half || (rest == half && whole % 2 == 1)), 0)
+                (digits.checked_shr(-shift as u32).unwrap_or(0), 0)
             };
             let signed =
                 (digits << (shift % 32)) as i128 * i128::from(sign) * if term < 0.0 { -1 } else { 1 };
@@ -404,7 +339,7 @@ mod tests {
             let bit = |at: usize| places[at / 32] >> (at % 32) & 1;
             let Some(top) = (0..40 * 32).rev().find(|at| bit(*at) == 1) else { return 0.0 };
             if top < 53 {
-                return sign * (places[1] << 32 | places[0]) as f64 / STEPS;
+                return sign * (places[1] << 32 | places[0]) as f64 * STEP;
             }
             let mut digits = (top - 52..=top).rev().fold(0, |digits, at| digits << 1 | bit(at));
             let (half, rest) = (bit(top - 53), (0..top - 53).any(|at| bit(at) == 1));
@@ -414,23 +349,27 @@ mod tests {
         }
     }
 
+    const STEP: f64 = 1.0 / (1u64 << 32) as f64;
     const NOTHING: Exact = Exact { places: [0; 40], infinite: [0; 2] };
 
     /// Terms of every size; of powers of two too, whose sums lie half way between two numbers.
     fn term(random: &mut Stream) -> f64 {
         let sign = if random.uniform() < 0.5 { -1.0 } else { 1.0 };
         let (kind, u) = ((random.uniform() * 9.0) as u32, random.uniform());
-        sign * match kind {
-            0 => u * 10.0,
-            1 => 10f64.powf(u * 27.0 - 9.0),
-            2 => 2f64.powi((u * 1056.0) as i32 - 32),
-            3 => 2f64.powi((u * 96.0) as i32 - 32),
-            4 => [524_288.0, 1_048_576.0, NEAR, f64::MAX, 1e300][(u * 5.0) as usize],
-            5 => (u + 0.5) * [524_288.0, 1_048_576.0, NEAR, 1e300][(u * 4.0) as usize],
-            6 => 10f64.powf(u * 600.0 - 300.0),
-            7 if u < 0.3 => f64::INFINITY,
-            _ => u * 1e18,
-        }
+        grid(
+            sign * match kind {
+                0 => u * 10.0,
+                1 => 10f64.powf(u * 27.0 - 9.0),
+                2 => 2f64.powi((u * 1056.0) as i32 - 32),
+                3 => 2f64.powi((u * 96.0) as i32 - 32),
+                4 => [0.5 * NEAR, NEAR, 2.0 * NEAR, NEAR - STEP, NEAR + STEP, f64::MAX, 1e300]
+                    [(u * 7.0) as usize],
+                5 => (u + 0.5) * [0.5 * NEAR, NEAR, 1e9, 1e300][(u * 4.0) as usize],
+                6 => 10f64.powf(u * 600.0 - 300.0),
+                7 if u < 0.3 => f64::INFINITY,
+                _ => u * 1e18,
+            },
+        )
     }
 
     #[test]
@@ -444,13 +383,13 @@ mod tests {
                     let gone = terms.swap_remove((random.uniform() * terms.len() as f64) as usize);
                     total.remove(gone);
                     exact.add(gone, -1);
-                    plain -= grid(gone);
+                    plain -= gone;
                 } else {
                     let come = term(&mut random);
                     terms.push(come);
                     total.add(come);
                     exact.add(come, 1);
-                    plain += grid(come);
+                    plain += come;
                 }
                 let (found, right) = (total.value(), exact.value());
                 assert!(
@@ -471,7 +410,7 @@ mod tests {
                 other.replace(new, *old);
                 assert_eq!(other, total);
                 other.clear();
-                assert!(other == Total::default() && other.rest.is_none());
+                assert!(other == Total::default() && other.near == 0.0);
             }
             // The same terms in another order, and their difference from others.
             let (mut other, mut rest) = (Total::default(), exact.clone());
@@ -485,12 +424,12 @@ mod tests {
             let (found, right) = (total.less(&part).value(), rest.value());
             assert!(found == right || found.is_nan() && right.is_nan());
             assert_eq!(total.less(&part).plus(&part), total);
-            assert!(terms.is_empty() || total != total.plus(&Total { near: 1, rest: None }));
-            // A mutant: a sum of `f64` on the grid.
+            assert!(terms.is_empty() || total != total.plus(&Total { near: STEP, far: None }));
+            // A mutant: a sum of `f64`.
             plain_fails += u64::from(plain != exact.value());
             // With everything gone, nothing is left.
             terms.iter().for_each(|term| total.remove(*term));
-            assert!(total == Total::default() && total.rest.is_none());
+            assert!(total == Total::default() && total.near == 0.0);
         }
         assert!(plain_fails > chains / 2, "a plain sum was right {} times", chains - plain_fails);
     }
@@ -518,28 +457,30 @@ mod tests {
     }
 
     #[test]
-    fn sums_without_room_in_the_integer_are_exact_and_come_back() {
+    fn sums_that_are_not_near_are_exact_and_come_back() {
         for sign in [1.0, -1.0] {
             let (term, count) = (sign * 500_000.25, 20_000);
             let mut total = Total::default();
             (0..count).for_each(|_| total.add(term));
             assert_eq!(total.value(), term * f64::from(count));
-            assert!(total.rest.is_some());
+            assert!(total.near.is_nan());
             let mut twice = total.plus(&total);
             assert_eq!(twice.value(), 2.0 * total.value());
             twice.remove_total(&total);
             assert_eq!(twice, total);
             (0..count).for_each(|_| total.remove(term));
             assert_eq!(total.value(), 0.0);
-            let most = Total { near: i64::MIN, rest: None };
-            assert_eq!(Total::default().less(&most).value(), 2f64.powi(31));
+            let mut most = Total::default();
+            most.add(sign * (NEAR - STEP));
+            assert!(!most.near.is_nan() && most.plus(&most).near.is_nan());
+            assert_eq!(most.plus(&most).value(), sign * 2.0 * (NEAR - STEP));
         }
     }
 
     #[test]
     fn infinities_and_nan_come_back() {
         let mut total = Total::default();
-        total.add(0.1);
+        total.add(grid(0.1));
         let before = total.clone();
         for terms in
             [vec![f64::NEG_INFINITY; 3], vec![f64::NEG_INFINITY, f64::INFINITY], vec![f64::NAN, 1e300]]

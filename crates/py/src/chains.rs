@@ -121,7 +121,7 @@ impl PyChains {
         chains.chains.iter().filter_map(|ladder| Some(ladder.rungs.first()?.samples.thin)).collect()
     }
 
-    /// Exchanges between neighbouring temperatures, all chains together: (tried, made).
+    /// Exchanges between neighbouring powers, all chains together: (tried, made).
     fn exchanges(&self) -> Vec<(u64, u64)> {
         let chains = self.lock();
         let mut all = vec![(0, 0); chains.chains.first().map_or(0, |ladder| ladder.exchanges.len())];
@@ -153,7 +153,7 @@ impl PyChains {
         all.named(program).into_iter().map(site).collect()
     }
 
-    /// Of each leaf of the kernel that follows the gradient, in order, all chains and temperatures together: a dict with
+    /// Of each leaf of the kernel that follows the gradient, in order, all chains and powers together: a dict with
     /// ``made``, ``moved``, ``unwritten``, ``settled`` (after the warm-up), ``acceptance`` (their mean), ``gradients``,
     /// ``structures``, ``recordings``, ``divergences`` (see [`broken_off`]), ``warmup_divergences``; ``step``, by chain;
     /// and ``fault``, an exception or None.

@@ -105,7 +105,7 @@ fn is_dist(value: &Bound<'_, PyAny>) -> bool {
     value.cast::<PyTuple>().is_ok_and(|pair| pair.len() == 2 && name(pair))
 }
 
-/// Numbers in a row.
+/// A list of numbers.
 fn row(value: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
     let number = |entry: PyResult<Bound<'_, PyAny>>| {
         let entry = plain(&entry?)?;

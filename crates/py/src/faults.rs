@@ -1,8 +1,8 @@
 //! Faults as data: one exception that carries what the engine knows. Python draws the carets.
 //!
 //! `kind` is "run" (the model failed: message, help, stack), "setting" (the question makes no sense), "impossible"
-//! (every particle is, or at barrier 0 every run: barrier and causes), "no-start" (every first state of a chain is: their number in `barrier`, and
-//! causes) or "compile" (a defect of the text or a limit of the machine).
+//! (every particle is, or at barrier 0 every run: barrier and causes), "no-start" (every first state of a chain is: tries
+//! and causes) or "compile" (a defect of the text or a limit of the machine).
 
 use niwaki_infer::Failure;
 use niwaki_vm::code::Program;
@@ -17,8 +17,8 @@ pyo3::create_exception!(
     EngineFault,
     PyRuntimeError,
     "A fault as data.\n\n\
-     Attributes: `kind`, `code`, `message`, `help`, and by kind: `stack` (function, path, (line, column, end line, \
-     end column)), `omitted`, `path`, `invalid` (a distribution's parameters were out of range); `barrier`, `causes`."
+     Attributes: `kind`, `code`, `message`, `subject` (the address or pattern that it is about), `help`, and by kind: `stack` (function, path, (line, column, end line, \
+     end column)), `omitted`, `path`, `invalid` (a distribution's parameters were out of range); `barrier` or `tries`, `causes`."
 );
 
 /// The exception for why a search gave no result.
@@ -55,7 +55,7 @@ fn build(py: Python<'_>, failure: &Failure, program: &Program) -> PyResult<PyErr
             all_impossible("impossible", "everything-impossible", causes)?;
         }
         Failure::NoStart { tries, causes } => {
-            facts.set_item("barrier", tries)?;
+            facts.set_item("tries", tries)?;
             all_impossible("no-start", "no-start", causes)?;
         }
     }
@@ -66,6 +66,7 @@ fn note(facts: &Bound<'_, PyDict>, fault: &Fault, kind: &str) -> PyResult<()> {
     facts.set_item("kind", kind)?;
     facts.set_item("code", fault.code)?;
     facts.set_item("message", &fault.message)?;
+    facts.set_item("subject", fault.subject.as_deref())?;
     facts.set_item("help", fault.help.as_deref())
 }
 

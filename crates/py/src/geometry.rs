@@ -1,12 +1,12 @@
 //! Shapes, targets and sketches, as Python sees them.
 //!
-//! Every error is a `ValueError` with an attribute `code` (`bad-shape`, `empty-mesh`, `mesh-index`, ...), for which
+//! Every error is a `ValueError` with an attribute `code` (`bad-shape`, `bad-shape`, `bad-shape`, ...), for which
 //! Python's table of messages has the words.
 
 use crate::values::Classes;
 use niwaki_geom::{
-    GeomError, Primitive, Rule, Shape, SketchSpec, Sketches, Target, TriMesh, Vec3, no_self_intersection,
-    volume_match,
+    GeomError, Primitive, Rule, Shape, SketchSpec, Sketches, Target, TriMesh, Vec3, match_volume,
+    no_self_intersection,
 };
 use niwaki_vm::builtins::{builtin, builtin_id, shapes};
 use niwaki_vm::fault::Fault;
@@ -40,11 +40,11 @@ pub fn mesh_from(
             vertices.nrows(),
             faces.nrows()
         );
-        return Err(GeomError::new("empty-mesh", message));
+        return Err(GeomError::new("bad-shape", message));
     }
     for (what, columns) in [("vertices", vertices.ncols()), ("faces", faces.ncols())] {
         if columns != 3 {
-            return Err(GeomError::new("mesh-index", format!("{what} have {columns} columns, expected 3")));
+            return Err(GeomError::new("bad-shape", format!("{what} have {columns} columns, expected 3")));
         }
     }
     let points = vertices.rows().into_iter().map(|r| Vec3::from([r[0], r[1], r[2]])).collect();
@@ -55,7 +55,7 @@ pub fn mesh_from(
         let Some([a, b, c]) = corners.as_deref() else {
             let (row, count) = (row.to_vec(), vertices.nrows());
             return Err(GeomError::new(
-                "mesh-index",
+                "bad-shape",
                 format!("face {i} is {row:?}, but there are {count} vertices"),
             ));
         };
@@ -250,10 +250,10 @@ impl PySketchSpec {
 }
 
 /// Scores a scene by how well it fills ``target``; ``sigma`` is the standard deviation of both its terms.
-#[pyfunction(name = "volume_match")]
+#[pyfunction(name = "match_volume")]
 #[pyo3(signature = (target, sigma=0.02))]
 fn py_volume_match(py: Python<'_>, target: &PyTarget, sigma: f64) -> PyResult<PySketchSpec> {
-    volume_match(target.0.clone(), sigma).map(PySketchSpec).map_err(|e| value_error(py, &e))
+    match_volume(target.0.clone(), sigma).map(PySketchSpec).map_err(|e| value_error(py, &e))
 }
 
 /// Forbids scenes whose primitives intersect, by ``rule`` "solid" or "surface".
@@ -265,7 +265,7 @@ fn py_no_self_intersection(py: Python<'_>, rule: &str) -> PyResult<PySketchSpec>
         "surface" => Rule::Surface,
         _ => {
             let message = format!("the rule is {rule:?}, expected \"solid\" or \"surface\"");
-            return Err(value_error(py, &GeomError::new("bad-rule", message)));
+            return Err(value_error(py, &GeomError::new("bad-setting", message)));
         }
     };
     Ok(PySketchSpec(no_self_intersection(rule)))
@@ -298,7 +298,7 @@ impl PySketch {
         if self.0.remove(&primitive(shapes)) {
             return Ok(());
         }
-        Err(value_error(py, &GeomError::new("not-in-scene", "the scene has no such primitive")))
+        Err(value_error(py, &GeomError::new("bad-setting", "the scene has no such primitive")))
     }
 
     /// Sum of the log scores, nats.

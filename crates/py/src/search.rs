@@ -306,7 +306,7 @@ impl PyTask {
                 dict.set_item("ancestors", found.ancestors)?;
                 dict.set_item("plan", PyTuple::new(py, found.plan)?)?;
                 dict.set_item("died", found.died)?;
-                dict.set_item("temperatures", PyTuple::new(py, found.temperatures)?)?;
+                dict.set_item("powers", PyTuple::new(py, found.powers)?)?;
                 let pair = |count: Count| (count.proposed, count.accepted);
                 dict.set_item("moved_running", pair(found.moved.running))?;
                 dict.set_item("moved_ended", pair(found.moved.ended))?;

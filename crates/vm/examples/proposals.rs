@@ -1,6 +1,8 @@
 //! The price of a proposal on the machine alone: one chain, one thread, single choices.
 //!
 //! `cargo run --release -p niwaki-vm --example proposals [NAME] [SIZE]`
+//!
+//! With `PROPOSALS=N` it makes N proposals instead of running for `SECONDS`, so that instructions can be counted.
 
 use niwaki_geom::Shape;
 use niwaki_math::{Dist, Stream, grid};
@@ -140,6 +142,7 @@ fn main() {
     let wanted = std::env::args().nth(1).unwrap_or_default();
     let n = std::env::args().nth(2).and_then(|n| n.parse().ok()).unwrap_or(1000);
     let seconds = std::env::var("SECONDS").ok().and_then(|s| s.parse().ok()).unwrap_or(1.0);
+    let count = std::env::var("PROPOSALS").ok().and_then(|n| n.parse::<u64>().ok());
     let strategy = match std::env::var("STRATEGY").as_deref() {
         Ok("rerun") => Strategy::Rerun,
         Ok("resume") => Strategy::Resume,
@@ -159,17 +162,16 @@ fn main() {
         trace.commit(&program);
         let (mut steps, mut accepted, mut first, start) = (0u64, 0u64, 0.0, cpu_seconds());
         let counters = trace.counters();
-        while !steps.is_multiple_of(1024) || cpu_seconds() - start < seconds {
+        let is_due = |steps: u64| !steps.is_multiple_of(1024) || cpu_seconds() - start < seconds;
+        while count.map_or_else(|| is_due(steps), |count| steps < count) {
             let mut pick = Stream::new(1, 2, 0, steps);
             let choice = (pick.uniform() * trace.len() as f64) as usize;
             let change = machine
                 .propose(&mut trace, choice, strategy, &mut Steps(steps), &mut Draws(steps + 1))
                 .expect("a run");
-            let (before, after) = (trace.before(), trace.totals());
             let (fresh, stale) = trace.fresh_and_stale();
             let (forward, backward) = trace.forward_and_backward();
-            let mut sum = after.log_prior.less(&before.log_prior);
-            sum.add_total(&after.log_factors.less(&before.log_factors));
+            let mut sum = trace.change().log_prior.plus(&trace.change().log_factors);
             sum.add_total(stale);
             sum.remove_total(fresh);
             let ratio = sum.value() + (backward - forward);

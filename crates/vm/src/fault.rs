@@ -22,6 +22,8 @@ pub struct Details {
     pub code: &'static str,
     /// One sentence, lower case, with found and expected.
     pub message: String,
+    /// The name that the message is about, where it is looked up: an address, a pattern.
+    pub subject: Option<String>,
     /// The cure, where there is one that fits.
     pub help: Option<String>,
     /// The family of a distribution whose parameters are numbers out of its range: a run that meets one is outside of the
@@ -112,7 +114,13 @@ impl Fault {
     /// A fault of any kind.
     #[cold]
     pub fn new(code: &'static str, message: impl Into<String>) -> Fault {
-        Fault(Box::new(Details { code, message: message.into(), help: None, out_of_range: None }))
+        Fault(Box::new(Details {
+            code,
+            message: message.into(),
+            subject: None,
+            help: None,
+            out_of_range: None,
+        }))
     }
 
     /// An operation without a derivative met a number that varies with the continuous choices.
@@ -131,6 +139,13 @@ impl Fault {
     #[cold]
     pub fn of_range(mut self, family: Family) -> Fault {
         self.0.out_of_range = Some(family);
+        self
+    }
+
+    /// The same fault, about that name.
+    #[cold]
+    pub fn about(mut self, subject: impl Into<String>) -> Fault {
+        self.0.subject = Some(subject.into());
         self
     }
 

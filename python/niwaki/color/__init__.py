@@ -14,9 +14,6 @@ files      SVG, PNG, a sheet, the residuals
 drawings/  four drawings of our own, with rules
 """
 
-from niwaki.color.drawing import Drawing
-from niwaki.color.model import coloring
-from niwaki.color.rules import Rules
-from niwaki.color.search import Coloring, color
+import lazy_loader
 
-__all__ = ["Coloring", "Drawing", "Rules", "color", "coloring"]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -29,8 +29,8 @@ from niwaki.lang.constraints import Constraint
 from niwaki.lang.residuals import Residuals, residuals
 from niwaki.methods import Method, at_least_one, explore
 from niwaki.methods.checks import bad, is_number
-from niwaki.result import Sample
-from niwaki.search import Progress, run
+from niwaki.result import Progress, Sample
+from niwaki.search import run
 
 if TYPE_CHECKING:
     from PIL import Image

@@ -12,9 +12,8 @@ from importlib import import_module
 from pkgutil import iter_modules
 from typing import Any
 
+import niwaki as nw
 from niwaki import targets
-from niwaki.lang.models import Model
-from niwaki.targets.target import Target
 
 #: Modules of this folder that hold no model; they are not imported to find that out.
 NOT_MODELS = ("data", "furnishings")
@@ -45,19 +44,19 @@ class Entry:
 
     name: str
     title: str
-    model: Model[..., Any]
+    model: nw.Model[..., Any]
     target_name: str | None
     voxel: float | None
     particles: int
 
-    def target(self) -> Target | None:
+    def target(self) -> nw.Target | None:
         """Make the usual target."""
         return named_target(self.target_name) if self.target_name is not None else None
 
 
-def named_target(name: str) -> Target:
+def named_target(name: str) -> nw.Target:
     """Make one of the gallery's own targets."""
-    made: Target = getattr(targets.examples, name)()
+    made: nw.Target = getattr(targets.examples, name)()
     return made
 
 

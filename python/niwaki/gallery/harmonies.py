@@ -7,7 +7,7 @@ each colour differs from the one before by the same amount, to a hundredth. A co
 saturation and value.
 
 `KERNEL` moves the discrete choices by Metropolis-Hastings and the real ones along their gradient, at several
-temperatures: where the constraint is loose the scheme turns, and where it is tight the colours are.
+powers of the score: where the constraint is loose the scheme turns, and where it is tight the colours are.
 """
 
 from math import pi
@@ -40,9 +40,9 @@ COLORS, APART, WITHIN = 5, 25.0, 0.25
 
 #: One of each: a discrete choice by Metropolis-Hastings, all real ones along their gradient.
 BOTH = kernels.cycle(
-    kernels.repeat(3, kernels.on(["scheme", "of"], kernels.mh())), kernels.hmc(steps=10, jitter=0.5)
+    kernels.repeat(3, kernels.on(["scheme", "of"], kernels.prior())), kernels.hmc_step(steps=10, jitter=0.5)
 )
-KERNEL = kernels.temper(BOTH, temperatures=(1, 4, 16, 64, 256, 1024), every=8)
+KERNEL = kernels.tempering(BOTH, powers=(1, 4**-1, 4**-2, 4**-3, 4**-4, 4**-5), every=8)
 METHOD = mh(steps=40_000, warmup=8_000, thin=32, kernel=KERNEL)
 
 

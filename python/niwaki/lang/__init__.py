@@ -17,3 +17,7 @@ models         `@model`
 constraints, residuals
                the soft constraints of a run, and how far they are from holding
 """
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

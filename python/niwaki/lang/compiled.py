@@ -132,10 +132,9 @@ def as_fault(found: BaseException | None, name: str, replay: str = "") -> ModelF
 
 def _error(fault: Any, name: str, replay: str, choices: Mapping[str, Any]) -> Exception:
     if fault.code == "missing-choice":
-        address = fault.message.partition("`")[2].rstrip("`")
-        near = get_close_matches(address, list(choices), n=3, cutoff=0.0)
+        near = get_close_matches(fault.subject, list(choices), n=3, cutoff=0.0)
         nearest = ", ".join(f'"{one}"' for one in near) or "none"
-        return InputError("missing-choice", address=address, nearest=nearest)
+        return InputError("missing-choice", address=fault.subject, nearest=nearest)
     if fault.kind == "run":
         error = ModelFault.from_engine(fault.code, fault.message, fault.help, fault.stack, replay)
         error.values |= {"omitted": fault.omitted, "invalid": fault.invalid}
@@ -145,14 +144,13 @@ def _error(fault: Any, name: str, replay: str, choices: Mapping[str, Any]) -> Ex
     if fault.code == "no-continuous-choices":
         return InputError(fault.code)
     if fault.code == "no-address":
-        pattern = fault.message.partition("`")[2].partition("`")[0]
-        return InputError("no-address", pattern=pattern, name=name, nearest=fault.help or "none")
+        return InputError("no-address", pattern=fault.subject, name=name, nearest=fault.help or "none")
     if fault.kind == "no-start":
-        if fault.barrier == 0:
+        if fault.tries == 0:
             given = "this one is not"
             return InputError("no-start", name=name, tried="the run that was given is", constraint=given)
         causes = ", ".join(f"{cause} ({count})" for cause, count in fault.causes)
-        tried = f"all of {fault.barrier} forward runs were"
+        tried = f"all of {fault.tries} forward runs were"
         return InputError("no-start", name=name, tried=tried, constraint=f"these were not: {causes}")
     if fault.kind == "impossible":
         total = sum(count for _, count in fault.causes)

@@ -79,7 +79,7 @@ def holds_future(*values: Any) -> bool:
         parts = _parts(value)
         if parts and id(value) not in seen:
             seen.add(id(value))
-            work += parts
+            work.extend(parts)
     return False
 
 

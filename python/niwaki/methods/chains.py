@@ -24,7 +24,7 @@ class Mh(Method):
         are unchanged), "resume" (from the choice on), "cache" (from the start, skipping), "rerun" (all of it). The
         states are the same to the bit; only the time differs.
     kernel
-        How it proposes, a value of `niwaki.kernels`; `kernels.mh()` when left out.
+        How it proposes, a value of `niwaki.kernels`; `kernels.prior()` when left out.
     chains
         How many, side by side on the machine's threads.
     thin

@@ -43,8 +43,8 @@ def proposal(kernel: Any) -> None:
     usual = 'kernels.on("x", kernels.proposal(function))'
     if not isinstance(kernel, Kernel):
         raise bad("proposal", kernel, "a kernel from `kernels.proposal`", usual)
-    odds = kernel.name == "on" and not kernel.settings["sites"]
-    if kernel.name not in ("proposal", "on", "cycle") or odds:
+    weighted = kernel.name == "on" and not kernel.settings["sites"]
+    if kernel.name not in ("proposal", "on", "cycle") or weighted:
         raise bad("proposal", kernel, "`proposal`, `on` around it, or a `cycle` of those", usual)
     for part in kernel.parts:
         proposal(part)

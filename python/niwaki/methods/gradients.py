@@ -17,7 +17,7 @@ class Hmc(Method):
     """Chains that follow the gradient for a fixed number of steps (dissertation 4.3).
 
     They keep the structure of their start and the values of its discrete choices, with a warning; where those should
-    vary use `mh(kernel=kernels.cycle(kernels.mh(), kernels.hmc()))`.
+    vary use `mh(kernel=kernels.cycle(kernels.prior(), kernels.hmc_step()))`.
 
     Parameters
     ----------

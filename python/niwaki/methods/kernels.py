@@ -1,12 +1,12 @@
 """Markov kernels as values, for `niwaki.mh(kernel=...)`.
 
-Leaves propose: `mh`, `drift`, `neighbour`, `proposal` change one choice, `block` and `regenerate` many; `hmc` and
-`nuts` move the continuous ones along their gradient. Branches say which leaf is next: `cycle`, `mixture`, `repeat`;
-`on` restricts a kernel to some choices, `odds` weighs them, `anneal` and `temper` change the power of the score. One
-application of `cycle(a, b)` is one of `a` and then one of `b`.
+Leaves propose: `prior`, `drift`, `neighbour`, `proposal` change one choice, `block` and `regenerate` many; `hmc_step`
+and `nuts_step` move the continuous ones along their gradient. Branches say which leaf is next: `cycle`, `mixture`,
+`repeat`; `on` restricts a kernel to some choices, `weighted` gives them selection weights, `anneal` and `tempering`
+change the power of the score. One application of `cycle(a, b)` is one of `a` and then one of `b`.
 
 >>> from niwaki import kernels
->>> kernel = kernels.cycle(kernels.on("z", kernels.mh()), kernels.repeat(3, kernels.on("mean*", kernels.drift())))
+>>> kernel = kernels.cycle(kernels.on("z", kernels.prior()), kernels.repeat(3, kernels.on("mean*", kernels.drift())))
 
 Patterns are compared with readable addresses: `*` and `?` stand for text within one component, `**` for any text; a
 pattern without `/` is compared with the last component.
@@ -29,19 +29,19 @@ __all__ = [
     "block",
     "cycle",
     "drift",
-    "hmc",
-    "mh",
+    "hmc_step",
     "mixture",
     "neighbour",
-    "nuts",
-    "odds",
+    "nuts_step",
     "on",
     "original",
     "parse",
+    "prior",
     "proposal",
     "regenerate",
     "repeat",
-    "temper",
+    "tempering",
+    "weighted",
 ]
 
 #: Depths for which a function of the depth is asked; the last holds for all beyond.
@@ -94,21 +94,21 @@ class Kernel:
     @property
     def follows(self) -> bool:
         """Whether a leaf of it follows the gradient."""
-        return self.first("hmc", "nuts") is not None
+        return self.first("hmc_step", "nuts_step") is not None
 
     def __repr__(self) -> str:
         own = self.settings
-        if self.name in ("hmc", "nuts"):
+        if self.name in ("hmc_step", "nuts_step"):
             shown = [f"{key}={value}" for key, value in own.items() if key not in ("steps", "max_depth")]
-            length = str(own["steps" if self.name == "hmc" else "max_depth"])
+            length = str(own["steps" if self.name == "hmc_step" else "max_depth"])
             return f"{self.name}({', '.join([length, *(one for one in shown if one != 'jitter=0.0')])})"
         if self.name == "on":
             (inner,) = self.parts
             if own["sites"]:
                 return f"on({own['sites'][0]!r}, {inner!r})"
             depth = ", depth=..." if own["depth"] else ""
-            sites = f", sites={dict(own['odds'])!r}" if own["odds"] else ""
-            return f"odds({inner!r}{depth}{sites})"
+            sites = f", sites={dict(own['weights'])!r}" if own["weights"] else ""
+            return f"weighted({inner!r}{depth}{sites})"
         if self.name == "mixture":
             weights = ", ".join(map(repr, own["weights"]))
             return f"mixture({weights}, {', '.join(map(repr, self.parts))})"
@@ -118,7 +118,7 @@ class Kernel:
         return f"{self.name}({', '.join(parts)})"
 
 
-def mh() -> Kernel:
+def prior() -> Kernel:
     """One choice, drawn from its own distribution (dissertation 3.2)."""
     return Kernel("prior")
 
@@ -126,7 +126,7 @@ def mh() -> Kernel:
 def drift(step: float = 0.5, target: float = 0.44) -> Kernel:
     """One continuous choice moves a little; discrete ones are drawn from their own distribution.
 
-    Positive numbers move by a factor, those of an interval by a factor of their odds, entries of a simplex by factors;
+    Positive numbers move by a factor, those of an interval by a factor of x / (1 - x), entries of a simplex by factors;
     angles go around.
 
     Parameters
@@ -173,12 +173,12 @@ def regenerate(levels: int = 0) -> Kernel:
     return Kernel("regenerate", {"levels": _whole("levels", levels, 0)})
 
 
-def hmc(steps: int = 10, step: float = 0.1, jitter: float = 0.0, target: float = 0.8) -> Kernel:
+def hmc_step(steps: int = 10, step: float = 0.1, jitter: float = 0.0, target: float = 0.8) -> Kernel:
     """All continuous choices move together along their gradient, for a fixed number of steps (dissertation 4.3, 7.1).
 
     Discrete choices keep their values, and with them the structure of the run: other kernels of the same chain move
     those. A trajectory that reaches another structure is rejected, so put a kernel beside that moves continuous choices
-    too, such as `mh()`, where they decide the structure. Under `on` only the choices that match move.
+    too, such as `prior()`, where they decide the structure. Under `on` only the choices that match move.
 
     Parameters
     ----------
@@ -200,25 +200,25 @@ def hmc(steps: int = 10, step: float = 0.1, jitter: float = 0.0, target: float =
         "jitter": float(jitter),
         "target": _share("target", target),
     }
-    return Kernel("hmc", settings)
+    return Kernel("hmc_step", settings)
 
 
-def nuts(max_depth: int = 8, step: float = 0.1, target: float = 0.8) -> Kernel:
-    """All continuous choices move together along their gradient until they turn back; else as for `hmc`.
+def nuts_step(max_depth: int = 8, step: float = 0.1, target: float = 0.8) -> Kernel:
+    """All continuous choices move together along their gradient until they turn back; else as for `hmc_step`.
 
     Parameters
     ----------
     max_depth
         Most doublings of a trajectory: 2^max_depth - 1 steps; up to 20.
     step, target
-        As for `hmc`.
+        As for `hmc_step`.
     """
     settings = {
         "max_depth": _whole("max_depth", max_depth, 1, 20),
         "step": _positive("step", step),
         "target": _share("target", target),
     }
-    return Kernel("nuts", settings)
+    return Kernel("nuts_step", settings)
 
 
 def proposal(function: Callable[..., Any]) -> Kernel:
@@ -263,7 +263,7 @@ def on(sites: str | Sequence[str], kernel: Kernel) -> Kernel:
     return Kernel("on", _selection(sites=[patterns]), _parts("on", (kernel,)))
 
 
-def odds(
+def weighted(
     kernel: Kernel,
     *,
     depth: Callable[[int], float] | None = None,
@@ -275,22 +275,25 @@ def odds(
     Parameters
     ----------
     depth
-        The odds of a choice with so many calls above it.
+        The selection weight of a choice with that number of calls above it.
     sites
-        Odds by pattern over addresses; the first that matches holds, and 1 where none does. Zero leaves a choice out.
+        Selection weights by pattern over addresses: the first that matches, else 1. Zero leaves a choice out.
     calls
         The name, in addresses, of the calls that count as depth; all calls when left out.
     """
     by_depth = [] if depth is None else [_weight("depth", depth(n)) for n in range(_DEEPEST)]
     by_site = [[pattern, _weight("sites", one)] for pattern, one in (sites or {}).items()]
-    return Kernel("on", _selection(depth=by_depth, odds=by_site, calls=calls), _parts("odds", (kernel,)))
+    return Kernel(
+        "on", _selection(depth=by_depth, weights=by_site, calls=calls), _parts("weighted", (kernel,))
+    )
 
 
-def anneal(kernel: Kernel, steps: int, start: float = 10.0, end: float = 0.1) -> Kernel:
-    """A kernel under which the score counts more and more: its log is divided by a temperature.
+def anneal(kernel: Kernel, steps: int, start: float = 0.1, end: float = 10.0) -> Kernel:
+    """A kernel under which the score counts more and more: it is raised to a power that rises.
 
-    The temperature goes from `start` to `end` in so many proposals, geometrically, and stays there. The prior is never
-    tempered. The samples are not those of the posterior; take the best.
+    The power goes from `start` to `end` in so many proposals, geometrically, and then stays. A power of 1 is the
+    posterior, a higher one is sharper; the prior keeps its power of 1. The samples are not those of the posterior;
+    take the best.
     """
     settings = {
         "start": _positive("start", start),
@@ -300,29 +303,29 @@ def anneal(kernel: Kernel, steps: int, start: float = 10.0, end: float = 0.1) ->
     return Kernel("anneal", settings, _parts("anneal", (kernel,)))
 
 
-def temper(kernel: Kernel, temperatures: Sequence[float] = (1.0, 2.0, 4.0, 8.0), every: int = 100) -> Kernel:
-    """Parallel tempering: a chain at each temperature of the score; neighbours exchange states now and then.
+def tempering(kernel: Kernel, powers: Sequence[float] = (1.0, 0.5, 0.25, 0.125), every: int = 100) -> Kernel:
+    """Parallel tempering: a chain at each power of the score; neighbours exchange states now and then.
 
-    It can only be outermost. The first temperature must be 1: its chain gives the samples.
+    It can only be outermost. The first power must be 1: its chain gives the samples.
 
     Parameters
     ----------
-    temperatures
-        Rising from 1.
+    powers
+        Falling from 1. At a small power the score counts little, and the chain moves freely.
     every
         Proposals between two exchanges.
     """
-    rising = [_positive("temperatures", one) for one in temperatures]
-    if not rising or rising[0] != 1.0 or rising != sorted(rising):
-        raise _wrong("temperatures", temperatures, "temperatures that rise from 1", "(1, 2, 4, 8)")
+    falling = [_positive("powers", one) for one in powers]
+    if not falling or falling[0] != 1.0 or falling != sorted(falling, reverse=True):
+        raise _wrong("powers", powers, "powers that fall from 1", "(1, 0.5, 0.25, 0.125)")
     return Kernel(
-        "temper",
-        {"temperatures": rising, "every": _whole("every", every, 1)},
-        _parts("temper", (kernel,)),
+        "tempering",
+        {"powers": falling, "every": _whole("every", every, 1)},
+        _parts("tempering", (kernel,)),
     )
 
 
-def original(sharpen: float = 16.0, nesting: str | None = None) -> Kernel:
+def original(power: float = 16.0, nesting: str | None = None) -> Kernel:
     """The original's Metropolis-Hastings, with its settings (the baseline of dissertation 5.6).
 
     One choice by its family: a coin is always turned, a Gaussian number drifts by its own standard deviation, anything
@@ -331,22 +334,22 @@ def original(sharpen: float = 16.0, nesting: str | None = None) -> Kernel:
 
     Parameters
     ----------
-    sharpen
-        The power of the score: 16 makes a sigma of 0.02 one of 0.005, as the original did. Reported scores are never
-        sharpened.
+    power
+        Of the score: 16 makes a sigma of 0.02 one of 0.005, as the original did. Reported scores are
+        those of power 1.
     nesting
-        The name of a function: choices within so many nested calls of it get odds exp(-n), as on the original's tree,
-        where n counts branches and not segments (for our gnarly tree `"side_branch"`). All alike when left out.
+        The name of a function: choices within n nested calls of it get the selection weight exp(-n), as on the
+        original's tree, where n counts branches and not segments (for our gnarly tree `"side_branch"`). All alike
+        when left out.
     """
     kernel = Kernel("by_family")
     if nesting is not None:
-        kernel = odds(kernel, depth=lambda n: math.exp(-n), calls=nesting)
-    power = 1.0 / _positive("sharpen", sharpen)
-    return kernel if power == 1.0 else anneal(kernel, 1, power, power)
+        kernel = weighted(kernel, depth=lambda n: math.exp(-n), calls=nesting)
+    return kernel if _positive("power", power) == 1.0 else anneal(kernel, 1, power, power)
 
 
 def parse(text: str) -> Kernel:
-    """A kernel as it is written: `cycle(on("z", mh()), repeat(3, drift(0.2)))`.
+    """A kernel as it is written: `cycle(on("z", prior()), repeat(3, drift(0.2)))`.
 
     Calls of the functions of this module with numbers, texts, lists and kernels; nothing else is carried out.
     """
@@ -356,7 +359,7 @@ def parse(text: str) -> Kernel:
         raise InputError("unreadable-kernel", found=text, reason=str(error).split(" (<")[0]) from None
     if not isinstance(made, Kernel):
         raise InputError(
-            "unreadable-kernel", found=text, reason="it is not a call of a kernel, such as `mh()`"
+            "unreadable-kernel", found=text, reason="it is not a call of a kernel, such as `prior()`"
         )
     return made
 
@@ -384,39 +387,42 @@ def _made(part: ast.expr) -> Any:
 _WRITTEN: dict[str, Callable[..., Kernel]] = {
     made.__name__: made
     for made in (
-        mh,
+        prior,
         drift,
         neighbour,
         block,
         regenerate,
-        hmc,
-        nuts,
+        hmc_step,
+        nuts_step,
         cycle,
         mixture,
         repeat,
         on,
-        odds,
+        weighted,
         anneal,
-        temper,
+        tempering,
         original,
     )
 }
 
 
 def _selection(**given: Any) -> dict[str, Any]:
-    """Which choices a kernel may change: patterns of which each list needs one, and odds by depth and by pattern."""
-    return {"sites": [], "depth": [], "odds": [], "calls": "", **given}
+    """Which choices a kernel may change: lists of patterns that must match; weights by depth and by pattern."""
+    return {"sites": [], "depth": [], "weights": [], "calls": "", **given}
 
 
 def _parts(name: str, kernels: Sequence[Any]) -> tuple[Kernel, ...]:
     if not kernels:
-        raise _wrong(name, "nothing", "at least one kernel", "`kernels.mh()`")
+        raise _wrong(name, "nothing", "at least one kernel", "`kernels.prior()`")
     for one in kernels:
         if not isinstance(one, Kernel):
-            raise _wrong(name, one, "kernels", "one of `niwaki.kernels`, such as `kernels.mh()`")
-        if one.name == "temper":
+            raise _wrong(name, one, "kernels", "one of `niwaki.kernels`, such as `kernels.prior()`")
+        if one.name == "tempering":
             raise _wrong(
-                name, one, "kernels other than `temper`, which can only be outermost", "`temper` around it"
+                name,
+                one,
+                "kernels other than `tempering`, which can only be outermost",
+                "`tempering` around it",
             )
     return tuple(kernels)
 

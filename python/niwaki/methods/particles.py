@@ -34,9 +34,9 @@ class Smc(Method):
     weights
         "ratio": the ratio of successive scores, so that the final set follows the posterior; "absolute": the whole
         score at every step, an undeclared sharpening without evidence.
-    temper
+    power
         The power to which scores are raised in the final law; 1 for the posterior. For a score that is a normal
-        density of deviation sigma, it is as if sigma were divided by its root. Reported scores are never tempered.
+        density of deviation sigma, it is as if sigma were divided by its root. Reported scores are those of power 1.
     resampling
         "systematic", "residual", "stratified" or "multinomial".
     ess
@@ -44,8 +44,8 @@ class Smc(Method):
         out.
     anneal
         The power on the way: one for each barrier (the last also for those after it), or a share of the particles
-        between 0 and 1, so that it rises from 0 to `temper` as fast as this share of the conditional effective sample
-        size allows. The final law is that of `temper` whatever the way.
+        between 0 and 1, so that it rises from 0 to `power` as fast as this share of the conditional effective sample
+        size allows. The final law is that of `power` whatever the way.
     populations
         So many independent populations of `particles` each, side by side, combined by their evidence. 1, or with
         `diverse` and no `draws` as many as that, when left out.
@@ -65,7 +65,7 @@ class Smc(Method):
         A kernel of `niwaki.kernels` that moves each particle without changing the law that all follow, so that copies
         become different again (Gilks & Berzuini 2001). A particle that still runs keeps its skeleton: which parts,
         which futures, where each call waits; one that has ended may change its structure. Not with absolute weights,
-        no kernel that anneals or tempers, and `hmc` and `nuts` only at the end.
+        no `anneal` or `tempering`, and `hmc_step` and `nuts_step` only at the end.
     moves
         Proposals for each particle, each time; `Result.info` says how many were made and kept.
     at
@@ -81,7 +81,7 @@ class Smc(Method):
     particles: int | Sequence[int] = 300
     order: str = "stochastic"
     weights: str = "ratio"
-    temper: float = 1.0
+    power: float = 1.0
     resampling: str = "systematic"
     ess: float | None = None
     anneal: float | Sequence[float] | None = None
@@ -113,7 +113,7 @@ class Smc(Method):
         one_of("order", self.order, ORDERS)
         one_of("weights", self.weights, WEIGHTS)
         one_of("resampling", self.resampling, RESAMPLING)
-        _check_temper(self)
+        _check_power(self)
         if self.diverse is not None:
             at_least_one("diverse", self.diverse)
         if self.populations is not None:
@@ -147,12 +147,12 @@ class Smc(Method):
             return
         kernel: Any = self.rejuvenate
         if not isinstance(kernel, Kernel):
-            suggestion = "one of `niwaki.kernels`, such as `kernels.mh()`"
+            suggestion = "one of `niwaki.kernels`, such as `kernels.prior()`"
             raise bad("rejuvenate", self.rejuvenate, "a kernel", suggestion)
         if self.weights == "absolute":
             expected = "None together with absolute weights, which follow no fixed distribution"
             raise bad("rejuvenate", self.rejuvenate, expected, 'None, or `weights` to "ratio"')
-        changing = self.rejuvenate.first("anneal", "temper")
+        changing = self.rejuvenate.first("anneal", "tempering")
         if changing is not None:
             expected = "a kernel that keeps the particles' distribution, which annealing and tempering do not"
             raise bad(
@@ -170,7 +170,7 @@ class ParticleGibbs(Method):
 
     Parameters
     ----------
-    particles, order, temper, ess
+    particles, order, power, ess
         As for `smc`; at least 2 particles. Resampling is multinomial.
     sweeps
         How many; one sample each.
@@ -186,7 +186,7 @@ class ParticleGibbs(Method):
     particles: int = 100
     sweeps: int = 100
     order: str = "stochastic"
-    temper: float = 1.0
+    power: float = 1.0
     ess: float | None = None
     anneal: Sequence[float] | None = None
     ancestors: bool = True
@@ -197,7 +197,7 @@ class ParticleGibbs(Method):
         check_particles(self.particles, 2)
         at_least_one("sweeps", self.sweeps)
         one_of("order", self.order, ORDERS)
-        _check_temper(self)
+        _check_power(self)
         self._set("anneal", _fixed(self.anneal))
         self._set("ancestors", bool(self.ancestors))
         check_proposal(self.proposal)
@@ -213,7 +213,7 @@ class Pimh(Method):
 
     Parameters
     ----------
-    particles, order, temper, resampling, ess
+    particles, order, power, resampling, ess
         As for `smc`.
     sweeps
         How many, after a first population; one sample each, from the first population in which a particle lived.
@@ -227,7 +227,7 @@ class Pimh(Method):
     particles: int = 100
     sweeps: int = 100
     order: str = "stochastic"
-    temper: float = 1.0
+    power: float = 1.0
     resampling: str = "systematic"
     ess: float | None = None
     anneal: Sequence[float] | None = None
@@ -239,7 +239,7 @@ class Pimh(Method):
         at_least_one("sweeps", self.sweeps)
         one_of("order", self.order, ORDERS)
         one_of("resampling", self.resampling, RESAMPLING)
-        _check_temper(self)
+        _check_power(self)
         self._set("anneal", _fixed(self.anneal))
         check_proposal(self.proposal)
 
@@ -247,21 +247,23 @@ class Pimh(Method):
 smc, particle_gibbs, pimh = Smc, ParticleGibbs, Pimh
 
 
-def _check_temper(method: Smc | ParticleGibbs | Pimh) -> None:
-    """Check the temperature, and when to resample."""
-    if not is_number(method.temper) or not 0 < method.temper < float("inf"):
-        raise InputError("bad-temper", found=repr(method.temper))
-    method._set("temper", float(method.temper))
+def _check_power(method: Smc | ParticleGibbs | Pimh) -> None:
+    """Check the power, and when to resample."""
+    if not is_number(method.power) or not 0 < method.power < float("inf"):
+        raise InputError("bad-power", found=repr(method.power))
+    method._set("power", float(method.power))
     if method.ess is not None and (not is_number(method.ess) or not 0 <= method.ess <= 1):
         raise InputError("bad-threshold", found=repr(method.ess))
 
 
 def _powers(anneal: Any, weights: str) -> float | tuple[float, ...] | None:
-    """The power on the way to `temper`, where it makes sense."""
+    """The power on the way to `power`, where it makes sense."""
     if anneal is None:
         return None
     if weights == "absolute":
-        raise InputError("bad-anneal", found=repr(anneal), reason="absolute weights have no temperature")
+        raise InputError(
+            "bad-anneal", found=repr(anneal), reason="absolute weights have no schedule of powers"
+        )
     if is_number(anneal):
         if not 0 < anneal < 1:
             raise InputError("bad-anneal", found=repr(anneal), reason="a share is between 0 and 1")

@@ -10,7 +10,6 @@ diagnostics  whether draws of chains can be trusted; draws for ArviZ
 gradient     the log density of a run, with its gradient
 """
 
-from niwaki.result.result import Result
-from niwaki.result.sample import Sample
+import lazy_loader
 
-__all__ = ["Result", "Sample"]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

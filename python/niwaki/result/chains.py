@@ -78,7 +78,7 @@ class Trajectories:
     structures, recordings : int
         Structures met (sets of choices, with the values of discrete ones), and how often the model was recorded.
     step : tuple of float
-        The step for one coordinate, by chain (and temperature).
+        The step for one coordinate, by chain (and power).
     fault : ModelFault or None
         With its line: what the first trajectory met that came to a point without a finite gradient.
     """
@@ -200,7 +200,7 @@ class MhInfo(Info):
     def warn(self) -> None:
         """Say what a person must know of the trajectories before using the samples."""
         name = self.search.model.name
-        if self._leaves and all(leaf.name in ("hmc", "nuts") for leaf in self._leaves):
+        if self._leaves and all(leaf.name in ("hmc_step", "nuts_step") for leaf in self._leaves):
             values = (item for sample in self.last for item in sample.choices.items())
             if held := sorted({path for path, value in values if isinstance(value, (bool, int))}):
                 say(kept(held, name))
@@ -209,8 +209,8 @@ class MhInfo(Info):
             if broke.structure and (unmoved := self._unmoved()):
                 say(
                     f"{refused(broke.structure, one.settled, name)}; no other kernel of the chain moves "
-                    f"{listed(unmoved)}, so the samples may be given the structure of its start; put `kernels.mh()` "
-                    f"beside: `kernels.cycle(kernels.mh(), ...)`"
+                    f"{listed(unmoved)}, so the samples may be given the structure of its start; put `kernels.prior()` "
+                    f"beside: `kernels.cycle(kernels.prior(), ...)`"
                 )
             if broke.energy:
                 smaller = (

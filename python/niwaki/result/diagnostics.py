@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import astuple, dataclass
 from operator import add
 from statistics import NormalDist
@@ -107,32 +107,6 @@ def mcse_mean(draws: ArrayLike) -> float:
     """
     x = _chains(draws)
     return _deviation(x) / math.sqrt(ess_mean(x))
-
-
-def mcse_quantile(draws: ArrayLike, share: float) -> float:
-    """Monte Carlo standard error of a quantile, from the quantiles one standard error of its share to both sides.
-
-    Parameters
-    ----------
-    draws
-        (chains, draws), at least 4 draws.
-    share
-        Which quantile, in (0, 1).
-
-    Notes
-    -----
-    Half of the distance between order statistics: those at the 16 % and 84 % quantiles of the Beta distribution of the
-    share (Vehtari et al. 2021, section 4.4), which is taken here as normal with the same mean and deviation.
-    """
-    x = np.sort(_chains(draws).ravel())
-    size = ess_quantile(draws, share)
-    if not math.isfinite(size):
-        return math.nan
-    a, b = size * share + 1.0, size * (1.0 - share) + 1.0
-    middle, spread = a / (a + b), math.sqrt(a * b / (a + b + 1.0)) / (a + b)
-    low = x[math.floor(max((middle - spread) * len(x), 0.0))]
-    high = x[math.ceil(min((middle + spread) * len(x), len(x) - 1.0))]
-    return float(high - low) / 2.0
 
 
 def autocorrelation(draws: ArrayLike) -> Reals:
@@ -443,25 +417,3 @@ def _time(rho: Reals) -> float:
     kept = np.minimum.accumulate(sums[:last]) if last else np.zeros(0)
     # The first lag of the pair that ends the sum still counts, once, where it is positive.
     return float(-1.0 + 2.0 * kept.sum() + max(float(rho[2 * last]), 0.0))
-
-
-def rank_histogram(values: Sequence[float], draws: ArrayLike, bins: int) -> NDArray[np.int64]:
-    """How often the rank of a value among its draws falls into each of equal bins: flat when calibrated.
-
-    Parameters
-    ----------
-    values
-        (n,) values that the data were made from.
-    draws
-        (n, draws) draws given those data; `draws + 1` a multiple of `bins`.
-    bins
-        How many.
-
-    Returns
-    -------
-    (bins,) int64
-        The counts (Talts et al. 2018, algorithm 1).
-    """
-    x = np.asarray(draws, dtype=np.float64)
-    ranks = (x < np.asarray(values, dtype=np.float64)[:, None]).sum(axis=1)
-    return np.bincount(ranks * bins // (x.shape[1] + 1), minlength=bins)

@@ -271,11 +271,11 @@ class HmcInfo(Info):
         trajectories = sum(self.sizes) * method.thin
         figures = isinstance(method, Nuts) or not method.designs
         if broke.structure and figures:
-            kernel = "nuts" if isinstance(method, Nuts) else "hmc"
+            kernel = "nuts_step" if isinstance(method, Nuts) else "hmc_step"
             say(
                 f"{refused(broke.structure, trajectories, name)}; each chain keeps the structure of its start, so the "
                 f"draws are given that structure and are not those of the whole model; use instead "
-                f"`mh(kernel=kernels.cycle(kernels.mh(), kernels.{kernel}()))`, with `from niwaki import kernels`"
+                f"`mh(kernel=kernels.cycle(kernels.prior(), kernels.{kernel}()))`, with `from niwaki import kernels`"
             )
         if broke.energy and figures:
             smaller = (

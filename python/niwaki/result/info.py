@@ -74,7 +74,7 @@ class PopulationInfo(Info):
         Particles of the first barrier from which the final set descends.
     died : int
         Populations in which every particle became impossible; their evidence is zero, and counts.
-    temperatures : tuple of float
+    powers : tuple of float
         The power at each barrier where it is not constant, of the first population.
     moved_running, moved_ended : Count
         Proposals of rejuvenation: of particles that still ran, and of those that had ended.
@@ -86,7 +86,7 @@ class PopulationInfo(Info):
     resampled: int = 0
     ancestors: int = 0
     died: int = 0
-    temperatures: tuple[float, ...] = ()
+    powers: tuple[float, ...] = ()
     moved_running: Count = Count()  # noqa: RUF009
     moved_ended: Count = Count()  # noqa: RUF009
 

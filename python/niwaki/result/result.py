@@ -165,7 +165,12 @@ class Result(Sequence[Sample]):
                 {**self.draws, "log density": self.info.log_density}, self.info.divergences
             )
         if len({sample.log_weight for sample in self.samples}) > 1:
-            raise bad("method", self.method, "samples that weigh the same", "`draws` with `weights`")
+            raise bad(
+                "method",
+                self.method,
+                "samples that weigh the same",
+                "`mh(...)`, or weigh `draws` by `weights`",
+            )
         return diagnostics.summarise(self.draws)
 
     def _numbers(self, name: str) -> NDArray[np.float64]:
@@ -206,7 +211,10 @@ class Result(Sequence[Sample]):
         at_least_one("steps", steps)
         if not isinstance(self.info, MhInfo):
             raise bad(
-                "method", self.method, "a result of `mh`, whose chains can go on", "`result.polish(mh(...))`"
+                "method",
+                self.method,
+                "a result of `mh`, whose chains can go on",
+                "`mh(...)`, or call `polish` first",
             )
         chains, counted, watch, threads = self.info.running
         wall, cpu = time.perf_counter(), time.process_time()

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 class Sample:
     """One run of a model.
 
-    Scores are natural logarithms (nats) and never tempered.
+    Scores are natural logarithms (nats) of power 1.
 
     Attributes
     ----------

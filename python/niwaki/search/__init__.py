@@ -7,9 +7,6 @@ checks      what is refused before a search starts
 searching   carrying a search out: run by run, each by its method
 """
 
-from niwaki.result.progress import Progress, Watch
-from niwaki.search.asking import explain, grow, run
-from niwaki.search.request import Search
-from niwaki.search.searching import SearchWarning
+import lazy_loader
 
-__all__ = ["Progress", "Search", "SearchWarning", "Watch", "explain", "grow", "run"]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -21,7 +21,7 @@ from niwaki.result.progress import Watch
 from niwaki.search.checks import check_seed, fresh
 from niwaki.search.request import Search
 from niwaki.search.searching import given, starts
-from niwaki.targets.sketches import Score, no_self_intersection, volume_match
+from niwaki.targets.sketches import Score, match_volume, no_self_intersection
 from niwaki.targets.target import Target
 
 #: The settings of `smc`, which `grow` takes by name.
@@ -120,15 +120,15 @@ def grow(
     target
         What to fill: a `Target`, or a file; may be left out where `score` says what to match.
     args, kwargs
-        The model's arguments. What `kwargs` has of the settings of `smc` (particles, order, temper, diverse, ...)
-        is how to search, with a `temper` of 16 for ratio weights when left out.
+        The model's arguments. What `kwargs` has of the settings of `smc` (particles, order, power, diverse, ...)
+        is how to search, with a `power` of 16 for ratio weights when left out.
     score
         What else is asked for, such as `floor(0) * match_image("skyline.png", "cam.json")`; it multiplies
-        `no_self_intersection(rule)` and, where there is a target, `volume_match(target, voxel, sigma)`.
+        `no_self_intersection(rule)` and, where there is a target, `match_volume(target, voxel, sigma)`.
     method
         Another search than `smc` with those settings.
     voxel, sigma
-        As for `volume_match`.
+        As for `match_volume`.
     rule
         As for `no_self_intersection`.
     polish
@@ -158,7 +158,7 @@ def grow(
     asked = no_self_intersection(rule) * (Score() if score is None else score)
     if target is not None:
         aim = target if isinstance(target, Target) else Target.load(target)
-        asked *= volume_match(aim, voxel, sigma)
+        asked *= match_volume(aim, voxel, sigma)
     elif len(asked.asks) == 1:
         raise InputError("no-target", name=model.name)
     search = Search(
@@ -177,10 +177,10 @@ def grow(
 
 
 def sharpened(settings: Mapping[str, Any]) -> Smc:
-    """The population of a search for the best: where `temper` is left out, 16 with ratio weights."""
-    given_temper = settings.get("temper")
+    """The population of a search for the best: where `power` is left out, 16 with ratio weights."""
+    given_power = settings.get("power")
     usual = 16.0 if settings.get("weights", "ratio") == "ratio" else 1.0
-    return Smc(**{**settings, "temper": usual if given_temper is None else given_temper})
+    return Smc(**{**settings, "power": usual if given_power is None else given_power})
 
 
 def explain(

@@ -22,7 +22,7 @@ from typing import Any, NamedTuple, cast
 
 import numpy as np
 
-from niwaki import _engine, targets
+from niwaki import _engine
 from niwaki.errors import InputError
 from niwaki.lang.marks import Host
 from niwaki.lang.models import Model
@@ -199,7 +199,7 @@ class Reader:
         wanted = data[kind.__name__.lower()]
         if "file" in data:
             name = data["file"]
-            found = targets.examples.find(name) if kind is Target else kind.load(name)
+            found = kind.find(name)
             if mesh_hash(found) != wanted:
                 raise InputError("changed-mesh", path=name)
             return found

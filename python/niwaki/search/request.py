@@ -108,7 +108,7 @@ class Search:
         check_seed(self.seed)
         for name, kind, suggestion in (
             ("method", Method, "`smc(particles=300)`"),
-            ("score", Score, "`no_self_intersection() * volume_match(target)`"),
+            ("score", Score, "`no_self_intersection() * match_volume(target)`"),
         ):
             if not isinstance(getattr(self, name), kind):
                 raise bad(name, getattr(self, name), f"a {kind.__name__.lower()}", suggestion)

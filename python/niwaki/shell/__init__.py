@@ -15,3 +15,7 @@ run_files.py a search and its runs as a file
 demo.py      the gallery, grown into its targets
 check.py     `niwaki check`: what a model is made of, with advice
 """
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

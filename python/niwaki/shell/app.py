@@ -14,8 +14,8 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
+from niwaki import result
 from niwaki.errors import FileError
-from niwaki.search import Progress
 
 app = typer.Typer(
     name="niwaki",
@@ -42,7 +42,7 @@ def made_folder(place: Path) -> Path:
 
 
 @contextmanager
-def progress_line(name: str) -> Iterator[Callable[[Progress], None]]:
+def progress_line(name: str) -> Iterator[Callable[[result.Progress], None]]:
     """A line on stderr that tells how far the search is; nothing where stderr is not a terminal."""
     console = Console(stderr=True)
     if not console.is_terminal:
@@ -50,7 +50,7 @@ def progress_line(name: str) -> Iterator[Callable[[Progress], None]]:
         return
     with console.status(f"growing {name}") as status:
 
-        def show(now: Progress) -> None:
+        def show(now: result.Progress) -> None:
             best = f"{now.best:.2f}" if math.isfinite(now.best) else "-"
             status.update(
                 f"growing {name}: run {now.run + 1} of {now.runs}, barrier {now.done}, "

@@ -14,10 +14,9 @@ from typing import Annotated, Any
 
 import typer
 
+import niwaki as nw
+from niwaki import shell
 from niwaki.errors import InputError
-from niwaki.shell.finding import Found
-from niwaki.targets import examples, sketches
-from niwaki.targets.target import Target
 
 Triple = tuple[float, float, float]
 
@@ -129,32 +128,32 @@ class Asked:
             if given and not there:
                 raise InputError("flag-alone", flag=flag, other=other, reason=reason)
 
-    def aim(self, found: Found) -> Target | None:
+    def aim(self, found: shell.finding.Found) -> nw.Target | None:
         """The volume to fill: the one named; else the model's own, unless a picture is asked for."""
         if self.target is not None:
-            return examples.find(self.target)
+            return nw.Target.find(self.target)
         if self.match_image is not None or self.match_shadow is not None:
             return None
         if found.entry is None or found.entry.target_name is None:
             raise InputError("no-target", name=found.reference)
-        return examples.find(f"gallery:{found.entry.target_name}")
+        return nw.Target.find(f"gallery:{found.entry.target_name}")
 
-    def controls(self, voxel: float | None, sigma: float) -> sketches.Score:
+    def controls(self, voxel: float | None, sigma: float) -> nw.Score:
         """Everything but the volume: what forbids comes before what scores."""
-        score = sketches.Score()
+        score = nw.Score()
         if self.floor is not None:
-            score *= sketches.floor(self.floor)
+            score *= nw.floor(self.floor)
         for obstacle in self.avoid:
-            score *= sketches.avoid(obstacle, voxel)
+            score *= nw.avoid(obstacle, voxel)
         weigh = {} if self.weight is None else {"weight": self.weight}
         if self.match_image is not None:
             assert self.camera is not None
-            score *= sketches.match_image(
+            score *= nw.match_image(
                 self.match_image, self.camera, weight_image=self.weight_image, sigma=sigma, **weigh
             )
         if self.match_shadow is not None:
             assert self.light is not None and self.receiver is not None
-            score *= sketches.match_shadow(
+            score *= nw.match_shadow(
                 self.match_shadow,
                 numbers("--light", self.light, 3),
                 self.receiver,
@@ -164,7 +163,7 @@ class Asked:
                 **weigh,
             )
         if self.within is not None:
-            score *= sketches.overshoot(_box("--within", self.within), sigma)
+            score *= nw.overshoot(_box("--within", self.within), sigma)
         return score
 
 

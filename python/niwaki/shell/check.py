@@ -8,10 +8,9 @@ from typing import Annotated
 
 import typer
 
+from niwaki import lang, shell
 from niwaki.errors import ModelError
-from niwaki.lang.advice import advise
 from niwaki.shell.app import ModelName, app
-from niwaki.shell.finding import find
 
 
 @app.command()
@@ -21,7 +20,7 @@ def check(
     bytecode: Annotated[bool, typer.Option("--bytecode", help="Print the bytecode.")] = False,
 ) -> None:
     """Compile MODEL and report its functions and choices, with advice; exit 1 when it does not compile."""
-    found = find(model)
+    found = shell.finding.find(model)
     start = time.perf_counter()
     try:
         made = found.model.core()
@@ -49,5 +48,5 @@ def check(
     print(f"  choices     {len(program.choices)}")
     for name, component, line in program.choices:
         print(f"    {name.split('/')[0]:<{width}}  {component:<20} line {line}")
-    for one in advise(found.model.function):
+    for one in lang.advice.advise(found.model.function):
         print(f"\n{one}")

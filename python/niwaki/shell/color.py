@@ -8,13 +8,8 @@ from typing import Annotated
 
 import typer
 
-from niwaki.color import Coloring, Drawing, Rules
-from niwaki.color import color as colorings_of
-from niwaki.color.agree import least_slack
-from niwaki.color.files import write
-from niwaki.color.search import rules_of
-from niwaki.methods import at_least_one
-from niwaki.search.checks import fresh
+from niwaki import color as coloring
+from niwaki import methods, search
 from niwaki.shell.app import Folder, app, made_folder
 
 
@@ -45,33 +40,33 @@ def color(
 ) -> None:
     """Color DRAWING in colourings that differ; writes 01.svg, 01.png, ..., sheet.png, colors.json and residuals.csv."""
     for flag, value in (("--count", count), ("--size", size), ("--measure", measure)):
-        at_least_one(flag, value)
-    seed = fresh(seed)
-    read = Drawing.load(drawing, measure)
-    asked = Rules.load(rules) if rules is not None else rules_of(drawing)
+        methods.at_least_one(flag, value)
+    seed = search.fresh(seed)
+    read = coloring.Drawing.load(drawing, measure)
+    asked = coloring.Rules.load(rules) if rules is not None else coloring.rules_of(drawing)
     _before(read, asked)
     start = time.perf_counter()
-    found = colorings_of(read, asked, count, weight=weight, seed=seed, threads=threads)
+    found = coloring.color(read, asked, count, weight=weight, seed=seed, threads=threads)
     seconds = time.perf_counter() - start
     folder = made_folder(output or Path("out"))
-    written = write(found, folder, size)
+    written = coloring.files.write(found, folder, size)
     _summary(found, seconds, seed)
     print(f"{len(written)} files in {folder}, sheet.png first of all")
 
 
-def _before(drawing: Drawing, rules: Rules) -> None:
+def _before(drawing: coloring.Drawing, rules: coloring.Rules) -> None:
     """What is known before the search: regions, and how near the rules can come to holding."""
     rules.check(drawing.names)
     print(f"{len(drawing.names)} regions, {len(drawing.pairs)} pairs of neighbours, {len(list(rules))} rules")
     if drawing.hidden:
         print(f"warning: no pixel shows {', '.join(drawing.hidden)}")
-    slack, forced = least_slack(rules)
+    slack, forced = coloring.agree.least_slack(rules)
     if slack > 0.5:
         print(f"warning: not all rules can hold; some will be {slack:.1f} units off:")
         print("\n".join(f"  {one}" for one in forced))
 
 
-def _summary(found: list[Coloring], seconds: float, seed: int) -> None:
+def _summary(found: list[coloring.Coloring], seconds: float, seed: int) -> None:
     """A line for each colouring: its score and the rule that it keeps worst."""
     print(f"{len(found)} colourings in {seconds:.1f} s, seed {seed}")
     for k, one in enumerate(found):

@@ -7,10 +7,8 @@ from typing import Annotated
 
 import typer
 
-from niwaki.draw.reuse import WORDS, counts, draw, said
-from niwaki.search import explain as explained
+from niwaki import draw, search, shell
 from niwaki.shell.app import ModelName, app, made_folder
-from niwaki.shell.finding import find
 
 
 @app.command()
@@ -26,13 +24,15 @@ def explain(
     ] = Path("explain.svg"),
 ) -> None:
     """Draw which calls of MODEL each strategy runs, resumes, skips, creates and removes for a proposal."""
-    found = find(model)
-    told = explained(found.model, choice, seed=seed)
+    found = shell.finding.find(model)
+    told = search.explain(found.model, choice, seed=seed)
     made_folder(output.parent)
-    draw(told, output)
+    draw.reuse.draw(told, output)
     total = len(told["activations"])
-    print(f"{told['path']}: {said(told['old'])} becomes {said(told['new'])}; {total} calls")
-    print(f"{'':<8}" + "".join(f"{word:>20}" for word in WORDS.values()))
+    print(
+        f"{told['path']}: {draw.reuse.said(told['old'])} becomes {draw.reuse.said(told['new'])}; {total} calls"
+    )
+    print(f"{'':<8}" + "".join(f"{word:>20}" for word in draw.reuse.WORDS.values()))
     for name, (steps, _) in told["runs"].items():
-        print(f"{name:<8}" + "".join(f"{n:>20}" for n in counts(steps, total).values()))
+        print(f"{name:<8}" + "".join(f"{n:>20}" for n in draw.reuse.counts(steps, total).values()))
     print(output)

@@ -9,21 +9,16 @@ from typing import Annotated, Any
 
 import typer
 
-from niwaki import search as searches
-from niwaki.draw.picture import save_image
-from niwaki.gallery import PARTICLES
-from niwaki.result import Result, Sample
-from niwaki.result.result import caption
-from niwaki.shell import asking, run_files, settings, writing
+import niwaki as nw
+from niwaki import draw, gallery, shell, targets
+from niwaki import result as results
+from niwaki.shell import asking, settings, writing
 from niwaki.shell.app import Folder, ModelName, app, made_folder, progress_line
-from niwaki.shell.finding import Found, find
-from niwaki.shell.run_files import numbers
-from niwaki.targets.views import save_view
 
 
 @app.command()
 @settings.with_settings(
-    *settings.METHODS.values(), temper="16, with absolute weights 1", particles="the model's own, or 300"
+    *settings.METHODS.values(), power="16, with absolute weights 1", particles="the model's own, or 300"
 )
 def grow(
     model: ModelName,
@@ -83,14 +78,14 @@ def grow(
     )
     onward = settings.polish(polish, polish_kernel)
     files = writing.Files.asked(formats, scale, fuse, frames, size)
-    found = find(model)
+    found = shell.finding.find(model)
     aim = asked.aim(found)
     controls = asked.controls(voxel, sigma)
     if voxel is None and target is None and aim is not None and found.entry is not None:
         voxel = found.entry.voxel
-    usual = found.entry.particles if found.entry is not None else PARTICLES
+    usual = found.entry.particles if found.entry is not None else gallery.PARTICLES
     with progress_line(found.reference) as progress:
-        result = searches.grow(
+        result = nw.grow(
             found.model,
             aim,
             score=controls,
@@ -108,7 +103,7 @@ def grow(
     if output is not None or not as_json:
         _write(output or Path("out"), result, found, files, picture)
     if as_json:
-        print(json.dumps({"runs": [numbers(sample) for sample in result]}))
+        print(json.dumps({"runs": [shell.run_files.numbers(sample) for sample in result]}))
     else:
         _summary(result, output or Path("out"))
     if result.interrupted:
@@ -117,28 +112,27 @@ def grow(
 
 def _write(
     output: Path,
-    result: Result,
-    found: Found,
+    result: nw.Result,
+    found: shell.finding.Found,
     files: writing.Files,
     picture: bool,
 ) -> None:
     """The record first: whatever fails after it can be made again from there."""
     folder = made_folder(output)
-    run_files.save(folder / "run.json", run_files.written(result, found))
-    best: Sample = result.best
+    shell.run_files.save(folder / "run.json", shell.run_files.written(result, found))
+    best: nw.Sample = result.best
     if best.primitives == 0:
         print("warning: the best run emitted nothing, so there is no mesh and no picture", file=sys.stderr)
         return
     if picture:
         best.save(folder / "best.png")
-        save_image(lambda: result.sheet(), folder / "sheet.png")
+        draw.picture.save_image(lambda: result.sheet(), folder / "sheet.png")
         for view in result.score.views:
-            save_view(folder / f"{view.kind}.png", best.scene, view)
+            targets.views.save_view(folder / f"{view.kind}.png", best.scene, view)
     files.write(best, folder)
 
 
-def _summary(result: Result, folder: Path) -> None:
-
+def _summary(result: nw.Result, folder: Path) -> None:
     for sample in result:
-        print(f"{caption(sample)}   {sample.primitives} primitives   {sample.seconds:.2f} s")
+        print(f"{results.caption(sample)}   {sample.primitives} primitives   {sample.seconds:.2f} s")
     print(f"best: seed {result.best.seed}, log score {result.best.log_score:.2f}; files in {folder}")

@@ -7,9 +7,9 @@ from typing import Annotated
 
 import typer
 
+from niwaki import shell
 from niwaki.shell import writing
 from niwaki.shell.app import Folder, app, made_folder
-from niwaki.shell.run_files import load, replayed
 
 
 @app.command()
@@ -28,7 +28,7 @@ def replay(
 ) -> None:
     """Write the best result of a search again, byte for byte, in any format."""
     files = writing.Files.asked(formats, scale, fuse, frames, size)
-    sample = replayed(load(run), number)
+    sample = shell.run_files.replayed(shell.run_files.load(run), number)
     folder = made_folder(output or Path("out"))
     for place in files.write(sample, folder):
         print(place)

@@ -15,22 +15,16 @@ from typing import Annotated, Any
 import typer
 from rich.console import Console
 
-from niwaki import kernels, search
-from niwaki.draw.picture import save_image
+import niwaki as nw
+from niwaki import draw, kernels, shell
 from niwaki.errors.files import write_whole
 from niwaki.methods import Mh
-from niwaki.result import Result
-from niwaki.search import Progress
-from niwaki.shell import run_files, settings
+from niwaki.shell import settings
 from niwaki.shell.app import Folder, ModelName, app, made_folder
-from niwaki.shell.finding import Found, find
-from niwaki.shell.run_files import numbers
-from niwaki.targets import examples
-from niwaki.targets.sketches import Score, no_self_intersection, volume_match
 
 
 @app.command()
-@settings.with_settings(Mh, chains="4", warmup="a fifth of all", keep="100", kernel="mh()")
+@settings.with_settings(Mh, chains="4", warmup="a fifth of all", keep="100", kernel="prior()")
 def sample(
     model: ModelName,
     target: Annotated[
@@ -55,33 +49,32 @@ def sample(
     **given: Any,
 ) -> None:
     """Sample MODEL by Markov chains; writes samples.csv and run.json, and best.glb, best.png, sheet.png for scenes."""
-    found = find(model)
-    score = Score()
+    found = shell.finding.find(model)
+    score = nw.Score()
     if target is not None:
-        score = no_self_intersection() * volume_match(examples.find(target), voxel, sigma)
+        score = nw.no_self_intersection() * nw.match_volume(nw.Target.find(target), voxel, sigma)
     given = settings.typed(given)
     steps = given.get("steps", Mh.steps)
-    method = Mh(**{"kernel": kernels.mh(), "chains": 4, "warmup": steps // 5, "keep": 100, **given})
+    method = Mh(**{"kernel": kernels.prior(), "chains": 4, "warmup": steps // 5, "keep": 100, **given})
     with _shown(found.reference, method.steps * method.chains) as progress:
-        result = search.run(
+        result = nw.run(
             found.model, method=method, score=score, seed=seed, threads=threads, progress=progress
         )
     if output is not None or not as_json:
         _write(output or Path("out"), result, found, picture)
     if as_json:
-        print(json.dumps({"runs": [numbers(one) for one in result.bests]}))
+        print(json.dumps({"runs": [shell.run_files.numbers(one) for one in result.bests]}))
     else:
         _summary(result, output or Path("out"))
     if result.interrupted:
         raise typer.Exit(130)
 
 
-def _write(output: Path, result: Result, found: Found, picture: bool) -> None:
-
+def _write(output: Path, result: nw.Result, found: shell.finding.Found, picture: bool) -> None:
     folder = made_folder(output)
     # The best of each chain is what can be replayed.
-    bests = Result(result.search, result.bests, result.seed, interrupted=result.interrupted)
-    run_files.save(folder / "run.json", run_files.written(bests, found))
+    bests = nw.Result(result.search, result.bests, result.seed, interrupted=result.interrupted)
+    shell.run_files.save(folder / "run.json", shell.run_files.written(bests, found))
     write_whole(folder / "samples.csv", _table(result).encode())
     best = bests.best
     if best.primitives == 0:
@@ -89,10 +82,10 @@ def _write(output: Path, result: Result, found: Found, picture: bool) -> None:
     best.export(folder / "best.glb")
     if picture:
         best.save(folder / "best.png")
-        save_image(lambda: bests.sheet(), folder / "sheet.png")
+        draw.picture.save_image(lambda: bests.sheet(), folder / "sheet.png")
 
 
-def _table(result: Result) -> str:
+def _table(result: nw.Result) -> str:
     """The samples, one a line."""
     text = io.StringIO()
     rows = csv.writer(text, lineterminator="\n")
@@ -103,7 +96,7 @@ def _table(result: Result) -> str:
     return text.getvalue()
 
 
-def _summary(result: Result, folder: Path) -> None:
+def _summary(result: nw.Result, folder: Path) -> None:
     print(f"{'site':<40}{'proposals':>12}{'accepted':>10}")
     for name, row in list(result.acceptance.items())[:12]:
         print(f"{name:<40}{row.proposed:>12}{row.rate:>10.2f}")
@@ -119,7 +112,7 @@ def _summary(result: Result, folder: Path) -> None:
 
 
 @contextmanager
-def _shown(name: str, proposals: int) -> Iterator[Callable[[Progress], None]]:
+def _shown(name: str, proposals: int) -> Iterator[Callable[[nw.Progress], None]]:
     """A line on stderr that tells how far the chains are; nothing where stderr is not a terminal."""
     console = Console(stderr=True)
     if not console.is_terminal:
@@ -127,7 +120,7 @@ def _shown(name: str, proposals: int) -> Iterator[Callable[[Progress], None]]:
         return
     with console.status(f"sampling {name}") as status:
 
-        def show(now: Progress) -> None:
+        def show(now: nw.Progress) -> None:
             best = f"{now.best:.2f}" if math.isfinite(now.best) else "-"
             status.update(
                 f"sampling {name}: {now.done} of {proposals} proposals, best {best}   (Ctrl-C keeps the states so far)"

@@ -13,10 +13,9 @@ from typing import Annotated, Any, get_type_hints
 
 import typer
 
-from niwaki import kernels
+from niwaki import kernels, search
 from niwaki.errors import InputError
 from niwaki.methods import Method, Mh, ParticleGibbs, Pimh, Smc
-from niwaki.search.asking import sharpened
 
 #: The methods of `niwaki grow`, by the name that is typed.
 METHODS: dict[str, type[Method]] = {"smc": Smc, "particle-gibbs": ParticleGibbs, "pimh": Pimh}
@@ -33,7 +32,9 @@ Polish = Annotated[
 PolishKernel = Annotated[
     str | None,
     typer.Option(
-        "--polish-kernel", metavar="KERNEL", help='With --polish: the kernel of the chain; default: "mh()".'
+        "--polish-kernel",
+        metavar="KERNEL",
+        help='With --polish: the kernel of the chain; default: "prior()".',
     ),
 ]
 
@@ -154,7 +155,7 @@ def method(name: str, given: dict[str, Any], usual: int) -> Method:
                     cure=f"give only one of them; run.json contains the numbers for {said['seconds']:g} s",
                 )
     said = {"particles": usual, **said}
-    return sharpened(said) if chosen is Smc else chosen(**{"temper": 16.0, **said})
+    return search.sharpened(said) if chosen is Smc else chosen(**{"power": 16.0, **said})
 
 
 def typed(given: dict[str, Any]) -> dict[str, Any]:

@@ -12,10 +12,9 @@ from typing import Annotated, Any
 
 import typer
 
-from niwaki.draw.solid import kernel
+import niwaki as nw
+from niwaki import draw
 from niwaki.errors import InputError, NiwakiError
-from niwaki.result import Sample
-from niwaki.targets.target import Target
 
 MESHES, SOLIDS, ANIMATIONS = ("glb", "obj", "ply"), ("stl", "3mf"), ("gif", "apng")
 FORMATS = (*MESHES, *SOLIDS, *ANIMATIONS)
@@ -74,10 +73,10 @@ class Files:
         if frames is not None and not 1 <= frames <= 10_000:
             raise _refused("--frames", repr(frames), "a whole number from 1 to 10000", "48")
         if set(SOLIDS) & set(chosen):
-            kernel()
+            draw.solid.kernel()
         return cls(chosen, scale, fuse, frames, _pixels(size))
 
-    def write(self, sample: Sample, folder: Path, target: Target | None = None) -> list[Path]:
+    def write(self, sample: nw.Sample, folder: Path, target: nw.Target | None = None) -> list[Path]:
         """Write each file, moving ones with the target as a ghost.
 
         Where one cannot be written the others are, and then it is an error.
@@ -92,7 +91,7 @@ class Files:
             raise failed
         return found
 
-    def _written(self, sample: Sample, folder: Path, name: str, target: Target | None) -> Path:
+    def _written(self, sample: nw.Sample, folder: Path, name: str, target: nw.Target | None) -> Path:
         if name in ANIMATIONS:
             settings = {"frames": self.frames, "size": self.size}
             given: dict[str, Any] = {key: value for key, value in settings.items() if value is not None}

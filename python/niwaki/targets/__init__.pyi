@@ -1,3 +1,4 @@
 from . import examples as examples
 from . import images as images
 from . import reading as reading
+from . import views as views

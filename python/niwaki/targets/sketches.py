@@ -1,6 +1,6 @@
 """What a scene should be like: sketches as values that multiply, given by whoever runs a model and not by the model.
 
-    score = no_self_intersection() * volume_match(target, voxel=0.25)
+    score = no_self_intersection() * match_volume(target, voxel=0.25)
     score = no_self_intersection() * floor(0) * avoid("wall.obj") * match_image("skyline.png", "cam.json")
 
 Log scores add. The order is the order of asking: cheap questions that may forbid a scene come first.
@@ -162,7 +162,7 @@ def no_self_intersection(rule: str = "solid") -> Score:
     return _score("no_self_intersection", {"rule": rule}, _engine.no_self_intersection(rule))
 
 
-def volume_match(target: Target, voxel: float | None = None, sigma: float = 0.02) -> Score:
+def match_volume(target: Target, voxel: float | None = None, sigma: float = 0.02) -> Score:
     """Scores a scene by how well it fills a target, cell by cell.
 
     Parameters
@@ -178,8 +178,8 @@ def volume_match(target: Target, voxel: float | None = None, sigma: float = 0.02
     check_positive("sigma", sigma)
     with geometry_errors(target, size):
         grid = _engine.Target(target.vertices, target.faces, size)
-        spec = _engine.volume_match(grid, sigma)
-    return _score("volume_match", {"target": target, "voxel": size, "sigma": sigma}, spec, target)
+        spec = _engine.match_volume(grid, sigma)
+    return _score("match_volume", {"target": target, "voxel": size, "sigma": sigma}, spec, target)
 
 
 def match_image(
@@ -296,7 +296,7 @@ def overshoot(
 ) -> Score:
     """Scores a scene by how far it reaches out of a box.
 
-    `volume_match` has it already; it goes with images and shadows, which do not see what leaves them.
+    `match_volume` has it already; it goes with images and shadows, which do not see what leaves them.
 
     Parameters
     ----------
@@ -332,7 +332,7 @@ def overshoot(
 #: The functions that make sketches, by name.
 SKETCHES: dict[str, Callable[..., Score]] = {
     make.__name__: make
-    for make in (no_self_intersection, volume_match, match_image, match_shadow, avoid, floor, overshoot)
+    for make in (no_self_intersection, match_volume, match_image, match_shadow, avoid, floor, overshoot)
 }
 
 
@@ -431,7 +431,6 @@ def geometry_errors(target: Target, size: float) -> Iterator[None]:
         yield
     except ValueError as error:
         code = getattr(error, "code", "")
-        codes = {"no-cell-filled": "no-cell-filled", "large-grid": "too-many-cells"}
-        if code not in codes:
+        if code not in ("no-cell-filled", "too-many-cells"):
             raise
-        raise InputError(codes[code], path=name, size=f"{size:g}", found=cells) from None
+        raise InputError(code, path=name, size=f"{size:g}", found=cells) from None

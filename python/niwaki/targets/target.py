@@ -10,7 +10,7 @@ import sys
 import warnings
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -30,20 +30,63 @@ class TargetWarning(UserWarning):
     """A target can be used, but perhaps not as its author meant."""
 
 
-class _Mesh(Protocol):
-    source: str | None
+class Mesh:
+    """A triangle mesh with a name; `Target` and `Receiver` say what it is for.
+
+    Attributes
+    ----------
+    vertices : (n, 3) float64
+        Scene units, finite.
+    faces : (m, 3) int64
+    name : str
+        For captions and messages.
+    source : str or None
+        Where it can be found again: the file that it was read from, with its whole path, or `gallery:` and a name.
+    """
+
+    def __init__(self, vertices: ArrayLike, faces: ArrayLike, name: str) -> None:
+        self.vertices: NDArray[np.float64] = np.array(vertices, dtype=np.float64).reshape(-1, 3)
+        self.faces: NDArray[np.int64] = np.array(faces, dtype=np.int64).reshape(-1, 3)
+        self.name = name
+        self.source: str | None = None
+
+    @classmethod
+    def load(cls, path: str | PathLike[str]) -> Self:
+        """Read a mesh from a file whose name ends in .obj, .stl, .ply, .glb or .gltf.
+
+        Raises
+        ------
+        FileError
+            The file is missing, cut short or of another format; it has no triangles, or coordinates that are not
+            finite; a target has no thickness.
+
+        Warns
+        -----
+        TargetWarning
+            The mesh of a target is not closed; counts its open edges.
+        """
+        vertices, faces = targets.reading.load(path)
+        mesh = cls(vertices, faces, name=str(path))
+        mesh.source = str(Path(path).resolve())
+        return mesh
+
+    @classmethod
+    def find(cls, source: str) -> Self:
+        """The mesh of a `source`."""
+        return cls.load(source)
+
+    @property
+    def bounds(self) -> NDArray[np.float64]:
+        """Low and high corner, (2, 3)."""
+        used = self.vertices[self.faces.ravel()]
+        return np.stack([used.min(axis=0), used.max(axis=0)])
+
+    def _freeze(self) -> None:
+        self.vertices.setflags(write=False)
+        self.faces.setflags(write=False)
 
 
-M = TypeVar("M", bound=_Mesh)
-
-
-def _from(path: str | PathLike[str], mesh: M) -> M:
-    """The mesh, with the file that it was read from."""
-    mesh.source = str(Path(path).resolve())
-    return mesh
-
-
-class Target:
+class Target(Mesh):
     """A triangle mesh to fill.
 
     Parameters
@@ -59,8 +102,6 @@ class Target:
     ----------
     open_edges : int
         Edges that do not lie between exactly two triangles; 0 for a closed mesh.
-    source : str or None
-        Where it can be found again: the file that it was read from, with its whole path, or `gallery:` and a name.
 
     Examples
     --------
@@ -71,18 +112,14 @@ class Target:
     """
 
     def __init__(self, vertices: ArrayLike, faces: ArrayLike, name: str = "target") -> None:
-        self.vertices: NDArray[np.float64] = np.array(vertices, dtype=np.float64).reshape(-1, 3)
-        self.faces: NDArray[np.int64] = np.array(faces, dtype=np.int64).reshape(-1, 3)
-        self.name = name
-        self.source: str | None = None
+        super().__init__(vertices, faces, name)
         count = len(self.faces)
         check_memory(name, f"{count:,} triangles", count * BYTES_PER_TRIANGLE)
         _check(self.vertices, self.faces, name)
         self.vertices, self.faces = _welded(self.vertices, self.faces)
         if len(self.faces) == 0:
             raise FileError("target-empty", name, reason="all of its triangles have no area")
-        self.vertices.setflags(write=False)
-        self.faces.setflags(write=False)
+        self._freeze()
         self.open_edges = _open_edges(self.faces)
         if self.open_edges:
             warnings.warn(
@@ -93,33 +130,19 @@ class Target:
             )
 
     @classmethod
-    def load(cls, path: str | PathLike[str]) -> Target:
-        """Read a target from a file whose name ends in .obj, .stl, .ply, .glb or .gltf.
-
-        Raises
-        ------
-        FileError
-            The file is missing, cut short or of another format; it has no triangles, no thickness, or
-            coordinates that are not finite.
-
-        Warns
-        -----
-        TargetWarning
-            The mesh is not closed; counts its open edges.
-        """
-        vertices, faces = targets.reading.load(path)
-        return _from(path, cls(vertices, faces, name=str(path)))
+    def find(cls, source: str) -> Target:
+        """The target of a `source`: a file, or `gallery:` and the name of an example."""
+        made = targets.examples.TARGETS.get(source.removeprefix("gallery:").replace("-", "_"))
+        if source.startswith("gallery:") and made is not None:
+            found = made()
+            found.source = f"gallery:{made.__name__}"
+            return found
+        return cls.load(source)
 
     def __repr__(self) -> str:
         """Name, triangles, extent."""
         x, y, z = self.size
         return f"<Target {self.name}: {len(self.faces)} triangles, {x:.3g} x {y:.3g} x {z:.3g}>"
-
-    @property
-    def bounds(self) -> NDArray[np.float64]:
-        """Low and high corner, (2, 3)."""
-        used = self.vertices[self.faces.ravel()]
-        return np.stack([used.min(axis=0), used.max(axis=0)])
 
     @property
     def size(self) -> NDArray[np.float64]:
@@ -142,7 +165,7 @@ class Target:
         return draw.picture.png(self.picture(size=(800, 600)))
 
 
-class Receiver:
+class Receiver(Mesh):
     """A surface that a shadow falls on: a floor, a wall, any mesh. It may be flat and open.
 
     Parameters
@@ -161,19 +184,9 @@ class Receiver:
     """
 
     def __init__(self, vertices: ArrayLike, faces: ArrayLike, name: str = "receiver") -> None:
-        self.vertices: NDArray[np.float64] = np.array(vertices, dtype=np.float64).reshape(-1, 3)
-        self.faces: NDArray[np.int64] = np.array(faces, dtype=np.int64).reshape(-1, 3)
-        self.name = name
-        self.source: str | None = None
+        super().__init__(vertices, faces, name)
         _check_arrays(self.vertices, self.faces, name)
-        self.vertices.setflags(write=False)
-        self.faces.setflags(write=False)
-
-    @classmethod
-    def load(cls, path: str | PathLike[str]) -> Receiver:
-        """Read a receiver from a mesh file; formats as for `Target.load`."""
-        vertices, faces = targets.reading.load(path)
-        return _from(path, cls(vertices, faces, name=str(path)))
+        self._freeze()
 
     @classmethod
     def floor(
@@ -190,12 +203,6 @@ class Receiver:
     def __repr__(self) -> str:
         """Name and triangles."""
         return f"<Receiver {self.name}: {len(self.faces)} triangles>"
-
-    @property
-    def bounds(self) -> NDArray[np.float64]:
-        """Low and high corner, (2, 3)."""
-        used = self.vertices[self.faces.ravel()]
-        return np.stack([used.min(axis=0), used.max(axis=0)])
 
     def camera(self, light: tuple[float, float, float], aspect: float = 1.0) -> Camera:
         """Make the light's own view: orthographic, along the light, as wide as the receiver along x.

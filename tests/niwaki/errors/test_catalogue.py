@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 from niwaki.errors.catalogue import pages
 from niwaki.errors.messages import MESSAGES
 
-FOLDER = Path(__file__).parents[3] / "docs" / "errors"
+ROOT = Path(__file__).parents[3]
+FOLDER = ROOT / "docs" / "errors"
+#: Where the engine and the package name the code of an error.
+RAISED = re.compile(
+    r"""(?:Fault|GeomError)::new\(\s*"([a-z-]+)"|^\s+\w+ = "([a-z-]+)";|"code", "([a-z-]+)"|"""
+    r"""(?:Error|ModelFault|from_engine)\(\s*"([a-z]+(?:-[a-z]+)+)\"""",
+    re.MULTILINE,
+)
 
 
 def test_the_pages_are_those_of_the_table() -> None:
@@ -20,3 +28,11 @@ def test_every_page_says_what_to_do() -> None:
     for text in pages().values():
         assert "## What to do" in text
         assert "{" not in text.split("```")[0]
+
+
+def test_every_code_in_the_sources_has_a_page() -> None:
+    sources = [*ROOT.glob("crates/*/src/**/*.rs"), *ROOT.glob("python/niwaki/**/*.py")]
+    texts = [path.read_text().partition("#[cfg(test)]\nmod tests")[0] for path in sources]
+    codes = {code for text in texts for found in RAISED.findall(text) for code in found if code}
+    assert len(codes) > 100
+    assert codes <= set(MESSAGES), sorted(codes - set(MESSAGES))

@@ -24,7 +24,7 @@ AWAITED = {
     ).split(),
     *("model-arguments argument-value not-a-shape bad-choice not-enumerable no-particles no-samples").split(),
     *(
-        "too-many-runs rejection-budget rejection-bound bad-temper bad-threshold wrong-arity not-runnable"
+        "too-many-runs rejection-budget rejection-bound bad-power bad-threshold wrong-arity not-runnable"
     ).split(),
     *(
         "waiting-cycle step-budget memory-budget integer-overflow not-callable host-function missing-method"

@@ -223,7 +223,7 @@ def test_what_is_refused_for_structure_is_said_with_its_count(method: Any) -> No
     assert text.startswith(
         f"{refused} of {1200 * method.thin} trajectories of `halves` after the warm-up were refused"
     )
-    assert f"kernels.cycle(kernels.mh(), kernels.{type(method).__name__.lower()}())" in text
+    assert f"kernels.cycle(kernels.prior(), kernels.{type(method).__name__.lower()}_step())" in text
     assert f"{refused} refused for structure" in repr(result)
     assert repr(result.summary()).endswith(f"\ntrajectories: {refused} refused for structure")
 
@@ -267,7 +267,7 @@ def test_what_is_no_number_is_said_with_its_count() -> None:
 
 def test_an_extreme_scale_that_is_a_choice_is_an_error() -> None:
     """It has to be learnt, and its square is out of range."""
-    for method in (few(), nw.mh(steps=50, kernel=nw.kernels.hmc())):
+    for method in (few(), nw.mh(steps=50, kernel=nw.kernels.hmc_step())):
         for name, spread in (("scaled", 1e300), ("scaled", 1e-300), ("vectors", 1e150), ("vectors", 1e-150)):
             with pytest.raises(NiwakiError, match="extreme-scale"):
                 nw.run(MODELS[name], method, spread, seed=1)

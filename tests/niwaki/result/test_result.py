@@ -139,7 +139,9 @@ METHODS: dict[str, Any] = {
     "particle_gibbs": nw.particle_gibbs(4, 3),
     "pimh": nw.pimh(4, 3),
     "mh": nw.mh(60, chains=2, thin=10),
-    "mh and nuts": nw.mh(60, chains=2, thin=10, kernel=nw.kernels.cycle(nw.kernels.mh(), nw.kernels.nuts())),
+    "mh and nuts": nw.mh(
+        60, chains=2, thin=10, kernel=nw.kernels.cycle(nw.kernels.prior(), nw.kernels.nuts_step())
+    ),
     "hmc": nw.hmc(draws=6, warmup=20, chains=2, steps=4),
     "nuts": nw.nuts(draws=6, warmup=20, chains=2),
     "explore": nw.explore(chains=2, draws=3),

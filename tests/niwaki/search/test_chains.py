@@ -94,7 +94,7 @@ def states(result: Any) -> list[Any]:
 
 
 def test_a_seed_decides_whatever_the_threads_and_the_strategy() -> None:
-    method = {"steps": 400, "chains": 3, "keep": 5, "warmup": 100, "kernel": k.cycle(k.mh(), k.drift())}
+    method = {"steps": 400, "chains": 3, "keep": 5, "warmup": 100, "kernel": k.cycle(k.prior(), k.drift())}
     first = states(nw.run(GARDEN, nw.mh(**method), seed=4, threads=1))
     assert len(first) == 15
     for strategy in ("c3", "resume", "cache", "rerun"):
@@ -103,7 +103,7 @@ def test_a_seed_decides_whatever_the_threads_and_the_strategy() -> None:
 
 
 def test_more_goes_on_where_it_stopped() -> None:
-    settings = {"thin": 50, "kernel": k.cycle(k.mh(), k.repeat(2, k.drift()))}
+    settings = {"thin": 50, "kernel": k.cycle(k.prior(), k.repeat(2, k.drift()))}
     whole = nw.run(GARDEN, nw.mh(steps=1000, **settings), seed=3)
     parts = nw.run(GARDEN, nw.mh(steps=130, **settings), seed=3)
     assert parts.more(70) is parts
@@ -125,12 +125,14 @@ def test_the_best_is_kept_whether_it_was_sampled_or_not() -> None:
     assert max(every.trace[0]) == best.log_score
 
 
-@pytest.mark.parametrize("kernel", [k.mh(), k.regenerate(), k.cycle(k.block(share=0.5), k.mh())], ids=repr)
+@pytest.mark.parametrize(
+    "kernel", [k.prior(), k.regenerate(), k.cycle(k.block(share=0.5), k.prior())], ids=repr
+)
 def test_sketches_follow_the_chain(kernel: k.Kernel) -> None:
     target = nw.Target.of(box((0, 2, 0), (1, 4, 1))) if hasattr(nw.Target, "of") else None
     score = nw.no_self_intersection()
     if target is not None:
-        score = score * nw.volume_match(target)
+        score = score * nw.match_volume(target)
     result = nw.run(TOWER, nw.mh(steps=2000, keep=50, kernel=kernel), seed=2, score=score)
     for sample in [*result, result.best]:
         assert sample._trace.run.log_score == sample.log_score
@@ -180,7 +182,7 @@ def test_ctrl_c_gives_what_there_is() -> None:
 
 
 def test_a_selection_may_wait_for_a_site_that_is_not_there_yet() -> None:
-    kernel = k.cycle(k.on("y", k.drift()), k.mh())
+    kernel = k.cycle(k.on("y", k.drift()), k.prior())
     for seed in range(20):
         result = nw.run(MODELS["late"], nw.mh(steps=50, kernel=kernel), seed=seed)
         assert result.counters["proposals"] == 50
@@ -198,7 +200,7 @@ def failing() -> dict[str, Callable[[], Any]]:
         "a score that is not a number": lambda: run(MODELS["not_a_number"], nw.mh(steps=10), seed=1),
         "a query written twice": lambda: run(MODELS["twice"], nw.mh(steps=10), seed=1).best.queries,
         "no such address": lambda: run(GARDEN, nw.mh(kernel=k.on("widht", k.drift())), seed=1),
-        "no such whole address": lambda: run(GARDEN, nw.mh(kernel=k.on("garden/i[9]/x", k.mh())), seed=1),
+        "no such whole address": lambda: run(GARDEN, nw.mh(kernel=k.on("garden/i[9]/x", k.prior())), seed=1),
         "a proposal of another kind": lambda: run(
             MODELS["late"], nw.mh(kernel=k.on("n", k.proposal(lambda old: Gaussian(old, 1)))), seed=1
         ),
@@ -209,14 +211,14 @@ def failing() -> dict[str, Callable[[], Any]]:
             GARDEN, nw.mh(kernel=k.on("mean", k.proposal(lambda old: old + 1))), seed=1
         ),
         "no kernel": lambda: nw.mh(kernel="drift"),  # type: ignore[arg-type]
-        "tempering inside": lambda: k.cycle(k.temper(k.mh())),
-        "temperatures that fall": lambda: k.temper(k.mh(), (2.0, 1.0)),
-        "odds below zero": lambda: k.odds(k.mh(), depth=lambda depth: 1 - depth),
+        "tempering inside": lambda: k.cycle(k.tempering(k.prior())),
+        "powers that rise": lambda: k.tempering(k.prior(), (0.5, 1.0)),
+        "odds below zero": lambda: k.weighted(k.prior(), depth=lambda depth: 1 - depth),
         "a kernel that does nothing": lambda: k.cycle(),
         "warm-up without end": lambda: nw.mh(steps=100, warmup=100),
         "no strategy": lambda: nw.mh(strategy="c4"),
-        "a kernel misspelt": lambda: k.parse("cycl(mh())"),
-        "a kernel that is code": lambda: k.parse("mh().__class__"),
+        "a kernel misspelt": lambda: k.parse("cycl(prior())"),
+        "a kernel that is code": lambda: k.parse("prior().__class__"),
         "explained: no such choice": lambda: nw.search.explain(GARDEN, "hight"),
     }
 
@@ -238,13 +240,11 @@ def test_a_proposal_outside_the_support_is_rejected_and_counted() -> None:
 
 
 def test_kernels_are_read_as_they_are_written() -> None:
-    text = (
-        "cycle(on(['z', 'a/*'], mh()), repeat(3, drift(0.2)), mixture(block(share=0.5), mh, weights=[1, 2]))"
-    )
+    text = "cycle(on(['z', 'a/*'], prior()), repeat(3, drift(0.2)), mixture(block(share=0.5), prior, weights=[1, 2]))"
     expected = k.cycle(
-        k.on(["z", "a/*"], k.mh()),
+        k.on(["z", "a/*"], k.prior()),
         k.repeat(3, k.drift(0.2)),
-        k.mixture(k.block(share=0.5), k.mh(), weights=[1, 2]),
+        k.mixture(k.block(share=0.5), k.prior(), weights=[1, 2]),
     )
     assert k.parse(text) == expected
 
@@ -281,7 +281,7 @@ def test_the_shell_samples_and_explains(tmp_path: Path) -> None:
     (tmp_path / "chains.py").write_text(TEXT)
     place = f"{tmp_path / 'chains.py'}:tower"
     words = ["sample", place, "--steps", "300", "--chains", "2", "--seed", "1", "-o", str(tmp_path / "out")]
-    found = CliRunner().invoke(app, [*words, "--kernel", "cycle(mh(), drift())"])
+    found = CliRunner().invoke(app, [*words, "--kernel", "cycle(prior(), drift())"])
     assert found.exit_code == 0, found.output
     written = {file.name for file in (tmp_path / "out").iterdir()}
     assert written == {"run.json", "samples.csv", "best.glb", "best.png", "sheet.png"}

@@ -23,9 +23,9 @@ EXACT = 0.3 / (0.3 + 0.7 * math.exp(-1.5))
 HONOURED = {
     "populations": nw.smc((30, 20)),
     "anneal": nw.smc(60, anneal=[0.3, 1.0]),
-    "draws": nw.smc(60, rejuvenate=kernels.mh(), moves=2, draws=5, at="end"),
+    "draws": nw.smc(60, rejuvenate=kernels.prior(), moves=2, draws=5, at="end"),
     "warmup": nw.mh(60, warmup=20),
-    "kernel": nw.mh(60, kernel=kernels.cycle(kernels.neighbour(), kernels.mh())),
+    "kernel": nw.mh(60, kernel=kernels.cycle(kernels.neighbour(), kernels.prior())),
     "particle_gibbs": nw.particle_gibbs(8, 8),
     "pimh": nw.pimh(20, 8),
     "importance": nw.importance(150),
@@ -51,7 +51,7 @@ def test_a_kernel_that_moves_nothing_shows_that_kernels_are_read() -> None:
 
     @model
     def outer():
-        return infer(inner, nw.mh(60, kernel=kernels.on("nothing*", kernels.mh())))
+        return infer(inner, nw.mh(60, kernel=kernels.on("nothing*", kernels.prior())))
 
     with pytest.raises(nw.NiwakiError, match="nothing"):
         nw.run(outer, nw.forward(1), seed=1)

@@ -17,17 +17,17 @@ from niwaki.words import Gaussian, gaussian, observe, uniform
 
 MIXTURE = kernels.mixture(
     kernels.on("means", kernels.drift(0.02)),
-    kernels.on(["weights", "deviations", "k"], kernels.mh()),
+    kernels.on(["weights", "deviations", "k"], kernels.prior()),
     weights=[4, 105],
 )
-MOVES = kernels.mixture(kernels.mh(), kernels.drift(), kernels.regenerate(), weights=[8, 8, 1])
+MOVES = kernels.mixture(kernels.prior(), kernels.drift(), kernels.regenerate(), weights=[8, 8, 1])
 
 
 def subjects():
     """Models with their arguments, kernel and score."""
     return {
         "mixture": (gmm, (100,), MIXTURE, None),
-        "tree": (gnarly_tree, (0.2,), MOVES, nw.volume_match(bent_tube(), 0.4)),
+        "tree": (gnarly_tree, (0.2,), MOVES, nw.match_volume(bent_tube(), 0.4)),
     }
 
 

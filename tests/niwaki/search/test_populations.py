@@ -202,11 +202,11 @@ def test_a_chain_says_how_it_moved_and_starts_where_it_is_told() -> None:
     assert [s.choices for s in again] == [s.choices for s in found]
 
 
-def test_temperatures_are_told() -> None:
-    found = nw.run(WALL, method=nw.smc(particles=50, temper=4.0, anneal=0.5), seed=1)
-    assert len(found.info.temperatures) == found.info.barriers
-    assert list(found.info.temperatures) == sorted(found.info.temperatures)
-    held = nw.run(WALL, method=nw.smc(particles=50, temper=4.0, anneal=found.info.temperatures), seed=1)
+def test_powers_are_reported() -> None:
+    found = nw.run(WALL, method=nw.smc(particles=50, power=4.0, anneal=0.5), seed=1)
+    assert len(found.info.powers) == found.info.barriers
+    assert list(found.info.powers) == sorted(found.info.powers)
+    held = nw.run(WALL, method=nw.smc(particles=50, power=4.0, anneal=found.info.powers), seed=1)
     assert held.best.log_score == found.best.log_score
 
 

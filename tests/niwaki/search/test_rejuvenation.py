@@ -9,13 +9,13 @@ from niwaki.gallery.gnarly_tree import gnarly_tree
 
 SHAPE = ["yaw", "pitch", "length", "end", "angle", "thick"]
 KERNEL = kernels.mixture(
-    kernels.on(SHAPE, kernels.block(0.003)), kernels.drift(0.3), kernels.mh(), kernels.regenerate(1)
+    kernels.on(SHAPE, kernels.block(0.003)), kernels.drift(0.3), kernels.prior(), kernels.regenerate(1)
 )
 
 
 @pytest.fixture(scope="module")
 def score():
-    return niwaki.no_self_intersection() * niwaki.volume_match(
+    return niwaki.no_self_intersection() * niwaki.match_volume(
         named_target("bent_tube"), voxel=0.6, sigma=0.05
     )
 
@@ -45,7 +45,7 @@ def test_the_same_seed_gives_the_same_result_on_any_number_of_threads(score):
 
 def test_moves_make_copies_different(score):
     def unique(**settings):
-        method = niwaki.smc(20, temper=4.0, **settings)
+        method = niwaki.smc(20, power=4.0, **settings)
         return niwaki.run(gnarly_tree, method=method, score=score, seed=2).unique_models
 
     assert unique() < 5
@@ -54,10 +54,10 @@ def test_moves_make_copies_different(score):
 
 def test_final_chains_take_the_place_of_the_final_set(score):
     """Two chains of twenty states: each is what its choices say, and most are no copy of another."""
-    kernel = kernels.cycle(kernels.repeat(4, kernels.mh()), kernels.on(SHAPE, kernels.block(0.001)))
-    method = niwaki.smc(20, temper=4.0, rejuvenate=kernel, moves=5, at="end", draws=20, chains=2)
+    kernel = kernels.cycle(kernels.repeat(4, kernels.prior()), kernels.on(SHAPE, kernels.block(0.001)))
+    method = niwaki.smc(20, power=4.0, rejuvenate=kernel, moves=5, at="end", draws=20, chains=2)
     result = niwaki.run(gnarly_tree, method=method, score=score, seed=2, threads=1)
-    plain = niwaki.run(gnarly_tree, method=niwaki.smc(20, temper=4.0), score=score, seed=2, threads=1)
+    plain = niwaki.run(gnarly_tree, method=niwaki.smc(20, power=4.0), score=score, seed=2, threads=1)
     assert (
         len(result) == 40 and result.info.moved_running == (0, 0) and result.info.moved_ended.proposed == 200
     )
@@ -70,8 +70,8 @@ def test_final_chains_take_the_place_of_the_final_set(score):
 
 
 def test_grow_moves_too(score):
-    asked = {"score": score, "particles": 20, "temper": 4.0, "seed": 2, "threads": 1}
-    moves = {"rejuvenate": kernels.mh(), "moves": 30, "at": "end", "draws": 5}
+    asked = {"score": score, "particles": 20, "power": 4.0, "seed": 2, "threads": 1}
+    moves = {"rejuvenate": kernels.prior(), "moves": 30, "at": "end", "draws": 5}
     found = niwaki.grow(gnarly_tree, **asked, **moves)
     assert len(found) == 1
     assert found.best.log_score >= niwaki.grow(gnarly_tree, **asked).best.log_score
@@ -81,16 +81,16 @@ def test_grow_moves_too(score):
     ("settings", "name"),
     [
         ({"rejuvenate": "drift"}, "rejuvenate"),
-        ({"rejuvenate": kernels.mh(), "moves": 0}, "moves"),
-        ({"rejuvenate": kernels.mh(), "at": 0}, "at"),
-        ({"rejuvenate": kernels.mh(), "at": "later"}, "at"),
-        ({"rejuvenate": kernels.mh(), "weights": "absolute"}, "rejuvenate"),
-        ({"rejuvenate": kernels.repeat(2, kernels.anneal(kernels.mh(), 5))}, "rejuvenate"),
-        ({"rejuvenate": kernels.temper(kernels.mh())}, "rejuvenate"),
-        ({"rejuvenate": kernels.mh(), "draws": 0}, "draws"),
+        ({"rejuvenate": kernels.prior(), "moves": 0}, "moves"),
+        ({"rejuvenate": kernels.prior(), "at": 0}, "at"),
+        ({"rejuvenate": kernels.prior(), "at": "later"}, "at"),
+        ({"rejuvenate": kernels.prior(), "weights": "absolute"}, "rejuvenate"),
+        ({"rejuvenate": kernels.repeat(2, kernels.anneal(kernels.prior(), 5))}, "rejuvenate"),
+        ({"rejuvenate": kernels.tempering(kernels.prior())}, "rejuvenate"),
+        ({"rejuvenate": kernels.prior(), "draws": 0}, "draws"),
         ({"draws": 3}, "draws"),
-        ({"rejuvenate": kernels.mh(), "chains": 3}, "chains"),
-        ({"rejuvenate": kernels.mh(), "draws": 3, "chains": 0}, "chains"),
+        ({"rejuvenate": kernels.prior(), "chains": 3}, "chains"),
+        ({"rejuvenate": kernels.prior(), "draws": 3, "chains": 0}, "chains"),
     ],
 )
 def test_what_makes_no_sense_is_refused(settings, name):
@@ -103,4 +103,4 @@ def test_the_originals_chain_runs_on_the_same_model(score):
     result = niwaki.run(gnarly_tree, method=niwaki.mh(3000, kernel=kernel), score=score, seed=1)
     start = niwaki.run(gnarly_tree, method=niwaki.mh(1, kernel=kernel), score=score, seed=1)
     assert result.best.log_score > start.best.log_score
-    assert kernels.parse("original(sharpen=4)") == kernels.original(4.0)
+    assert kernels.parse("original(power=4)") == kernels.original(4.0)

@@ -47,9 +47,9 @@ def written(folder: Path, text: str = MODEL) -> nw.Search:
     folder.mkdir(exist_ok=True)
     (folder / "pile.py").write_text(textwrap.dedent(text))
     (folder / "cube.obj").write_text(CUBE)
-    score = nw.no_self_intersection() * nw.volume_match(nw.Target.load(folder / "cube.obj"), 0.5)
-    kernel = kernels.cycle(kernels.mh(), kernels.on("height", kernels.drift(0.2)))
-    method = nw.smc(30, temper=4.0, anneal=[0.5, 1.0], rejuvenate=kernel, moves=2, at="end")
+    score = nw.no_self_intersection() * nw.match_volume(nw.Target.load(folder / "cube.obj"), 0.5)
+    kernel = kernels.cycle(kernels.prior(), kernels.on("height", kernels.drift(0.2)))
+    method = nw.smc(30, power=4.0, anneal=[0.5, 1.0], rejuvenate=kernel, moves=2, at="end")
     return nw.Search(find(f"{folder / 'pile.py'}:pile").model, (0.1,), score, method, seed=7)
 
 
@@ -118,7 +118,7 @@ def test_a_moved_file_a_comment_and_a_blank_line_change_no_hash(tmp_path):
         lambda folder: changed(written(folder), runs=2, keep="best"),
         lambda folder: changed(written(folder), method=nw.smc(30)),
         lambda folder: changed(written(folder), score=nw.floor(0.0)),
-        lambda folder: changed(written(folder), score=nw.volume_match(ship(), 1.0)),
+        lambda folder: changed(written(folder), score=nw.match_volume(ship(), 1.0)),
         lambda folder: changed(written(folder), choices={"height": 0.6}),
     ],
 )
@@ -153,7 +153,7 @@ def test_the_bytes_of_a_target_and_an_image_change_the_hash(tmp_path):
     assert len(hashes) == 2
     search = written(tmp_path / "here")
     (tmp_path / "here" / "cube.obj").write_text(CUBE.replace("2 3 2", "2 4 2"))
-    score = nw.no_self_intersection() * nw.volume_match(nw.Target.load(tmp_path / "here" / "cube.obj"), 0.5)
+    score = nw.no_self_intersection() * nw.match_volume(nw.Target.load(tmp_path / "here" / "cube.obj"), 0.5)
     assert changed(search, score=score).hash != search.hash
 
 
@@ -177,14 +177,17 @@ def test_every_method_and_sketch_goes_through_json():
         * nw.match_image(stripes, camera, weight=2.0)
         * nw.match_shadow(stripes, (0, -1, 0.1), ground, weight_image=np.full((6, 6), 9, np.uint8))
         * nw.overshoot(((-5, 0, -5), (5, 9, 5)))
-        * nw.volume_match(ship(), 1.0)
+        * nw.match_volume(ship(), 1.0)
     )
     methods = [
         nw.smc((5, 6), diverse=1, order="depth-first", resampling="residual", ess=0.5),
-        nw.smc(8, rejuvenate=kernels.mixture(kernels.mh(), kernels.proposal(lambda old: old)), draws=3),
+        nw.smc(8, rejuvenate=kernels.mixture(kernels.prior(), kernels.proposal(lambda old: old)), draws=3),
         nw.particle_gibbs(8, 3, anneal=[1.0]),
         nw.pimh(8, 3),
-        nw.mh(50, kernel=kernels.temper(kernels.odds(kernels.mh(), depth=lambda n: 2.0**-n), (1, 2), 5)),
+        nw.mh(
+            50,
+            kernel=kernels.tempering(kernels.weighted(kernels.prior(), depth=lambda n: 2.0**-n), (1, 0.5), 5),
+        ),
         nw.mh(50, "cache", kernels.anneal(kernels.repeat(2, kernels.block()), 20), thin=2),
         nw.hmc(20, 5, jitter=0.5),
         nw.nuts(20, metric="low-rank"),
@@ -293,7 +296,9 @@ def line():
 
 def test_results_of_chains_are_pickled_with_all_that_they_say():
     chains = nw.run(
-        line, nw.mh(600, chains=2, keep=20, kernel=kernels.cycle(kernels.mh(), kernels.hmc(3))), seed=2
+        line,
+        nw.mh(600, chains=2, keep=20, kernel=kernels.cycle(kernels.prior(), kernels.hmc_step(3))),
+        seed=2,
     )
     again = pickle.loads(pickle.dumps(chains))
     assert found(again) == found(chains) and again.best.choices == chains.best.choices

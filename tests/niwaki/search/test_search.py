@@ -116,7 +116,7 @@ def test_the_trace_of_a_sample_has_its_scores() -> None:
     result = nw.run(
         ship.model,
         method=nw.smc(particles=40),
-        score=nw.no_self_intersection() * nw.volume_match(target, 0.5),
+        score=nw.no_self_intersection() * nw.match_volume(target, 0.5),
         seed=2,
     )
     for sample in result[:10]:
@@ -192,7 +192,7 @@ PROGRAMS = {
 
 SETTINGS: dict[str, Callable[[], Any]] = {
     "particles": lambda: nw.smc(particles=0),
-    "temper": lambda: nw.smc(temper=-1.0),
+    "power": lambda: nw.smc(power=-1.0),
     "ess": lambda: nw.smc(ess=3.0),
     "order": lambda: nw.smc(order="random"),
     "weights": lambda: nw.smc(weights="raio"),
@@ -221,9 +221,9 @@ SETTINGS: dict[str, Callable[[], Any]] = {
     "the rule": lambda: nw.no_self_intersection("volume"),
     "no best sample": lambda: nw.run(COINS, method=nw.enumerate_all(), seed=1).best,
     "a target that is not there": lambda: nw.grow(COINS, "nowhere.obj"),
-    "voxel": lambda: nw.volume_match(tetrahedron(), voxel=-1.0),
-    "sigma": lambda: nw.volume_match(tetrahedron(), sigma=0.0),
-    "a grid too large": lambda: nw.volume_match(tetrahedron(), voxel=1e-6),
+    "voxel": lambda: nw.match_volume(tetrahedron(), voxel=-1.0),
+    "sigma": lambda: nw.match_volume(tetrahedron(), sigma=0.0),
+    "a grid too large": lambda: nw.match_volume(tetrahedron(), voxel=1e-6),
     "nothing to grow into": lambda: nw.grow(COINS),
     "runs": lambda: nw.grow(COINS, tetrahedron(), runs=0),
 }

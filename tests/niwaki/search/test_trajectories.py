@@ -93,14 +93,16 @@ def loaded() -> dict[str, Any]:
 
 MODELS = loaded()
 BEADS = MODELS["beads"]
-BOTH = k.cycle(k.mh(), k.hmc(steps=5, jitter=0.3))
+BOTH = k.cycle(k.prior(), k.hmc_step(steps=5, jitter=0.3))
 
 
 def states(result: Any) -> list[Any]:
     return [(sample.log_prior, sample.log_score, sample.choices) for sample in result]
 
 
-@pytest.mark.parametrize("kernel", [BOTH, k.temper(k.cycle(k.mh(), k.nuts()), (1, 4), every=10)], ids=repr)
+@pytest.mark.parametrize(
+    "kernel", [BOTH, k.tempering(k.cycle(k.prior(), k.nuts_step()), (1, 0.25), every=10)], ids=repr
+)
 def test_a_seed_decides_whatever_the_threads_and_the_strategy(kernel: k.Kernel) -> None:
     method = {"steps": 600, "chains": 3, "keep": 5, "warmup": 200, "kernel": kernel}
     first = nw.run(BEADS, nw.mh(**method), seed=4, threads=1)
@@ -127,11 +129,11 @@ def test_every_state_scores_what_it_scores_when_it_is_run_again() -> None:
 
 
 def test_what_became_of_trajectories_is_told() -> None:
-    kernel = k.cycle(k.mh(), k.on("size", k.hmc(steps=4)), k.on("shares", k.nuts(max_depth=3)))
+    kernel = k.cycle(k.prior(), k.on("size", k.hmc_step(steps=4)), k.on("shares", k.nuts_step(max_depth=3)))
     result = nw.run(BEADS, nw.mh(steps=6000, warmup=3000, kernel=kernel), seed=2)
     sizes, shares = result.trajectories
-    assert repr(sizes.kernel) == "on(['size'], hmc(4, step=0.1, target=0.8))"
-    assert repr(shares.kernel) == "on(['shares'], nuts(3, step=0.1, target=0.8))"
+    assert repr(sizes.kernel) == "on(['size'], hmc_step(4, step=0.1, target=0.8))"
+    assert repr(shares.kernel) == "on(['shares'], nuts_step(3, step=0.1, target=0.8))"
     assert sizes.made == shares.made == 2000
     assert abs(sizes.acceptance - 0.8) < 0.15 and abs(shares.acceptance - 0.8) < 0.15
     assert 3 < sizes.structures == sizes.recordings and sizes.unwritten == shares.unwritten == 0
@@ -140,7 +142,7 @@ def test_what_became_of_trajectories_is_told() -> None:
 
 
 def test_what_is_left_out_is_held() -> None:
-    result = nw.run(BEADS, nw.mh(steps=300, kernel=k.on("size", k.hmc()), keep=300), seed=1)
+    result = nw.run(BEADS, nw.mh(steps=300, kernel=k.on("size", k.hmc_step()), keep=300), seed=1)
     first = result[0].choices
     for sample in result:
         moved = {address for address, value in sample.choices.items() if first[address] != value}
@@ -152,13 +154,13 @@ def test_without_a_warmup_nothing_is_adapted() -> None:
     with pytest.warns(
         GradientWarning, match="1 discrete choice of `beads` kept the value of each chain's start"
     ):
-        result = nw.run(BEADS, nw.mh(steps=500, kernel=k.hmc(step=0.037)), seed=1)
+        result = nw.run(BEADS, nw.mh(steps=500, kernel=k.hmc_step(step=0.037)), seed=1)
     assert result.trajectories[0].step == (pytest.approx(0.037, abs=1e-15),)
 
 
 def test_trajectories_that_reach_what_is_no_number_are_counted() -> None:
     """Below zero the root is a fault where the coin says so: neither silent, nor the end of the chain."""
-    kernel = k.cycle(k.on("a", k.mh()), k.on("x", k.hmc(steps=5, step=0.8)))
+    kernel = k.cycle(k.on("a", k.prior()), k.on("x", k.hmc_step(steps=5, step=0.8)))
     with pytest.warns(GradientWarning, match="without a finite gradient"):
         result = nw.run(MODELS["edge"], nw.mh(steps=2000, kernel=kernel), seed=1)
     (one,) = result.trajectories
@@ -168,7 +170,7 @@ def test_trajectories_that_reach_what_is_no_number_are_counted() -> None:
 
 def test_a_comparison_with_nan_is_a_fault_with_its_place_and_no_path() -> None:
     with pytest.warns(GradientWarning, match="comparison"):
-        result = nw.run(MODELS["unordered"], nw.mh(steps=2000, kernel=k.hmc(steps=5, step=0.5)), seed=1)
+        result = nw.run(MODELS["unordered"], nw.mh(steps=2000, kernel=k.hmc_step(steps=5, step=0.5)), seed=1)
     (one,) = result.trajectories
     assert one.divergences.not_finite > 20
     assert max(sample.value for sample in result) <= 1.0
@@ -189,12 +191,12 @@ def chain(
 @pytest.mark.parametrize(
     ("kernel", "unmoved"),
     [
-        (k.nuts(), "`x`"),
-        (k.temper(k.hmc(), (1, 4), every=10), "`x`"),
-        (k.cycle(k.on("z", k.mh()), k.hmc()), "`x`"),
-        (k.cycle(k.mh(), k.nuts()), None),
-        (k.mixture(k.regenerate(), k.hmc()), None),
-        (k.cycle(k.on("x", k.mh()), k.on("z", k.mh()), k.nuts()), None),
+        (k.nuts_step(), "`x`"),
+        (k.tempering(k.hmc_step(), (1, 0.25), every=10), "`x`"),
+        (k.cycle(k.on("z", k.prior()), k.hmc_step()), "`x`"),
+        (k.cycle(k.prior(), k.nuts_step()), None),
+        (k.mixture(k.regenerate(), k.hmc_step()), None),
+        (k.cycle(k.on("x", k.prior()), k.on("z", k.prior()), k.nuts_step()), None),
     ],
     ids=repr,
 )
@@ -215,11 +217,11 @@ def test_what_is_refused_for_structure_is_said_where_no_other_kernel_moves_there
     )
     assert f"no other kernel of the chain moves {unmoved}" in text
     # Under tempering chains that keep their structures exchange them.
-    assert len(values) == 1 or kernel.name == "temper"
+    assert len(values) == 1 or kernel.name == "tempering"
 
 
 def test_what_diverged_is_said_with_its_count() -> None:
-    result, said = chain(k.cycle(k.mh(), k.hmc(steps=3, step=50.0)), model="needle", warmup=0)
+    result, said = chain(k.cycle(k.prior(), k.hmc_step(steps=3, step=50.0)), model="needle", warmup=0)
     (one,) = result.trajectories
     assert one.divergences.energy > 0
     assert said[0].startswith(
@@ -229,10 +231,10 @@ def test_what_diverged_is_said_with_its_count() -> None:
 
 
 def test_tempering_reaches_the_other_side_of_a_tight_constraint() -> None:
-    alone = nw.run(MODELS["needle"], nw.mh(steps=4000, warmup=1000, kernel=k.nuts(target=0.95)), seed=1)
+    alone = nw.run(MODELS["needle"], nw.mh(steps=4000, warmup=1000, kernel=k.nuts_step(target=0.95)), seed=1)
     assert len({sample.value for sample in alone}) == 1
-    widths = (1, 16, 256, 4096)
-    kernel = k.temper(k.nuts(target=0.95), widths, every=2)
+    widths = (1, 1 / 16, 1 / 256, 1 / 4096)
+    kernel = k.tempering(k.nuts_step(target=0.95), widths, every=2)
     result = nw.run(MODELS["needle"], nw.mh(steps=12_000, warmup=2000, thin=10, kernel=kernel), seed=1)
     share = np.array([sample.value for sample in result], dtype=float)
     assert abs(share.mean() - 0.5) < 0.15
@@ -241,11 +243,11 @@ def test_tempering_reaches_the_other_side_of_a_tight_constraint() -> None:
 
 def failing() -> dict[str, Callable[[], Any]]:
     """Every way to go wrong, by what it is."""
-    run, hmc = nw.run, k.cycle(k.mh(), k.hmc())
+    run, hmc = nw.run, k.cycle(k.prior(), k.hmc_step())
     return {
         "nothing continuous": lambda: run(MODELS["coins"], nw.mh(steps=10, kernel=hmc), seed=1),
         "nothing continuous that is selected": lambda: run(
-            MODELS["edge"], nw.mh(steps=10, kernel=k.on("a", k.hmc())), seed=1
+            MODELS["edge"], nw.mh(steps=10, kernel=k.on("a", k.hmc_step())), seed=1
         ),
         "no derivative": lambda: run(MODELS["steps"], nw.mh(steps=10, kernel=hmc), seed=1),
         "a sketch": lambda: run(
@@ -255,12 +257,12 @@ def failing() -> dict[str, Callable[[], Any]]:
             seed=1,
         ),
         "particles that still run": lambda: run(
-            BEADS, nw.smc(particles=20, rejuvenate=k.hmc(), moves=1, at="resampled"), seed=1
+            BEADS, nw.smc(particles=20, rejuvenate=k.hmc_step(), moves=1, at="resampled"), seed=1
         ),
-        "no steps": lambda: k.hmc(steps=0),
-        "too deep": lambda: k.nuts(max_depth=31),
-        "a step backwards": lambda: k.hmc(step=-0.1),
-        "too much jitter": lambda: k.hmc(jitter=2.0),
+        "no steps": lambda: k.hmc_step(steps=0),
+        "too deep": lambda: k.nuts_step(max_depth=31),
+        "a step backwards": lambda: k.hmc_step(step=-0.1),
+        "too much jitter": lambda: k.hmc_step(jitter=2.0),
     }
 
 
@@ -269,17 +271,17 @@ def test_errors_are_as_reviewed(reviewed) -> None:
 
 
 def test_particles_are_moved_at_the_end() -> None:
-    method = nw.smc(particles=50, rejuvenate=k.hmc(steps=3, step=0.2), moves=3, at="end")
+    method = nw.smc(particles=50, rejuvenate=k.hmc_step(steps=3, step=0.2), moves=3, at="end")
     assert np.isfinite([sample.log_score for sample in nw.run(BEADS, method, seed=1)]).all()
 
 
 def test_kernels_are_read_as_they_are_written() -> None:
-    text = "cycle(mh(), on('size', hmc(steps=5, jitter=0.5)), nuts(max_depth=4))"
-    expected = k.cycle(k.mh(), k.on("size", k.hmc(steps=5, jitter=0.5)), k.nuts(max_depth=4))
+    text = "cycle(prior(), on('size', hmc_step(steps=5, jitter=0.5)), nuts_step(max_depth=4))"
+    expected = k.cycle(k.prior(), k.on("size", k.hmc_step(steps=5, jitter=0.5)), k.nuts_step(max_depth=4))
     assert k.parse(text) == expected
     assert [repr(leaf) for leaf in expected.leaves()][0] == "prior()"
 
 
 def test_a_sketch_is_no_hindrance_to_other_kernels() -> None:
-    result = nw.run(MODELS["tower"], nw.mh(steps=50, kernel=k.mh()), score=nw.floor(0), seed=1)
+    result = nw.run(MODELS["tower"], nw.mh(steps=50, kernel=k.prior()), score=nw.floor(0), seed=1)
     assert result.trajectories == []

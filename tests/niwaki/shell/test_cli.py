@@ -59,7 +59,7 @@ def test_grow_writes_and_replay_gives_the_same_bytes(tmp_path: Path) -> None:
     assert (first / "best.glb").read_bytes() == (again / "best.glb").read_bytes()
     data = json.loads((first / "run.json").read_text())
     assert data["search"]["seed"] == 3 and [one["seed"] for one in data["runs"]] == [3, 4]
-    assert data["search"]["method"]["temper"] == 16.0
+    assert data["search"]["method"]["power"] == 16.0
     assert data["search"]["score"][-1]["given"]["voxel"] == 0.5
     choice = data["runs"][0]["choices"][0]
     assert choice["family"] and choice["address"] and "value" in choice
@@ -172,13 +172,29 @@ def test_a_process_prints_errors_without_a_traceback() -> None:
 
 @pytest.mark.skipif(os.name == "nt", reason="signals of Unix")
 def test_ctrl_c_writes_the_best_so_far(tmp_path: Path) -> None:
-    words = ["grow", "spaceship", "-n", "300", "--runs", "100000", "--voxel", "0.5", "--no-picture"]
-    out = tmp_path / "out"
-    child = subprocess.Popen(
-        [sys.executable, "-m", "niwaki.shell.main", *words, "-o", str(out)], stdout=subprocess.PIPE
+    out, loaded, model = tmp_path / "out", tmp_path / "loaded", tmp_path / "ship.py"
+    model.write_text(
+        "from pathlib import Path\nfrom niwaki.gallery.spaceship import spaceship\n"
+        f"Path({str(loaded)!r}).touch()\n"
     )
-    # The folder is there before the search begins.
-    while not out.exists() and child.poll() is None:
+    words = [
+        "grow",
+        str(model),
+        "--target",
+        "gallery:ship",
+        "-n",
+        "300",
+        "--runs",
+        "100000",
+        "--voxel",
+        "0.5",
+    ]
+    child = subprocess.Popen(
+        [sys.executable, "-m", "niwaki.shell.main", *words, "--no-picture", "-o", str(out)],
+        stdout=subprocess.PIPE,
+    )
+    # The model is loaded right before the search begins.
+    while not loaded.exists() and child.poll() is None:
         time.sleep(0.1)
     time.sleep(3.0)
     child.send_signal(signal.SIGINT)

@@ -108,8 +108,8 @@ def test_a_shadow_is_matched(place: Path) -> None:
         ["--method", "pimh", "--sweeps", "3", "--resampling", "residual"],
         ["--populations", "3", "--anneal", "1,4,16"],
         ["--weights", "absolute"],
-        ["--rejuvenate", "cycle(mh(), drift(0.1))", "--moves", "2", "--at", "resampled"],
-        ["--rejuvenate", "mh()", "--moves", "3", "--at", "end", "--draws", "4", "--chains", "2"],
+        ["--rejuvenate", "cycle(prior(), drift(0.1))", "--moves", "2", "--at", "resampled"],
+        ["--rejuvenate", "prior()", "--moves", "3", "--at", "end", "--draws", "4", "--chains", "2"],
         ["--method", "particle-gibbs", "--sweeps", "2", "--no-ancestors"],
         ["--polish", "50"],
     ],
@@ -127,7 +127,7 @@ def test_every_search_runs_and_can_be_replayed(place: Path, words: list[str]) ->
 
 def test_a_chain_goes_on_from_the_best(place: Path) -> None:
     plain = grown(*IMAGE, "--no-picture")
-    data = grown(*IMAGE, "--polish", "300", "--polish-kernel", "mixture(mh(), drift(0.1))", "--no-picture")
+    data = grown(*IMAGE, "--polish", "300", "--polish-kernel", "mixture(prior(), drift(0.1))", "--no-picture")
     assert data["runs"][0]["log_score"] > plain["runs"][0]["log_score"]
     polish = data["search"]["polish"]
     assert polish["steps"] == 300 and [part["name"] for part in polish["kernel"]["parts"]] == [
@@ -147,7 +147,7 @@ def test_results_that_differ(place: Path) -> None:
 
 
 def test_states_of_chains_that_differ(place: Path) -> None:
-    moves = ["--rejuvenate", "cycle(repeat(4, mh()), block(0.01))", "--moves", "5", "--at", "end"]
+    moves = ["--rejuvenate", "cycle(repeat(4, prior()), block(0.01))", "--moves", "5", "--at", "end"]
     data = grown(*IMAGE, *moves, "--draws", "12", "--diverse", "3", "--no-picture")
     assert len(data["runs"]) == 3 and len(data["plan"]) == 1
     assert (
@@ -216,12 +216,12 @@ REFUSALS = {
     "a time and a number of particles": [*IMAGE, "--seconds", "1"],
     "a kernel that nobody has": [*IMAGE, "--rejuvenate", "drifts()"],
     "moves of nothing": [*IMAGE, "--moves", "3"],
-    "a moment that never comes": [*IMAGE, "--rejuvenate", "mh()", "--at", "noon"],
-    "chains without draws": [*IMAGE, "--rejuvenate", "mh()", "--chains", "2"],
-    "moves of a chain of whole runs": [*IMAGE, "--method", "pimh", "--rejuvenate", "mh()"],
-    "moves of what has no law": [*IMAGE, "--rejuvenate", "mh()", "--weights", "absolute"],
+    "a moment that never comes": [*IMAGE, "--rejuvenate", "prior()", "--at", "noon"],
+    "chains without draws": [*IMAGE, "--rejuvenate", "prior()", "--chains", "2"],
+    "moves of a chain of whole runs": [*IMAGE, "--method", "pimh", "--rejuvenate", "prior()"],
+    "moves of what has no law": [*IMAGE, "--rejuvenate", "prior()", "--weights", "absolute"],
     "a chain of no proposals": [*IMAGE, "--polish", "0"],
-    "a kernel of no chain": [*IMAGE, "--polish-kernel", "mh()"],
+    "a kernel of no chain": [*IMAGE, "--polish-kernel", "prior()"],
     "a chain from results that differ": [*IMAGE, "--diverse", "3", "--polish", "10"],
     "ancestors of a population": [*IMAGE, "--no-ancestors"],
     "a way that is none": [*IMAGE, "--anneal", "slowly"],

@@ -58,14 +58,14 @@ def test_random_order_follows_the_path_and_depth_first_does_not(program: Any, ta
 
 
 def test_judging_late_and_revising_help(program: Any, target: nw.Target) -> None:
-    score = nw.no_self_intersection() * nw.volume_match(target, 0.25)
+    score = nw.no_self_intersection() * nw.match_volume(target, 0.25)
     late, revised = [], []
     for seed in SEEDS:
         first = grown(program, target, seed, particles=50, anneal=LATE)
         assert first is not None
         with warnings.catch_warnings():
             warnings.simplefilter("error")
-            method = nw.particle_gibbs(particles=10, sweeps=10, temper=16.0)
+            method = nw.particle_gibbs(particles=10, sweeps=10, power=16.0)
             chain = nw.run(program, method=method, score=score, seed=seed, choices=first.best.choices)
         late.append(first.best.log_score)
         revised.append(chain.best.log_score)

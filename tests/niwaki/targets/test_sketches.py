@@ -81,13 +81,13 @@ def test_a_slanted_light_throws_the_shadow_aside() -> None:
 
 def test_two_views_are_told_apart_in_the_measures() -> None:
     side = nw.Camera.orthographic((20, 0, 0), (0, 0, 0), height=10)
-    score = nw.volume_match(cube()) * nw.match_image(ON, CAMERA) * nw.match_image(ON, side)
+    score = nw.match_volume(cube()) * nw.match_image(ON, CAMERA) * nw.match_image(ON, side)
     assert [name for name in started(score).measures() if name.startswith("similarity")] == [
         "similarity",
         "similarity_2",
         "similarity_3",
     ]
-    assert repr(score) == "volume_match * match_image * match_image"
+    assert repr(score) == "match_volume * match_image * match_image"
     assert len(score.views) == 2 and score.target is not None
 
 
@@ -113,6 +113,14 @@ def test_an_obstacle_above_is_kept_clear() -> None:
     for sample in result:
         low, high = sample.scene.parts[1].shapes[0].aabb()
         assert high[1] < 3 or low[1] > 5
+
+
+def test_each_of_two_obstacles_is_kept_in_the_record() -> None:
+    near, far = cube((0, 1, 0)), cube((0, 7, 0))
+    score = nw.avoid(near, voxel=0.1) * nw.avoid(far, voxel=0.2)
+    given = [one["given"] for one in score.data(lambda value: value)]
+    found = [(one["obstacle"].vertices[:, 1].min(), one["voxel"]) for one in given]
+    assert found == [(near.vertices[:, 1].min(), 0.1), (far.vertices[:, 1].min(), 0.2)]
 
 
 def warned(make: Callable[[], Any]) -> str:
@@ -141,7 +149,7 @@ def test_messages(golden: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
         refused(lambda: nw.match_image(ON, CAMERA, weight_image=np.zeros((200, 200)))),
         refused(lambda: nw.match_image(ON, CAMERA, weight=-1)),
         refused(lambda: nw.match_image(ON, CAMERA, sigma=0)),
-        refused(lambda: nw.volume_match(cube()) * nw.match_image(ON, away)),
+        refused(lambda: nw.match_volume(cube()) * nw.match_image(ON, away)),
         refused(lambda: nw.match_image(ON, {"position": [0, 0, 1], "look_at": [0, 0, 1]})),
         refused(lambda: nw.match_shadow(ON, (0, -1, 0), floor, away)),
         refused(

@@ -48,16 +48,16 @@ def test_a_mesh_is_a_shape_and_a_target() -> None:
         ("bad-shape", lambda: engine.Shape.box((0, 0, math.nan), (1, 1, 1))),
         ("bad-shape", lambda: engine.Shape.cylinder((0, 0, 0), 1, 1, axis="w")),
         ("bad-shape", lambda: engine.Shape.limb((0, 0, 0), (0, 0, 0), 1, 1)),
-        ("empty-mesh", lambda: engine.Target(np.zeros((0, 3)), np.zeros((0, 3), np.int64), 0.1)),
-        ("mesh-index", lambda: engine.Target(CUBE.vertices(), CUBE.faces() + 1, 0.1)),
-        ("mesh-index", lambda: engine.Target(CUBE.vertices(), CUBE.faces() - 1, 0.1)),
-        ("mesh-index", lambda: engine.Target(CUBE.vertices()[:, :2].copy(), CUBE.faces(), 0.1)),
-        ("non-finite-mesh", lambda: engine.Target(CUBE.vertices() * math.inf, CUBE.faces(), 0.1)),
-        ("bad-voxel", lambda: engine.Target(CUBE.vertices(), CUBE.faces(), 0.0)),
-        ("large-grid", lambda: engine.Target(CUBE.vertices(), CUBE.faces(), 1e-5)),
-        ("bad-sigma", lambda: engine.volume_match(engine.Target(CUBE.vertices(), CUBE.faces(), 0.1), -1)),
-        ("bad-rule", lambda: engine.no_self_intersection("edges")),
-        ("not-in-scene", lambda: engine.Sketch([engine.no_self_intersection()]).remove([CUBE])),
+        ("bad-shape", lambda: engine.Target(np.zeros((0, 3)), np.zeros((0, 3), np.int64), 0.1)),
+        ("bad-shape", lambda: engine.Target(CUBE.vertices(), CUBE.faces() + 1, 0.1)),
+        ("bad-shape", lambda: engine.Target(CUBE.vertices(), CUBE.faces() - 1, 0.1)),
+        ("bad-shape", lambda: engine.Target(CUBE.vertices()[:, :2].copy(), CUBE.faces(), 0.1)),
+        ("bad-shape", lambda: engine.Target(CUBE.vertices() * math.inf, CUBE.faces(), 0.1)),
+        ("bad-setting", lambda: engine.Target(CUBE.vertices(), CUBE.faces(), 0.0)),
+        ("too-many-cells", lambda: engine.Target(CUBE.vertices(), CUBE.faces(), 1e-5)),
+        ("bad-setting", lambda: engine.match_volume(engine.Target(CUBE.vertices(), CUBE.faces(), 0.1), -1)),
+        ("bad-setting", lambda: engine.no_self_intersection("edges")),
+        ("bad-setting", lambda: engine.Sketch([engine.no_self_intersection()]).remove([CUBE])),
     ],
 )
 def test_bad_input_costs_an_error_with_a_code(code: str, make) -> None:
@@ -69,7 +69,7 @@ def test_bad_input_costs_an_error_with_a_code(code: str, make) -> None:
 
 def test_a_scene_is_scored_as_it_grows_and_comes_back() -> None:
     target = engine.Target(CUBE.vertices(), CUBE.faces(), 0.1)
-    sketch = engine.Sketch([engine.no_self_intersection(), engine.volume_match(target, 0.02)])
+    sketch = engine.Sketch([engine.no_self_intersection(), engine.match_volume(target, 0.02)])
     empty = sketch.log_score()
     expected = 2 * (-0.5 * math.log(2 * math.pi) - math.log(0.02)) - 0.5 * (target.filled / 1728 / 0.02) ** 2
     assert empty == pytest.approx(expected, abs=1e-8)

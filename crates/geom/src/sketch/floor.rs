@@ -17,11 +17,11 @@ struct FloorSpec {
 /// Forbids scenes that reach below `height`, scene units along y.
 ///
 /// # Errors
-/// `bad-floor` when the height is not finite.
+/// `bad-setting` when the height is not finite.
 pub fn floor(height: f64) -> Result<Arc<dyn SketchSpec>, GeomError> {
     if !height.is_finite() {
         let message = format!("the floor is at {height}, expected a finite number");
-        return Err(GeomError::new("bad-floor", message));
+        return Err(GeomError::new("bad-setting", message));
     }
     Ok(Arc::new(FloorSpec { height }))
 }

@@ -101,10 +101,10 @@ pub(crate) fn log_normal(x: f64, mean: f64, sd: f64) -> f64 {
     -HALF_LOG_TAU - sd.ln() - 0.5 * z * z
 }
 
-/// Refuses a standard deviation that is none: `bad-sigma`.
+/// Refuses a standard deviation that is none: `bad-setting`.
 pub(crate) fn check_sigma(sigma: f64) -> Result<(), GeomError> {
     if sigma > 0.0 && sigma.is_finite() {
         return Ok(());
     }
-    Err(GeomError::new("bad-sigma", format!("sigma is {sigma}, expected a positive number")))
+    Err(GeomError::new("bad-setting", format!("sigma is {sigma}, expected a positive number")))
 }

@@ -23,14 +23,14 @@ struct OvershootSpec {
 /// Scores a scene by how far it reaches out of `domain`.
 ///
 /// # Errors
-/// `bad-sigma`; `bad-domain` for a box without extent along an axis.
+/// `bad-setting`; `bad-setting` for a box without extent along an axis.
 pub fn no_overshoot(domain: Aabb, sigma: f64) -> Result<Arc<dyn SketchSpec>, GeomError> {
     check_sigma(sigma)?;
     let extent = domain.extent().to_array();
     if !domain.low.is_finite() || !domain.high.is_finite() || extent.iter().any(|e| *e <= 0.0) {
         let (low, high) = (domain.low.to_array(), domain.high.to_array());
         let message = format!("the box from {low:?} to {high:?} has no inside");
-        return Err(GeomError::new("bad-domain", message));
+        return Err(GeomError::new("bad-setting", message));
     }
     Ok(Arc::new(OvershootSpec { domain, sigma }))
 }

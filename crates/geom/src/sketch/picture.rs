@@ -91,8 +91,8 @@ impl Picture {
     /// The picture that `wish` asks for; pixels without a ray are always off in a scene.
     ///
     /// # Errors
-    /// `bad-picture` for a size without pixels or with too many, or lists of other lengths; `one-color` when all
-    /// pixels should be alike; `bad-weight` for a multiplier that is not finite or negative.
+    /// `bad-image` for a size without pixels or with too many, or lists of other lengths; `image-one-color` when all
+    /// pixels should be alike; `bad-setting` for a multiplier that is not finite or negative.
     pub fn new(wish: &Wish, rays: Rays) -> Result<Picture, GeomError> {
         let size = wish.size;
         check_size(size)?;
@@ -100,16 +100,19 @@ impl Picture {
         let lengths = [Some(wish.on.len()), wish.greys.as_ref().map(Vec::len)];
         if let Some(length) = lengths.into_iter().flatten().find(|n| *n != count) {
             let message = format!("{length} values for a picture of {} x {}", size[0], size[1]);
-            return Err(GeomError::new("bad-picture", message));
+            return Err(GeomError::new("bad-image", message));
         }
         if !(wish.multiplier >= 0.0 && wish.multiplier.is_finite()) {
             let message = format!("the weight is {}, expected zero or more", wish.multiplier);
-            return Err(GeomError::new("bad-weight", message));
+            return Err(GeomError::new("bad-setting", message));
         }
         let lit = wish.on.iter().filter(|on| **on).count();
         if lit == 0 || lit == count {
             let all = if lit == 0 { "off" } else { "on" };
-            return Err(GeomError::new("one-color", format!("all {count} pixels of the picture are {all}")));
+            return Err(GeomError::new(
+                "image-one-color",
+                format!("all {count} pixels of the picture are {all}"),
+            ));
         }
         let words = |bit: &dyn Fn(usize) -> bool| -> Vec<u64> {
             let word =
@@ -176,7 +179,7 @@ struct PictureSpec {
 /// Scores a scene by how well its silhouette is `picture`, seen by the camera of the picture's rays.
 ///
 /// # Errors
-/// `bad-sigma` when it is not positive.
+/// `bad-setting` when it is not positive.
 pub fn match_image(picture: Arc<Picture>, sigma: f64) -> Result<Arc<dyn SketchSpec>, GeomError> {
     check_sigma(sigma)?;
     Ok(Arc::new(PictureSpec { name: "match_image", picture, sigma }))
@@ -185,7 +188,7 @@ pub fn match_image(picture: Arc<Picture>, sigma: f64) -> Result<Arc<dyn SketchSp
 /// Scores a scene by how well its shadow is `picture`, whose rays go from a receiver to a light.
 ///
 /// # Errors
-/// `bad-sigma` when it is not positive.
+/// `bad-setting` when it is not positive.
 pub fn match_shadow(picture: Arc<Picture>, sigma: f64) -> Result<Arc<dyn SketchSpec>, GeomError> {
     check_sigma(sigma)?;
     Ok(Arc::new(PictureSpec { name: "match_shadow", picture, sigma }))

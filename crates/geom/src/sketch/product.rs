@@ -6,7 +6,7 @@
 
 use super::{Sketch, SketchSpec};
 use crate::primitive::Primitive;
-use niwaki_math::Total;
+use niwaki_math::{Total, grid};
 use std::sync::Arc;
 
 /// An ordered list of sketches, scored together.
@@ -145,7 +145,7 @@ impl Sketches {
     pub fn total(&self) -> Total {
         let mut sum = Total::default();
         for member in &self.members {
-            sum.add(member.log_score);
+            sum.add(grid(member.log_score));
             if member.is_forbidden() {
                 break;
             }
@@ -196,7 +196,7 @@ impl Sketches {
 mod tests {
     //! Forbidden scenes stop the later sketches, which catch up when the scene is allowed again.
     use super::*;
-    use crate::{Look, Rule, Shape, Target, no_self_intersection, vec3, volume_match};
+    use crate::{Look, Rule, Shape, Target, match_volume, no_self_intersection, vec3};
 
     fn cube(x: f64) -> Primitive {
         let shape = Shape::cuboid(vec3(x, 0.0, 0.0), vec3(1.0, 1.0, 1.0), &Look::default()).unwrap();
@@ -207,7 +207,7 @@ mod tests {
     fn later_sketches_wait_and_catch_up() {
         let mesh = cube(0.0).shapes()[0].world_mesh().clone();
         let target = Arc::new(Target::new(mesh, 0.1).unwrap());
-        let specs = [no_self_intersection(Rule::Solid), volume_match(target, 0.02).unwrap()];
+        let specs = [no_self_intersection(Rule::Solid), match_volume(target, 0.02).unwrap()];
         let mut scene = Sketches::start(&specs);
         let empty = scene.log_score();
         assert_eq!(scene.add(&cube(0.0)), None);
@@ -238,7 +238,7 @@ mod tests {
     #[test]
     fn a_copy_in_place_is_a_copy() {
         let target = Arc::new(Target::new(cube(0.0).shapes()[0].world_mesh().clone(), 0.1).unwrap());
-        let specs = [no_self_intersection(Rule::Solid), volume_match(target, 0.02).unwrap()];
+        let specs = [no_self_intersection(Rule::Solid), match_volume(target, 0.02).unwrap()];
         for places in [vec![0.0], vec![0.0, 0.5], vec![0.0, 0.5, 1.5]] {
             let (mut from, mut to, mut other) =
                 (Sketches::start(&specs), Sketches::start(&specs), Sketches::default());

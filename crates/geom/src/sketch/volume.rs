@@ -33,7 +33,7 @@ impl Target {
     /// Voxelises `mesh` with cells at most `voxel` scene units wide.
     ///
     /// # Errors
-    /// `bad-voxel`, `large-grid`, and `no-cell-filled` (which no mesh with a finite triangle reaches).
+    /// `bad-setting`, `too-many-cells`, and `no-cell-filled` (which no mesh with a finite triangle reaches).
     pub fn new(mesh: TriMesh, voxel: f64) -> Result<Target, GeomError> {
         let grid = Grid::around(&mesh.aabb(), voxel)?;
         let empty = || GeomError::new("no-cell-filled", "the target mesh fills no cell of its grid");
@@ -91,15 +91,15 @@ struct VolumeSpec {
 /// Scores a scene by how well it fills `target`; `sigma` is the standard deviation of both terms.
 ///
 /// # Errors
-/// `bad-sigma` when it is not positive.
-pub fn volume_match(target: Arc<Target>, sigma: f64) -> Result<Arc<dyn SketchSpec>, GeomError> {
+/// `bad-setting` when it is not positive.
+pub fn match_volume(target: Arc<Target>, sigma: f64) -> Result<Arc<dyn SketchSpec>, GeomError> {
     super::check_sigma(sigma)?;
     Ok(Arc::new(VolumeSpec { target, sigma }))
 }
 
 impl SketchSpec for VolumeSpec {
     fn name(&self) -> &'static str {
-        "volume_match"
+        "match_volume"
     }
 
     fn start(&self) -> Box<dyn Sketch> {
@@ -195,7 +195,7 @@ impl PartialEq for VolumeMatch {
 
 impl Sketch for VolumeMatch {
     fn name(&self) -> &'static str {
-        "volume_match"
+        "match_volume"
     }
 
     fn add(&mut self, primitive: &Primitive) {

@@ -115,12 +115,12 @@ impl Camera {
 /// Refuses pictures without pixels or with too many.
 ///
 /// # Errors
-/// `bad-picture`.
+/// `bad-image`.
 pub fn check_size(size: [usize; 2]) -> Result<(), GeomError> {
     let [columns, rows] = size;
     if columns == 0 || rows == 0 || columns.saturating_mul(rows) > MOST_PIXELS {
         let message = format!("a picture of {columns} x {rows} pixels, expected 1 to {MOST_PIXELS} of them");
-        return Err(GeomError::new("bad-picture", message));
+        return Err(GeomError::new("bad-image", message));
     }
     Ok(())
 }

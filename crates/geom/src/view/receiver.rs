@@ -22,11 +22,11 @@ impl Light {
     /// Light that travels along `direction` (any length): a sun above shines along (0, -1, 0).
     ///
     /// # Errors
-    /// `bad-light` when it has no direction.
+    /// `bad-setting` when it has no direction.
     pub fn new(direction: Vec3) -> Result<Light, GeomError> {
         let message = || format!("the light travels along {:?}, expected a direction", direction.to_array());
         let direction = Some(direction).filter(|d| d.is_finite()).and_then(Vec3::unit);
-        direction.map(|direction| Light { direction }).ok_or_else(|| GeomError::new("bad-light", message()))
+        direction.map(|direction| Light { direction }).ok_or_else(|| GeomError::new("bad-setting", message()))
     }
 
     /// Unit direction in which the light travels.

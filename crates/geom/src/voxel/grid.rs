@@ -27,11 +27,11 @@ impl Grid {
     /// The grid around a target's box, cells at most `voxel` scene units wide.
     ///
     /// # Errors
-    /// `bad-voxel` for a size that is not positive, `large-grid` beyond 2^28 cells.
+    /// `bad-setting` for a size that is not positive, `too-many-cells` beyond 2^28 cells.
     pub fn around(target: &Aabb, voxel: f64) -> Result<Grid, GeomError> {
         if !(voxel > 0.0 && voxel.is_finite()) {
             return Err(GeomError::new(
-                "bad-voxel",
+                "bad-setting",
                 format!("the voxel size is {voxel}, expected a positive number"),
             ));
         }
@@ -42,7 +42,7 @@ impl Grid {
         if cells.is_nan() || cells > MOST_CELLS {
             let message =
                 format!("voxels of {voxel} make a grid of {counts:?} cells; use a larger voxel size");
-            return Err(GeomError::new("large-grid", message));
+            return Err(GeomError::new("too-many-cells", message));
         }
         let dims = counts.map(|c| c as usize);
         let cell = vec3(extent[0] / counts[0], extent[1] / counts[1], extent[2] / counts[2]);

@@ -11,9 +11,7 @@
 //! Dissertation 3.2, with selection weights in place of the numbers of choices.
 
 use niwaki_math::streams::open_unit;
-use niwaki_math::{Stream, Total};
-use niwaki_vm::code::Program;
-use niwaki_vm::machine::kept::Trace;
+use niwaki_math::{Stream, Total, grid};
 
 /// What decides over a proposal, nats.
 #[derive(Clone, Copy, Debug)]
@@ -22,7 +20,7 @@ pub struct Terms<'a> {
     pub prior: &'a Total,
     /// Change of factors, observations and sketches.
     pub score: &'a Total,
-    /// The inverse temperature: the power of the score.
+    /// The power of the score.
     pub beta: f64,
     /// Log densities of the choices that went, or were drawn anew.
     pub stale: &'a Total,
@@ -41,10 +39,13 @@ impl Terms<'_> {
     #[cold]
     #[inline(never)]
     fn wide_log_ratio(&self) -> f64 {
+        if [self.prior, self.score, self.stale, self.fresh].iter().all(|sum| !sum.near().is_nan()) {
+            return f64::NAN;
+        }
         let mut sum = self.prior.less(self.fresh);
         sum.add_total(self.stale);
-        sum.add(self.backward);
-        sum.remove(self.forward);
+        sum.add(grid(self.backward));
+        sum.remove(grid(self.forward));
         if self.beta == 1.0 {
             sum.add_total(self.score);
             return sum.value() + self.selection;
@@ -72,12 +73,9 @@ pub trait Rules: Send {
     /// Log of the acceptance ratio; NaN where two infinities meet, which counts as impossible.
     #[inline(always)]
     fn log_ratio(t: &Terms<'_>) -> f64 {
-        match (t.prior.small(), t.score.small(), t.stale.small(), t.fresh.small()) {
-            (Some(prior), Some(score), Some(stale), Some(fresh)) => {
-                (prior + t.beta * score) + (stale - fresh) + (t.backward - t.forward) + t.selection
-            }
-            _ => t.wide_log_ratio(),
-        }
+        let (prior, score, stale, fresh) = (t.prior.near(), t.score.near(), t.stale.near(), t.fresh.near());
+        let ratio = (prior + t.beta * score) + (stale - fresh) + (t.backward - t.forward) + t.selection;
+        if ratio.is_nan() { t.wide_log_ratio() } else { ratio }
     }
 
     /// Log of the probability with which chains that follow these powers of the score, the colder one's first, exchange
@@ -85,15 +83,6 @@ pub trait Rules: Send {
     #[inline]
     fn log_exchange(powers: (f64, f64), gain: f64) -> f64 {
         (powers.0 - powers.1) * gain
-    }
-
-    /// Sees a chain's trace before its first proposal.
-    fn begin(_trace: &mut Trace) {}
-
-    /// Undoes a proposal.
-    #[inline(always)]
-    fn undo(trace: &mut Trace, program: &Program) {
-        trace.rollback(program);
     }
 }
 

@@ -1,7 +1,6 @@
 //! Four strategies in step: the same proposals, decisions, exchanges, scores and scenes to the bit, rollbacks that leave
-//! nothing, and sums that are those of a run from the start. With several temperatures this holds for each rung.
+//! nothing, and sums that are those of a run from the start. With several powers this holds for each rung.
 
-use super::accept::{MetropolisHastings, Rules};
 use super::ladder::Ladder;
 use super::state::State;
 use super::{Chain, Settings};
@@ -54,24 +53,23 @@ pub fn dump(state: &State, program: &Program) -> String {
 ///
 /// # Errors
 /// No possible first state, or a kernel that makes no sense for the program.
-pub fn disagreement<R: Rules>(
+pub fn compare(
     task: &Task,
     settings: &Settings,
     steps: u64,
     every: u64,
-    seen: &mut Seen,
-) -> Result<Option<String>, Failure> {
+) -> Result<(Option<String>, Seen), Failure> {
     let program = &*task.program;
-    let mut ladders = Vec::new();
+    let (mut seen, mut ladders) = (Seen::default(), Vec::<Ladder>::new());
     let tasks = STRATEGIES.map(|_| task.uncounted());
     for (strategy, task) in STRATEGIES.into_iter().zip(&tasks) {
-        ladders.push(Ladder::<R>::start(task, &Settings { strategy, ..settings.clone() }, 0, None)?);
+        ladders.push(Ladder::start(task, &Settings { strategy, ..settings.clone() }, 0, None)?);
     }
     let mut machine = task.machine();
     for step in 0..steps {
         let mut outcomes: Vec<Vec<String>> = Vec::new();
         for (ladder, task) in ladders.iter_mut().zip(&tasks) {
-            let propose = |rung: &mut Chain<R>| match rung.propose(task, &mut machine, step + 1) {
+            let propose = |rung: &mut Chain| match rung.propose(task, &mut machine, step + 1) {
                 Ok(()) => format!("{:?} {:?}", rung.last, rung.state.trace.totals()),
                 Err(Failure::Run(run)) => format!("fault {} {}", run.fault.code, run.fault.message),
                 Err(other) => format!("fault {other}"),
@@ -84,9 +82,8 @@ pub fn disagreement<R: Rules>(
         for ((strategy, ladder), outcome) in STRATEGIES.iter().zip(&ladders).zip(&outcomes) {
             let (found, first) = ((outcome, &ladder.exchanges), (&outcomes[0], &ladders[0].exchanges));
             if found != first {
-                return Ok(Some(format!(
-                    "proposal {step}, {strategy:?}: {found:?}\n  but a rerun: {first:?}"
-                )));
+                let found = format!("proposal {step}, {strategy:?}: {found:?}\n  but a rerun: {first:?}");
+                return Ok((Some(found), seen));
             }
         }
         let rungs = ladders[0].rungs.len();
@@ -99,19 +96,19 @@ pub fn disagreement<R: Rules>(
             for rung in 0..rungs {
                 let mut chains: Vec<_> = ladders.iter_mut().map(|ladder| &mut ladder.rungs[rung]).collect();
                 if let Some(found) = look_closer(task, program, &mut machine, &mut chains, step) {
-                    return Ok(Some(found));
+                    return Ok((Some(found), seen));
                 }
             }
         }
     }
-    Ok(None)
+    Ok((None, seen))
 }
 
-fn look_closer<R: Rules>(
+fn look_closer(
     task: &Task,
     program: &Program,
     machine: &mut niwaki_vm::machine::Machine<'_>,
-    chains: &mut [&mut Chain<R>],
+    chains: &mut [&mut Chain],
     step: u64,
 ) -> Option<String> {
     let dumps: Vec<String> = chains.iter().map(|chain| dump(&chain.state, program)).collect();
@@ -165,19 +162,4 @@ fn look_closer<R: Rules>(
         Err(failure) => return Some(format!("after proposal {step} a replay fails: {failure}")),
     }
     None
-}
-
-/// [`disagreement`] by the rules.
-///
-/// # Errors
-/// As for [`disagreement`].
-pub fn compare(
-    task: &Task,
-    settings: &Settings,
-    steps: u64,
-    every: u64,
-) -> Result<(Option<String>, Seen), Failure> {
-    let mut seen = Seen::default();
-    let found = disagreement::<MetropolisHastings>(task, settings, steps, every, &mut seen)?;
-    Ok((found, seen))
 }

@@ -27,26 +27,26 @@ pub struct Form {
     function: Option<usize>,
 }
 
-/// A chain's kernel with what stands around it: temperatures, and the proposals between two exchanges.
+/// A chain's kernel with what stands around it: powers, and the proposals between two exchanges.
 pub(crate) struct Tempered {
     pub kernel: Kernel,
-    pub temperatures: Vec<f64>,
+    pub powers: Vec<f64>,
     pub every: u64,
 }
 
 impl Form {
-    /// The kernel, and the temperatures of `temper` where that is outermost.
+    /// The kernel, and the powers of `tempering` where that is outermost.
     ///
     /// # Errors
     /// As for [`Form::kernel`].
     pub(crate) fn tempered(&self, functions: &[Arc<User>]) -> Result<Tempered, Fault> {
-        if self.name != "temper" {
-            return Ok(Tempered { kernel: self.kernel(functions)?, temperatures: vec![1.0], every: 100 });
+        if self.name != "tempering" {
+            return Ok(Tempered { kernel: self.kernel(functions)?, powers: vec![1.0], every: 100 });
         }
         let mut own = self.own();
-        let (temperatures, every) = (own.take("temperatures")?, own.take("every")?);
+        let (powers, every) = (own.take("powers")?, own.take("every")?);
         let kernel = own.part(functions)?;
-        own.end(Tempered { kernel, temperatures, every })
+        own.end(Tempered { kernel, powers, every })
     }
 
     /// The kernel; `functions` are the users' proposals, by number.
@@ -66,11 +66,11 @@ impl Form {
                 target: own.take("target")?,
             },
             "regenerate" => Kernel::Regenerate { levels: own.take("levels")? },
-            "hmc" => {
+            "hmc_step" => {
                 let length = Length::Fixed { steps: own.take("steps")?, jitter: own.take("jitter")? };
                 Kernel::Trajectory { length, step: own.take("step")?, target: own.take("target")? }
             }
-            "nuts" => {
+            "nuts_step" => {
                 let length = Length::NoUTurn { max_depth: own.take("max_depth")? };
                 Kernel::Trajectory { length, step: own.take("step")?, target: own.take("target")? }
             }
@@ -91,18 +91,18 @@ impl Form {
                 let selection = Selection {
                     sites: own.take("sites")?,
                     depth: own.take("depth")?,
-                    odds: own.take("odds")?,
+                    weights: own.take("weights")?,
                     calls: own.take("calls")?,
                 };
                 Kernel::On(selection, Box::new(own.part(functions)?))
             }
             "anneal" => Kernel::Anneal {
-                hot: own.take("start")?,
-                cold: own.take("end")?,
+                start: own.take("start")?,
+                end: own.take("end")?,
                 steps: own.take("steps")?,
                 kernel: Box::new(own.part(functions)?),
             },
-            "temper" => return Err(own.wrong("can only be outermost")),
+            "tempering" => return Err(own.wrong("can only be outermost")),
             _ => return Err(own.wrong("is no kernel")),
         };
         own.end(kernel)

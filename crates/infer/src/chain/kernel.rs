@@ -7,7 +7,7 @@ use super::user::User;
 use crate::hamiltonian::chains::Length;
 use std::sync::Arc;
 
-/// Which choices a kernel may change, and with what odds.
+/// Which choices a kernel may change, and with what selection weights.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Selection {
     /// Patterns over readable addresses: of each list, one must match.
@@ -17,7 +17,7 @@ pub struct Selection {
     /// What the calls that count as depth are called in addresses; all of them, where it is empty.
     pub calls: String,
     /// Odds by pattern over readable addresses; the first that matches holds, and 1 where none does.
-    pub odds: Vec<(String, f64)>,
+    pub weights: Vec<(String, f64)>,
 }
 
 /// A Markov kernel.
@@ -70,14 +70,14 @@ pub enum Kernel {
     Mixture(Vec<(f64, Kernel)>),
     /// One, so many times.
     Repeat(u64, Box<Kernel>),
-    /// Restricted to some choices, or with other odds.
+    /// Restricted to some choices, or with other selection weights.
     On(Selection, Box<Kernel>),
-    /// The score's power rises from one over `hot` to one over `cold`, geometrically, in so many proposals.
+    /// The score's power goes from `start` to `end`, geometrically, in so many proposals.
     Anneal {
-        /// First temperature.
-        hot: f64,
-        /// Last temperature.
-        cold: f64,
+        /// First power.
+        start: f64,
+        /// Last power.
+        end: f64,
         /// Proposals from the first to the last.
         steps: u64,
         /// What is annealed.

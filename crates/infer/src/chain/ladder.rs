@@ -1,4 +1,4 @@
-//! Parallel tempering: chains at rising temperatures that exchange their states (Geyer 1991).
+//! Parallel tempering: chains at falling powers of the score that exchange their states (Geyer 1991).
 //!
 //! Rung i follows prior * exp(beta_i log score); neighbours exchange states with probability
 //! min(1, exp((beta_i - beta_j)(log score_j - log score_i))). The prior is not tempered. A search without tempering is a
@@ -15,7 +15,7 @@ use std::collections::HashMap;
 /// Rungs have chain numbers this far apart.
 const APART: u64 = 1 << 40;
 
-/// Chains at rising temperatures; the first follows the posterior.
+/// Chains at falling powers of the score; the first follows the posterior.
 pub struct Ladder<R: Rules = MetropolisHastings> {
     /// The rungs, coldest first.
     pub rungs: Vec<Chain<R>>,
@@ -50,13 +50,13 @@ impl<R: Rules> Ladder<R> {
         known: impl Fn(usize) -> Option<&'a HashMap<u128, Value>>,
     ) -> Result<Ladder<R>, Failure> {
         let mut rungs = Vec::new();
-        for (rung, temperature) in settings.temperatures.iter().enumerate() {
+        for (rung, power) in settings.powers.iter().enumerate() {
             let mut own = settings.clone();
             if rung > 0 {
                 own.thin = 0;
             }
             let mut chain = Chain::start(task, &own, number + rung as u64 * APART, known(rung))?;
-            chain.beta = 1.0 / temperature;
+            chain.beta = *power;
             rungs.push(chain);
         }
         let exchanges = vec![(0, 0); rungs.len().saturating_sub(1)];

@@ -83,8 +83,8 @@ impl<R: Rules> Chain<R> {
         let (old, outside) = (asked.old.take(), trace.left_support());
         let selection = |chain: &Self| {
             let trace = &chain.state.trace;
-            let after = table
-                .map_or(trace.totals().choices as u64, |t| chain.tables[t].total_after(trace, &task.program));
+            let after =
+                table.map_or(trace.len_after() as u64, |t| chain.tables[t].total_after(trace, &task.program));
             selected(total, after)
         };
         let mut rng = now.rest;
@@ -120,7 +120,7 @@ impl<R: Rules> Chain<R> {
                 return Ok(self.last);
             }
             Change::Impossible => {
-                R::undo(&mut self.state.trace, program);
+                self.state.trace.rollback(program);
                 self.last = Decision { same: false, accepted: false, log_ratio: f64::NEG_INFINITY };
                 return Ok(self.last);
             }
@@ -132,15 +132,13 @@ impl<R: Rules> Chain<R> {
             return Err(failure);
         }
         let trace = &self.state.trace;
-        let (before, after) = (trace.before(), trace.totals());
+        let (totals, changed) = (trace.totals(), trace.change());
         let (fresh, stale) = trace.fresh_and_stale();
         let (forward, backward) = trace.forward_and_backward();
-        let prior = after.log_prior.less(&before.log_prior);
-        let mut score = after.log_factors.less(&before.log_factors);
-        self.state.add_sketch_change(&mut score);
+        let with_sketches = self.state.sketch_change().map(|change| changed.log_factors.plus(&change));
         let terms = Terms {
-            prior: &prior,
-            score: &score,
+            prior: &changed.log_prior,
+            score: with_sketches.as_ref().unwrap_or(&changed.log_factors),
             beta,
             stale,
             fresh,
@@ -149,8 +147,9 @@ impl<R: Rules> Chain<R> {
             selection: selection(self),
         };
         let log_ratio = R::log_ratio(&terms);
-        let fits = self.barriers.is_none_or(|n| self.state.primitives + after.factors == n);
-        let accepted = accepts(log_ratio, rng) && fits && !after.is_impossible() && !self.undoing;
+        let barriers = || self.state.primitives as i64 + totals.factors + changed.factors;
+        let fits = self.barriers.is_none_or(|n| barriers() == n as i64);
+        let accepted = accepts(log_ratio, rng) && fits && !changed.is_impossible() && !self.undoing;
         if accepted {
             if self.best.is_noting() {
                 self.best.note(&self.state, program, moved);
@@ -162,7 +161,7 @@ impl<R: Rules> Chain<R> {
             self.best.compare(&self.state, program, self.visit);
         } else {
             self.state.look_back();
-            R::undo(&mut self.state.trace, program);
+            self.state.trace.rollback(program);
         }
         self.last = Decision { same: false, accepted, log_ratio };
         Ok(self.last)

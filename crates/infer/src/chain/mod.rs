@@ -2,7 +2,7 @@
 //!
 //! * [`state`]: where a chain is; [`streams`]: its random numbers;
 //! * [`kernel`]: kernels as values, and [`form`] as data; `plan`: which leaf is next; `leaf`: how it proposes; `select`, [`glob`],
-//!   [`odds`]: which choice it changes;
+//!   [`weights`]: which choice it changes;
 //! * `metropolis`: the algorithm, for one choice; [`accept`]: the acceptance ratio, in plain letters;
 //! * `proposal`: a new value for one choice: from the prior, [`drift`], [`neighbour`], `by_family`, by the [`user`]'s function;
 //! * [`block`], `regenerate`: proposals that change many choices;
@@ -29,7 +29,6 @@ pub(crate) mod leaf;
 pub mod many;
 pub(crate) mod metropolis;
 pub mod neighbour;
-pub mod odds;
 pub(crate) mod plan;
 pub(crate) mod proposal;
 mod regenerate;
@@ -39,6 +38,7 @@ pub mod state;
 pub mod streams;
 pub mod trajectory;
 pub mod user;
+pub mod weights;
 
 use crate::run::Run;
 use crate::{Failure, Task, gradient};
@@ -53,7 +53,6 @@ use niwaki_vm::code::Program;
 use niwaki_vm::machine::Machine;
 use niwaki_vm::machine::kept::Strategy;
 use niwaki_vm::value::Value;
-use odds::Table;
 use plan::Plan;
 use proposal::{FromPrior, Move};
 use samples::Samples;
@@ -63,6 +62,7 @@ use std::marker::PhantomData;
 use streams::{Ahead, Streams};
 use trajectory::Trajectory;
 use trajectory::travel::Travel;
+use weights::Table;
 
 /// What a chain is asked for.
 #[derive(Clone, Debug)]
@@ -81,8 +81,8 @@ pub struct Settings {
     pub room: usize,
     /// Most forward runs for a first state.
     pub tries: u64,
-    /// Temperatures of the score, rising from 1: more than one is parallel tempering.
-    pub temperatures: Vec<f64>,
+    /// Powers of the score, falling from 1: more than one is parallel tempering.
+    pub powers: Vec<f64>,
     /// Proposals between two exchanges of states.
     pub every: u64,
 }
@@ -97,7 +97,7 @@ impl Default for Settings {
             thin: 1,
             room: 1 << 22,
             tries: 1000,
-            temperatures: vec![1.0],
+            powers: vec![1.0],
             every: 100,
         }
     }
@@ -174,12 +174,11 @@ impl<R: Rules> Chain<R> {
         settings: &Settings,
         number: u64,
         mut plan: Plan,
-        mut state: State,
+        state: State,
         spreads: &HashMap<u128, f64>,
     ) -> Result<Chain<R>, Failure> {
         let (program, streams) = (&*task.program, Streams::new(settings.seed, number));
         let counts = Counts::new(program);
-        R::begin(&mut state.trace);
         let mut tables = Vec::new();
         for leaf in &mut plan.leaves {
             leaf.prepare(task)?;

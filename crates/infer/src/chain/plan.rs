@@ -20,8 +20,8 @@ enum Branch {
     Mixture(Vec<f64>, Vec<usize>),
     Repeat(u64, usize),
     Anneal {
-        hot: f64,
-        cold: f64,
+        start: f64,
+        end: f64,
         steps: u64,
         done: u64,
         inner: usize,
@@ -117,9 +117,9 @@ impl Plan {
                 }
                 Err(Branch::Repeat(*times, self.add(kernel, selection, sites)?))
             }
-            Kernel::Anneal { hot, cold, steps, kernel } => {
+            Kernel::Anneal { start, end, steps, kernel } => {
                 let inner = self.add(kernel, selection, sites)?;
-                Err(Branch::Anneal { hot: *hot, cold: *cold, steps: *steps, done: 0, inner })
+                Err(Branch::Anneal { start: *start, end: *end, steps: *steps, done: 0, inner })
             }
         };
         let branch = match part {
@@ -189,10 +189,10 @@ impl Plan {
     fn power(&mut self) -> f64 {
         let mut power = 1.0;
         for (branch, _) in &self.cursor {
-            if let Branch::Anneal { hot, cold, steps, done, .. } = &mut self.branches[*branch] {
+            if let Branch::Anneal { start, end, steps, done, .. } = &mut self.branches[*branch] {
                 let share = (*done as f64 / (*steps).max(1) as f64).min(1.0);
                 *done += 1;
-                power /= *hot * (*cold / *hot).powf(share);
+                power *= *start * (*end / *start).powf(share);
             }
         }
         power
@@ -227,8 +227,9 @@ mod tests {
     }
 
     #[test]
-    fn annealing_ends_at_its_last_temperature() {
-        let kernel = Kernel::Anneal { hot: 16.0, cold: 0.25, steps: 2, kernel: Box::new(Kernel::Prior) };
+    fn annealing_ends_at_its_last_power() {
+        let kernel =
+            Kernel::Anneal { start: 1.0 / 16.0, end: 4.0, steps: 2, kernel: Box::new(Kernel::Prior) };
         let mut plan = Plan::new(&kernel, 0).unwrap();
         let mut rng = Stream::new(1, 2, 3, 4);
         let powers: Vec<f64> = (0..4).map(|_| plan.next(&mut rng).1).collect();

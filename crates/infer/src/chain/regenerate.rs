@@ -1,7 +1,7 @@
 //! Regeneration: a call and all that it makes are drawn anew from the prior, in program order.
 //!
 //! A choice is picked, and with it the activation that stands so many levels above it. The activation keeps its place
-//! whatever is drawn below, so the odds of choosing it are the weight of the choices that lead to it over the weight
+//! whatever is drawn below, so the probability of choosing it is the weight of the choices that lead to it over the weight
 //! of all, before and after.
 
 use super::Chain;
@@ -47,7 +47,7 @@ impl<R: Rules> Chain<R> {
         let selection = |chain: &Self| {
             let trace = &chain.state.trace;
             let after =
-                table.map_or(trace.totals().choices as u64, |t| chain.tables[t].total_after(trace, program));
+                table.map_or(trace.len_after() as u64, |t| chain.tables[t].total_after(trace, program));
             let leading = chain.leading(program, activation, levels, table);
             (leading as f64 / after as f64).ln() - (weight as f64 / total as f64).ln()
         };

@@ -1,8 +1,8 @@
-//! Selections as weights: patterns over addresses and odds by depth, asked once for each choice that is born.
+//! Selections as weights: patterns over addresses and weights by depth, asked once for each choice that is born.
 
 use super::glob::{last, matches, nearest};
 use super::kernel::Selection;
-use super::odds::{UNIT, Weigh};
+use super::weights::{UNIT, Weigh};
 use crate::Failure;
 use niwaki_vm::code::{FunctionId, Program, SiteKind, Source};
 use niwaki_vm::fault::Fault;
@@ -19,16 +19,16 @@ impl Selection {
             both.depth.clone_from(&other.depth);
             both.calls.clone_from(&other.calls);
         }
-        both.odds.splice(0..0, other.odds.iter().cloned());
+        both.weights.splice(0..0, other.weights.iter().cloned());
         both
     }
 
-    /// Whether it has patterns alone, and no odds.
+    /// Whether it has patterns alone, and no weights.
     pub(crate) fn is_by_pattern(&self) -> bool {
         *self == Selection { sites: self.sites.clone(), ..Selection::default() }
     }
 
-    /// Whether every choice is chosen with the same odds.
+    /// Whether every choice is chosen with the same weight.
     pub(crate) fn is_all(&self) -> bool {
         *self == Selection::default()
     }
@@ -65,11 +65,9 @@ impl Selection {
     /// A selection that no address of the trace matches is an error, unless it names a site that the program has
     /// and this run did not come to.
     pub(super) fn check(&self, trace: &Trace, program: &Program) -> Result<(), Failure> {
-        for patterns in self
-            .sites
-            .iter()
-            .chain(std::iter::once(&self.odds.iter().map(|(pattern, _)| pattern.clone()).collect::<Vec<_>>()))
-        {
+        for patterns in self.sites.iter().chain(std::iter::once(
+            &self.weights.iter().map(|(pattern, _)| pattern.clone()).collect::<Vec<_>>(),
+        )) {
             for pattern in patterns {
                 let mut known: Vec<String> = trace.numbers().map(|n| trace.path(program, n)).collect();
                 if known.iter().any(|path| matches(pattern, path)) {
@@ -98,7 +96,7 @@ fn trace_has(known: &[String], pattern: &str) -> bool {
 pub(crate) fn no_choice(pattern: &str, known: &[String]) -> Fault {
     let near: Vec<String> = nearest(pattern, known).iter().map(|p| format!("`{p}`")).collect();
     let near = if near.is_empty() { "the model has no choice".into() } else { near.join(", ") };
-    Fault::new("no-address", format!("`{pattern}` matches no choice")).with_help(near)
+    Fault::new("no-address", format!("`{pattern}` matches no choice")).about(pattern).with_help(near)
 }
 
 /// The readable components of the program's choices.
@@ -121,24 +119,24 @@ impl Weigh for Selection {
 impl Selection {
     /// The weight of a choice with that readable address and so many calls above it.
     pub(crate) fn weigh(&self, path: impl FnOnce() -> String, depth: impl FnOnce() -> usize) -> u64 {
-        let mut odds = 1.0;
+        let mut weight = 1.0;
         let mut nested = None;
-        if !self.sites.is_empty() || !self.odds.is_empty() || !self.calls.is_empty() {
+        if !self.sites.is_empty() || !self.weights.is_empty() || !self.calls.is_empty() {
             let path = path();
             nested = Some(path.split('/').filter(|part| *part == self.calls).count());
             if !self.takes(&path) {
                 return 0;
             }
-            odds *=
-                self.odds.iter().find(|(pattern, _)| matches(pattern, &path)).map_or(1.0, |found| found.1);
+            weight *=
+                self.weights.iter().find(|(pattern, _)| matches(pattern, &path)).map_or(1.0, |found| found.1);
         }
         if let Some(deepest) = self.depth.last() {
-            odds *= self
+            weight *= self
                 .depth
                 .get(nested.filter(|_| !self.calls.is_empty()).unwrap_or_else(depth))
                 .unwrap_or(deepest);
         }
         // What is to be chosen at all keeps a chance.
-        if odds > 0.0 { ((odds * UNIT).round() as u64).max(1) } else { 0 }
+        if weight > 0.0 { ((weight * UNIT).round() as u64).max(1) } else { 0 }
     }
 }

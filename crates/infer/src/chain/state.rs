@@ -80,16 +80,11 @@ pub struct State {
     pub primitives: usize,
     /// How many shapes proposals have taken out of the scene or put into it.
     pub moved: u64,
-    before: Before,
-}
-
-/// What the open transaction may have to go back to.
-#[derive(Default)]
-struct Before {
-    /// The sketches, where the transaction changed the scene: a copy that shares with them what did not change.
-    sketches: Option<Sketches>,
-    log_sketches: Total,
-    primitives: usize,
+    /// How many it had before the open transaction.
+    primitives_before: usize,
+    /// The sketches before the open transaction, and their log score, where it changed the scene: a copy that shares
+    /// with them what did not change.
+    before: Option<(Sketches, Total)>,
 }
 
 impl State {
@@ -128,7 +123,8 @@ impl State {
                 log_sketches: Total::default(),
                 primitives: 0,
                 moved: 0,
-                before: Before::default(),
+                primitives_before: 0,
+                before: None,
             };
             let cause = if change == Change::Impossible {
                 Some(impossible(&state.trace, &task.program))
@@ -171,7 +167,8 @@ impl State {
         trace.commit(&task.program);
         sketches.expect_removals();
         let log_sketches = sketches.total();
-        Ok(State { trace, sketches, log_sketches, primitives, moved: 0, before: Before::default() })
+        let primitives_before = primitives;
+        Ok(State { trace, sketches, log_sketches, primitives, moved: 0, primitives_before, before: None })
     }
 
     /// Its choices.
@@ -215,8 +212,7 @@ impl State {
     /// A sketch scores NaN.
     #[inline]
     pub fn look(&mut self) -> Result<(), Failure> {
-        let (log_sketches, primitives) = (self.log_sketches.clone(), self.primitives);
-        self.before = Before { sketches: None, log_sketches, primitives };
+        (self.primitives_before, self.before) = (self.primitives, None);
         let (gone, come) = (self.trace.retracted().count(), self.trace.emitted().count());
         if gone + come == 0 && self.primitives > 0 {
             return Ok(());
@@ -226,30 +222,26 @@ impl State {
         if self.sketches.is_empty() {
             return Ok(());
         }
-        self.before.sketches = Some(self.sketches.fork());
+        self.before = Some((self.sketches.fork(), self.log_sketches.clone()));
         let kept = self.sketches.exchange(self.trace.retracted(), self.trace.emitted());
         debug_assert!(kept, "the sketches and the trace hold the same scene");
         self.log_sketches = score_of(&self.sketches)?;
         Ok(())
     }
 
-    /// Adds the change of the sketches' log score in the open transaction.
+    /// What the open transaction adds to the sketches' log score, where it changed the scene.
     #[inline]
-    pub fn add_sketch_change(&self, score: &mut Total) {
-        if self.before.sketches.is_some() {
-            score.add_total(&self.log_sketches);
-            score.remove_total(&self.before.log_sketches);
-        }
+    pub fn sketch_change(&self) -> Option<Total> {
+        self.before.as_ref().map(|(_, log_before)| self.log_sketches.less(log_before))
     }
 
     /// Undoes what [`State::look`] did; the trace is still to be rolled back.
     #[inline]
     pub fn look_back(&mut self) {
-        if let Some(before) = self.before.sketches.take() {
-            self.sketches = before;
+        if let Some(before) = self.before.take() {
+            (self.sketches, self.log_sketches) = before;
         }
-        self.log_sketches.clone_from(&self.before.log_sketches);
-        self.primitives = self.before.primitives;
+        self.primitives = self.primitives_before;
     }
 }
 

@@ -22,7 +22,7 @@ use std::sync::Arc;
 pub fn model(task: &Task) -> Result<Model, Failure> {
     if task.model.is_some() {
         return Err(Fault::new("bad-kernel", "no gradient is followed within an `infer` of a model")
-            .with_help("use `mh()` without `hmc()` and `nuts()` there")
+            .with_help("use `mh()` without `hmc_step()` and `nuts_step()` there")
             .into());
     }
     if let Some(sketch) = task.sketches.first() {

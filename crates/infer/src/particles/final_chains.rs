@@ -50,7 +50,7 @@ impl Population<'_> {
             let seed = Stream::new(seed, CHAINS, u128::from(u64::MAX), number as u64).next_u64();
             let sketches = record.sketches.fork();
             let mut chain = chain_from(record, sketches, &self.task, mover, seed)?;
-            chain.restrict(self.temper, None);
+            chain.restrict(self.power, None);
             chains.push((chain, Vec::with_capacity(asked.draws)));
         }
         let (task, first) = (&self.task, self.lineages);

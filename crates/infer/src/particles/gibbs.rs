@@ -55,7 +55,7 @@ pub struct Chain {
     /// Populations in which every particle became impossible; their estimate is zero, and counts.
     pub died: usize,
     /// Log of the mean of the populations' estimates of the evidence, nats; where they are independent of the chain,
-    /// at temperature 1 and not stopped.
+    /// at power 1 and not stopped.
     pub log_evidence: Option<f64>,
     /// Whether it was stopped before the last sweep.
     pub interrupted: bool,
@@ -91,10 +91,9 @@ pub(super) fn check_chain(settings: &Settings, sweeps: usize) -> Result<(), Faul
             .with_help("use ratio weights"));
     }
     if matches!(settings.anneal, Anneal::Adaptive(_)) {
-        return Err(Fault::new("bad-anneal", "a chain needs the same temperatures in every sweep")
-            .with_help(
-                "give the temperature at each barrier, for example those that an adaptive search reported",
-            ));
+        return Err(Fault::new("bad-anneal", "a chain needs the same powers in every sweep").with_help(
+            "give the power at each barrier, for example those that an adaptive search reported",
+        ));
     }
     Ok(())
 }
@@ -238,15 +237,15 @@ fn sample_ancestor(
     held: usize,
 ) -> Result<usize, Failure> {
     let rest = segments.get(population.barriers..).unwrap_or(&[]);
-    let (task, settings, temper) = (&population.task, population.settings, population.temper);
+    let (task, settings, power) = (&population.task, population.settings, population.power);
     let log_weight = |p: &mut Particle| -> Result<f64, Failure> {
         if p.log_weight == f64::NEG_INFINITY {
             return Ok(f64::NEG_INFINITY);
         }
         if rest.is_empty() || p.state.has_ended() {
             let both = rest.is_empty() && p.state.has_ended();
-            // Nothing follows: what the declared temperature adds is all.
-            let change = (settings.temper - temper) * p.weighed.value();
+            // Nothing follows: what the declared power adds is all.
+            let change = (settings.power - power) * p.weighed.value();
             return Ok(if both { p.log_weight + change } else { f64::NEG_INFINITY });
         }
         let mut machine = task.machine();
@@ -260,10 +259,10 @@ fn sample_ancestor(
         }
         let log_prior = trial.record.log_prior.less(&p.record.log_prior).value();
         let score = trial.record.score();
-        let log_scores = if (settings.temper, temper) == (1.0, 1.0) {
+        let log_scores = if (settings.power, power) == (1.0, 1.0) {
             score.less(&p.weighed).value()
         } else {
-            settings.temper * score.value() - temper * p.weighed.value()
+            settings.power * score.value() - power * p.weighed.value()
         };
         Ok(p.log_weight + log_prior + log_order + log_scores)
     };

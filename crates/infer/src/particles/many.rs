@@ -137,7 +137,7 @@ pub(super) fn by_clock(
     watch: &mut Watch<'_>,
 ) -> std::result::Result<Result, Failure> {
     if time.is_zero() {
-        return Err(Fault::new("no-time", "no time was given to the search")
+        return Err(Fault::new("bad-setting", "no time was given to the search")
             .with_help("give it a number of seconds above 0")
             .into());
     }
@@ -243,7 +243,7 @@ fn combine(
         plan: plan.to_vec(),
         died: deaths,
         moved: Moved::default(),
-        temperatures: std::mem::take(&mut lived[0].1.temperatures),
+        powers: std::mem::take(&mut lived[0].1.powers),
     };
     for (n, mut one) in lived {
         if let (Some(own), Some(all)) = (one.log_normaliser, log_normaliser) {

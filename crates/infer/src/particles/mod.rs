@@ -1,20 +1,20 @@
 //! Sequential Monte Carlo over the barriers that `emit`, `factor` and `observe` make.
 //!
-//! With `s(r_n)` the score of a run at its n-th barrier and `T` the temperature, particles target
+//! With `s(r_n)` the score of a run at its n-th barrier and `T` the power, particles target
 //! `F_n = p_n(x_n) s(r_n)^T` (dissertation 5.3, with `T = 1`). A step:
 //!
 //! 1. *Advance*: each particle that has not ended runs to its next barrier (`advance`). After each barrier
 //!    and whenever a future returns, the order policy picks the future that runs next.
 //! 2. *Weigh* (`weights`): `w *= (s(r_n) / s(r_{n-1}))^T`. One that has ended carries its last score. Of choices that a
 //!    proposal drew since the last barrier ([`Proposal`](crate::chooser::Proposal)) `p(x) / q(x)` counts too, which is not
-//!    tempered.
+//!    raised to a power.
 //! 3. *Resample* ([`resampling`]): at every barrier, or when the effective sample size is low; weights are reset. Copies
 //!    (`copies`) are made when the particles run again, by the thread that ran their parent (`shared`).
 //! 4. *Rejuvenate*, where asked for ([`rejuvenation`]): each particle is moved by a Markov kernel that keeps `F_n` (`moves`);
 //!    one that still runs is followed again from its start with other values (`partial_run`). In the end chains may start
 //!    from a few of the final set, and their states take its place (`final_chains`).
 //!
-//! The temperature may differ from barrier to barrier ([`Anneal`]): weights then count `s(r_n)^(T_n) / s(r_{n-1})^(T_{n-1})`, and
+//! The power may differ from barrier to barrier ([`Anneal`]): weights then count `s(r_n)^(T_n) / s(r_{n-1})^(T_{n-1})`, and
 //! the final set is weighed by the declared `T`, so that the schedule changes neither law nor constant.
 //!
 //! The evidence is the score of the empty scene times the product of the mean weights at each resampling, times

@@ -181,14 +181,14 @@ impl Moving<'_, '_> {
         let terms = Terms {
             prior: &next.log_prior.less(&self.now.log_prior),
             score: &score,
-            beta: self.round.temper,
+            beta: self.round.power,
             stale: &densities.stale,
             fresh: &densities.fresh,
             backward: densities.backward,
             forward: densities.forward,
             selection,
         };
-        // A temperature of zero sees no score, but for the impossible.
+        // A power of zero sees no score, but for the impossible.
         let possible = !record.log_sketches.is_impossible();
         if accepts(MetropolisHastings::log_ratio(&terms), &mut self.rng) && possible {
             self.count.accepted += 1;
@@ -209,7 +209,7 @@ pub(super) fn move_ended(p: &mut Particle, round: &Round<'_>) -> Result<Count, F
     let seed = Stream::new(round.settings.seed, CHAINS, u128::from(p.lineage), round.number).next_u64();
     let sketches = std::mem::take(&mut p.record.sketches);
     let mut chain = chain_from(&p.record, sketches, round.task, round.mover, seed)?;
-    chain.restrict(round.temper, round.ending);
+    chain.restrict(round.power, round.ending);
     if !chain.state.trace.is_empty() {
         chain.advance(round.task, round.schedule.len() as u64, &mut |_, _| true)?;
     }

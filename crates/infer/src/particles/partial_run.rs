@@ -333,7 +333,7 @@ where
         let known = self.before.find(at.address(), &mut self.at);
         let Some(choice) = known.filter(|c| c.family == dist.family() && fits(dist, &c.value)) else {
             let chosen = self.fresh.choose(at, dist, seen)?;
-            chosen.iter().for_each(|chosen| self.densities.fresh.add(chosen.log_prior));
+            chosen.iter().for_each(|chosen| self.densities.fresh.add(grid(chosen.log_prior)));
             return Ok(chosen);
         };
         self.densities.stale.remove(choice.log);

@@ -82,7 +82,7 @@ pub fn pimh(
         return Err(death);
     }
     // When a search is stopped may depend on its results so far.
-    if settings.temper == 1.0 && !chain.interrupted {
+    if settings.power == 1.0 && !chain.interrupted {
         chain.log_evidence = Some(log_mean_exp(estimates.into_iter()));
     }
     Ok(chain)

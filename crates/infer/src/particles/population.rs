@@ -23,7 +23,7 @@ pub(super) const BATCH: usize = 16;
 /// Tasks for each thread: particles differ in what they cost, and those that have ended cost nothing.
 const TASKS: usize = 8;
 
-/// Halvings in the search for a temperature.
+/// Halvings in the search for a power.
 const HALVINGS: u32 = 20;
 
 /// Particles, and what is kept of their past.
@@ -39,10 +39,10 @@ pub(super) struct Population<'a> {
     pub resampled: usize,
     /// Log of the estimate of the normalising constant so far.
     pub log_normaliser: f64,
-    /// The temperature that the weights count now.
-    pub temper: f64,
-    /// The temperature at each barrier so far, where it is not constant.
-    pub temperatures: Vec<f64>,
+    /// The power that the weights count now.
+    pub power: f64,
+    /// The power at each barrier so far, where it is not constant.
+    pub powers: Vec<f64>,
     /// The weights since the last resampling.
     pub weights: Normalised,
     /// How it is rejuvenated.
@@ -96,8 +96,8 @@ impl<'a> Population<'a> {
                 home: lineage as usize % rayon::current_num_threads(),
             })
             .collect();
-        let temper = match &settings.anneal {
-            Anneal::Constant => settings.temper,
+        let power = match &settings.anneal {
+            Anneal::Constant => settings.power,
             Anneal::Schedule(_) | Anneal::Adaptive(_) => 0.0,
         };
         let threads = rayon::current_num_threads();
@@ -111,9 +111,9 @@ impl<'a> Population<'a> {
             barriers: 0,
             steps: 0,
             resampled: 0,
-            log_normaliser: temper * empty_score.value(),
-            temper,
-            temperatures: Vec::new(),
+            log_normaliser: power * empty_score.value(),
+            power,
+            powers: Vec::new(),
             weights: Normalised::default(),
             mover: Mover::of(&task, settings)?,
             moved: Moved::default(),
@@ -196,25 +196,25 @@ impl<'a> Population<'a> {
             self.scores.push(score);
             ended += usize::from(p.state.has_ended());
         }
-        // What a proposal drew since the last barrier. The prior is not tempered, so neither is this; the temperature is
+        // What a proposal drew since the last barrier. The prior is not raised to a power, so neither is this; the power is
         // chosen by what the scores then add.
         if self.settings.proposal.is_some() {
             self.particles.iter_mut().for_each(|p| p.log_weight += std::mem::take(&mut p.pending));
         }
-        let next = self.next_temper();
+        let next = self.next_power();
         self.logs.clear();
         for (p, score) in self.particles.iter_mut().zip(&self.scores) {
             match self.settings.weights {
                 Weights::Ratio if score.is_impossible() => p.log_weight = f64::NEG_INFINITY,
-                Weights::Ratio => p.log_weight += step(next, score, self.temper, &p.weighed),
-                Weights::Absolute => p.log_weight = self.settings.temper * score.value(),
+                Weights::Ratio => p.log_weight += step(next, score, self.power, &p.weighed),
+                Weights::Absolute => p.log_weight = self.settings.power * score.value(),
             }
             p.weighed.clone_from(score);
             self.logs.push(p.log_weight);
         }
-        self.temper = next;
+        self.power = next;
         if self.settings.anneal != Anneal::Constant {
-            self.temperatures.push(next);
+            self.powers.push(next);
         }
         if !self.weights.read(self.logs.iter().copied()) {
             AllInvalid::check_all(self.particles.iter().map(|p| p.record.invalid.as_ref()))?;
@@ -223,25 +223,25 @@ impl<'a> Population<'a> {
         Ok(Seen { best, ended })
     }
 
-    /// The temperature at this barrier.
-    fn next_temper(&self) -> f64 {
+    /// The power at this barrier.
+    fn next_power(&self) -> f64 {
         match &self.settings.anneal {
-            Anneal::Constant => self.temper,
+            Anneal::Constant => self.power,
             Anneal::Schedule(powers) => powers[(self.barriers - 1).min(powers.len() - 1)],
             Anneal::Adaptive(share) => self.adapted(*share),
         }
     }
 
-    /// The largest temperature up to the declared one with which this barrier's step keeps the conditional effective
-    /// sample size at `share`; never below the temperature now.
+    /// The largest power up to the declared one with which this barrier's step keeps the conditional effective
+    /// sample size at `share`; never below the power now.
     fn adapted(&self, share: f64) -> f64 {
         let keeps = |next: f64| {
             let old = self.particles.iter().map(|p| p.log_weight);
             let steps = self.particles.iter().zip(&self.scores);
-            let steps = steps.map(|(p, score)| step(next, score, self.temper, &p.weighed));
+            let steps = steps.map(|(p, score)| step(next, score, self.power, &p.weighed));
             conditional_share(old, steps) >= share
         };
-        let (mut low, mut high) = (self.temper, self.settings.temper);
+        let (mut low, mut high) = (self.power, self.settings.power);
         if high <= low || keeps(high) {
             return high.max(low);
         }
@@ -279,17 +279,17 @@ impl<'a> Population<'a> {
         self.particles.iter_mut().for_each(|p| p.log_weight = 0.0);
     }
 
-    /// Weighs the final set by the declared temperature, and reads its weights; false when none is possible.
+    /// Weighs the final set by the declared power, and reads its weights; false when none is possible.
     pub fn finish(&mut self) -> bool {
         self.settle();
-        if self.temper != self.settings.temper {
-            let change = self.settings.temper - self.temper;
+        if self.power != self.settings.power {
+            let change = self.settings.power - self.power;
             for p in &mut self.particles {
                 if !p.weighed.is_impossible() {
                     p.log_weight += change * p.weighed.value();
                 }
             }
-            self.temper = self.settings.temper;
+            self.power = self.settings.power;
         }
         let possible = self.weights.read(self.particles.iter().map(|p| p.log_weight));
         if possible {
@@ -304,18 +304,18 @@ impl<'a> Population<'a> {
     }
 }
 
-/// The log weight of a step to a score at a temperature. At zero it does not look at the score, unless the run is
+/// The log weight of a step to a score at a power. At zero it does not look at the score, unless the run is
 /// impossible.
 #[inline]
-fn step(next: f64, score: &Total, temper: f64, weighed: &Total) -> f64 {
+fn step(next: f64, score: &Total, power: f64, weighed: &Total) -> f64 {
     if score.is_impossible() {
         return f64::NEG_INFINITY;
     }
-    // Equal temperatures by one product: the difference of scores is exact.
-    if next == temper {
+    // Equal powers by one product: the difference of scores is exact.
+    if next == power {
         next * score.less(weighed).value()
     } else {
-        next * score.value() - temper * weighed.value()
+        next * score.value() - power * weighed.value()
     }
 }
 

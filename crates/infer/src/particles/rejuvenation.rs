@@ -83,7 +83,7 @@ impl Rejuvenation {
         if self.at != Moment::End && self.kernel.any(&|part| matches!(part, Kernel::Trajectory { .. })) {
             let what = "a particle that still runs has no gradient to follow";
             return Err(Fault::new("bad-kernel", what)
-                .with_help("move the particles at the end, or without `hmc()` and `nuts()`"));
+                .with_help("move the particles at the end, or without `hmc_step()` and `nuts_step()`"));
         }
         Ok(())
     }
@@ -127,7 +127,7 @@ pub(super) struct Round<'a> {
     /// Which leaf proposes, move by move.
     pub schedule: Vec<usize>,
     /// The power of the score in the law that the particles follow.
-    pub temper: f64,
+    pub power: f64,
     /// Barriers so far.
     pub barriers: usize,
     /// How many barriers a run has that ended just now; none at the end, where any may.
@@ -174,7 +174,7 @@ impl Mover {
 
 impl Population<'_> {
     /// Moves the particles where it is time to. `resampled` says whether they were just resampled; `None` that all is
-    /// done, and weighed by the declared temperature.
+    /// done, and weighed by the declared power.
     pub fn rejuvenate(&mut self, resampled: Option<bool>) -> Result<(), Failure> {
         let Some(rejuvenation) = &self.settings.rejuvenate else { return Ok(()) };
         let due = match (rejuvenation.at, resampled) {
@@ -199,7 +199,7 @@ impl Population<'_> {
             settings: self.settings,
             mover: &before,
             schedule,
-            temper: self.temper,
+            power: self.power,
             barriers: self.barriers,
             ending,
             number,

@@ -36,16 +36,16 @@ pub enum When {
     EffectiveBelow(f64),
 }
 
-/// The schedule of the temperature from barrier to barrier. Whatever it is, the final law is that of the declared
-/// temperature: what a barrier's temperature over- or understates, the weights take back.
+/// The schedule of the power from barrier to barrier. Whatever it is, the final law is that of the declared
+/// power: what a barrier's power over- or understates, the weights take back.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(untagged)]
 pub enum Anneal {
-    /// The declared temperature at every barrier.
+    /// The declared power at every barrier.
     Constant,
-    /// The temperature at each barrier, the last one also at those after it.
+    /// The power at each barrier, the last one also at those after it.
     Schedule(Vec<f64>),
-    /// From zero up to the declared temperature, at each barrier as far as the conditional effective sample size
+    /// From zero up to the declared power, at each barrier as far as the conditional effective sample size
     /// (Zhou, Johansen & Aston 2016, eq. 13) stays at this share of the particles.
     Adaptive(f64),
 }
@@ -67,7 +67,7 @@ pub struct Settings {
     /// Weighting.
     pub weights: Weights,
     /// The power to which the score is raised in the final law (1: the posterior).
-    pub temper: f64,
+    pub power: f64,
     /// The power at each barrier before.
     pub anneal: Anneal,
     /// Resampling method.
@@ -92,7 +92,7 @@ impl Default for Settings {
             particles: 100,
             order: Order::Stochastic,
             weights: Weights::Ratio,
-            temper: 1.0,
+            power: 1.0,
             anneal: Anneal::Constant,
             resampling: Resampling::Systematic,
             when: When::Always,
@@ -107,7 +107,7 @@ impl Settings {
     /// Refuses settings that make no sense.
     ///
     /// # Errors
-    /// No particles, a temperature that is not positive, a threshold outside `[0, 1]`, a schedule of temperatures that
+    /// No particles, a power that is not positive, a threshold outside `[0, 1]`, a schedule of powers that
     /// is empty or beside absolute weights.
     pub fn check(&self) -> Result<(), Fault> {
         if self.particles == 0 {
@@ -115,8 +115,8 @@ impl Settings {
                 Fault::new("no-particles", "zero particles were asked for").with_help("use at least one")
             );
         }
-        if !(self.temper > 0.0 && self.temper.is_finite()) {
-            return Err(Fault::new("bad-temper", format!("the temperature is {}", self.temper))
+        if !(self.power > 0.0 && self.power.is_finite()) {
+            return Err(Fault::new("bad-power", format!("the power is {}", self.power))
                 .with_help("use a positive number: 1 for the posterior, more to sharpen the search"));
         }
         if let When::EffectiveBelow(share) = self.when
@@ -140,14 +140,11 @@ impl Settings {
             Anneal::Adaptive(share) => *share > 0.0 && *share < 1.0,
         };
         if !fits {
-            return Err(Fault::new(
-                "bad-anneal",
-                format!("{:?} is no schedule of temperatures", self.anneal),
-            )
-            .with_help("give the temperature at each barrier, or a share of the particles between 0 and 1"));
+            return Err(Fault::new("bad-anneal", format!("{:?} is no schedule of powers", self.anneal))
+                .with_help("give the power at each barrier, or a share of the particles between 0 and 1"));
         }
         if self.weights == Weights::Absolute {
-            return Err(Fault::new("bad-anneal", "absolute weights have no schedule of temperatures")
+            return Err(Fault::new("bad-anneal", "absolute weights have no schedule of powers")
                 .with_help("use ratio weights"));
         }
         Ok(())

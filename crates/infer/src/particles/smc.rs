@@ -46,11 +46,11 @@ impl From<Outcome> for Run {
 pub struct Result {
     /// The final set.
     pub particles: Vec<Outcome>,
-    /// Estimate of the log of the final law's normalising constant, the scores raised to the declared temperature,
+    /// Estimate of the log of the final law's normalising constant, the scores raised to the declared power,
     /// nats. `None` for absolute weights, which have none, and where the search was stopped.
     pub log_normaliser: Option<f64>,
-    /// The same where it is the model's evidence: at temperature 1. Unbiased (as a number, not its log), unless the
-    /// temperatures were adapted, or particles moved after resamplings that the weights decided: then
+    /// The same where it is the model's evidence: at power 1. Unbiased (as a number, not its log), unless the
+    /// powers were adapted, or particles moved after resamplings that the weights decided: then
     /// consistent.
     pub log_evidence: Option<f64>,
     /// How many barriers there were; of several populations, most.
@@ -67,9 +67,9 @@ pub struct Result {
     pub plan: Vec<usize>,
     /// Populations in which every particle became impossible; their evidence is zero, and counts.
     pub died: usize,
-    /// The temperature at each barrier where it is not constant; of several populations, those of the first that
+    /// The power at each barrier where it is not constant; of several populations, those of the first that
     /// lived.
-    pub temperatures: Vec<f64>,
+    pub powers: Vec<f64>,
     /// Moves of rejuvenation.
     pub moved: Moved,
 }
@@ -136,7 +136,7 @@ pub(super) fn run(
         (settings.weights == Weights::Ratio && !interrupted).then_some(population.log_normaliser);
     Ok(Result {
         log_normaliser,
-        log_evidence: log_normaliser.filter(|_| settings.temper == 1.0),
+        log_evidence: log_normaliser.filter(|_| settings.power == 1.0),
         barriers: population.barriers,
         steps: population.steps,
         resampled: population.resampled,
@@ -145,9 +145,9 @@ pub(super) fn run(
         plan: vec![settings.particles],
         died: 0,
         moved: population.moved,
-        temperatures: match settings.anneal {
+        powers: match settings.anneal {
             Anneal::Constant => Vec::new(),
-            Anneal::Schedule(_) | Anneal::Adaptive(_) => population.temperatures,
+            Anneal::Schedule(_) | Anneal::Adaptive(_) => population.powers,
         },
         particles: match chains {
             Some((states, _)) => states,

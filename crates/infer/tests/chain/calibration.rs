@@ -7,10 +7,10 @@
 //! by the two-sample test of Kolmogorov and Smirnov: 4,000 against 4,000, at 2.86 sqrt(2 / 4000), which the true kernel
 //! exceeds once in 6 million (Smirnov's bound 2 exp(-2 d^2)); about 300 coordinates are looked at.
 //!
-//! With several temperatures each rung must start where it belongs, in the posterior of its own power of the likelihood.
+//! With several powers each rung must start where it belongs, in the posterior of its own power of the likelihood.
 //! Such a state is a draw from the prior, taken with probability (likelihood / its largest value)^power: the data are
-//! normal with a known deviation, so the largest value is known. A kernel that holds the score at one temperature is
-//! given data whose deviation is as many times the root of the temperature.
+//! normal with a known deviation, so the largest value is known. A kernel that holds the score at one power is
+//! given data whose deviation is as many times the root of the power.
 
 use super::board::{ExchangesAnyway, NoCountRatio, NoReverse, StaleForgotten};
 use super::programs::task;
@@ -165,16 +165,16 @@ pub fn distance_of<R: Rules>(text: &str, kernel: &Kernel, replicates: u64) -> f6
     distance_at::<R>(text, kernel, replicates, PROPOSALS, 1.0, &[1.0])
 }
 
-/// The same, of chains of so many proposals, of a kernel that holds the score at one temperature, or of chains at several.
+/// The same, of chains of so many proposals, of a kernel that holds the score at one power, or of chains at several.
 fn distance_at<R: Rules>(
     text: &str,
     kernel: &Kernel,
     replicates: u64,
     proposals: u64,
     held: f64,
-    temperatures: &[f64],
+    powers: &[f64],
 ) -> f64 {
-    let (drawing, observing, data) = both(text, held.sqrt());
+    let (drawing, observing, data) = both(text, (1.0 / held).sqrt());
     let (mut fresh, mut kept): (Vec<Vec<f64>>, Vec<Vec<f64>>) = (vec![], vec![]);
     for replicate in 0..replicates {
         fresh.push(numbers(&forward(&drawing, 1, replicate, true).expect("a run").value));
@@ -186,13 +186,13 @@ fn distance_at<R: Rules>(
             seed: 3 + replicate,
             kernel: kernel.clone(),
             thin: 0,
-            temperatures: temperatures.to_vec(),
+            powers: powers.to_vec(),
             every: 2,
             ..Settings::default()
         };
-        let hotter = (1..).zip(&temperatures[1..]).map(|(rung, temperature)| {
-            tempered(&drawing, &given, deviation(text), 1.0 / temperature, replicate, rung)
-        });
+        let hotter = (1..)
+            .zip(&powers[1..])
+            .map(|(rung, power)| tempered(&drawing, &given, deviation(text), *power, replicate, rung));
         let known: Vec<Known> = std::iter::once(by_address(&choices)).chain(hotter).collect();
         let mut ladder = Ladder::<R>::start_at(&given, &settings, 0, |rung| Some(&known[rung]))
             .expect("the states that were drawn");
@@ -229,7 +229,7 @@ fn smirnov(a: &[f64], b: &[f64]) -> f64 {
 fn kernels() -> Vec<(&'static str, Kernel)> {
     let drift = |step| Kernel::Drift { step, target: 0.44 };
     let all = || Kernel::Cycle(vec![Kernel::Prior, drift(1.0), Kernel::Regenerate { levels: 0 }]);
-    let odds = Selection { odds: vec![("g".into(), 5.0), ("k".into(), 0.5)], ..Selection::default() };
+    let weights = Selection { weights: vec![("g".into(), 5.0), ("k".into(), 0.5)], ..Selection::default() };
     let deep = Selection { depth: vec![1.0, 4.0, 2.0], ..Selection::default() };
     vec![
         ("prior", Kernel::Prior),
@@ -240,8 +240,8 @@ fn kernels() -> Vec<(&'static str, Kernel)> {
         ("regenerate 1", Kernel::Regenerate { levels: 1 }),
         ("cycle", all()),
         ("mixture", mixture()),
-        ("odds by depth", Kernel::On(deep, Box::new(mixture()))),
-        ("odds by site", Kernel::On(odds, Box::new(mixture()))),
+        ("weights by depth", Kernel::On(deep, Box::new(mixture()))),
+        ("weights by site", Kernel::On(weights, Box::new(mixture()))),
     ]
 }
 
@@ -255,7 +255,7 @@ fn kernels_leave_the_posterior_as_it_is() {
     let mut wrong = String::new();
     for (name, text) in PROGRAMS {
         for (kind, kernel) in kernels() {
-            if kind == "odds by site" && name != "a count of terms" {
+            if kind == "weights by site" && name != "a count of terms" {
                 continue;
             }
             let d = distance::<MetropolisHastings>(text, &kernel);
@@ -281,34 +281,27 @@ fn a_proposal_of_ones_own_leaves_the_posterior_as_it_is() {
 }
 
 #[test]
-fn a_kernel_at_one_temperature_leaves_its_posterior_as_it_is() {
-    let held = |hot| Kernel::Anneal { hot, cold: hot, steps: 9, kernel: Box::new(mixture()) };
+fn a_kernel_at_one_power_leaves_its_posterior_as_it_is() {
+    let held = |power| Kernel::Anneal { start: power, end: power, steps: 9, kernel: Box::new(mixture()) };
     for (name, text) in &PROGRAMS[1..] {
-        let d = distance_at::<MetropolisHastings>(text, &held(2.0), REPLICATES, PROPOSALS, 2.0, &[1.0]);
+        let d = distance_at::<MetropolisHastings>(text, &held(0.5), REPLICATES, PROPOSALS, 0.5, &[1.0]);
         assert!(d < LIMIT, "{name}: {d}");
     }
-    // A hot kernel, given data as if the temperature were 1.
-    let d = furthest::<MetropolisHastings>(&[1, 3, 5], &held(50.0));
-    assert!(d > 1.1 * LIMIT, "another temperature: {d} only");
+    // A hot kernel, given data as if the power were 1.
+    let d = furthest::<MetropolisHastings>(&[1, 3, 5], &held(0.02));
+    assert!(d > 1.1 * LIMIT, "another power: {d} only");
 }
 
 #[test]
 fn tempering_leaves_the_posterior_as_it_is() {
-    let temperatures = [1.0, 2.0, f64::INFINITY];
+    let powers = [1.0, 0.5, 0.0];
     for (name, text) in &PROGRAMS[1..] {
-        let d =
-            distance_at::<MetropolisHastings>(text, &mixture(), REPLICATES, PROPOSALS, 1.0, &temperatures);
+        let d = distance_at::<MetropolisHastings>(text, &mixture(), REPLICATES, PROPOSALS, 1.0, &powers);
         assert!(d < LIMIT, "{name}: {d}");
     }
     for at in [3, 5] {
-        let d = distance_at::<ExchangesAnyway>(
-            PROGRAMS[at].1,
-            &mixture(),
-            REPLICATES,
-            PROPOSALS,
-            1.0,
-            &temperatures,
-        );
+        let d =
+            distance_at::<ExchangesAnyway>(PROGRAMS[at].1, &mixture(), REPLICATES, PROPOSALS, 1.0, &powers);
         assert!(d > 1.5 * LIMIT, "{}: exchanged anyway: {d} only", PROGRAMS[at].0);
     }
 }

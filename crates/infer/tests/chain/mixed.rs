@@ -133,7 +133,7 @@ fn four_strategies_make_the_same_mixed_chain() {
         Kernel::Repeat(2, Box::new(Kernel::Prior)),
         Kernel::Mixture(vec![(1.0, nuts(0.3)), (1.0, Kernel::Regenerate { levels: 0 })]),
     ]);
-    let annealed = Kernel::Anneal { hot: 4.0, cold: 0.5, steps: 200, kernel: Box::new(all.clone()) };
+    let annealed = Kernel::Anneal { start: 0.25, end: 2.0, steps: 200, kernel: Box::new(all.clone()) };
     for text in [MIXTURE, BRANCHES] {
         for kernel in [all.clone(), annealed.clone()] {
             let settings = Settings { seed: 5, kernel, warmup: 150, thin: 0, ..Settings::default() };

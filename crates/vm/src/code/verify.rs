@@ -5,7 +5,7 @@
 //! other activations may have overwritten is never read; and what an activation has read it does not overwrite.
 
 use super::{Function, Mode, Op, Operand, Place, Program, SiteKind};
-use crate::passes::{live_before, reads_and_writes, successors};
+use crate::passes::place::{live_before, reads_and_writes, successors};
 use niwaki_math::Scalar;
 use std::collections::HashSet;
 
@@ -207,7 +207,7 @@ mod tests {
     //! The claim: a value in scratch that the machine reads when it is gone is refused, whoever reads it.
     use super::*;
     use crate::core::parse::parse;
-    use crate::passes::{compile, rewrite};
+    use crate::passes::{compile, place::rewrite};
 
     /// Every kind of site.
     const TEXT: &str = r#"(module (const 0 (list (dist bernoulli 0.4) (dist bernoulli 0.6)))
@@ -270,7 +270,15 @@ mod tests {
             if matches!(f.mode, Mode::Pure | Mode::Loop) {
                 continue;
             }
-            kinds.extend(f.sites.iter().map(|site| std::mem::discriminant(&site.kind)));
+            kinds.extend(f.sites.iter().map(|site| {
+                let source = match &site.kind {
+                    SiteKind::Sample(source) | SiteKind::Observe(source) => {
+                        Some(std::mem::discriminant(source))
+                    }
+                    _ => None,
+                };
+                (std::mem::discriminant(&site.kind), source)
+            }));
             // What a loop runs over is in the node for speed.
             let over: Vec<Operand> = f
                 .sites
@@ -290,7 +298,7 @@ mod tests {
                 );
             }
         }
-        assert_eq!(kinds.len(), 19, "every kind of site");
+        assert_eq!(kinds.len(), 19, "every kind of site, and every source of a distribution");
     }
 
     #[test]

@@ -6,7 +6,7 @@ use super::{Here, Machine};
 use crate::code::{FunctionId, Mode, Op, SiteKind};
 use crate::core::{Name, Span};
 use crate::fault::Fault;
-use crate::passes::reads_and_writes;
+use crate::passes::place::reads_and_writes;
 use niwaki_math::Scalar;
 
 /// One call of a stack.

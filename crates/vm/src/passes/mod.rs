@@ -13,10 +13,7 @@ pub mod effects;
 mod emit;
 mod expressions;
 pub mod liveness;
-mod place;
-#[cfg(test)]
-pub(crate) use place::rewrite;
-pub(crate) use place::{live_before, reads_and_writes, successors};
+pub(crate) mod place;
 mod sites;
 mod slices;
 mod statements;

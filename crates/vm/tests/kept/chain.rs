@@ -83,29 +83,29 @@ impl<'p> Chain<'p> {
         Stream::new(self.seed, 2, salt, step).uniform()
     }
 
-    fn decide(&mut self, step: u64, change: Change) -> String {
-        let (before, after) = (self.trace.before(), self.trace.totals().clone());
+    fn decide(&mut self, step: u64, became: Change) -> String {
+        let (change, before, choices) = (self.trace.change(), self.trace.len(), self.trace.len_after());
         let (fresh, stale) = self.trace.fresh_and_stale();
         let (forward, backward) = self.trace.forward_and_backward();
-        let mut sum = after.log_prior.less(&before.log_prior).plus(&after.log_factors);
-        sum.remove_total(&before.log_factors);
+        let mut sum = change.log_prior.plus(&change.log_factors);
         sum.add_total(stale);
         sum.remove_total(fresh);
-        let log_ratio =
-            sum.value() + (backward - forward) + (before.choices as f64 / after.choices as f64).ln();
-        let accept = change == Change::Same
-            || (change == Change::Done && self.pick(step, 2).ln() < log_ratio && !after.is_impossible());
+        let log_ratio = sum.value() + (backward - forward) + (before as f64 / choices as f64).ln();
+        let mut after = self.trace.totals().clone();
+        after.add(change);
+        let accept = became == Change::Same
+            || (became == Change::Done && self.pick(step, 2).ln() < log_ratio && !after.is_impossible());
         if accept {
             self.trace.commit(self.program);
             self.accepted += 1;
         } else {
             self.trace.rollback(self.program);
         }
-        match change {
+        match became {
             Change::Impossible => "impossible".into(),
             // Everything that decides, to the bit.
             Change::Same => "same".into(),
-            Change::Done => format!("{accept} {log_ratio:?} {after:?}"),
+            Change::Done => format!("{accept} {log_ratio:?} {after:?} {choices}"),
         }
     }
 

@@ -27,14 +27,14 @@ CHAINS = (
         "this kernel cannot run",
         help="see `niwaki.kernels`",
         example="kernels.cycle()",
-        cure="kernels.cycle(kernels.mh(), kernels.drift())",
+        cure="kernels.cycle(kernels.prior(), kernels.drift())",
     ),
     Message(
         "unreadable-kernel",
         "`{found}` is not a kernel: {reason}",
         help="write calls of the functions of `niwaki.kernels`, with numbers, texts and kernels in them",
-        example='niwaki sample model.py:m --kernel "cycl(mh())"',
-        cure='niwaki sample model.py:m --kernel "cycle(mh(), drift())"',
+        example='niwaki sample model.py:m --kernel "cycl(prior())"',
+        cure='niwaki sample model.py:m --kernel "cycle(prior(), drift())"',
     ),
     Message(
         "bad-proposal",

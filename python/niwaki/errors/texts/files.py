@@ -60,7 +60,7 @@ FILES = (
         "`{name}` cannot be {found!r}",
         why="found {found!r}, expected {expected}",
         help="choose one of these",
-        example='volume_match(target, rule="sharp")',
+        example='match_volume(target, rule="sharp")',
         cure="one of the rules that the message lists",
     ),
     Message(

@@ -70,11 +70,11 @@ INPUTS = (
         cure="rejection(bound=1)",
     ),
     Message(
-        "bad-temper",
-        "the temperature cannot be {found}",
+        "bad-power",
+        "the power of the score cannot be {found}",
         help="set it to a number greater than 0; 1 leaves the scores as they are",
-        example="smc(temper=-1)",
-        cure="smc(temper=1)",
+        example="smc(power=-1)",
+        cure="smc(power=1)",
     ),
     Message(
         "bad-anneal",
@@ -82,7 +82,7 @@ INPUTS = (
         why="{reason}",
         help="give the power at each barrier, or the share of particles to keep, or leave it out",
         example="smc(anneal=[])",
-        cure="smc(temper=16, anneal=[1, 2, 4, 8, 16])",
+        cure="smc(power=16, anneal=[1, 2, 4, 8, 16])",
     ),
     Message(
         "bad-threshold",

@@ -18,8 +18,8 @@ VIEWS = (
         "the target `{name}` is behind the camera",
         why="the camera at {position} looks at {look_at}, away from the whole target",
         help="turn the camera, or exchange its position and look_at",
-        example="volume_match(ship) * match_image(front, a camera that looks away from the ship)",
-        cure="volume_match(ship) * match_image(front, a camera that looks at the ship)",
+        example="match_volume(ship) * match_image(front, a camera that looks away from the ship)",
+        cure="match_volume(ship) * match_image(front, a camera that looks at the ship)",
     ),
     Message(
         "receiver-unseen",

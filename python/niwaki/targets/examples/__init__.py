@@ -32,7 +32,6 @@ __all__ = [
     "downtown",
     "emblem",
     "fan",
-    "find",
     "forked_tree",
     "funnel",
     "gem",
@@ -69,16 +68,6 @@ def image(name: str) -> Image.Image:
     """Draw the image of that name, one of `IMAGES`."""
     drawn: Image.Image = getattr(images, name)()
     return drawn
-
-
-def find(source: str) -> Target:
-    """The target of a `Target.source`: a file, or `gallery:` and the name of a target here."""
-    made = TARGETS.get(source.removeprefix("gallery:").replace("-", "_"))
-    if source.startswith("gallery:") and made is not None:
-        found = made()
-        found.source = f"gallery:{made.__name__}"
-        return found
-    return Target.load(source)
 
 
 def write_all(folder: str | PathLike[str]) -> list[Path]:

@@ -1,7 +1,7 @@
-//! The claim: whatever the schedule of temperatures, the final law and the evidence are those of the declared one.
+//! The claim: whatever the schedule of powers, the final law and the evidence are those of the declared one.
 //!
 //! A schedule keeps the evidence unbiased, so it is tested as in the parent module (z beyond 5 once in 1.7 million). Adapted
-//! temperatures depend on the particles and are consistent only: they are adapted once by a pilot and then held, and the
+//! powers depend on the particles and are consistent only: they are adapted once by a pilot and then held, and the
 //! direct estimate of 4,000 particles is compared within 2 %.
 
 use super::*;
@@ -26,7 +26,7 @@ fn a_schedule_changes_neither_evidence_nor_posterior() {
 }
 
 #[test]
-fn adapted_temperatures_end_at_the_declared_temperature() {
+fn adapted_powers_end_at_the_declared_one() {
     for (name, text) in PROGRAMS {
         let task = task(text);
         let exact = enumerate(&task, 100_000, &mut |_| true).unwrap().log_evidence;
@@ -38,7 +38,7 @@ fn adapted_temperatures_end_at_the_declared_temperature() {
         let found = smc(&task, &adaptive, &mut |_| true).unwrap();
         let log = found.log_evidence.unwrap();
         assert!((log - exact).abs() < 0.02, "{name}: {log} for {exact}");
-        let powers = &found.temperatures;
+        let powers = &found.powers;
         assert_eq!(powers.len(), found.barriers);
         assert!(
             powers.is_sorted() && powers[0] >= 0.0 && *powers.last().unwrap() <= 1.0,
@@ -50,10 +50,10 @@ fn adapted_temperatures_end_at_the_declared_temperature() {
     }
 }
 
-/// A constant in the score changes no posterior, so it must not change the temperatures, however large the weights become
+/// A constant in the score changes no posterior, so it must not change the powers, however large the weights become
 /// where resampling is rare.
 #[test]
-fn adapted_temperatures_do_not_depend_on_a_constant_of_the_score() {
+fn adapted_powers_do_not_depend_on_a_constant_of_the_score() {
     let powers = |constant: f64| {
         let text = format!(
             r#"(module (fn "m" (params) (for $i (range 4) (body
@@ -66,7 +66,7 @@ fn adapted_temperatures_do_not_depend_on_a_constant_of_the_score() {
             when: When::EffectiveBelow(0.0),
             ..Settings::default()
         };
-        smc(&task(&text), &own, &mut |_| true).unwrap().temperatures
+        smc(&task(&text), &own, &mut |_| true).unwrap().powers
     };
     let plain = powers(0.0);
     assert!(plain[0] < 1.0 && plain[3] > plain[0], "{plain:?}");
@@ -79,7 +79,7 @@ fn adapted_temperatures_do_not_depend_on_a_constant_of_the_score() {
 
 /// A power other than one: the final law is `prior x score^T`, and its constant is reported beside the evidence.
 #[test]
-fn a_declared_temperature_is_the_power_of_the_final_law() {
+fn a_declared_power_is_that_of_the_final_law() {
     let hot = r#"(module (fn "m" (params)
         (set $a (sample (dist bernoulli 0.3))) (do (factor (cond $a -0.5 0.0)))
         (set $b (sample (dist bernoulli 0.6))) (do (factor (cond (or $a $b) 0.0 -1.5)))
@@ -90,7 +90,7 @@ fn a_declared_temperature_is_the_power_of_the_final_law() {
         let (mut sum, mut squares, n) = (0.0, 0.0, 4000.0);
         for seed in 0..4000 {
             let own =
-                Settings { seed, temper: 2.0, anneal: anneal.clone(), particles: 8, ..Settings::default() };
+                Settings { seed, power: 2.0, anneal: anneal.clone(), particles: 8, ..Settings::default() };
             let found = smc(&task(hot), &own, &mut |_| true).unwrap();
             assert!(found.log_evidence.is_none());
             let z = (found.log_normaliser.unwrap() - exact).exp();

@@ -83,7 +83,7 @@ fn particle_gibbs_keeps_the_posterior() {
 }
 
 #[test]
-fn it_keeps_it_when_resampling_is_adaptive_and_the_temperature_changes() {
+fn it_keeps_it_when_resampling_is_adaptive_and_the_power_changes() {
     for (name, text) in PROGRAMS {
         let own = Settings {
             when: When::EffectiveBelow(0.7),
@@ -250,10 +250,10 @@ fn a_population_that_died_is_a_proposal_that_was_rejected() {
     }
 }
 
-/// At temperature 2.5, with weights that count nothing before the end: all of the temperature is still to come where
+/// At power 2.5, with weights that count nothing before the end: all of the power is still to come where
 /// ancestors are drawn, for those that have ended as for those that have not.
 #[test]
-fn ancestors_count_the_temperature_that_is_to_come() {
+fn ancestors_count_the_power_that_is_to_come() {
     let text = |power: &str| {
         format!(
             r#"(module (fn "m" (params)
@@ -268,13 +268,26 @@ fn ancestors_count_the_temperature_that_is_to_come() {
     let (plain, sharp) = (task(&text("1.0")), task(&text("2.5")));
     for ancestors in [Ancestors::Kept, Ancestors::Sampled] {
         let own = Settings {
-            temper: 2.5,
+            power: 2.5,
             anneal: Anneal::Schedule([0.0; 6].as_slice().into()),
             ..small(4, Order::Stochastic)
         };
         let scores = counted(&sharp, &values_from(&sharp, &plain, &own, ancestors, SEEDS, 3));
         assert!(worst(&scores) < LIMIT, "{ancestors:?}: {scores:?}");
     }
+}
+
+/// The second coin depends on the first, so a prefix with the other first coin makes the rest of the held run unlikely.
+#[test]
+fn ancestors_count_how_likely_the_rest_of_the_held_run_is() {
+    let task = task(
+        r#"(module (fn "m" (params)
+            (set $a (sample (dist bernoulli 0.5))) (do (factor (cond $a 0.3 0.0)))
+            (set $b (sample (dist bernoulli (cond $a 0.95 0.1)))) (do (factor (cond $b 0.4 -0.4)))
+            (return (tuple $a $b))) (entry "m"))"#,
+    );
+    let scores = counted(&task, &last_values(&task, &small(4, Order::DepthFirst), Ancestors::Sampled));
+    assert!(worst(&scores) < LIMIT, "{scores:?}");
 }
 
 #[test]

@@ -96,7 +96,7 @@ fn evidence_and_posterior_do_not_depend_on_the_proposal() {
     }
 }
 
-/// Where weights wait for a resampling, temperatures change on the way, and particles are moved.
+/// Where weights wait for a resampling, powers change on the way, and particles are moved.
 #[test]
 fn nor_do_they_beside_other_settings() {
     for (name, task, proposal) in cases() {
@@ -114,14 +114,14 @@ fn nor_do_they_beside_other_settings() {
     }
 }
 
-/// The score alone is tempered, and not the ratio of prior and proposal: the program whose factors are twice as large.
+/// The score alone has a power, and not the ratio of prior and proposal: the program whose factors are twice as large.
 #[test]
-fn a_proposal_is_not_tempered() {
+fn a_proposal_has_no_power() {
     let (text, parts) = (PROGRAMS[0].1, GUIDED[0].1);
     let twice = text.replace("-0.5 0.0", "-1.0 0.0").replace("0.0 -1.5", "0.0 -3.0");
     let exact = enumerate(&task(&twice), 100, &mut |_| true).unwrap().log_evidence;
     let (task, proposal) = guided(text, parts);
-    let own = Settings { temper: 2.0, ..with(&Arc::new(proposal), Order::Stochastic, 4) };
+    let own = Settings { power: 2.0, ..with(&Arc::new(proposal), Order::Stochastic, 4) };
     let found: Vec<f64> = (0..4000)
         .map(|seed| {
             let run = smc(&task, &Settings { seed, ..own.clone() }, &mut |_| true).unwrap();

@@ -104,7 +104,7 @@ fn moved_draws(task: &Task, settings: &Settings, barriers: usize) -> (f64, usize
     for (p, log_order) in population.particles.iter_mut().zip(log_orders) {
         let entries = p.record.log.entries();
         let log_run = p.record.log_prior.value() + log_order;
-        let log_law = log_run + settings.temper * p.record.log_score();
+        let log_law = log_run + settings.power * p.record.log_score();
         p.weighed = p.record.score();
         p.log_weight = f64::NEG_INFINITY;
         let own: Vec<_> = entries.iter().map(|e| (e.address(), written(e))).collect();
@@ -117,7 +117,7 @@ fn moved_draws(task: &Task, settings: &Settings, barriers: usize) -> (f64, usize
     assert!((mass - 1.0).abs() < 1e-9, "forward runs found {mass} of all");
     assert!(population.weights.read(population.particles.iter().map(|p| p.log_weight)));
     population.resample();
-    population.temper = settings.temper;
+    population.power = settings.power;
     population.rejuvenate(Some(true)).unwrap();
     // Those that ended earlier are left alone here, and are in the law.
     let n = population.particles.len() as f64;
@@ -136,10 +136,10 @@ fn moved_draws(task: &Task, settings: &Settings, barriers: usize) -> (f64, usize
     (worst, law.len(), population.moved)
 }
 
-fn draws(kernel: Kernel, order: Order, temper: f64) -> Settings {
+fn draws(kernel: Kernel, order: Order, power: f64) -> Settings {
     Settings {
         particles: 40_000,
-        temper,
+        power,
         seed: 11,
         rejuvenate: rejuvenation(kernel, 4, Moment::Resampled),
         ..settings(order, Resampling::Multinomial)
@@ -151,9 +151,9 @@ fn moves_of_partial_programs_leave_their_law_as_it_is() {
     let mut all = Moved::default();
     for (name, text) in programs() {
         let task = task(text);
-        for (order, temper) in [(Order::DepthFirst, 1.0), (Order::Stochastic, 1.7)] {
+        for (order, power) in [(Order::DepthFirst, 1.0), (Order::Stochastic, 1.7)] {
             for barriers in 1..=3 {
-                let settings = draws(every_kind(), order, temper);
+                let settings = draws(every_kind(), order, power);
                 let (worst, states, moved) = moved_draws(&task, &settings, barriers);
                 all += moved;
                 assert!(worst < LIMIT, "{name}, {order:?}, barrier {barriers}: z {worst}, {states} states");
@@ -238,7 +238,7 @@ fn threads_change_nothing_with_moves() {
 #[test]
 fn what_no_move_could_keep_is_refused() {
     let task = task(PROGRAMS[0].1);
-    let annealed = Kernel::Anneal { hot: 2.0, cold: 1.0, steps: 5, kernel: Box::new(Kernel::Prior) };
+    let annealed = Kernel::Anneal { start: 0.5, end: 1.0, steps: 5, kernel: Box::new(Kernel::Prior) };
     let bad = [
         Settings {
             weights: Weights::Absolute,

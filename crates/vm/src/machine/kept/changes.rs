@@ -77,20 +77,6 @@ impl<S: Scalar> Trace<S> {
             }
         }
     }
-
-    /// From now on a kept value is drawn anew where it falls outside its new support, which is not reversible: a
-    /// mutant, for the tests that must see it.
-    #[doc(hidden)]
-    pub fn redraw_what_falls_outside(&mut self) {
-        self.kept.redraws_outside = true;
-    }
-
-    /// [`Trace::rollback`] that forgets the register written last: a mutant, for the tests that must see it.
-    #[doc(hidden)]
-    pub fn rollback_but_one_register(&mut self, program: &Program<S>) {
-        self.kept.journal.registers.pop();
-        self.rollback(program);
-    }
 }
 
 impl<S: Scalar> Machine<'_, S> {

@@ -141,36 +141,28 @@ struct Active {
     over: bool,
 }
 
-/// Sums over a trace, exact.
-#[derive(Debug, Default, PartialEq)]
+/// Sums over a trace, or what a transaction adds to them; exact.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Totals {
     /// Log densities of the choices, nats.
     pub log_prior: Total,
     /// Factors and observations, nats.
     pub log_factors: Total,
-    /// How many choices there are.
-    pub choices: usize,
     /// How many factors and observations there are.
-    pub factors: usize,
-}
-
-impl Clone for Totals {
-    fn clone(&self) -> Totals {
-        let (log_prior, log_factors) = (self.log_prior.clone(), self.log_factors.clone());
-        Totals { log_prior, log_factors, choices: self.choices, factors: self.factors }
-    }
-
-    /// As for each proposal: nothing is made or dropped.
-    #[inline(always)]
-    fn clone_from(&mut self, other: &Totals) {
-        self.log_prior.clone_from(&other.log_prior);
-        self.log_factors.clone_from(&other.log_factors);
-        (self.choices, self.factors) = (other.choices, other.factors);
-    }
+    pub factors: i64,
 }
 
 impl Totals {
+    /// Adds others.
+    #[inline(always)]
+    pub fn add(&mut self, other: &Totals) {
+        self.log_prior.add_total(&other.log_prior);
+        self.log_factors.add_total(&other.log_factors);
+        self.factors += other.factors;
+    }
+
     /// Whether a choice or a factor is minus infinity.
+    #[inline(always)]
     pub fn is_impossible(&self) -> bool {
         self.log_prior.is_impossible() || self.log_factors.is_impossible()
     }
@@ -190,13 +182,15 @@ pub(crate) struct Kept<S: Scalar> {
     pub free_readers: Vec<u32>,
     pub sites: Sites,
     pub result: Value<S>,
+    /// Sums over the trace before the open transaction.
     pub totals: Totals,
     pub counters: Counters,
     pub steps: Option<Vec<Step>>,
     // The open transaction.
     pub journal: Journal<S>,
     pub open: bool,
-    pub before: Totals,
+    /// What it adds to the sums.
+    pub change: Totals,
     pub result_before: Option<Value<S>>,
     /// Log densities of choices that were drawn, and of those that went.
     pub fresh: Total,
@@ -225,8 +219,6 @@ pub(crate) struct Kept<S: Scalar> {
     /// The run must not leave the activation in hand; and whether it did.
     confined: bool,
     tangled: bool,
-    /// A mutant: values that fall outside their new support are drawn anew.
-    pub redraws_outside: bool,
 }
 
 /// A run whose activations are kept.
@@ -253,7 +245,7 @@ impl<S: Scalar> Kept<S> {
             steps: None,
             journal: Journal::default(),
             open: false,
-            before: Totals::default(),
+            change: Totals::default(),
             result_before: None,
             fresh: Total::default(),
             stale: Total::default(),
@@ -269,7 +261,6 @@ impl<S: Scalar> Kept<S> {
             active: vec![],
             marks: vec![],
             marking: false,
-            redraws_outside: false,
             woken: vec![],
             taken: 0,
             confined: false,
@@ -474,7 +465,8 @@ impl<S: Scalar> Keep<S> for Kept<S> {
 }
 
 impl<S: Scalar> Trace<S> {
-    /// Sums over the trace.
+    /// Sums over the trace, without the open transaction.
+    #[inline(always)]
     pub fn totals(&self) -> &Totals {
         &self.kept.totals
     }

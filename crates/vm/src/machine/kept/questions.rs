@@ -78,7 +78,7 @@ impl<S: Scalar> Kept<S> {
             self.journal.slots.push((at as u32, old));
         }
         self.slots[at].log = log;
-        let total = if prior { &mut self.totals.log_prior } else { &mut self.totals.log_factors };
+        let total = if prior { &mut self.change.log_prior } else { &mut self.change.log_factors };
         total.replace(old.log, log);
     }
 
@@ -185,15 +185,10 @@ impl<S: Scalar> Kept<S> {
         let family = dist.family() as u32;
         if slot.is_filled() && slot.mark & Slot::FAMILY == family && fits(dist, &state.registers[place]) {
             let log = check(log_density(dist, &state.registers[place])?.value(), "a log density")?;
-            let stays = log > f64::NEG_INFINITY || !self.redraws_outside;
-            if stays && log.to_bits() != slot.log.to_bits() {
+            if log.to_bits() != slot.log.to_bits() {
                 self.set_log(self.quiet, at, log, true);
             }
-            if log > f64::NEG_INFINITY {
-                return Ok(false);
-            } else if stays {
-                return Err(Halt::Impossible);
-            }
+            return if log > f64::NEG_INFINITY { Ok(false) } else { Err(Halt::Impossible) };
         }
         self.leaves_its_activation();
         let question = At { site, function: r.f, node, state, program };
@@ -204,16 +199,15 @@ impl<S: Scalar> Kept<S> {
             // Drawn anew: the old value goes, as if it had died and been born again at the same place in the table.
             self.stale.add(slot.log);
             self.forget_change(at);
-            self.totals.log_prior.remove(slot.log);
+            self.change.log_prior.remove(slot.log);
             self.journal.anew.push((address, state.registers[place].clone()));
             slot.held
         } else {
             self.journal.births.push(Birth { address, node, site: number.0 });
-            self.totals.choices += 1;
             Slot::BORN | (self.journal.births.len() as u32 - 1)
         };
         self.fresh.add(log);
-        self.totals.log_prior.add(log);
+        self.change.log_prior.add(log);
         self.write_slot(self.quiet, at, Slot { held, mark: family, log });
         self.write_to(state, self.quiet, place, value);
         if log == f64::NEG_INFINITY { Err(Halt::Impossible) } else { Ok(true) }
@@ -259,8 +253,8 @@ impl<S: Scalar> Kept<S> {
         let at = Kept::slot_at(state, node, number.0 as usize);
         let slot = self.slots[at];
         if !slot.is_filled() {
-            self.totals.factors += 1;
-            self.totals.log_factors.add(log);
+            self.change.factors += 1;
+            self.change.log_factors.add(log);
             self.write_slot(self.quiet, at, Slot { held: 0, mark: 0, log });
         } else if log.to_bits() != slot.log.to_bits() {
             self.set_log(self.quiet, at, log, false);
@@ -316,13 +310,12 @@ impl<S: Scalar> Kept<S> {
                 debug_assert!(slot.held & Slot::BORN == 0, "a site is met once in a transaction");
                 self.stale.add(slot.log);
                 self.forget_change(at);
-                self.totals.log_prior.remove(slot.log);
-                self.totals.choices -= 1;
+                self.change.log_prior.remove(slot.log);
                 self.journal.deaths.push(slot.held);
             }
             SiteKind::Observe(_) | SiteKind::Factor | SiteKind::Condition => {
-                self.totals.factors -= 1;
-                self.totals.log_factors.remove(slot.log);
+                self.change.factors -= 1;
+                self.change.log_factors.remove(slot.log);
             }
             SiteKind::Emit => self.journal.retracted.push(slot.held),
             SiteKind::Cell { .. } | SiteKind::Append { .. } => self.journal.dead_cells.push(slot.held),

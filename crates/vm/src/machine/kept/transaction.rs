@@ -67,9 +67,6 @@ impl<S: Scalar> Kept<S> {
         debug_assert!(!self.open, "one transaction at a time");
         self.open = true;
         self.now = self.now.wrapping_add(1);
-        self.before.clone_from(&self.totals);
-        self.fresh.clear();
-        self.stale.clear();
         self.outside = false;
     }
 
@@ -92,6 +89,16 @@ impl<S: Scalar> Kept<S> {
         (sum(|c| c.1), sum(|c| c.2))
     }
 
+    /// Forgets what the open transaction adds to the sums.
+    #[inline(always)]
+    fn clear_sums(&mut self) {
+        self.change.log_prior.clear();
+        self.change.log_factors.clear();
+        self.change.factors = 0;
+        self.fresh.clear();
+        self.stale.clear();
+    }
+
     /// The transaction ends, kept or undone.
     fn close(&mut self) {
         for (at, ..) in self.changed.drain(..) {
@@ -104,9 +111,16 @@ impl<S: Scalar> Kept<S> {
 }
 
 impl<S: Scalar> Trace<S> {
-    /// Sums over the trace before the open transaction.
-    pub fn before(&self) -> &Totals {
-        &self.kept.before
+    /// What the open transaction adds to [`Trace::totals`].
+    #[inline(always)]
+    pub fn change(&self) -> &Totals {
+        &self.kept.change
+    }
+
+    /// How many choices the trace has with the open transaction.
+    pub fn len_after(&self) -> usize {
+        let journal = &self.kept.journal;
+        self.kept.choices.len() + journal.births.len() - journal.deaths.len()
     }
 
     /// Log densities of the choices that the open transaction drew, and of those that it took away, nats.
@@ -138,6 +152,8 @@ impl<S: Scalar> Trace<S> {
     /// order of their addresses, so that it does not depend on the strategy.
     pub fn commit(&mut self, program: &Program<S>) {
         let (state, kept) = (&mut self.state, &mut self.kept);
+        kept.totals.add(&kept.change);
+        kept.clear_sums();
         kept.move_readers();
         kept.journal.deaths.sort_unstable();
         while let Some(dead) = kept.journal.deaths.pop() {
@@ -208,7 +224,7 @@ impl<S: Scalar> Trace<S> {
         while let Some(id) = kept.journal.cells.pop() {
             kept.free_readers.push(id);
         }
-        kept.totals.clone_from(&kept.before);
+        kept.clear_sums();
         if let Some(result) = kept.result_before.take() {
             kept.result = result;
         }
@@ -289,8 +305,6 @@ impl<S: Scalar> Machine<'_, S> {
             // Once more, in program order: met before its readers, a fault or a score of minus infinity may be none.
             trace.undo(program);
             trace.kept.prepare(Strategy::Cache);
-            trace.kept.fresh.clear();
-            trace.kept.stale.clear();
             trace.kept.slots[at].mark |= Slot::CHANGED;
             trace.kept.write_to(&mut trace.state, false, place, value);
         }

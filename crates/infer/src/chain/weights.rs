@@ -7,7 +7,7 @@ use niwaki_vm::code::Program;
 use niwaki_vm::machine::kept::Trace;
 use niwaki_vm::machine::kept::inspect::Place;
 
-/// The weight of odds 1.
+/// The unit of selection weights.
 pub const UNIT: f64 = 65536.0;
 
 /// How a choice is weighed, by where it stands.

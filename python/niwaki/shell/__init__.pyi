@@ -1,0 +1,2 @@
+from . import finding as finding
+from . import run_files as run_files
