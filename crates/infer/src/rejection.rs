@@ -20,8 +20,8 @@ pub struct Accepted {
     pub interrupted: bool,
 }
 
-/// `n` exact samples, where no run scores above `bound` nats (zero serves for conditions). Gives up after
-/// `max_tries` runs. `watch` is called with the number of runs after each; when it returns false, the samples so far are returned.
+/// `n` exact samples, where no run scores above `bound` nats (zero serves for conditions). Gives up after `max_tries`
+/// runs. `watch` is called with the number of runs after each; when it returns false, the samples so far are returned.
 ///
 /// # Errors
 /// A run that scores above the bound, too many tries, or a fault of the program: also of distributions, where they were

@@ -22,8 +22,8 @@ impl Samples {
         Samples { all: vec![], thin, room: room.max(1), held: 0 }
     }
 
-    /// Keeps the present state. When the samples hold too many choices, every other one is dropped; those left are the ones that
-    /// twice the thinning would have kept; `warmup` is where the first interval began.
+    /// Keeps the present state. When the samples hold too many choices, every other one is dropped; those left are the
+    /// ones that twice the thinning would have kept; `warmup` is where the first interval began.
     pub fn keep(&mut self, state: &State, program: &Program, visit: u64, warmup: u64) {
         self.held += state.trace.len() + 1;
         self.all.push(Arc::new(state.run(program, visit)));

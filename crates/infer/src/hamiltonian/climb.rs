@@ -159,8 +159,8 @@ pub fn climb_in_lanes<const L: usize>(
 
 #[cfg(test)]
 mod tests {
-    //! The ascent finds the maximum when some coordinates are steep and others flat, stays inside the support, and never ends
-    //! lower.
+    //! The ascent finds the maximum when some coordinates are steep and others flat, stays inside the support, and never
+    //! ends lower.
     use super::*;
     use crate::hamiltonian::potential::tests::{By, normals};
     use crate::hamiltonian::potential::{Cause, Stop};

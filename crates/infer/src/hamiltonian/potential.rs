@@ -28,8 +28,8 @@ pub trait Potential {
     }
 
     /// Takes up to `steps` leapfrog steps with a diagonal metric and gives how many were taken, to the bit those that
-    /// [`super::leapfrog::leapfrog`] takes one by one: `p += kick g`, `x += (step variance) p`, `g` the gradient at `x`, with
-    /// `step` for the kick of all but the first. Stops before a step that the target would refuse. A target without
+    /// [`super::leapfrog::leapfrog`] takes one by one: `p += kick g`, `x += (step variance) p`, `g` the gradient at `x`,
+    /// with `step` for the kick of all but the first. Stops before a step that the target would refuse. A target without
     /// a faster method takes none.
     #[inline]
     fn roll(&mut self, _at: Rolling<'_>, _kick: f64, _step: f64, _steps: u32) -> u32 {

@@ -11,14 +11,14 @@
 //! w_i  p(x', order | prefix i)  s(prefix i, x')^T / s(prefix i)^(T_n)
 //! ```
 //!
-//! A proposal for the choices has no part in it: the sweep leaves the law of the choices, `p s^T`, invariant, and the rest
-//! is not drawn but held, so its density under the prior remains (Lindsten et al., eq. 15: the target of the whole over that
-//! of the prefix). What the proposal drew of the prefix is in `w_i`. The held run's own weight counts `log p - log q` of its
-//! choices like that of any other particle, although they were not drawn: it is computed anew as the run is followed, and so by
-//! the prefix that it has after its ancestor was drawn.
+//! A proposal for the choices has no part in it: the sweep leaves the law of the choices, `p s^T`, invariant, and the
+//! rest is not drawn but held, so its density under the prior remains (Lindsten et al., eq. 15: the target of the whole
+//! over that of the prefix). What the proposal drew of the prefix is in `w_i`. The held run's own weight counts
+//! `log p - log q` of its choices like that of any other particle, although they were not drawn. It is computed anew as
+//! the run is followed, so it is that of the prefix after its ancestor was drawn.
 //!
-//! The weight above is zero where the prefix leads to other addresses, to other barriers or to another family at an address. Only
-//! multinomial resampling has this simple conditional form, so that is what it uses.
+//! The weight above is zero where the prefix leads to other addresses, to other barriers or to another family at an
+//! address. Only multinomial resampling has this simple conditional form, so that is what it uses.
 
 use super::advance::Particle;
 use super::many::Watch;

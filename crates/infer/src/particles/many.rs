@@ -113,8 +113,8 @@ pub fn populations(
     combine(plan, results, stopped)
 }
 
-/// Populations of one size, one after the other until `time` is over, by the rule in the module's documentation. The result's plan
-/// says how many there were and how large they are.
+/// Populations of one size, one after the other until `time` is over, by the rule in the module's documentation. The
+/// result's plan says how many there were and how large they are.
 ///
 /// # Errors
 /// As for [`populations`]; no time.

@@ -9,10 +9,10 @@
 //! 3. the values at `x'` are written as one block, through the same transaction as every other proposal, so that scores,
 //!    scene and queries stay exact.
 //!
-//! The second step leaves the recorded density `g` invariant. So it is a proposal that is reversible under `g`, and
-//! the transaction is kept with probability `min(1, p(x') g(x) / (p(x) g(x')))`, where `p` is the density of the trace
-//! itself. This is 1 up to rounding, as the two are the same density (Liu 2001, section 9.4.3, calls a `g` that is not `p` a surrogate). A
-//! trajectory that reaches another structure, a density of zero or a NaN is rejected, and counted.
+//! The second step leaves the recorded density `g` invariant. So it is a proposal that is reversible under `g`, and the
+//! transaction is kept with probability `min(1, p(x') g(x) / (p(x) g(x')))`, where `p` is the density of the trace
+//! itself. This is 1 up to rounding, as the two are the same density (Liu 2001, section 9.4.3, calls a `g` that is not
+//! `p` a surrogate). A trajectory that reaches another structure, a density of zero or a NaN is rejected, and counted.
 
 pub mod counts;
 pub(crate) mod scales;

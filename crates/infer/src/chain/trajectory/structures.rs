@@ -2,8 +2,8 @@
 //!
 //! A structure's key is a sum over its choices, so it does not depend on their order in the trace's table. What it leaves
 //! open are the values of continuous choices. Depending on them one structure may have several paths, each with its
-//! guards; [`Live`] keeps the paths. Graphs are dropped when they together hold too many operations, the longest unused first. Machine
-//! code gives the same bits as a structure's tape, so that nothing depends on when it is ready.
+//! guards; [`Live`] keeps the paths. Graphs are dropped when they together hold too many operations, the longest unused
+//! first. Machine code gives the same bits as a structure's tape, so that nothing depends on when it is ready.
 
 use super::super::state::choices;
 use super::scales::LabelId;
