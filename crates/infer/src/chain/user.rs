@@ -104,7 +104,7 @@ impl User {
                 format!("the proposal `{}` asks for `{name}` at the choice `{}`, {found}", self.name, at.path()),
             )
             .with_help(
-                "name variables of the function in which the choice stands that are assigned before it on every path and \
+                "name variables of the choice's function that are assigned before the choice on every path and \
                  hold a number or a truth value; `old` is the value before",
             )
         };
