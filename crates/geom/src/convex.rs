@@ -50,7 +50,7 @@ impl Hull {
         }
         let faces = topology.faces[..sides / 2].iter().chain([&topology.faces[sides]]);
         let normals = faces.map(|face| face_normal(face, &vertices)).collect::<Option<Vec<Vec3>>>()?;
-        Hull::made(vertices, normals, topology)
+        Hull::of_parts(vertices, normals, topology)
     }
 
     fn over(vertices: Vec<Vec3>, topology: Arc<Topology>, flat_faces: bool) -> Option<Hull> {
@@ -62,10 +62,10 @@ impl Hull {
                 None => return None,
             }
         }
-        Hull::made(vertices, normals, topology)
+        Hull::of_parts(vertices, normals, topology)
     }
 
-    fn made(vertices: Vec<Vec3>, normals: Vec<Vec3>, topology: Arc<Topology>) -> Option<Hull> {
+    fn of_parts(vertices: Vec<Vec3>, normals: Vec<Vec3>, topology: Arc<Topology>) -> Option<Hull> {
         let width = narrowest(&vertices[..topology.corners], &normals);
         let points = [&vertices[..], &normals].concat().into();
         let edges = OnceLock::new();

@@ -11,12 +11,12 @@
 //! - [`fine`], [`render`]: meshes with many sides, and pictures of them
 
 pub mod bounds;
+mod coarse;
 pub mod convex;
 pub mod error;
 pub mod fine;
 pub mod hull;
 pub mod intersect;
-mod light;
 pub mod limb;
 pub mod mesh;
 pub mod primitive;

@@ -93,7 +93,7 @@ impl Bark {
 
 /// Corners of the three rings, start first; the start lies on the bark when there is one.
 pub(crate) fn corners(Tube { frames, onto }: &Tube) -> Option<Vec<Vec3>> {
-    let around = || crate::light::ring(SEGMENT_SIDES);
+    let around = || crate::coarse::ring(SEGMENT_SIDES);
     let mut corners: Vec<Vec3> = frames.iter().flat_map(|f| around().map(|turn| f.at(turn))).collect();
     if let Some(bark) = onto {
         let down = bark.down(frames[0].center)?;

@@ -5,9 +5,9 @@
 //! finer mesh from the same solid.
 
 use crate::bounds::Aabb;
+use crate::coarse::{convex, ring};
 use crate::convex::{Convex, Hull, is_aligned};
 use crate::error::GeomError;
-use crate::light::{convex, ring};
 use crate::mesh::TriMesh;
 use crate::segment::{self, Tube};
 use crate::vector::{Mat3, Vec3, vec3};
@@ -123,7 +123,7 @@ struct Inner {
     /// A box with its sides along the coordinate directions.
     aligned: bool,
     /// Of a solid that is neither a box nor a mesh.
-    hull: Option<Box<Made>>,
+    hull: Option<Box<Coarse>>,
     world: OnceLock<Box<TriMesh>>,
 }
 
@@ -131,7 +131,7 @@ const _: () = assert!(std::mem::size_of::<Inner>() <= 240);
 
 /// The light geometry that is worth keeping.
 #[derive(Debug)]
-struct Made {
+struct Coarse {
     whole: Hull,
     /// Of a segment, once they were needed.
     pieces: OnceLock<Box<[Hull]>>,
@@ -225,7 +225,7 @@ impl Shape {
             solid => {
                 let Some(hull) = convex(solid, &placement) else { return flat() };
                 let aabb = Aabb::around(Convex::Hull(&hull).corners().iter().copied());
-                (Some(Box::new(Made { whole: hull, pieces: OnceLock::new() })), aabb)
+                (Some(Box::new(Coarse { whole: hull, pieces: OnceLock::new() })), aabb)
             }
         };
         // Beyond this, squares and products of lengths lose all meaning.
@@ -285,7 +285,7 @@ impl Shape {
     #[inline]
     pub fn convex(&self) -> Option<Convex<'_>> {
         match (&self.0.hull, &self.0.solid) {
-            (Some(made), _) => Some(Convex::Hull(&made.whole)),
+            (Some(coarse), _) => Some(Convex::Hull(&coarse.whole)),
             (None, Solid::Box { size }) => Some(Convex::cuboid(*size, &self.0.placement)),
             (None, _) => None,
         }
@@ -293,9 +293,9 @@ impl Shape {
 
     /// The convex solids whose union it is, where [`Shape::convex`] is larger than the shape.
     pub fn pieces(&self) -> Option<&[Hull]> {
-        let (Solid::Segment(tube), Some(made)) = (&self.0.solid, &self.0.hull) else { return None };
-        let corners = Convex::Hull(&made.whole);
-        Some(made.pieces.get_or_init(|| segment::pieces(corners.corners(), tube.onto.is_some())))
+        let (Solid::Segment(tube), Some(coarse)) = (&self.0.solid, &self.0.hull) else { return None };
+        let corners = Convex::Hull(&coarse.whole);
+        Some(coarse.pieces.get_or_init(|| segment::pieces(corners.corners(), tube.onto.is_some())))
     }
 
     /// The light geometry as triangles in the world; made when first asked for.
@@ -317,7 +317,7 @@ impl Shape {
         let e = self.0.aabb.extent();
         let boxed = e.x.min(e.y).min(e.z);
         match (&self.0.hull, &self.0.solid) {
-            (Some(made), _) => boxed.min(made.whole.width()),
+            (Some(coarse), _) => boxed.min(coarse.whole.width()),
             (None, Solid::Box { size }) => boxed.min(size.x.min(size.y).min(size.z)),
             (None, _) => boxed,
         }

@@ -132,14 +132,14 @@ fn joined<T: Clone + Boxed>(a: Node<T>, b: Node<T>, old: Option<Arc<Branch<T>>>)
 
 fn branch<T: Boxed>(a: Node<T>, b: Node<T>, old: Option<Arc<Branch<T>>>) -> Node<T> {
     let aabb = a.aabb().union(b.aabb());
-    let made = Branch { aabb, height: 1 + a.height().max(b.height()), children: [a, b] };
+    let branch = Branch { aabb, height: 1 + a.height().max(b.height()), children: [a, b] };
     if let Some(mut old) = old
         && let Some(place) = Arc::get_mut(&mut old)
     {
-        *place = made;
+        *place = branch;
         return Node::Branch(old);
     }
-    Node::Branch(Arc::new(made))
+    Node::Branch(Arc::new(branch))
 }
 
 fn inserted<T: Clone + Boxed>(node: Node<T>, leaf: Node<T>) -> Node<T> {
@@ -205,7 +205,7 @@ mod tests {
         Aabb { low, high: low + vec3(5.0, 4.0, 3.0) }
     }
 
-    fn found(tree: &BoxTree<Item>, near: &Aabb) -> Vec<u64> {
+    fn near_items(tree: &BoxTree<Item>, near: &Aabb) -> Vec<u64> {
         let mut items = Vec::new();
         tree.visit(near, |item| items.push(item.1));
         items.sort_unstable();
@@ -224,11 +224,11 @@ mod tests {
                 let before = tree.clone();
                 assert_eq!(tree.remove(&cube(gone), |item| item.1 == gone).map(|item| item.1), Some(gone));
                 assert!(tree.remove(&cube(gone), |item| item.1 == gone).is_none());
-                assert!(found(&before, &cube(gone)).contains(&gone));
+                assert!(near_items(&before, &cube(gone)).contains(&gone));
             }
             let near = cube(k * 13 + 5);
             let expected: Vec<u64> = list.iter().copied().filter(|i| cube(*i).meets(&near)).collect();
-            assert_eq!(found(&tree, &near), expected);
+            assert_eq!(near_items(&tree, &near), expected);
             let bounds = list.iter().fold(Aabb::EMPTY, |b, i| b.union(&cube(*i)));
             assert_eq!(tree.bounds(), bounds);
             assert_eq!(tree.len(), list.len());

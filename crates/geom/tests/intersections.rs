@@ -207,15 +207,21 @@ fn a_ball_in_the_hole_of_a_ring_is_free() {
 #[test]
 fn a_chain_of_bent_limbs_only_touches() {
     let mut dice = Dice::new(2);
-    let (mut at, mut way, mut radius) = (Vec3::ZERO, vec3(0.0, 1.0, 0.0), 1.0);
+    let (mut at, mut direction, mut radius) = (Vec3::ZERO, vec3(0.0, 1.0, 0.0), 1.0);
     let mut sketch = NoSelfIntersection::new(Rule::Solid);
     for _ in 0..12 {
-        let next_way = (way + dice.point(0.25)).unit().unwrap();
-        let (end, thinner) = (at + next_way * (3.5 * radius), radius * 0.85);
-        let limb =
-            Shape::limb(at, end, (radius, thinner), (Some(way), Some(next_way)), &Look::default()).unwrap();
+        let next_direction = (direction + dice.point(0.25)).unit().unwrap();
+        let (end, thinner) = (at + next_direction * (3.5 * radius), radius * 0.85);
+        let limb = Shape::limb(
+            at,
+            end,
+            (radius, thinner),
+            (Some(direction), Some(next_direction)),
+            &Look::default(),
+        )
+        .unwrap();
         sketch.add(&Primitive::new([limb]));
-        (at, way, radius) = (end, next_way, thinner);
+        (at, direction, radius) = (end, next_direction, thinner);
     }
     assert_eq!(sketch.pairs(), 0);
 }

@@ -371,7 +371,7 @@ fn a_perfect_match_has_similarity_one() {
 
 #[test]
 fn impossible_pictures_cameras_and_lights_are_refused() {
-    let code = |made: Result<Picture, niwaki_geom::GeomError>| made.unwrap_err().code;
+    let code = |picture: Result<Picture, niwaki_geom::GeomError>| picture.unwrap_err().code;
     assert_eq!(code(first_on(0, None, 10.0)), "image-one-color");
     assert_eq!(code(first_on(10_000, None, 10.0)), "image-one-color");
     assert_eq!(code(first_on(10, Some(vec![0; 3]), 10.0)), "bad-image");

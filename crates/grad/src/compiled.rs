@@ -16,24 +16,24 @@ enum Progress {
     /// Not asked for yet: gradients so far.
     Tape(u32),
     /// Being made: first the gradient, then the rest. The lock is never waited for; with it threads may share this.
-    Waiting(Mutex<Receiver<Made>>),
+    Waiting(Mutex<Receiver<Stage>>),
     /// There is no more to come. A processor without machine code ends here with none.
     Done,
 }
 
 /// What the background has made.
-enum Made {
+enum Stage {
     Gradient(Native),
     Rest(Rest),
 }
 
 /// Compiles a density, and hands over each part as soon as it is there; stops where `give` says that nobody waits.
-fn make(density: &Density, mut give: impl FnMut(Made) -> bool) {
+fn compile(density: &Density, mut give: impl FnMut(Stage) -> bool) {
     let Ok((native, draft)) = Native::of_gradient(density) else { return };
-    if give(Made::Gradient(native))
+    if give(Stage::Gradient(native))
         && let Ok(rest) = draft.compile(density)
     {
-        give(Made::Rest(rest));
+        give(Stage::Rest(rest));
     }
 }
 
@@ -72,24 +72,24 @@ impl Compiled {
         match std::mem::replace(&mut self.progress, Progress::Done) {
             Progress::Tape(_) => {
                 let density = self.density.clone();
-                make(&density, |made| {
-                    self.take(made);
+                compile(&density, |stage| {
+                    self.take(stage);
                     true
                 });
             }
-            Progress::Waiting(parts) => {
-                let parts = parts.into_inner().unwrap_or_else(PoisonError::into_inner);
-                parts.iter().for_each(|part| self.take(part));
+            Progress::Waiting(stages) => {
+                let stages = stages.into_inner().unwrap_or_else(PoisonError::into_inner);
+                stages.iter().for_each(|stage| self.take(stage));
             }
             Progress::Done => {}
         }
     }
 
-    fn take(&mut self, made: Made) {
-        match (made, &mut self.native) {
-            (Made::Gradient(native), place) => *place = Some(native),
-            (Made::Rest(rest), Some(native)) => native.complete(rest),
-            (Made::Rest(_), None) => {}
+    fn take(&mut self, stage: Stage) {
+        match (stage, &mut self.native) {
+            (Stage::Gradient(native), place) => *place = Some(native),
+            (Stage::Rest(rest), Some(native)) => native.complete(rest),
+            (Stage::Rest(_), None) => {}
         }
     }
 
@@ -115,15 +115,15 @@ impl Compiled {
             Progress::Tape(_) => {
                 let (give, take) = channel();
                 let density = self.density.clone();
-                let made = std::thread::Builder::new()
+                let thread = std::thread::Builder::new()
                     .name("machine code".into())
-                    .spawn(move || make(&density, |made| give.send(made).is_ok()));
+                    .spawn(move || compile(&density, |stage| give.send(stage).is_ok()));
                 self.progress =
-                    if made.is_ok() { Progress::Waiting(Mutex::new(take)) } else { Progress::Done };
+                    if thread.is_ok() { Progress::Waiting(Mutex::new(take)) } else { Progress::Done };
             }
-            Progress::Waiting(parts) => {
-                match parts.get_mut().unwrap_or_else(PoisonError::into_inner).try_recv() {
-                    Ok(part) => self.take(part),
+            Progress::Waiting(stages) => {
+                match stages.get_mut().unwrap_or_else(PoisonError::into_inner).try_recv() {
+                    Ok(stage) => self.take(stage),
                     Err(TryRecvError::Empty) => {}
                     Err(TryRecvError::Disconnected) => self.progress = Progress::Done,
                 }

@@ -199,7 +199,7 @@ fn every_builtin_has_the_slope_of_central_differences_or_none_to_have() {
             let close = (g[k] - difference).abs() <= 1e-6 * difference.abs().max(1e-3);
             assert!(close, "{name}({x:?}) by argument {k}: {} {difference}", g[k]);
         }
-        every_way(&density, x);
+        every_evaluator(&density, x);
     }
     for builtin in builtins::<Var>() {
         let is_shape = shapes::WORDS.iter().any(|(word, _)| *word == builtin.name);
@@ -249,14 +249,14 @@ fn what_has_no_derivative_says_so_where_the_number_varies() {
 }
 
 /// The tape, alone and in lanes, and the machine code give what the interpreter gives.
-fn every_way(density: &Density, x: &[f64]) {
+fn every_evaluator(density: &Density, x: &[f64]) {
     let mut expected = vec![0.0; x.len()];
     let value = density.interpret(x, &mut expected);
     let size = expected.iter().chain([&value]).fold(1e-3, |m: f64, x| m.max(x.abs()));
-    let same = |way: &str, found: f64, g: &[f64]| {
+    let same = |evaluator: &str, found: f64, g: &[f64]| {
         let near = |a: f64, b: f64| (a - b).abs() <= 1e-11 * size || a.is_nan() && b.is_nan();
-        assert!(near(found, value), "{way}: {found} {value}");
-        assert!(g.iter().zip(&expected).all(|(a, b)| near(*a, *b)), "{way}: {g:?} {expected:?}");
+        assert!(near(found, value), "{evaluator}: {found} {value}");
+        assert!(g.iter().zip(&expected).all(|(a, b)| near(*a, *b)), "{evaluator}: {g:?} {expected:?}");
     };
     let tape = Tape::new(density);
     let mut g = vec![0.0; x.len()];
@@ -392,7 +392,7 @@ fn a_thousand_random_graphs_have_the_slopes_of_central_differences() {
             assert!((g[k] - difference).abs() < 1e-6 * size, "{round}, {k}: {} {difference}", g[k]);
         }
         if round % 10 == 0 {
-            every_way(&density, &x);
+            every_evaluator(&density, &x);
         }
     }
     assert!(skipped < 350, "{skipped} of about 3500 derivatives stand at corners");

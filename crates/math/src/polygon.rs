@@ -125,7 +125,7 @@ pub fn inset<S: Scalar>(corners: &[Point<S>], by: S) -> Option<Vec<Point<S>>> {
         let normal = [-(edge[1] / length), edge[0] / length];
         lines.push((normal, dot(normal, a) + by));
     }
-    let mut made = Vec::with_capacity(n);
+    let mut moved = Vec::with_capacity(n);
     for at in 0..n {
         let ((m, p), (k, q)) = (lines[(at + n - 1) % n], lines[at]);
         let sine = cross(m, k);
@@ -135,13 +135,13 @@ pub fn inset<S: Scalar>(corners: &[Point<S>], by: S) -> Option<Vec<Point<S>>> {
             }
             // A corner in the middle of a straight edge.
             let corner = corners[at];
-            made.push([corner[0] + k[0] * by, corner[1] + k[1] * by]);
+            moved.push([corner[0] + k[0] * by, corner[1] + k[1] * by]);
             continue;
         }
-        made.push([(p * k[1] - q * m[1]) / sine, (q * m[0] - p * k[0]) / sine]);
+        moved.push([(p * k[1] - q * m[1]) / sine, (q * m[0] - p * k[0]) / sine]);
     }
-    let kept = edges(corners).zip(edges(&made)).all(|((a, b), (c, d))| dot(minus(b, a), minus(d, c)) > zero);
-    kept.then_some(made)
+    let kept = edges(corners).zip(edges(&moved)).all(|((a, b), (c, d))| dot(minus(b, a), minus(d, c)) > zero);
+    kept.then_some(moved)
 }
 
 #[cfg(test)]

@@ -108,7 +108,7 @@ impl Bvh {
     /// The nearest hit nearer than `reach`.
     pub fn hit(&self, origin: V3, direction: V3, reach: f32) -> Option<Hit> {
         let mut nearest = Hit { t: reach, triangle: u32::MAX, u: 0.0, v: 0.0 };
-        self.walk(
+        self.visit(
             origin,
             direction,
             |triangles, names, limit| {
@@ -130,7 +130,7 @@ impl Bvh {
 
     /// Is anything nearer than `reach`?
     pub fn blocked(&self, origin: V3, direction: V3, reach: f32) -> bool {
-        self.walk(
+        self.visit(
             origin,
             direction,
             |triangles, _, _| {
@@ -143,7 +143,7 @@ impl Bvh {
     }
 
     /// Visits leaves in the ray's way, nearest first, until `leaf` answers true.
-    fn walk(
+    fn visit(
         &self,
         origin: V3,
         direction: V3,

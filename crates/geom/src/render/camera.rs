@@ -68,8 +68,8 @@ impl Camera {
         let back = v3(azimuth.sin() * elevation.cos(), elevation.sin(), azimuth.cos() * elevation.cos());
         let up = if back.y.abs() > 0.999 { [0.0, 0.0, -back.y.signum()] } else { [0.0, 1.0, 0.0] };
         let lens = Camera { eye: [0.0; 3], target: (-back).into(), up, fov_y: view.fov_y }.lens(aspect);
-        let room = 1.0 - 2.0 * view.margin.clamp(0.0, 0.45);
-        let (w, h) = (lens.half_width * room, lens.half_height * room);
+        let share = 1.0 - 2.0 * view.margin.clamp(0.0, 0.45);
+        let (w, h) = (lens.half_width * share, lens.half_height * share);
         // In camera coordinates a point is inside when |x - cx| <= w (z_eye - z) and likewise for y. Each of the four
         // planes is pushed against the points; the sums of opposite planes give the distance, the differences the
         // centre.

@@ -109,12 +109,13 @@ pub struct Rays {
 impl Rays {
     /// The family of `rays`; `near` is the depth at which all of them begin, where there is one.
     pub fn new(projection: Projection, near: Option<f64>, mut rays: Vec<Ray>) -> Rays {
-        let mut made = Rays { projection, near, nodes: Vec::new(), bundles: Vec::new(), pixels: Vec::new() };
+        let mut family =
+            Rays { projection, near, nodes: Vec::new(), bundles: Vec::new(), pixels: Vec::new() };
         if !rays.is_empty() {
-            made.build(&mut rays);
+            family.build(&mut rays);
         }
-        made.pixels = rays.iter().map(|r| r.pixel).collect();
-        made
+        family.pixels = rays.iter().map(|r| r.pixel).collect();
+        family
     }
 
     fn build(&mut self, rays: &mut [Ray]) -> u32 {

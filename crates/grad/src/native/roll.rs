@@ -46,7 +46,7 @@ fn write(code: &mut Code<'_, '_>, given: &[Value], layout: &Layout) {
     let zero = code.b.ins().iconst(I64, 0);
     let (body, next, stop, exit) =
         (code.b.create_block(), code.b.create_block(), code.b.create_block(), code.b.create_block());
-    let made = code.b.append_block_param(body, I64);
+    let count = code.b.append_block_param(body, I64);
     let this_kick = code.b.append_block_param(body, F64);
     let all = |code: &mut Code<'_, '_>, block| -> Vec<Value> {
         (0..3 * dim).map(|_| code.b.append_block_param(block, F64)).collect()
@@ -90,7 +90,7 @@ fn write(code: &mut Code<'_, '_>, given: &[Value], layout: &Layout) {
     code.b.ins().brif(finite, next, &[], stop, &[]);
 
     code.b.switch_to_block(next);
-    let done = code.b.ins().iadd_imm_u(made, 1);
+    let done = code.b.ins().iadd_imm_u(count, 1);
     let more = code.b.ins().icmp(IntCC::UnsignedLessThan, done, n);
     let now: Vec<Value> = [here, momentum, slopes].concat();
     let (again, out) =
@@ -98,7 +98,7 @@ fn write(code: &mut Code<'_, '_>, given: &[Value], layout: &Layout) {
     code.b.ins().brif(more, body, &again, exit, &out);
 
     code.b.switch_to_block(stop);
-    jump_with(code, exit, &[&[made], &before[..]].concat());
+    jump_with(code, exit, &[&[count], &before[..]].concat());
 
     code.b.switch_to_block(exit);
     for (at, numbers) in [x, p, g].into_iter().zip(last.chunks(dim)) {

@@ -346,9 +346,9 @@ mod tests {
             let (a, x) = (rng.normal(), rng.normal());
             // Deviations come in runs, as those of many observations do; the last ones are none.
             let sd = [1.0, 0.3, 0.3, rng.uniform(), 0.0, -1.0, f64::NAN, f64::INFINITY][round % 8];
-            let made = Dist::of_reals(Family::Gaussian, a, sd).map(|d| d.log_density_of_real(x).to_bits());
+            let built = Dist::of_reals(Family::Gaussian, a, sd).map(|d| d.log_density_of_real(x).to_bits());
             let quick = Dist::log_density_of_reals(Family::Gaussian, a, sd, x, &mut logs).map(f64::to_bits);
-            assert_eq!(quick, made);
+            assert_eq!(quick, built);
         }
         assert_eq!(Dist::log_density_of_reals(Family::Gaussian, f64::NAN, 1.0, 0.0, &mut logs), None);
     }

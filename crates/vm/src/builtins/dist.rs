@@ -14,14 +14,14 @@ const COMPONENTS: usize = 1 << 16;
 #[inline]
 pub fn make_dist<S: Scalar>(family: Family, args: &[Value<S>]) -> Result<Dist<S>, Fault> {
     let param = |at: usize| to_param(family, at, &args[at]);
-    let made = match (family, args.len()) {
+    let result = match (family, args.len()) {
         (Family::Mixture, 2) => Dist::new(family, &flattened([param(0)?, param(1)?])?),
         // One and two parameters, nearly all there is, go without an allocation.
         (_, 1) => Dist::new(family, &[param(0)?]),
         (_, 2) => Dist::new(family, &[param(0)?, param(1)?]),
         (_, count) => Dist::new(family, &(0..count).map(param).collect::<Result<Vec<_>, _>>()?),
     };
-    made.map_err(|bad| {
+    result.map_err(|bad| {
         let fault = Fault::bad_parameter(bad.to_string());
         if bad.out_of_range { fault.of_range(family) } else { fault }
     })

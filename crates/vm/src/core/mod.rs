@@ -7,7 +7,7 @@
 pub mod parse;
 pub mod print;
 pub mod read;
-pub mod walk;
+pub mod visit;
 
 use crate::value::{Class, ClassKind};
 use std::sync::Arc;

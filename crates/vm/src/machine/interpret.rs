@@ -35,7 +35,7 @@ impl<S: Scalar> Machine<'_, S> {
         let mut scratch = 0;
         // First registers of this node, and of the loop node above an iteration.
         let (mut own, mut outer) = self.bases(state, f, node);
-        self.room(scratch + f.scratch_registers as usize);
+        self.reserve(scratch + f.scratch_registers as usize);
         if f.mode == Mode::Pure {
             // A pure function to begin with: its arguments and captures wait in the state.
             let args = usize::from(f.params) + usize::from(f.captures);
@@ -133,7 +133,7 @@ impl<S: Scalar> Machine<'_, S> {
                 code = &f.code;
                 pc = $pc as usize;
                 (own, outer) = self.bases(state, f, node);
-                self.room(scratch + f.scratch_registers as usize);
+                self.reserve(scratch + f.scratch_registers as usize);
                 if K::KEEPS {
                     keep.enter(state, node);
                 }
@@ -170,7 +170,7 @@ impl<S: Scalar> Machine<'_, S> {
                 id = function;
                 f = program.function(id);
                 code = &f.code;
-                self.room(scratch + f.scratch_registers as usize);
+                self.reserve(scratch + f.scratch_registers as usize);
                 for (i, value) in self.buffer.drain(..).enumerate() {
                     self.scratch[scratch + i].store(value);
                 }
@@ -436,7 +436,7 @@ impl<S: Scalar> Machine<'_, S> {
 
     /// Makes room for that many scratch registers.
     #[inline]
-    fn room(&mut self, registers: usize) {
+    fn reserve(&mut self, registers: usize) {
         if self.scratch.len() < registers {
             self.scratch.resize(registers.max(64), Value::None);
         }

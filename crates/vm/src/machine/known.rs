@@ -9,33 +9,33 @@ use crate::value::Value;
 use niwaki_math::{Dist, Family, Scalar};
 
 /// Rows of the table; which one depends on the place in memory.
-const ROWS: usize = 512;
+const ENTRIES: usize = 512;
 
 /// A distribution: its family, what it was made of, and itself.
-type Row<S> = (Family, Value<S>, Dist<S>);
+type Entry<S> = (Family, Value<S>, Dist<S>);
 
 /// A small table of distributions.
 pub(super) struct Known<S: Scalar> {
-    rows: Vec<Option<Row<S>>>,
+    entries: Vec<Option<Entry<S>>>,
 }
 
 impl<S: Scalar> Default for Known<S> {
     fn default() -> Self {
-        Known { rows: vec![None; ROWS] }
+        Known { entries: vec![None; ENTRIES] }
     }
 }
 
 impl<S: Scalar> Known<S> {
     /// The row for a value that can be known by its place in memory.
     #[inline]
-    pub fn row(&self, value: &Value<S>) -> Option<usize> {
+    pub fn index(&self, value: &Value<S>) -> Option<usize> {
         let address = match value {
             Value::Tuple(tuple) => tuple.address(),
             Value::List(list) => list.address(),
             _ => return None,
         };
         // Allocations are multiples of sixteen bytes, and larger ones lie further apart.
-        Some((address >> 4 ^ address >> 10) % ROWS)
+        Some((address >> 4 ^ address >> 10) % ENTRIES)
     }
 
     /// The distribution of that family made of the value.
@@ -43,9 +43,9 @@ impl<S: Scalar> Known<S> {
     /// # Errors
     /// The value does not fit the family.
     #[inline]
-    pub fn dist(&mut self, row: usize, family: Family, value: &Value<S>) -> Result<&Dist<S>, Fault> {
-        let row = &mut self.rows[row];
-        let is_it = match row {
+    pub fn dist(&mut self, index: usize, family: Family, value: &Value<S>) -> Result<&Dist<S>, Fault> {
+        let entry = &mut self.entries[index];
+        let is_it = match entry {
             Some((of, known, _)) => {
                 *of == family
                     && match (known, value) {
@@ -57,13 +57,13 @@ impl<S: Scalar> Known<S> {
             None => false,
         };
         if !is_it {
-            *row = None;
+            *entry = None;
         }
-        match row {
+        match entry {
             Some((.., dist)) => Ok(dist),
             None => {
                 let dist = make_dist(family, std::slice::from_ref(value))?;
-                Ok(&row.insert((family, value.clone(), dist)).2)
+                Ok(&entry.insert((family, value.clone(), dist)).2)
             }
         }
     }

@@ -86,7 +86,7 @@ fn log_density_of_other<S: Scalar>(dist: &Dist<S>, value: &Value<S>) -> Result<S
 impl<S: Scalar> Machine<'_, S> {
     /// A distribution of a known family, from its parameters.
     #[inline(always)]
-    fn made(
+    fn dist_of_family(
         &mut self,
         state: &State<S>,
         r: Registers<'_, S>,
@@ -117,7 +117,7 @@ impl<S: Scalar> Machine<'_, S> {
         r: Registers<'b, S>,
         site: &Site,
         args: Args,
-        made: &'b mut Option<Dist<S>>,
+        owned: &'b mut Option<Dist<S>>,
     ) -> Result<&'b Dist<S>, Fault> {
         macro_rules! get {
             ($i:expr) => {
@@ -128,15 +128,15 @@ impl<S: Scalar> Machine<'_, S> {
             SiteKind::Sample(Source::Value) | SiteKind::Observe(Source::Value) => as_dist(get!(0)),
             SiteKind::Sample(Source::Family(family)) | SiteKind::Observe(Source::Family(family)) => {
                 if let [only] = r.f.operands[args.range()]
-                    && let Some(row) = self.known.row(r.get(state, &self.scratch, only))
+                    && let Some(index) = self.known.index(r.get(state, &self.scratch, only))
                 {
-                    return self.known.dist(row, family, r.get(state, &self.scratch, only));
+                    return self.known.dist(index, family, r.get(state, &self.scratch, only));
                 }
-                Ok(made.insert(self.made(state, r, args, family)?))
+                Ok(owned.insert(self.dist_of_family(state, r, args, family)?))
             }
             _ => match index::index_ref(get!(0), get!(1)) {
                 Some(value) => as_dist(value),
-                None => Ok(made.insert(as_dist(&index::index(get!(0), get!(1))?)?.clone())),
+                None => Ok(owned.insert(as_dist(&index::index(get!(0), get!(1))?)?.clone())),
             },
         }
     }
@@ -151,8 +151,8 @@ impl<S: Scalar> Machine<'_, S> {
         node: NodeId,
         site: &Site,
     ) -> Result<(), Halt> {
-        let (program, mut made) = (self.program, None);
-        let dist = self.dist(state, r, site, site.args, &mut made)?;
+        let (program, mut owned) = (self.program, None);
+        let dist = self.dist(state, r, site, site.args, &mut owned)?;
         match answers.choice(&At { site, function: r.f, node, state, program }, dist)? {
             Answer::Go(value) => {
                 state.registers[r.own + site.to.index()].store(value);
@@ -187,9 +187,9 @@ impl<S: Scalar> Machine<'_, S> {
             _ => {
                 // The value of `observe` is the value observed, so that it can stand where a choice stood.
                 let value = get!(last).clone();
-                let mut made = None;
+                let mut owned = None;
                 let args = Args { len: last as u16, ..site.args };
-                let dist = self.dist(state, r, site, args, &mut made)?;
+                let dist = self.dist(state, r, site, args, &mut owned)?;
                 let log = log_density(dist, &value)?;
                 if site.is_read {
                     state.registers[r.own + site.to.index()].store(value);

@@ -48,7 +48,7 @@ pub(crate) struct Node {
     /// Of a kept activation: its first slot; of a kept loop node: its number among the loops.
     pub slots: u32,
     /// Of a kept activation: the transaction that made it.
-    pub made: u32,
+    pub created: u32,
 }
 
 /// Where a future stands.
@@ -190,7 +190,7 @@ impl<S: Scalar> State<S> {
 
     /// Where every future stands: which activation is suspended where, and which waits for which. Two runs of one
     /// program that stand alike go on alike but for the values that their activations hold.
-    pub fn stands(&self) -> u128 {
+    pub fn suspension_hash(&self) -> u128 {
         let word = |a: u32, b: u32| u128::from(a) << 32 | u128::from(b);
         self.futures.iter().fold(self.futures.len() as u128, |hash, future| {
             let (kind, node, on) = match future.status {
@@ -228,7 +228,7 @@ impl<S: Scalar> State<S> {
         if self.free.is_empty() {
             self.free.resize(program.functions.len(), NodeId::NONE);
         }
-        let made = Node {
+        let fresh = Node {
             path,
             function,
             parent,
@@ -237,19 +237,19 @@ impl<S: Scalar> State<S> {
             iteration: 0,
             pc: 0,
             slots: u32::MAX,
-            made: 0,
+            created: 0,
         };
         let free = self.free[function.0 as usize];
         if free != NodeId::NONE {
             let node = &mut self.nodes[free.0 as usize];
             self.free[function.0 as usize] = node.parent;
-            *node = Node { registers: node.registers, slots: node.slots, ..made };
+            *node = Node { registers: node.registers, slots: node.slots, ..fresh };
             return free;
         }
         let at = self.registers.len();
         let count = program.function(function).node_registers as usize;
         self.registers.resize(at + count, Value::None);
-        self.nodes.push(Node { registers: at as u32, ..made });
+        self.nodes.push(Node { registers: at as u32, ..fresh });
         NodeId((self.nodes.len() - 1) as u32)
     }
 
@@ -283,14 +283,14 @@ impl<S: Scalar> State<S> {
         if !matches!(status, Status::Returned(_)) {
             self.unreturned += 1;
         }
-        let made = Future { status, has_waiters: false, detached };
+        let future = Future { status, has_waiters: false, detached };
         let id = match self.free_futures.pop() {
             Some(id) => {
-                self.futures[id as usize] = made;
+                self.futures[id as usize] = future;
                 id
             }
             None => {
-                self.futures.push(made);
+                self.futures.push(future);
                 (self.futures.len() - 1) as u32
             }
         };

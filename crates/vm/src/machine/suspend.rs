@@ -205,12 +205,12 @@ impl<S: Scalar> Machine<'_, S> {
     ) -> Result<NodeId, Fault> {
         let path = join(state.nodes[node.0 as usize].path, site.key);
         let nodes = state.nodes.len();
-        let made = state.new_node(self.program, function, node, u32::from(number.0), path);
+        let created = state.new_node(self.program, function, node, u32::from(number.0), path);
         // A node that was used before takes no further bytes.
         if state.nodes.len() > nodes && state.bytes() > self.limits.bytes {
             return Err(self.out_of_memory());
         }
-        let at = state.nodes[made.0 as usize].registers as usize;
+        let at = state.nodes[created.0 as usize].registers as usize;
         for (i, o) in r.f.operands[site.args.range()].iter().enumerate() {
             // Numbers, which most arguments are, go over without being looked at twice.
             match *r.get(state, &self.scratch, *o) {
@@ -222,7 +222,7 @@ impl<S: Scalar> Machine<'_, S> {
                 }
             }
         }
-        Ok(made)
+        Ok(created)
     }
 
     /// A new activation with the arguments in the buffer: a call, or (`Some(detached)`) a future.
@@ -239,23 +239,23 @@ impl<S: Scalar> Machine<'_, S> {
         let path = join(n.path, site.key);
         let deferred = future.filter(|_| !state.depth_first);
         let parent = if deferred.is_some() { NodeId::NONE } else { node };
-        let made = state.new_node(self.program, function, parent, u32::from(site_id.0), path);
-        let at = state.nodes[made.0 as usize].registers as usize;
+        let created = state.new_node(self.program, function, parent, u32::from(site_id.0), path);
+        let at = state.nodes[created.0 as usize].registers as usize;
         for (i, value) in self.buffer.drain(..).enumerate() {
             state.registers[at + i].store(value);
         }
         if state.bytes() > self.limits.bytes {
             return Err(self.out_of_memory());
         }
-        let Some(detached) = deferred else { return Ok(After::Enter(made, 0)) };
+        let Some(detached) = deferred else { return Ok(After::Enter(created, 0)) };
         if state.origins.is_some() {
             let above = state.path(self.program, node);
             let origin =
                 if above.is_empty() { site.label.to_string() } else { format!("{above}/{}", site.label) };
-            state.origins.as_mut().map(|origins| origins.insert(made, origin));
+            state.origins.as_mut().map(|origins| origins.insert(created, origin));
         }
-        let id = state.new_future(Status::Runnable(made), detached);
-        state.nodes[made.0 as usize].site = id.0;
+        let id = state.new_future(Status::Runnable(created), detached);
+        state.nodes[created.0 as usize].site = id.0;
         state.runnable.push(id);
         let own = n.registers as usize;
         state.registers[own + site.to.index()].store(if detached {

@@ -101,9 +101,9 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
             let none = b.literal(&Literal::None);
             b.op(Op::Return { a: none });
         }
-        let mut made = b.finish(f.params.len(), f.captures.len(), defaults, f.span)?;
-        made.parameters = f.params.iter().map(|x| Name::from(core::readable(x))).collect();
-        Ok(made)
+        let mut function = b.finish(f.params.len(), f.captures.len(), defaults, f.span)?;
+        function.parameters = f.params.iter().map(|x| Name::from(core::readable(x))).collect();
+        Ok(function)
     }
 
     fn default(&mut self, f: &core::Function, e: &core::Expr) -> Result<Operand> {

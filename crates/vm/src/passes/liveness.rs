@@ -4,7 +4,7 @@
 //! head. Everything else stays inside an iteration, so that an iteration's result changes only when something
 //! that matters changes (re-running depends on that).
 
-use crate::core::walk::Names;
+use crate::core::visit::Names;
 use crate::core::{Stmt, StmtKind};
 use std::collections::HashMap;
 

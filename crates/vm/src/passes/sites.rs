@@ -115,9 +115,9 @@ impl<S: Scalar> Builder<'_, '_, S> {
             ExprKind::Dist(name, args) => {
                 let family = family(name)?;
                 let operands = self.exprs(args)?;
-                if let Some(made) = self.folded(d, &operands) {
-                    let made = self.constant(made);
-                    return Ok((kind(Source::Value), name.clone(), vec![made]));
+                if let Some(folded) = self.folded(d, &operands) {
+                    let operand = self.constant(folded);
+                    return Ok((kind(Source::Value), name.clone(), vec![operand]));
                 }
                 Ok((kind(Source::Family(family)), name.clone(), operands))
             }

@@ -7,7 +7,7 @@
 use super::CompileError;
 use super::emit::{Binding, Builder, Environment, LoopContext, Result};
 use crate::code::{Function, FunctionId, Loop, Mode, Op, Operand, Place, SiteKind, exit};
-use crate::core::walk::{Names, assigned, returns};
+use crate::core::visit::{Names, assigned, returns};
 use crate::core::{Expr, Literal, Name, Stmt, StmtKind, readable};
 use niwaki_math::Scalar;
 
@@ -324,7 +324,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
         let carried = self.handed_on(s, &set);
         let mut reads = Names::new();
         test.into_iter().for_each(|t| t.reads(&mut reads));
-        crate::core::walk::each_stmt(body, &mut |s| {
+        crate::core::visit::each_stmt(body, &mut |s| {
             s.expressions().into_iter().for_each(|e| e.reads(&mut reads))
         });
         // What is kept for choices in the body; a variable that the body assigns is the iteration's own.

@@ -178,7 +178,7 @@ enum Difference<'a, S: Scalar> {
 }
 
 /// Two values walked in lockstep, and the next place to look at.
-struct Walk<'a, S: Scalar> {
+struct Lockstep<'a, S: Scalar> {
     sides: Sides<'a, S>,
     next: usize,
 }
@@ -205,7 +205,7 @@ fn first_difference<'a, S: Scalar>(
     a: &'a Value<S>,
     b: &'a Value<S>,
 ) -> Result<Option<Difference<'a, S>>, Fault> {
-    let mut stack: Vec<Walk<'a, S>> = Vec::new();
+    let mut stack: Vec<Lockstep<'a, S>> = Vec::new();
     let mut pair = Some((a, b));
     for _ in 0..BUDGET {
         if let Some((a, b)) = pair.take() {
@@ -213,21 +213,21 @@ fn first_difference<'a, S: Scalar>(
                 Some(true) => {}
                 Some(false) => return Ok(Some(Difference::Values(a, b))),
                 None => match Sides::of(a, b) {
-                    Some(sides) => stack.push(Walk { sides, next: 0 }),
+                    Some(sides) => stack.push(Lockstep { sides, next: 0 }),
                     None => return Ok(Some(Difference::Values(a, b))),
                 },
             }
         }
-        let Some(walk) = stack.last_mut() else { return Ok(None) };
-        let (left, right, lengths) = match walk.sides {
-            Sides::InOrder(a, b) => (a.get(walk.next), b.get(walk.next), (a.len(), b.len())),
+        let Some(lockstep) = stack.last_mut() else { return Ok(None) };
+        let (left, right, lengths) = match lockstep.sides {
+            Sides::InOrder(a, b) => (a.get(lockstep.next), b.get(lockstep.next), (a.len(), b.len())),
             Sides::ByKey(a, b) => {
-                let left = a.values().get(walk.next);
-                let right = a.keys().get(walk.next).and_then(|key| b.get(key));
+                let left = a.values().get(lockstep.next);
+                let right = a.keys().get(lockstep.next).and_then(|key| b.get(key));
                 (left, right, (a.len(), b.len()))
             }
         };
-        walk.next += 1;
+        lockstep.next += 1;
         match (left, right) {
             (Some(a), Some(b)) => pair = Some((a, b)),
             (None, None) => drop(stack.pop()),

@@ -36,13 +36,13 @@ impl<S: Scalar> Kept<S> {
         let held = self.slots[at].held;
         let operands = &r.f.operands[site.args.range()];
         if held == Slot::NOTHING {
-            let made = self.make(machine, state, node, number, site, function, at)?;
-            let to = state.nodes[made.0 as usize].registers as usize;
+            let created = self.make(machine, state, node, number, site, function, at)?;
+            let to = state.nodes[created.0 as usize].registers as usize;
             for (i, o) in operands.iter().enumerate() {
                 let value = r.get(state, &machine.scratch, *o).clone();
                 state.registers[to + i].store(value);
             }
-            return Ok(self.enter_call(made, 0));
+            return Ok(self.enter_call(created, 0));
         }
         let child = NodeId(held);
         let to = state.nodes[held as usize].registers as usize;
@@ -98,12 +98,12 @@ impl<S: Scalar> Kept<S> {
             return Ok(self.call_again(state, NodeId(held), changed));
         }
         self.vacate(machine.program, state, node, number.0);
-        let made = self.make(machine, state, node, number, site, function, at)?;
-        let to = state.nodes[made.0 as usize].registers as usize;
+        let created = self.make(machine, state, node, number, site, function, at)?;
+        let to = state.nodes[created.0 as usize].registers as usize;
         for (i, value) in machine.buffer.drain(..).enumerate() {
             state.registers[to + i].store(value);
         }
-        Ok(self.enter_call(made, 0))
+        Ok(self.enter_call(created, 0))
     }
 
     #[allow(clippy::too_many_arguments)] // the registers of the loop in `interpret`, by value
@@ -118,12 +118,12 @@ impl<S: Scalar> Kept<S> {
         at: usize,
     ) -> Result<NodeId, Fault> {
         let path = join(state.nodes[node.0 as usize].path, site.key);
-        let made = self.new_node(machine.program, state, function, node, u32::from(number.0), path);
+        let created = self.new_node(machine.program, state, function, node, u32::from(number.0), path);
         if state.bytes() > machine.limits.bytes {
             return Err(machine.out_of_memory());
         }
-        self.write_slot(self.quiet, at, Slot { held: made.0, mark: 0, log: 0.0 });
-        Ok(made)
+        self.write_slot(self.quiet, at, Slot { held: created.0, mark: 0, log: 0.0 });
+        Ok(created)
     }
 
     /// A call that was made before: entered, unless it can be skipped. Its result is in the caller's register.
@@ -173,7 +173,7 @@ impl<S: Scalar> Kept<S> {
             return Onward::END;
         }
         let above = &state.nodes[parent.0 as usize];
-        let (own, is_new) = (above.registers as usize, above.made == self.now);
+        let (own, is_new) = (above.registers as usize, above.created == self.now);
         let site = &program.function(above.function).sites[number];
         let value = if site.kind.gives_future() { Value::returned(value) } else { value };
         let changed = self.write_to(state, is_new, own + site.to.index(), value);

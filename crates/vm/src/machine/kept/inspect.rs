@@ -95,7 +95,7 @@ impl<S: Scalar> Trace<S> {
     }
 
     /// Whether one activation was called, by whatever way, from another.
-    pub fn stands_below(&self, node: NodeId, above: NodeId) -> bool {
+    pub fn is_below(&self, node: NodeId, above: NodeId) -> bool {
         let mut at = node;
         while at != NodeId::NONE && at != above {
             at = self.state.nodes[at.0 as usize].parent;

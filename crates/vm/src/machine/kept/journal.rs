@@ -18,7 +18,7 @@ pub(crate) struct Journal<S: Scalar> {
     pub ends: Vec<(NodeId, u32)>,
     /// Number of a loop, and how many iterations it had when its last ones were taken away or added.
     pub loops: Vec<Cut>,
-    pub made: Vec<NodeId>,
+    pub created: Vec<NodeId>,
     pub removed: Vec<NodeId>,
     /// Rows of primitives that were put into the scene, and those taken out.
     pub emitted: Vec<u32>,
@@ -60,7 +60,7 @@ impl<S: Scalar> Default for Journal<S> {
             slots: vec![],
             ends: vec![],
             loops: vec![],
-            made: vec![],
+            created: vec![],
             removed: vec![],
             emitted: vec![],
             retracted: vec![],
@@ -82,7 +82,7 @@ impl<S: Scalar> Journal<S> {
         self.slots.clear();
         self.ends.clear();
         self.loops.clear();
-        self.made.clear();
+        self.created.clear();
         self.removed.clear();
         self.emitted.clear();
         self.retracted.clear();

@@ -144,14 +144,14 @@ impl<S: Scalar> Kept<S> {
                 let f = machine.program.function(state.nodes[owner.0 as usize].function);
                 let SiteKind::Loop(l) = &f.sites[number].kind else { unreachable!("a loop's site") };
                 let path = join(path, iteration_key(i as u32));
-                let made = self.new_node(machine.program, state, l.body, header, 0, path);
-                let node = &mut state.nodes[made.0 as usize];
+                let created = self.new_node(machine.program, state, l.body, header, 0, path);
+                let node = &mut state.nodes[created.0 as usize];
                 node.iteration = i as u32;
                 let to = node.registers as usize;
                 if !self.is_new(state, header) {
                     self.journal.loops.push(Cut { number: list as u32, len: i as u32, removed: vec![] });
                 }
-                self.loops[list].push(made);
+                self.loops[list].push(created);
                 for (k, value) in element.into_iter().chain(machine.buffer.drain(..)).enumerate() {
                     state.registers[to + k].store(value);
                 }
@@ -159,7 +159,7 @@ impl<S: Scalar> Kept<S> {
                     return Err(machine.out_of_memory());
                 }
                 self.counters.entered += 1;
-                return Ok(Next::Enter(made, 0));
+                return Ok(Next::Enter(created, 0));
             };
             let to = state.nodes[child.0 as usize].registers as usize;
             let mut changed = active.captures;
@@ -209,7 +209,7 @@ impl<S: Scalar> Kept<S> {
         let (header, i) = (n.parent, n.iteration as usize);
         let above = state.nodes[header.0 as usize];
         let next = self.loops[above.slots as usize].get(i + 1).copied();
-        let is_new = n.made == self.now;
+        let is_new = n.created == self.now;
         let operands = &r.f.operands[carried.range()];
         let is_base = self.depth == 0;
         let active = match self.active.last() {
@@ -384,7 +384,7 @@ impl<S: Scalar> Kept<S> {
     ) -> bool {
         let n = &state.nodes[owner.0 as usize];
         let (f, own, is_new) =
-            (machine.program.function(n.function), n.registers as usize, n.made == self.now);
+            (machine.program.function(n.function), n.registers as usize, n.created == self.now);
         let SiteKind::Loop(l) = &f.sites[number.0 as usize].kind else { return false };
         let mut changed = false;
         if let Some((how, value)) = l.exit {

@@ -117,7 +117,7 @@ pub enum Step {
     /// It was skipped: its inputs were unchanged.
     Skipped(NodeId),
     /// It was made.
-    Made(NodeId),
+    Created(NodeId),
     /// It was taken away.
     Removed(NodeId),
     /// It returned to its caller.
@@ -275,7 +275,7 @@ impl<S: Scalar> Kept<S> {
 
     #[inline]
     fn is_new(&self, state: &State<S>, node: NodeId) -> bool {
-        state.nodes[node.0 as usize].made == self.now
+        state.nodes[node.0 as usize].created == self.now
     }
 
     #[inline(always)]
@@ -321,12 +321,12 @@ impl<S: Scalar> Kept<S> {
         path: u128,
     ) -> NodeId {
         let count = state.nodes.len();
-        let made = state.new_node(program, function, parent, site, path);
-        let node = &mut state.nodes[made.0 as usize];
-        node.made = self.now;
+        let created = state.new_node(program, function, parent, site, path);
+        let node = &mut state.nodes[created.0 as usize];
+        node.created = self.now;
         // How a new iteration ended is nothing that it can end with.
         node.pc = u32::MAX;
-        if made.0 as usize == count {
+        if created.0 as usize == count {
             let f = program.function(function);
             if f.mode == Mode::Loop {
                 node.slots = self.loops.len() as u32;
@@ -336,9 +336,9 @@ impl<S: Scalar> Kept<S> {
                 self.slots.resize(self.slots.len() + f.sites.len(), Slot::EMPTY);
             }
         }
-        self.journal.made.push(made);
-        self.note(Step::Made(made));
-        made
+        self.journal.created.push(created);
+        self.note(Step::Created(created));
+        created
     }
 
     /// Gives a node back, its slots empty.
@@ -366,7 +366,7 @@ impl<S: Scalar> Keep<S> for Kept<S> {
 
     #[inline(always)]
     fn enter(&mut self, state: &State<S>, node: NodeId) {
-        self.quiet = state.nodes[node.0 as usize].made == self.now;
+        self.quiet = state.nodes[node.0 as usize].created == self.now;
     }
 
     #[inline(always)]

@@ -180,8 +180,8 @@ impl<S: Scalar> Kept<S> {
             }
             return Ok(false);
         }
-        let mut made = None;
-        let dist = machine.dist(state, r, site, site.args, &mut made)?;
+        let mut owned = None;
+        let dist = machine.dist(state, r, site, site.args, &mut owned)?;
         let family = dist.family() as u32;
         if slot.is_filled() && slot.mark & Slot::FAMILY == family && fits(dist, &state.registers[place]) {
             let log = check(log_density(dist, &state.registers[place])?.value(), "a log density")?;
@@ -237,10 +237,10 @@ impl<S: Scalar> Kept<S> {
             _ => match observed_number(machine, state, r, site) {
                 Some(log) => log,
                 None => {
-                    let mut made = None;
+                    let mut owned = None;
                     let args = Args { len: last as u16, ..site.args };
                     let value = r.get(state, &machine.scratch, operand).clone();
-                    let dist = machine.dist(state, r, site, args, &mut made)?;
+                    let dist = machine.dist(state, r, site, args, &mut owned)?;
                     let log = log_density(dist, &value)?.value();
                     if site.is_read {
                         self.write_to(state, self.quiet, r.own + site.to.index(), value);
@@ -278,18 +278,18 @@ impl<S: Scalar> Kept<S> {
             self.journal.retracted.push(slot.held);
         }
         let primitive = Some(Primitive::new(shapes));
-        let row = match self.free_emits.pop() {
-            Some(row) => {
-                self.emits[row as usize] = primitive;
-                row
+        let number = match self.free_emits.pop() {
+            Some(number) => {
+                self.emits[number as usize] = primitive;
+                number
             }
             None => {
                 self.emits.push(primitive);
                 self.emits.len() as u32 - 1
             }
         };
-        self.journal.emitted.push(row);
-        self.write_slot(self.quiet, at, Slot { held: row, mark: 0, log: 0.0 });
+        self.journal.emitted.push(number);
+        self.write_slot(self.quiet, at, Slot { held: number, mark: 0, log: 0.0 });
     }
 
     /// A changed choice is not met after all: its proposal has no part in the move.

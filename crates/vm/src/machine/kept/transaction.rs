@@ -140,12 +140,12 @@ impl<S: Scalar> Trace<S> {
 
     /// Primitives that the open transaction put into the scene.
     pub fn emitted(&self) -> impl Iterator<Item = &Primitive> + Clone {
-        self.kept.journal.emitted.iter().filter_map(|row| self.kept.emits[*row as usize].as_ref())
+        self.kept.journal.emitted.iter().filter_map(|number| self.kept.emits[*number as usize].as_ref())
     }
 
     /// Primitives that the open transaction took out of the scene.
     pub fn retracted(&self) -> impl Iterator<Item = &Primitive> + Clone {
-        self.kept.journal.retracted.iter().filter_map(|row| self.kept.emits[*row as usize].as_ref())
+        self.kept.journal.retracted.iter().filter_map(|number| self.kept.emits[*number as usize].as_ref())
     }
 
     /// Keeps what the open transaction did. Deaths leave the table of choices last first, births enter it in the
@@ -173,9 +173,9 @@ impl<S: Scalar> Trace<S> {
         while let Some(id) = kept.journal.removed.pop() {
             kept.release(program, state, id);
         }
-        while let Some(row) = kept.journal.retracted.pop() {
-            kept.emits[row as usize] = None;
-            kept.free_emits.push(row);
+        while let Some(number) = kept.journal.retracted.pop() {
+            kept.emits[number as usize] = None;
+            kept.free_emits.push(number);
         }
         while let Some(id) = kept.journal.dead_cells.pop() {
             debug_assert!(kept.readers[id as usize].all.is_empty(), "a cell is read by those who can see it");
@@ -214,12 +214,12 @@ impl<S: Scalar> Trace<S> {
             children.truncate(cut.len as usize);
             children.extend(cut.removed);
         }
-        while let Some(id) = kept.journal.made.pop() {
+        while let Some(id) = kept.journal.created.pop() {
             kept.release(program, state, id);
         }
-        while let Some(row) = kept.journal.emitted.pop() {
-            kept.emits[row as usize] = None;
-            kept.free_emits.push(row);
+        while let Some(number) = kept.journal.emitted.pop() {
+            kept.emits[number as usize] = None;
+            kept.free_emits.push(number);
         }
         while let Some(id) = kept.journal.cells.pop() {
             kept.free_readers.push(id);
@@ -255,8 +255,8 @@ impl<S: Scalar> Machine<'_, S> {
         let (own, outer) = self.bases(state, f, node);
         let place = own + site.to.index();
         let r = super::Registers { f, own, outer, scratch: 0 };
-        let mut made = None;
-        let proposal = self.dist(state, r, site, site.args, &mut made).and_then(|dist| {
+        let mut owned = None;
+        let proposal = self.dist(state, r, site, site.args, &mut owned).and_then(|dist| {
             let (question, old) = (At { site, function: f, node, state, program }, &state.registers[place]);
             let proposed = proposer.propose(&question, dist, old, kept.slots[at].log)?;
             let log = if P::FROM_PRIOR {
