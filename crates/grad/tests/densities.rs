@@ -1,4 +1,4 @@
-//! The graph, the tape at every width and the machine code agree with each other and with what is known.
+//! The graph, the tape at every width and the machine code agree with each other and with known values.
 
 mod peers;
 

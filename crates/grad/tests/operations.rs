@@ -1,4 +1,4 @@
-//! Every built-in function and a thousand random graphs against central differences, and every way to evaluate
+//! Every built-in function and a thousand random graphs against central differences, and every evaluator
 //! against the interpreter.
 
 use niwaki_grad::scalar::with_sheet;
@@ -139,7 +139,7 @@ const CASES: &[Case] = cases! {
     "polygon_inset" shrunk [0.0, 0.1, 2.0, 0.0, 2.3, 1.9, -0.2, 1.7, 0.2];
 };
 
-/// Functions without a real number in them, of text, of positions, or that make what is not scored; and those that make shapes.
+/// Functions without real numbers: of text, of positions, or whose result is not scored; and those that make shapes.
 const WITHOUT: &[&str] = &[
     "is_none",
     "in",
@@ -274,7 +274,7 @@ fn every_evaluator(density: &Density, x: &[f64]) {
     let found = native.value_and_gradient(x, &mut g);
     same("machine code", found, &g);
     let sound = |g: &[f64]| g.iter().chain([&found]).all(|x| !x.is_nan());
-    // To the bit, so that a chain need not know which of them it has.
+    // To the bit, so that a chain does not depend on the evaluator.
     assert!(!sound(&g) || bits(found, &g) == by_tape, "machine code and tape differ: {g:?} {last:?}");
     if native.gradient(x, &mut g) {
         same("machine code without the value", value, &g);
@@ -378,7 +378,7 @@ fn a_thousand_random_graphs_have_the_slopes_of_central_differences() {
             };
             let h = 1e-3;
             let (left, right) = ((line(x[k]) - line(x[k] - h)) / h, (line(x[k] + h) - line(x[k])) / h);
-            // A select or a corner within the step: no difference tells the slope.
+            // A select or a corner within the step: differences do not give the slope.
             if (left - right).abs() > 0.05 * size {
                 skipped += 1;
                 continue;

@@ -1,7 +1,7 @@
 //! Simple polygons of the plane: is a point inside, how far is the boundary, how large, how much of a disc is in it.
 //!
-//! A polygon is its corners in order, in either direction, without the first one repeated. Its boundary is closed by the
-//! edge from the last corner to the first. What is asked of a polygon that crosses itself has no meaning.
+//! A polygon is its corners in order, in either direction, without the first one repeated. Its boundary is closed by
+//! the edge from the last corner to the first. For a polygon that crosses itself the results have no meaning.
 
 use crate::Scalar;
 
@@ -30,7 +30,7 @@ fn twice_signed<S: Scalar>(corners: &[Point<S>]) -> S {
     edges(corners).fold(S::from_f64(0.0), |sum, (a, b)| sum + cross(minus(a, *first), minus(b, *first)))
 }
 
-/// The area, whichever way the corners go round.
+/// The area, for either direction of the corners.
 pub fn area<S: Scalar>(corners: &[Point<S>]) -> S {
     (twice_signed(corners) * S::from_f64(0.5)).abs()
 }
@@ -104,8 +104,8 @@ pub fn disc_area<S: Scalar>(corners: &[Point<S>], center: Point<S>, radius: S) -
 
 /// The polygon with every edge moved inwards by `by` (outwards when negative), corners mitred.
 ///
-/// `None` where that is no polygon of the same corners: an edge would turn round, or two neighbouring edges are parallel
-/// and face each other.
+/// `None` where that is no polygon of the same corners: an edge would turn round, or two neighbouring edges are
+/// parallel and face each other.
 pub fn inset<S: Scalar>(corners: &[Point<S>], by: S) -> Option<Vec<Point<S>>> {
     let n = corners.len();
     let (turn, zero) = (twice_signed(corners), S::from_f64(0.0));
@@ -146,7 +146,7 @@ pub fn inset<S: Scalar>(corners: &[Point<S>], by: S) -> Option<Vec<Point<S>>> {
 
 #[cfg(test)]
 mod tests {
-    //! A square and an L, where every answer can be worked out by hand, and a count of sample points for discs.
+    //! A square and an L, where every result can be computed by hand, and a count of sample points for discs.
 
     use super::*;
     use std::f64::consts::PI;

@@ -1,8 +1,8 @@
 //! Leapfrog steps as one loop of machine code, for a gradient of few coordinates that needs no call.
 //!
-//! A step of such a gradient takes less time than its numbers take to travel through memory, from the integrator to the
-//! gradient and back. Here position, momentum and slope stay in registers from one step to the next. The operations are
-//! those of the integrator that asks for one gradient after another, in its order.
+//! A step of such a gradient takes less time than the transfer of its numbers through memory, from the integrator to
+//! the gradient and back. Here position, momentum and slope stay in registers from one step to the next. The operations
+//! are those of the integrator that calls one gradient after another, in its order.
 
 use super::code::Code;
 use super::layout::Layout;
@@ -20,7 +20,7 @@ pub(super) type Entry =
     unsafe extern "C" fn(*mut f64, *mut f64, *mut f64, *mut f64, *const f64, *const [f64; 2], u64) -> u64;
 
 impl Writer<'_> {
-    /// The loop, where the gradient suits it.
+    /// The loop, where the gradient is small enough.
     pub(super) fn write_roll(&mut self) -> Written<Option<FuncId>> {
         let (density, layout) = (self.density, self.layout);
         let program = &layout.slope;

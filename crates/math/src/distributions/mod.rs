@@ -3,9 +3,9 @@
 //! | file | what it holds |
 //! | --- | --- |
 //! | `family` | the table: [`Family`] and [`Dist`], names, parameters, and where values lie: [`Space`] |
-//! | `draw` | what goes in and comes out: [`Param`], [`Draw`] |
-//! | `check` | reading parameters; the one way to say that one is wrong: [`BadParameter`] |
-//! | `parts` | what distributions are made of: over another kind of number, and as parameters |
+//! | `draw` | inputs and outputs: [`Param`], [`Draw`] |
+//! | `check` | reading parameters, and the error of a wrong one: [`BadParameter`] |
+//! | `parts` | fields of distributions: over another kind of number, and as parameters |
 //! | `dist` | what each family does: building, scoring, drawing |
 //! | `support` | [`Support`], and listing the values of the finite discrete families |
 //! | `coordinates` | real numbers with bounds as numbers without, and small moves there: [`Interval`] |

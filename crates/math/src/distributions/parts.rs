@@ -1,15 +1,15 @@
-//! The parts that distributions are made of: over another kind of number, and as parameters.
+//! The fields of distributions: over another kind of number, and as parameters.
 
 use super::draw::{Draw, Param};
 use crate::scalar::Scalar;
 use std::sync::Arc;
 
-/// A part of a distribution over the numbers `S`.
+/// A field of a distribution over the numbers `S`.
 pub(super) trait Part<S: Scalar> {
-    /// The same part over other numbers.
+    /// The same field over other numbers.
     type Over<T: Scalar>;
 
-    /// The same part over another kind of number.
+    /// The same field over another kind of number.
     fn over<T: Scalar>(&self, number: &impl Fn(S) -> T) -> Self::Over<T>;
 
     /// The parameters that it holds, in their order.

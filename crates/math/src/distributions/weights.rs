@@ -50,7 +50,7 @@ impl<S: Scalar> Weights<S> {
         self.log.len()
     }
 
-    /// Never: a table has at least one choice.
+    /// Always false: a table has at least one choice.
     pub fn is_empty(&self) -> bool {
         self.log.is_empty()
     }

@@ -1,6 +1,6 @@
 //! Python's `math`: the same functions, the same refusals.
 //!
-//! `math` never answers NaN or an infinity for an ordinary argument: outside the domain it raises `ValueError`
+//! `math` never returns NaN or an infinity for an ordinary argument: outside the domain it raises `ValueError`
 //! (here `math-domain`), beyond the largest float `OverflowError` (`float-overflow`). Source: Python library
 //! reference, `math`, "CPython implementation detail".
 
@@ -115,7 +115,7 @@ pub fn hypot<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     })))
 }
 
-/// A number rounded to a whole one by a way that changes `lo` below and `hi` above the result.
+/// A number rounded to a whole one by a function that changes `lo` below and `hi` above the result.
 pub(super) fn stepped<S: Scalar>(x: S, round: fn(f64) -> f64, lo: f64, hi: f64) -> Result<i64, Fault> {
     let whole = round(x.value());
     pin(x, whole + lo, whole + hi);
@@ -211,7 +211,7 @@ macro_rules! questions {
 }
 
 mod ask {
-    //! The questions under the names of `f64`'s own.
+    //! Tests of a float, named as those of `f64`.
     use super::{Answer, Scalar, Value, real};
 
     questions! {
@@ -251,7 +251,7 @@ pub fn factorial<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     fitting("factorial", (n < 21).then(|| (2..=n).product()))
 }
 
-/// Ways to choose k of n, without order.
+/// Number of subsets of k of n elements.
 pub fn comb<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let (n, k) = (whole("comb", &args[0])?, whole("comb", &args[1])?);
     if n < 0 || k < 0 {

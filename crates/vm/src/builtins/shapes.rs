@@ -1,6 +1,6 @@
-//! Shapes from values: the words of [`WORDS`]. Models and plain Python runs come here alike.
+//! Shapes from values: the words of [`WORDS`]. Models and plain Python runs both use this file.
 //!
-//! A scene is made of plain numbers: what a recording scalar remembers ends here.
+//! A scene is made of plain numbers: a recording scalar gives only its value here.
 
 use std::any::Any;
 use std::cell::RefCell;
@@ -106,7 +106,7 @@ fn shape<S: Scalar>(result: Result<Shape, GeomError>) -> Answer<S> {
     result.map(Value::Shape).map_err(refused)
 }
 
-/// The faults of the shapes' room keep their sentences.
+/// The faults of the geometry crate keep their messages.
 fn refused(error: GeomError) -> Fault {
     Fault::bad_shape(error.message)
 }
@@ -172,7 +172,7 @@ pub fn mesh<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     placed(&kept_mesh(given.needed(0)?, given.needed(1)?)?, args)
 }
 
-/// The word `mesh`, of a mesh that was read before: the first two arguments are not looked at.
+/// The word `mesh`, of a mesh that was read before: the first two arguments are not read.
 pub fn placed<S: Scalar>(mesh: &Arc<TriMesh>, args: &[Value<S>]) -> Answer<S> {
     let given = Arguments { word: "mesh", args };
     let center = given.given(2).map_or(Ok(vec3(0.0, 0.0, 0.0)), |arg| point("mesh", arg))?;
@@ -186,7 +186,7 @@ const KEPT: usize = 16;
 type Kept = (Box<dyn Any>, Arc<TriMesh>);
 
 thread_local! {
-    /// A model places the same mesh again and again; its vertices are constants. They are told by identity, so a
+    /// A model places the same mesh again and again; its vertices are constants. They are compared by identity, so a
     /// hit costs nothing, and the mesh is shared by all shapes that place it.
     static MESHES: RefCell<Vec<Kept>> = const { RefCell::new(Vec::new()) };
 }

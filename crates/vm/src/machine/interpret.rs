@@ -1,4 +1,4 @@
-//! The loop over instructions. Long for one reason: it is one table.
+//! The loop over instructions. It is long because it is one table.
 
 use super::answers::Answers;
 use super::keep::{Keep, put};
@@ -14,7 +14,7 @@ use crate::value::{Value, iter_get, iter_len, ops};
 use niwaki_math::Scalar;
 
 impl<S: Scalar> Machine<'_, S> {
-    /// Runs on from an instruction of a node. `future` is the one that runs; where activations are kept there are
+    /// Continues from an instruction of a node. `future` is the one that runs; where activations are kept there are
     /// none.
     pub(super) fn interpret<A: Answers<S>, K: Keep<S>>(
         &mut self,
@@ -89,7 +89,7 @@ impl<S: Scalar> Machine<'_, S> {
                 r!().gather(state, &self.scratch, $args, &mut self.buffer)
             };
         }
-        // A question was not answered by a value.
+        // The answer to a question was not a value.
         macro_rules! stop {
             ($halt:expr, $site:expr) => {
                 match $halt {
@@ -124,7 +124,7 @@ impl<S: Scalar> Machine<'_, S> {
                 continue;
             }};
         }
-        // Go on in another activation.
+        // Continue in another activation.
         macro_rules! enter {
             ($node:expr, $pc:expr) => {{
                 node = $node;
@@ -140,7 +140,7 @@ impl<S: Scalar> Machine<'_, S> {
                 continue;
             }};
         }
-        // An operation that the compiler knows, so that what `operate` says of the others is left out.
+        // The compiler knows this operation, so it removes the cases of `operate` for the others.
         macro_rules! arithmetic {
             ($op:expr, $to:expr, $a:expr, $b:expr) => {{
                 let (a, b) = (get!($a), get!($b));
@@ -282,7 +282,7 @@ impl<S: Scalar> Machine<'_, S> {
                 Op::Builtin { to, id: builtin, args } => {
                     let builtin = builtins::builtin::<S>(builtin);
                     let answer = if let [a] = f.operands[args.range()] {
-                        // One argument, as of `sqrt`, is read where it lies.
+                        // A single argument, as of `sqrt`, is read in place.
                         builtin.call(std::slice::from_ref(get!(a)))
                     } else {
                         gather!(args);
@@ -290,7 +290,7 @@ impl<S: Scalar> Machine<'_, S> {
                     };
                     let value = check!(answer);
                     if let Value::Real(x) = value {
-                        // Nothing to drop, which the compiler does not see.
+                        // There is nothing to drop, but the compiler does not know that.
                         std::mem::forget(value);
                         slot!(to, store_real, Value::Real, x);
                     } else {
@@ -434,7 +434,7 @@ impl<S: Scalar> Machine<'_, S> {
         }
     }
 
-    /// Makes room for that many scratch registers.
+    /// Reserves that many scratch registers.
     #[inline]
     fn reserve(&mut self, registers: usize) {
         if self.scratch.len() < registers {

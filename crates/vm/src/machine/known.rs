@@ -1,17 +1,17 @@
-//! Distributions that were made before from the same list or tuple: a categorical over the weights of a mixture is made
-//! once, not for each point.
+//! A cache of distributions by the list or tuple of their parameters: a categorical over the weights of a mixture is
+//! built once, not for each point.
 //!
-//! A row holds on to what its distribution was made from, so that its place in memory tells whether it is the same.
+//! An entry owns the parameters of its distribution, so that an equal address in memory means equal parameters.
 
 use crate::builtins::make_dist;
 use crate::fault::Fault;
 use crate::value::Value;
 use niwaki_math::{Dist, Family, Scalar};
 
-/// Rows of the table; which one depends on the place in memory.
+/// Entries of the table; the address in memory selects one.
 const ENTRIES: usize = 512;
 
-/// A distribution: its family, what it was made of, and itself.
+/// A family, its parameters, and the distribution.
 type Entry<S> = (Family, Value<S>, Dist<S>);
 
 /// A small table of distributions.
@@ -26,7 +26,7 @@ impl<S: Scalar> Default for Known<S> {
 }
 
 impl<S: Scalar> Known<S> {
-    /// The row for a value that can be known by its place in memory.
+    /// The entry for a value that has an address in memory.
     #[inline]
     pub fn index(&self, value: &Value<S>) -> Option<usize> {
         let address = match value {
@@ -34,11 +34,11 @@ impl<S: Scalar> Known<S> {
             Value::List(list) => list.address(),
             _ => return None,
         };
-        // Allocations are multiples of sixteen bytes, and larger ones lie further apart.
+        // Allocations are multiples of sixteen bytes, and larger ones are further apart.
         Some((address >> 4 ^ address >> 10) % ENTRIES)
     }
 
-    /// The distribution of that family made of the value.
+    /// The distribution of that family with the value as its parameter.
     ///
     /// # Errors
     /// The value does not fit the family.

@@ -1,7 +1,7 @@
 //! The operations of two operands that have an instruction of their own.
 //!
-//! Two numbers of one kind come first and are worked out in the loop over instructions, where the result is written
-//! straight to its register. What is left (other kinds, and whatever may fail) is behind a call.
+//! Two numbers of one kind are handled first, in the loop over instructions, where the result is written directly to
+//! its register. Other kinds, and whatever may fail, are handled by a call.
 
 use crate::code::Binary;
 use crate::fault::Fault;
@@ -86,7 +86,7 @@ fn holds_of_others<S: Scalar>(op: Binary, a: &Value<S>, b: &Value<S>) -> Result<
 
 #[cfg(test)]
 mod tests {
-    //! The quick ways agree with the operators of values.
+    //! The fast paths agree with the operators of values.
     use super::*;
 
     const ARITHMETIC: [Binary; 6] =

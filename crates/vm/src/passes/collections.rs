@@ -1,9 +1,9 @@
 //! Which lists are *collections*: lists that the program only builds, indexes, measures and returns.
 //!
-//! The elements of a collection are cells: references to registers of the activations that made them. When an element
-//! changes, the list does not: calls that were given the list, loops that carry it and callers that it was returned
-//! to see the same value, and only those who read the changed element run again. A list that is used in any other way
-//! (iterated over, compared, put into another value than a tuple) holds plain values.
+//! The elements of a collection are cells: references to registers of the activations that created them. When an
+//! element changes, the list does not: calls that were given the list, loops that carry it and callers that it was
+//! returned to see the same value, and only readers of the changed element run again. A list that is used in any other
+//! manner (iterated over, compared, put into another value than a tuple) holds plain values.
 //!
 //! The analysis joins variables that may hold the same list into classes, over the whole program and without
 //! regard to order; one use of another kind makes the whole class plain. Where activations are dropped, cells are
@@ -13,10 +13,10 @@ use super::effects::Effects;
 use crate::core::{Expr, ExprKind, Function, Module, Name, Stmt, StmtKind};
 use std::collections::HashMap;
 
-/// What stands for a function's result among its variables.
+/// The name of a function's result among its variables.
 const RESULT: &str = "";
 
-/// The expressions that make elements of collections or read them, by their addresses in memory, stable while the
+/// The expressions that create elements of collections or read them, by their addresses in memory, stable while the
 /// module is borrowed.
 #[derive(Default)]
 pub struct Collections {
@@ -30,13 +30,13 @@ struct Classes {
     parent: Vec<usize>,
     /// A list is built here element by element.
     built: Vec<bool>,
-    /// Used in a way that needs plain values.
+    /// Used where plain values are needed.
     plain: Vec<bool>,
     /// Of tuples: the classes of their parts.
     parts: Vec<Option<Vec<usize>>>,
-    /// Classes that are indexed: by which place, where it is written down, and the class of what is found there.
+    /// Classes that are indexed: the index where it is a literal, and the class of the element.
     indexed: Vec<(usize, Option<i64>, usize)>,
-    /// Classes that are indexed where no site can stand: of a collection, a use that needs plain values.
+    /// Classes that are indexed where no site is possible: for a collection, a use that needs plain values.
     read_plainly: Vec<usize>,
     /// Classes that are unpacked, into these.
     unpacked: Vec<(usize, Vec<usize>)>,
@@ -82,7 +82,7 @@ impl Classes {
         }
     }
 
-    /// Draws the consequences: of indexing and unpacking tuples, and of plain uses for what tuples hold.
+    /// Propagates: indexing and unpacking of tuples, and plain uses to the elements of tuples.
     fn settle(&mut self) {
         for (class, names) in std::mem::take(&mut self.unpacked) {
             let class = self.root(class);
@@ -120,7 +120,7 @@ impl Classes {
             for class in 0..self.parent.len() {
                 let root = self.root(class);
                 let Some(parts) = self.parts[root].clone() else { continue };
-                // A list that is also a tuple, a tuple that holds itself, or one that is used in an unknown way.
+                // A list that is also a tuple, a tuple that holds itself, or one whose use is unknown.
                 self.plain[root] |= self.built[root] || self.holds_itself(root);
                 if self.plain[root] {
                     for part in parts {
@@ -170,9 +170,9 @@ struct Analysis<'m> {
     functions: HashMap<&'m Name, &'m Function>,
     variables: HashMap<(&'m str, &'m str), usize>,
     found: Collections,
-    /// The function in hand.
+    /// The current function.
     here: &'m Function,
-    /// Whether a site can stand here: not in a pure function, nor in a loop that is not lifted.
+    /// Whether a site is possible here: not in a pure function, nor in a loop that is not lifted.
     suspends: bool,
 }
 
@@ -198,7 +198,7 @@ impl Collections {
         analysis.found
     }
 
-    /// Whether the expression makes elements of a collection (a list, an `append`) or reads one (an `index`).
+    /// Whether the expression creates elements of a collection (a list, an `append`) or reads one (an `index`).
     pub fn contains(&self, e: &Expr) -> bool {
         self.class_of.get(&std::ptr::from_ref(e)).is_some_and(|class| {
             let class = self.classes.root(*class);
@@ -300,7 +300,7 @@ impl<'m> Analysis<'m> {
         Some(class)
     }
 
-    /// The class of what an expression gives, if it can be a collection.
+    /// The class of an expression's value, if it can be a collection.
     fn expr(&mut self, e: &'m Expr) -> Option<usize> {
         use ExprKind::*;
         match &e.kind {
@@ -309,7 +309,7 @@ impl<'m> Analysis<'m> {
             Call(f, args) | Future(f, args) => self.pass(f, args, false),
             Closure(f, captures) => {
                 self.pass(f, captures, true);
-                // Who calls it with what, and where its result goes, is not known.
+                // Its callers, arguments and uses of its result are not known.
                 if let Some(f) = self.functions.get(f).copied() {
                     for x in f.params.iter().map(|x| &**x).chain([RESULT]) {
                         let class = self.variable(&f.name, x);
@@ -327,7 +327,7 @@ impl<'m> Analysis<'m> {
             List(items) => {
                 items.iter().for_each(|item| self.escapes(item));
                 let class = self.found.classes.fresh();
-                // A list of constants is no collection for itself.
+                // A list of constants alone is no collection.
                 if items.iter().all(is_constant) { Some(class) } else { self.built(e, class) }
             }
             Tuple(items) => {
@@ -375,7 +375,7 @@ impl<'m> Analysis<'m> {
                     } else {
                         self.found.class_of.insert(std::ptr::from_ref(e), class);
                     }
-                    // Of a tuple, a part: which one is known when the place is written down.
+                    // Of a tuple, an element: it is known when the index is a literal.
                     let part = self.found.classes.fresh();
                     let place = match &at.kind {
                         Literal(crate::core::Literal::Int(k)) => Some(*k),

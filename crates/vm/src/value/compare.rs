@@ -1,10 +1,10 @@
 //! Python's `==`, `<` and hashing of keys.
 //!
-//! One walk in lockstep finds the first place where two values differ, on a stack of our own; `==` asks whether there is one, `<`
-//! compares what stands there (lexicographic order at every level, as Python defines it for sequences). Numbers
-//! compare exactly across int, bool and float.
+//! Both values are visited in lockstep, on a stack of our own, up to the first place where they differ. `==` tests
+//! whether there is one; `<` compares the two elements there (lexicographic order at every level, as Python defines it
+//! for sequences). Numbers compare exactly across int, bool and float.
 //!
-//! differs: Python's containers treat an object as equal to itself before asking `==`, so a list of one NaN object
+//! differs: Python's containers treat an object as equal to itself before they call `==`, so a list of one NaN object
 //! equals another list of that object; here a NaN inside two different lists is unequal, inside one list equal.
 
 use std::cmp::Ordering;
@@ -17,7 +17,7 @@ use crate::fault::Fault;
 /// would otherwise take exponential time.
 const BUDGET: usize = 1 << 26;
 
-/// What cannot be done with a future; nor with a value that holds one, wherever the two differ.
+/// Refuses a future, and a value that holds one where the two values differ.
 const COMPARED: &str = "compared";
 
 /// Python's `a == b`.
@@ -34,8 +34,8 @@ pub fn equal<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Result<bool, Fault> {
     }
 }
 
-/// Python's order of two values, `None` when a NaN stands where they differ; a fault for values without an order.
-/// `sign` is the operator to name in the message (`<`, `>=`, ...).
+/// Python's order of two values, `None` when one of them is a NaN at the first difference; a fault for values without
+/// an order. `sign` is the operator that the message names (`<`, `>=`, ...).
 pub fn order<S: Scalar>(a: &Value<S>, b: &Value<S>, sign: &str) -> Result<Option<Ordering>, Fault> {
     if let Some(order) = leaves_ordered(a, b) {
         return Ok(order);
@@ -148,7 +148,7 @@ impl<'a, S: Scalar> Items<'a, S> {
         }
     }
 
-    /// True when Python compares the two element by element: like with like, a named tuple also with tuples.
+    /// True when Python compares the two element by element: values of one kind, and a named tuple with tuples.
     fn comparable(a: &Value<S>, b: &Value<S>) -> bool {
         let tuple_like = |value: &Value<S>| match value {
             Value::Tuple(_) => true,
@@ -171,13 +171,13 @@ impl<'a, S: Scalar> Items<'a, S> {
 
 /// The first difference of two values, in order of reading.
 enum Difference<'a, S: Scalar> {
-    /// These two stand at one place; at least one has no parts, or they are of different kinds.
+    /// Two values at the same place; at least one has no parts, or they are of different kinds.
     Values(&'a Value<S>, &'a Value<S>),
     /// One sequence is the beginning of the other.
     Lengths(usize, usize),
 }
 
-/// Two values walked in lockstep, and the next place to look at.
+/// Two values visited in lockstep, and the next place.
 struct Lockstep<'a, S: Scalar> {
     sides: Sides<'a, S>,
     next: usize,
@@ -191,7 +191,7 @@ enum Sides<'a, S: Scalar> {
 }
 
 impl<'a, S: Scalar> Sides<'a, S> {
-    /// How to walk two values of kinds that are compared inside; `None` when they differ already.
+    /// How to visit two values of kinds that are compared inside; `None` when they differ already.
     fn of(a: &'a Value<S>, b: &'a Value<S>) -> Option<Sides<'a, S>> {
         match (a, b) {
             (Value::Dict(a), Value::Dict(b)) => (a.len() == b.len()).then_some(Sides::ByKey(a, b)),

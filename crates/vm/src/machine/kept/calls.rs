@@ -1,4 +1,4 @@
-//! Calls of kept activations: entered, skipped, made, taken away.
+//! Calls of kept activations: entered, skipped, created, removed.
 
 use super::super::Machine;
 use super::super::address::join;
@@ -15,7 +15,7 @@ use crate::value::{Value, same};
 use niwaki_math::Scalar;
 
 impl<S: Scalar> Kept<S> {
-    /// A call of a known function. The callee is skipped when it is there with the same arguments.
+    /// A call of a known function. The callee is skipped when it exists with the same arguments.
     #[allow(clippy::too_many_arguments)] // the registers of the loop in `interpret`, by value
     pub(super) fn call_known(
         &mut self,
@@ -68,7 +68,7 @@ impl<S: Scalar> Kept<S> {
         Ok(self.call_again(state, child, changed))
     }
 
-    /// A call of a function value. Another function than before is another activation.
+    /// A call of a function value. A different function means a new activation.
     pub(super) fn apply(
         &mut self,
         machine: &mut Machine<'_, S>,
@@ -126,7 +126,7 @@ impl<S: Scalar> Kept<S> {
         Ok(created)
     }
 
-    /// A call that was made before: entered, unless it can be skipped. Its result is in the caller's register.
+    /// A repeated call: entered, unless it can be skipped. Its result is in the caller's register.
     #[inline]
     pub(super) fn call_again(&mut self, state: &State<S>, child: NodeId, changed: Entry) -> After {
         let (function, site) = Kept::caller(state, child);
@@ -152,7 +152,7 @@ impl<S: Scalar> Kept<S> {
         After::Enter(child, at)
     }
 
-    /// An activation returns. The run ends when nothing that it left is changed.
+    /// An activation returns. The run ends when none of its results has changed.
     pub(super) fn return_to_caller(
         &mut self,
         program: &Program<S>,
@@ -195,7 +195,7 @@ impl<S: Scalar> Kept<S> {
         Onward::at(parent, if self.early { site.again } else { site.next })
     }
 
-    /// The site is not on the path taken: what its slot holds goes.
+    /// The site is not on the path taken: what its slot holds is removed.
     pub(super) fn vacate(&mut self, program: &Program<S>, state: &mut State<S>, node: NodeId, site: u16) {
         let at = Kept::slot_at(state, node, site as usize);
         let slot = self.slots[at];
@@ -211,7 +211,7 @@ impl<S: Scalar> Kept<S> {
         self.write_slot(self.is_new(state, node), at, Slot::EMPTY);
     }
 
-    /// Takes an activation away with all below it. Its nodes stay as they are until the transaction is kept.
+    /// Removes an activation with all below it. Its nodes stay as they are until the commit.
     pub(super) fn remove(&mut self, program: &Program<S>, state: &State<S>, node: NodeId) {
         self.leaves_its_activation();
         let from = self.journal.removed.len();

@@ -1,7 +1,7 @@
 //! Kept loops: a loop node with its iterations, each an activation of its own.
 //!
-//! When an iteration hands on what it handed on before, and neither what the loop runs over nor what its iterations
-//! capture has changed, all later iterations are unchanged.
+//! When an iteration passes on the same values as before, and neither what the loop runs over nor what its
+//! iterations capture has changed, all later iterations are unchanged.
 
 use super::super::Machine;
 use super::super::address::{iteration_key, join};
@@ -17,20 +17,20 @@ use crate::fault::Fault;
 use crate::value::{Value, iter_get, iter_len, same};
 use niwaki_math::Scalar;
 
-/// What an iteration is handed by the one before.
+/// The carried values that an iteration gets.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Handed {
-    /// What it was handed the last time.
+    /// The same as the last time.
     Unchanged,
     /// What is in the machine's buffer.
     Buffer,
 }
 
-/// Where a loop goes on.
+/// Where a loop continues.
 pub(super) enum Next {
     /// In this iteration, at that instruction.
     Enter(NodeId, u32),
-    /// It has ended, and left what it left before or something else.
+    /// It has ended, with the same results as before or with others.
     Ended { changed: bool },
 }
 
@@ -108,7 +108,7 @@ impl<S: Scalar> Kept<S> {
         }
     }
 
-    /// Goes on with iteration `i` of a loop: to the first that must be entered, or to its end.
+    /// Continues with iteration `i` of a loop: to the first that must be entered, or to its end.
     pub(super) fn iterate(
         &mut self,
         machine: &mut Machine<'_, S>,
@@ -134,7 +134,7 @@ impl<S: Scalar> Kept<S> {
                 let element = element(state);
                 self.leaves_its_activation();
                 if handed == Handed::Unchanged {
-                    // The loop has grown: what its last iteration left is what it left the owner.
+                    // The loop has more iterations: the results of its last iteration were those of the loop.
                     self.gather_left(machine, state, header);
                 }
                 let (owner, number) = {
@@ -194,7 +194,7 @@ impl<S: Scalar> Kept<S> {
         }
     }
 
-    /// An iteration ends. The run ends when it has left nothing that is changed.
+    /// An iteration ends. The run ends when none of its results has changed.
     pub(super) fn end_of_iteration(
         &mut self,
         machine: &mut Machine<'_, S>,
@@ -223,7 +223,7 @@ impl<S: Scalar> Kept<S> {
             && kind == exit::NEXT
             && i64::from(n.pc) == kind
         {
-            // The frequent case: nothing but what is handed on, or what all iterations capture, can have changed.
+            // The frequent case: only carried values, or what all iterations capture, can have changed.
             let mut changed = active.captures;
             if !operands.is_empty() {
                 let first = usize::from(!matches!(state.registers[above.registers as usize], Value::None));
@@ -292,7 +292,7 @@ impl<S: Scalar> Kept<S> {
         })
     }
 
-    /// The loop has ended: its owner goes on, unless nothing is changed for it.
+    /// The loop has ended: its owner continues, unless nothing has changed for it.
     pub(super) fn go_on(
         &mut self,
         machine: &Machine<'_, S>,
@@ -324,7 +324,7 @@ impl<S: Scalar> Kept<S> {
         !matches!(state.registers[at], Value::None)
     }
 
-    /// The loop ends before iteration `i`: later ones go, and what it leaves goes to its owner.
+    /// The loop ends before iteration `i`: later ones are removed, and its owner gets the results.
     fn end(
         &mut self,
         machine: &mut Machine<'_, S>,
@@ -339,7 +339,7 @@ impl<S: Scalar> Kept<S> {
         let shrunk = self.loops[list].len() > i;
         if shrunk {
             if handed == Handed::Unchanged {
-                // Iteration `i` was handed what the loop leaves now.
+                // The loop's results are the values that iteration `i` got.
                 self.gather_handed(machine, state, header, i);
             }
             let removed = self.loops[list].split_off(i);
@@ -354,7 +354,7 @@ impl<S: Scalar> Kept<S> {
         Next::Ended { changed }
     }
 
-    /// Into the buffer: what the loop left its owner.
+    /// Into the buffer: the loop's results in its owner.
     fn gather_left(&self, machine: &mut Machine<'_, S>, state: &State<S>, header: NodeId) {
         let (own, left) = left(machine, state, header, exit::NEXT);
         let values: Vec<Value<S>> = left.map(|o| state.registers[own + o.index()].clone()).collect();
@@ -362,7 +362,7 @@ impl<S: Scalar> Kept<S> {
         machine.buffer.extend(values);
     }
 
-    /// Into the buffer: what iteration `i` was handed.
+    /// Into the buffer: the carried values that iteration `i` got.
     fn gather_handed(&self, machine: &mut Machine<'_, S>, state: &State<S>, header: NodeId, i: usize) {
         let child = self.loops[state.nodes[header.0 as usize].slots as usize][i];
         let n = &state.nodes[child.0 as usize];
@@ -373,7 +373,7 @@ impl<S: Scalar> Kept<S> {
         machine.buffer.extend(state.registers[at + first..at + f.params as usize].iter().cloned());
     }
 
-    /// Writes what came out of a loop, in the buffer, to the registers of its owner; whether anything changed.
+    /// Writes the results of a loop, in the buffer, to the registers of its owner; whether anything changed.
     fn leave(
         &mut self,
         machine: &mut Machine<'_, S>,
@@ -401,8 +401,8 @@ impl<S: Scalar> Kept<S> {
     }
 }
 
-/// Where a loop's last iteration left its carried values (and, by `return`, its value): first register of the owner, and
-/// the operands.
+/// Where a loop's last iteration wrote its carried values (and, by `return`, its value): first register of the owner,
+/// and the operands.
 fn left<'a, S: Scalar>(
     machine: &Machine<'a, S>,
     state: &State<S>,

@@ -18,7 +18,7 @@ use niwaki_math::{Dist, Family, Scalar, grid};
 pub(super) use super::super::question::log_density;
 
 /// Whether a kept value can be a value of that distribution at all: vectors have the right number of components,
-/// and the one value of a delta is drawn anew.
+/// and the one value of a delta is drawn again.
 #[inline]
 pub fn fits<S: Scalar>(dist: &Dist<S>, value: &Value<S>) -> bool {
     match value {
@@ -196,7 +196,7 @@ impl<S: Scalar> Kept<S> {
         let Answer::Go(value) = answers.choice(&question, dist)? else { return Err(Halt::Paused) };
         let log = check(log_density(dist, &value)?.value(), "a log density")?;
         let held = if slot.is_filled() {
-            // Drawn anew: the old value goes, as if it had died and been born again at the same place in the table.
+            // Drawn again: the old value counts as removed, the new one as added at the same place in the table.
             self.stale.add(slot.log);
             self.forget_change(at);
             self.change.log_prior.remove(slot.log);
@@ -292,7 +292,7 @@ impl<S: Scalar> Kept<S> {
         self.write_slot(self.quiet, at, Slot { held: number, mark: 0, log: 0.0 });
     }
 
-    /// A changed choice is not met after all: its proposal has no part in the move.
+    /// A changed choice is no longer reached: its proposal does not count in the move.
     fn forget_change(&mut self, at: usize) {
         if self.slots[at].mark & Slot::CHANGED != 0
             && let Some(change) = self.changed.iter_mut().find(|c| c.0 as usize == at)
@@ -301,7 +301,7 @@ impl<S: Scalar> Kept<S> {
         }
     }
 
-    /// Takes away what a question's slot holds.
+    /// Removes what a question's slot holds.
     pub(super) fn withdraw(&mut self, kind: &SiteKind, at: usize, node: NodeId, site: u16) {
         let slot = self.slots[at];
         self.leaves_its_activation();
