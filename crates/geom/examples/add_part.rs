@@ -39,7 +39,7 @@ fn main() {
                 let mut next = particle.fork();
                 next.add(&Primitive::new(shapes));
                 black_box(next.log_score());
-                // The parent lives on until its child is done, so nothing is changed in place.
+                // The parent exists until its child is done, so nothing is changed in place.
                 particle = next;
             }
             let spent = started.elapsed().as_secs_f64() * 1e6;

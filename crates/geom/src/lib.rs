@@ -2,12 +2,12 @@
 //!
 //! - [`bounds`]: boxes along the axes
 //! - [`mesh`], [`topology`], [`hull`], [`limb`], [`segment`], [`convex`]: surfaces and convex solids
-//! - [`shape`], [`words`], [`primitive`]: what a model emits
+//! - [`shape`], [`words`], [`primitive`]: the shapes that a model emits
 //! - [`voxel`]: which cells of a grid a shape fills
 //! - [`intersect`]: whether two shapes intersect
 //! - [`view`]: the rays of a picture, and which of them meet a shape
 //! - [`tree`]: a bag of boxes that copies share
-//! - [`sketch`]: running scores of what was emitted
+//! - [`sketch`]: running scores of the emitted shapes
 //! - [`fine`], [`render`]: meshes with many sides, and pictures of them
 
 pub mod bounds;

@@ -1,7 +1,7 @@
-//! A shape: a solid, where it is, and how it looks. Made once, never changed, shared by counting references.
+//! A shape: a solid, its place and its look. It never changes and is shared by counting references.
 //!
-//! Solids are centred at the origin and *placed*: first turned, then moved. Scores use the light geometry that is
-//! computed here, once, when the shape is made: inscribed polygons with few sides, sharp edges. Pictures make a
+//! Solids are centred at the origin and *placed*: first turned, then moved. Scores use the coarse mesh that is
+//! computed here, once, with the shape: inscribed polygons with few sides, sharp edges. Pictures make a
 //! finer mesh from the same solid.
 
 use crate::bounds::Aabb;
@@ -14,9 +14,9 @@ use crate::vector::{Mat3, Vec3, vec3};
 use serde::{Deserialize, Serialize};
 use std::sync::{Arc, OnceLock};
 
-/// Sides of a cylinder unless said otherwise (dissertation chapter 5's light geometry).
+/// Default number of sides of a cylinder (dissertation chapter 5's coarse mesh).
 pub const CYLINDER_SIDES: usize = 8;
-/// Sides of a limb unless said otherwise.
+/// Default number of sides of a limb.
 pub const LIMB_SIDES: usize = 10;
 
 /// A round end of a limb: a regular polygon in the plane through `center` with unit `normal`.
@@ -41,7 +41,7 @@ impl Ring {
     }
 }
 
-/// What a shape is made of, centred at the origin (a limb and a mesh: where their coordinates say).
+/// The solid of a shape, centred at the origin (a limb and a mesh: at their coordinates).
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Solid {
@@ -101,7 +101,7 @@ pub struct Placement {
 }
 
 impl Placement {
-    /// Left where it is.
+    /// No movement.
     pub const IDENTITY: Placement = Placement { rotation: Mat3::IDENTITY, translation: Vec3::ZERO };
 
     /// From the solid's own coordinates to the world's.
@@ -111,7 +111,7 @@ impl Placement {
     }
 }
 
-/// What most shapes need, and small: a population of particles holds millions of them.
+/// The data of a shape. It must be small: a population of particles holds millions of them.
 #[derive(Debug)]
 struct Inner {
     solid: Solid,
@@ -129,11 +129,11 @@ struct Inner {
 
 const _: () = assert!(std::mem::size_of::<Inner>() <= 240);
 
-/// The light geometry that is worth keeping.
+/// The kept hulls of the coarse mesh.
 #[derive(Debug)]
 struct Coarse {
     whole: Hull,
-    /// Of a segment, once they were needed.
+    /// Of a segment, computed when first needed.
     pieces: OnceLock<Box<[Hull]>>,
 }
 
@@ -142,7 +142,7 @@ struct Coarse {
 #[serde(try_from = "Plain", into = "Plain")]
 pub struct Shape(Arc<Inner>);
 
-/// What a shape is made with, as it is written down.
+/// The serialised form of a shape.
 #[derive(Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 struct Plain {
@@ -184,7 +184,7 @@ impl PartialEq for Shape {
 }
 
 impl Shape {
-    /// Places `solid` in the world and computes what scores need.
+    /// Places `solid` in the world and computes the data for scores.
     ///
     /// # Errors
     /// `bad-shape` for sizes that are not positive and finite, a placement that is not a rotation, or a flat limb.
@@ -216,7 +216,7 @@ impl Shape {
             Solid::Mesh(mesh) => (None, Aabb::around(mesh.corners().flatten().map(|p| placement.apply(p)))),
             Solid::Box { size } => {
                 let convex = Convex::cuboid(*size, &placement);
-                // A size that vanishes beside the placement is one that no corner shows.
+                // A size that is lost in rounding beside the placement leaves the corners equal.
                 if convex.width() <= 0.0 {
                     return flat();
                 }
@@ -263,7 +263,7 @@ impl Shape {
         kind(&self.0.solid)
     }
 
-    /// The smallest box around the light geometry, world space.
+    /// The smallest box around the coarse mesh, world space.
     #[inline]
     pub fn aabb(&self) -> &Aabb {
         &self.0.aabb
@@ -298,7 +298,7 @@ impl Shape {
         Some(coarse.pieces.get_or_init(|| segment::pieces(corners.corners(), tube.onto.is_some())))
     }
 
-    /// The light geometry as triangles in the world; made when first asked for.
+    /// The coarse mesh as triangles in the world; computed when first needed.
     pub fn world_mesh(&self) -> &TriMesh {
         self.0.world.get_or_init(|| {
             let mesh = match (&self.0.solid, self.convex()) {
@@ -312,7 +312,7 @@ impl Shape {
         })
     }
 
-    /// Smallest length of the solid: the scale on which touching is told from overlapping.
+    /// Smallest length of the solid: the scale of the tolerance between touching and overlapping.
     pub fn thickness(&self) -> f64 {
         let e = self.0.aabb.extent();
         let boxed = e.x.min(e.y).min(e.z);

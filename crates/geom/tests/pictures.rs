@@ -1,7 +1,7 @@
-//! Silhouettes and shadows agree to the pixel with a renderer that asks every ray about every triangle, and scores
+//! Silhouettes and shadows agree to the pixel with a renderer that tests every ray against every triangle, and scores
 //! with the published formula, in any order of adding and removing.
 //!
-//! The renderer shares nothing with the engine's: its own camera, its own triangle test (Moeller & Trumbore 1997).
+//! The renderer shares no code with the engine's: its own camera, its own triangle test (Moeller & Trumbore 1997).
 
 mod scenes;
 
@@ -27,7 +27,7 @@ impl Eye {
         Camera::new(self.position, self.look_at, self.up, self.lens).unwrap()
     }
 
-    /// Where the ray of a pixel begins and where it goes, by the book.
+    /// The origin and direction of a pixel's ray, by the textbook.
     fn ray(&self, size: [usize; 2], pixel: usize) -> (Vec3, Vec3) {
         let z = (self.position - self.look_at).unit().unwrap();
         let x = self.up.cross(z).unit().unwrap();
@@ -114,7 +114,7 @@ fn similarity_by_hand(wish: &Wish, on: &[bool]) -> f64 {
     equal as f64 / all as f64
 }
 
-/// Adds the shapes and compares counts, mask and score with what the renderer found.
+/// Adds the shapes and compares counts, mask and score with the renderer's results.
 fn compare(
     picture: &Arc<Picture>,
     wish: &Wish,
@@ -211,7 +211,7 @@ fn shadows_are_those_of_every_point_against_every_triangle() {
         let picture = Arc::new(Picture::new(&wish, rays).unwrap());
         compare(&picture, &wish, &shapes, &counts, &format!("scene {scene}"));
         lit += counts.iter().filter(|n| **n > 0).count();
-        // What a test without starts, which takes whole lines for rays, would have counted more.
+        // The extra counts of a test without starts, which takes whole lines for rays.
         let back = shadows(&eye, size, &floor, -light, &shapes);
         under += (0..counts.len()).filter(|p| counts[*p] == 0 && back[*p].is_some_and(|n| n > 0)).count();
     }
@@ -222,7 +222,7 @@ fn shadows_are_those_of_every_point_against_every_triangle() {
 }
 
 #[test]
-fn what_stands_on_the_floor_casts_a_shadow_and_what_hangs_below_it_does_not() {
+fn shapes_on_the_floor_cast_shadows_and_shapes_below_it_do_not() {
     let floor = receiver(&mut Dice::new(0), false);
     let eye = Eye {
         position: vec3(0.0, 20.0, 0.0),

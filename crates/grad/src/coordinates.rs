@@ -16,7 +16,7 @@ use crate::graph::{Graph, Id};
 use crate::operation::apply;
 use crate::record::{Recorded, Recorder, no_coordinates};
 use crate::scalar::Var;
-use niwaki_math::{Dist, Draw, Family, Interval, Scalar, Space, Support, log_odds, logistic};
+use niwaki_math::{Dist, Draw, Family, Interval, Scalar, Space, Support, logistic, logit};
 use niwaki_vm::builtins::value_to_draw;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::value::Value;
@@ -233,10 +233,10 @@ impl Recorder<'_> {
             return Ok(Placed { unit, ..placed(Transform::Line, value, at(value) + slope, slope) });
         }
         let v = self.coordinate(interval.coordinate(x));
-        let found = interval.value(v);
-        let mut value = found.value.at(x);
-        let Some((log_width, log_share)) = found.between else {
-            return Ok(placed(Transform::Above, value, at(value) + found.log_slope, found.log_slope));
+        let number = interval.value(v);
+        let mut value = number.value.at(x);
+        let Some((log_width, log_share)) = number.between else {
+            return Ok(placed(Transform::Above, value, at(value) + number.log_slope, number.log_slope));
         };
         if let (Some(lo), Some(hi)) = (interval.lo, interval.hi)
             && !lo.varies()
@@ -246,14 +246,14 @@ impl Recorder<'_> {
         }
         // Where the density depends on the share, its logarithms are known, and no digits cancel.
         let log = match dist {
-            Dist::Uniform { .. } => found.log_slope,
+            Dist::Uniform { .. } => number.log_slope,
             Dist::Beta { a, b } => {
                 let norm = a.ln_gamma() + b.ln_gamma() - (*a + *b).ln_gamma();
                 *a * log_share + *b * (log_share - v) - norm
             }
-            _ => at(value) + log_width + found.log_slope,
+            _ => at(value) + log_width + number.log_slope,
         };
-        Ok(placed(Transform::Between, value, log, log_width + found.log_slope))
+        Ok(placed(Transform::Between, value, log, log_width + number.log_slope))
     }
 
     /// A point of the simplex.
@@ -295,7 +295,7 @@ fn shift(n: usize, k: usize) -> f64 {
 
 /// The coordinate of the `k`-th stick, of what is left.
 fn stick(x: f64, left: f64, n: usize, k: usize) -> f64 {
-    log_odds(x / left) + shift(n, k)
+    logit(x / left) + shift(n, k)
 }
 
 impl Recorded {

@@ -121,7 +121,7 @@ impl Hasher for Mix {
 pub struct Graph {
     nodes: Vec<Node>,
     ranges: Vec<Range>,
-    found: HashMap<Node, u32, BuildHasherDefault<Mix>>,
+    ids: HashMap<Node, u32, BuildHasherDefault<Mix>>,
     inputs: usize,
 }
 
@@ -189,7 +189,7 @@ impl Graph {
     fn intern(&mut self, op: Op, args: [u32; 3]) -> Id {
         let node = Node { op, args };
         let next = self.nodes.len() as u32;
-        let id = *self.found.entry(node).or_insert(next);
+        let id = *self.ids.entry(node).or_insert(next);
         if id == next {
             let range = self.range_of(&node);
             self.nodes.push(node);

@@ -115,7 +115,7 @@ impl<'a> Recorder<'a> {
     fn add(&mut self, log: Var) -> Result<(), Fault> {
         self.density = self.density + log;
         if Var::met_nan() {
-            return Err(Fault::new("non-finite-score", "a comparison on the way to this term met nan")
+            return Err(Fault::new("non-finite-score", "a comparison before this term met nan")
                 .with_help("keep roots, logarithms and quotients away from where they are no numbers"));
         }
         if self.strict

@@ -395,5 +395,5 @@ fn a_thousand_random_graphs_have_the_slopes_of_central_differences() {
             every_evaluator(&density, &x);
         }
     }
-    assert!(skipped < 350, "{skipped} of about 3500 derivatives stand at corners");
+    assert!(skipped < 350, "{skipped} of about 3500 derivatives are at corners");
 }

@@ -27,7 +27,7 @@ pub mod total;
 pub mod vector;
 
 pub use distributions::{
-    BadParameter, Dist, Draw, Family, Interval, Param, Placed, Space, Support, log_odds, logistic,
+    BadParameter, Dist, Draw, Family, Interval, Param, Placed, Space, Support, logistic, logit,
 };
 pub use rounding::grid;
 pub use scalar::{LastLog, Scalar};

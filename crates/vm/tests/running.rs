@@ -1,4 +1,4 @@
-//! The claim: a compiled program computes what core form says, suspends where it may, never uses the host stack,
+//! The claim: a compiled program has the results of core form, suspends where it may, never uses the host stack,
 //! and stops at its budgets with the model's own call stack.
 
 use niwaki_geom::Shape;

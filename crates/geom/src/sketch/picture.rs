@@ -11,8 +11,8 @@
 //! (differs: the original draws with a depth map of 800 x 800 and a bias that loses what is close to the receiver).
 //! In a shadow picture shapes cast shadows on the receiver and do not hide it (differs: the original draws them too).
 //!
-//! What is kept are counts for each pixel and four integers, so a score is the same to the bit in any order; weights
-//! come in only when it is asked for. The empty scene is scored as what it is: the picture with every pixel off.
+//! The sketch keeps counts for each pixel and four integers, so a score is the same to the bit in any order; weights
+//! are used only when the score is computed. The empty scene is scored as a picture with every pixel off.
 
 use super::bag::Bag;
 use super::tiles::Tiles;
@@ -59,7 +59,7 @@ impl SubAssign for Amount {
     }
 }
 
-/// What the pixels should be and how much each matters.
+/// Which pixels should be on, and their weights.
 #[derive(Clone, Debug)]
 pub struct Wish {
     /// Columns and rows.
@@ -72,7 +72,7 @@ pub struct Wish {
     pub multiplier: f64,
 }
 
-/// A picture to match and the rays that tell which pixels of a scene are on.
+/// A picture to match and the rays of its pixels.
 #[derive(Debug)]
 pub struct Picture {
     size: [usize; 2],
@@ -88,7 +88,7 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// The picture that `wish` asks for; pixels without a ray are always off in a scene.
+    /// The picture of `wish`; pixels without a ray are always off in a scene.
     ///
     /// # Errors
     /// `bad-image` for a size without pixels or with too many, or lists of other lengths; `image-one-color` when all

@@ -1,8 +1,8 @@
 //! Which rays meet a shape: one bit for each ray, word by word, words without a bit left out.
 //!
-//! The tree of rays is walked once for each convex piece: a solid, or a triangle of a mesh. Boxes of rays outside of
+//! The tree of rays is visited once for each convex piece: a solid, or a triangle of a mesh. Boxes of rays outside of
 //! the outline are left, those inside are taken whole, and only bundles on its border are looked at ray by ray. So
-//! the price is that of the shape's own pixels.
+//! the cost is that of the shape's own pixels.
 
 use super::outline::{Checks, Outline, of_convex, of_triangle};
 use super::rays::{Node, Rays};
@@ -57,7 +57,7 @@ impl Rays {
             }),
             None => return self.meeting_mesh(shape.world_mesh()),
         }
-        // The walk of one piece is in order.
+        // The words of one piece are in order.
         if pieces == 1 { Cover(words) } else { Cover::settled(words) }
     }
 

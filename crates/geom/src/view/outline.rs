@@ -1,9 +1,9 @@
 //! A convex piece of a shape as it falls on the plane of a family of rays: a convex polygon, and how deep it lies.
 //!
 //! A point lies in the polygon when it is on the inner side of every edge, border included. An edge is kept with its
-//! ends in one order whichever way round it is walked, so that two pieces that share an edge leave no gap between
-//! them, to the last bit. A ray that begins beside the piece or beyond it is told apart by planes: its line meets the
-//! piece, so the ray does when its start is behind every plane that faces along the ray.
+//! ends in one order for both directions, so that two pieces that share an edge leave no gap between them, to the last
+//! bit. A ray that begins beside the piece or beyond it is detected by planes: its line meets the piece, so the ray
+//! does when its start is behind every plane that faces along the ray.
 
 use super::rays::{BUNDLE, Bundle, Node, Projection};
 use crate::convex::{Convex, span};
@@ -33,7 +33,7 @@ impl Edge {
     }
 }
 
-/// What a node of the tree of rays has to ask about a piece.
+/// The checks that remain for a piece in a node of the tree of rays.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Checks {
     /// Edges that cut the node's box, one bit for each.
@@ -43,13 +43,13 @@ pub(super) struct Checks {
 }
 
 impl Checks {
-    /// Nothing is left to ask: every ray meets the piece.
+    /// No check remains: every ray meets the piece.
     pub fn is_empty(&self) -> bool {
         self.edges == 0 && !self.starts
     }
 }
 
-/// A convex piece, fallen on a plane.
+/// A convex piece, projected to a plane.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Outline {
     edges: Vec<Edge>,
@@ -73,13 +73,13 @@ impl Outline {
         outline
     }
 
-    /// What there is to ask when nothing is known.
+    /// All checks.
     pub fn all_checks(&self) -> Checks {
         let edges = if self.edges.len() == MOST_EDGES { u64::MAX } else { (1 << self.edges.len()) - 1 };
         Checks { edges, starts: !self.planes.is_empty() }
     }
 
-    /// What is left to ask in a node; `None` when no ray of it meets the piece.
+    /// The checks that remain in a node; `None` when no ray of it meets the piece.
     pub fn remaining(&self, node: &Node, mut checks: Checks) -> Option<Checks> {
         if (0..2).any(|a| node.high[a] < self.low[a] || node.low[a] > self.high[a]) {
             return None;
@@ -169,7 +169,7 @@ pub(super) fn of_convex(
     outlines(corners, edges, &planes, projection, near, each);
 }
 
-/// The outline of a triangle, if it does not stand on edge.
+/// The outline of a triangle, if it is not seen edge-on.
 pub(super) fn of_triangle(
     corners: &[Vec3; 3],
     projection: &Projection,

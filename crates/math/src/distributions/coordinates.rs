@@ -51,7 +51,7 @@ pub fn logistic<S: Scalar>(v: S) -> S {
 }
 
 /// `ln(x / (1 - x))`, clamped to where [`logistic`] is invertible: its inverse.
-pub fn log_odds(share: f64) -> f64 {
+pub fn logit(share: f64) -> f64 {
     (share.ln() - (-share).ln_1p()).clamp(-FARTHEST, FARTHEST)
 }
 
@@ -70,7 +70,7 @@ impl<S: Scalar> Interval<S> {
             (None, None) => x,
             (Some(lo), None) => log_distance(x - lo),
             (None, Some(hi)) => log_distance(hi - x),
-            (Some(lo), Some(hi)) => log_odds((x - lo) / (hi - lo)),
+            (Some(lo), Some(hi)) => logit((x - lo) / (hi - lo)),
         }
     }
 
@@ -169,7 +169,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn coordinates_lead_back_and_have_the_slopes_that_are_said() {
+    fn coordinates_are_invertible_and_have_the_stated_slopes() {
         let bounds = [(None, None), (Some(-1.0), None), (None, Some(3.0)), (Some(-1.0), Some(3.0))];
         for (lo, hi) in bounds {
             let interval = Interval { lo, hi };

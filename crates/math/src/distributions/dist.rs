@@ -289,7 +289,7 @@ mod tests {
     }
 
     #[test]
-    fn refusals_say_which_parameter_what_was_found_and_what_was_expected() {
+    fn refusals_name_the_parameter_with_the_actual_and_expected_value() {
         let real = Param::Real;
         assert_eq!(
             refusal(Family::Gaussian, &[real(0.0), real(-1.5)]),

@@ -262,7 +262,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_are_found_and_distinct() {
+    fn names_are_distinct_and_give_their_family() {
         assert_eq!(Family::ALL.len(), 22);
         for &family in Family::ALL {
             assert_eq!(Family::from_name(family.name()), Some(family));

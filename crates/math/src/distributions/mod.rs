@@ -51,7 +51,7 @@ mod whole;
 mod testing;
 
 pub use check::BadParameter;
-pub use coordinates::{Interval, Placed, log_odds, logistic};
+pub use coordinates::{Interval, Placed, logistic, logit};
 pub use draw::{Draw, Param};
 pub use family::{Dist, Family, Space};
 pub use mixture::Mixture;

@@ -213,19 +213,22 @@ mod tests {
     fn what_a_distribution_never_draws_is_seen() {
         let weights = |w: &[f64]| Dist::new(Family::Categorical, &[Param::Vector(w.to_vec())]).unwrap();
         let range = |lo, hi| Dist::<f64>::DiscreteUniform { lo, hi };
-        let said = |q: Dist, p: Dist| q.lacks(&p);
-        assert_eq!(said(weights(&[1.0, 0.0, 1.0]), range(0, 2)).as_deref(), Some("the value 1"));
-        assert_eq!(said(range(1, 2), weights(&[0.0, 1.0, 1.0, 0.0])), None);
-        assert_eq!(said(range(1, 2), weights(&[0.1, 1.0, 1.0])).as_deref(), Some("the value 0"));
-        assert_eq!(said(Dist::Bernoulli { p: 1.0 }, Dist::Bernoulli { p: 0.5 }).as_deref(), Some("False"));
-        assert_eq!(said(range(0, 9), Dist::Poisson { rate: 1.0 }).as_deref(), Some("numbers above 9"));
-        assert_eq!(said(Dist::Geometric { p: 0.5 }, Dist::Poisson { rate: 1.0 }), None);
+        let lacking = |q: Dist, p: Dist| q.lacks(&p);
+        assert_eq!(lacking(weights(&[1.0, 0.0, 1.0]), range(0, 2)).as_deref(), Some("the value 1"));
+        assert_eq!(lacking(range(1, 2), weights(&[0.0, 1.0, 1.0, 0.0])), None);
+        assert_eq!(lacking(range(1, 2), weights(&[0.1, 1.0, 1.0])).as_deref(), Some("the value 0"));
+        assert_eq!(lacking(Dist::Bernoulli { p: 1.0 }, Dist::Bernoulli { p: 0.5 }).as_deref(), Some("False"));
+        assert_eq!(lacking(range(0, 9), Dist::Poisson { rate: 1.0 }).as_deref(), Some("numbers above 9"));
+        assert_eq!(lacking(Dist::Geometric { p: 0.5 }, Dist::Poisson { rate: 1.0 }), None);
         let positive = Dist::Exponential { rate: 1.0 };
         assert_eq!(
-            said(positive.clone(), Dist::Gaussian { mean: 0.0, sd: 1.0 }).as_deref(),
+            lacking(positive.clone(), Dist::Gaussian { mean: 0.0, sd: 1.0 }).as_deref(),
             Some("numbers below 0")
         );
-        assert_eq!(said(Dist::Beta { a: 1.0, b: 1.0 }, positive.clone()).as_deref(), Some("numbers above 1"));
+        assert_eq!(
+            lacking(Dist::Beta { a: 1.0, b: 1.0 }, positive.clone()).as_deref(),
+            Some("numbers above 1")
+        );
         assert!(
             !positive.compares_with(&range(0, 1)) && positive.compares_with(&Dist::Beta { a: 1.0, b: 1.0 })
         );

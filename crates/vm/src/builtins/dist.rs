@@ -182,7 +182,7 @@ mod tests {
     }
 
     #[test]
-    fn the_quick_way_makes_the_same_distributions_and_refuses_the_same_numbers() {
+    fn quick_dist_gives_the_same_distributions_and_refuses_the_same_numbers() {
         let numbers = [-1.0, 0.0, 0.5, 2.0, f64::MAX, f64::MIN, f64::INFINITY, f64::NAN];
         for family in [Family::Gaussian, Family::LogNormal, Family::Uniform, Family::Gamma, Family::Beta] {
             for (a, b) in numbers.iter().flat_map(|a| numbers.iter().map(move |b| (*a, *b))) {
@@ -197,7 +197,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_is_said() {
+    fn messages_name_the_wrong_parameter() {
         let (code, message) = fault(Family::Gaussian, &[V::Int(0), V::real(-1.0)]);
         assert_eq!(code, "bad-parameter");
         assert_eq!(message, "`sd` of gaussian is -1.0, expected a finite number above zero");

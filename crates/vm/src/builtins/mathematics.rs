@@ -200,7 +200,7 @@ pub fn math_pow<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     numbers::pow_reals(x, y).map(Value::Real)
 }
 
-macro_rules! questions {
+macro_rules! predicates {
     ($($(#[$doc:meta])* $name:ident;)*) => { $(
         $(#[$doc])*
         pub fn $name<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
@@ -210,11 +210,11 @@ macro_rules! questions {
     )* };
 }
 
-mod ask {
+mod predicates {
     //! Tests of a float, named as those of `f64`.
     use super::{Answer, Scalar, Value, real};
 
-    questions! {
+    predicates! {
         /// Neither infinite nor NaN.
         is_finite;
         /// NaN.
@@ -223,7 +223,7 @@ mod ask {
         is_infinite;
     }
 }
-pub use ask::{is_finite as isfinite, is_infinite as isinf, is_nan as isnan};
+pub use predicates::{is_finite as isfinite, is_infinite as isinf, is_nan as isnan};
 
 /// Greatest common divisor of any number of ints.
 pub fn gcd<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
@@ -260,14 +260,14 @@ pub fn comb<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     if k > n {
         return Ok(Value::Int(0));
     }
-    let mut ways: i128 = 1;
+    let mut subsets: i128 = 1;
     for i in 0..k.min(n - k) {
-        ways = ways * i128::from(n - i) / i128::from(i + 1);
-        if ways > i128::from(i64::MAX) {
+        subsets = subsets * i128::from(n - i) / i128::from(i + 1);
+        if subsets > i128::from(i64::MAX) {
             return fitting("comb", None);
         }
     }
-    fitting("comb", i64::try_from(ways).ok())
+    fitting("comb", i64::try_from(subsets).ok())
 }
 
 /// Logarithm of the gamma function's absolute value.

@@ -84,7 +84,7 @@ fn function<S: Scalar>(program: &Program<S>, f: &Function<S>, outer: usize) -> R
         }
         let (reads, writes) = reads_and_writes(f, op);
         if matches!(op, Op::Site { .. }) && !writes.iter().all(|o| o.place() == Place::Node) {
-            return fail(at, "a site's results must live in the node");
+            return fail(at, "a site's results must be in the node");
         }
         if !reads.iter().chain(&writes).all(|o| fits(*o)) {
             return fail(at, "an operand out of range");
@@ -134,7 +134,7 @@ fn function<S: Scalar>(program: &Program<S>, f: &Function<S>, outer: usize) -> R
     if f.mode != Mode::Pure
         && let Some(at) = reads_what_is_gone(f)
     {
-        return fail(at, "scratch registers do not live from one run of an activation to the next");
+        return fail(at, "scratch registers are not kept from one run of an activation to the next");
     }
     if f.mode != Mode::Pure
         && let Some(at) = reads_what_will_be_overwritten(f)

@@ -94,7 +94,7 @@ mod tests {
     const COMPARISONS: [Binary; 6] = [Binary::Eq, Binary::Ne, Binary::Lt, Binary::Le, Binary::Gt, Binary::Ge];
 
     #[test]
-    fn quick_and_general_ways_agree() {
+    fn fast_and_general_paths_agree() {
         let reals_ = [-2.5, -0.0, 0.0, 1.0, 3.0, f64::INFINITY, f64::NAN];
         let ints_ = [i64::MIN, -7, -1, 0, 1, 3, i64::MAX];
         let bits = |v: &Value| match v {

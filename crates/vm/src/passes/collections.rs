@@ -104,10 +104,10 @@ impl Classes {
                 let Some(parts) = self.parts[class].clone() else { continue };
                 let at = place.map(|k| if k < 0 { k + parts.len() as i64 } else { k });
                 match at.and_then(|k| parts.get(usize::try_from(k).ok()?)) {
-                    Some(found) => self.join(*found, part),
-                    None => parts.iter().for_each(|found| {
-                        let found = self.root(*found);
-                        self.plain[found] = true;
+                    Some(other) => self.join(*other, part),
+                    None => parts.iter().for_each(|element| {
+                        let element = self.root(*element);
+                        self.plain[element] = true;
                     }),
                 }
             }
@@ -169,7 +169,7 @@ struct Analysis<'m> {
     effects: &'m Effects,
     functions: HashMap<&'m Name, &'m Function>,
     variables: HashMap<(&'m str, &'m str), usize>,
-    found: Collections,
+    result: Collections,
     /// The current function.
     here: &'m Function,
     /// Whether a site is possible here: not in a pure function, nor in a loop that is not lifted.
@@ -185,7 +185,7 @@ impl Collections {
             effects,
             functions: module.functions.iter().map(|f| (&f.name, f)).collect(),
             variables: HashMap::new(),
-            found: Collections::default(),
+            result: Collections::default(),
             here: first,
             suspends: false,
         };
@@ -194,8 +194,8 @@ impl Collections {
             analysis.suspends = effects.function(&f.name);
             analysis.block(&f.body);
         }
-        analysis.found.classes.settle();
-        analysis.found
+        analysis.result.classes.settle();
+        analysis.result
     }
 
     /// Whether the expression creates elements of a collection (a list, an `append`) or reads one (an `index`).
@@ -209,21 +209,21 @@ impl Collections {
 
 impl<'m> Analysis<'m> {
     fn variable(&mut self, function: &'m str, x: &'m str) -> usize {
-        let classes = &mut self.found.classes;
+        let classes = &mut self.result.classes;
         *self.variables.entry((function, x)).or_insert_with(|| classes.fresh())
     }
 
     fn joined(&mut self, a: Option<usize>, b: Option<usize>) -> Option<usize> {
         if let (Some(a), Some(b)) = (a, b) {
-            self.found.classes.join(a, b);
+            self.result.classes.join(a, b);
         }
         a.or(b)
     }
 
     fn plain(&mut self, class: Option<usize>) {
         if let Some(class) = class {
-            let class = self.found.classes.root(class);
-            self.found.classes.plain[class] = true;
+            let class = self.result.classes.root(class);
+            self.result.classes.plain[class] = true;
         }
     }
 
@@ -270,7 +270,7 @@ impl<'m> Analysis<'m> {
                 let class = self.expr(e);
                 let parts: Vec<usize> = names.iter().map(|x| self.variable(here, x)).collect();
                 if let Some(class) = class {
-                    self.found.classes.unpacked.push((class, parts));
+                    self.result.classes.unpacked.push((class, parts));
                 }
             }
             _ => s.expressions().into_iter().for_each(|e| self.escapes(e)),
@@ -293,9 +293,9 @@ impl<'m> Analysis<'m> {
 
     fn built(&mut self, e: &'m Expr, class: usize) -> Option<usize> {
         if self.suspends {
-            let root = self.found.classes.root(class);
-            self.found.classes.built[root] = true;
-            self.found.class_of.insert(std::ptr::from_ref(e), class);
+            let root = self.result.classes.root(class);
+            self.result.classes.built[root] = true;
+            self.result.class_of.insert(std::ptr::from_ref(e), class);
         }
         Some(class)
     }
@@ -326,7 +326,7 @@ impl<'m> Analysis<'m> {
             }
             List(items) => {
                 items.iter().for_each(|item| self.escapes(item));
-                let class = self.found.classes.fresh();
+                let class = self.result.classes.fresh();
                 // A list of constants alone is no collection.
                 if items.iter().all(is_constant) { Some(class) } else { self.built(e, class) }
             }
@@ -335,11 +335,11 @@ impl<'m> Analysis<'m> {
                     .iter()
                     .map(|item| {
                         let part = self.expr(item);
-                        part.unwrap_or_else(|| self.found.classes.fresh())
+                        part.unwrap_or_else(|| self.result.classes.fresh())
                     })
                     .collect();
-                let class = self.found.classes.fresh();
-                self.found.classes.parts[class] = Some(parts);
+                let class = self.result.classes.fresh();
+                self.result.classes.parts[class] = Some(parts);
                 Some(class)
             }
             Query(key, value) => {
@@ -359,7 +359,7 @@ impl<'m> Analysis<'m> {
                     let class = (self.expr(a), self.expr(b));
                     let class = self.joined(class.0, class.1);
                     if let (Some(class), List(_), true) = (class, &b.kind, self.suspends) {
-                        self.found.class_of.insert(std::ptr::from_ref(e), class);
+                        self.result.class_of.insert(std::ptr::from_ref(e), class);
                     }
                     class
                 }
@@ -371,17 +371,17 @@ impl<'m> Analysis<'m> {
                     self.escapes(at);
                     let class = self.expr(list)?;
                     if !self.suspends {
-                        self.found.classes.read_plainly.push(class);
+                        self.result.classes.read_plainly.push(class);
                     } else {
-                        self.found.class_of.insert(std::ptr::from_ref(e), class);
+                        self.result.class_of.insert(std::ptr::from_ref(e), class);
                     }
                     // Of a tuple, an element: it is known when the index is a literal.
-                    let part = self.found.classes.fresh();
+                    let part = self.result.classes.fresh();
                     let place = match &at.kind {
                         Literal(crate::core::Literal::Int(k)) => Some(*k),
                         _ => None,
                     };
-                    self.found.classes.indexed.push((class, place, part));
+                    self.result.classes.indexed.push((class, place, part));
                     Some(part)
                 }
                 _ => {

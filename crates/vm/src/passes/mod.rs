@@ -5,7 +5,7 @@
 //! 3. [`liveness`]: what a loop must pass from one iteration to the next;
 //! 4. `emit`, `expressions`, `sites`, `statements`: one pass over each function; static single assignment with
 //!    merges written by each arm; loops that can suspend are *lifted* into functions of their own;
-//! 5. `place`: which registers live in the node and which are scratch, by liveness on bytecode;
+//! 5. `place`: which registers are in the node and which are scratch, by liveness on bytecode;
 //! 6. `slices`: what one changed value can reach.
 
 pub mod collections;

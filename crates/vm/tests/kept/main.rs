@@ -82,7 +82,7 @@ fn what_is_not_met_again_was_not_proposed() {
 /// Mutants: a slice of a choice, of a call's result, or of an argument or capture that does change alone, which ends
 /// before one of its instructions.
 #[test]
-fn a_slice_that_leaves_out_an_instruction_is_found_out() {
+fn a_slice_that_leaves_out_an_instruction_is_detected() {
     let program = compiled(
         r#"(module
           (fn "line" (params $n $a0 $sy)

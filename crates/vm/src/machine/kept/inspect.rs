@@ -70,7 +70,7 @@ pub struct Activation {
 impl<S: Scalar> Trace<S> {
     /// The activations in program order, callers first. A loop is not an activation, its iterations are.
     pub fn outline(&self, program: &Program<S>) -> Vec<Activation> {
-        let mut found = Vec::new();
+        let mut activations = Vec::new();
         let mut work = vec![(NodeId(0), 0, 0usize)];
         while let Some((node, parent, depth)) = work.pop() {
             let n = &self.state.nodes[node.0 as usize];
@@ -83,7 +83,7 @@ impl<S: Scalar> Trace<S> {
             let path = self.state.path(program, node);
             let label =
                 if depth == 0 { f.name.to_string() } else { path.rsplit('/').next().unwrap_or("").into() };
-            found.push(Activation { key: n.path, parent, label, function: f.name.to_string(), depth });
+            activations.push(Activation { key: n.path, parent, label, function: f.name.to_string(), depth });
             for (i, site) in f.sites.iter().enumerate().rev() {
                 let slot = self.kept.slots[n.slots as usize + i];
                 if site.kind.makes_activation() && slot.is_filled() {
@@ -91,7 +91,7 @@ impl<S: Scalar> Trace<S> {
                 }
             }
         }
-        found
+        activations
     }
 
     /// Whether one activation was called, directly or indirectly, from another.
