@@ -43,7 +43,7 @@ pub use sketch::avoid::{Avoid, avoid};
 pub use sketch::floor::{Floor, floor};
 pub use sketch::intersection::{NoSelfIntersection, no_self_intersection};
 pub use sketch::overshoot::{Overshoot, no_overshoot};
-pub use sketch::picture::{Picture, PictureMatch, Wish, match_image, match_shadow};
+pub use sketch::picture::{Picture, PictureMatch, TargetPicture, match_image, match_shadow};
 pub use sketch::product::Sketches;
 pub use sketch::volume::{Target, VolumeMatch, match_volume};
 pub use sketch::{Sketch, SketchSpec};

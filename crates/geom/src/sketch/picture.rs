@@ -61,7 +61,7 @@ impl SubAssign for Amount {
 
 /// Which pixels should be on, and their weights.
 #[derive(Clone, Debug)]
-pub struct Wish {
+pub struct TargetPicture {
     /// Columns and rows.
     pub size: [usize; 2],
     /// Which pixels should be on, row by row from the top.
@@ -88,25 +88,25 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// The picture of `wish`; pixels without a ray are always off in a scene.
+    /// The picture of `target`; pixels without a ray are always off in a scene.
     ///
     /// # Errors
     /// `bad-image` for a size without pixels or with too many, or lists of other lengths; `image-one-color` when all
     /// pixels should be alike; `bad-setting` for a multiplier that is not finite or negative.
-    pub fn new(wish: &Wish, rays: Rays) -> Result<Picture, GeomError> {
-        let size = wish.size;
+    pub fn new(target: &TargetPicture, rays: Rays) -> Result<Picture, GeomError> {
+        let size = target.size;
         check_size(size)?;
         let count = size[0] * size[1];
-        let lengths = [Some(wish.on.len()), wish.greys.as_ref().map(Vec::len)];
+        let lengths = [Some(target.on.len()), target.greys.as_ref().map(Vec::len)];
         if let Some(length) = lengths.into_iter().flatten().find(|n| *n != count) {
             let message = format!("{length} values for a picture of {} x {}", size[0], size[1]);
             return Err(GeomError::new("bad-image", message));
         }
-        if !(wish.multiplier >= 0.0 && wish.multiplier.is_finite()) {
-            let message = format!("the weight is {}, expected zero or more", wish.multiplier);
+        if !(target.multiplier >= 0.0 && target.multiplier.is_finite()) {
+            let message = format!("the weight is {}, expected zero or more", target.multiplier);
             return Err(GeomError::new("bad-setting", message));
         }
-        let lit = wish.on.iter().filter(|on| **on).count();
+        let lit = target.on.iter().filter(|on| **on).count();
         if lit == 0 || lit == count {
             let all = if lit == 0 { "off" } else { "on" };
             return Err(GeomError::new(
@@ -119,18 +119,18 @@ impl Picture {
                 |rays: &[u32]| (0..).zip(rays).fold(0, |w, (k, p)| w | u64::from(bit(*p as usize)) << k);
             rays.pixels().chunks(64).map(word).collect()
         };
-        let on = words(&|pixel| wish.on[pixel]);
-        let greys = wish.greys.as_ref().map(|greys| {
+        let on = words(&|pixel| target.on[pixel]);
+        let greys = target.greys.as_ref().map(|greys| {
             let planes: [Vec<u64>; 8] = std::array::from_fn(|k| words(&|pixel| greys[pixel] >> k & 1 == 1));
             (0..on.len()).map(|word| std::array::from_fn(|k| planes[k][word])).collect()
         });
-        let grey = |pixel: usize| wish.greys.as_ref().map_or(0, |greys| i64::from(greys[pixel]));
+        let grey = |pixel: usize| target.greys.as_ref().map_or(0, |greys| i64::from(greys[pixel]));
         let total = |which: &dyn Fn(usize) -> bool| {
             let pixels = (0..count).filter(|p| which(*p));
             pixels.fold(Amount::default(), |sum, p| sum + Amount { pixels: 1, grey: grey(p) })
         };
-        let (all, wanted) = (total(&|_| true), total(&|pixel| wish.on[pixel]));
-        Ok(Picture { size, rays, on, greys, multiplier: wish.multiplier, all, wanted })
+        let (all, wanted) = (total(&|_| true), total(&|pixel| target.on[pixel]));
+        Ok(Picture { size, rays, on, greys, multiplier: target.multiplier, all, wanted })
     }
 
     /// Columns and rows.

@@ -6,8 +6,8 @@
 
 use super::coordinates::Interval;
 use super::draw::{Draw, Param};
+use super::fields::Field;
 use super::mixture::Mixture;
-use super::parts::Part;
 use super::support::Support;
 use super::vectors::MultivariateGaussian;
 use super::weights::Weights;

@@ -10,7 +10,7 @@
 use super::check::{BadParameter, Reader};
 use super::draw::{Draw, Param};
 use super::family::Dist;
-use super::parts::Part;
+use super::fields::Field;
 use super::support::Support;
 use super::weights::Weights;
 use crate::scalar::Scalar;
@@ -84,7 +84,7 @@ impl<S: Scalar> Mixture<S> {
     }
 }
 
-impl<S: Scalar> Part<S> for Mixture<S> {
+impl<S: Scalar> Field<S> for Mixture<S> {
     type Over<T: Scalar> = Mixture<T>;
 
     fn over<T: Scalar>(&self, number: &impl Fn(S) -> T) -> Mixture<T> {

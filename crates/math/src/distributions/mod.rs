@@ -5,7 +5,7 @@
 //! | `family` | the table: [`Family`] and [`Dist`], names, parameters, and where values lie: [`Space`] |
 //! | `draw` | inputs and outputs: [`Param`], [`Draw`] |
 //! | `check` | reading parameters, and the error of a wrong one: [`BadParameter`] |
-//! | `parts` | fields of distributions: over another kind of number, and as parameters |
+//! | `fields` | fields of distributions: over another kind of number, and as parameters |
 //! | `dist` | what each family does: building, scoring, drawing |
 //! | `support` | [`Support`], and listing the values of the finite discrete families |
 //! | `coordinates` | real numbers with bounds as numbers without, and small moves there: [`Interval`] |
@@ -36,9 +36,9 @@ mod counts;
 mod dist;
 mod draw;
 mod family;
+mod fields;
 mod interval;
 mod mixture;
-mod parts;
 mod support;
 mod tails;
 mod truncated;

@@ -3,7 +3,7 @@
 use super::bell::HALF_LN_TAU;
 use super::check::{BadParameter, Reader};
 use super::draw::Param;
-use super::parts::Part;
+use super::fields::Field;
 use super::waiting::{gamma_draw, log_gamma_draw};
 use crate::scalar::Scalar;
 use crate::streams::RngCore;
@@ -127,7 +127,7 @@ impl<S: Scalar> MultivariateGaussian<S> {
     }
 }
 
-impl<S: Scalar> Part<S> for MultivariateGaussian<S> {
+impl<S: Scalar> Field<S> for MultivariateGaussian<S> {
     type Over<T: Scalar> = MultivariateGaussian<T>;
 
     fn over<T: Scalar>(&self, number: &impl Fn(S) -> T) -> MultivariateGaussian<T> {

@@ -5,7 +5,7 @@
 
 use super::check::{BadParameter, Reader};
 use super::draw::Param;
-use super::parts::Part;
+use super::fields::Field;
 use crate::scalar::Scalar;
 use crate::streams::{RngCore, open_unit};
 
@@ -81,7 +81,7 @@ impl<S: Scalar> Weights<S> {
     }
 }
 
-impl<S: Scalar> Part<S> for Weights<S> {
+impl<S: Scalar> Field<S> for Weights<S> {
     type Over<T: Scalar> = Weights<T>;
 
     fn over<T: Scalar>(&self, number: &impl Fn(S) -> T) -> Weights<T> {

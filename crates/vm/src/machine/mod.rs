@@ -8,7 +8,7 @@
 //! * [`state`]: nodes, registers, futures; `begin`: those of a run that has not begun;
 //! * [`kept`]: traces: kept activations, and re-running what changed;
 //! * `interpret`: the loop over instructions; `registers`: from operands to values;
-//! * `known`: a cache of distributions by their parameters;
+//! * `cache`: a cache of distributions by their parameters;
 //! * `operate`: operations of two operands; `construct`: instructions that build or unpack an aggregate;
 //! * `question`: choices and factors; `suspend`: what happens at any other site; `loops`: lifted loops;
 //! * [`stack`]: the model's own call stack, for messages; [`invalid`]: faults of runs that are outside of the
@@ -17,12 +17,12 @@
 pub mod address;
 pub mod answers;
 mod begin;
+mod cache;
 mod construct;
 mod interpret;
 pub mod invalid;
 mod keep;
 pub mod kept;
-mod known;
 mod loops;
 mod operate;
 mod question;
@@ -35,8 +35,8 @@ use crate::code::{FunctionId, Operand, Program};
 use crate::fault::Fault;
 use crate::value::Value;
 use answers::Answers;
+use cache::DistCache;
 use keep::Dropped;
-use known::Known;
 use niwaki_geom::Shape;
 use niwaki_math::{LastLog, Scalar};
 use stack::RunFault;
@@ -98,7 +98,7 @@ pub struct Machine<'p, S: Scalar = f64> {
     pure: Vec<PureCall>,
     buffer: Vec<Value<S>>,
     shapes: Vec<Shape>,
-    known: Known<S>,
+    cache: DistCache<S>,
     logs: LastLog<S>,
     here: Here,
 }
@@ -113,7 +113,7 @@ impl<'p, S: Scalar> Machine<'p, S> {
             pure: Vec::new(),
             buffer: Vec::new(),
             shapes: Vec::new(),
-            known: Known::default(),
+            cache: DistCache::default(),
             logs: LastLog::default(),
             here: Here { node: NodeId::NONE, function: program.entry, pc: 0, scratch: 0 },
         }

@@ -128,9 +128,9 @@ impl<S: Scalar> Machine<'_, S> {
             SiteKind::Sample(Source::Value) | SiteKind::Observe(Source::Value) => as_dist(get!(0)),
             SiteKind::Sample(Source::Family(family)) | SiteKind::Observe(Source::Family(family)) => {
                 if let [only] = r.f.operands[args.range()]
-                    && let Some(index) = self.known.index(r.get(state, &self.scratch, only))
+                    && let Some(index) = self.cache.index(r.get(state, &self.scratch, only))
                 {
-                    return self.known.dist(index, family, r.get(state, &self.scratch, only));
+                    return self.cache.dist(index, family, r.get(state, &self.scratch, only));
                 }
                 Ok(owned.insert(self.dist_of_family(state, r, args, family)?))
             }

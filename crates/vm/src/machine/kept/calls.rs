@@ -7,7 +7,7 @@ use super::super::question::Halt;
 use super::super::registers::Registers;
 use super::super::state::{NodeId, State};
 use super::super::suspend::After;
-use super::part::Entry;
+use super::slices::Entry;
 use super::{Kept, Slot, Step};
 use crate::code::{FunctionId, Mode, Program, Site, SiteId, SiteKind};
 use crate::fault::Fault;

@@ -10,7 +10,7 @@ use super::super::registers::Registers;
 use super::super::state::{NodeId, State};
 use super::super::suspend::After;
 use super::journal::Cut;
-use super::part::Entry;
+use super::slices::Entry;
 use super::{Active, Kept, Slot, Step};
 use crate::code::{Args, Loop, Operand, Site, SiteId, SiteKind, exit};
 use crate::fault::Fault;
@@ -19,7 +19,7 @@ use niwaki_math::Scalar;
 
 /// The carried values that an iteration gets.
 #[derive(Clone, Copy, PartialEq)]
-pub(super) enum Handed {
+pub(super) enum Carried {
     /// The same as the last time.
     Unchanged,
     /// What is in the machine's buffer.
@@ -97,7 +97,7 @@ impl<S: Scalar> Kept<S> {
         r.gather(state, &machine.scratch, l.carried, &mut machine.buffer);
         self.counters.entered += 1;
         self.note(Step::Entered(active.header));
-        match self.iterate(machine, state, active, 0, Handed::Buffer)? {
+        match self.iterate(machine, state, active, 0, Carried::Buffer)? {
             Next::Enter(child, at) => {
                 self.active.push(active);
                 self.depth += 1;
@@ -115,7 +115,7 @@ impl<S: Scalar> Kept<S> {
         state: &mut State<S>,
         active: Active,
         mut i: usize,
-        mut handed: Handed,
+        mut carried: Carried,
     ) -> Result<Next, Fault> {
         let header = active.header;
         let (path, at, list) = {
@@ -127,13 +127,13 @@ impl<S: Scalar> Kept<S> {
         let first = usize::from(count != usize::MAX);
         loop {
             if i >= count {
-                return Ok(self.end(machine, state, header, i, exit::NEXT, handed));
+                return Ok(self.end(machine, state, header, i, exit::NEXT, carried));
             }
             let element = |state: &State<S>| (first == 1).then(|| iter_get(&state.registers[at], i));
             let Some(child) = self.loops[list].get(i).copied() else {
                 let element = element(state);
                 self.leaves_its_activation();
-                if handed == Handed::Unchanged {
+                if carried == Carried::Unchanged {
                     // The loop has more iterations: the results of its last iteration were those of the loop.
                     self.gather_left(machine, state, header);
                 }
@@ -170,7 +170,7 @@ impl<S: Scalar> Kept<S> {
             {
                 changed.add(inputs[0]);
             }
-            if handed == Handed::Buffer {
+            if carried == Carried::Buffer {
                 for (k, value) in machine.buffer.drain(..).enumerate() {
                     if self.write_to(state, false, to + first + k, value) {
                         changed.add(inputs[first + k]);
@@ -186,7 +186,7 @@ impl<S: Scalar> Kept<S> {
             self.counters.skipped += 1;
             self.note(Step::Skipped(child));
             let ended = i64::from(state.nodes[child.0 as usize].pc);
-            handed = Handed::Unchanged;
+            carried = Carried::Unchanged;
             if ended != exit::NEXT || (!active.over && !self.is_marked(header)) {
                 return Ok(Next::Ended { changed: false });
             }
@@ -282,9 +282,9 @@ impl<S: Scalar> Kept<S> {
         }
         r.gather(state, &machine.scratch, carried, &mut machine.buffer);
         let next = if kind == exit::NEXT {
-            self.iterate(machine, state, active, i + 1, Handed::Buffer)?
+            self.iterate(machine, state, active, i + 1, Carried::Buffer)?
         } else {
-            self.end(machine, state, header, i + 1, kind, Handed::Buffer)
+            self.end(machine, state, header, i + 1, kind, Carried::Buffer)
         };
         Ok(match next {
             Next::Enter(child, at) => Onward::at(child, at),
@@ -332,13 +332,13 @@ impl<S: Scalar> Kept<S> {
         header: NodeId,
         i: usize,
         kind: i64,
-        handed: Handed,
+        carried: Carried,
     ) -> Next {
         let n = state.nodes[header.0 as usize];
         let list = n.slots as usize;
         let shrunk = self.loops[list].len() > i;
         if shrunk {
-            if handed == Handed::Unchanged {
+            if carried == Carried::Unchanged {
                 // The loop's results are the values that iteration `i` got.
                 self.gather_handed(machine, state, header, i);
             }
@@ -347,7 +347,7 @@ impl<S: Scalar> Kept<S> {
                 self.remove(machine.program, state, *child);
             }
             self.journal.loops.push(Cut { number: list as u32, len: i as u32, removed });
-        } else if handed == Handed::Unchanged {
+        } else if carried == Carried::Unchanged {
             return Next::Ended { changed: false };
         }
         let changed = self.leave(machine, state, n.parent, SiteId(n.site as u16), kind);

@@ -9,7 +9,7 @@
 //! * `questions`: choices, factors, emits and queries that are reached again;
 //! * `calls`, `loops`: activations that are entered, skipped, created and removed; `adapt`: calls where reuse does not
 //!   pay;
-//! * `part`: activations that are entered for one change only, and run no more than what depends on it;
+//! * `slices`: activations that are entered for one change only, and run no more than what depends on it;
 //! * `cells`: elements of collections, and their readers;
 //! * `transaction`: changing choices, keeping or undoing it; `changes`: what that did to the choices;
 //! * `ahead`: memory that the next proposal will need;
@@ -28,8 +28,8 @@ mod changes;
 pub mod inspect;
 mod journal;
 mod loops;
-mod part;
 mod questions;
+mod slices;
 mod slot;
 mod transaction;
 
@@ -52,7 +52,7 @@ use cells::{Reader, Readers};
 use journal::Journal;
 use niwaki_geom::Primitive;
 use niwaki_math::{Scalar, Total};
-use part::Entry;
+use slices::Entry;
 use slot::Slot;
 
 /// How much of a run is done again when a choice changes.

@@ -15,17 +15,17 @@ const ENTRIES: usize = 512;
 type Entry<S> = (Family, Value<S>, Dist<S>);
 
 /// A small table of distributions.
-pub(super) struct Known<S: Scalar> {
+pub(super) struct DistCache<S: Scalar> {
     entries: Vec<Option<Entry<S>>>,
 }
 
-impl<S: Scalar> Default for Known<S> {
+impl<S: Scalar> Default for DistCache<S> {
     fn default() -> Self {
-        Known { entries: vec![None; ENTRIES] }
+        DistCache { entries: vec![None; ENTRIES] }
     }
 }
 
-impl<S: Scalar> Known<S> {
+impl<S: Scalar> DistCache<S> {
     /// The entry for a value that has an address in memory.
     #[inline]
     pub fn index(&self, value: &Value<S>) -> Option<usize> {

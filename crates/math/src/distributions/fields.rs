@@ -5,7 +5,7 @@ use crate::scalar::Scalar;
 use std::sync::Arc;
 
 /// A field of a distribution over the numbers `S`.
-pub(super) trait Part<S: Scalar> {
+pub(super) trait Field<S: Scalar> {
     /// The same field over other numbers.
     type Over<T: Scalar>;
 
@@ -16,7 +16,7 @@ pub(super) trait Part<S: Scalar> {
     fn params(&self) -> Vec<Param<S>>;
 }
 
-impl<S: Scalar> Part<S> for S {
+impl<S: Scalar> Field<S> for S {
     type Over<T: Scalar> = T;
 
     fn over<T: Scalar>(&self, number: &impl Fn(S) -> T) -> T {
@@ -28,7 +28,7 @@ impl<S: Scalar> Part<S> for S {
     }
 }
 
-impl<S: Scalar> Part<S> for i64 {
+impl<S: Scalar> Field<S> for i64 {
     type Over<T: Scalar> = i64;
 
     fn over<T: Scalar>(&self, _: &impl Fn(S) -> T) -> i64 {
@@ -40,7 +40,7 @@ impl<S: Scalar> Part<S> for i64 {
     }
 }
 
-impl<S: Scalar> Part<S> for Arc<[S]> {
+impl<S: Scalar> Field<S> for Arc<[S]> {
     type Over<T: Scalar> = Arc<[T]>;
 
     fn over<T: Scalar>(&self, number: &impl Fn(S) -> T) -> Arc<[T]> {
@@ -52,7 +52,7 @@ impl<S: Scalar> Part<S> for Arc<[S]> {
     }
 }
 
-impl<S: Scalar> Part<S> for Draw<S> {
+impl<S: Scalar> Field<S> for Draw<S> {
     type Over<T: Scalar> = Draw<T>;
 
     fn over<T: Scalar>(&self, number: &impl Fn(S) -> T) -> Draw<T> {
@@ -64,7 +64,7 @@ impl<S: Scalar> Part<S> for Draw<S> {
     }
 }
 
-impl<S: Scalar, P: Part<S>> Part<S> for Arc<P> {
+impl<S: Scalar, P: Field<S>> Field<S> for Arc<P> {
     type Over<T: Scalar> = Arc<P::Over<T>>;
 
     fn over<T: Scalar>(&self, number: &impl Fn(S) -> T) -> Self::Over<T> {

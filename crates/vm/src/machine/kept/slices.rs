@@ -8,7 +8,7 @@ use super::super::keep::Onward;
 use super::super::registers::Registers;
 use super::super::state::{NodeId, State};
 use super::super::suspend::After;
-use super::loops::{Handed, Next};
+use super::loops::{Carried, Next};
 use super::{Active, Kept, Step};
 use crate::code::{Function, Mode, Site, SiteId, exit};
 use crate::fault::Fault;
@@ -117,7 +117,7 @@ impl<S: Scalar> Kept<S> {
                 None => self.go_on(machine, state, header, false, false),
             });
         }
-        Ok(match self.iterate(machine, state, active, i + 1, Handed::Unchanged)? {
+        Ok(match self.iterate(machine, state, active, i + 1, Carried::Unchanged)? {
             Next::Enter(child, at) => Onward::at(child, at),
             Next::Ended { changed } => self.go_on(machine, state, header, false, changed),
         })
