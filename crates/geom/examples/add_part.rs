@@ -39,7 +39,7 @@ fn main() {
                 let mut next = particle.fork();
                 next.add(&Primitive::new(shapes));
                 black_box(next.log_score());
-                // The parent lives on until its child is done, so nothing is changed in place.
+                // The parent exists until its child is done, so nothing is changed in place.
                 particle = next;
             }
             let spent = started.elapsed().as_secs_f64() * 1e6;
@@ -70,8 +70,8 @@ fn main() {
         println!("make a {kind}: {:.2} us", started.elapsed().as_secs_f64() * 1e6 / (20 * some.len()) as f64);
     }
     let limb = |k: usize| {
-        let (end, way) = (vec3(0.1, 3.0, 0.01 * k as f64), vec3(0.1, 1.0, 0.2));
-        Shape::limb(vec3(0.0, 0.0, 0.0), end, (1.0, 0.8), (None, Some(way)), &Look::default())
+        let (end, direction) = (vec3(0.1, 3.0, 0.01 * k as f64), vec3(0.1, 1.0, 0.2));
+        Shape::limb(vec3(0.0, 0.0, 0.0), end, (1.0, 0.8), (None, Some(direction)), &Look::default())
     };
     let started = Instant::now();
     (0..20000).for_each(|k| drop(black_box(limb(k))));

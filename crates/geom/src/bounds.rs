@@ -1,4 +1,4 @@
-//! Boxes along the axes: the first answer to every question about where something is.
+//! Boxes along the axes: the first test of every spatial query.
 
 use crate::vector::{Vec3, vec3};
 
@@ -67,7 +67,7 @@ impl Aabb {
         self.low.x > self.high.x
     }
 
-    /// Half the surface: what a tree of boxes tries to keep small.
+    /// Half the surface: a tree of boxes minimises it.
     #[inline]
     pub fn half_area(&self) -> f64 {
         let e = self.extent();

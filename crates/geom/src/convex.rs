@@ -1,24 +1,24 @@
-//! What a convex solid offers to intersection and voxels.
+//! Convex solids as intersection and voxels use them.
 
 use crate::shape::Placement;
 use crate::topology::Topology;
 use crate::vector::{Vec3, vec3};
 use std::sync::{Arc, OnceLock};
 
-/// A convex solid in the world, as scores ask for it.
+/// A convex solid in the world, as scores use it.
 ///
-/// A box's corners are made from its placement when they are asked for, which costs less than to keep them: boxes are
-/// most of what models emit, and a population holds millions. Every other solid lends what it keeps.
+/// A box's corners are computed from its placement when they are needed, which costs less than to keep them: most
+/// emitted shapes are boxes, and a population holds millions. Every other solid lends its kept hull.
 #[derive(Clone, Debug)]
-#[expect(clippy::large_enum_variant, reason = "corners are on the stack while they are asked for")]
+#[expect(clippy::large_enum_variant, reason = "corners are on the stack only while they are used")]
 pub enum Convex<'a> {
     /// Corners, and unit normals of the faces, along which the edges run too.
     Cuboid([Vec3; 8], [Vec3; 3]),
-    /// Any other.
+    /// Any other convex solid.
     Hull(&'a Hull),
 }
 
-/// A convex solid that is no box, computed once when the shape is made.
+/// A convex solid that is no box, computed once with the shape.
 #[derive(Debug)]
 pub struct Hull {
     /// Vertices, then face normals: one allocation.
@@ -37,7 +37,7 @@ impl Hull {
         Hull::over(vertices, topology, false)
     }
 
-    /// As [`Hull::new`], for a solid that is convex but for a little; a face without a normal is left out.
+    /// As [`Hull::new`], for a solid that is nearly convex; a face without a normal is left out.
     pub(crate) fn nearly(vertices: Vec<Vec3>, topology: Arc<Topology>) -> Option<Hull> {
         Hull::over(vertices, topology, true)
     }
@@ -50,7 +50,7 @@ impl Hull {
         }
         let faces = topology.faces[..sides / 2].iter().chain([&topology.faces[sides]]);
         let normals = faces.map(|face| face_normal(face, &vertices)).collect::<Option<Vec<Vec3>>>()?;
-        Hull::made(vertices, normals, topology)
+        Hull::of_parts(vertices, normals, topology)
     }
 
     fn over(vertices: Vec<Vec3>, topology: Arc<Topology>, flat_faces: bool) -> Option<Hull> {
@@ -62,10 +62,10 @@ impl Hull {
                 None => return None,
             }
         }
-        Hull::made(vertices, normals, topology)
+        Hull::of_parts(vertices, normals, topology)
     }
 
-    fn made(vertices: Vec<Vec3>, normals: Vec<Vec3>, topology: Arc<Topology>) -> Option<Hull> {
+    fn of_parts(vertices: Vec<Vec3>, normals: Vec<Vec3>, topology: Arc<Topology>) -> Option<Hull> {
         let width = narrowest(&vertices[..topology.corners], &normals);
         let points = [&vertices[..], &normals].concat().into();
         let edges = OnceLock::new();
@@ -202,7 +202,7 @@ fn face_normal(face: &[u32], vertices: &[Vec3]) -> Option<Vec3> {
 
 /// Adds a direction, unless it is among them.
 fn push_direction(directions: &mut Vec<Vec3>, new: Vec3) {
-    // Parallel to within 1e-10 radians, either way round.
+    // Parallel to within 1e-10 radians, in either direction.
     if !directions.iter().any(|d| d.dot(new).abs() > 0.999_999 && d.cross(new).dot(d.cross(new)) < 1e-20) {
         directions.push(new);
     }

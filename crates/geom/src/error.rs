@@ -1,15 +1,14 @@
-//! What is wrong with a shape, a mesh or a target, as data: a code for the table of messages and a sentence.
+//! An error in a shape, a mesh or a target, as data: a code for the table of messages and a sentence.
 
 use std::fmt;
 
-/// A shape, mesh or target that cannot be made.
+/// A shape, mesh or target that is not valid.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct GeomError {
-    /// Which rule was broken, in kebab case: `bad-shape`, `bad-shape`, `bad-shape`, `bad-shape`,
-    /// `no-cell-filled`, `bad-setting`, `bad-setting`, `too-many-cells`, `bad-camera`, `bad-setting`, `light-grazes`,
-    /// `receiver-unseen`, `bad-image`, `image-one-color`, `bad-setting`, `bad-setting`, `bad-setting`.
+    /// Which rule was broken, in kebab case: `bad-shape`, `bad-setting`, `bad-camera`, `bad-image`, `image-one-color`,
+    /// `no-cell-filled`, `too-many-cells`, `light-grazes`, `receiver-unseen`.
     pub code: &'static str,
-    /// What was found and what was expected.
+    /// The actual and the expected value.
     pub message: String,
 }
 

@@ -1,8 +1,8 @@
 //! Convex hull of a few dozen points, for limbs and cones, by adding one point at a time.
 //!
-//! Each new point sees some faces; they are replaced by a fan from the point to the rim of what it sees. Triangles
-//! in one plane are merged at the end, so that a ring comes back as one face. Points within `1e-10` of the size
-//! from the hull so far are taken to lie on it: limbs are rounded at `1e-16`, and nobody models at `1e-10`.
+//! Each new point sees some faces; they are replaced by a fan from the point to the rim of what it sees. Triangles in
+//! one plane are merged at the end, so that a ring comes back as one face. Points within `1e-10` of the size from the
+//! hull so far are taken to lie on it: limbs have rounding errors of `1e-16`, and no model has details of `1e-10`.
 
 use crate::bounds::Aabb;
 use crate::topology::Topology;

@@ -2,21 +2,21 @@
 //!
 //! - [`bounds`]: boxes along the axes
 //! - [`mesh`], [`topology`], [`hull`], [`limb`], [`segment`], [`convex`]: surfaces and convex solids
-//! - [`shape`], [`words`], [`primitive`]: what a model emits
+//! - [`shape`], [`words`], [`primitive`]: the shapes that a model emits
 //! - [`voxel`]: which cells of a grid a shape fills
 //! - [`intersect`]: whether two shapes intersect
 //! - [`view`]: the rays of a picture, and which of them meet a shape
 //! - [`tree`]: a bag of boxes that copies share
-//! - [`sketch`]: running scores of what was emitted
+//! - [`sketch`]: running scores of the emitted shapes
 //! - [`fine`], [`render`]: meshes with many sides, and pictures of them
 
 pub mod bounds;
+mod coarse;
 pub mod convex;
 pub mod error;
 pub mod fine;
 pub mod hull;
 pub mod intersect;
-mod light;
 pub mod limb;
 pub mod mesh;
 pub mod primitive;
@@ -43,7 +43,7 @@ pub use sketch::avoid::{Avoid, avoid};
 pub use sketch::floor::{Floor, floor};
 pub use sketch::intersection::{NoSelfIntersection, no_self_intersection};
 pub use sketch::overshoot::{Overshoot, no_overshoot};
-pub use sketch::picture::{Picture, PictureMatch, Wish, match_image, match_shadow};
+pub use sketch::picture::{Picture, PictureMatch, TargetPicture, match_image, match_shadow};
 pub use sketch::product::Sketches;
 pub use sketch::volume::{Target, VolumeMatch, match_volume};
 pub use sketch::{Sketch, SketchSpec};

@@ -17,7 +17,7 @@ use crate::vector::Vec3;
 pub fn band(points: &[Vec3], sides: usize) -> Option<Topology> {
     let (a, b) = points.split_at(sides);
     let close = 1e-10 * (a[0] - a[1]).norm().max((b[0] - b[1]).norm());
-    // Normals from corners far apart: a third of the way round each.
+    // Normals from corners far apart: a third of the ring between them.
     let plane = |ring: &[Vec3]| {
         let [p, q, r] = [0, sides / 3, 2 * sides / 3].map(|k| ring[k]);
         (q - p).cross(r - p).unit().map(|normal| (normal, normal.dot(p)))

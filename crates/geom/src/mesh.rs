@@ -33,7 +33,7 @@ impl TriMesh {
     /// A mesh of `vertices` (scene units) and `triangles` (three indices each).
     ///
     /// # Errors
-    /// `bad-shape` without a triangle, `bad-shape` and `bad-shape` for the first bad entry.
+    /// `bad-shape` without a triangle, and for the first bad entry.
     pub fn new(vertices: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Result<TriMesh, GeomError> {
         if vertices.is_empty() || triangles.is_empty() {
             let (v, t) = (vertices.len(), triangles.len());

@@ -1,17 +1,17 @@
-//! A segment of a tree: three rings, the middle one behind the bend, and perhaps a base that lies on a parent's bark.
+//! A segment of a tree: three rings, the middle one after the bend, and optionally a base on a parent's bark.
 //!
 //! ```text
-//!        ___ end            From the split ring to the end the segment is a clean cone, on which branches stand.
+//!        ___ end            From the split ring to the end the segment is an exact cone, on which branches start.
 //!       /  /                From the start to the split it bends: a wedge that is thin on the inside of the bend.
 //!      /  / ___ split       The start ring is the end ring of the segment below, or is moved down onto the parent's
 //!     /__/--                cone (the weld).
 //!     |__| start
 //! ```
 //!
-//! The light geometry is the tube over the three rings (dissertation 2.3.3 and 5.5, the tree). Voxels take it as
+//! The coarse mesh is the tube over the three rings (dissertation 2.3.3 and 5.5, the tree). Voxels take it as
 //! convex, which it nearly is: the hull bulges by a few hundredths of the radius, and where a base is welded on, over
-//! the hollow that the parent fills. Intersections may not: a branch stands on the cone without any gap. So a segment
-//! also has *pieces*, each convex, that stay clear of what they touch: the wedge, the cone, and instead of the wedge
+//! the hollow that the parent fills. Intersections cannot: a branch starts on the cone without any gap. So a segment
+//! also has *pieces*, each convex, that do not overlap what they touch: the wedge, the cone, and instead of the wedge
 //! over a welded base one wedge for each strip of the base.
 
 use crate::convex::Hull;
@@ -20,10 +20,10 @@ use crate::vector::Vec3;
 use serde::{Deserialize, Serialize};
 use std::sync::{Arc, OnceLock};
 
-/// Sides of a segment's rings (dissertation chapter 5's light geometry). Four into it leaves two: see `strips`.
+/// Sides of a segment's rings (dissertation chapter 5's coarse mesh). Its remainder by four is two: see `strips`.
 pub const SEGMENT_SIDES: usize = 10;
 
-/// A ring with a mark: a place, a direction, and where the first vertex lies.
+/// A ring with a mark: its middle, its direction, and the direction to its first vertex.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 pub struct Frame {
     /// Middle of the ring, scene units.
@@ -49,12 +49,12 @@ pub struct Bark {
     pub high_radius: f64,
 }
 
-/// The three rings, and what the base lies on.
+/// The three rings, and the bark under the base.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub struct Tube {
     /// Start, split and end.
     pub frames: [Frame; 3],
-    /// What the base lies on.
+    /// The bark under the base.
     pub onto: Option<Bark>,
 }
 
@@ -93,11 +93,11 @@ impl Bark {
 
 /// Corners of the three rings, start first; the start lies on the bark when there is one.
 pub(crate) fn corners(Tube { frames, onto }: &Tube) -> Option<Vec<Vec3>> {
-    let around = || crate::light::ring(SEGMENT_SIDES);
+    let around = || crate::coarse::ring(SEGMENT_SIDES);
     let mut corners: Vec<Vec3> = frames.iter().flat_map(|f| around().map(|turn| f.at(turn))).collect();
     if let Some(bark) = onto {
         let down = bark.down(frames[0].center)?;
-        // Chords between points this far out stay outside of the parent's inscribed polygon.
+        // Chords between points at this distance stay outside of the parent's inscribed polygon.
         let swell = 1.0 / (std::f64::consts::PI / SEGMENT_SIDES as f64).cos();
         for corner in &mut corners[..SEGMENT_SIDES] {
             *corner = *corner + down * bark.drop(*corner, down, swell);
@@ -117,7 +117,7 @@ pub(crate) fn tube() -> Arc<Topology> {
         let caps = [(0..n).rev().collect(), (2 * n..3 * n).collect()];
         let faces: Vec<Vec<u32>> = band(0).chain(band(n)).chain(caps).collect();
         let mut tube = Topology::from_faces(3 * SEGMENT_SIDES, faces);
-        // The wedge's quadrangles are twisted: their diagonals may stand out.
+        // The wedge's quadrangles are twisted: their diagonals may be outside the hull.
         tube.edges.extend((0..n).map(|k| [k, n + next(k)]));
         // Caps are cut along strips that run like the mark: on a welded base they lie along the parent.
         tube.triangles.truncate(4 * SEGMENT_SIDES);
@@ -146,7 +146,7 @@ pub(crate) fn pieces(corners: &[Vec3], welded: bool) -> Box<[Hull]> {
         let low = strip.iter().map(|k| corners[*k as usize]);
         low.chain(strip.iter().map(|k| corners[n + *k as usize])).collect::<Vec<Vec3>>()
     };
-    // A piece without inside hides nothing.
+    // A piece without volume is left out.
     let solid = |points: Vec<Vec3>, sides: usize| Hull::nearly(points, Topology::frustum(sides));
     let cone = solid(corners[n..].to_vec(), n);
     let below: Vec<Hull> = match welded {
@@ -158,7 +158,7 @@ pub(crate) fn pieces(corners: &[Vec3], welded: bool) -> Box<[Hull]> {
 
 #[cfg(test)]
 mod tests {
-    //! Claim: a tube is closed; a welded base lies on its parent, and its pieces stay clear of it.
+    //! Claim: a tube is closed; a welded base lies on its parent, and its pieces do not overlap it.
     use super::*;
     use crate::intersect::{Rule, intersects};
     use crate::shape::Shape;

@@ -1,22 +1,22 @@
-//! A shape: a solid, where it is, and how it looks. Made once, never changed, shared by counting references.
+//! A shape: a solid, its place and its look. It never changes and is shared by counting references.
 //!
-//! Solids are centred at the origin and *placed*: first turned, then moved. Scores use the light geometry that is
-//! computed here, once, when the shape is made: inscribed polygons with few sides, sharp edges. Pictures make a
+//! Solids are centred at the origin and *placed*: first turned, then moved. Scores use the coarse mesh that is
+//! computed here, once, with the shape: inscribed polygons with few sides, sharp edges. Pictures make a
 //! finer mesh from the same solid.
 
 use crate::bounds::Aabb;
+use crate::coarse::{convex, ring};
 use crate::convex::{Convex, Hull, is_aligned};
 use crate::error::GeomError;
-use crate::light::{convex, ring};
 use crate::mesh::TriMesh;
 use crate::segment::{self, Tube};
 use crate::vector::{Mat3, Vec3, vec3};
 use serde::{Deserialize, Serialize};
 use std::sync::{Arc, OnceLock};
 
-/// Sides of a cylinder unless said otherwise (dissertation chapter 5's light geometry).
+/// Default number of sides of a cylinder (dissertation chapter 5's coarse mesh).
 pub const CYLINDER_SIDES: usize = 8;
-/// Sides of a limb unless said otherwise.
+/// Default number of sides of a limb.
 pub const LIMB_SIDES: usize = 10;
 
 /// A round end of a limb: a regular polygon in the plane through `center` with unit `normal`.
@@ -41,7 +41,7 @@ impl Ring {
     }
 }
 
-/// What a shape is made of, centred at the origin (a limb and a mesh: where their coordinates say).
+/// The solid of a shape, centred at the origin (a limb and a mesh: at their coordinates).
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Solid {
@@ -101,7 +101,7 @@ pub struct Placement {
 }
 
 impl Placement {
-    /// Left where it is.
+    /// No movement.
     pub const IDENTITY: Placement = Placement { rotation: Mat3::IDENTITY, translation: Vec3::ZERO };
 
     /// From the solid's own coordinates to the world's.
@@ -111,7 +111,7 @@ impl Placement {
     }
 }
 
-/// What most shapes need, and small: a population of particles holds millions of them.
+/// The data of a shape. It must be small: a population of particles holds millions of them.
 #[derive(Debug)]
 struct Inner {
     solid: Solid,
@@ -123,17 +123,17 @@ struct Inner {
     /// A box with its sides along the coordinate directions.
     aligned: bool,
     /// Of a solid that is neither a box nor a mesh.
-    hull: Option<Box<Made>>,
+    hull: Option<Box<Coarse>>,
     world: OnceLock<Box<TriMesh>>,
 }
 
 const _: () = assert!(std::mem::size_of::<Inner>() <= 240);
 
-/// The light geometry that is worth keeping.
+/// The kept hulls of the coarse mesh.
 #[derive(Debug)]
-struct Made {
+struct Coarse {
     whole: Hull,
-    /// Of a segment, once they were needed.
+    /// Of a segment, computed when first needed.
     pieces: OnceLock<Box<[Hull]>>,
 }
 
@@ -142,7 +142,7 @@ struct Made {
 #[serde(try_from = "Plain", into = "Plain")]
 pub struct Shape(Arc<Inner>);
 
-/// What a shape is made with, as it is written down.
+/// The serialised form of a shape.
 #[derive(Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 struct Plain {
@@ -184,7 +184,7 @@ impl PartialEq for Shape {
 }
 
 impl Shape {
-    /// Places `solid` in the world and computes what scores need.
+    /// Places `solid` in the world and computes the data for scores.
     ///
     /// # Errors
     /// `bad-shape` for sizes that are not positive and finite, a placement that is not a rotation, or a flat limb.
@@ -216,7 +216,7 @@ impl Shape {
             Solid::Mesh(mesh) => (None, Aabb::around(mesh.corners().flatten().map(|p| placement.apply(p)))),
             Solid::Box { size } => {
                 let convex = Convex::cuboid(*size, &placement);
-                // A size that vanishes beside the placement is one that no corner shows.
+                // A size that is lost in rounding beside the placement leaves the corners equal.
                 if convex.width() <= 0.0 {
                     return flat();
                 }
@@ -225,7 +225,7 @@ impl Shape {
             solid => {
                 let Some(hull) = convex(solid, &placement) else { return flat() };
                 let aabb = Aabb::around(Convex::Hull(&hull).corners().iter().copied());
-                (Some(Box::new(Made { whole: hull, pieces: OnceLock::new() })), aabb)
+                (Some(Box::new(Coarse { whole: hull, pieces: OnceLock::new() })), aabb)
             }
         };
         // Beyond this, squares and products of lengths lose all meaning.
@@ -263,7 +263,7 @@ impl Shape {
         kind(&self.0.solid)
     }
 
-    /// The smallest box around the light geometry, world space.
+    /// The smallest box around the coarse mesh, world space.
     #[inline]
     pub fn aabb(&self) -> &Aabb {
         &self.0.aabb
@@ -285,7 +285,7 @@ impl Shape {
     #[inline]
     pub fn convex(&self) -> Option<Convex<'_>> {
         match (&self.0.hull, &self.0.solid) {
-            (Some(made), _) => Some(Convex::Hull(&made.whole)),
+            (Some(coarse), _) => Some(Convex::Hull(&coarse.whole)),
             (None, Solid::Box { size }) => Some(Convex::cuboid(*size, &self.0.placement)),
             (None, _) => None,
         }
@@ -293,12 +293,12 @@ impl Shape {
 
     /// The convex solids whose union it is, where [`Shape::convex`] is larger than the shape.
     pub fn pieces(&self) -> Option<&[Hull]> {
-        let (Solid::Segment(tube), Some(made)) = (&self.0.solid, &self.0.hull) else { return None };
-        let corners = Convex::Hull(&made.whole);
-        Some(made.pieces.get_or_init(|| segment::pieces(corners.corners(), tube.onto.is_some())))
+        let (Solid::Segment(tube), Some(coarse)) = (&self.0.solid, &self.0.hull) else { return None };
+        let corners = Convex::Hull(&coarse.whole);
+        Some(coarse.pieces.get_or_init(|| segment::pieces(corners.corners(), tube.onto.is_some())))
     }
 
-    /// The light geometry as triangles in the world; made when first asked for.
+    /// The coarse mesh as triangles in the world; computed when first needed.
     pub fn world_mesh(&self) -> &TriMesh {
         self.0.world.get_or_init(|| {
             let mesh = match (&self.0.solid, self.convex()) {
@@ -312,12 +312,12 @@ impl Shape {
         })
     }
 
-    /// Smallest length of the solid: the scale on which touching is told from overlapping.
+    /// Smallest length of the solid: the scale of the tolerance between touching and overlapping.
     pub fn thickness(&self) -> f64 {
         let e = self.0.aabb.extent();
         let boxed = e.x.min(e.y).min(e.z);
         match (&self.0.hull, &self.0.solid) {
-            (Some(made), _) => boxed.min(made.whole.width()),
+            (Some(coarse), _) => boxed.min(coarse.whole.width()),
             (None, Solid::Box { size }) => boxed.min(size.x.min(size.y).min(size.z)),
             (None, _) => boxed,
         }

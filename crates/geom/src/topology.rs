@@ -27,7 +27,7 @@ impl Topology {
         for face in &faces {
             for i in 0..face.len() {
                 let (a, b) = (face[i], face[(i + 1) % face.len()]);
-                // Each edge is walked once in each direction.
+                // Each edge occurs once in each direction.
                 if a < b {
                     edges.push([a, b]);
                 }
@@ -42,7 +42,7 @@ impl Topology {
         Topology::the_cuboid()
     }
 
-    /// The same, to be kept.
+    /// The same, shared.
     pub fn shared_cuboid() -> Arc<Topology> {
         Topology::the_cuboid().clone()
     }

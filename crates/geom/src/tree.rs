@@ -1,9 +1,9 @@
-//! A bag of boxed items as a persistent, balanced tree of boxes: who is near, and how far does everything reach.
+//! A bag of boxed items as a persistent, balanced tree of boxes: finds near items, and the extent of all.
 //!
-//! Cloning is one reference count. Changing copies only the path from the root (and not even that when nobody else
-//! holds it), so particles share what they have in common. The root's box is the extent of the whole bag: an order
+//! Cloning is one reference count. Changing copies only the path from the root (and not even that when it is not
+//! shared), so particles share what they have in common. The root's box is the extent of the whole bag: an order
 //! statistic that removal keeps. A new item goes where boxes grow least; heights of siblings are kept within one of
-//! each other, so that a chain of shapes grown in one direction stays as cheap as a bush.
+//! each other, so that a long chain of shapes costs no more than a compact scene.
 
 use crate::bounds::Aabb;
 use std::sync::Arc;
@@ -77,13 +77,13 @@ impl<T: Clone + Boxed> BoxTree<T> {
         *self.root.aabb()
     }
 
-    /// Puts an item into the bag.
+    /// Adds an item to the bag.
     pub fn insert(&mut self, item: T) {
         self.len += 1;
         self.root = inserted(std::mem::take(&mut self.root), Node::Leaf(item));
     }
 
-    /// Takes one item out for which `is` holds and whose box is `aabb`; `None` when there is no such item.
+    /// Removes one item for which `is` holds and whose box is `aabb`; `None` when there is no such item.
     pub fn remove(&mut self, aabb: &Aabb, is: impl Fn(&T) -> bool) -> Option<T> {
         let (rest, item) = removed(&self.root, aabb, &is)?;
         self.root = rest;
@@ -132,14 +132,14 @@ fn joined<T: Clone + Boxed>(a: Node<T>, b: Node<T>, old: Option<Arc<Branch<T>>>)
 
 fn branch<T: Boxed>(a: Node<T>, b: Node<T>, old: Option<Arc<Branch<T>>>) -> Node<T> {
     let aabb = a.aabb().union(b.aabb());
-    let made = Branch { aabb, height: 1 + a.height().max(b.height()), children: [a, b] };
+    let branch = Branch { aabb, height: 1 + a.height().max(b.height()), children: [a, b] };
     if let Some(mut old) = old
         && let Some(place) = Arc::get_mut(&mut old)
     {
-        *place = made;
+        *place = branch;
         return Node::Branch(old);
     }
-    Node::Branch(Arc::new(made))
+    Node::Branch(Arc::new(branch))
 }
 
 fn inserted<T: Clone + Boxed>(node: Node<T>, leaf: Node<T>) -> Node<T> {
@@ -149,7 +149,7 @@ fn inserted<T: Clone + Boxed>(node: Node<T>, leaf: Node<T>) -> Node<T> {
         Node::Branch(mut at) => {
             let growth = |c: &Node<T>| c.aabb().union(leaf.aabb()).half_area() - c.aabb().half_area();
             let near = usize::from(growth(&at.children[0]) > growth(&at.children[1]));
-            // What nobody else holds is changed in place.
+            // Unshared nodes are changed in place.
             let (near, far) = match Arc::get_mut(&mut at) {
                 Some(own) => {
                     (std::mem::take(&mut own.children[near]), std::mem::take(&mut own.children[1 - near]))
@@ -186,7 +186,7 @@ fn removed<T: Clone + Boxed>(node: &Node<T>, aabb: &Aabb, is: &impl Fn(&T) -> bo
 
 #[cfg(test)]
 mod tests {
-    //! The tree answers as a list would, stays balanced, and copies do not see each other's changes.
+    //! The tree gives the same results as a list, stays balanced, and copies are independent.
     use super::*;
     use crate::vector::vec3;
 
@@ -205,7 +205,7 @@ mod tests {
         Aabb { low, high: low + vec3(5.0, 4.0, 3.0) }
     }
 
-    fn found(tree: &BoxTree<Item>, near: &Aabb) -> Vec<u64> {
+    fn near_items(tree: &BoxTree<Item>, near: &Aabb) -> Vec<u64> {
         let mut items = Vec::new();
         tree.visit(near, |item| items.push(item.1));
         items.sort_unstable();
@@ -224,11 +224,11 @@ mod tests {
                 let before = tree.clone();
                 assert_eq!(tree.remove(&cube(gone), |item| item.1 == gone).map(|item| item.1), Some(gone));
                 assert!(tree.remove(&cube(gone), |item| item.1 == gone).is_none());
-                assert!(found(&before, &cube(gone)).contains(&gone));
+                assert!(near_items(&before, &cube(gone)).contains(&gone));
             }
             let near = cube(k * 13 + 5);
             let expected: Vec<u64> = list.iter().copied().filter(|i| cube(*i).meets(&near)).collect();
-            assert_eq!(found(&tree, &near), expected);
+            assert_eq!(near_items(&tree, &near), expected);
             let bounds = list.iter().fold(Aabb::EMPTY, |b, i| b.union(&cube(*i)));
             assert_eq!(tree.bounds(), bounds);
             assert_eq!(tree.len(), list.len());

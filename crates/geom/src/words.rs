@@ -1,4 +1,4 @@
-//! Shapes as a model says them: `box`, `cylinder`, `limb`, `segment` and `mesh`, with centres, axes and defaults.
+//! The shape functions of a model: `box`, `cylinder`, `limb`, `segment` and `mesh`, with centres, axes and defaults.
 
 use crate::error::GeomError;
 use crate::mesh::TriMesh;
@@ -7,10 +7,10 @@ use crate::shape::{CYLINDER_SIDES, LIMB_SIDES, Placement, Ring, Shape, Solid};
 use crate::vector::{Mat3, Vec3, vec3};
 use std::sync::Arc;
 
-/// What every shape word takes besides its measures.
+/// The arguments of every shape besides its measures.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Look {
-    /// Turn about the centre, after the shape was laid along its axis.
+    /// Turn about the centre, after the shape was aligned with its axis.
     pub rotation: Option<Mat3>,
     /// Rounding of edges in pictures.
     pub bevel: Option<f64>,
@@ -19,7 +19,7 @@ pub struct Look {
 }
 
 impl Shape {
-    /// A solid around `center`, `laid` along its axis before the look turns it.
+    /// A solid around `center`, turned by `laid` to its axis before the look turns it.
     ///
     /// # Errors
     /// `bad-shape`, as for [`Shape::new`].
@@ -134,7 +134,7 @@ fn direction(v: Vec3, what: &str) -> Result<Vec3, GeomError> {
 
 #[cfg(test)]
 mod tests {
-    //! Shapes lie where their words say, and impossible ones are refused.
+    //! Shapes have the place of their arguments, and impossible ones are refused.
     use super::*;
 
     const PLAIN: Look = Look { rotation: None, bevel: None, color: None };

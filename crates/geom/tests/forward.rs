@@ -1,6 +1,6 @@
 //! The intersection rule rejects as many ships and buildings as the published programs do.
 //!
-//! A forward sampler draws whole scenes and asks whether any two parts intersect. By the surface rule 0.32 of the
+//! A forward sampler draws whole scenes and tests whether any two parts intersect. By the surface rule 0.32 of the
 //! ships do, and 0.74 of the buildings.
 
 mod scenes;

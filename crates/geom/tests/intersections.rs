@@ -1,7 +1,7 @@
 //! Intersection of solids agrees with a search for a common point, touching never counts, and the number of
 //! intersecting pairs is that of all pairs, in any order.
 //!
-//! The search knows nothing of separating axes: it minimises the depth `max over faces of (distance outside)` over
+//! The search does not use separating axes: it minimises the depth `max over faces of (distance outside)` over
 //! all points by the ellipsoid method (Groetschel, Lovasz & Schrijver 1988, 3.1). Negative means a common inside.
 
 mod scenes;
@@ -95,7 +95,7 @@ fn the_surface_rule_sees_all_overlaps_but_containment() {
     assert!(seen > 800 && missed == 0, "{seen} {missed}");
 }
 
-/// The same light geometry as a mesh.
+/// The same coarse mesh as a mesh shape.
 fn copy(shape: &Shape) -> Shape {
     let mesh = Arc::new(shape.world_mesh().clone());
     Shape::mesh(&mesh, Vec3::ZERO, 1.0, &Look::default()).unwrap()
@@ -149,7 +149,7 @@ fn cube(center: Vec3, size: f64, rotation: Option<Mat3>) -> Shape {
 #[test]
 fn touching_is_not_intersecting() {
     for k in 0..200 {
-        // The same scene anywhere and turned any way: flush to within rounding.
+        // The same scene at any place and rotation: flush to within rounding.
         let mut dice = Dice::new(k);
         let turn = Mat3::rotation(dice.point(1.0).unit().unwrap(), dice.uniform(0.0, 7.0));
         let (turn, at) =
@@ -166,7 +166,7 @@ fn touching_is_not_intersecting() {
                 assert!(!intersects(&a, other, rule), "{k} {rule:?} {other:?}");
             }
         }
-        // Meshes have no face normals to look at first: their triangles must be told apart.
+        // Meshes have no face normals to test first: their triangles are compared.
         for other in [&face, &edge, &corner, &rod] {
             for rule in [Rule::Solid, Rule::Surface] {
                 assert!(!intersects(&copy(&a), &copy(other), rule), "{k} {rule:?} {other:?}");
@@ -207,15 +207,21 @@ fn a_ball_in_the_hole_of_a_ring_is_free() {
 #[test]
 fn a_chain_of_bent_limbs_only_touches() {
     let mut dice = Dice::new(2);
-    let (mut at, mut way, mut radius) = (Vec3::ZERO, vec3(0.0, 1.0, 0.0), 1.0);
+    let (mut at, mut direction, mut radius) = (Vec3::ZERO, vec3(0.0, 1.0, 0.0), 1.0);
     let mut sketch = NoSelfIntersection::new(Rule::Solid);
     for _ in 0..12 {
-        let next_way = (way + dice.point(0.25)).unit().unwrap();
-        let (end, thinner) = (at + next_way * (3.5 * radius), radius * 0.85);
-        let limb =
-            Shape::limb(at, end, (radius, thinner), (Some(way), Some(next_way)), &Look::default()).unwrap();
+        let next_direction = (direction + dice.point(0.25)).unit().unwrap();
+        let (end, thinner) = (at + next_direction * (3.5 * radius), radius * 0.85);
+        let limb = Shape::limb(
+            at,
+            end,
+            (radius, thinner),
+            (Some(direction), Some(next_direction)),
+            &Look::default(),
+        )
+        .unwrap();
         sketch.add(&Primitive::new([limb]));
-        (at, way, radius) = (end, next_way, thinner);
+        (at, direction, radius) = (end, next_direction, thinner);
     }
     assert_eq!(sketch.pairs(), 0);
 }

@@ -1,4 +1,4 @@
-//! Obstacles, floors and boxes: what they forbid, with integers that adding and removing leave as they were.
+//! Obstacles, floors and boxes: what they forbid; adding then removing leaves their integers as they were.
 
 mod scenes;
 
@@ -32,9 +32,9 @@ fn an_obstacle_forbids_what_fills_its_cells() {
     for (x, size) in [(0.0, 0.5), (1.0, 0.5), (0.0, 9.0)] {
         assert_eq!(score(&spec, &[cube(vec3(x, 0.0, 0.0), size)]), f64::NEG_INFINITY);
     }
-    // Two cells away: allowed, in any company.
+    // Two cells away: allowed, with any other shapes.
     assert_eq!(score(&spec, &[cube(vec3(1.7, 0.0, 0.0), 0.5), cube(vec3(0.0, -1.7, 0.0), 0.5)]), 0.0);
-    // The mutant that looks at the obstacle's surface only would allow what is inside of it.
+    // The mutant that uses the obstacle's surface only would allow shapes inside of it.
     let hollow = wall();
     let inside = Voxels::of(&cube(Vec3::ZERO, 0.5).shapes()[0], hollow.grid()).unwrap();
     assert_eq!(hollow.shared_with(&inside), inside.count() as u64);
@@ -71,7 +71,7 @@ fn shared_cells_are_those_of_a_loop_and_removing_undoes_adding() {
 }
 
 #[test]
-fn a_floor_carries_what_stands_on_it() {
+fn a_floor_allows_shapes_that_touch_it() {
     let spec = floor(1.0).unwrap();
     assert_eq!(score(&spec, &[]), 0.0);
     assert_eq!(score(&spec, &[cube(vec3(0.0, 1.5, 0.0), 1.0)]), 0.0);

@@ -1,14 +1,14 @@
-//! Silhouettes and shadows agree to the pixel with a renderer that asks every ray about every triangle, and scores
+//! Silhouettes and shadows agree to the pixel with a renderer that tests every ray against every triangle, and scores
 //! with the published formula, in any order of adding and removing.
 //!
-//! The renderer shares nothing with the engine's: its own camera, its own triangle test (Moeller & Trumbore 1997).
+//! The renderer shares no code with the engine's: its own camera, its own triangle test (Moeller & Trumbore 1997).
 
 mod scenes;
 
 use niwaki_geom::view::camera::Camera;
 use niwaki_geom::view::{Lens, Light, shadow_rays};
 use niwaki_geom::{
-    Look, Picture, PictureMatch, Primitive, Shape, Sketch, TriMesh, Vec3, Wish, match_image, vec3,
+    Look, Picture, PictureMatch, Primitive, Shape, Sketch, TargetPicture, TriMesh, Vec3, match_image, vec3,
 };
 use scenes::{Dice, any_shape};
 use std::sync::Arc;
@@ -27,7 +27,7 @@ impl Eye {
         Camera::new(self.position, self.look_at, self.up, self.lens).unwrap()
     }
 
-    /// Where the ray of a pixel begins and where it goes, by the book.
+    /// The origin and direction of a pixel's ray, by the textbook.
     fn ray(&self, size: [usize; 2], pixel: usize) -> (Vec3, Vec3) {
         let z = (self.position - self.look_at).unit().unwrap();
         let x = self.up.cross(z).unit().unwrap();
@@ -95,8 +95,8 @@ fn orthographic(dice: &mut Dice, distance: f64) -> Eye {
     Eye { lens: Lens::Orthographic { height: dice.uniform(4.0, 9.0) }, ..perspective(dice, distance) }
 }
 
-/// A wish with a disc that is on and random greys.
-fn wish(dice: &mut Dice, size: [usize; 2]) -> Wish {
+/// A target picture with a disc that is on and random greys.
+fn target(dice: &mut Dice, size: [usize; 2]) -> TargetPicture {
     let middle = [size[0] as f64 * 0.5, size[1] as f64 * 0.4];
     let inside = |p: usize| {
         let (x, y) = ((p % size[0]) as f64 - middle[0], (p / size[0]) as f64 - middle[1]);
@@ -104,20 +104,20 @@ fn wish(dice: &mut Dice, size: [usize; 2]) -> Wish {
     };
     let count = size[0] * size[1];
     let greys = (0..count).map(|p| if p % 3 == 0 { dice.below(256) as u8 } else { 0 }).collect();
-    Wish { size, on: (0..count).map(inside).collect(), greys: Some(greys), multiplier: 10.0 }
+    TargetPicture { size, on: (0..count).map(inside).collect(), greys: Some(greys), multiplier: 10.0 }
 }
 
-fn similarity_by_hand(wish: &Wish, on: &[bool]) -> f64 {
-    let weight = |p: usize| 255 + 10 * u64::from(wish.greys.as_ref().unwrap()[p]);
+fn similarity_by_hand(target: &TargetPicture, on: &[bool]) -> f64 {
+    let weight = |p: usize| 255 + 10 * u64::from(target.greys.as_ref().unwrap()[p]);
     let all: u64 = (0..on.len()).map(weight).sum();
-    let equal: u64 = (0..on.len()).filter(|p| on[*p] == wish.on[*p]).map(weight).sum();
+    let equal: u64 = (0..on.len()).filter(|p| on[*p] == target.on[*p]).map(weight).sum();
     equal as f64 / all as f64
 }
 
-/// Adds the shapes and compares counts, mask and score with what the renderer found.
+/// Adds the shapes and compares counts, mask and score with the renderer's results.
 fn compare(
     picture: &Arc<Picture>,
-    wish: &Wish,
+    target: &TargetPicture,
     shapes: &[Shape],
     rendered: &[u32],
     scene: &str,
@@ -132,7 +132,7 @@ fn compare(
     let on: Vec<bool> = rendered.iter().map(|n| *n > 0).collect();
     assert!(sketch.mask() == on && picture.mask(&primitives) == on, "{scene}");
     assert_eq!(sketch.on().pixels, on.iter().filter(|on| **on).count() as i64);
-    assert!((sketch.similarity() - similarity_by_hand(wish, &on)).abs() < 1e-12, "{scene}");
+    assert!((sketch.similarity() - similarity_by_hand(target, &on)).abs() < 1e-12, "{scene}");
     sketch
 }
 
@@ -147,11 +147,11 @@ fn silhouettes_are_those_of_every_ray_against_every_triangle() {
         let eye =
             if scene % 3 == 0 { orthographic(&mut dice, distance) } else { perspective(&mut dice, distance) };
         let shapes: Vec<Shape> = (0..1 + dice.below(7)).map(|_| any_shape(&mut dice, 2.5)).collect();
-        let wish = wish(&mut dice, size);
+        let target = target(&mut dice, size);
         let camera = eye.camera();
-        let picture = Arc::new(Picture::new(&wish, camera.rays(size)).unwrap());
+        let picture = Arc::new(Picture::new(&target, camera.rays(size)).unwrap());
         let rendered = silhouettes(&eye, size, &shapes);
-        compare(&picture, &wish, &shapes, &rendered, &format!("scene {scene}"));
+        compare(&picture, &target, &shapes, &rendered, &format!("scene {scene}"));
         lit += rendered.iter().filter(|n| **n > 0).count();
         crossing += usize::from(shapes.iter().any(|s| {
             let depths = s.world_mesh().vertices().iter().map(|p| camera.projection().depth(*p));
@@ -201,17 +201,17 @@ fn shadows_are_those_of_every_point_against_every_triangle() {
         // Around the receiver: above it, through it and below it, where they cast no shadow on it.
         let shapes: Vec<Shape> = (0..1 + dice.below(7)).map(|_| any_shape(&mut dice, 3.0)).collect();
         let rays = shadow_rays(&floor, &eye.camera(), &Light::new(light * 3.0).unwrap(), size).unwrap();
-        let wish = wish(&mut dice, size);
+        let target = target(&mut dice, size);
         let rendered = shadows(&eye, size, &floor, light, &shapes);
         let mut seen: Vec<usize> = rays.pixels().iter().map(|p| *p as usize).collect();
         seen.sort_unstable();
         let expected: Vec<usize> = (0..rendered.len()).filter(|p| rendered[*p].is_some()).collect();
         assert_eq!(seen, expected, "scene {scene}: which pixels see the receiver");
         let counts: Vec<u32> = rendered.iter().map(|n| n.unwrap_or(0)).collect();
-        let picture = Arc::new(Picture::new(&wish, rays).unwrap());
-        compare(&picture, &wish, &shapes, &counts, &format!("scene {scene}"));
+        let picture = Arc::new(Picture::new(&target, rays).unwrap());
+        compare(&picture, &target, &shapes, &counts, &format!("scene {scene}"));
         lit += counts.iter().filter(|n| **n > 0).count();
-        // What a test without starts, which takes whole lines for rays, would have counted more.
+        // The extra counts of a test without starts, which takes whole lines for rays.
         let back = shadows(&eye, size, &floor, -light, &shapes);
         under += (0..counts.len()).filter(|p| counts[*p] == 0 && back[*p].is_some_and(|n| n > 0)).count();
     }
@@ -222,7 +222,7 @@ fn shadows_are_those_of_every_point_against_every_triangle() {
 }
 
 #[test]
-fn what_stands_on_the_floor_casts_a_shadow_and_what_hangs_below_it_does_not() {
+fn shapes_on_the_floor_cast_shadows_and_shapes_below_it_do_not() {
     let floor = receiver(&mut Dice::new(0), false);
     let eye = Eye {
         position: vec3(0.0, 20.0, 0.0),
@@ -282,7 +282,7 @@ fn meshes_have_no_gaps_between_their_triangles() {
 fn disc_picture(dice: &mut Dice) -> Arc<Picture> {
     let size = [150, 120];
     let eye = perspective(dice, 9.0);
-    Arc::new(Picture::new(&wish(dice, size), eye.camera().rays(size)).unwrap())
+    Arc::new(Picture::new(&target(dice, size), eye.camera().rays(size)).unwrap())
 }
 
 #[test]
@@ -333,8 +333,8 @@ fn first_on(on: usize, greys: Option<Vec<u8>>, multiplier: f64) -> Result<Pictur
     let size = [100, 100];
     let lens = Lens::Orthographic { height: 10.0 };
     let camera = Camera::new(vec3(0.0, 0.0, 10.0), Vec3::ZERO, vec3(0.0, 1.0, 0.0), lens).unwrap();
-    let wish = Wish { size, on: (0..10_000).map(|p| p < on).collect(), greys, multiplier };
-    Picture::new(&wish, camera.rays(size))
+    let target = TargetPicture { size, on: (0..10_000).map(|p| p < on).collect(), greys, multiplier };
+    Picture::new(&target, camera.rays(size))
 }
 
 #[test]
@@ -371,7 +371,7 @@ fn a_perfect_match_has_similarity_one() {
 
 #[test]
 fn impossible_pictures_cameras_and_lights_are_refused() {
-    let code = |made: Result<Picture, niwaki_geom::GeomError>| made.unwrap_err().code;
+    let code = |picture: Result<Picture, niwaki_geom::GeomError>| picture.unwrap_err().code;
     assert_eq!(code(first_on(0, None, 10.0)), "image-one-color");
     assert_eq!(code(first_on(10_000, None, 10.0)), "image-one-color");
     assert_eq!(code(first_on(10, Some(vec![0; 3]), 10.0)), "bad-image");

@@ -1,7 +1,7 @@
 //! Voxels of three published targets have the published counts, and an empty scene the published score.
 //!
 //! The meshes are not part of the project: the test reads them from the folder in `NIWAKI_REFERENCE_TARGETS` and
-//! says so when it is not set.
+//! prints a note when it is not set.
 
 use niwaki_geom::{Sketch, Target, TriMesh, VolumeMatch, vec3};
 use std::path::Path;

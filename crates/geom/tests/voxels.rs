@@ -1,8 +1,8 @@
 //! Voxels of every solid agree with a loop over all cells, and counts with adding and removing in any order.
 //!
-//! The loop asks each triangle about each cell and floods what they enclose. Cells that a solid misses or touches by
-//! less than the tolerance of a test may go either way, so the loop gives two answers: with the solid shrunk and
-//! with it grown by a ten-thousandth of a cell, and ours lies between.
+//! The loop tests each triangle against each cell and fills what they enclose. Cells that a solid misses or touches by
+//! less than the tolerance of a test may or may not be filled, so the loop gives two results: with the solid shrunk and
+//! grown by a ten-thousandth of a cell. The engine's result must lie between them.
 
 mod scenes;
 

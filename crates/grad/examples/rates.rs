@@ -35,7 +35,7 @@ fn rate(mut f: impl FnMut()) -> f64 {
     best
 }
 
-/// What it gives, and seconds.
+/// The result of `f`, and its seconds.
 fn timed<T>(f: impl Fn() -> T) -> (T, f64) {
     let mut tries = 0;
     // Too short for the kernel's CPU clock, which moves in ticks: wall time, the best of three.

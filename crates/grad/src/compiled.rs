@@ -1,7 +1,7 @@
-//! A density, ready at once and fast soon: its tape runs while machine code is made in the background.
+//! A density that is evaluated by its tape while machine code is compiled in the background.
 //!
-//! The two give the same numbers to the bit, so the one takes over from the other whenever it is there: first the
-//! gradient alone, which is most of what a trajectory asks for, then the value with its gradient.
+//! Both give the same numbers to the bit, so machine code replaces the tape as soon as it is ready: first the
+//! gradient alone, which a trajectory needs most, then the value with its gradient.
 
 use crate::density::Density;
 use crate::native::{Native, Rest, Rolling};
@@ -9,59 +9,59 @@ use crate::tape::{Lanes, Tape};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Gradients by tape before machine code is asked for: it must be worth its compilation.
+/// Gradients by tape before machine code is compiled: fewer would not pay for its compilation.
 pub(crate) const WARM: u32 = 200;
 
 enum Progress {
-    /// Not asked for yet: gradients so far.
+    /// Not started: the number of gradients so far.
     Tape(u32),
-    /// Being made: first the gradient, then the rest. The lock is never waited for; with it threads may share this.
-    Waiting(Mutex<Receiver<Made>>),
-    /// There is no more to come. A processor without machine code ends here with none.
+    /// In progress: first the gradient, then the rest. The lock never blocks; it allows threads to share this.
+    Waiting(Mutex<Receiver<Stage>>),
+    /// Finished. A processor without machine code ends here with none.
     Done,
 }
 
-/// What the background has made.
-enum Made {
+/// A result of the background compilation.
+enum Stage {
     Gradient(Native),
     Rest(Rest),
 }
 
-/// Compiles a density, and hands over each part as soon as it is there; stops where `give` says that nobody waits.
-fn make(density: &Density, mut give: impl FnMut(Made) -> bool) {
+/// Compiles a density, and passes each stage to `give` as soon as it is ready; stops when `give` returns false.
+fn compile(density: &Density, mut give: impl FnMut(Stage) -> bool) {
     let Ok((native, draft)) = Native::of_gradient(density) else { return };
-    if give(Made::Gradient(native))
+    if give(Stage::Gradient(native))
         && let Ok(rest) = draft.compile(density)
     {
-        give(Made::Rest(rest));
+        give(Stage::Rest(rest));
     }
 }
 
-/// What evaluates a density at one point after another.
+/// Evaluates a density at one point after another.
 pub struct Compiled {
     density: Arc<Density>,
     tape: Arc<Tape>,
     lanes: Lanes<1>,
     native: Option<Native>,
     progress: Progress,
-    /// Gradients by tape before machine code is asked for.
+    /// Gradients by tape before machine code is compiled.
     warm: u32,
 }
 
 impl Compiled {
-    /// Ready to evaluate by tape; machine code follows when it has been used for a while.
+    /// Evaluates by tape first; machine code follows after some use.
     pub fn new(density: Arc<Density>) -> Compiled {
         Compiled::after(density, WARM)
     }
 
-    /// The same, asking for machine code after so many gradients by tape.
+    /// The same, with machine code after `warm` gradients by tape.
     pub fn after(density: Arc<Density>, warm: u32) -> Compiled {
         let tape = Arc::new(Tape::new(&density));
         let lanes = tape.lanes();
         Compiled { density, tape, lanes, native: None, progress: Progress::Tape(0), warm }
     }
 
-    /// Another that evaluates the same density, with memory of its own.
+    /// Another evaluator of the same density, with its own memory.
     pub fn beside(&self) -> Compiled {
         let (density, tape, progress) = (self.density.clone(), self.tape.clone(), Progress::Tape(0));
         Compiled { density, lanes: tape.lanes(), tape, native: None, progress, warm: self.warm }
@@ -72,24 +72,24 @@ impl Compiled {
         match std::mem::replace(&mut self.progress, Progress::Done) {
             Progress::Tape(_) => {
                 let density = self.density.clone();
-                make(&density, |made| {
-                    self.take(made);
+                compile(&density, |stage| {
+                    self.take(stage);
                     true
                 });
             }
-            Progress::Waiting(parts) => {
-                let parts = parts.into_inner().unwrap_or_else(PoisonError::into_inner);
-                parts.iter().for_each(|part| self.take(part));
+            Progress::Waiting(stages) => {
+                let stages = stages.into_inner().unwrap_or_else(PoisonError::into_inner);
+                stages.iter().for_each(|stage| self.take(stage));
             }
             Progress::Done => {}
         }
     }
 
-    fn take(&mut self, made: Made) {
-        match (made, &mut self.native) {
-            (Made::Gradient(native), place) => *place = Some(native),
-            (Made::Rest(rest), Some(native)) => native.complete(rest),
-            (Made::Rest(_), None) => {}
+    fn take(&mut self, stage: Stage) {
+        match (stage, &mut self.native) {
+            (Stage::Gradient(native), place) => *place = Some(native),
+            (Stage::Rest(rest), Some(native)) => native.complete(rest),
+            (Stage::Rest(_), None) => {}
         }
     }
 
@@ -108,22 +108,22 @@ impl Compiled {
         &self.tape
     }
 
-    /// Asks for machine code after a while, and takes what there is of it.
+    /// Starts the compilation when it is time, and takes the stages that are ready.
     fn advance(&mut self) {
         match &mut self.progress {
             Progress::Tape(n) if *n < self.warm => *n += 1,
             Progress::Tape(_) => {
                 let (give, take) = channel();
                 let density = self.density.clone();
-                let made = std::thread::Builder::new()
+                let thread = std::thread::Builder::new()
                     .name("machine code".into())
-                    .spawn(move || make(&density, |made| give.send(made).is_ok()));
+                    .spawn(move || compile(&density, |stage| give.send(stage).is_ok()));
                 self.progress =
-                    if made.is_ok() { Progress::Waiting(Mutex::new(take)) } else { Progress::Done };
+                    if thread.is_ok() { Progress::Waiting(Mutex::new(take)) } else { Progress::Done };
             }
-            Progress::Waiting(parts) => {
-                match parts.get_mut().unwrap_or_else(PoisonError::into_inner).try_recv() {
-                    Ok(part) => self.take(part),
+            Progress::Waiting(stages) => {
+                match stages.get_mut().unwrap_or_else(PoisonError::into_inner).try_recv() {
+                    Ok(stage) => self.take(stage),
                     Err(TryRecvError::Empty) => {}
                     Err(TryRecvError::Disconnected) => self.progress = Progress::Done,
                 }
@@ -167,7 +167,7 @@ impl Compiled {
         self.lanes.inside(&self.tape, x, g).is_some()
     }
 
-    /// Leapfrog steps in machine code, as [`Native::roll`]; none while there is no such.
+    /// Leapfrog steps in machine code, as [`Native::roll`]; none while there is no machine code.
     ///
     /// # Panics
     /// As for [`Native::roll`].

@@ -1,6 +1,6 @@
-//! Coordinates: what a continuous choice is in numbers without bounds, there and back.
+//! Coordinates: maps a continuous choice to numbers without bounds, and back.
 //!
-//! Those of numbers are [`Interval`]'s, with the transform's log Jacobian in the density. Beyond these:
+//! Numbers use [`Interval`], with the transform's log Jacobian in the density. Beyond these:
 //!
 //! | support | value | log Jacobian |
 //! | --- | --- | --- |
@@ -16,7 +16,7 @@ use crate::graph::{Graph, Id};
 use crate::operation::apply;
 use crate::record::{Recorded, Recorder, no_coordinates};
 use crate::scalar::Var;
-use niwaki_math::{Dist, Draw, Family, Interval, Scalar, Space, Support, log_odds, logistic};
+use niwaki_math::{Dist, Draw, Family, Interval, Scalar, Space, Support, logistic, logit};
 use niwaki_vm::builtins::value_to_draw;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::value::Value;
@@ -68,7 +68,7 @@ pub struct Continuous {
     pub first: usize,
     /// How many coordinates it has.
     pub coordinates: usize,
-    /// What one is in its coordinate on the line, in the units of its value; 1 of other transforms.
+    /// The size of one step of its coordinate on the line, in units of its value; 1 for other transforms.
     pub unit: f64,
     /// Whether it keeps its value: its coordinates are its value, and do not move.
     pub is_held: bool,
@@ -85,7 +85,7 @@ pub(crate) enum Edge {
     Open,
     /// A number.
     At(f64),
-    /// What other choices say: a node that was written before the choice's own coordinate.
+    /// Computed from other choices: a node before the choice's own coordinate.
     Node(Id),
 }
 
@@ -99,7 +99,7 @@ impl Edge {
     }
 }
 
-/// A choice of which a run says what it is in coordinates.
+/// A choice with its coordinates in a run.
 pub(crate) struct Placed {
     pub transform: Transform,
     /// The value: one number, or one for each entry of a vector.
@@ -130,16 +130,16 @@ impl Continuous {
     }
 }
 
-/// Scales between these and their inverses are coordinates as they are: whoever follows the gradient finds them.
+/// Scales between these and their inverses are coordinates as they are: gradient methods can learn them.
 const NEAR: f64 = 1e18;
 /// Squares of scales between these and their inverses are normal numbers.
 const FAR: f64 = 1e140;
 
-/// The unit of a choice on the line: a power of two near its scale where that is so far from 1 that squares of it, and
-/// the steps to it, leave the range of numbers.
+/// The unit of a choice on the line: a power of two near its scale, if that scale is so far from 1 that squares of it,
+/// and the steps to it, leave the range of numbers.
 ///
 /// # Errors
-/// Such a scale that depends on other choices, where it is too far from 1 to be learnt: a unit is a number.
+/// A scale that depends on other choices and is too far from 1 to be learnt: a unit is a constant.
 fn unit(dist: &Dist<Var>) -> Result<f64, Fault> {
     let Some(scale) = dist.scale() else { return Ok(1.0) };
     if scale.varies() {
@@ -149,7 +149,7 @@ fn unit(dist: &Dist<Var>) -> Result<f64, Fault> {
     Ok(if near { 1.0 } else { scale.value().log2().round().exp2() })
 }
 
-/// Refuses a scale that has to be learnt and cannot be.
+/// Refuses a scale that would have to be learnt but is too far from 1.
 fn learnt(dist: &Dist<Var>, scale: f64) -> Result<f64, Fault> {
     if (1.0 / FAR..=FAR).contains(&scale) {
         return Ok(1.0);
@@ -233,10 +233,10 @@ impl Recorder<'_> {
             return Ok(Placed { unit, ..placed(Transform::Line, value, at(value) + slope, slope) });
         }
         let v = self.coordinate(interval.coordinate(x));
-        let found = interval.value(v);
-        let mut value = found.value.at(x);
-        let Some((log_width, log_share)) = found.between else {
-            return Ok(placed(Transform::Above, value, at(value) + found.log_slope, found.log_slope));
+        let number = interval.value(v);
+        let mut value = number.value.at(x);
+        let Some((log_width, log_share)) = number.between else {
+            return Ok(placed(Transform::Above, value, at(value) + number.log_slope, number.log_slope));
         };
         if let (Some(lo), Some(hi)) = (interval.lo, interval.hi)
             && !lo.varies()
@@ -244,16 +244,16 @@ impl Recorder<'_> {
         {
             value = value.within(lo.value(), hi.value());
         }
-        // Where the density is one of the share, its logarithms are at hand, and nothing cancels.
+        // Where the density depends on the share, its logarithms are known, and no digits cancel.
         let log = match dist {
-            Dist::Uniform { .. } => found.log_slope,
+            Dist::Uniform { .. } => number.log_slope,
             Dist::Beta { a, b } => {
                 let norm = a.ln_gamma() + b.ln_gamma() - (*a + *b).ln_gamma();
                 *a * log_share + *b * (log_share - v) - norm
             }
-            _ => at(value) + log_width + found.log_slope,
+            _ => at(value) + log_width + number.log_slope,
         };
-        Ok(placed(Transform::Between, value, log, log_width + found.log_slope))
+        Ok(placed(Transform::Between, value, log, log_width + number.log_slope))
     }
 
     /// A point of the simplex.
@@ -288,20 +288,20 @@ impl Recorder<'_> {
     }
 }
 
-/// What centres the `k`-th stick of a simplex of `n`.
+/// The offset that centres the `k`-th stick of a simplex of `n`.
 fn shift(n: usize, k: usize) -> f64 {
     ((n - 1 - k) as f64).ln()
 }
 
 /// The coordinate of the `k`-th stick, of what is left.
 fn stick(x: f64, left: f64, n: usize, k: usize) -> f64 {
-    log_odds(x / left) + shift(n, k)
+    logit(x / left) + shift(n, k)
 }
 
 impl Recorded {
-    /// The coordinates of other values of the same choices: [`Recorded::numbers`] backwards. `value` tells the value of
-    /// each choice, in their order; the coordinates that are none of a choice are those of the recorded run. `None` where
-    /// a value is of another kind, or outside its bounds.
+    /// The coordinates of other values of the same choices: the inverse of [`Recorded::numbers`]. `value` gives the
+    /// value of each choice, in their order; the coordinates that are none of a choice are those of the recorded run.
+    /// `None` where a value is of another kind, or outside its bounds.
     pub fn coordinates<'a>(
         &self,
         mut value: impl FnMut(&Continuous) -> Option<&'a Value>,
@@ -314,7 +314,7 @@ impl Recorded {
             let mut edge = |edge: Edge| match edge {
                 Edge::Open => None,
                 Edge::At(bound) => Some(bound),
-                // It was written before the choice's coordinate, so it depends on coordinates that are known by now.
+                // Its node is before the choice's coordinate, so it depends only on known coordinates.
                 Edge::Node(id) => Some(self.node(id, &x, &mut nodes)),
             };
             let interval = Interval { lo: edge(choice.edges[0]), hi: edge(choice.edges[1]) };

@@ -1,10 +1,10 @@
-//! A log density as a graph: its value, its gradient, and the guards within which both hold.
+//! A log density as a graph: its value, its gradient, and the guards within which both are valid.
 
 use crate::graph::{Graph, Id};
 use crate::operation::{Op, apply};
 use crate::reverse;
 
-/// What two numbers are compared for.
+/// A comparison of two numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Comparison {
     /// `a < b`.
@@ -18,7 +18,7 @@ pub enum Comparison {
 }
 
 impl Comparison {
-    /// Whether it holds. None holds of a NaN but [`Comparison::NotEqual`].
+    /// Whether it holds. For a NaN only [`Comparison::NotEqual`] holds.
     #[inline]
     pub fn holds(self, a: f64, b: f64) -> bool {
         match self {
@@ -30,10 +30,10 @@ impl Comparison {
     }
 }
 
-/// A comparison that steered the run: where it does not hold, the run would have gone another way.
+/// A comparison on which the run branched: where it does not hold, the run takes another path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Guard {
-    /// For what they are compared.
+    /// The comparison.
     pub comparison: Comparison,
     /// One number.
     pub a: Id,
@@ -51,13 +51,13 @@ pub struct Density {
 }
 
 impl Density {
-    /// Differentiates `value`; guards that hold for sure are left out.
+    /// Differentiates `value`; guards that always hold are left out.
     pub fn new(graph: Graph, value: Id, guards: &[Guard]) -> Density {
         let moves = vec![true; graph.inputs()];
         Density::along(graph, value, guards, &moves)
     }
 
-    /// The same, by the coordinates that move; the derivatives by the others are zeros.
+    /// The same, with derivatives by the coordinates that move only; the others are zeros.
     pub fn along(mut graph: Graph, value: Id, guards: &[Guard], moves: &[bool]) -> Density {
         let mut gradient = reverse::gradient(&mut graph, value);
         let zero = graph.constant(0.0);
@@ -103,7 +103,7 @@ impl Density {
         (count(self.graph.needed(guards().chain([self.value]))), count(self.graph.needed(guards())))
     }
 
-    /// The value, with the gradient in `g`, by plain interpretation: the judge of the tape and of the machine code.
+    /// The value, with the gradient in `g`, by plain interpretation: the reference for the tape and the machine code.
     ///
     /// Outside the guards all are NaN.
     ///
@@ -154,7 +154,7 @@ impl Density {
     }
 }
 
-/// Whether a guard holds whatever the coordinates are.
+/// Whether a guard holds for all coordinates.
 fn is_sure(graph: &Graph, guard: &Guard) -> bool {
     let (a, b) = (graph.range(guard.a), graph.range(guard.b));
     let numbers = graph.constant_of(guard.a).zip(graph.constant_of(guard.b));

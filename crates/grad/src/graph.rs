@@ -1,7 +1,7 @@
 //! The graph: operations, each kept once, simplified as they are added.
 //!
 //! Arguments come before the operations that use them, so the order of ids is an order of evaluation. Each node knows
-//! an interval that contains its values, which makes most guards hold for sure.
+//! an interval that contains its values, which proves most guards.
 
 use crate::operation::{Op, apply};
 use std::collections::HashMap;
@@ -54,7 +54,7 @@ impl Node {
     }
 }
 
-/// What is known of a node's values: an interval, and whether zero is ruled out.
+/// Known facts about a node's values: an interval, and whether zero is ruled out.
 #[derive(Clone, Copy, Debug)]
 pub struct Range {
     /// No value is below.
@@ -85,7 +85,7 @@ impl Range {
     }
 }
 
-/// Words mixed by a multiplication: the keys are small and made by us.
+/// Hashes words by a multiplication: the keys are small and come from this crate.
 #[derive(Default)]
 pub(crate) struct Mix(u64);
 
@@ -121,7 +121,7 @@ impl Hasher for Mix {
 pub struct Graph {
     nodes: Vec<Node>,
     ranges: Vec<Range>,
-    found: HashMap<Node, u32, BuildHasherDefault<Mix>>,
+    ids: HashMap<Node, u32, BuildHasherDefault<Mix>>,
     inputs: usize,
 }
 
@@ -157,13 +157,13 @@ impl Graph {
         self.nodes.iter().enumerate().map(|(at, node)| (Id(at as u32), node))
     }
 
-    /// Says that a node's values lie between two numbers.
+    /// Declares that a node's values are between two numbers.
     pub fn narrow(&mut self, id: Id, lo: f64, hi: f64) {
         let range = &mut self.ranges[id.index()];
         *range = Range::new(range.lo.max(lo), range.hi.min(hi), range.nonzero);
     }
 
-    /// What is known of a node's values.
+    /// The range of a node's values.
     pub fn range(&self, id: Id) -> Range {
         self.ranges[id.index()]
     }
@@ -189,7 +189,7 @@ impl Graph {
     fn intern(&mut self, op: Op, args: [u32; 3]) -> Id {
         let node = Node { op, args };
         let next = self.nodes.len() as u32;
-        let id = *self.found.entry(node).or_insert(next);
+        let id = *self.ids.entry(node).or_insert(next);
         if id == next {
             let range = self.range_of(&node);
             self.nodes.push(node);

@@ -1,14 +1,14 @@
 //! A recorded density as the text of a JAX function.
 //!
-//! It holds on the path that was recorded: outside the guards it is NaN, so that a sampler refuses the point instead
-//! of following another density. JAX differentiates it by itself.
+//! It holds on the path that was recorded: outside the guards it is NaN, so that a sampler rejects the point instead
+//! of using a wrong density. JAX differentiates the function itself.
 
 use crate::density::{Comparison, Density};
 use crate::graph::Id;
 use crate::operation::Op;
 use std::fmt::Write;
 
-/// What JAX lacks, or has under another name.
+/// Functions that JAX lacks or names differently.
 const HEAD: &str = r#"import jax
 import jax.numpy as jnp
 import jax.scipy.special as special

@@ -1,11 +1,11 @@
 //! Functions over many numbers: `exp`, `log`, `pow`, `sin`, `cos` without branches, so that the compiler makes vector
 //! code of the loops; the others one by one.
 //!
-//! Compiled for AVX-512, for AVX2 and for any processor, and chosen when run. Only additions, multiplications and divisions
-//! in a fixed order, none fused: the bits are the same on every machine. Errors are below one unit in the last place
-//! for `exp` and `log`; `pow` is `exp(b log a)`, which loses about `|b log a|` units.
+//! Compiled for AVX-512, for AVX2 and for any processor, and chosen when run. Only additions, multiplications and
+//! divisions in a fixed order, none fused: the bits are the same on every machine. Errors are below one unit in the
+//! last place for `exp` and `log`; `pow` is `exp(b log a)`, which loses about `|b log a|` units.
 
-#![allow(unsafe_code)] // Calls of functions compiled for AVX2 or AVX-512, after asking whether there is that.
+#![allow(unsafe_code)] // Calls of functions compiled for AVX2 or AVX-512, after a test of the processor.
 
 use crate::operation::{Op, apply, max, min};
 
@@ -125,7 +125,7 @@ macro_rules! two {
     };
 }
 
-/// Those beyond, one by one: what one angle is worth never depends on its neighbours.
+/// Angles beyond it, one by one: the result of an angle never depends on its neighbours.
 #[inline(always)]
 fn large_angles(f: fn(f64) -> f64, a: &[f64], to: &mut [f64]) {
     let small = a.iter().fold(true, |all, a| all & (a.abs() < LARGEST_ANGLE));
@@ -193,12 +193,12 @@ pub enum Vectors {
     Avx512,
     /// 256 bits.
     Avx2,
-    /// Whatever any processor has.
+    /// Those of any processor.
     Any,
 }
 
 impl Vectors {
-    /// What there is; asked of the processor once.
+    /// The widest available; detected once.
     #[inline]
     pub fn here() -> Vectors {
         #[cfg(target_arch = "x86_64")]

@@ -5,9 +5,9 @@
 //! * [`tape`]: a density over lanes, one for each chain, without compilation; [`kernels`]: functions over many numbers;
 //! * [`wide`]: the tapes of a density with their memory;
 //! * [`native`]: machine code by Cranelift;
-//! * [`scalar`]: the number that records what happens to it; [`mod@record`]: a run of a program, recorded;
+//! * [`scalar`]: the number that records its operations; [`mod@record`]: a run of a program, recorded;
 //! * [`coordinates`]: from bounded values to coordinates without bounds and back;
-//! * [`compiled`]: the tape first, machine code when it is ready; [`live`]: recorded again where a guard fails;
+//! * [`compiled`]: the tape first, then machine code; [`live`]: records again where a guard fails;
 //! * [`jax`]: the same density as Python text.
 
 pub mod compiled;

@@ -1,8 +1,8 @@
 //! A density that follows its program: outside the guards of one path the run is recorded again.
 //!
-//! A path is what one recording saw. As long as the choices are the same ones (their addresses, supports and fixed
-//! values), another path is the same density elsewhere, and paths are kept. Where the choices change, the point is
-//! refused: what moves there is not a gradient.
+//! A path is the branches of one recording. As long as the choices are the same (their addresses, supports and fixed
+//! values), another path is the same density at other points, and paths are kept. Where the choices change, the point
+//! is refused: a gradient cannot move to other choices.
 
 use crate::compiled::{Compiled, WARM};
 use crate::record::{HostCall, Recorded, Run, Scope, blame, record};
@@ -19,7 +19,7 @@ use std::sync::Arc;
 /// Pure functions of the host.
 pub type Host = Arc<HostCall<'static>>;
 
-/// What is recorded again and again: a program with its arguments.
+/// What is recorded: a program with its arguments.
 #[derive(Clone)]
 pub struct Model {
     /// The program, over recording numbers.
@@ -30,7 +30,7 @@ pub struct Model {
     pub limits: Limits,
     /// Its host functions.
     pub host: Host,
-    /// What moves.
+    /// What varies.
     pub scope: Scope,
     /// Counts the points that are refused because a distribution is invalid there.
     pub invalid: Arc<Invalid>,
@@ -65,7 +65,7 @@ impl Model {
 /// Why a point is refused.
 #[derive(Debug)]
 pub enum Refused {
-    /// The run makes other choices there.
+    /// The run has other choices there.
     Structure,
     /// The run fails there, or is impossible.
     Fault(Box<RunFault>),
@@ -76,7 +76,7 @@ pub enum Refused {
 /// Recordings at most before a point is given up.
 const DETOURS: usize = 4;
 
-/// Paths kept at most; the first to come goes first.
+/// Paths kept at most; the oldest is removed first.
 const PATHS: usize = 64;
 
 struct Path {
@@ -96,7 +96,7 @@ pub struct Live {
     paths: Vec<Path>,
     now: usize,
     recordings: usize,
-    /// Gradients of a path before machine code is asked for.
+    /// Gradients of a path before machine code is compiled.
     warm: u32,
 }
 
@@ -106,15 +106,15 @@ impl Live {
         Live::after(model, recorded, WARM)
     }
 
-    /// The same, asking for machine code of a path after so many gradients: where many are left soon.
+    /// The same, with machine code of a path after `warm` gradients: for runs that soon leave many paths.
     pub fn after(model: Model, recorded: Recorded, warm: u32) -> Live {
         let mut live = Live { model, paths: vec![], now: 0, recordings: 1, warm };
         live.keep(Path::of(recorded, warm));
         live
     }
 
-    /// A follower of the same model at another run, with its coordinates there, without a recording: where that run is on
-    /// the path that this one is on. `None` elsewhere.
+    /// The density around another run of the same model, with its coordinates, without a recording. `None` unless that
+    /// run is on the current path.
     pub fn beside(&self, choices: &HashMap<u128, Value>) -> Option<(Live, Vec<f64>)> {
         let here = &self.paths[self.now];
         if !here.recorded.fixed.iter().all(|(address, value)| choices.get(address) == Some(value)) {
@@ -122,7 +122,7 @@ impl Live {
         }
         let x = here.recorded.coordinates(|choice| choices.get(&choice.address))?;
         let mut path = Path { recorded: here.recorded.clone(), compiled: here.compiled.beside() };
-        // Inside the guards the run goes the same way, and makes the same choices.
+        // Inside the guards the run takes the same path and has the same choices.
         path.compiled.inside(&x, &mut vec![0.0; x.len()])?;
         let (model, paths) = (self.model.clone(), vec![path]);
         Some((Live { model, paths, now: 0, recordings: 0, warm: self.warm }, x))
@@ -136,7 +136,7 @@ impl Live {
         self.now = self.paths.len() - 1;
     }
 
-    /// What it follows.
+    /// The model.
     pub fn model(&self) -> &Model {
         &self.model
     }
@@ -169,7 +169,7 @@ impl Live {
     /// The log density at `x`, with its gradient in `g`.
     ///
     /// # Errors
-    /// A point at which the run makes other choices, fails or is impossible; `g` is then of no use.
+    /// A point at which the run has other choices, fails or is impossible; `g` is then invalid.
     ///
     /// # Panics
     /// When `x` or `g` has not one number for each coordinate.
@@ -208,8 +208,8 @@ impl Live {
             let bare = RunFault { fault, stack: vec![], omitted: 0, path: String::new() };
             return Err(Refused::Fault(Box::new(bare)));
         }
-        // Values follow from coordinates by the path: a bound may hang on a branch. So what is recorded at the values of
-        // one path may lie on another, whose values are then taken.
+        // Values follow from coordinates by the path: a bound may depend on a branch. So a recording at the values of
+        // one path may be another path, whose values are then used.
         let mut at = self.recorded().clone();
         for _ in 0..DETOURS {
             self.recordings += 1;
@@ -234,8 +234,8 @@ impl Live {
         Err(Refused::Rounding)
     }
 
-    /// Goes to the path of a run with these choices, and gives its coordinates: `coordinates` tells them by a path, as far as
-    /// it holds them. `None` where the run has other choices, fails, or is a point of no path.
+    /// Switches to the path of a run with these choices, and gives its coordinates. `coordinates` computes them by a
+    /// path, where possible. `None` where the run has other choices, fails, or is on no path.
     pub fn locate(
         &mut self,
         coordinates: &mut dyn FnMut(&Recorded) -> Option<Vec<f64>>,

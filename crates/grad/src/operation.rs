@@ -1,4 +1,4 @@
-//! The operations of a graph, and what each is worth at given numbers.
+//! The operations of a graph, and their values.
 //!
 //! Everything else in this crate (simplification, differentiation, tape, machine code, the JAX text) is a table over
 //! [`Op`].
@@ -35,7 +35,7 @@ pub enum Op {
     Max,
     /// 1 when `a < b`, else 0.
     Less,
-    /// `b` when `a` is not 0, else `c`. The one not taken is computed, and its value is of no consequence.
+    /// `b` when `a` is not 0, else `c`. The one not taken is computed, and its value is ignored.
     Select,
     /// e to this power.
     Exp,
@@ -98,9 +98,9 @@ impl Op {
     }
 }
 
-/// The value of an operation, by the most accurate means at hand.
+/// The value of an operation, by the most accurate method available.
 ///
-/// Constants and inputs have no arguments to be computed from: NaN.
+/// NaN for constants and inputs, which have no arguments.
 pub fn apply(op: Op, a: f64, b: f64, c: f64) -> f64 {
     match op {
         Op::Constant | Op::Input => f64::NAN,

@@ -1,8 +1,8 @@
 //! Recording: one run of a program, its continuous choices as coordinates, becomes a [`Density`].
 //!
 //! Coordinates are unconstrained: see [`crate::coordinates`]. Discrete choices keep their values; their probabilities
-//! belong to the density. Scores of a scene are no part of it: see the caller. A [`Scope`] says which continuous choices
-//! keep their values too, and with what power the score counts.
+//! belong to the density. Scores of a scene are no part of it: see the caller. A [`Scope`] gives the continuous choices
+//! that keep their values too, and the power of the score.
 
 use crate::coordinates::{Continuous, Edge, Placed, Transform};
 use crate::density::Density;
@@ -51,15 +51,15 @@ pub struct Run<'a> {
     pub program: &'a Program<Var>,
     /// The arguments of its entry function.
     pub args: &'a [Value<Var>],
-    /// How much the run may use.
+    /// The limits of the run.
     pub limits: Limits,
     /// Pure functions of the host, by the number of the constant that names them.
     pub host: &'a HostCall<'a>,
-    /// What moves.
+    /// What varies.
     pub scope: &'a Scope,
 }
 
-/// What of a run moves, and with what power its score counts.
+/// Which choices of a run vary, and the power of its score.
 #[derive(Clone, Debug, Default)]
 pub struct Scope {
     /// Continuous choices that keep their values, by address: they have coordinates, which do not move.
@@ -100,7 +100,7 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Runs the program, on the sheet of this thread.
+    /// Runs the program, and records on the sheet of this thread.
     fn finish(&mut self) -> Result<(), Box<RunFault>> {
         let run = self.run;
         let mut machine = Machine::new(run.program, run.limits);
@@ -115,7 +115,7 @@ impl<'a> Recorder<'a> {
     fn add(&mut self, log: Var) -> Result<(), Fault> {
         self.density = self.density + log;
         if Var::met_nan() {
-            return Err(Fault::new("non-finite-score", "a comparison on the way to this term met nan")
+            return Err(Fault::new("non-finite-score", "a comparison before this term met nan")
                 .with_help("keep roots, logarithms and quotients away from where they are no numbers"));
         }
         if self.strict
@@ -244,8 +244,8 @@ impl Answers<Var> for Recorder<'_> {
 /// Records the run in which each choice has the value that `choices` gives its address.
 ///
 /// # Errors
-/// A fault with the model's call stack: a missing choice, an impossible run, an operation without a derivative on
-/// the way to the score, or whatever the program meets.
+/// A fault with the model's call stack: a missing choice, an impossible run, an operation without a derivative that
+/// the score depends on, or a fault of the program.
 pub fn record(run: &Run<'_>, choices: &HashMap<u128, Value>) -> Result<Recorded, Box<RunFault>> {
     let mut recorder = Recorder::new(run, choices, false);
     let (finished, sheet) = with_sheet(|| recorder.finish());

@@ -71,9 +71,9 @@ fn factors(graph: &Graph, id: Id) -> (f64, Id, Option<Id>) {
     }
 }
 
-/// `a + b`, two parts of an adjoint. Where one is a multiple of a factor of the other, they are one product with it:
-/// `c u v + d u = u (c v + d)`, so that `v`, which is often known long before `u`, waits for nothing. Only what was made
-/// for the gradient, from `first` on, is taken apart: nothing else needs it.
+/// `a + b`, two parts of an adjoint. Where one is a multiple of a factor of the other, both become one product:
+/// `c u v + d u = u (c v + d)`, so that `v`, which is often known long before `u`, waits for nothing. Only nodes of
+/// the gradient, from `first` on, are split: nothing else needs them.
 fn add(graph: &mut Graph, a: Id, b: Id, first: Id) -> Id {
     if a < first || b < first {
         return graph.add(a, b);

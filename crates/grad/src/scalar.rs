@@ -1,8 +1,8 @@
-//! The number that records what happens to it.
+//! The number that records its operations.
 //!
 //! A [`Var`] is its value at the recorded point and the node that computes it; a number that does not vary has no
 //! node. Operations go to the sheet of the thread that records ([`with_sheet`]); comparisons become guards. A machine
-//! or a density over `Var` instead of `f64` so writes itself down: the non-standard interpretation of dissertation
+//! or a density over `Var` instead of `f64` is recorded as it runs: the non-standard interpretation of dissertation
 //! 7.2.1.
 
 use crate::density::{Comparison, Density, Guard};
@@ -15,14 +15,14 @@ use std::collections::HashSet;
 use std::hash::BuildHasherDefault;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// What is written while a run is recorded.
+/// The record of a run.
 #[derive(Default)]
 pub struct Sheet {
     /// The operations.
     pub graph: Graph,
-    /// The comparisons that steered the run, each once, in order.
+    /// The comparisons on which the run branched, each once, in order.
     pub guards: Vec<Guard>,
-    /// Whether a comparison met a NaN: it steers the run, and no guard can say when it would again.
+    /// Whether a comparison met a NaN: the run branches on it, and no guard can express that.
     pub met_nan: bool,
     seen: HashSet<Guard, BuildHasherDefault<Mix>>,
 }
@@ -31,7 +31,7 @@ thread_local! {
     static SHEET: RefCell<Option<Sheet>> = const { RefCell::new(None) };
 }
 
-/// Records what `f` computes. A recording inside a recording has a sheet of its own.
+/// Records what `f` computes. A nested recording has its own sheet.
 pub fn with_sheet<R>(f: impl FnOnce() -> R) -> (R, Sheet) {
     /// Puts the outer sheet back, also when `f` panics.
     struct Outer(Option<Sheet>);
@@ -63,12 +63,12 @@ impl Var {
         Var::written(value, |sheet| sheet.graph.input())
     }
 
-    /// The node that computes it; a constant is given one.
+    /// The node that computes it; a constant gets one.
     pub fn id(self, graph: &mut Graph) -> Id {
         if self.node == FIXED { graph.constant(self.value) } else { Id(self.node) }
     }
 
-    /// The same number where it is known to lie between two others, which guards then need not ask.
+    /// The same number where it is known to lie between two others, which guards then need not test.
     #[must_use]
     pub fn within(self, lo: f64, hi: f64) -> Var {
         if self.node != FIXED {
@@ -87,8 +87,8 @@ impl Var {
         Var { value, ..self }
     }
 
-    /// Its derivatives by the coordinates of the recording so far, at `x`; none of what does not vary. It takes as long as
-    /// the whole recording: for messages.
+    /// Its derivatives by the coordinates of the recording so far, at `x`; none for a number that does not vary. It
+    /// takes as long as the whole recording: for messages.
     pub fn slopes(self, x: &[f64]) -> Vec<f64> {
         let mut slopes = vec![0.0; x.len()];
         SHEET.with_borrow(|sheet| {

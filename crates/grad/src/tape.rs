@@ -1,8 +1,8 @@
 //! The tape: a density as a list of instructions over lanes, one lane for each chain.
 //!
-//! Each instruction is a loop over the lanes, which the compiler turns into vector code, so what an instruction costs
-//! to find is shared by 16 or 64 chains. It needs no compilation. Values whose last reader has run give their place to
-//! others, which keeps the lanes of a large graph in the cache.
+//! Each instruction is a loop over the lanes, which the compiler turns into vector code, so the cost of decoding an
+//! instruction is shared by 16 or 64 chains. It needs no compilation. The slots of values whose last reader has run
+//! are reused, which keeps the lanes of a large graph in the cache.
 
 #![allow(unsafe_code)] // Slices of one memory, disjoint by construction; calls of code for AVX2 and AVX-512.
 
@@ -122,7 +122,7 @@ impl Tape {
         Lanes { memory }
     }
 
-    /// Computes all at `x`, and writes the first outputs to `g`; says which lanes are inside.
+    /// Computes all at `x`, and writes the first outputs to `g`; returns which lanes are inside.
     #[inline(always)]
     fn run<const L: usize>(
         &self,
@@ -193,7 +193,8 @@ impl Tape {
     }
 }
 
-/// A row, number by number: vector moves in the caller, where a call of `memcpy` would take as long as an instruction.
+/// Copies lanes number by number: the caller gets vector moves, where a call of `memcpy` would take as long as an
+/// instruction.
 #[inline(always)]
 fn copy<const L: usize>(from: &[f64; L], to: &mut [f64; L]) {
     for (to, from) in to.iter_mut().zip(from) {
@@ -201,7 +202,7 @@ fn copy<const L: usize>(from: &[f64; L], to: &mut [f64; L]) {
     }
 }
 
-/// What the lanes of a [`Tape`] compute in.
+/// The memory of the lanes of a [`Tape`].
 #[derive(Clone, Debug)]
 pub struct Lanes<const L: usize> {
     memory: Vec<[f64; L]>,
@@ -213,7 +214,7 @@ impl<const L: usize> Lanes<L> {
     /// Coordinate `k` of chain `l` is `x[k][l]`: shape (dim, L), as for `g`. A chain outside the guards gets NaN.
     ///
     /// # Panics
-    /// When `x` or `g` has not one row for each coordinate, or the memory is another tape's.
+    /// When `x` or `g` does not have one entry for each coordinate, or the memory is another tape's.
     pub fn value_and_gradient(&mut self, tape: &Tape, x: &[[f64; L]], g: &mut [[f64; L]]) -> [f64; L] {
         assert!(tape.outputs.len() == x.len() + 1);
         let inside = self.covered(tape, x, g);
@@ -227,8 +228,8 @@ impl<const L: usize> Lanes<L> {
         value
     }
 
-    /// Writes the first outputs of a tape, one for each coordinate, to `g`, and says which lanes are inside the guards;
-    /// the others' numbers have no meaning.
+    /// Writes the first outputs of a tape, one for each coordinate, to `g`, and returns which lanes are inside the
+    /// guards; the others' numbers have no meaning.
     ///
     /// # Panics
     /// As for [`Lanes::value_and_gradient`]; for a tape of fewer outputs.
@@ -242,7 +243,7 @@ impl<const L: usize> Lanes<L> {
         tape.outputs.last().map_or([f64::NAN; L], |slot| self.memory[*slot as usize])
     }
 
-    /// Computes all, with the first outputs in `g`, and says which lanes are inside the guards.
+    /// Computes all, with the first outputs in `g`, and returns which lanes are inside the guards.
     fn run(&mut self, tape: &Tape, x: &[[f64; L]], g: &mut [[f64; L]]) -> [bool; L] {
         assert!(x.len() == tape.dim() && self.memory.len() == tape.slots);
         let mut inside = [true; L];

@@ -20,11 +20,11 @@ impl<const L: usize> Wide<L> {
         Wide { both: with_memory(Tape::new(density)), slope: with_memory(Tape::of_gradient(density)) }
     }
 
-    /// The log densities, nats, with the gradients in `g`, and which lanes are inside the guards; the others' numbers have
-    /// no meaning.
+    /// The log densities, nats, with the gradients in `g`, and which lanes are inside the guards; the others' numbers
+    /// have no meaning.
     ///
     /// # Panics
-    /// When `x` or `g` has not one row for each coordinate.
+    /// When `x` or `g` does not have one entry for each coordinate.
     pub fn value_and_gradient(&mut self, x: &[[f64; L]], g: &mut [[f64; L]]) -> ([f64; L], [bool; L]) {
         let (tape, memory) = &mut self.both;
         let inside = memory.covered(tape, x, g);

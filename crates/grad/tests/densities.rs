@@ -1,4 +1,4 @@
-//! The graph, the tape at every width and the machine code agree with each other and with what is known.
+//! The graph, the tape at every width and the machine code agree with each other and with known values.
 
 mod peers;
 
@@ -24,7 +24,7 @@ fn lanes<const L: usize>(tape: &Tape, x: &[f64]) -> (f64, Vec<f64>) {
     (value[L - 1], g.iter().map(|g| g[L - 1]).collect())
 }
 
-fn every_way(density: &Density, x: &[f64]) -> Vec<(&'static str, f64, Vec<f64>)> {
+fn every_evaluator(density: &Density, x: &[f64]) -> Vec<(&'static str, f64, Vec<f64>)> {
     let mut all = Vec::new();
     let mut g = vec![0.0; x.len()];
     let value = density.interpret(x, &mut g);
@@ -52,10 +52,10 @@ fn the_peers_densities_are_those_that_are_known() {
     for Known { name, x, value, gradient } in known() {
         let density = &densities.iter().find(|(n, _)| *n == name).expect("a density of that name").1;
         assert_eq!(density.dim(), x.len());
-        for (way, found, g) in every_way(density, &x) {
-            assert!((found / value - 1.0).abs() < 1e-11, "{name} by {way}: {found} {value}");
+        for (evaluator, found, g) in every_evaluator(density, &x) {
+            assert!((found / value - 1.0).abs() < 1e-11, "{name} by {evaluator}: {found} {value}");
             let apart = apart(&g, &gradient);
-            assert!(apart < 1e-10, "{name} by {way}: gradients differ by {apart}");
+            assert!(apart < 1e-10, "{name} by {evaluator}: gradients differ by {apart}");
         }
         let plain = match name.as_str() {
             "ring" => ring(&x),
@@ -70,11 +70,11 @@ fn the_peers_densities_are_those_that_are_known() {
 fn a_large_density_is_cut_into_functions_and_stays_the_same() {
     let x = stack_start(28);
     let density = recorded(&x, |x| stack(28, x));
-    let all = every_way(&density, &x);
+    let all = every_evaluator(&density, &x);
     let (_, value, gradient) = &all[0];
     assert!((value / stack(28, &x) - 1.0).abs() < 1e-10);
-    for (way, found, g) in &all[1..] {
-        assert!((found / value - 1.0).abs() < 1e-10, "{way}: {found} {value}");
-        assert!(apart(g, gradient) < 1e-10, "{way}");
+    for (evaluator, found, g) in &all[1..] {
+        assert!((found / value - 1.0).abs() < 1e-10, "{evaluator}: {found} {value}");
+        assert!(apart(g, gradient) < 1e-10, "{evaluator}");
     }
 }

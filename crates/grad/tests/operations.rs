@@ -1,4 +1,4 @@
-//! Every built-in function and a thousand random graphs against central differences, and every way to evaluate
+//! Every built-in function and a thousand random graphs against central differences, and every evaluator
 //! against the interpreter.
 
 use niwaki_grad::scalar::with_sheet;
@@ -139,7 +139,7 @@ const CASES: &[Case] = cases! {
     "polygon_inset" shrunk [0.0, 0.1, 2.0, 0.0, 2.3, 1.9, -0.2, 1.7, 0.2];
 };
 
-/// Functions without a real number in them, of text, of positions, or that make what is not scored; and those that make shapes.
+/// Functions without real numbers: of text, of positions, or whose result is not scored; and those that make shapes.
 const WITHOUT: &[&str] = &[
     "is_none",
     "in",
@@ -199,7 +199,7 @@ fn every_builtin_has_the_slope_of_central_differences_or_none_to_have() {
             let close = (g[k] - difference).abs() <= 1e-6 * difference.abs().max(1e-3);
             assert!(close, "{name}({x:?}) by argument {k}: {} {difference}", g[k]);
         }
-        every_way(&density, x);
+        every_evaluator(&density, x);
     }
     for builtin in builtins::<Var>() {
         let is_shape = shapes::WORDS.iter().any(|(word, _)| *word == builtin.name);
@@ -249,14 +249,14 @@ fn what_has_no_derivative_says_so_where_the_number_varies() {
 }
 
 /// The tape, alone and in lanes, and the machine code give what the interpreter gives.
-fn every_way(density: &Density, x: &[f64]) {
+fn every_evaluator(density: &Density, x: &[f64]) {
     let mut expected = vec![0.0; x.len()];
     let value = density.interpret(x, &mut expected);
     let size = expected.iter().chain([&value]).fold(1e-3, |m: f64, x| m.max(x.abs()));
-    let same = |way: &str, found: f64, g: &[f64]| {
+    let same = |evaluator: &str, found: f64, g: &[f64]| {
         let near = |a: f64, b: f64| (a - b).abs() <= 1e-11 * size || a.is_nan() && b.is_nan();
-        assert!(near(found, value), "{way}: {found} {value}");
-        assert!(g.iter().zip(&expected).all(|(a, b)| near(*a, *b)), "{way}: {g:?} {expected:?}");
+        assert!(near(found, value), "{evaluator}: {found} {value}");
+        assert!(g.iter().zip(&expected).all(|(a, b)| near(*a, *b)), "{evaluator}: {g:?} {expected:?}");
     };
     let tape = Tape::new(density);
     let mut g = vec![0.0; x.len()];
@@ -274,7 +274,7 @@ fn every_way(density: &Density, x: &[f64]) {
     let found = native.value_and_gradient(x, &mut g);
     same("machine code", found, &g);
     let sound = |g: &[f64]| g.iter().chain([&found]).all(|x| !x.is_nan());
-    // To the bit, so that a chain need not know which of them it has.
+    // To the bit, so that a chain does not depend on the evaluator.
     assert!(!sound(&g) || bits(found, &g) == by_tape, "machine code and tape differ: {g:?} {last:?}");
     if native.gradient(x, &mut g) {
         same("machine code without the value", value, &g);
@@ -378,7 +378,7 @@ fn a_thousand_random_graphs_have_the_slopes_of_central_differences() {
             };
             let h = 1e-3;
             let (left, right) = ((line(x[k]) - line(x[k] - h)) / h, (line(x[k] + h) - line(x[k])) / h);
-            // A select or a corner within the step: no difference tells the slope.
+            // A select or a corner within the step: differences do not give the slope.
             if (left - right).abs() > 0.05 * size {
                 skipped += 1;
                 continue;
@@ -392,8 +392,8 @@ fn a_thousand_random_graphs_have_the_slopes_of_central_differences() {
             assert!((g[k] - difference).abs() < 1e-6 * size, "{round}, {k}: {} {difference}", g[k]);
         }
         if round % 10 == 0 {
-            every_way(&density, &x);
+            every_evaluator(&density, &x);
         }
     }
-    assert!(skipped < 350, "{skipped} of about 3500 derivatives stand at corners");
+    assert!(skipped < 350, "{skipped} of about 3500 derivatives are at corners");
 }

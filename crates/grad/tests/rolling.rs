@@ -1,4 +1,4 @@
-//! Leapfrog steps in machine code are, to the bit, those of an integrator that asks the tape for one gradient after
+//! Leapfrog steps in machine code are, to the bit, those of an integrator that calls the tape for one gradient after
 //! another; they stop before a step that leads outside the guards or to a slope that is not finite.
 
 use niwaki_grad::scalar::with_sheet;

@@ -1,8 +1,9 @@
 //! Colours: sRGB as it is displayed, HSV, CIELAB, and how different two colours look.
 //!
-//! A colour is three numbers; which three says the function's name. sRGB parts are in `[0, 1]` (IEC 61966-2-1, white
-//! point D65); hue, saturation and value are in `[0, 1]`, the hue in turns; CIELAB has L in `[0, 100]`. Nothing is
-//! clamped: a CIELAB colour that no screen can show has sRGB parts outside of `[0, 1]`, and comes back as it was.
+//! A colour is three numbers; the function's name gives the colour space. sRGB components are in `[0, 1]` (IEC
+//! 61966-2-1, white point D65); hue, saturation and value are in `[0, 1]`, the hue in turns; CIELAB has L in `[0,
+//! 100]`. Nothing is clamped: a CIELAB colour that no screen can show has sRGB parts outside of `[0, 1]`, and comes
+//! back as it was.
 
 use crate::Scalar;
 use std::f64::consts::TAU;
@@ -57,7 +58,7 @@ pub fn hsv_from_srgb<S: Scalar>([r, g, b]: [S; 3]) -> [S; 3] {
     [hue, if most == zero { zero } else { chroma / most }, most]
 }
 
-/// A part of a displayed colour as an amount of light.
+/// An sRGB component as linear light.
 fn linear<S: Scalar>(c: S) -> S {
     c.above(
         0.04045,
@@ -182,7 +183,7 @@ mod tests {
             assert!(near(srgb_from_hsv(hsv_from_srgb(c)), c, 1e-12), "{c:?}");
             assert!(near(srgb_from_lab(lab_from_srgb(c)), c, 1e-12), "{c:?}");
         }
-        // Out of what a screen can show, and back.
+        // Outside of the range of a screen, and back.
         let vivid = [50.0, 120.0, -110.0];
         assert!(near(lab_from_srgb(srgb_from_lab(vivid)), vivid, 1e-9));
     }

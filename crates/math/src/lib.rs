@@ -2,18 +2,18 @@
 //!
 //! | part | what it holds |
 //! | --- | --- |
-//! | [`scalar`] | what a number must be able to do, so that a run can compute with something richer than `f64` |
+//! | [`scalar`] | the operations of a number, so that a run can compute with other scalars than `f64` |
 //! | [`vector`] | points, directions and rotations of three dimensions |
 //! | [`color`] | sRGB, HSV and CIELAB, and how different two colours look |
 //! | [`polygon`] | simple polygons of the plane |
 //! | [`streams`] | random bits as a function of seed, stream, address and visit |
-//! | [`rounding`] | the grid on which log scores are added and taken away exactly |
+//! | [`rounding`] | the grid on which log scores are added and subtracted exactly |
 //! | [`fingerprint`] | a hash of the bits that this machine computes |
-//! | [`total`] | their sums: exact, whatever their sizes |
-//! | [`special`] | the few special functions that the kept crates lack |
+//! | [`total`] | exact sums of log scores of any size |
+//! | [`special`] | the special functions that the crates in use lack |
 //! | [`distributions`] | the families a model may draw from: density, support, sampler, parameter checks |
 //!
-//! Nothing here knows shapes, programs, searches or Python.
+//! This crate does not know shapes, programs, searches or Python.
 
 pub mod color;
 pub mod distributions;
@@ -27,7 +27,7 @@ pub mod total;
 pub mod vector;
 
 pub use distributions::{
-    BadParameter, Dist, Draw, Family, Interval, Param, Placed, Space, Support, log_odds, logistic,
+    BadParameter, Dist, Draw, Family, Interval, Param, Placed, Space, Support, logistic, logit,
 };
 pub use rounding::grid;
 pub use scalar::{LastLog, Scalar};

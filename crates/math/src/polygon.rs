@@ -1,7 +1,7 @@
 //! Simple polygons of the plane: is a point inside, how far is the boundary, how large, how much of a disc is in it.
 //!
-//! A polygon is its corners in order, in either direction, without the first one repeated. Its boundary is closed by the
-//! edge from the last corner to the first. What is asked of a polygon that crosses itself has no meaning.
+//! A polygon is its corners in order, in either direction, without the first one repeated. Its boundary is closed by
+//! the edge from the last corner to the first. For a polygon that crosses itself the results have no meaning.
 
 use crate::Scalar;
 
@@ -30,7 +30,7 @@ fn twice_signed<S: Scalar>(corners: &[Point<S>]) -> S {
     edges(corners).fold(S::from_f64(0.0), |sum, (a, b)| sum + cross(minus(a, *first), minus(b, *first)))
 }
 
-/// The area, whichever way the corners go round.
+/// The area, for either direction of the corners.
 pub fn area<S: Scalar>(corners: &[Point<S>]) -> S {
     (twice_signed(corners) * S::from_f64(0.5)).abs()
 }
@@ -104,8 +104,8 @@ pub fn disc_area<S: Scalar>(corners: &[Point<S>], center: Point<S>, radius: S) -
 
 /// The polygon with every edge moved inwards by `by` (outwards when negative), corners mitred.
 ///
-/// `None` where that is no polygon of the same corners: an edge would turn round, or two neighbouring edges are parallel
-/// and face each other.
+/// `None` where that is no polygon of the same corners: an edge would turn round, or two neighbouring edges are
+/// parallel and face each other.
 pub fn inset<S: Scalar>(corners: &[Point<S>], by: S) -> Option<Vec<Point<S>>> {
     let n = corners.len();
     let (turn, zero) = (twice_signed(corners), S::from_f64(0.0));
@@ -125,7 +125,7 @@ pub fn inset<S: Scalar>(corners: &[Point<S>], by: S) -> Option<Vec<Point<S>>> {
         let normal = [-(edge[1] / length), edge[0] / length];
         lines.push((normal, dot(normal, a) + by));
     }
-    let mut made = Vec::with_capacity(n);
+    let mut moved = Vec::with_capacity(n);
     for at in 0..n {
         let ((m, p), (k, q)) = (lines[(at + n - 1) % n], lines[at]);
         let sine = cross(m, k);
@@ -135,18 +135,18 @@ pub fn inset<S: Scalar>(corners: &[Point<S>], by: S) -> Option<Vec<Point<S>>> {
             }
             // A corner in the middle of a straight edge.
             let corner = corners[at];
-            made.push([corner[0] + k[0] * by, corner[1] + k[1] * by]);
+            moved.push([corner[0] + k[0] * by, corner[1] + k[1] * by]);
             continue;
         }
-        made.push([(p * k[1] - q * m[1]) / sine, (q * m[0] - p * k[0]) / sine]);
+        moved.push([(p * k[1] - q * m[1]) / sine, (q * m[0] - p * k[0]) / sine]);
     }
-    let kept = edges(corners).zip(edges(&made)).all(|((a, b), (c, d))| dot(minus(b, a), minus(d, c)) > zero);
-    kept.then_some(made)
+    let kept = edges(corners).zip(edges(&moved)).all(|((a, b), (c, d))| dot(minus(b, a), minus(d, c)) > zero);
+    kept.then_some(moved)
 }
 
 #[cfg(test)]
 mod tests {
-    //! A square and an L, where every answer can be worked out by hand, and a count of sample points for discs.
+    //! A square and an L, where every result can be computed by hand, and a count of sample points for discs.
 
     use super::*;
     use std::f64::consts::PI;

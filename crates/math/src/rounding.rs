@@ -1,7 +1,7 @@
 //! The grid of log scores.
 //!
-//! Every log density, factor and sketch is rounded to a multiple of 2^-32 nats. Sums of such numbers can be exact, in any
-//! order, and then a term that is taken away leaves what was there before: see [`Total`](crate::Total).
+//! Every log density, factor and sketch is rounded to a multiple of 2^-32 nats. Sums of such numbers can be exact, in
+//! any order, and then subtracting a term restores the sum before it: see [`Total`](crate::Total).
 
 /// 1.5 * 2^20: adding it leaves 32 binary places, for terms below 2^19.
 const SHIFT: f64 = 1.5 * (1u64 << 20) as f64;
@@ -29,7 +29,7 @@ pub fn grid(x: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    //! Grid values are multiples of the step, near what they stand for, and add up exactly in any order.
+    //! Grid values are multiples of the step, near the exact numbers, and add up exactly in any order.
     use super::*;
 
     #[test]

@@ -1,7 +1,7 @@
-//! What a number must be able to do, so that a run can compute with something richer than `f64`.
+//! The operations of a number, so that a run can compute with other scalars than `f64`.
 //!
-//! Plain runs use `f64`. A scalar that records what happens to it implements the same trait, and the
-//! densities, which are generic, then describe themselves. Decisions (inside the support or not, which
+//! Plain runs use `f64`. A scalar that records its operations implements the same trait, and the generic
+//! densities are then recorded. Decisions (inside the support or not, which
 //! series to use) compare scalars with `<` and `==`, which a recording scalar notes; [`Scalar::value`] is for
 //! decisions that end in a fault, which need no note.
 
@@ -9,7 +9,7 @@ use crate::special;
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// A real number, or something that stands for one.
+/// A real number, or a scalar that records its operations.
 pub trait Scalar:
     Copy
     + Debug
@@ -76,22 +76,22 @@ pub trait Scalar:
     fn min(self, other: Self) -> Self;
     /// The larger of two.
     fn max(self, other: Self) -> Self;
-    /// The largest whole number that is not above it. Recorded, it may be one less at a whole number itself: only for what
-    /// has the same value on both sides of the jump.
+    /// The largest whole number that is not above it. Recorded, it may be one less at a whole number itself: use it
+    /// only where the result is the same on both sides of the jump.
     fn floor(self) -> Self;
-    /// One of two pieces: `over` where the number is above the bound, else `under`. Recorded, it is both of them and a choice
-    /// between, so that no run need be recorded again where the other piece begins; neither may compare numbers.
+    /// One of two pieces: `over` where the number is above the bound, else `under`. A recording has both pieces and a
+    /// select, so that it also holds where the other piece begins; neither piece may compare numbers.
     fn above(self, bound: f64, over: impl FnOnce() -> Self, under: impl FnOnce() -> Self) -> Self;
     /// True when neither infinite nor NaN.
     fn is_finite(self) -> bool;
-    /// Whether the number varies with what a run is recorded over. Plain numbers never do.
+    /// Whether the number varies with the coordinates of a recording. Plain numbers never do.
     #[inline(always)]
     fn varies(self) -> bool {
         false
     }
 }
 
-/// The logarithm that was taken last: a deviation that many observations in a row share costs one.
+/// The last logarithm: consecutive observations with one deviation compute it once.
 #[derive(Clone, Copy, Debug)]
 pub struct LastLog<S: Scalar> {
     of: u64,
@@ -105,7 +105,7 @@ impl<S: Scalar> Default for LastLog<S> {
 }
 
 impl<S: Scalar> LastLog<S> {
-    /// `x.ln()`, bit for bit. That of a number that varies is taken (and recorded) each time.
+    /// `x.ln()`, bit for bit. The logarithm of a number that varies is computed (and recorded) each time.
     #[inline(always)]
     pub fn of(&mut self, x: S) -> S {
         if x.varies() {

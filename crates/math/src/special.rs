@@ -1,4 +1,4 @@
-//! The few special functions that the kept crates lack, or lose digits on.
+//! The special functions that the crates in use lack, or compute with a loss of digits.
 
 use crate::scalar::Scalar;
 use std::f64::consts::TAU;
@@ -69,7 +69,7 @@ pub fn integrate<S: Scalar>(width: S, f: impl Fn(S) -> S) -> S {
 
 #[cfg(test)]
 mod tests {
-    //! Each function agrees with a second way to compute it.
+    //! Each function agrees with a second method.
     use super::*;
 
     #[test]

@@ -42,7 +42,7 @@ fn mix(mut x: u64) -> u64 {
 /// The golden ratio in 64 bits: distinct inputs of [`mix`] stay distinct when it is added.
 const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
 
-/// The random bits of one choice, as many as it asks for.
+/// The random bits of one choice, as many as it needs.
 ///
 /// ```
 /// use niwaki_math::Stream;
@@ -58,11 +58,11 @@ pub struct Stream {
     base: u64,
     /// Number of the next block.
     block: u64,
-    /// The second half of the last block, until it is given out.
+    /// The second half of the last block, until it is used.
     spare: Option<u64>,
 }
 
-/// What the random bits of a stream's choices have in common: whoever draws many of them mixes it once.
+/// The part of the key that all choices of a stream share: it is mixed once for many draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StreamKey(u64);
 
@@ -70,7 +70,7 @@ impl StreamKey {
     /// The key of `stream` (a particle, a chain) for choices drawn for the `visit`-th time.
     #[inline]
     pub fn new(seed: u64, stream: u64, visit: u64) -> StreamKey {
-        // Three mixes side by side, not one inside the other: a choice waits for one of them only. The odd
+        // Three mixes side by side, not one inside the other: the latency is that of one. The odd
         // factors keep equal numbers in two places from cancelling.
         let base = mix(seed.wrapping_add(GOLDEN))
             .wrapping_add(mix(stream.wrapping_add(GOLDEN)).wrapping_mul(0xA24B_AED4_963E_E407))
@@ -78,7 +78,7 @@ impl StreamKey {
         StreamKey(base)
     }
 
-    /// Of a key made for visit 0, that of another visit: `new(seed, stream, 0).revisited(n)` is
+    /// From the key of visit 0, the key of another visit: `new(seed, stream, 0).revisited(n)` is
     /// `new(seed, stream, n)`, for one mix instead of three.
     #[inline]
     pub fn revisited(self, visit: u64) -> StreamKey {

@@ -1,18 +1,18 @@
 //! Sums of log scores that are exact, whatever the sizes of their terms.
 //!
-//! A sum that is kept up to date (`total - old + new`) must come back to what it was when a term is taken away, and two
+//! A sum that is kept up to date (`total - old + new`) must return to its old value when a term is removed, and two
 //! runs that made the same choices in another order must agree in the last bit. With `f64` that holds only while every
 //! sum fits into 53 bits. A [`Total`] holds terms on the [`grid`](crate::grid) of 2^-32 nats without loss:
 //!
 //! | sum | where |
 //! | --- | --- |
 //! | below 2^20 nats | one `f64`: 53 bits hold every multiple of 2^-32 of that size |
-//! | larger, finite | an expansion: `f64` parts that do not overlap (Shewchuk 1997, theorem 10), on the heap |
-//! | infinite terms | counted by sign, beside the expansion; NaN is counted as one of each, and comes back as NaN |
+//! | larger, finite | an expansion on the heap: `f64` parts that do not overlap (Shewchuk 1997, theorem 10) |
+//! | infinite terms | counted by sign, beside the expansion; NaN is counted as one of each, and gives NaN |
 
 use std::fmt;
 
-/// A sum of multiples of 2^-32 that comes out below this size, nats, was not rounded.
+/// A sum of multiples of 2^-32 with a result below this size, nats, was not rounded.
 const NEAR: f64 = (1u64 << 20) as f64;
 /// Far terms are held times 2^-64, so that no partial sum overflows. All stay far above subnormal numbers.
 const SCALE: f64 = 1.0 / (1u128 << 64) as f64;
@@ -30,7 +30,7 @@ const SCALE: f64 = 1.0 / (1u128 << 64) as f64;
 pub struct Total {
     /// The sum, where it is below [`NEAR`]; else NaN.
     near: f64,
-    /// The sum, where `near` is NaN; else what was once there, whose memory will be used again.
+    /// The sum, where `near` is NaN; else an old one, whose memory will be reused.
     far: Option<Box<Far>>,
 }
 
@@ -39,7 +39,7 @@ pub struct Total {
 struct Far {
     /// Sum of the finite terms, times [`SCALE`].
     finite: Expansion,
-    /// How many terms are minus infinity, and plus infinity; below zero, where more of them were taken away.
+    /// How many terms are minus infinity, and plus infinity; below zero, where more of them were removed.
     infinite: [i32; 2],
 }
 
@@ -50,13 +50,13 @@ impl Total {
         self.replace(0.0, term);
     }
 
-    /// Takes a term away.
+    /// Removes a term.
     #[inline(always)]
     pub fn remove(&mut self, term: f64) {
         self.replace(term, 0.0);
     }
 
-    /// Takes a term away and adds another.
+    /// Removes a term and adds another.
     #[inline(always)]
     pub fn replace(&mut self, old: f64, new: f64) {
         // A difference that was rounded is 2^21 at least, and then the sum is not near.
@@ -71,13 +71,13 @@ impl Total {
         }
     }
 
-    /// Takes every term away.
+    /// Removes every term.
     #[inline(always)]
     pub fn clear(&mut self) {
         self.near = 0.0;
     }
 
-    /// What is not near, if anything.
+    /// The sum that is not near, if it is one.
     #[inline(always)]
     fn far(&self) -> Option<&Far> {
         self.near.is_nan().then_some(self.far.as_deref()).flatten()
@@ -109,7 +109,7 @@ impl Total {
         }
     }
 
-    /// Takes every term of another sum away.
+    /// Removes every term of another sum.
     #[inline(always)]
     pub fn remove_total(&mut self, other: &Total) {
         let near = self.near - other.near;
@@ -120,7 +120,7 @@ impl Total {
         }
     }
 
-    /// The sum of both.
+    /// The sum of two totals.
     #[inline(always)]
     #[must_use]
     pub fn plus(&self, other: &Total) -> Total {
@@ -181,7 +181,7 @@ impl Far {
     #[inline(never)]
     fn value(&self) -> f64 {
         let [lowest, highest] = self.infinite;
-        // A term that was only taken away is one of the other sign.
+        // A term that was only removed counts as one of the other sign.
         match (highest > 0 || lowest < 0, lowest > 0 || highest < 0) {
             (true, true) => f64::NAN,
             (true, false) => f64::INFINITY,
@@ -217,14 +217,14 @@ impl Total {
 }
 
 impl PartialEq for Total {
-    /// Whether the exact sums are equal, whatever terms they were made of.
+    /// Whether the exact sums are equal, whatever their terms.
     fn eq(&self, other: &Total) -> bool {
         self.less(other).near == 0.0
     }
 }
 
 impl fmt::Debug for Total {
-    /// The nearest `f64`, and what it lacks of the exact sum: equal sums have equal texts.
+    /// The nearest `f64`, and the rest of the exact sum: equal sums have equal texts.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (mut rest, mut value) = (self.clone(), self.value());
         write!(f, "{value:?}")?;
@@ -265,8 +265,8 @@ impl Expansion {
             let Some(part) = parts.next() else { return sum };
             (sum, rest) = two_sum(sum, part);
         }
-        // The parts below `rest` are smaller than its last bit. They decide where `rest` is half of the last bit of `sum`:
-        // then twice `rest` added to `sum` is exact, and on the far side of the middle.
+        // The parts below `rest` are smaller than its last bit. They decide where `rest` is half of the last bit of
+        // `sum`: then twice `rest` added to `sum` is exact, and on the far side of the middle.
         let beyond = parts.next().unwrap_or(0.0);
         let next = sum + 2.0 * rest;
         let is_half = next - sum == 2.0 * rest;
@@ -283,11 +283,12 @@ fn two_sum(a: f64, b: f64) -> (f64, f64) {
 
 #[cfg(test)]
 mod tests {
-    //! A total is the nearest `f64` to the exact sum, whatever was added and taken away before, and in any order.
+    //! A total is the nearest `f64` to the exact sum, whatever was added and removed before, in any order.
     use super::*;
     use crate::{Stream, grid};
 
-    /// The plain way: a whole number of steps of 2^-32 nats, in binary places of 32 bits each, and counts of infinities.
+    /// The reference: a whole number of steps of 2^-32 nats, in binary places of 32 bits each, and counts of
+    /// infinities.
     #[derive(Clone)]
     struct Exact {
         places: [i128; 40],

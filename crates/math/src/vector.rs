@@ -1,6 +1,6 @@
 //! Points, directions and rotations of three dimensions: the small value types that shapes are made of.
 //!
-//! Right-handed, y up, `f64`, scene units; angles in radians. What a shape does with them is not here.
+//! Right-handed, y up, `f64`, scene units; angles in radians. Shapes are in another crate.
 
 use serde::{Deserialize, Serialize};
 use std::ops::{Add, Div, Index, Mul, Neg, Sub};

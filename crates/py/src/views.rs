@@ -5,7 +5,7 @@
 use crate::geometry::{PyShape, PySketchSpec, PyTarget, mesh_from, value_error};
 use niwaki_geom::view::{Camera, Lens, Light, shadow_rays};
 use niwaki_geom::{
-    Aabb, GeomError, Picture, Primitive, Shape, SketchSpec, Vec3, Wish, avoid, floor, match_image,
+    Aabb, GeomError, Picture, Primitive, Shape, SketchSpec, TargetPicture, Vec3, avoid, floor, match_image,
     match_shadow, no_overshoot,
 };
 use numpy::ndarray::Array2;
@@ -47,7 +47,7 @@ impl PyPicture {
         light: Option<Triple>,
     ) -> PyResult<PyPicture> {
         let on = on.as_array();
-        let wish = Wish {
+        let target = TargetPicture {
             size: [on.ncols(), on.nrows()],
             on: on.iter().copied().collect(),
             greys: greys.map(|greys| greys.as_array().iter().copied().collect()),
@@ -56,15 +56,15 @@ impl PyPicture {
         let receiver = receiver.map(|(vertices, faces)| mesh_from(&vertices, &faces)).transpose();
         py.detach(|| {
             let camera = self::camera(camera)?;
-            niwaki_geom::view::camera::check_size(wish.size)?;
+            niwaki_geom::view::camera::check_size(target.size)?;
             let rays = match receiver? {
                 Some(mesh) => {
                     let light = Light::new(Vec3::from(light.unwrap_or([0.0, -1.0, 0.0])))?;
-                    shadow_rays(&mesh, &camera, &light, wish.size)?
+                    shadow_rays(&mesh, &camera, &light, target.size)?
                 }
-                None => camera.rays(wish.size),
+                None => camera.rays(target.size),
             };
-            Picture::new(&wish, rays)
+            Picture::new(&target, rays)
         })
         .map(|picture| PyPicture(Arc::new(picture)))
         .map_err(|e| value_error(py, &e))

@@ -1,8 +1,8 @@
-//! A fault: why a running model could not go on, as data.
+//! A fault: why a run stopped, as data.
 //!
-//! The code is the key of the message table on the Python side; the message is already complete and speaks
-//! the language of the model ("list index 5 is out of range: the list has 3 elements"). Where it happened (the model's own call
-//! stack) is known to the machine, not here.
+//! The code is the key of the message table on the Python side; the message is complete and uses the model's
+//! terms ("list index 5 is out of range: the list has 3 elements"). The machine adds where it happened: the model's
+//! own call stack.
 //!
 //! A fault is one pointer wide, so that `Result<Value, Fault>` is no larger than a value: every arithmetic
 //! instruction returns one.
@@ -11,23 +11,23 @@ use niwaki_math::Family;
 use std::fmt;
 use std::ops::Deref;
 
-/// Why a running model could not go on. Its fields are read through [`Details`].
+/// Why a run stopped. Its fields are read through [`Details`].
 #[derive(Clone, PartialEq, Eq)]
 pub struct Fault(Box<Details>);
 
-/// What a fault says.
+/// The fields of a fault.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Details {
     /// Kebab-case key of the kind of fault (`list-index`, `division-by-zero`, ...).
     pub code: &'static str,
-    /// One sentence, lower case, with found and expected.
+    /// One sentence, lower case, with the actual and the expected value.
     pub message: String,
     /// The name that the message is about, where it is looked up: an address, a pattern.
     pub subject: Option<String>,
-    /// The cure, where there is one that fits.
+    /// What to do instead, where that is known.
     pub help: Option<String>,
-    /// The family of a distribution whose parameters are numbers out of its range: a run that meets one is outside of the
-    /// model's support.
+    /// The family of a distribution whose parameters are numbers out of its range: a run that meets one is outside of
+    /// the model's support.
     pub out_of_range: Option<Family>,
 }
 
@@ -68,7 +68,7 @@ macro_rules! kinds {
 kinds! {
     /// An operation met a value of a kind that it does not work on.
     type_mismatch = "type-mismatch";
-    /// A future was looked at that is not forced.
+    /// A future was read that is not forced.
     not_forced = "future-not-forced";
     /// A position outside a list, tuple, string, range or vector.
     list_index = "list-index";
@@ -106,7 +106,7 @@ kinds! {
     bad_text = "bad-text";
     /// A format specification that does not parse or does not fit the value.
     bad_format = "bad-format";
-    /// A list method looked for an element that is not there.
+    /// A list method looked for an element that does not exist.
     missing_element = "missing-element";
 }
 
@@ -149,7 +149,7 @@ impl Fault {
         self
     }
 
-    /// The same fault with a cure.
+    /// The same fault with help.
     #[cold]
     pub fn with_help(mut self, help: impl Into<String>) -> Fault {
         self.0.help = Some(help.into());

@@ -4,7 +4,7 @@
 //! * [`core`]: what a model is after names are resolved, as text and as types;
 //! * [`passes`]: core form to bytecode;
 //! * [`code`]: bytecode, its verifier and disassembler;
-//! * [`value`]: what registers hold; [`builtins`]: the functions on values; [`fault`]: what goes wrong;
+//! * [`value`]: the contents of registers; [`builtins`]: the functions on values; [`fault`]: faults of a run;
 //! * [`machine`]: runs a program up to its next question.
 //!
 //! Not here: random numbers, algorithms, Python.

@@ -1,4 +1,4 @@
-//! The claim: a compiled program computes what core form says, suspends where it may, never uses the host stack,
+//! The claim: a compiled program has the results of core form, suspends where it may, never uses the host stack,
 //! and stops at its budgets with the model's own call stack.
 
 use niwaki_geom::Shape;
@@ -14,7 +14,7 @@ use niwaki_vm::machine::{Limits, Machine, Stop};
 use niwaki_vm::passes::compile;
 use niwaki_vm::value::{Value, repr};
 
-/// Answers choices with 1, 2, 3, ... (or their least value), pauses at factors when asked to, and writes all down.
+/// Answers choices with 1, 2, 3, ... (or their least value), pauses at factors if set, and logs everything.
 #[derive(Default)]
 struct Script {
     count: i64,
@@ -84,7 +84,7 @@ fn entry(body: &str) -> String {
     format!("(module (fn \"m\" (params) {body}) (entry \"m\"))")
 }
 
-/// A choice that nobody looks at: makes the function around it effectful.
+/// A choice that nothing reads: makes the function around it effectful.
 const EFFECT: &str = "(do (sample (dist bernoulli 0.5)))";
 
 #[test]
@@ -121,7 +121,7 @@ fn merges_loops_and_exits_are_the_same_with_and_without_effects() {
             "(set $n 0) (while true (body EFFECT (set $n (add $n 1)) (if (gt $n 6) (then (break)) (else (continue))))) (return $n)",
             "7",
         ),
-        // What only the test reads is handed on.
+        // What only the test reads is carried.
         (
             "(set $more true) (set $n 0) (while $more (body EFFECT (set $more (lt $n 3)) (set $n (add $n 1)))) (return $n)",
             "4",
@@ -300,7 +300,7 @@ fn a_force_that_waits_reads_its_future_again_wherever_that_lies() {
     }
 }
 
-/// The claim: whatever looks at a future that is not forced is a fault with one code, whether the future may still run
+/// The claim: whatever reads a future that is not forced is a fault with one code, whether the future may still run
 /// (orders that are not depth first), has returned (depth first), or is kept (chains), its function pure or not.
 #[test]
 fn a_look_at_a_future_that_is_not_forced_is_a_fault() {

@@ -1,4 +1,4 @@
-//! Normals for any mesh: smooth where it bends gently, sharp where it folds.
+//! Normals for any mesh: smooth at small angles, sharp at large ones.
 //!
 //! At each corner of each face the normals of the faces around that vertex are averaged, weighted by their angle at
 //! the vertex (Thurmer & Wuthrich 1998), leaving out those that turn away by more than the crease angle.
@@ -31,7 +31,7 @@ pub fn creased(mesh: &TriMesh, sharp: f64) -> FineMesh {
     let mut known: HashMap<([u64; 3], [u64; 3]), u32> = HashMap::new();
     for (face, points) in corners.iter().enumerate() {
         if across[face] == Vec3::ZERO {
-            continue; // a sliver without area has no side to show
+            continue; // a triangle without area has no normal
         }
         let numbers = points.map(|p| {
             let place = key(p);

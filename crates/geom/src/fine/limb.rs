@@ -2,7 +2,7 @@
 //!
 //! The axis is the cubic that leaves the first ring along its normal and meets the second along its own (Hermite
 //! form), so that limbs that share a ring bend into one another. Normals on the side point straight away from the
-//! axis *in the ring's plane*: neighbours agree there, and a branch of many limbs looks like one skin. The dome is
+//! axis *in the ring's plane*: neighbours agree there, and a branch of many limbs looks like one surface. The dome is
 //! hidden by the next limb, and rounds off the last.
 
 use super::{FineMesh, ROUND, unit_or};
@@ -65,7 +65,7 @@ pub(super) fn dome(mesh: &mut FineMesh, end: &Ring, mut below: Vec<u32>) {
     }
 }
 
-/// The ring at `t` of the way; the given rings themselves, to the bit, at 0 and 1.
+/// The ring at the fraction `t` of the axis; the given rings themselves, to the bit, at 0 and 1.
 pub(super) fn between(start: &Ring, end: &Ring, t: f64) -> Ring {
     if t == 0.0 || t == 1.0 {
         return if t == 0.0 { *start } else { *end };

@@ -7,8 +7,8 @@
 //! - `boxes.rs`   rounded boxes, tapered or not
 //! - `revolve.rs` cylinders and cones with rounded rims
 //! - `limb.rs`    smooth tubes with a domed end
-//! - `segment.rs` the same, growing out of a parent's bark
-//! - `crease.rs`  normals of any mesh, sharp where it is sharp
+//! - `segment.rs` the same, with a collar on the parent's bark
+//! - `crease.rs`  normals of any mesh, sharp at large angles
 
 mod boxes;
 mod crease;
@@ -23,7 +23,7 @@ use crate::vector::Vec3;
 pub const ROUND: usize = 48;
 /// Segments of a rounded edge for each quarter turn.
 pub const ARC: usize = 6;
-/// Rounding of boxes whose shape names none, as a share of the smallest half length.
+/// Rounding of boxes whose shape gives none, as a share of the smallest half length.
 pub const BOX_BEVEL: f64 = 0.16;
 /// Rounding of cylinders' rims, as a share of the smaller of the radius and the half length.
 pub const RIM_BEVEL: f64 = 0.12;
@@ -47,7 +47,7 @@ impl FineMesh {
         (self.vertices.len() - 1) as u32
     }
 
-    /// Adds a triangle unless two of its corners are one place.
+    /// Adds a triangle unless two of its corners coincide.
     fn face(&mut self, [a, b, c]: [u32; 3]) {
         let [p, q, r] = [a, b, c].map(|i| self.vertices[i as usize]);
         if p != q && q != r && r != p {

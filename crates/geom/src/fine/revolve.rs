@@ -40,7 +40,7 @@ fn corner(stops: &mut Vec<Stop>, radius: f64, half: f64, length: f64, bevel: f64
             }
         })
         .collect();
-    // The first stop lies on the cap; the exact place avoids a hair of rounding error.
+    // The first stop lies on the cap; the exact place avoids rounding errors.
     arc[0].radius = inset;
     arc[0].height = sign * half;
     if sign > 0.0 {

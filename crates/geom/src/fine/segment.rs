@@ -1,8 +1,8 @@
-//! A segment of a tree: the smooth tube of a limb, which flares where it grows out of its parent's bark.
+//! A segment of a tree: the smooth tube of a limb, which widens where it leaves its parent's bark.
 //!
-//! The collar is what makes a fork look grown rather than stuck on. Its foot is a ring wider than the branch, dropped
+//! The collar makes a fork look natural. Its foot is a ring wider than the branch, dropped
 //! onto the parent's cone; over the first part of the branch the rows narrow to the branch and rise from the bark.
-//! At the foot the normals are the parent's own, so that light runs from one to the other without a seam.
+//! At the foot the normals are the parent's own, so that the shading has no seam.
 
 use super::limb::{between, close, dome, domed, join, row};
 use super::{FineMesh, unit_or};
@@ -23,7 +23,7 @@ const STEPS: usize = 6;
 /// The foot is sunk to this share of the parent's radius, so that no crack shows.
 const SUNK: f64 = 0.985;
 
-/// The segment over `[start, split, end]`. The split ring is for the light geometry: a smooth bend needs none.
+/// The segment over `[start, split, end]`. The split ring is for the coarse mesh: a smooth bend needs none.
 pub fn grown(frames: &[Frame; 3], onto: Option<&Bark>) -> FineMesh {
     let ring = |f: &Frame| Ring { center: f.center, normal: f.forward, radius: f.radius };
     let (start, end) = (ring(&frames[0]), ring(&frames[2]));
@@ -40,7 +40,7 @@ fn collared(start: &Ring, end: &Ring, bark: &Bark, down: Vec3) -> FineMesh {
     let rise = (RISE * start.radius / (end.center - start.center).norm().max(1e-12)).min(0.8);
     let mut below: Vec<u32> = Vec::new();
     for step in 0..=COLLAR + STEPS {
-        // How much of the collar is left: 1 at the foot, 0 where the branch is itself.
+        // How much of the collar is left: 1 at the foot, 0 beyond the collar.
         let left = 1.0 - step.min(COLLAR) as f64 / COLLAR as f64;
         let t = match step.checked_sub(COLLAR) {
             None => rise * (1.0 - left) * (1.0 - left),

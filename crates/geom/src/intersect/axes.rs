@@ -1,8 +1,8 @@
 //! Convex solids by separating axes: two are apart exactly when their shadows on some face normal, or on some
 //! product of two edges, are apart (Gottschalk, Lin & Manocha 1996).
 //!
-//! The smallest overlap over all these directions is how far one must move to get out of the other; up to a
-//! tolerance it is touching.
+//! The smallest overlap over all these directions is the distance that separates the two; up to a tolerance they
+//! only touch.
 
 use crate::bounds::Aabb;
 use crate::convex::{Convex, span};
@@ -15,9 +15,9 @@ pub fn boxes_apart(a: &Aabb, b: &Aabb, tolerance: f64) -> bool {
     apart(0) || apart(1) || apart(2)
 }
 
-/// True when a face normal of either has the solids overlap by no more than `tolerance`.
+/// True when the solids overlap by no more than `tolerance` along a face normal of either.
 pub fn faces_apart(a: &Convex<'_>, b: &Convex<'_>, tolerance: f64) -> bool {
-    // Ends come last among the faces, and what is built flush touches with its ends.
+    // The end faces come last, and flush shapes usually touch there.
     a.normals().iter().rev().chain(b.normals().iter().rev()).any(|n| apart(a, b, *n, tolerance))
 }
 

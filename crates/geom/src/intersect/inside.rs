@@ -1,8 +1,8 @@
-//! Containment: is a point inside a closed surface, and does one solid hold a part of another whose surface it does
+//! Containment: is a point inside a closed surface, and is one solid inside another whose surface it does
 //! not cross?
 //!
 //! The winding number of a closed mesh around a point is the sum of its triangles' solid angles over 4 pi (van Oosterom
-//! & Strackee 1983): zero outside, and not zero inside whichever way the mesh is turned.
+//! & Strackee 1983): zero outside, and not zero inside, for either orientation of the mesh.
 
 use crate::mesh::TriMesh;
 use crate::shape::Shape;
@@ -16,13 +16,13 @@ pub fn contains(shape: &Shape, point: Vec3) -> bool {
     inside_mesh(shape.world_mesh(), point)
 }
 
-/// True when a closed mesh goes around `point`.
+/// True when a closed mesh contains `point`.
 pub fn inside_mesh(mesh: &TriMesh, point: Vec3) -> bool {
     let angle: f64 = mesh.corners().map(|t| solid_angle(t.map(|p| p - point))).sum();
     angle.abs() > std::f64::consts::TAU
 }
 
-/// Solid angle of a triangle seen from the origin, steradians, positive when it turns its inside to it.
+/// Solid angle of a triangle seen from the origin, steradians, positive when its inner side faces the origin.
 fn solid_angle([a, b, c]: [Vec3; 3]) -> f64 {
     let (la, lb, lc) = (a.norm(), b.norm(), c.norm());
     let below = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;

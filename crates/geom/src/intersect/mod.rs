@@ -6,7 +6,7 @@
 //!
 //! Two rules. *Solid*: the insides overlap by more than a millionth of the thinner solid; one inside the other
 //! counts. *Surface*: the surfaces cross, as the original tests it; containment and overlap of equal cross-sections
-//! are not seen. Use it to compare with the published figures.
+//! are not detected. Use it to compare with the published figures.
 
 pub mod axes;
 pub mod inside;
@@ -63,7 +63,7 @@ pub fn intersects(a: &Shape, b: &Shape, rule: Rule) -> bool {
         }
 }
 
-/// True when `f` is so for a convex piece of the shape.
+/// True when `f` holds for a convex piece of the shape.
 fn any_piece(shape: &Shape, whole: &Convex<'_>, mut f: impl FnMut(&Convex<'_>) -> bool) -> bool {
     match shape.pieces() {
         Some(pieces) => pieces.iter().any(|piece| f(&Convex::Hull(piece))),

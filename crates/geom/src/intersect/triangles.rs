@@ -8,10 +8,10 @@ use crate::bounds::Aabb;
 use crate::shape::Shape;
 use crate::vector::Vec3;
 
-/// When a vertex counts as on a plane.
+/// The rule by which a vertex counts as on a plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Crossing {
-    /// As the original: within `1e-6`, measured with the unnormalised normal (twice the area times the distance).
+    /// The original's rule: within `1e-6`, measured with the unnormalised normal (twice the area times the distance).
     /// A triangle whose first vertex is on the plane never crosses it.
     Original,
     /// Within this distance, scene units.

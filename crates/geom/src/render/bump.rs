@@ -1,4 +1,4 @@
-//! Roughness that only light sees: gradient of a smooth random field in space.
+//! Roughness that changes only the shading: the gradient of a smooth random field in space.
 //!
 //! Value noise on the integer lattice with quintic interpolation (Perlin 2002), two octaves. The lattice's values are a
 //! hash of its integers, so that a surface looks the same in every picture.

@@ -1,8 +1,8 @@
 //! Which triangle does a ray meet first?  A tree of boxes over triangles.
 //!
-//! Built top-down by the binned surface-area heuristic (Wald 2007), walked nearest child first; triangles are met
-//! by the test of Möller & Trumbore 1997. Our own hundred lines rather than the `bvh` crate, which would bring
-//! `nalgebra` with it. The tree and the answers depend on the triangles only, never on threads.
+//! Built top-down by the binned surface-area heuristic (Wald 2007), visited nearest child first; triangles are
+//! intersected by the test of Möller & Trumbore 1997. Our own hundred lines rather than the `bvh` crate, which would
+//! bring `nalgebra` with it. The tree and the answers depend on the triangles only, never on threads.
 
 use super::v3::{V3, least, most, v3};
 
@@ -10,9 +10,9 @@ use super::v3::{V3, least, most, v3};
 const BINS: usize = 16;
 /// Triangles in a leaf at most, unless their centres coincide.
 const LEAF: usize = 4;
-/// Below this depth the build stops asking the heuristic and halves, so that `STACK` can never overflow.
+/// Below this depth the build halves instead of using the heuristic, so that `STACK` can never overflow.
 const DEPTH: usize = 48;
-/// Depth of the walk: `DEPTH` plus the halvings of 2^32 triangles.
+/// Depth of the visit: `DEPTH` plus the halvings of 2^32 triangles.
 const STACK: usize = DEPTH + 36;
 
 /// A triangle as its first corner and two edges.
@@ -108,7 +108,7 @@ impl Bvh {
     /// The nearest hit nearer than `reach`.
     pub fn hit(&self, origin: V3, direction: V3, reach: f32) -> Option<Hit> {
         let mut nearest = Hit { t: reach, triangle: u32::MAX, u: 0.0, v: 0.0 };
-        self.walk(
+        self.visit(
             origin,
             direction,
             |triangles, names, limit| {
@@ -130,7 +130,7 @@ impl Bvh {
 
     /// Is anything nearer than `reach`?
     pub fn blocked(&self, origin: V3, direction: V3, reach: f32) -> bool {
-        self.walk(
+        self.visit(
             origin,
             direction,
             |triangles, _, _| {
@@ -142,8 +142,8 @@ impl Bvh {
         )
     }
 
-    /// Visits leaves in the ray's way, nearest first, until `leaf` answers true.
-    fn walk(
+    /// Visits the leaves that the ray meets, nearest first, until `leaf` returns true.
+    fn visit(
         &self,
         origin: V3,
         direction: V3,
@@ -295,7 +295,7 @@ fn partition(items: &mut [Item], front: impl Fn(&Item) -> bool) -> usize {
 
 #[cfg(test)]
 mod tests {
-    //! Claim: the tree gives the same nearest triangle as asking every triangle.
+    //! Claim: the tree gives the same nearest triangle as a test of every triangle.
     use super::*;
 
     fn noise(seed: &mut u32) -> f32 {

@@ -1,30 +1,30 @@
 //! A camera, and the three-quarter view that shows a whole box.
 //!
-//! Right-handed, y up; lengths in scene units, angles in degrees because people type them.
+//! Right-handed, y up; lengths in scene units, angles in degrees.
 
 use super::v3::{V3, v3};
 
 /// A perspective camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
-    /// Where it stands.
+    /// Its position.
     pub eye: [f32; 3],
-    /// What it looks at: the centre of the picture.
+    /// The point at the centre of the picture.
     pub target: [f32; 3],
-    /// Which way is up in the picture, roughly.
+    /// Approximate upward direction in the picture.
     pub up: [f32; 3],
     /// Vertical field of view in degrees.
     pub fov_y: f32,
 }
 
-/// From which side to look when a camera is placed automatically.
+/// The direction of view when a camera is placed automatically.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
     /// Degrees about +y; 0 looks from +z, 90 from +x.
     pub azimuth: f32,
     /// Degrees above the horizon.
     pub elevation: f32,
-    /// Vertical field of view in degrees; small is calm, large is dramatic.
+    /// Vertical field of view in degrees; larger values give more perspective.
     pub fov_y: f32,
     /// Empty border as a share of the picture, on each side.
     pub margin: f32,
@@ -68,8 +68,8 @@ impl Camera {
         let back = v3(azimuth.sin() * elevation.cos(), elevation.sin(), azimuth.cos() * elevation.cos());
         let up = if back.y.abs() > 0.999 { [0.0, 0.0, -back.y.signum()] } else { [0.0, 1.0, 0.0] };
         let lens = Camera { eye: [0.0; 3], target: (-back).into(), up, fov_y: view.fov_y }.lens(aspect);
-        let room = 1.0 - 2.0 * view.margin.clamp(0.0, 0.45);
-        let (w, h) = (lens.half_width * room, lens.half_height * room);
+        let share = 1.0 - 2.0 * view.margin.clamp(0.0, 0.45);
+        let (w, h) = (lens.half_width * share, lens.half_height * share);
         // In camera coordinates a point is inside when |x - cx| <= w (z_eye - z) and likewise for y. Each of the four
         // planes is pushed against the points; the sums of opposite planes give the distance, the differences the
         // centre.

@@ -1,7 +1,7 @@
 //! The last step of a picture: sums to bytes.
 //!
 //! The backdrop is a colour in the finished picture, not light: a white page stays exactly white, and the floor only
-//! darkens it. So the filmic curve meets the parts alone.
+//! darkens it. So the filmic curve applies to the parts only.
 
 use super::smooth::{Grain, smooth};
 use super::trace::{Pixel, Stage};
@@ -9,7 +9,7 @@ use super::v3::{V3, v3};
 use super::{Backdrop, Shot, tone};
 use rayon::prelude::*;
 
-/// Darkest that a shadow makes the floor, as a share of its light.
+/// Darkest shadow on the floor, as a share of its light.
 const DEEPEST: f32 = 0.20;
 
 /// Linear colour times opacity, and opacity.
@@ -83,7 +83,7 @@ fn shade(stage: &Stage, pixel: &Pixel, (blocked, sun): (V3, f32)) -> V3 {
     let light = sunny * sun + (open - blocked).max(V3::ZERO);
     let whole = sunny + open;
     let ratio = v3(light.x / whole.x, light.y / whole.y, light.z / whole.z);
-    // Shadows on the page read better a little lighter than physics has them.
+    // Shadows are a little lighter than physics has them: they look better on a page.
     let ratio = ratio * (1.0 - DEEPEST) + V3::splat(DEEPEST);
     let covered = pixel.fade;
     V3::splat(1.0).lerp(ratio, covered)

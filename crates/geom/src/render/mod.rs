@@ -40,13 +40,13 @@ pub struct Surface {
     pub color: [f32; 3],
     /// From 0 (chalk) to 1 (lacquer).
     pub gloss: f32,
-    /// How rough it looks, from 0 (smooth) to 1 (foliage): bumps that only light sees.
+    /// How rough it looks, from 0 (smooth) to 1 (foliage): bumps in the shading only.
     pub rough: f32,
     /// Size of those bumps, scene units.
     pub pitch: f32,
 }
 
-/// What stands behind the scene.
+/// The background of the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Backdrop {
     /// Nothing: the shadow and the scene lie over zero alpha.
@@ -69,11 +69,11 @@ pub struct Shot {
     pub height: usize,
     /// Rays for each pixel; also shadow rays and sky rays.
     pub samples: usize,
-    /// Where from; `None` frames the scene and its ghost.
+    /// The camera; `None` frames the scene and its ghost.
     pub camera: Option<Camera>,
     /// Height of the floor that catches shadows; `None` is the scene's lowest point.
     pub floor: Option<f32>,
-    /// What stands behind.
+    /// The background.
     pub backdrop: Backdrop,
     /// Colour of the ghost; sRGB in `[0, 1]`.
     pub ghost_color: [f32; 3],
@@ -100,17 +100,17 @@ pub enum RenderError {
     Size {
         /// Which setting.
         name: &'static str,
-        /// What it was.
+        /// Its value.
         found: usize,
     },
-    /// A vertex or normal is not finite, or a face names a vertex that is not there.
+    /// A vertex or normal is not finite, or a face has a vertex that does not exist.
     BadMesh {
         /// Which surface, in the order given; `None` is the ghost.
         surface: Option<usize>,
         /// What is wrong with it.
         reason: String,
     },
-    /// The camera stands on its target, or a number in it is not finite.
+    /// The camera is at its target, or a number in it is not finite.
     BadCamera,
 }
 

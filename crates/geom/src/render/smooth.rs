@@ -1,4 +1,4 @@
-//! Takes the grain out of sampled light without touching edges.
+//! Removes the noise of sampled light and keeps edges.
 //!
 //! Each pixel of a tile sampled its own directions (`light::Directions`); the mean over a neighbourhood on the same
 //! surface therefore sees all of them. A neighbour counts when its normal agrees and it lies in the pixel's tangent
@@ -8,7 +8,7 @@ use super::light::TILE;
 use super::v3::V3;
 use rayon::prelude::*;
 
-/// What one pixel knows about its surface and the light that it sampled.
+/// The surface of one pixel and its sampled light.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Grain {
     /// Mean normal (unit), or zero where there is no surface.

@@ -4,7 +4,7 @@ use super::v3::{V3, v3};
 
 /// Brightness that becomes paper white.
 const WHITE: f32 = 2.9;
-/// Strength of the toe: 0 leaves the shadows as light has them.
+/// Strength of the toe: 0 leaves the shadows unchanged.
 const TOE: f32 = 0.35;
 
 /// A filmic curve: the shoulder of Reinhard et al. 2002, eq. 4, then a gentle S in the square root, where the eye sees

@@ -1,13 +1,13 @@
-//! The first step of a picture: rays through pixels, and sums of what they meet.
+//! The first step of a picture: rays through pixels, and sums over what they hit.
 //!
-//! A pixel does not keep colours but the factors of colours, summed over its samples, because the sampled light is
-//! smoothed before it meets the paint:
+//! A pixel keeps the factors of colours, summed over its samples, and not colours, because the sampled light is
+//! smoothed before it is multiplied by the paint:
 //!
 //! ```text
 //! scene light = sun * sunlit + open - blocked * paint + shine * seen
 //! ```
 //!
-//! with `sun` (the share of the sun that is seen) and `blocked` (sky light that something hides) taken after
+//! with `sun` (the share of the sun that is seen) and `blocked` (sky light that is blocked) taken after
 //! smoothing, and `seen` the share of the sky that is left.
 
 use super::bump;
@@ -29,7 +29,7 @@ struct Paint {
     pitch: f32,
 }
 
-/// Everything that rays can meet.
+/// Everything that rays can hit.
 pub struct Stage {
     tree: Bvh,
     ghost: Bvh,
@@ -78,7 +78,7 @@ pub struct Shell {
     pub depth: f32,
 }
 
-/// What a pixel keeps.
+/// The sums of a pixel.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Pixel {
     /// Parts.
@@ -168,7 +168,7 @@ impl Stage {
         let hit = self.tree.hit(eye, direction, f32::INFINITY);
         let fall = (self.floor - eye.y) / direction.y;
         let floor = if fall > 0.0 && fall.is_finite() { fall } else { f32::INFINITY };
-        // What the ghost is compared with: parts hide it, the floor, which nobody sees, does not.
+        // The depth that hides the ghost: that of parts, not that of the invisible floor.
         let mut front = f32::INFINITY;
         match hit {
             // A camera below the floor looks through it.
@@ -239,7 +239,7 @@ impl Stage {
         body.shine = body.shine + light.sky(mirrored) * fresnel;
     }
 
-    /// Adds what this sample sees of sun and sky from a point.
+    /// Adds the sun and sky that this sample sees from a point.
     #[expect(clippy::too_many_arguments, reason = "one sample's coordinates")]
     fn grain(
         &self,
@@ -256,7 +256,7 @@ impl Stage {
         grain.point = grain.point + point;
         grain.footprint += 2.0 * self.lens.half_height * distance / self.height as f32;
         grain.count += 1.0;
-        // Samples take turns: one asks the sky, the next the sun. Smoothing makes up for it.
+        // Samples alternate: one tests the sky, the next the sun. Smoothing compensates for it.
         let (turn, both) = (s / 2, self.samples == 1);
         if both || s.is_multiple_of(2) {
             grain.sky_weight += 1.0;
@@ -271,12 +271,12 @@ impl Stage {
         }
     }
 
-    /// The sky light from one direction about the normal that something hides, less what that sends back.
+    /// The blocked sky light from one direction about the normal, less the light that the blocker reflects.
     fn blocked_sky(&self, start: V3, normal: V3, column: usize, row: usize, turn: usize) -> V3 {
         let direction = self.directions.about(normal, column, row, turn);
         let reach = 1.3 * self.radius;
         if let Some(hit) = self.tree.hit(start, direction, reach) {
-            // Far blockers matter less than the picture of a closed room would have it: they are lit themselves.
+            // Far blockers matter less than in a closed room: they are lit themselves.
             let near = 1.0 - hit.t / reach;
             let other = self.paints[self.owner[hit.triangle as usize] as usize].color;
             let back = other.tint(self.light.open_sky(-direction)) * BOUNCE;

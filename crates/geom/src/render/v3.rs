@@ -93,7 +93,7 @@ impl V3 {
     }
 }
 
-/// The smaller number; unlike `f32::min` it need not care for NaN, and so is one instruction.
+/// The smaller number; unlike `f32::min` it does not handle NaN, and so is one instruction.
 pub fn least(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }
 }

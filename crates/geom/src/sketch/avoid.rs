@@ -1,8 +1,8 @@
 //! Object avoidance: no cell may be filled by both the scene and an obstacle.
 //!
 //! The obstacle and each shape are voxelised as solids on the obstacle's own grid, conservatively, so that a scene
-//! that is allowed never touches the obstacle and keeps up to two cells away from it (dissertation 5.5.1). What is
-//! kept is the sum over shapes of the cells that each shares with the obstacle: an integer that is zero exactly when
+//! that is allowed never touches the obstacle and keeps up to two cells away from it (dissertation 5.5.1). The sketch
+//! keeps the sum over shapes of the cells that each shares with the obstacle: an integer that is zero exactly when
 //! no shape shares one, so no grid of the scene is needed and a step costs the new shape's own cells.
 
 use super::bag::Bag;

@@ -1,10 +1,10 @@
-//! The primitives that a sketch holds, so that it can tell what it can give back.
+//! The primitives that a sketch holds, so that it can remove them again.
 //!
-//! As long as primitives only come, which is all that particles do, the bag is a list from the newest to the oldest
-//! whose tail copies share: one entry for each primitive, whatever the number of copies. The first removal makes a
-//! tree of boxes of it, and it stays one: under Metropolis-Hastings primitives come and go. From then on the bag also
-//! keeps each primitive's *mark*, which is what the sketch found out about it alone and needs to take it back: the cells
-//! that it fills, say. Copies share marks, also one that is found out only after they were made.
+//! As long as primitives are only added, as particles do, the bag is a list from the newest to the oldest whose tail
+//! copies share: one entry for each primitive, whatever the number of copies. The first removal turns it into a tree of
+//! boxes for good: Metropolis-Hastings also removes primitives. From then on the bag also keeps each primitive's
+//! *mark*: what the sketch computed for this primitive alone and needs to remove it, for example the cells that it
+//! fills. Copies share marks, also those that are computed after the copy.
 
 use super::same_bag;
 use crate::bounds::Aabb;
@@ -67,7 +67,7 @@ impl<M: Clone> Bag<M> {
         self.bounds
     }
 
-    /// Puts a primitive in.
+    /// Adds a primitive.
     pub fn add(&mut self, primitive: &Primitive, mark: M) {
         self.bounds = self.bounds.union(primitive.aabb());
         match &mut self.held {
@@ -82,7 +82,7 @@ impl<M: Clone> Bag<M> {
         }
     }
 
-    /// Takes one primitive equal to this out, and gives its mark, which `mark` makes if it is not known; `None` when
+    /// Removes one primitive equal to this, and gives its mark, which `mark` computes if it is not known; `None` when
     /// there is no such primitive.
     pub fn remove(&mut self, primitive: &Primitive, mark: impl FnOnce() -> M) -> Option<M> {
         let mut tree = self.tree();
@@ -92,7 +92,7 @@ impl<M: Clone> Bag<M> {
         found.map(|item| item.mark.get_or_init(mark).clone())
     }
 
-    /// Becomes a tree, as the first removal would make it: copies then need not make their own.
+    /// Becomes a tree, as by the first removal: copies then share it.
     pub fn expect_removals(&mut self) {
         self.held = Held::Tree(self.tree());
     }
@@ -121,7 +121,7 @@ impl<M: Clone> PartialEq for Bag<M> {
 
 #[cfg(test)]
 mod tests {
-    //! A bag is the same however it came about, copies do not see each other, and long lists are dropped in a loop.
+    //! A bag does not depend on its history, copies are independent, and long lists are dropped in a loop.
     use super::Bag;
     use crate::{Look, Primitive, Shape, vec3};
 
@@ -143,7 +143,7 @@ mod tests {
         }
         assert!(list == tree && list.bounds() == tree.bounds());
         let whole = list.clone();
-        // The list kept no marks, the tree did; what one copy finds out, the others know.
+        // The list kept no marks, the tree does; a mark that one copy computes is known to the others.
         assert_eq!(tree.clone().remove(&cube(0.0), || 'n'), Some('t'));
         list.expect_removals();
         assert_eq!(list.clone().remove(&cube(0.0), || 'n'), Some('n'));

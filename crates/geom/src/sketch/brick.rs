@@ -7,7 +7,7 @@
 //! borrow = cells;  plane, borrow = plane ^ borrow, !plane & borrow
 //! ```
 //!
-//! Planes appear when a count needs them and go when the last one of it is gone, so that equal counts are equal data.
+//! Planes exist only while a count needs them, so that equal counts are equal data.
 
 /// One bit for each cell of a brick.
 pub type Plane = [u64; 64];
@@ -27,7 +27,7 @@ impl Default for Brick {
 }
 
 impl Brick {
-    /// Adds one to `cells` of a word; returns those of them that had none.
+    /// Adds one to `cells` of a word; returns those that had none.
     #[inline]
     pub fn raise(&mut self, word: usize, cells: u64) -> u64 {
         let mut before = self.lowest[word];
@@ -47,7 +47,7 @@ impl Brick {
         cells & !before
     }
 
-    /// Takes one from `cells` of a word, all of which must have one; returns those of them that have none now.
+    /// Subtracts one from `cells` of a word, all of which must have one; returns those that have none now.
     #[inline]
     pub fn lower(&mut self, word: usize, cells: u64) -> u64 {
         let (mut borrow, mut after) = (cells, 0);

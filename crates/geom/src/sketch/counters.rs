@@ -15,7 +15,7 @@ pub fn bricks_of(dims: [usize; 3]) -> [usize; 3] {
     std::array::from_fn(|a| dims[a].div_ceil(BRICK[a]))
 }
 
-/// What a change did to the number of filled cells.
+/// The change of the number of filled cells.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Change {
     /// Cells that became filled, less those that became empty.
@@ -42,7 +42,7 @@ impl Counters {
         Counters { layers: Arc::new(vec![layer; across[2]]), across }
     }
 
-    /// Adds one to every cell of `voxels`; `target` tells which filled cells are wanted.
+    /// Adds one to every cell of `voxels`; `target` gives the wanted cells.
     pub fn add(&mut self, voxels: &Voxels, target: &[Plane]) -> Change {
         let (layers, size) = (Arc::make_mut(&mut self.layers), self.across[0] * self.across[1]);
         let mut change = Change::default();
@@ -63,7 +63,7 @@ impl Counters {
         change
     }
 
-    /// Takes one from every cell of `voxels`, all of which must have one.
+    /// Subtracts one from every cell of `voxels`, all of which must have one.
     pub fn remove(&mut self, voxels: &Voxels, target: &[Plane]) -> Change {
         let (layers, size) = (Arc::make_mut(&mut self.layers), self.across[0] * self.across[1]);
         let mut change = Change::default();
@@ -102,7 +102,7 @@ impl Counters {
     }
 }
 
-/// Walks the bricks that `cells` touch: index of the brick, its place along x, and its words with their rows (y, z).
+/// Visits the bricks that `cells` touch: index of the brick, its place along x, and its words with their rows (y, z).
 pub(super) fn visit(cells: &CellBox, across: [usize; 3], mut f: impl FnMut(usize, usize, Words)) {
     let range = |a: usize| cells.low[a] / BRICK[a]..=cells.high[a] / BRICK[a];
     for bz in range(2) {

@@ -1,7 +1,7 @@
-//! A floor: nothing may reach below it. Standing on it is free.
+//! A floor: nothing may reach below it. Touching it is allowed.
 //!
-//! The original's setting of object avoidance (a scene with any vertex below the floor scores zero), as a sketch of
-//! its own. Touching has the tolerance of intersections: a millionth of a shape's thickness.
+//! The original's setting of object avoidance (a scene with any vertex below the floor scores zero), as a separate
+//! sketch. Touching has the tolerance of intersections: a millionth of a shape's thickness.
 
 use super::bag::Bag;
 use super::{Sketch, SketchSpec};

@@ -1,7 +1,7 @@
 //! No self-intersection: the number of pairs of primitives that intersect must be zero.
 //!
 //! Pieces of one primitive are not tested against each other. A tree of boxes that copies share finds the few
-//! primitives near a new one, so that the price does not grow with what is far away.
+//! primitives near a new one, so that the cost does not grow with distant primitives.
 
 use super::{Sketch, SketchSpec, same_bag};
 use crate::intersect::{Rule, primitives_intersect};

@@ -1,14 +1,14 @@
-//! Sketches: summaries of a scene that inference scores, updated shape by shape (design section 4).
+//! Sketches: summaries of a scene that inference scores, updated shape by shape.
 //!
-//! What a sketch keeps is a sum of integers or an order statistic, so its score is the same to the bit whatever the
-//! order of adding, and adding then removing gives the old sketch back.
+//! A sketch keeps sums of integers or order statistics, so its score is the same to the bit for every order of adding,
+//! and adding then removing restores the old sketch.
 //!
 //! - [`volume`], over [`counters`]: fill a target's volume
 //! - [`picture`], over [`tiles`]: look like a picture, or cast a shadow like one
 //! - [`intersection`]: parts must not run into each other
 //! - [`avoid`], [`floor`]: keep out of an obstacle, stay above a floor
 //! - [`overshoot`]: stay inside of a box
-//! - [`bag`]: what a sketch holds and can give back
+//! - [`bag`]: the primitives of a sketch
 //! - [`product`]: several sketches of one scene
 
 pub mod avoid;
@@ -31,13 +31,13 @@ use std::sync::Arc;
 
 /// A running score of a bag of primitives.
 pub trait Sketch: Copied + Any + Send + Sync {
-    /// The name a person knows it by, e.g. `no_self_intersection`.
+    /// Its name for people, for example `no_self_intersection`.
     fn name(&self) -> &'static str;
-    /// Puts a primitive into the bag.
+    /// Adds a primitive to the bag.
     fn add(&mut self, primitive: &Primitive);
-    /// Takes one primitive equal to this out of the bag; false, and nothing changed, when there is none.
+    /// Removes one primitive equal to this from the bag; false, and nothing changed, when there is none.
     fn remove(&mut self, primitive: &Primitive) -> bool;
-    /// From now on primitives also go: what taking them out needs is kept, so that copies share it.
+    /// Prepares for removals: the data that they need is kept from now on, so that copies share it.
     fn expect_removals(&mut self) {}
     /// Log of the score of the bag, nats; negative infinity when it is forbidden.
     fn log_score(&self) -> f64;
@@ -45,9 +45,9 @@ pub trait Sketch: Copied + Any + Send + Sync {
     fn measures(&self) -> Vec<(&'static str, f64)>;
 }
 
-/// What to score, given by the caller: makes the sketch of the empty scene.
+/// What to score, given by the caller: creates the sketch of the empty scene.
 pub trait SketchSpec: Send + Sync {
-    /// Name of the sketch it makes.
+    /// Name of its sketch.
     fn name(&self) -> &'static str;
     /// The sketch of the empty scene.
     fn start(&self) -> Box<dyn Sketch>;
@@ -55,7 +55,7 @@ pub trait SketchSpec: Send + Sync {
 
 /// Copies of a sketch whose kind is not known: every sketch that can be cloned has them.
 pub trait Copied {
-    /// A copy that shares what neither changes.
+    /// A copy that shares all unchanged data.
     fn fork(&self) -> Box<dyn Sketch>;
     /// Becomes a copy of `other`, in place and sharing as `fork` does; false, and nothing changed, when that is another
     /// kind of sketch.
@@ -73,8 +73,8 @@ impl<T: Sketch + Clone> Copied for T {
     }
 }
 
-/// Makes both the same. What all sketches of a search share is left alone: writing its count would make every
-/// processor that reads it wait.
+/// Makes both the same. A reference that all sketches of a search share is not written again: its count would make
+/// every processor that reads it wait.
 #[inline]
 pub(crate) fn share<T>(to: &mut Arc<T>, from: &Arc<T>) {
     if !Arc::ptr_eq(to, from) {
@@ -101,7 +101,7 @@ pub(crate) fn log_normal(x: f64, mean: f64, sd: f64) -> f64 {
     -HALF_LOG_TAU - sd.ln() - 0.5 * z * z
 }
 
-/// Refuses a standard deviation that is none: `bad-setting`.
+/// Refuses a standard deviation that is not valid: `bad-setting`.
 pub(crate) fn check_sigma(sigma: f64) -> Result<(), GeomError> {
     if sigma > 0.0 && sigma.is_finite() {
         return Ok(());

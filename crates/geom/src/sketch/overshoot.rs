@@ -5,8 +5,9 @@
 //! overshoot = sum over six sides of (length outside the box / extent of the box along that axis)
 //! ```
 //!
-//! Dissertation 5.5.1, where it is one of volume matching's two terms; alone it goes with pictures and shadows, which
-//! do not see what leaves them. differs: a sum over the sides, as the original's code has it; its text says maximum.
+//! Dissertation 5.5.1, where it is one of volume matching's two terms; alone it is used with pictures and shadows,
+//! which ignore shapes outside of them. differs: a sum over the sides, as in the original's code; its text has
+//! maximum.
 
 use super::bag::Bag;
 use super::{Sketch, SketchSpec, check_sigma, log_normal};
@@ -23,7 +24,7 @@ struct OvershootSpec {
 /// Scores a scene by how far it reaches out of `domain`.
 ///
 /// # Errors
-/// `bad-setting`; `bad-setting` for a box without extent along an axis.
+/// `bad-setting` when `sigma` is not positive, or for a box without extent along an axis.
 pub fn no_overshoot(domain: Aabb, sigma: f64) -> Result<Arc<dyn SketchSpec>, GeomError> {
     check_sigma(sigma)?;
     let extent = domain.extent().to_array();
@@ -45,7 +46,7 @@ impl SketchSpec for OvershootSpec {
     }
 }
 
-/// The box around everything so far.
+/// The box around the scene so far.
 #[derive(Clone, Debug)]
 pub struct Overshoot {
     domain: Aabb,

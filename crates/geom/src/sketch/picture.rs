@@ -11,8 +11,8 @@
 //! (differs: the original draws with a depth map of 800 x 800 and a bias that loses what is close to the receiver).
 //! In a shadow picture shapes cast shadows on the receiver and do not hide it (differs: the original draws them too).
 //!
-//! What is kept are counts for each pixel and four integers, so a score is the same to the bit in any order; weights
-//! come in only when it is asked for. The empty scene is scored as what it is: the picture with every pixel off.
+//! The sketch keeps counts for each pixel and four integers, so a score is the same to the bit in any order; weights
+//! are used only when the score is computed. The empty scene is scored as a picture with every pixel off.
 
 use super::bag::Bag;
 use super::tiles::Tiles;
@@ -59,9 +59,9 @@ impl SubAssign for Amount {
     }
 }
 
-/// What the pixels should be and how much each matters.
+/// Which pixels should be on, and their weights.
 #[derive(Clone, Debug)]
-pub struct Wish {
+pub struct TargetPicture {
     /// Columns and rows.
     pub size: [usize; 2],
     /// Which pixels should be on, row by row from the top.
@@ -72,7 +72,7 @@ pub struct Wish {
     pub multiplier: f64,
 }
 
-/// A picture to match and the rays that tell which pixels of a scene are on.
+/// A picture to match and the rays of its pixels.
 #[derive(Debug)]
 pub struct Picture {
     size: [usize; 2],
@@ -88,25 +88,25 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// The picture that `wish` asks for; pixels without a ray are always off in a scene.
+    /// The picture of `target`; pixels without a ray are always off in a scene.
     ///
     /// # Errors
     /// `bad-image` for a size without pixels or with too many, or lists of other lengths; `image-one-color` when all
     /// pixels should be alike; `bad-setting` for a multiplier that is not finite or negative.
-    pub fn new(wish: &Wish, rays: Rays) -> Result<Picture, GeomError> {
-        let size = wish.size;
+    pub fn new(target: &TargetPicture, rays: Rays) -> Result<Picture, GeomError> {
+        let size = target.size;
         check_size(size)?;
         let count = size[0] * size[1];
-        let lengths = [Some(wish.on.len()), wish.greys.as_ref().map(Vec::len)];
+        let lengths = [Some(target.on.len()), target.greys.as_ref().map(Vec::len)];
         if let Some(length) = lengths.into_iter().flatten().find(|n| *n != count) {
             let message = format!("{length} values for a picture of {} x {}", size[0], size[1]);
             return Err(GeomError::new("bad-image", message));
         }
-        if !(wish.multiplier >= 0.0 && wish.multiplier.is_finite()) {
-            let message = format!("the weight is {}, expected zero or more", wish.multiplier);
+        if !(target.multiplier >= 0.0 && target.multiplier.is_finite()) {
+            let message = format!("the weight is {}, expected zero or more", target.multiplier);
             return Err(GeomError::new("bad-setting", message));
         }
-        let lit = wish.on.iter().filter(|on| **on).count();
+        let lit = target.on.iter().filter(|on| **on).count();
         if lit == 0 || lit == count {
             let all = if lit == 0 { "off" } else { "on" };
             return Err(GeomError::new(
@@ -119,18 +119,18 @@ impl Picture {
                 |rays: &[u32]| (0..).zip(rays).fold(0, |w, (k, p)| w | u64::from(bit(*p as usize)) << k);
             rays.pixels().chunks(64).map(word).collect()
         };
-        let on = words(&|pixel| wish.on[pixel]);
-        let greys = wish.greys.as_ref().map(|greys| {
+        let on = words(&|pixel| target.on[pixel]);
+        let greys = target.greys.as_ref().map(|greys| {
             let planes: [Vec<u64>; 8] = std::array::from_fn(|k| words(&|pixel| greys[pixel] >> k & 1 == 1));
             (0..on.len()).map(|word| std::array::from_fn(|k| planes[k][word])).collect()
         });
-        let grey = |pixel: usize| wish.greys.as_ref().map_or(0, |greys| i64::from(greys[pixel]));
+        let grey = |pixel: usize| target.greys.as_ref().map_or(0, |greys| i64::from(greys[pixel]));
         let total = |which: &dyn Fn(usize) -> bool| {
             let pixels = (0..count).filter(|p| which(*p));
             pixels.fold(Amount::default(), |sum, p| sum + Amount { pixels: 1, grey: grey(p) })
         };
-        let (all, wanted) = (total(&|_| true), total(&|pixel| wish.on[pixel]));
-        Ok(Picture { size, rays, on, greys, multiplier: wish.multiplier, all, wanted })
+        let (all, wanted) = (total(&|_| true), total(&|pixel| target.on[pixel]));
+        Ok(Picture { size, rays, on, greys, multiplier: target.multiplier, all, wanted })
     }
 
     /// Columns and rows.

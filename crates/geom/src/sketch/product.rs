@@ -1,8 +1,8 @@
 //! Several sketches of one scene: scores multiply, so their logs add.
 //!
-//! The order is the order of asking: when one says that the scene is forbidden, those after it are not asked, and
-//! wait with what they have not seen. They catch up as soon as the ones before allow the scene again, so the state
-//! that a scene leads to does not depend on the way there.
+//! Sketches are updated in order: when one forbids the scene, those after it are not updated and keep a list of
+//! primitives that they have not seen. They catch up as soon as the ones before allow the scene again, so the state
+//! depends on the scene only, not on its history.
 
 use super::{Sketch, SketchSpec};
 use crate::primitive::Primitive;
@@ -17,7 +17,7 @@ pub struct Sketches {
 
 struct Member {
     sketch: Box<dyn Sketch>,
-    /// Of what the sketch has seen.
+    /// The score of the primitives that the sketch has seen.
     log_score: f64,
     /// Primitives of the scene that the sketch has not seen yet.
     waiting: Vec<Primitive>,
@@ -38,7 +38,7 @@ impl Member {
         self.log_score == f64::NEG_INFINITY
     }
 
-    /// Shows the sketch what waits for it, and one primitive more.
+    /// Adds the waiting primitives to the sketch, and one more.
     fn see(&mut self, last: Option<&Primitive>) {
         for primitive in self.waiting.drain(..) {
             self.sketch.add(&primitive);
@@ -81,7 +81,7 @@ impl Sketches {
         self.members.iter().map(|m| &*m.sketch)
     }
 
-    /// Adds a primitive to the scene; returns the name of the first sketch that forbids it now.
+    /// Adds a primitive to the scene; returns the name of the first sketch that now forbids it.
     pub fn add(&mut self, primitive: &Primitive) -> Option<&'static str> {
         let mut forbidden = None;
         for member in &mut self.members {
@@ -95,13 +95,13 @@ impl Sketches {
         forbidden
     }
 
-    /// Takes a primitive out of the scene; false, and nothing changed, when the scene has none like it.
+    /// Removes a primitive from the scene; false, and nothing changed, when the scene has none like it.
     pub fn remove(&mut self, primitive: &Primitive) -> bool {
         for (i, member) in self.members.iter_mut().enumerate() {
             if let Some(at) = member.waiting.iter().position(|p| p == primitive) {
                 member.waiting.remove(at);
             } else if !member.sketch.remove(primitive) {
-                // All members hold the same scene, so the first one knows.
+                // All members hold the same scene, so the first one decides.
                 debug_assert_eq!(i, 0, "sketches of one scene disagree about it");
                 return false;
             }
@@ -110,8 +110,8 @@ impl Sketches {
         true
     }
 
-    /// Takes primitives out of the scene and puts others in, and then looks at it once. False, when the scene did
-    /// not have one of `gone`: the sketches are then of no further use.
+    /// Removes primitives from the scene and adds others, and then scores it once. False when the scene did not
+    /// have one of `gone`: the sketches cannot be used afterwards.
     pub fn exchange<'a>(
         &mut self,
         gone: impl Iterator<Item = &'a Primitive> + Clone,
@@ -181,7 +181,7 @@ impl Sketches {
         self.measures().into_iter().find(|(name, _)| *name == "similarity").map(|(_, share)| share)
     }
 
-    /// Shows each sketch what waits for it, up to the first that forbids the scene.
+    /// Adds to each sketch its waiting primitives, up to the first that forbids the scene.
     fn catch_up(&mut self) {
         for member in &mut self.members {
             member.see(None);
@@ -234,7 +234,7 @@ mod tests {
         assert_eq!(scene.log_score(), empty);
     }
 
-    /// A copy in place is a copy, also of a scene that is forbidden, and neither sees what becomes of the other.
+    /// A copy in place is a copy, also of a scene that is forbidden, and the two are independent.
     #[test]
     fn a_copy_in_place_is_a_copy() {
         let target = Arc::new(Target::new(cube(0.0).shapes()[0].world_mesh().clone(), 0.1).unwrap());
@@ -251,7 +251,7 @@ mod tests {
             other.become_copy(&from);
             assert_eq!((to.log_score(), other.log_score()), (score, score));
             assert_eq!((to.measures(), other.measures()), (from.measures(), from.measures()));
-            // What waits was copied too: once the scene is allowed again, both see the same.
+            // Waiting primitives were copied too: once the scene is allowed again, both are equal.
             to.add(&cube(3.0));
             assert_eq!(from.log_score(), score);
             from.add(&cube(3.0));

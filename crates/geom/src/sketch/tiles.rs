@@ -1,7 +1,7 @@
 //! How many shapes each ray of a picture meets, in tiles that copies share.
 //!
 //! A tile is 64 bundles of 64 rays that are near each other. Changing one copies that tile only, and only when
-//! somebody else holds it; a tile without counts is not stored.
+//! it is shared; a tile without counts is not stored.
 
 use super::brick::Brick;
 use crate::view::Cover;
@@ -20,12 +20,12 @@ impl Tiles {
         Tiles(Arc::new(vec![None; words.div_ceil(TILE)]))
     }
 
-    /// Adds one to every ray of `cover`; `each` is told the rays of each word that met nothing before.
+    /// Adds one to every ray of `cover`; `each` gets the rays of each word that met nothing before.
     pub fn add(&mut self, cover: &Cover, mut each: impl FnMut(usize, u64)) {
         self.visit(cover, |brick, word, rays| each(word, brick.raise(word % TILE, rays)));
     }
 
-    /// Takes one from every ray of `cover`, all of which must have one; `each` is told the rays of each word that
+    /// Subtracts one from every ray of `cover`, all of which must have one; `each` gets the rays of each word that
     /// meet nothing now.
     pub fn remove(&mut self, cover: &Cover, mut each: impl FnMut(usize, u64)) {
         self.visit(cover, |brick, word, rays| each(word, brick.lower(word % TILE, rays)));

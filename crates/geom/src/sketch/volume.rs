@@ -7,7 +7,7 @@
 //! ```
 //!
 //! Dissertation 5.5.1. differs: similarity is over exactly the domain's cells (the original pads to words of 32);
-//! overshoot is a sum over the sides, as the original's code has it, where its text says the maximum.
+//! overshoot is a sum over the sides, as in the original's code; its text has the maximum.
 
 use super::bag::Bag;
 use super::brick::Plane;
@@ -33,7 +33,7 @@ impl Target {
     /// Voxelises `mesh` with cells at most `voxel` scene units wide.
     ///
     /// # Errors
-    /// `bad-setting`, `too-many-cells`, and `no-cell-filled` (which no mesh with a finite triangle reaches).
+    /// `bad-setting`, `too-many-cells`, and `no-cell-filled` (impossible for a mesh with a finite triangle).
     pub fn new(mesh: TriMesh, voxel: f64) -> Result<Target, GeomError> {
         let grid = Grid::around(&mesh.aabb(), voxel)?;
         let empty = || GeomError::new("no-cell-filled", "the target mesh fills no cell of its grid");

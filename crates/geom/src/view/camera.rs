@@ -1,4 +1,4 @@
-//! A camera: where it stands, what it looks at, which way is up, and its lens.
+//! A camera: its position, the point it looks at, its upward direction, and its lens.
 //!
 //! Right-handed. A picture's rows run from its top, columns from its left; the ray of a pixel goes through the
 //! pixel's middle. Widths follow from the picture's own proportions.
@@ -10,7 +10,7 @@ use crate::vector::Vec3;
 /// Most pixels of a picture to match.
 pub const MOST_PIXELS: usize = 1 << 24;
 
-/// How rays leave a camera.
+/// The lens of a camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Lens {
     /// From one point.
@@ -38,7 +38,7 @@ impl Camera {
     /// A camera at `position` that has `look_at` in the middle of its picture and `up` upwards.
     ///
     /// # Errors
-    /// `bad-camera` when a number is not finite, `look_at` is where the camera stands, `up` is the direction of view,
+    /// `bad-camera` when a number is not finite, `look_at` is the camera's position, `up` is the direction of view,
     /// or the lens sees nothing.
     pub fn new(position: Vec3, look_at: Vec3, up: Vec3, lens: Lens) -> Result<Camera, GeomError> {
         let bad = |message: String| GeomError::new("bad-camera", message);
@@ -48,7 +48,7 @@ impl Camera {
             }
         }
         let Some(forward) = (look_at - position).unit() else {
-            return Err(bad(format!("it stands where it looks at: {:?}", position.to_array())));
+            return Err(bad(format!("its position is the point it looks at: {:?}", position.to_array())));
         };
         let across = up.unit().map(|up| forward.cross(up)).filter(|right| right.norm() > 1e-9);
         let Some(right) = across.and_then(Vec3::unit) else {

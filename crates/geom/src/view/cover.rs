@@ -1,10 +1,10 @@
 //! Which rays meet a shape: one bit for each ray, word by word, words without a bit left out.
 //!
-//! The tree of rays is walked once for each convex piece: a solid, or a triangle of a mesh. Boxes of rays outside of
+//! The tree of rays is visited once for each convex piece: a solid, or a triangle of a mesh. Boxes of rays outside of
 //! the outline are left, those inside are taken whole, and only bundles on its border are looked at ray by ray. So
-//! the price is that of the shape's own pixels.
+//! the cost is that of the shape's own pixels.
 
-use super::outline::{Asked, Outline, of_convex, of_triangle};
+use super::outline::{Checks, Outline, of_convex, of_triangle};
 use super::rays::{Node, Rays};
 use crate::mesh::TriMesh;
 use crate::shape::Shape;
@@ -57,7 +57,7 @@ impl Rays {
             }),
             None => return self.meeting_mesh(shape.world_mesh()),
         }
-        // The walk of one piece is in order.
+        // The words of one piece are in order.
         if pieces == 1 { Cover(words) } else { Cover::settled(words) }
     }
 
@@ -83,24 +83,31 @@ impl Rays {
 
     fn take(&self, outline: &Outline, words: &mut Vec<(u32, u64)>) {
         if let Some(root) = self.nodes.first() {
-            self.walk(root, 0, outline, outline.everything(), words);
+            self.visit(root, 0, outline, outline.all_checks(), words);
         }
     }
 
     /// The tree halves its rays, so this is shallow.
-    fn walk(&self, node: &Node, index: usize, outline: &Outline, asked: Asked, words: &mut Vec<(u32, u64)>) {
-        let Some(asked) = outline.ask(node, asked) else { return };
-        if asked.nothing() {
+    fn visit(
+        &self,
+        node: &Node,
+        index: usize,
+        outline: &Outline,
+        checks: Checks,
+        words: &mut Vec<(u32, u64)>,
+    ) {
+        let Some(checks) = outline.remaining(node, checks) else { return };
+        if checks.is_empty() {
             let range = node.first..node.first + node.count;
             words.extend(range.map(|word| (word, self.bundles[word as usize].live)));
         } else if node.second == 0 {
-            let bits = outline.meets(&self.bundles[node.first as usize], asked);
+            let bits = outline.meets(&self.bundles[node.first as usize], checks);
             if bits != 0 {
                 words.push((node.first, bits));
             }
         } else {
             for child in [index + 1, node.second as usize] {
-                self.walk(&self.nodes[child], child, outline, asked, words);
+                self.visit(&self.nodes[child], child, outline, checks, words);
             }
         }
     }

@@ -1,9 +1,9 @@
 //! Views: the rays of a picture, and which of them meet a shape.
 //!
 //! A camera sees a pixel when the ray through the pixel's middle meets a shape; a receiver's point lies in shadow
-//! when its ray to the light meets one. Both are one question about a family of rays that fall on a plane as points:
-//! the plane of a picture, or the plane across the light. So there is one index and one answer for both, exact, with
-//! no raster, no depth map and no bias.
+//! when its ray to the light meets one. Both are one query of a family of rays that project to points of a plane:
+//! the plane of a picture, or the plane across the light. So both share one index and one exact test, without a
+//! raster, a depth map or a bias.
 //!
 //! - [`camera`]: from where a picture is seen, and the rays through its pixels
 //! - [`rays`]: a family of rays in bundles of 64, in a tree over the plane that they fall on

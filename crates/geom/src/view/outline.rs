@@ -1,9 +1,9 @@
 //! A convex piece of a shape as it falls on the plane of a family of rays: a convex polygon, and how deep it lies.
 //!
 //! A point lies in the polygon when it is on the inner side of every edge, border included. An edge is kept with its
-//! ends in one order whichever way round it is walked, so that two pieces that share an edge leave no gap between
-//! them, to the last bit. A ray that begins beside the piece or beyond it is told apart by planes: its line meets the
-//! piece, so the ray does when its start is behind every plane that faces along the ray.
+//! ends in one order for both directions, so that two pieces that share an edge leave no gap between them, to the last
+//! bit. A ray that begins beside the piece or beyond it is detected by planes: its line meets the piece, so the ray
+//! does when its start is behind every plane that faces along the ray.
 
 use super::rays::{BUNDLE, Bundle, Node, Projection};
 use crate::convex::{Convex, span};
@@ -33,23 +33,23 @@ impl Edge {
     }
 }
 
-/// What a node of the tree of rays has to ask about a piece.
+/// The checks that remain for a piece in a node of the tree of rays.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Asked {
+pub(super) struct Checks {
     /// Edges that cut the node's box, one bit for each.
     edges: u64,
     /// Rays may begin inside of the piece or beyond it.
     starts: bool,
 }
 
-impl Asked {
-    /// Nothing is left to ask: every ray meets the piece.
-    pub fn nothing(&self) -> bool {
+impl Checks {
+    /// No check remains: every ray meets the piece.
+    pub fn is_empty(&self) -> bool {
         self.edges == 0 && !self.starts
     }
 }
 
-/// A convex piece, fallen on a plane.
+/// A convex piece, projected to a plane.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Outline {
     edges: Vec<Edge>,
@@ -73,24 +73,24 @@ impl Outline {
         outline
     }
 
-    /// What there is to ask when nothing is known.
-    pub fn everything(&self) -> Asked {
+    /// All checks.
+    pub fn all_checks(&self) -> Checks {
         let edges = if self.edges.len() == MOST_EDGES { u64::MAX } else { (1 << self.edges.len()) - 1 };
-        Asked { edges, starts: !self.planes.is_empty() }
+        Checks { edges, starts: !self.planes.is_empty() }
     }
 
-    /// What is left to ask in a node; `None` when no ray of it meets the piece.
-    pub fn ask(&self, node: &Node, mut asked: Asked) -> Option<Asked> {
+    /// The checks that remain in a node; `None` when no ray of it meets the piece.
+    pub fn remaining(&self, node: &Node, mut checks: Checks) -> Option<Checks> {
         if (0..2).any(|a| node.high[a] < self.low[a] || node.low[a] > self.high[a]) {
             return None;
         }
-        if asked.starts {
+        if checks.starts {
             if node.depth[0] >= self.depth[1] {
                 return None;
             }
-            asked.starts = node.depth[1] >= self.depth[0];
+            checks.starts = node.depth[1] >= self.depth[0];
         }
-        let mut rest = asked.edges;
+        let mut rest = checks.edges;
         while rest != 0 {
             let k = rest.trailing_zeros() as usize;
             rest &= rest - 1;
@@ -105,16 +105,16 @@ impl Outline {
                 return None;
             }
             if corner(false) >= 0.0 {
-                asked.edges &= !(1 << k);
+                checks.edges &= !(1 << k);
             }
         }
-        Some(asked)
+        Some(checks)
     }
 
     /// The rays of a bundle that meet the piece.
-    pub fn meets(&self, bundle: &Bundle, asked: Asked) -> u64 {
+    pub fn meets(&self, bundle: &Bundle, checks: Checks) -> u64 {
         let mut yes = [1u8; BUNDLE];
-        let mut rest = asked.edges;
+        let mut rest = checks.edges;
         while rest != 0 {
             let edge = &self.edges[rest.trailing_zeros() as usize];
             rest &= rest - 1;
@@ -122,7 +122,7 @@ impl Outline {
                 *yes &= u8::from(edge.side(*u, *v) >= 0.0);
             }
         }
-        if asked.starts {
+        if checks.starts {
             let [x, y, z] = &bundle.start;
             for (n, reach) in &self.planes {
                 for (((yes, x), y), z) in yes.iter_mut().zip(x).zip(y).zip(z) {
@@ -169,7 +169,7 @@ pub(super) fn of_convex(
     outlines(corners, edges, &planes, projection, near, each);
 }
 
-/// The outline of a triangle, if it does not stand on edge.
+/// The outline of a triangle, if it is not seen edge-on.
 pub(super) fn of_triangle(
     corners: &[Vec3; 3],
     projection: &Projection,

@@ -1,7 +1,7 @@
 //! A family of rays in bundles of 64, ordered so that near rays are in one bundle, in a tree over their plane.
 //!
-//! The rays of a camera meet in its place, those to a light are parallel. Either way each falls as a point on a
-//! plane, and a convex solid as a convex polygon: a ray's line meets the solid when the point lies in the polygon. A
+//! The rays of a camera meet at its position, those to a light are parallel. Each projects to a point of a
+//! plane, and a convex solid to a convex polygon: a ray's line meets the solid when the point lies in the polygon. A
 //! bundle is a word of bits in every set of rays; 64 bundles make a tile.
 
 use crate::vector::Vec3;
@@ -9,7 +9,7 @@ use crate::vector::Vec3;
 /// Rays of one bundle.
 pub const BUNDLE: usize = 64;
 
-/// How points of space fall on the plane of a family of rays.
+/// The projection of points of space to the plane of a family of rays.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Projection {
     /// Where depth is zero: the eye, or any point.
@@ -67,11 +67,11 @@ impl Projection {
 /// One ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
-    /// Where it falls on the plane.
+    /// Its point on the plane.
     pub at: [f64; 2],
     /// Where it begins, world space.
     pub start: Vec3,
-    /// The pixel that it speaks for.
+    /// Its pixel.
     pub pixel: u32,
 }
 
@@ -109,12 +109,13 @@ pub struct Rays {
 impl Rays {
     /// The family of `rays`; `near` is the depth at which all of them begin, where there is one.
     pub fn new(projection: Projection, near: Option<f64>, mut rays: Vec<Ray>) -> Rays {
-        let mut made = Rays { projection, near, nodes: Vec::new(), bundles: Vec::new(), pixels: Vec::new() };
+        let mut family =
+            Rays { projection, near, nodes: Vec::new(), bundles: Vec::new(), pixels: Vec::new() };
         if !rays.is_empty() {
-            made.build(&mut rays);
+            family.build(&mut rays);
         }
-        made.pixels = rays.iter().map(|r| r.pixel).collect();
-        made
+        family.pixels = rays.iter().map(|r| r.pixel).collect();
+        family
     }
 
     fn build(&mut self, rays: &mut [Ray]) -> u32 {
@@ -156,7 +157,7 @@ impl Rays {
         index as u32
     }
 
-    /// How points of space fall on the rays' plane.
+    /// The projection to the rays' plane.
     pub fn projection(&self) -> &Projection {
         &self.projection
     }

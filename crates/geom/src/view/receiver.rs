@@ -1,6 +1,6 @@
 //! The points of a receiver that a camera sees, each with its ray to the light.
 //!
-//! They are found once, before a run: the nearest triangle along each pixel's ray. A point's place is its triangle's
+//! They are found once, before a run: the nearest triangle along each pixel's ray. A point is its triangle's
 //! first corner plus shares of two edges, so that a floor at one height has points at exactly that height.
 
 use super::camera::Camera;
@@ -52,7 +52,7 @@ pub fn seen_points(mesh: &TriMesh, camera: &Camera, size: [usize; 2]) -> Vec<Ray
 fn nearest(mesh: &TriMesh, camera: &Camera, size: [usize; 2]) -> Vec<(Ray, Vec3)> {
     let rays = camera.rays(size);
     let projection = *camera.projection();
-    let mut found: Vec<Option<(f64, Vec3, Vec3)>> = vec![None; rays.len()];
+    let mut hits: Vec<Option<(f64, Vec3, Vec3)>> = vec![None; rays.len()];
     for corners in mesh.corners() {
         let [a, b, c] = corners;
         let Some(normal) = (b - a).cross(c - a).unit() else { continue };
@@ -61,12 +61,12 @@ fn nearest(mesh: &TriMesh, camera: &Camera, size: [usize; 2]) -> Vec<(Ray, Vec3)
             let Some((depth, point)) = on_triangle(&corners, ray.start, projection.direction(ray.at)) else {
                 continue;
             };
-            if found[number].is_none_or(|(nearest, ..)| depth < nearest) {
-                found[number] = Some((depth, point, normal));
+            if hits[number].is_none_or(|(nearest, ..)| depth < nearest) {
+                hits[number] = Some((depth, point, normal));
             }
         }
     }
-    let seen = found.into_iter().enumerate().filter_map(|(number, hit)| hit.map(|(_, p, n)| (number, p, n)));
+    let seen = hits.into_iter().enumerate().filter_map(|(number, hit)| hit.map(|(_, p, n)| (number, p, n)));
     seen.map(|(number, start, normal)| (Ray { start, ..rays.ray(number) }, normal)).collect()
 }
 

@@ -1,6 +1,6 @@
 //! Filling a surface: inside the box of touched cells, empty regions that do not reach its outer layer are filled.
 //!
-//! Regions are 6-connected. What is outside spreads from the outer layer, 64 cells at a time, in sweeps up and down
+//! Regions are 6-connected. The outside spreads from the outer layer, 64 cells at a time, in sweeps up and down
 //! the rows until nothing changes.
 
 use super::grid::Grid;
@@ -14,8 +14,8 @@ const MOST_CELLS: f64 = 16_777_216.0;
 
 /// Cells that a closed mesh fills. Cells outside of the grid may be among them; `None` when all are outside.
 ///
-/// A mesh that is far larger than the domain is cut to the domain and one layer around it. What reaches the cut is
-/// then outside or inside as the mesh's winding number says.
+/// A mesh that is far larger than the domain is cut to the domain and one layer around it. Regions that reach
+/// the cut are outside or inside by the mesh's winding number.
 pub fn solid(mesh: &TriMesh, grid: &Grid) -> Option<Bits> {
     solid_up_to(MOST_CELLS, mesh, grid)
 }
@@ -47,7 +47,7 @@ fn solid_up_to(most_cells: f64, mesh: &TriMesh, grid: &Grid) -> Option<Bits> {
     if cut {
         outside.fill(0);
         let mut inside = outside.clone();
-        // Free cells next to each other have no surface between their middles: one answer serves a whole region.
+        // Free cells next to each other have no surface between their middles: one test is enough for a whole region.
         while let Some((word, bit)) = region.first_of_layer_beyond(&outside, &inside) {
             let middle = region.cell(&bits, word, bit).map(|i| i as f64 + 0.5);
             let known =
@@ -141,11 +141,11 @@ impl Region {
 
 /// Spreads set bits to both sides through the runs of `free`, in six doublings.
 fn spread(seen: u64, free: u64) -> u64 {
-    let (mut up, mut way) = (seen, free);
+    let (mut up, mut free_run) = (seen, free);
     let (mut down, mut back) = (seen, free);
     for shift in [1, 2, 4, 8, 16, 32] {
-        up |= way & (up << shift);
-        way &= way << shift;
+        up |= free_run & (up << shift);
+        free_run &= free_run << shift;
         down |= back & (down >> shift);
         back &= back >> shift;
     }

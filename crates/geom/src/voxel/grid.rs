@@ -1,15 +1,15 @@
-//! A grid over a box: the domain of a target, its cells, and the way from world to grid coordinates.
+//! A grid over a box: the domain of a target, its cells, and the map from world to grid coordinates.
 //!
 //! Grid coordinates count cells: cell `i` is the closed interval `[i, i + 1]`. The domain is the target's box plus
-//! 0.1 scene units on all six sides; the number of cells is the extent divided by the wished voxel size, rounded
-//! up, so that real cells are a little smaller than wished and not cubes.
+//! 0.1 scene units on all six sides; the number of cells is the extent divided by the given voxel size, rounded
+//! up, so that cells are a little smaller than given and not cubes.
 
 use super::CellBox;
 use crate::bounds::Aabb;
 use crate::error::GeomError;
 use crate::vector::{Vec3, vec3};
 
-/// Room around the target on all six sides, scene units.
+/// Margin around the target on all six sides, scene units.
 pub const PAD: f64 = 0.1;
 /// How far, in cells, a solid may be outside a cell and still touch it.
 pub const TOUCH: f64 = 1e-6;
@@ -64,7 +64,7 @@ impl Grid {
         self.dims.iter().product()
     }
 
-    /// False: a grid has cells.
+    /// Always false: a grid has cells.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }

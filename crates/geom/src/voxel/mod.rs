@@ -5,8 +5,8 @@
 //! (differs: the original's fill sees the accumulated grid).
 //!
 //! - [`grid`]: the domain and its cells; world to grid coordinates
-//! - [`surface`], [`fill`]: triangle meshes, the plain way
-//! - [`slabs`]: convex solids, row by row; must agree with the plain way
+//! - [`surface`], [`fill`]: any triangle mesh
+//! - [`slabs`]: convex solids, row by row; must agree with the method for meshes
 
 pub mod fill;
 pub mod grid;
@@ -55,7 +55,7 @@ impl Voxels {
         Some(Voxels { cells, kind })
     }
 
-    /// Cells that a closed mesh fills, the plain way.
+    /// Cells that a closed mesh fills, by its triangles.
     pub fn of_mesh(mesh: &crate::mesh::TriMesh, grid: &Grid) -> Option<Voxels> {
         let bits = fill::solid(mesh, grid)?;
         let high = std::array::from_fn(|a| grid.dims()[a] - 1);
@@ -94,7 +94,7 @@ impl Voxels {
     }
 }
 
-/// Bits of the word `column` that stand for `first..=last`.
+/// Bits of the word `column` for the cells `first..=last`.
 #[inline]
 fn run(column: usize, first: usize, last: usize) -> u64 {
     let base = column * 64;

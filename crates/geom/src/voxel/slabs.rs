@@ -5,8 +5,8 @@
 //! of that polygon over the y slab is the row's first and last cell, since both sides of a convex polygon are
 //! concave: the farthest point of the slab is the side's apex, or else the slab's border nearer to it.
 //!
-//! The slabs are cut along y instead when the solid stands upright (all corners on two heights). A prism along either
-//! is cut once: all its slices are one polygon.
+//! The slabs are cut along y instead when the solid is upright (all corners on two heights). A prism along either
+//! axis is cut once: all its slices are one polygon.
 
 use super::CellBox;
 use super::grid::{Grid, TOUCH};
@@ -109,7 +109,7 @@ fn slice_of(corners: &[Corner], convex: &Convex<'_>, (low, high): (f64, f64), sl
     }
 }
 
-/// Above zero where the way from `a` by `b` to `p` turns towards higher x, below where it turns away.
+/// Above zero where the path from `a` by `b` to `p` turns towards higher x, below where it turns away.
 #[inline]
 fn turn(a: [f64; 2], b: [f64; 2], p: [f64; 2]) -> f64 {
     (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
@@ -175,7 +175,7 @@ impl Polygon {
     }
 }
 
-/// A side that is walked along v.
+/// A side that is visited along v.
 struct Side<'a> {
     points: &'a [[f64; 2]],
     sign: f64,

@@ -1,4 +1,4 @@
-//! A forward sampler of the building complex (dissertation fig. 5.3): towers that grow towers from their first storey.
+//! A forward sampler of the building complex (dissertation fig. 5.3): towers with further towers on their first storey.
 
 use super::Dice;
 use niwaki_geom::{Look, Primitive, Shape, Vec3, vec3};

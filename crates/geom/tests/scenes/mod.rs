@@ -1,6 +1,6 @@
-//! Random shapes for tests, from a small generator of their own, so that a seed is a scene for ever.
+//! Random shapes for tests, from a small generator of their own, so that a seed always gives the same scene.
 
-// Each test file takes what it needs.
+// Each test file uses a part of it.
 #![allow(dead_code)]
 
 pub mod building;

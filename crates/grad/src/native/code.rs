@@ -18,9 +18,9 @@ pub(super) struct Code<'a, 'b> {
     x: Value,
     g: Value,
     scratch: Value,
-    /// Coordinates that are at hand; the others are read from `x`.
+    /// Coordinates in registers; the others are read from `x`.
     pub inputs: Vec<Value>,
-    /// What each node is in the function, by its number, that computed it last.
+    /// For each node, the function that computed it last (by number), and its value there.
     values: &'b mut [(u32, Value)],
     function: u32,
     /// Comparisons made for selects.
@@ -32,7 +32,7 @@ fn offset(place: u32) -> i32 {
     i32::try_from(u64::from(place) * 8).unwrap_or(i32::MAX)
 }
 
-/// Aligned memory that is there.
+/// Flags of valid, aligned memory.
 const PLAIN: MemFlagsData = MemFlagsData::trusted();
 
 impl<'a, 'b> Code<'a, 'b> {
@@ -46,8 +46,8 @@ impl<'a, 'b> Code<'a, 'b> {
         Code { b, density, layout, x, g, scratch, inputs: vec![], values, function, masks: vec![] }
     }
 
-    /// A number, from where it lies. Loads are not kept: loading again costs less than a register. A constant is loaded too:
-    /// ten bytes of it in the code, and a move from one kind of register to the other, would cost more.
+    /// A number, read from its place. Loads are not kept: loading again costs less than a register. A constant is
+    /// loaded too: ten bytes of it in the code, and a move from one kind of register to the other, would cost more.
     pub(super) fn read(&mut self, id: Id) -> Value {
         if let (function, value) = self.values[id.index()]
             && function == self.function
@@ -147,7 +147,7 @@ impl<'a, 'b> Code<'a, 'b> {
         self.choose(mask, yes, no)
     }
 
-    /// An instruction's value, from here on at hand.
+    /// Sets an instruction's value for later uses.
     pub(super) fn compute(&mut self, id: Id) -> Value {
         let node = *self.density.graph().node(id);
         let arg = |code: &mut Self, k: usize| code.read(node.arg(k));

@@ -1,7 +1,7 @@
-//! In which order the operations of a density run, and where in the scratch their numbers lie.
+//! The order of a density's operations, and the places of their numbers in the scratch.
 //!
-//! The gradient comes first; what the value needs besides is a program of its own, which runs behind it over the same
-//! scratch. Constants lie in the scratch too, those used most at its start: an instruction that reads a number near the
+//! The gradient comes first; what else the value needs is a second program, which runs after it on the same
+//! scratch. Constants are in the scratch too, those used most at its start: an instruction that reads a number near the
 //! start of the scratch is shorter than one that reads from further on, and both are shorter than the constant's bits.
 
 use crate::density::Density;
@@ -30,7 +30,7 @@ pub(super) struct Program {
     /// Operations that are instructions, cut into functions; the level of each.
     pub segments: Vec<(u32, Vec<Id>)>,
     pub batches: Vec<Batch>,
-    /// Which numbers the calls take, and where they look for them.
+    /// Which numbers the calls take, and where they read them.
     pub arguments: Vec<(Id, u32)>,
 }
 
@@ -38,7 +38,7 @@ pub(super) struct Program {
 pub(super) struct Layout {
     /// The gradient, with the guards.
     pub slope: Program,
-    /// What the value needs besides.
+    /// What else the value needs.
     pub rest: Program,
     /// Place in the scratch of a number that is read from there.
     pub place: Vec<u32>,
@@ -52,7 +52,7 @@ pub(super) struct Layout {
     pub flags: Vec<u32>,
 }
 
-/// The comparison that a select decides by itself: `a < b` is not computed as a number for it.
+/// The comparison that a select evaluates itself: `a < b` is not computed as a number for it.
 pub(super) fn test_of(density: &Density, select: Id) -> Option<Id> {
     let graph = density.graph();
     let node = graph.node(select);
@@ -82,7 +82,7 @@ fn needed(density: &Density, roots: impl Iterator<Item = Id>) -> Vec<bool> {
 }
 
 impl Program {
-    /// The nodes that `mine` has; all others that they read are there before.
+    /// The nodes that `mine` has; all others that they read are computed before.
     fn new(density: &Density, mine: impl Fn(Id) -> bool) -> Program {
         let graph = density.graph();
         let mut level = vec![0_u32; graph.len()];
@@ -112,7 +112,7 @@ impl Program {
         program
     }
 
-    /// Hands out places from `size` on for arguments and results of calls.
+    /// Allocates places from `size` on for arguments and results of calls.
     fn place_calls(&mut self, density: &Density, place: &mut [u32], size: &mut u32) {
         for batch in &mut self.batches {
             let n = batch.ids.len() as u32;
@@ -196,7 +196,7 @@ impl Layout {
     /// Places of instructions that another function reads, of guards, and of the value.
     fn place_instructions(&mut self, density: &Density, size: &mut u32) {
         let (place, segment) = (&mut self.place, &self.segment);
-        // What only a later program's call takes is written where the call looks for it.
+        // A number that only a call of a later program takes is written where the call reads it.
         for (arg, to) in &self.rest.arguments {
             let at = segment[arg.index()];
             if (at as usize) < self.slope.segments.len() && place[arg.index()] == NOWHERE {

@@ -6,8 +6,8 @@
 //! numbers, then the operations that waited for them. A call for each would spill all registers each time.
 //!
 //! Numbers that cross from one function to another go through an array of scratch. There are two programs over one
-//! scratch: the gradient, which is all that the inside of a trajectory asks for, and behind it what the value needs
-//! besides. A gradient of few coordinates without calls is also compiled as a loop of leapfrog steps.
+//! scratch: the gradient, which is all that the inside of a trajectory needs, and after it what else the value
+//! needs. A gradient of few coordinates without calls is also compiled as a loop of leapfrog steps.
 //!
 //! * `layout`: the order of operations, and the scratch; `code`: instructions of one function; `write`: functions of a
 //!   program; `roll`: the loop of steps.
@@ -32,7 +32,7 @@ use write::{Writer, Written};
 /// `(x, g, scratch)`.
 type Entry = unsafe extern "C" fn(*const f64, *mut f64, *mut f64);
 
-/// Machine code in memory, freed with its last user.
+/// Machine code in memory, freed with its last owner.
 struct Memory(Option<JITModule>);
 
 // SAFETY: the module is never touched again after compilation, except to be freed by its last owner; the code is only
@@ -79,7 +79,7 @@ impl Step {
 /// One program: steps over an array of scratch.
 struct Routine {
     steps: Vec<Step>,
-    /// Leapfrog steps, where the gradient suits them.
+    /// Leapfrog steps, where the gradient is small enough.
     roll: Option<roll::Entry>,
     _code: Memory,
 }
@@ -133,7 +133,7 @@ struct Shared {
     flags: Vec<u32>,
 }
 
-/// A density as machine code, with the memory that it works in. The gradient is there first; the value follows.
+/// A density as machine code, with the memory that it works in. The gradient is compiled first, then the value.
 #[derive(Clone)]
 pub struct Native {
     shared: Arc<Shared>,
@@ -141,7 +141,7 @@ pub struct Native {
     scratch: Vec<f64>,
 }
 
-/// What the value needs besides the gradient, as machine code.
+/// What the value needs in addition to the gradient, as machine code.
 #[derive(Clone)]
 pub(crate) struct Rest(Arc<Routine>);
 
@@ -163,7 +163,7 @@ impl Native {
     /// Compiles a density.
     ///
     /// # Errors
-    /// A processor that Cranelift does not know, or memory that may not be executed: the tape serves then.
+    /// A processor that Cranelift does not know, or memory that may not be executed: use the tape then.
     pub fn compile(density: &Density) -> Result<Native, String> {
         let (mut native, draft) = Native::of_gradient(density)?;
         native.complete(draft.compile(density)?);
@@ -239,9 +239,9 @@ impl Native {
         holds
     }
 
-    /// Takes up to `steps` leapfrog steps: `p += kick g`, `x += (step variance) p`, `g` becomes the gradient at `x`; the
-    /// kick of all steps but the first is `step`. Stops before a step that leads outside the guards or to a slope that is
-    /// not finite, and gives how many were taken: none where the density does not suit a loop in registers.
+    /// Takes up to `steps` leapfrog steps: `p += kick g`, `x += (step variance) p`, `g` becomes the gradient at `x`;
+    /// the kick of all steps but the first is `step`. Stops before a step that leads outside the guards or to a slope
+    /// that is not finite, and gives the number of steps taken: none where the density has no such loop.
     ///
     /// # Panics
     /// When a slice has not one number for each coordinate.
@@ -258,7 +258,7 @@ impl Native {
     }
 }
 
-/// Where a trajectory is, one number for each coordinate.
+/// The state of a trajectory, one number for each coordinate.
 pub struct Rolling<'a> {
     /// Position.
     pub x: &'a mut [f64],

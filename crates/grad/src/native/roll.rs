@@ -1,8 +1,8 @@
 //! Leapfrog steps as one loop of machine code, for a gradient of few coordinates that needs no call.
 //!
-//! A step of such a gradient takes less time than its numbers take to travel through memory, from the integrator to the
-//! gradient and back. Here position, momentum and slope stay in registers from one step to the next. The operations are
-//! those of the integrator that asks for one gradient after another, in its order.
+//! A step of such a gradient takes less time than the transfer of its numbers through memory, from the integrator to
+//! the gradient and back. Here position, momentum and slope stay in registers from one step to the next. The operations
+//! are those of the integrator that calls one gradient after another, in its order.
 
 use super::code::Code;
 use super::layout::Layout;
@@ -20,7 +20,7 @@ pub(super) type Entry =
     unsafe extern "C" fn(*mut f64, *mut f64, *mut f64, *mut f64, *const f64, *const [f64; 2], u64) -> u64;
 
 impl Writer<'_> {
-    /// The loop, where the gradient suits it.
+    /// The loop, where the gradient is small enough.
     pub(super) fn write_roll(&mut self) -> Written<Option<FuncId>> {
         let (density, layout) = (self.density, self.layout);
         let program = &layout.slope;
@@ -46,7 +46,7 @@ fn write(code: &mut Code<'_, '_>, given: &[Value], layout: &Layout) {
     let zero = code.b.ins().iconst(I64, 0);
     let (body, next, stop, exit) =
         (code.b.create_block(), code.b.create_block(), code.b.create_block(), code.b.create_block());
-    let made = code.b.append_block_param(body, I64);
+    let count = code.b.append_block_param(body, I64);
     let this_kick = code.b.append_block_param(body, F64);
     let all = |code: &mut Code<'_, '_>, block| -> Vec<Value> {
         (0..3 * dim).map(|_| code.b.append_block_param(block, F64)).collect()
@@ -90,7 +90,7 @@ fn write(code: &mut Code<'_, '_>, given: &[Value], layout: &Layout) {
     code.b.ins().brif(finite, next, &[], stop, &[]);
 
     code.b.switch_to_block(next);
-    let done = code.b.ins().iadd_imm_u(made, 1);
+    let done = code.b.ins().iadd_imm_u(count, 1);
     let more = code.b.ins().icmp(IntCC::UnsignedLessThan, done, n);
     let now: Vec<Value> = [here, momentum, slopes].concat();
     let (again, out) =
@@ -98,7 +98,7 @@ fn write(code: &mut Code<'_, '_>, given: &[Value], layout: &Layout) {
     code.b.ins().brif(more, body, &again, exit, &out);
 
     code.b.switch_to_block(stop);
-    jump_with(code, exit, &[&[made], &before[..]].concat());
+    jump_with(code, exit, &[&[count], &before[..]].concat());
 
     code.b.switch_to_block(exit);
     for (at, numbers) in [x, p, g].into_iter().zip(last.chunks(dim)) {

@@ -13,7 +13,7 @@ use cranelift_frontend::{FunctionBuilder, FunctionBuilderContext};
 use cranelift_jit::{JITBuilder, JITModule};
 use cranelift_module::{FuncId, Linkage, Module, default_libcall_names};
 
-/// What goes wrong while code is made: a processor that Cranelift does not know, memory that may not be executed.
+/// Errors of compilation: a processor that Cranelift does not know, memory that may not be executed.
 pub(super) type Written<T> = Result<T, Box<dyn std::error::Error>>;
 
 /// A step whose function has no address yet.
@@ -29,7 +29,7 @@ pub(super) struct Writer<'a> {
     pub(super) layout: &'a Layout,
     functions: u32,
     context: FunctionBuilderContext,
-    /// What each node is in the function, by its number from 1, that computed it last.
+    /// For each node, the function that computed it last (by number, from 1), and its value there.
     values: Vec<(u32, Value)>,
     plan: Vec<Planned>,
 }
@@ -90,7 +90,7 @@ impl<'a> Writer<'a> {
         Ok(())
     }
 
-    /// What the value needs besides the gradient.
+    /// What the value needs in addition to the gradient.
     pub(super) fn write_rest(&mut self) -> Written<()> {
         let (density, layout) = (self.density, self.layout);
         self.write_program(&layout.rest, &vec![Vec::new(); density.graph().len()])?;
@@ -118,8 +118,8 @@ impl<'a> Writer<'a> {
                 early.push((arg, place));
             }
         }
-        // Arguments that no instruction of this program computes are copied: inputs at once, results of calls before the
-        // next level.
+        // Arguments that no instruction of this program computes are copied: inputs at once, results of calls before
+        // the next level.
         early.sort_by_key(|(_, place)| *place);
         let mut segments = program.segments.iter().peekable();
         let mut batches = program.batches.iter().peekable();

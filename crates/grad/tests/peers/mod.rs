@@ -212,7 +212,7 @@ pub fn stack<S: Scalar>(blocks: usize, x: &[S]) -> S {
     total - c(0.5) * force / (sf * sf) - c(0.5) * torque / (st * st)
 }
 
-/// A density that a function over recording numbers writes.
+/// The recorded density of a function.
 pub fn recorded(at: &[f64], f: impl FnOnce(&[Var]) -> Var) -> Density {
     let (value, sheet) = with_sheet(|| {
         let x: Vec<Var> = at.iter().map(|x| Var::input(*x)).collect();

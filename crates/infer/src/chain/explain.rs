@@ -167,9 +167,9 @@ fn named(state: &State, task: &Task, noted: &[Step]) -> Keyed {
     let mut returned = None;
     for (i, step) in noted.iter().enumerate() {
         let (what, node) = match step {
-            Step::Made(node) => (Event::Created, *node),
+            Step::Created(node) => (Event::Created, *node),
             Step::Entered(node) => {
-                let from_below = returned.is_some_and(|below| trace.stands_below(below, *node));
+                let from_below = returned.is_some_and(|below| trace.is_below(below, *node));
                 let at_start = i == 0 && *node != niwaki_vm::machine::state::NodeId(0);
                 (if from_below || at_start { Event::Unwound } else { Event::Invoked }, *node)
             }

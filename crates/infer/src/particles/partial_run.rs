@@ -123,7 +123,7 @@ impl PartialRun {
         let barriers = self.steps.iter().filter(|step| step.is_barrier()).count();
         match PartialRun::run(with, machine, &mut chooser, Some(self), &mut |_| 0, barriers) {
             Ok(next) => {
-                let next = next.filter(|next| next.state.stands() == self.state.stands());
+                let next = next.filter(|next| next.state.suspension_hash() == self.state.suspension_hash());
                 Ok(next.map(|next| (next, chooser.densities)))
             }
             Err(Failure::Run(met)) if with.task.invalid.count(&met).is_some() => Ok(None),

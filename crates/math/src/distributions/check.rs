@@ -1,4 +1,4 @@
-//! Reading parameters: each is looked at once, when a distribution is built, and refused in one way.
+//! Reading parameters: each is checked once, when a distribution is built; all refusals are [`BadParameter`].
 
 use super::draw::{Draw, Param};
 use super::family::Dist;
@@ -13,11 +13,11 @@ pub struct BadParameter {
     pub family: Family,
     /// The parameter's name.
     pub parameter: &'static str,
-    /// What was given, as a person would write it.
+    /// The given value as text.
     pub found: String,
-    /// What would have been right.
+    /// The expected values.
     pub expected: &'static str,
-    /// Whether its kind and shape are right and only its numbers are not.
+    /// Whether its kind and shape are right, and only its numbers are wrong.
     pub out_of_range: bool,
 }
 
@@ -55,7 +55,7 @@ impl<'a, S: Scalar> Reader<'a, S> {
         Ok(Reader { family, params })
     }
 
-    /// The complaint about parameter `k`, whose kind and shape are right and whose numbers are not.
+    /// The error of parameter `k`, whose kind and shape are right and whose numbers are wrong.
     #[cold]
     pub fn refuse<T>(&self, k: usize, expected: &'static str) -> Checked<T> {
         let (family, parameter) = (self.family, self.family.parameters()[k]);
@@ -63,7 +63,7 @@ impl<'a, S: Scalar> Reader<'a, S> {
         Err(BadParameter { family, parameter, found, expected, out_of_range: true })
     }
 
-    /// The complaint about parameter `k`, which has another kind or shape: no number would do in its place.
+    /// The error of parameter `k`, which has another kind or shape: no number is valid in its place.
     #[cold]
     pub fn refuse_kind<T>(&self, k: usize, expected: &'static str) -> Checked<T> {
         self.refuse(k, expected).map_err(|bad| BadParameter { out_of_range: false, ..bad })

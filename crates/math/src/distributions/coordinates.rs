@@ -1,4 +1,4 @@
-//! Coordinates without bounds: what a real number with bounds is on the line, there and back, and small moves of it there.
+//! Coordinates without bounds: maps a real number with bounds to the line and back, and moves it in small steps there.
 //!
 //! With `s(v) = 1 / (1 + exp(-v))`:
 //!
@@ -12,8 +12,8 @@
 //! | simplex | shares of `exp(v)` | sum of `ln x`, up to a constant |
 //! | vectors | `v` | 0 |
 //!
-//! Who follows a gradient goes by the coordinate ([`Interval::value`]); who makes one small move multiplies the distances
-//! from the bounds instead ([`Interval::moved`]), so that a small move loses no digits.
+//! Gradient methods use the coordinate ([`Interval::value`]); a single small move multiplies the distances from the
+//! bounds instead ([`Interval::moved`]), so that it loses no digits.
 
 use super::draw::Draw;
 use super::family::Space;
@@ -30,12 +30,12 @@ pub struct Interval<S = f64> {
     pub hi: Option<S>,
 }
 
-/// What a number of an interval is by its coordinate.
+/// A number of an interval, computed from its coordinate.
 #[derive(Clone, Copy, Debug)]
 pub struct Placed<S> {
     /// The number.
     pub value: S,
-    /// Log of dx/dv, but for the width.
+    /// Log of dx/dv, without the width.
     pub log_slope: S,
     /// Between two bounds: log of the width, which is to be added, and of the share `s(v)`.
     pub between: Option<(S, S)>,
@@ -50,12 +50,12 @@ pub fn logistic<S: Scalar>(v: S) -> S {
     one / (one + (-v).exp())
 }
 
-/// `ln(x / (1 - x))`, kept where [`logistic`] leads back: its inverse.
-pub fn log_odds(share: f64) -> f64 {
+/// `ln(x / (1 - x))`, clamped to where [`logistic`] is invertible: its inverse.
+pub fn logit(share: f64) -> f64 {
     (share.ln() - (-share).ln_1p()).clamp(-FARTHEST, FARTHEST)
 }
 
-/// The coordinate of what lies so far from the only bound.
+/// The coordinate of a number at this distance from its only bound.
 fn log_distance(distance: f64) -> f64 {
     distance.max(f64::MIN_POSITIVE).ln()
 }
@@ -70,7 +70,7 @@ impl<S: Scalar> Interval<S> {
             (None, None) => x,
             (Some(lo), None) => log_distance(x - lo),
             (None, Some(hi)) => log_distance(hi - x),
-            (Some(lo), Some(hi)) => log_odds((x - lo) / (hi - lo)),
+            (Some(lo), Some(hi)) => logit((x - lo) / (hi - lo)),
         }
     }
 
@@ -93,8 +93,8 @@ impl<S: Scalar> Interval<S> {
 }
 
 impl Interval {
-    /// A number whose coordinate moves by `z`, and the log densities of going there and back, as far as they differ: minus
-    /// the logs of dx/dv.
+    /// A number whose coordinate moves by `z`, and the log densities of the move and its reverse, up to common terms:
+    /// minus the logs of dx/dv.
     pub fn moved(&self, x: f64, z: f64) -> (f64, f64, f64) {
         match (self.lo, self.hi) {
             (None, None) => (x + z, 0.0, 0.0),
@@ -118,8 +118,8 @@ impl Interval {
 }
 
 impl Space {
-    /// The coordinates in which a value may move whatever the parameters are: with bounds that depend on them it moves on
-    /// the line. `None` of discrete values.
+    /// The coordinates in which a value may move whatever the parameters are: with bounds that depend on them it moves
+    /// on the line. `None` of discrete values.
     pub fn coordinates(self) -> Option<Support> {
         match self {
             Space::Booleans | Space::Categories | Space::Integers | Space::Fixed => None,
@@ -134,8 +134,8 @@ impl Space {
 }
 
 impl Support {
-    /// A value each of whose coordinates moves by a `z` of its own, and the log densities of going there and back, as far
-    /// as they differ. `None` for a value of another kind, and for a discrete one.
+    /// A value each of whose coordinates moves by its own `z`, and the log densities of the move and its reverse, up to
+    /// common terms. `None` for a value of another kind, and for a discrete one.
     pub fn moved(&self, old: &Draw, mut z: impl FnMut() -> f64) -> Option<(Draw, f64, f64)> {
         match (self, old) {
             (Support::Reals(interval), Draw::Real(x)) => {
@@ -165,11 +165,11 @@ impl Support {
 
 #[cfg(test)]
 mod tests {
-    //! Coordinates lead back, and their slopes are those of differences; the same for moves.
+    //! Coordinates are invertible, and their slopes are those of differences; the same for moves.
     use super::*;
 
     #[test]
-    fn coordinates_lead_back_and_have_the_slopes_that_are_said() {
+    fn coordinates_are_invertible_and_have_the_stated_slopes() {
         let bounds = [(None, None), (Some(-1.0), None), (None, Some(3.0)), (Some(-1.0), Some(3.0))];
         for (lo, hi) in bounds {
             let interval = Interval { lo, hi };

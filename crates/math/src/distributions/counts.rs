@@ -14,7 +14,7 @@ use crate::streams::RngCore;
 use rand_distr::Distribution;
 use std::f64::consts::TAU;
 
-/// Rates above this would draw counts that do not fit; a Poisson of such a rate is a Gaussian anyway.
+/// Rates above this would draw counts that do not fit an integer.
 pub(super) const LARGEST_RATE: f64 = 1e15;
 
 /// `ln k! - (k ln k - k + ln(2 pi k) / 2)`, the error of Stirling's formula.

@@ -1,7 +1,7 @@
 //! What each family does: building (with checks), scoring, drawing.
 //!
-//! The families whose work outweighs a call are kept out of line there (`inline(never)`): inlined, they would
-//! make every choice pay for their registers.
+//! Expensive families are not inlined (`inline(never)`): inlined, they would slow down every choice by their use of
+//! registers.
 
 use super::check::{BadParameter, Reader};
 use super::draw::{Draw, Param};
@@ -16,7 +16,7 @@ use crate::streams::RngCore;
 use std::sync::Arc;
 
 impl<S: Scalar> Dist<S> {
-    /// The distribution of two real parameters, for the families that models make anew at every choice; `None`
+    /// The distribution of two real parameters, for the families that models build at every choice; `None`
     /// where [`Dist::new`] would refuse them, and for any other family.
     #[inline]
     pub fn of_reals(family: Family, a: S, b: S) -> Option<Dist<S>> {
@@ -34,8 +34,8 @@ impl<S: Scalar> Dist<S> {
         Some(dist)
     }
 
-    /// The log density at `x` of the distribution that [`Dist::of_reals`] makes of the parameters, which is not made;
-    /// for the families that are observed most.
+    /// The log density at `x` of [`Dist::of_reals`] of the parameters, without building it;
+    /// for the families that are observed most often.
     #[inline(always)]
     pub fn log_density_of_reals(family: Family, a: S, b: S, x: S, logs: &mut LastLog<S>) -> Option<S> {
         let zero = S::from_f64(0.0);
@@ -47,7 +47,7 @@ impl<S: Scalar> Dist<S> {
         }
     }
 
-    /// The distribution of this family with these parameters, or what is wrong with them.
+    /// The distribution of this family with these parameters, or the error in them.
     pub fn new(family: Family, params: &[Param<S>]) -> Result<Dist<S>, BadParameter> {
         let r = Reader::new(family, params)?;
         Ok(match family {
@@ -120,7 +120,7 @@ impl<S: Scalar> Dist<S> {
 
     /// Log density of `x`, nats; minus infinity outside the support and for values of another kind.
     ///
-    /// Kinds are Python's: 1 may stand for 1.0 or true, and 3.0 for 3.
+    /// Kinds are Python's: 1 is accepted for 1.0 or true, and 3.0 for 3.
     #[inline]
     pub fn log_density(&self, x: &Draw<S>) -> S {
         let never = S::from_f64(f64::NEG_INFINITY);
@@ -171,7 +171,7 @@ impl<S: Scalar> Dist<S> {
         }
     }
 
-    /// [`Dist::log_density`] at a real number; the frequent families without a draw in between.
+    /// [`Dist::log_density`] at a real number; the frequent families without a [`Draw`].
     #[inline(always)]
     pub fn log_density_of_real(&self, x: S) -> S {
         match self {
@@ -181,7 +181,7 @@ impl<S: Scalar> Dist<S> {
         }
     }
 
-    /// [`Dist::log_density`] at a whole number; the most frequent family without a draw in between.
+    /// [`Dist::log_density`] at a whole number; the most frequent family without a [`Draw`].
     #[inline(always)]
     pub fn log_density_of_int(&self, k: i64) -> S {
         match self {
@@ -281,7 +281,7 @@ fn same<S: Scalar>(a: &Draw<S>, b: &Draw<S>) -> bool {
 
 #[cfg(test)]
 mod tests {
-    //! Parameters are refused with the right words; parameters lead back to the distribution.
+    //! Parameters are refused with the right messages; parameters give the distribution back.
     use super::*;
 
     fn refusal(family: Family, params: &[Param]) -> String {
@@ -289,7 +289,7 @@ mod tests {
     }
 
     #[test]
-    fn refusals_say_which_parameter_what_was_found_and_what_was_expected() {
+    fn refusals_name_the_parameter_with_the_actual_and_expected_value() {
         let real = Param::Real;
         assert_eq!(
             refusal(Family::Gaussian, &[real(0.0), real(-1.5)]),
@@ -344,11 +344,11 @@ mod tests {
         let mut logs = LastLog::default();
         for round in 0..1000 {
             let (a, x) = (rng.normal(), rng.normal());
-            // Deviations come in runs, as those of many observations do; the last ones are none.
+            // Equal deviations follow each other, as in many observations; the last ones are invalid.
             let sd = [1.0, 0.3, 0.3, rng.uniform(), 0.0, -1.0, f64::NAN, f64::INFINITY][round % 8];
-            let made = Dist::of_reals(Family::Gaussian, a, sd).map(|d| d.log_density_of_real(x).to_bits());
+            let built = Dist::of_reals(Family::Gaussian, a, sd).map(|d| d.log_density_of_real(x).to_bits());
             let quick = Dist::log_density_of_reals(Family::Gaussian, a, sd, x, &mut logs).map(f64::to_bits);
-            assert_eq!(quick, made);
+            assert_eq!(quick, built);
         }
         assert_eq!(Dist::log_density_of_reals(Family::Gaussian, f64::NAN, 1.0, 0.0, &mut logs), None);
     }
@@ -389,7 +389,7 @@ mod tests {
                     built += 1;
                     let x = d.sample(&mut rng);
                     let log = d.log_density(&x);
-                    // The last float may be so far from where the draw belongs that not even the
+                    // The largest float may be so far from the exact draw that not even the
                     // logarithm of its density is a float.
                     let last = |x: f64| x.abs() >= f64::MAX || x.abs() <= f64::MIN_POSITIVE;
                     let lost = log == f64::NEG_INFINITY && matches!(x, Draw::Real(x) if last(x));

@@ -1,4 +1,4 @@
-//! What goes in and comes out of a distribution: parameters and drawn values.
+//! The inputs and outputs of a distribution: parameters and drawn values.
 
 use super::family::Dist;
 use crate::scalar::Scalar;
@@ -109,7 +109,7 @@ fn row<S: Scalar>(f: &mut fmt::Formatter<'_>, numbers: &[S]) -> fmt::Result {
     write!(f, "{}]", if numbers.len() > 8 { ", ..." } else { "" })
 }
 
-/// As a person would write it, shortened where it is long.
+/// As text, shortened where it is long.
 impl<S: Scalar> fmt::Display for Draw<S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -121,7 +121,7 @@ impl<S: Scalar> fmt::Display for Draw<S> {
     }
 }
 
-/// As a person would write it, shortened where it is long.
+/// As text, shortened where it is long.
 impl<S: Scalar> fmt::Display for Param<S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -1,13 +1,13 @@
-//! The table of the families: what each is called, what its parameters are, and where its values lie.
+//! The table of the families: the name, parameters and space of values of each.
 //!
-//! A row holds the family's variants of [`Family`] and [`Dist`], its name in a model and its [`Space`]. All else that is
-//! asked of a family and follows from these stands below the table and is an exhaustive `match`, here and wherever a
-//! [`Space`] or a [`Support`] decides something: a family cannot be left out.
+//! A row holds the family's variants of [`Family`] and [`Dist`], its name in a model and its [`Space`]. All other
+//! properties of a family follow from these by an exhaustive `match`, below the table and wherever a [`Space`] or a
+//! [`Support`] is used: a family cannot be left out.
 
 use super::coordinates::Interval;
 use super::draw::{Draw, Param};
+use super::fields::Field;
 use super::mixture::Mixture;
-use super::parts::Part;
 use super::support::Support;
 use super::vectors::MultivariateGaussian;
 use super::weights::Weights;
@@ -15,7 +15,7 @@ use crate::scalar::Scalar;
 use std::fmt;
 use std::sync::Arc;
 
-/// Where the values of a family lie, as far as the family alone tells: the same for all of its parameters.
+/// Where the values of a family lie, for all of its parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Space {
     /// Truth values.
@@ -247,7 +247,7 @@ families! {
     Delta(value: Draw<S>; "value") "delta" Fixed(value);
 }
 
-// A distribution travels in registers and trees of nodes: it should not grow unnoticed.
+// Distributions are stored in registers and nodes: their size must not grow unnoticed.
 const _: () = assert!(size_of::<Dist<f64>>() <= 40);
 
 impl fmt::Display for Family {
@@ -258,11 +258,11 @@ impl fmt::Display for Family {
 
 #[cfg(test)]
 mod tests {
-    //! Names lead back to their families.
+    //! Every name gives its family back.
     use super::*;
 
     #[test]
-    fn names_are_found_and_distinct() {
+    fn names_are_distinct_and_give_their_family() {
         assert_eq!(Family::ALL.len(), 22);
         for &family in Family::ALL {
             assert_eq!(Family::from_name(family.name()), Some(family));

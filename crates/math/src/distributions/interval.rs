@@ -30,11 +30,11 @@ pub(super) fn beta_log_density<S: Scalar>(a: S, b: S, x: S) -> S {
 /// `X / (X + Y)` of two gamma draws, by their logarithms: with small `a` and `b` both underflow.
 #[inline(never)]
 pub(super) fn beta_sample(a: f64, b: f64, rng: &mut (impl RngCore + ?Sized)) -> f64 {
-    let log_odds = log_gamma_draw(a, rng) - log_gamma_draw(b, rng);
-    let x = if log_odds < 0.0 {
-        log_odds.exp() / (1.0 + log_odds.exp())
+    let log_ratio = log_gamma_draw(a, rng) - log_gamma_draw(b, rng);
+    let x = if log_ratio < 0.0 {
+        log_ratio.exp() / (1.0 + log_ratio.exp())
     } else {
-        1.0 / (1.0 + (-log_odds).exp())
+        1.0 / (1.0 + (-log_ratio).exp())
     };
     x.clamp(f64::MIN_POSITIVE, 1.0 - 0.5 * f64::EPSILON)
 }

@@ -4,13 +4,13 @@
 //! density(x) = sum_k w_k density_k(x)
 //! ```
 //!
-//! All components must give the same kind of value, measured the same way: the density of a coin or a fixed
-//! value against a Gaussian has no meaning.
+//! All components must have the same kind of value with the same measure: the density of a coin or a fixed
+//! value cannot be compared with that of a Gaussian.
 
 use super::check::{BadParameter, Reader};
 use super::draw::{Draw, Param};
 use super::family::Dist;
-use super::parts::Part;
+use super::fields::Field;
 use super::support::Support;
 use super::weights::Weights;
 use crate::scalar::Scalar;
@@ -58,7 +58,7 @@ impl<S: Scalar> Mixture<S> {
         self.components[self.weights.sample(rng)].sample(rng)
     }
 
-    /// The components that can be chosen, here or where a recorded weight is another.
+    /// The components that can be chosen, here or with other values of recorded weights.
     fn possible(&self) -> impl Iterator<Item = &Dist<S>> {
         let chosen = |k: usize| self.weights.given()[k].varies() || self.weights.given()[k].value() > 0.0;
         self.components.iter().enumerate().filter(move |(k, _)| chosen(*k)).map(|(_, c)| c)
@@ -84,7 +84,7 @@ impl<S: Scalar> Mixture<S> {
     }
 }
 
-impl<S: Scalar> Part<S> for Mixture<S> {
+impl<S: Scalar> Field<S> for Mixture<S> {
     type Over<T: Scalar> = Mixture<T>;
 
     fn over<T: Scalar>(&self, number: &impl Fn(S) -> T) -> Mixture<T> {

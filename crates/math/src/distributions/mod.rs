@@ -3,9 +3,9 @@
 //! | file | what it holds |
 //! | --- | --- |
 //! | `family` | the table: [`Family`] and [`Dist`], names, parameters, and where values lie: [`Space`] |
-//! | `draw` | what goes in and comes out: [`Param`], [`Draw`] |
-//! | `check` | reading parameters; the one way to say that one is wrong: [`BadParameter`] |
-//! | `parts` | what distributions are made of: over another kind of number, and as parameters |
+//! | `draw` | inputs and outputs: [`Param`], [`Draw`] |
+//! | `check` | reading parameters, and the error of a wrong one: [`BadParameter`] |
+//! | `fields` | fields of distributions: over another kind of number, and as parameters |
 //! | `dist` | what each family does: building, scoring, drawing |
 //! | `support` | [`Support`], and listing the values of the finite discrete families |
 //! | `coordinates` | real numbers with bounds as numbers without, and small moves there: [`Interval`] |
@@ -36,9 +36,9 @@ mod counts;
 mod dist;
 mod draw;
 mod family;
+mod fields;
 mod interval;
 mod mixture;
-mod parts;
 mod support;
 mod tails;
 mod truncated;
@@ -51,7 +51,7 @@ mod whole;
 mod testing;
 
 pub use check::BadParameter;
-pub use coordinates::{Interval, Placed, log_odds, logistic};
+pub use coordinates::{Interval, Placed, logistic, logit};
 pub use draw::{Draw, Param};
 pub use family::{Dist, Family, Space};
 pub use mixture::Mixture;

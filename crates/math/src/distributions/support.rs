@@ -42,7 +42,7 @@ pub enum Support<S = f64> {
 }
 
 impl<S: Scalar> Support<S> {
-    /// That of a single value.
+    /// The support of a single value.
     pub(super) fn of_value(value: &Draw<S>) -> Support<S> {
         match value {
             Draw::Bool(_) => Support::Booleans,
@@ -94,7 +94,7 @@ impl<S: Scalar> Support<S> {
     }
 }
 
-/// Longer lists of values are not written out.
+/// Longer lists of values are not enumerated.
 const LONGEST_LIST: i64 = 1 << 20;
 
 impl<S: Scalar> Dist<S> {
@@ -103,15 +103,15 @@ impl<S: Scalar> Dist<S> {
         self.support().dimension()
     }
 
-    /// Whether both measure their densities alike, by counting or by length, area, ..., so that a ratio of them means
-    /// something and they can be mixed.
+    /// Whether the densities of both have one measure (counting, or length, area, ...), so that their ratio is defined
+    /// and they can be mixed.
     pub fn compares_with(&self, other: &Dist<S>) -> bool {
         let (a, b) = (self.support().in_bounds(), other.support().in_bounds());
         std::mem::discriminant(&a) == std::mem::discriminant(&b) && a.dimension() == b.dimension()
     }
 
-    /// Values of `other`, of the same measure, that this distribution visibly never draws, for a message: one of finitely
-    /// many, or an end of an interval. What is missing inside an interval is not seen.
+    /// Values of `other`, of the same measure, that this distribution certainly never draws, for a message: one of
+    /// finitely many, or an end of an interval. Gaps inside an interval are not detected.
     ///
     /// ```
     /// use niwaki_math::Dist;
@@ -153,7 +153,7 @@ impl<S: Scalar> Dist<S> {
         if outside.is_none() && !has_gaps {
             return None;
         }
-        // The ends of a finite support may themselves be impossible, so each of its values is asked for.
+        // The ends of a finite support may themselves be impossible, so each of its values is tested.
         let Some(values) = other.enumerate() else { return outside };
         let missing = values.into_iter().find(|x| self.log_density(x).value() == f64::NEG_INFINITY)?;
         Some(match missing {
@@ -193,7 +193,7 @@ impl<S: Scalar> Dist<S> {
 
 #[cfg(test)]
 mod tests {
-    //! Lists hold the possible values and nothing else.
+    //! Lists hold exactly the possible values.
     use super::*;
     use crate::{Family, Param};
 
@@ -208,24 +208,27 @@ mod tests {
         assert_eq!(Dist::<f64>::DiscreteUniform { lo: i64::MIN, hi: i64::MAX }.enumerate(), None);
     }
 
-    /// A part that is missing is named; impossible values at the ends are no part.
+    /// Missing values are named; impossible values at the ends do not count.
     #[test]
     fn what_a_distribution_never_draws_is_seen() {
         let weights = |w: &[f64]| Dist::new(Family::Categorical, &[Param::Vector(w.to_vec())]).unwrap();
         let range = |lo, hi| Dist::<f64>::DiscreteUniform { lo, hi };
-        let said = |q: Dist, p: Dist| q.lacks(&p);
-        assert_eq!(said(weights(&[1.0, 0.0, 1.0]), range(0, 2)).as_deref(), Some("the value 1"));
-        assert_eq!(said(range(1, 2), weights(&[0.0, 1.0, 1.0, 0.0])), None);
-        assert_eq!(said(range(1, 2), weights(&[0.1, 1.0, 1.0])).as_deref(), Some("the value 0"));
-        assert_eq!(said(Dist::Bernoulli { p: 1.0 }, Dist::Bernoulli { p: 0.5 }).as_deref(), Some("False"));
-        assert_eq!(said(range(0, 9), Dist::Poisson { rate: 1.0 }).as_deref(), Some("numbers above 9"));
-        assert_eq!(said(Dist::Geometric { p: 0.5 }, Dist::Poisson { rate: 1.0 }), None);
+        let lacking = |q: Dist, p: Dist| q.lacks(&p);
+        assert_eq!(lacking(weights(&[1.0, 0.0, 1.0]), range(0, 2)).as_deref(), Some("the value 1"));
+        assert_eq!(lacking(range(1, 2), weights(&[0.0, 1.0, 1.0, 0.0])), None);
+        assert_eq!(lacking(range(1, 2), weights(&[0.1, 1.0, 1.0])).as_deref(), Some("the value 0"));
+        assert_eq!(lacking(Dist::Bernoulli { p: 1.0 }, Dist::Bernoulli { p: 0.5 }).as_deref(), Some("False"));
+        assert_eq!(lacking(range(0, 9), Dist::Poisson { rate: 1.0 }).as_deref(), Some("numbers above 9"));
+        assert_eq!(lacking(Dist::Geometric { p: 0.5 }, Dist::Poisson { rate: 1.0 }), None);
         let positive = Dist::Exponential { rate: 1.0 };
         assert_eq!(
-            said(positive.clone(), Dist::Gaussian { mean: 0.0, sd: 1.0 }).as_deref(),
+            lacking(positive.clone(), Dist::Gaussian { mean: 0.0, sd: 1.0 }).as_deref(),
             Some("numbers below 0")
         );
-        assert_eq!(said(Dist::Beta { a: 1.0, b: 1.0 }, positive.clone()).as_deref(), Some("numbers above 1"));
+        assert_eq!(
+            lacking(Dist::Beta { a: 1.0, b: 1.0 }, positive.clone()).as_deref(),
+            Some("numbers above 1")
+        );
         assert!(
             !positive.compares_with(&range(0, 1)) && positive.compares_with(&Dist::Beta { a: 1.0, b: 1.0 })
         );

@@ -13,7 +13,7 @@ pub(super) fn laplace_log_density<S: Scalar>(loc: S, scale: S, x: S) -> S {
     -((x - loc) / scale).abs() - scale.ln() - S::from_f64(std::f64::consts::LN_2)
 }
 
-/// By inversion, from the nearer end so that both tails keep their digits.
+/// By inversion from the nearer end, so that both tails keep their digits.
 #[inline]
 pub(super) fn laplace_sample(loc: f64, scale: f64, rng: &mut (impl RngCore + ?Sized)) -> f64 {
     let u = open_unit(rng);

@@ -1,4 +1,4 @@
-//! The tests' own instruments: a density and a sampler of one family must agree.
+//! Helpers for tests: the density and the sampler of a family must agree.
 //!
 //! Fixed seeds. Each call of [`continuous_agrees`], [`follows`] or [`discrete_agrees`] raises a false alarm with
 //! probability at most 1e-6; there are about a hundred of them.

@@ -91,7 +91,7 @@ fn offset(a: f64, width: f64, rng: &mut (impl RngCore + ?Sized)) -> f64 {
     // Robert's best rate for an exponential proposal from `a` on; `hypot` since squares may overflow.
     let rate = 0.5 * (a + a.hypot(2.0));
     if rate * width < 1.5 {
-        // The density falls by less than exp(-2.7) across: propose evenly.
+        // The density falls by less than exp(-2.7) across: propose uniformly.
         loop {
             let t = width * open_unit(rng);
             if open_unit(rng) < (-0.5 * t * (a + a + t)).exp() {

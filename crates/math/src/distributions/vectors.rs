@@ -3,13 +3,13 @@
 use super::bell::HALF_LN_TAU;
 use super::check::{BadParameter, Reader};
 use super::draw::Param;
-use super::parts::Part;
+use super::fields::Field;
 use super::waiting::{gamma_draw, log_gamma_draw};
 use crate::scalar::Scalar;
 use crate::streams::RngCore;
 use rand_distr::{Distribution, StandardNormal};
 
-/// How far the entries of a point of the simplex may sum from one: what adding a million of them can lose.
+/// Largest distance from one of the sum of a simplex's entries: the rounding of a million additions.
 const SUM_TOLERANCE: f64 = 1e-9;
 
 /// `sum (a_i - 1) ln x_i + ln gamma(sum a_i) - sum ln gamma(a_i)`, with respect to the first n - 1 entries.
@@ -25,7 +25,7 @@ pub(super) fn dirichlet_log_density<S: Scalar>(concentrations: &[S], x: &[S]) ->
     let (mut total, mut log) = (S::from_f64(0.0), S::from_f64(0.0));
     for (a, x) in concentrations.iter().zip(x) {
         total = total + *a;
-        // Of a concentration of one both terms are zero, and most have it.
+        // For the frequent concentration of one both terms are zero.
         if a.varies() || a.value() != 1.0 {
             log = log + (*a - S::from_f64(1.0)) * x.ln() - a.ln_gamma();
         }
@@ -92,7 +92,7 @@ impl<S: Scalar> MultivariateGaussian<S> {
         }
     }
 
-    /// The root of the mean variance: about how far its values lie from each other.
+    /// The root of the mean variance: a typical distance between its values.
     pub(super) fn scale(&self) -> S {
         let sum = (0..self.mean.len()).fold(S::from_f64(0.0), |sum, i| sum + self.covariance[i][i]);
         (sum / S::from_f64(self.mean.len() as f64)).sqrt()
@@ -127,7 +127,7 @@ impl<S: Scalar> MultivariateGaussian<S> {
     }
 }
 
-impl<S: Scalar> Part<S> for MultivariateGaussian<S> {
+impl<S: Scalar> Field<S> for MultivariateGaussian<S> {
     type Over<T: Scalar> = MultivariateGaussian<T>;
 
     fn over<T: Scalar>(&self, number: &impl Fn(S) -> T) -> MultivariateGaussian<T> {
@@ -158,7 +158,7 @@ fn cholesky<S: Scalar>(matrix: &[Vec<S>]) -> Option<Vec<Vec<S>>> {
             } else if rest.value() > 1e-14 * given[i].value() && rest.value() > 0.0 {
                 row.push(rest.sqrt());
             } else {
-                // A pivot lost in rounding: the matrix is singular as far as can be told.
+                // A pivot lost in rounding: the matrix is singular up to rounding.
                 return None;
             }
         }
@@ -169,7 +169,7 @@ fn cholesky<S: Scalar>(matrix: &[Vec<S>]) -> Option<Vec<Vec<S>>> {
 
 #[cfg(test)]
 mod tests {
-    //! In two dimensions everything can be checked against one-dimensional families.
+    //! In two dimensions the results are checked against one-dimensional families.
     use super::super::testing::*;
     use crate::{Dist, Draw, Family, Param};
 

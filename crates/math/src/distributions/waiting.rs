@@ -1,4 +1,4 @@
-//! Waiting times: exponential, gamma, inverse_gamma; and the logarithm of a gamma draw, which others build on.
+//! Waiting times: exponential, gamma, inverse_gamma; and the logarithm of a gamma draw, which other families use.
 
 use crate::scalar::Scalar;
 use crate::streams::{RngCore, open_unit};

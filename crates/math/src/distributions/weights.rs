@@ -5,7 +5,7 @@
 
 use super::check::{BadParameter, Reader};
 use super::draw::Param;
-use super::parts::Part;
+use super::fields::Field;
 use crate::scalar::Scalar;
 use crate::streams::{RngCore, open_unit};
 
@@ -50,7 +50,7 @@ impl<S: Scalar> Weights<S> {
         self.log.len()
     }
 
-    /// Never: a table has at least one choice.
+    /// Always false: a table has at least one choice.
     pub fn is_empty(&self) -> bool {
         self.log.is_empty()
     }
@@ -81,7 +81,7 @@ impl<S: Scalar> Weights<S> {
     }
 }
 
-impl<S: Scalar> Part<S> for Weights<S> {
+impl<S: Scalar> Field<S> for Weights<S> {
     type Over<T: Scalar> = Weights<T>;
 
     fn over<T: Scalar>(&self, number: &impl Fn(S) -> T) -> Weights<T> {

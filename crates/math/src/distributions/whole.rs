@@ -49,13 +49,13 @@ pub(super) fn discrete_uniform_sample(lo: i64, hi: i64, rng: &mut (impl RngCore 
 pub(super) fn geometric_log_density<S: Scalar>(p: S, x: i64) -> S {
     match x {
         ..0 => S::from_f64(f64::NEG_INFINITY),
-        // Zero failures cost nothing; with p = 1 the product would be 0 times infinity.
+        // Zero failures add nothing; with p = 1 the product would be 0 times infinity.
         0 => p.ln(),
         _ => S::from_f64(x as f64) * (-p).ln_1p() + p.ln(),
     }
 }
 
-/// By inversion; counts beyond the largest `i64` are that.
+/// By inversion; counts beyond the largest `i64` are replaced by it.
 #[inline]
 pub(super) fn geometric_sample(p: f64, rng: &mut (impl RngCore + ?Sized)) -> i64 {
     (open_unit(rng).ln() / (-p).ln_1p()).floor() as i64

@@ -7,28 +7,28 @@ use crate::value::index::{iter_get, iter_len};
 use crate::value::numbers::Number;
 use crate::value::{Dist, Draw, Family, Param, Scalar, Value};
 
-/// Components that one mixture may have after those of its own mixtures were taken in.
+/// Most components of one mixture after nested mixtures are flattened.
 const COMPONENTS: usize = 1 << 16;
 
 /// A distribution of a family from its parameters in order.
 #[inline]
 pub fn make_dist<S: Scalar>(family: Family, args: &[Value<S>]) -> Result<Dist<S>, Fault> {
     let param = |at: usize| to_param(family, at, &args[at]);
-    let made = match (family, args.len()) {
+    let result = match (family, args.len()) {
         (Family::Mixture, 2) => Dist::new(family, &flattened([param(0)?, param(1)?])?),
-        // One and two parameters, nearly all there is, go without an allocation.
+        // One and two parameters, the usual cases, need no allocation.
         (_, 1) => Dist::new(family, &[param(0)?]),
         (_, 2) => Dist::new(family, &[param(0)?, param(1)?]),
         (_, count) => Dist::new(family, &(0..count).map(param).collect::<Result<Vec<_>, _>>()?),
     };
-    made.map_err(|bad| {
+    result.map_err(|bad| {
         let fault = Fault::bad_parameter(bad.to_string());
         if bad.out_of_range { fault.of_range(family) } else { fault }
     })
 }
 
-/// The distribution of two numbers in order, for the families that a run makes most often. `None` for any other
-/// family, for anything but numbers and for numbers that do not fit: [`make_dist`] then says what is wrong.
+/// The distribution of two numbers in order, for the most frequent families. `None` for any other family, for
+/// anything but numbers and for numbers that do not fit: [`make_dist`] then gives the fault.
 #[inline(always)]
 pub fn quick_dist<S: Scalar>(family: Family, a: &Value<S>, b: &Value<S>) -> Option<Dist<S>> {
     let number = |value: &Value<S>| match value {
@@ -97,7 +97,7 @@ fn in_a_row<S: Scalar>(value: &Value<S>) -> Option<Param<S>> {
     }
 }
 
-/// Takes the components of mixtures inside a mixture into it, with the product of the weights: the same
+/// Flattens mixtures inside a mixture, with the product of the weights: the same
 /// distribution, but never nested, so that scoring and dropping one needs no host stack.
 fn flattened<S: Scalar>(params: [Param<S>; 2]) -> Result<[Param<S>; 2], Fault> {
     let [Param::Vector(weights), Param::Dists(dists)] = &params else { return Ok(params) };
@@ -182,7 +182,7 @@ mod tests {
     }
 
     #[test]
-    fn the_quick_way_makes_the_same_distributions_and_refuses_the_same_numbers() {
+    fn quick_dist_gives_the_same_distributions_and_refuses_the_same_numbers() {
         let numbers = [-1.0, 0.0, 0.5, 2.0, f64::MAX, f64::MIN, f64::INFINITY, f64::NAN];
         for family in [Family::Gaussian, Family::LogNormal, Family::Uniform, Family::Gamma, Family::Beta] {
             for (a, b) in numbers.iter().flat_map(|a| numbers.iter().map(move |b| (*a, *b))) {
@@ -197,7 +197,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_is_said() {
+    fn messages_name_the_wrong_parameter() {
         let (code, message) = fault(Family::Gaussian, &[V::Int(0), V::real(-1.0)]);
         assert_eq!(code, "bad-parameter");
         assert_eq!(message, "`sd` of gaussian is -1.0, expected a finite number above zero");

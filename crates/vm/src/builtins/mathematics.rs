@@ -1,6 +1,6 @@
 //! Python's `math`: the same functions, the same refusals.
 //!
-//! `math` never answers NaN or an infinity for an ordinary argument: outside the domain it raises `ValueError`
+//! `math` never returns NaN or an infinity for an ordinary argument: outside the domain it raises `ValueError`
 //! (here `math-domain`), beyond the largest float `OverflowError` (`float-overflow`). Source: Python library
 //! reference, `math`, "CPython implementation detail".
 
@@ -115,7 +115,7 @@ pub fn hypot<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     })))
 }
 
-/// A number rounded to a whole one by a way that changes `lo` below and `hi` above the result.
+/// A number rounded to a whole one by a function that changes `lo` below and `hi` above the result.
 pub(super) fn stepped<S: Scalar>(x: S, round: fn(f64) -> f64, lo: f64, hi: f64) -> Result<i64, Fault> {
     let whole = round(x.value());
     pin(x, whole + lo, whole + hi);
@@ -200,7 +200,7 @@ pub fn math_pow<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     numbers::pow_reals(x, y).map(Value::Real)
 }
 
-macro_rules! questions {
+macro_rules! predicates {
     ($($(#[$doc:meta])* $name:ident;)*) => { $(
         $(#[$doc])*
         pub fn $name<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
@@ -210,11 +210,11 @@ macro_rules! questions {
     )* };
 }
 
-mod ask {
-    //! The questions under the names of `f64`'s own.
+mod predicates {
+    //! Tests of a float, named as those of `f64`.
     use super::{Answer, Scalar, Value, real};
 
-    questions! {
+    predicates! {
         /// Neither infinite nor NaN.
         is_finite;
         /// NaN.
@@ -223,7 +223,7 @@ mod ask {
         is_infinite;
     }
 }
-pub use ask::{is_finite as isfinite, is_infinite as isinf, is_nan as isnan};
+pub use predicates::{is_finite as isfinite, is_infinite as isinf, is_nan as isnan};
 
 /// Greatest common divisor of any number of ints.
 pub fn gcd<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
@@ -251,7 +251,7 @@ pub fn factorial<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     fitting("factorial", (n < 21).then(|| (2..=n).product()))
 }
 
-/// Ways to choose k of n, without order.
+/// Number of subsets of k of n elements.
 pub fn comb<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let (n, k) = (whole("comb", &args[0])?, whole("comb", &args[1])?);
     if n < 0 || k < 0 {
@@ -260,14 +260,14 @@ pub fn comb<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     if k > n {
         return Ok(Value::Int(0));
     }
-    let mut ways: i128 = 1;
+    let mut subsets: i128 = 1;
     for i in 0..k.min(n - k) {
-        ways = ways * i128::from(n - i) / i128::from(i + 1);
-        if ways > i128::from(i64::MAX) {
+        subsets = subsets * i128::from(n - i) / i128::from(i + 1);
+        if subsets > i128::from(i64::MAX) {
             return fitting("comb", None);
         }
     }
-    fitting("comb", i64::try_from(ways).ok())
+    fitting("comb", i64::try_from(subsets).ok())
 }
 
 /// Logarithm of the gamma function's absolute value.

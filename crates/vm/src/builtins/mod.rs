@@ -6,10 +6,10 @@
 //! - [`sequences`]: making, ordering and folding sequences
 //! - [`strings`]: text, formatting and methods of built-in values
 //! - [`vectors`], [`shapes`]: points, directions, rotations, solids
-//! - [`colors`], [`polygons`]: what a picture and a plan are made of
+//! - [`colors`], [`polygons`]: colours and polygons of the plane
 //! - [`dist`]: distributions from values
 //!
-//! The operators (`add`, `lt`, `index`, ...) are in the table as well, so that a function value can be made of any of them.
+//! The operators (`add`, `lt`, `index`, ...) are in the table as well, so that any of them can be a function value.
 //! Mathematics goes through [`Scalar`], so a recording scalar sees it.
 
 pub mod arithmetic;
@@ -28,7 +28,7 @@ use crate::value::{Scalar, Value, compare, index, ops};
 
 pub use dist::{draw_to_value, make_dist, quick_dist, value_to_draw};
 
-/// What a built-in function answers.
+/// The result of a built-in function.
 pub type Answer<S> = Result<Value<S>, Fault>;
 
 /// A built-in function.
@@ -39,7 +39,7 @@ pub struct Builtin<S: Scalar = f64> {
     pub min_args: usize,
     /// Most arguments; `usize::MAX` for any number.
     pub max_args: usize,
-    /// What it does. It trusts the number of arguments: see [`Builtin::call`].
+    /// What it does. It does not check the number of arguments: see [`Builtin::call`].
     pub run: fn(&[Value<S>]) -> Answer<S>,
 }
 
@@ -287,7 +287,7 @@ pub(crate) mod tests {
         assert_eq!(code("sqrt", &[]), "argument-count");
     }
 
-    /// What a function makes of a future that is not forced: nothing, but for the few that look at no element.
+    /// No function accepts a future that is not forced, except the few that read no element.
     #[test]
     fn functions_do_not_look_at_futures() {
         let passing = [

@@ -60,7 +60,7 @@ pub fn inset<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let name = "polygon_inset";
     let (corners, by) = (corners(name, &args[0])?, real(name, &args[1])?);
     match polygon::inset(&corners, by) {
-        Some(made) => Ok(Value::list(made.iter().map(|corner| Value::vector(corner)).collect())),
+        Some(inset) => Ok(Value::list(inset.iter().map(|corner| Value::vector(corner)).collect())),
         None => Err(Fault::bad_argument(format!(
             "moved inwards by {}, an edge of the polygon vanishes",
             by.value()

@@ -29,7 +29,7 @@ pub fn extreme<S: Scalar>(name: &str, items: &[Value<S>], keys: Option<&[Value<S
         return Err(Fault::bad_argument(format!("`{name}` has {keys} keys for {items} elements")));
     }
     if std::ptr::eq(keys, items) && items.iter().any(|item| matches!(item, Value::Real(x) if x.varies())) {
-        // Recorded as one operation, which has a slope on either side; comparing would tie the run to the winner.
+        // Recorded as one operation, which has a slope on either side; comparing would add a guard for the winner.
         let numbers: Option<Vec<S>> = items.iter().map(|item| Number::of(item).map(Number::real)).collect();
         if let Some(best) =
             numbers.and_then(|x| x.into_iter().reduce(if name == "min" { S::min } else { S::max }))
@@ -68,7 +68,7 @@ pub fn sorted_by<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
 
 /// Positions in ascending (or descending) order of the keys; equal keys stay in their order, also in reverse.
 ///
-/// A merge sort of our own: it only asks `<`, may stop at a fault, and is at ease with NaN, where the standard
+/// A merge sort of our own: it uses only `<`, may stop at a fault, and accepts NaN, for which the standard
 /// library's sort may panic.
 fn stable_order<S: Scalar>(keys: &[Value<S>], reverse: bool) -> Result<Vec<usize>, Fault> {
     let before =
@@ -98,7 +98,7 @@ fn stable_order<S: Scalar>(keys: &[Value<S>], reverse: bool) -> Result<Vec<usize
     Ok(order)
 }
 
-/// Whether an element has that truth value; those after it are not looked at.
+/// Whether an element has that truth value; those after it are not read.
 pub fn has<S: Scalar>(items: &Value<S>, truth: bool) -> Result<bool, Fault> {
     for item in iter_all(items)? {
         if ops::truth(&item)? == truth {

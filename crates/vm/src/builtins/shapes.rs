@@ -1,6 +1,6 @@
-//! Shapes from values: the words of [`WORDS`]. Models and plain Python runs come here alike.
+//! Shapes from values: the words of [`WORDS`]. Models and plain Python runs both use this file.
 //!
-//! A scene is made of plain numbers: what a recording scalar remembers ends here.
+//! A scene is made of plain numbers: a recording scalar gives only its value here.
 
 use std::any::Any;
 use std::cell::RefCell;
@@ -102,11 +102,11 @@ fn point<S: Scalar>(word: &str, value: &Value<S>) -> Result<Vec3, Fault> {
     three(word, value).map(|[x, y, z]| vec3(x.value(), y.value(), z.value()))
 }
 
-fn shape<S: Scalar>(made: Result<Shape, GeomError>) -> Answer<S> {
-    made.map(Value::Shape).map_err(refused)
+fn shape<S: Scalar>(result: Result<Shape, GeomError>) -> Answer<S> {
+    result.map(Value::Shape).map_err(refused)
 }
 
-/// The faults of the shapes' room keep their sentences.
+/// The faults of the geometry crate keep their messages.
 fn refused(error: GeomError) -> Fault {
     Fault::bad_shape(error.message)
 }
@@ -172,7 +172,7 @@ pub fn mesh<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     placed(&kept_mesh(given.needed(0)?, given.needed(1)?)?, args)
 }
 
-/// The word `mesh`, of a mesh that was read before: the first two arguments are not looked at.
+/// The word `mesh`, of a mesh that was read before: the first two arguments are not read.
 pub fn placed<S: Scalar>(mesh: &Arc<TriMesh>, args: &[Value<S>]) -> Answer<S> {
     let given = Arguments { word: "mesh", args };
     let center = given.given(2).map_or(Ok(vec3(0.0, 0.0, 0.0)), |arg| point("mesh", arg))?;
@@ -186,7 +186,7 @@ const KEPT: usize = 16;
 type Kept = (Box<dyn Any>, Arc<TriMesh>);
 
 thread_local! {
-    /// A model places the same mesh again and again; its vertices are constants. They are told by identity, so a
+    /// A model places the same mesh again and again; its vertices are constants. They are compared by identity, so a
     /// hit costs nothing, and the mesh is shared by all shapes that place it.
     static MESHES: RefCell<Vec<Kept>> = const { RefCell::new(Vec::new()) };
 }
@@ -244,7 +244,7 @@ mod tests {
         }
     }
 
-    fn made(name: &str, args: &[V]) -> Shape {
+    fn shape_of(name: &str, args: &[V]) -> Shape {
         match call(name, args) {
             Ok(Value::Shape(shape)) => shape,
             other => panic!("{other:?}"),
@@ -257,11 +257,11 @@ mod tests {
 
     #[test]
     fn words_place_their_solids() {
-        let cube = made("box", &[at(0.0, 1.0, 0.0), reals([2.0, 2.0, 4.0])]);
+        let cube = shape_of("box", &[at(0.0, 1.0, 0.0), reals([2.0, 2.0, 4.0])]);
         assert_eq!(cube.aabb().low, vec3(-1.0, 0.0, -2.0));
         let tapered = [at(0.0, 0.0, 0.0), at(1.0, 1.0, 1.0), V::None, V::real(0.5), V::str("y")];
-        assert_eq!(made("box", &tapered).kind(), "tapered-box");
-        let log = made("cylinder", &[at(0.0, 0.0, 0.0), V::real(0.5), V::Int(4), V::str("z")]);
+        assert_eq!(shape_of("box", &tapered).kind(), "tapered-box");
+        let log = shape_of("cylinder", &[at(0.0, 0.0, 0.0), V::real(0.5), V::Int(4), V::str("z")]);
         assert_eq!(log.aabb().extent().z, 4.0);
         let color = [
             at(0.0, 0.0, 0.0),
@@ -272,7 +272,7 @@ mod tests {
             V::None,
             at(1.0, 0.5, 0.0),
         ];
-        assert_eq!(made("limb", &color).color(), Some([1.0, 0.5, 0.0]));
+        assert_eq!(shape_of("limb", &color).color(), Some([1.0, 0.5, 0.0]));
     }
 
     #[test]
@@ -281,7 +281,7 @@ mod tests {
             V::tuple(vec![at(0.0, y, 0.0), at(0.0, 1.0, 0.0), at(0.0, 0.0, 1.0), V::real(r)])
         };
         let [start, split, end] = [frame(0.0, 1.0), frame(0.3, 0.9), frame(4.0, 0.7)];
-        let trunk = made("segment", &[start.clone(), split.clone(), end.clone()]);
+        let trunk = shape_of("segment", &[start.clone(), split.clone(), end.clone()]);
         assert_eq!((trunk.kind(), trunk.aabb().extent().y), ("segment", 4.0));
         let short = V::tuple(vec![at(0.0, 1.0, 0.0), V::real(0.2)]);
         assert_eq!(code("segment", &[start.clone(), split.clone(), short.clone()]), "type-mismatch");
@@ -296,8 +296,10 @@ mod tests {
             V::list(vec![at(0.0, 0.0, 0.0), at(1.0, 0.0, 0.0), at(0.0, 1.0, 0.0), at(0.0, 0.0, 1.0)]);
         let faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
         let faces = V::list(faces.map(|f| V::tuple(f.map(V::Int).to_vec())).to_vec());
-        let (a, b) =
-            (made("mesh", &[vertices.clone(), faces.clone()]), made("mesh", &[vertices.clone(), faces]));
+        let (a, b) = (
+            shape_of("mesh", &[vertices.clone(), faces.clone()]),
+            shape_of("mesh", &[vertices.clone(), faces]),
+        );
         let (Solid::Mesh(a), Solid::Mesh(b)) = (a.solid(), b.solid()) else { panic!("not meshes") };
         assert!(Arc::ptr_eq(a, b));
         let far = V::list(vec![V::tuple(vec![V::Int(0), V::Int(1), V::Int(9)])]);

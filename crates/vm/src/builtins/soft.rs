@@ -1,4 +1,4 @@
-//! Soft constraints as log scores, and bends without corners, each with a stated width above 0.
+//! Soft constraints as log scores, and bends without corners, each with a width above 0.
 //!
 //! All but `softeq` (dissertation eq. 4.1) are made of `sqrt(d^2 + width^2)`, which has derivatives of every order and
 //! no branch: a recorded graph holds for every argument. The same formulas as in the package's `words/soft.py`.
@@ -72,7 +72,7 @@ pub fn smooth_abs<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
 
 #[cfg(test)]
 mod tests {
-    //! What each function is far from its bend and at it.
+    //! The values of each function far from its bend and at it.
     use crate::builtins::tests::{V, call, code};
 
     fn of(name: &str, args: &[f64]) -> f64 {

@@ -1,6 +1,6 @@
 //! Points, directions and rotations. Right-handed, angles in radians.
 //!
-//! Where a vector is wanted, a tuple or list of two to four numbers will do. The rotation about a unit axis (x, y, z) by
+//! A tuple or list of two to four numbers is accepted as a vector. The rotation about a unit axis (x, y, z) by
 //! an angle with cosine c and sine s is Rodrigues' formula, written out: `(1 - c) a a^T + c I + s [a]_x`.
 
 use std::sync::Arc;

@@ -6,7 +6,7 @@ use niwaki_math::Scalar;
 use std::sync::Arc;
 
 impl Program<f64> {
-    /// The program for numbers of another kind, such as those that record what happens to them.
+    /// The program for another scalar, such as the recording one.
     pub fn over<S: Scalar>(&self) -> Program<S> {
         let function = |f: &Function<f64>| Function {
             name: f.name.clone(),
@@ -40,8 +40,8 @@ impl Program<f64> {
 }
 
 impl<S: Scalar> Program<S> {
-    /// The same program for another thread: what runs count references to at every step, classes and constants of one
-    /// piece, is its own, so that processors do not wait for each other's counts. Large constants are shared.
+    /// The same program for another thread: it has its own classes and small constants, whose references are counted
+    /// at every step, so that processors do not wait for each other's counts. Large constants are shared.
     pub fn apart(&self) -> Program<S> {
         let mut program = self.clone();
         program.classes.iter_mut().for_each(|class| *class = Arc::new((**class).clone()));

@@ -1,10 +1,10 @@
-//! Bytecode: what a compiled program is made of. Numbers in newtypes, layouts in one place.
+//! Bytecode: the parts of a compiled program. Numbers in newtypes, layouts in one place.
 //!
 //! An operand is 16 bits: two of class, fourteen of index.
 //!
-//! | class | where it lives | who sees it |
+//! | class | where it is stored | what it holds |
 //! | --- | --- | --- |
-//! | node | a register of the activation, kept while it lives | values needed after a suspension site |
+//! | node | a register of the activation, kept as long as it | values needed after a suspension site |
 //! | outer | a register of the enclosing loop node | what an iteration captures |
 //! | scratch | a register of the machine, gone at the next suspension | everything else; all of a pure function |
 //! | constant | the function's constant table | literals and data |
@@ -20,7 +20,7 @@ use crate::core::{Name, Span};
 use crate::value::{Class, Value};
 use niwaki_math::{Family, Scalar};
 
-/// Where an instruction finds or puts a value.
+/// Where an instruction reads or writes a value.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Operand(pub u16);
 
@@ -161,11 +161,11 @@ pub enum Binary {
 
 /// One instruction.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[allow(missing_docs)] // the fields are what the instruction's line says
+#[allow(missing_docs)] // each instruction's line describes its fields
 pub enum Op {
     /// Copy a value.
     Move { to: Operand, from: Operand },
-    /// A sum. The four operations that models are full of are instructions of their own.
+    /// A sum. The four most frequent operations have instructions of their own.
     Add { to: Operand, a: Operand, b: Operand },
     /// A difference.
     Sub { to: Operand, a: Operand, b: Operand },
@@ -203,7 +203,7 @@ pub enum Op {
     Host { to: Operand, constant: u16, args: Args },
     /// Call of a pure function: no node, no site.
     CallPure { to: Operand, function: u16, args: Args },
-    /// Go on elsewhere. Backward jumps count as steps.
+    /// Jump. Backward jumps count as steps.
     Jump { target: u32 },
     /// Jump when the value is true.
     JumpIf { a: Operand, target: u32 },
@@ -219,15 +219,15 @@ pub enum Op {
     CheckSet { a: Operand, name: u16 },
     /// A fault with the message in `message` unless `a` is true.
     Assert { a: Operand, message: Operand },
-    /// Suspend or not: what the numbered site says.
+    /// Carry out the numbered site, which may suspend.
     Site { site: SiteId },
-    /// The sites numbered `from..to` are not on the path taken: what they hold goes.
+    /// The sites numbered `from..to` are not on the path taken: what they hold is removed.
     Clear { from: u16, to: u16 },
     /// Return from the function.
     Return { a: Operand },
     /// Return from an iteration: how it ended, carried values (and the returned value).
     ReturnIteration { exit: i8, args: Args },
-    /// In a slice: a call that was made before, of whose arguments only that one may have changed.
+    /// In a slice: a repeated call of which only that argument may have changed.
     Pass { site: SiteId, arg: u16 },
     /// The end of a slice: what the activation returns has not changed.
     Done,
@@ -249,7 +249,7 @@ pub enum Source {
 pub enum SiteKind {
     /// Call of a known effectful function.
     Call {
-        /// Whom.
+        /// The function that is called.
         function: FunctionId,
     },
     /// Call of a function value, the first argument.
@@ -268,16 +268,16 @@ pub enum SiteKind {
     Query,
     /// One primitive: shapes, or lists of shapes.
     Emit,
-    /// A deferred call of a known function. `detached`: nobody reads the handle.
+    /// A deferred call of a known function. `detached`: nothing reads the handle.
     Future {
-        /// Whom.
+        /// The function that is called.
         function: FunctionId,
-        /// Nobody reads the handle.
+        /// Nothing reads the handle.
         detached: bool,
     },
     /// A deferred call of a function value, the first argument.
     FutureApply {
-        /// Nobody reads the handle.
+        /// Nothing reads the handle.
         detached: bool,
     },
     /// The value of a future.
@@ -298,7 +298,7 @@ pub enum SiteKind {
 }
 
 impl SiteKind {
-    /// Whether an activation is made at such a site: of a call, a future or a loop.
+    /// Whether such a site creates an activation: of a call, a future or a loop.
     #[inline]
     pub fn makes_activation(&self) -> bool {
         match self {
@@ -310,8 +310,8 @@ impl SiteKind {
         }
     }
 
-    /// Whether a run that stops at such a site goes on *at* it, and not after it: a choice is asked once more, and a
-    /// force looks once more whether its future has returned. The machine goes on where this says.
+    /// Whether a run that stops at such a site continues *at* it, and not after it: a choice is repeated, and a force
+    /// tests again whether its future has returned.
     #[inline]
     pub fn is_met_again(&self) -> bool {
         match self {
@@ -324,7 +324,7 @@ impl SiteKind {
         }
     }
 
-    /// Whether what it gives is a future.
+    /// Whether its result is a future.
     #[inline]
     pub fn gives_future(&self) -> bool {
         matches!(self, SiteKind::Future { detached: false, .. } | SiteKind::FutureApply { detached: false })
@@ -332,7 +332,7 @@ impl SiteKind {
 
     /// Whether the arguments are read once more when other activations have run, so that they must outlive the site.
     /// Those of a site that is met again are; a proposal draws and scores from the node and the site alone; a query
-    /// table is read in the same way; an append knows its list by where it lies, so it must live.
+    /// table is read likewise; an append identifies its list by its address, so the list must exist.
     pub fn is_read_again(&self) -> bool {
         self.is_met_again() || matches!(self, SiteKind::Query | SiteKind::Append { .. })
     }
@@ -345,7 +345,7 @@ pub struct Loop {
     pub header: FunctionId,
     /// The function of one iteration: element (for `for`), carried values; captures are its outer operands.
     pub body: FunctionId,
-    /// What a `for` runs over.
+    /// What a `for` loop iterates over.
     pub over: Option<Operand>,
     /// Carried values going in.
     pub carried: Args,
@@ -373,30 +373,30 @@ pub struct Site {
     pub key: u128,
     /// The readable component of an address.
     pub label: Name,
-    /// Where it stands.
+    /// Its place in the source.
     pub span: Span,
     /// The instruction after it.
     pub next: u32,
-    /// Where a run goes on when nothing but its results has changed: a slice, or the instruction after it.
+    /// Where a run continues when only its result has changed: a slice, or the instruction after it.
     pub again: u32,
 }
 
 impl Site {
-    /// The instruction at which a run goes on that stops at the site, which stands at `pc`.
+    /// Where a run continues that stopped at the site, whose instruction is `pc`.
     #[inline]
     pub fn resumes_at(&self, pc: usize) -> usize {
         if self.kind.is_met_again() { pc } else { pc + 1 }
     }
 }
 
-/// How activations of a function live.
+/// How activations of a function are stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
     /// It can reach no effect: no node, registers on the machine's scratch stack.
     Pure,
     /// It can suspend: a node.
     Node,
-    /// A lifted loop: a node without code that holds what is run over and what its iterations capture.
+    /// A lifted loop: a node without code that holds what the loop iterates over and what its iterations capture.
     Loop,
     /// One iteration of a lifted loop: a node whose parent is the loop's node.
     Iteration,
@@ -411,9 +411,9 @@ pub struct Function<S: Scalar = f64> {
     pub file: u32,
     /// Where it is defined.
     pub span: Span,
-    /// How its activations live.
+    /// How its activations are stored.
     pub mode: Mode,
-    /// Parameters that a caller gives.
+    /// Number of parameters.
     pub params: u16,
     /// Values of the last parameters when left out: constants, or (`Node`/`Scratch` index) a captured register.
     pub defaults: Vec<Operand>,
@@ -454,7 +454,7 @@ pub struct Visible {
     pub site: SiteId,
     /// The variable's name in the model's source.
     pub name: Name,
-    /// Where its value lies: never in scratch.
+    /// Where its value is: never in scratch.
     pub at: Operand,
 }
 

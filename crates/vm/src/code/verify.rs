@@ -1,8 +1,8 @@
-//! The verifier: what the machine relies on, checked once for each program.
+//! The verifier: checks what the machine relies on, once for each program.
 //!
 //! Every operand lies within its function's registers, constants or captures; every jump within the code;
-//! instructions end in a return; sites belong to functions that may suspend; each site stands at one place; what
-//! other activations may have overwritten is never read; and what an activation has read it does not overwrite.
+//! instructions end in a return; sites belong to functions that may suspend; each site belongs to one instruction; a
+//! register that other activations may have overwritten is never read; a register that was read is not overwritten.
 
 use super::{Function, Mode, Op, Operand, Place, Program, SiteKind};
 use crate::passes::place::{live_before, reads_and_writes, successors};
@@ -84,7 +84,7 @@ fn function<S: Scalar>(program: &Program<S>, f: &Function<S>, outer: usize) -> R
         }
         let (reads, writes) = reads_and_writes(f, op);
         if matches!(op, Op::Site { .. }) && !writes.iter().all(|o| o.place() == Place::Node) {
-            return fail(at, "a site's results must live in the node");
+            return fail(at, "a site's results must be in the node");
         }
         if !reads.iter().chain(&writes).all(|o| fits(*o)) {
             return fail(at, "an operand out of range");
@@ -134,7 +134,7 @@ fn function<S: Scalar>(program: &Program<S>, f: &Function<S>, outer: usize) -> R
     if f.mode != Mode::Pure
         && let Some(at) = reads_what_is_gone(f)
     {
-        return fail(at, "scratch registers do not live from one run of an activation to the next");
+        return fail(at, "scratch registers are not kept from one run of an activation to the next");
     }
     if f.mode != Mode::Pure
         && let Some(at) = reads_what_will_be_overwritten(f)
@@ -154,9 +154,9 @@ fn function<S: Scalar>(program: &Program<S>, f: &Function<S>, outer: usize) -> R
 /// An instruction at which an activation can be entered while a scratch register is live, or a site with a scratch
 /// argument that is read when its activation does not run.
 ///
-/// The machine enters an activation at its start and after each site (there a call returns to, a pause goes on, and a
-/// changed choice is followed from), or in the slices that stand for these; at the sites that are met again; and after
-/// a call that is passed. Whatever ran before has used the same scratch registers.
+/// The machine enters an activation at its start and after each site (where a call returns, a pause ends, and the run
+/// of a changed choice begins), or in the slices that replace these; at sites that are repeated; and after a call that
+/// is skipped. Other activations have used the same scratch registers before.
 fn reads_what_is_gone<S: Scalar>(f: &Function<S>) -> Option<usize> {
     let live = live_before(f, Place::Scratch, f.scratch_registers as usize);
     let entries = [0].into_iter().chain(f.sites.iter().flat_map(|site| [site.next, site.again]));
@@ -181,7 +181,7 @@ fn reads_what_is_gone<S: Scalar>(f: &Function<S>) -> Option<usize> {
 
 /// An instruction that reads a register of the node to which that instruction or a later one writes.
 ///
-/// An activation that is entered again finds in its registers what was written there last: where a slice leaves out the
+/// The registers of an activation that is entered again hold what was written there last: where a slice leaves out the
 /// first of two assignments, an instruction between them would read the second.
 fn reads_what_will_be_overwritten<S: Scalar>(f: &Function<S>) -> Option<usize> {
     let body = f.body as usize;
@@ -204,7 +204,7 @@ fn reads_what_will_be_overwritten<S: Scalar>(f: &Function<S>) -> Option<usize> {
 
 #[cfg(test)]
 mod tests {
-    //! The claim: a value in scratch that the machine reads when it is gone is refused, whoever reads it.
+    //! The claim: every read of a scratch value that may be overwritten is refused.
     use super::*;
     use crate::core::parse::parse;
     use crate::passes::{compile, place::rewrite};

@@ -7,7 +7,7 @@
 pub mod parse;
 pub mod print;
 pub mod read;
-pub mod walk;
+pub mod visit;
 
 use crate::value::{Class, ClassKind};
 use std::sync::Arc;
@@ -15,7 +15,7 @@ use std::sync::Arc;
 /// A name of a variable, function or field.
 pub type Name = Arc<str>;
 
-/// The name of a variable in the model's source: `x` of `x` and of `x%3`. Empty for what only the front end named.
+/// The name of a variable in the model's source: `x` of `x` and of `x%3`. Empty for names of the front end.
 pub fn readable(name: &str) -> &str {
     name.split('%').next().unwrap_or(name)
 }
@@ -70,7 +70,7 @@ pub struct Function {
 /// A statement and its place.
 #[derive(Clone, Debug)]
 pub struct Stmt {
-    /// Where it stands.
+    /// Its place in the source.
     pub span: Span,
     /// Of a loop: its component of readable addresses, `i[]`, the index to be put between the brackets.
     pub label: Option<Name>,
@@ -108,7 +108,7 @@ pub enum StmtKind {
 /// An expression and its place.
 #[derive(Clone, Debug)]
 pub struct Expr {
-    /// Where it stands.
+    /// Its place in the source.
     pub span: Span,
     /// Of a site: its component of readable addresses. Programs without labels get them from their names.
     pub label: Option<Name>,

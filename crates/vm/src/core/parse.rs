@@ -54,7 +54,7 @@ fn function(span: Span, args: &[Sexp<'_>]) -> Result<Function> {
         body: vec![],
     };
     let mut items = &args[1..];
-    // The place may stand behind the name, too.
+    // The place may also follow the name.
     if let [Sexp::Atom(a), rest @ ..] = items
         && let Some(text) = a.strip_prefix('@')
     {
@@ -188,7 +188,7 @@ fn literal(atom: &str) -> Result<Literal> {
     })
 }
 
-/// A list taken apart: `(head @span #label items...)`, span and label optional.
+/// The parts of a list: `(head @span #label items...)`, span and label optional.
 struct Form<'s, 'a> {
     head: &'a str,
     span: Span,

@@ -1,4 +1,4 @@
-//! Core form back to text, one statement a line: what a person reads, and what [`super::parse`] takes back.
+//! Core form to text, one statement a line. [`super::parse`] reads it.
 
 use super::*;
 use std::fmt::Write;

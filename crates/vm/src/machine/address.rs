@@ -1,7 +1,7 @@
 //! Addresses: 128-bit hashes of the path of sites from the root.
 //!
 //! A node carries the hash of its path; a choice's address is its node's hash joined with its site's key. The
-//! same choice has the same address in any execution order. Nothing walks ancestors to find it.
+//! same choice has the same address in any execution order. Ancestors are not visited to find it.
 
 /// The address of the root activation.
 pub const ROOT: u128 = 0x9E37_79B9_7F4A_7C15_F39C_C060_5CED_C834;
@@ -56,7 +56,7 @@ mod tests {
                 low[(path & 15) as usize] += 1;
             }
         }
-        // Chi-square with 15 degrees of freedom: above 44.3 once in ten thousand.
+        // Chi-square with 15 degrees of freedom: the probability of more than 44.3 is 1e-4.
         let expected = 64_000.0 / 16.0;
         let chi: f64 = low.iter().map(|n| (f64::from(*n) - expected).powi(2) / expected).sum();
         assert!(chi < 44.3, "{chi}");

@@ -1,4 +1,4 @@
-//! What the machine asks, and who answers.
+//! The machine's questions, and the trait of those who answer them.
 //!
 //! The machine runs a program up to its next question and knows neither random numbers nor algorithms. An
 //! inference algorithm is the set of answers that it gives.
@@ -12,12 +12,12 @@ use crate::value::Value;
 use niwaki_geom::Shape;
 use niwaki_math::{Dist, Scalar};
 
-/// An answer: go on, or pause here.
+/// An answer: continue, or pause.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Answer<T> {
-    /// Go on with this.
+    /// Continue with this value.
     Go(T),
-    /// Stop the run. A choice is asked again when the run is resumed; anything else counts as done.
+    /// Stop the run. A resumed run repeats a choice; any other question counts as answered.
     Pause,
 }
 
@@ -36,7 +36,7 @@ pub enum Factor {
 pub struct At<'a, S: Scalar> {
     /// The site.
     pub site: &'a Site,
-    /// The function it stands in.
+    /// The function that contains the site.
     pub function: &'a Function<S>,
     pub(crate) node: NodeId,
     pub(crate) state: &'a State<S>,
@@ -50,7 +50,7 @@ impl<S: Scalar> At<'_, S> {
         join(self.state.nodes[self.node.0 as usize].path, self.site.key)
     }
 
-    /// The readable address. It walks the ancestors, so it is for records and messages, not for every choice.
+    /// The readable address. It visits all ancestors, so use it for records and messages, not for every choice.
     ///
     /// Under a stochastic order a future does not know its ancestors; its path then starts at the future.
     pub fn path(&self) -> String {
@@ -78,7 +78,7 @@ impl<S: Scalar> At<'_, S> {
     }
 }
 
-/// Whoever answers the machine's questions.
+/// Answers the machine's questions.
 pub trait Answers<S: Scalar> {
     /// The value of a random choice.
     ///

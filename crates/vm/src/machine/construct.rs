@@ -1,5 +1,5 @@
-//! Instructions that make or take apart an aggregate. They allocate, so a call costs them little; in the loop of
-//! `interpret` they would cost every other instruction the processor's registers.
+//! Instructions that build or unpack an aggregate. They allocate, so a call costs them little; inside the loop of
+//! `interpret` they would take processor registers from every other instruction.
 
 use super::Machine;
 use super::keep::{Keep, put};
@@ -68,11 +68,11 @@ impl<S: Scalar> Machine<'_, S> {
                     && tuple.items().len() == names.len()
                     && !names.contains(&from)
                 {
-                    // Read where it lies: none of its elements comes to lie there.
+                    // Read in place: none of its elements is written to that register.
                     for (k, o) in names.iter().enumerate() {
                         let Value::Tuple(tuple) = r.get(state, &self.scratch, from) else { continue };
                         match &tuple.items()[k] {
-                            // Most are numbers, and go over as one word.
+                            // Most are numbers, and are copied as one word.
                             Value::Real(x) if !(K::KEEPS && o.is_node()) => {
                                 let x = *x;
                                 r.slot(state, &mut self.scratch, *o).store_real(x);

@@ -1,4 +1,4 @@
-//! The loop over instructions. Long for one reason: it is one table.
+//! The loop over instructions. It is long because it is one table.
 
 use super::answers::Answers;
 use super::keep::{Keep, put};
@@ -14,7 +14,7 @@ use crate::value::{Value, iter_get, iter_len, ops};
 use niwaki_math::Scalar;
 
 impl<S: Scalar> Machine<'_, S> {
-    /// Runs on from an instruction of a node. `future` is the one that runs; where activations are kept there are
+    /// Continues from an instruction of a node. `future` is the one that runs; where activations are kept there are
     /// none.
     pub(super) fn interpret<A: Answers<S>, K: Keep<S>>(
         &mut self,
@@ -35,7 +35,7 @@ impl<S: Scalar> Machine<'_, S> {
         let mut scratch = 0;
         // First registers of this node, and of the loop node above an iteration.
         let (mut own, mut outer) = self.bases(state, f, node);
-        self.room(scratch + f.scratch_registers as usize);
+        self.reserve(scratch + f.scratch_registers as usize);
         if f.mode == Mode::Pure {
             // A pure function to begin with: its arguments and captures wait in the state.
             let args = usize::from(f.params) + usize::from(f.captures);
@@ -89,7 +89,7 @@ impl<S: Scalar> Machine<'_, S> {
                 r!().gather(state, &self.scratch, $args, &mut self.buffer)
             };
         }
-        // A question was not answered by a value.
+        // The answer to a question was not a value.
         macro_rules! stop {
             ($halt:expr, $site:expr) => {
                 match $halt {
@@ -124,7 +124,7 @@ impl<S: Scalar> Machine<'_, S> {
                 continue;
             }};
         }
-        // Go on in another activation.
+        // Continue in another activation.
         macro_rules! enter {
             ($node:expr, $pc:expr) => {{
                 node = $node;
@@ -133,14 +133,14 @@ impl<S: Scalar> Machine<'_, S> {
                 code = &f.code;
                 pc = $pc as usize;
                 (own, outer) = self.bases(state, f, node);
-                self.room(scratch + f.scratch_registers as usize);
+                self.reserve(scratch + f.scratch_registers as usize);
                 if K::KEEPS {
                     keep.enter(state, node);
                 }
                 continue;
             }};
         }
-        // An operation that the compiler knows, so that what `operate` says of the others is left out.
+        // The compiler knows this operation, so it removes the cases of `operate` for the others.
         macro_rules! arithmetic {
             ($op:expr, $to:expr, $a:expr, $b:expr) => {{
                 let (a, b) = (get!($a), get!($b));
@@ -170,7 +170,7 @@ impl<S: Scalar> Machine<'_, S> {
                 id = function;
                 f = program.function(id);
                 code = &f.code;
-                self.room(scratch + f.scratch_registers as usize);
+                self.reserve(scratch + f.scratch_registers as usize);
                 for (i, value) in self.buffer.drain(..).enumerate() {
                     self.scratch[scratch + i].store(value);
                 }
@@ -282,7 +282,7 @@ impl<S: Scalar> Machine<'_, S> {
                 Op::Builtin { to, id: builtin, args } => {
                     let builtin = builtins::builtin::<S>(builtin);
                     let answer = if let [a] = f.operands[args.range()] {
-                        // One argument, as of `sqrt`, is read where it lies.
+                        // A single argument, as of `sqrt`, is read in place.
                         builtin.call(std::slice::from_ref(get!(a)))
                     } else {
                         gather!(args);
@@ -290,7 +290,7 @@ impl<S: Scalar> Machine<'_, S> {
                     };
                     let value = check!(answer);
                     if let Value::Real(x) = value {
-                        // Nothing to drop, which the compiler does not see.
+                        // There is nothing to drop, but the compiler does not know that.
                         std::mem::forget(value);
                         slot!(to, store_real, Value::Real, x);
                     } else {
@@ -434,9 +434,9 @@ impl<S: Scalar> Machine<'_, S> {
         }
     }
 
-    /// Makes room for that many scratch registers.
+    /// Reserves that many scratch registers.
     #[inline]
-    fn room(&mut self, registers: usize) {
+    fn reserve(&mut self, registers: usize) {
         if self.scratch.len() < registers {
             self.scratch.resize(registers.max(64), Value::None);
         }

@@ -1,18 +1,18 @@
-//! Runs outside of a model's support: a distribution met numbers that its parameters cannot be.
+//! Runs outside of a model's support: the parameters of a distribution are out of range.
 //!
-//! The number of such runs is counted by *site*: the family, and the line at which the distribution is made. A run ends at
-//! its first invalid distribution in program order, so it counts once.
+//! The number of such runs is counted by *site*: the family, and the line at which the distribution is made. A run ends
+//! at its first invalid distribution in program order, so it counts once.
 
 use super::stack::RunFault;
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
-/// Counts of invalid runs by site. Those who share one count together, on any number of threads.
+/// Counts of invalid runs by site. All threads that share it count together.
 #[derive(Debug, Default)]
 pub struct Invalid(Mutex<BTreeMap<String, u64>>);
 
 impl Invalid {
-    /// Counts the run that met a fault, where it is invalid; what a person calls the site. `None` for any other fault.
+    /// Counts the run if the fault makes it invalid, and gives the site's readable name. `None` for any other fault.
     #[cold]
     pub fn count(&self, met: &RunFault) -> Option<String> {
         let site = met.invalid_site()?;
@@ -28,7 +28,7 @@ impl Invalid {
 }
 
 impl RunFault {
-    /// What a person calls the distribution whose parameters are out of range; `None` for any other fault.
+    /// The readable name of the distribution whose parameters are out of range; `None` for any other fault.
     pub fn invalid_site(&self) -> Option<String> {
         let line = self.stack.last().map_or(0, |call| call.span.line);
         self.fault.out_of_range.map(|family| format!("`{}` at line {line}", family.name()))

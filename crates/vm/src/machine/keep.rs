@@ -1,7 +1,7 @@
-//! What becomes of an activation: dropped when it returns, or kept as a node of the trace.
+//! Whether an activation is dropped when it returns, or kept as a node of the trace.
 //!
-//! The loop over instructions is one and compiled twice. With [`Dropped`] it runs particles and forward samples; with
-//! [`Kept`](super::kept::Kept) it also re-runs what a changed choice reaches.
+//! The loop over instructions is written once and compiled twice. With [`Dropped`] it runs particles and forward
+//! samples; with [`Kept`](super::kept::Kept) it also re-runs what a changed choice reaches.
 
 use super::Machine;
 use super::answers::Answers;
@@ -14,7 +14,7 @@ use crate::fault::Fault;
 use crate::value::Value;
 use niwaki_math::Scalar;
 
-/// Where a run goes on: at an instruction of an activation, or nowhere. One word, so that it is returned in a register.
+/// Where a run continues: at an instruction of an activation, or nowhere. One word, so that it fits a register.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Onward(u64);
 
@@ -28,25 +28,25 @@ impl Onward {
         Onward(u64::from(node.0) << 32 | u64::from(pc))
     }
 
-    /// Where, unless the run is over.
+    /// The place, unless the run is over.
     #[inline(always)]
     pub fn place(self) -> Option<(NodeId, u32)> {
         (self != Onward::END).then_some((NodeId((self.0 >> 32) as u32), self.0 as u32))
     }
 }
 
-/// How activations live. Nothing but `KEEPS` is asked where they are dropped.
+/// How activations are stored. Where they are dropped, only `KEEPS` is used.
 pub(super) trait Keep<S: Scalar>: Sized {
-    /// Whether they are kept.
+    /// Whether activations are kept.
     const KEEPS: bool;
 
-    /// The machine goes on in this activation.
+    /// The machine continues in this activation.
     fn enter(&mut self, state: &State<S>, node: NodeId);
 
-    /// Writes a register of the activation in hand.
+    /// Writes a register of the current activation.
     fn write(&mut self, state: &mut State<S>, place: usize, value: Value<S>);
 
-    /// The instruction in hand.
+    /// The current instruction.
     fn at(&mut self, pc: usize);
 
     /// Carries out a site.
@@ -64,7 +64,7 @@ pub(super) trait Keep<S: Scalar>: Sized {
     /// Sites that are not on the path taken.
     fn clear(&mut self, machine: &Machine<'_, S>, state: &mut State<S>, node: NodeId, from: u16, to: u16);
 
-    /// An activation returns: where to go on, unless the run is over.
+    /// An activation returns: where to continue, unless the run is over.
     fn give_back(
         &mut self,
         machine: &Machine<'_, S>,
@@ -73,7 +73,7 @@ pub(super) trait Keep<S: Scalar>: Sized {
         value: Value<S>,
     ) -> Onward;
 
-    /// An iteration ends: where to go on, unless the run is over.
+    /// An iteration ends: where to continue, unless the run is over.
     fn end_iteration(
         &mut self,
         machine: &mut Machine<'_, S>,
@@ -84,7 +84,7 @@ pub(super) trait Keep<S: Scalar>: Sized {
         carried: Args,
     ) -> Result<Onward, Fault>;
 
-    /// A call that was made before, of whose arguments only that one may have changed.
+    /// A repeated call of which only that argument may have changed.
     fn pass(
         &mut self,
         machine: &Machine<'_, S>,
@@ -95,7 +95,7 @@ pub(super) trait Keep<S: Scalar>: Sized {
         arg: u16,
     ) -> After;
 
-    /// An activation leaves what it left before: where to go on, unless the run is over.
+    /// An activation has the same results as before: where to continue, unless the run is over.
     fn done(
         &mut self,
         machine: &mut Machine<'_, S>,
@@ -124,7 +124,7 @@ pub(super) fn put<S: Scalar, K: Keep<S>>(
     }
 }
 
-/// Activations are given back when they return.
+/// Activations are released when they return.
 pub(super) struct Dropped;
 
 impl<S: Scalar> Keep<S> for Dropped {

@@ -1,4 +1,4 @@
-//! Lifted loops: a loop node that holds what is run over, and one node for the iteration that runs.
+//! Lifted loops: a loop node that holds what the loop runs over, and one node for the iteration that runs.
 
 use super::Machine;
 use super::address::{iteration_key, join};
@@ -73,7 +73,7 @@ impl<S: Scalar> Machine<'_, S> {
         let path = join(state.nodes[header.0 as usize].path, iteration_key(i));
         let n = &mut state.nodes[node.0 as usize];
         (n.iteration, n.path) = (i, path);
-        // Carried values are read before any is written: they may have changed places.
+        // All carried values are read before any is written: they may be exchanged.
         let at = r.own + usize::from(element.is_some());
         match r.f.operands[carried.range()] {
             [] => {}
@@ -94,8 +94,8 @@ impl<S: Scalar> Machine<'_, S> {
         Ok(true)
     }
 
-    /// The loop ends with an iteration that has its carried values (and a returned value) in the buffer. Where to
-    /// go on.
+    /// The loop ends with an iteration that has its carried values (and a returned value) in the buffer. Gives where to
+    /// continue.
     pub(super) fn end_loop(&mut self, state: &mut State<S>, node: NodeId, kind: i64) -> (NodeId, u32) {
         let header = state.nodes[node.0 as usize].parent;
         let above = state.nodes[header.0 as usize];
@@ -105,7 +105,7 @@ impl<S: Scalar> Machine<'_, S> {
         (above.parent, next)
     }
 
-    /// Writes what came out of a loop, in the buffer, to the registers of its owner.
+    /// Writes the results of a loop, in the buffer, to the registers of its owner.
     fn leave_loop(&mut self, state: &mut State<S>, owner: NodeId, site: SiteId, kind: i64) -> u32 {
         let n = &state.nodes[owner.0 as usize];
         let (f, own) = (self.program.function(n.function), n.registers as usize);

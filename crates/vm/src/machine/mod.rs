@@ -1,28 +1,28 @@
 //! The machine: runs a program up to its next question.
 //!
 //! Its verbs are few: [`Machine::start`] a run, [`Machine::resume`] one of its futures, fork (a `clone` of the
-//! [`State`]). It never recurses on the host stack, draws no random numbers and does not know who asks.
+//! [`State`]). It never recurses on the host stack, draws no random numbers and does not know which algorithm uses it.
 //!
 //! * [`address`]: paths of sites as 128-bit hashes;
-//! * [`answers`]: what is asked, and the trait of those who answer;
+//! * [`answers`]: the questions, and the trait of those who answer;
 //! * [`state`]: nodes, registers, futures; `begin`: those of a run that has not begun;
 //! * [`kept`]: traces: kept activations, and re-running what changed;
 //! * `interpret`: the loop over instructions; `registers`: from operands to values;
-//! * `known`: distributions of weights that were made before;
-//! * `operate`: operations of two operands; `construct`: instructions that make or take apart an aggregate;
+//! * `cache`: a cache of distributions by their parameters;
+//! * `operate`: operations of two operands; `construct`: instructions that build or unpack an aggregate;
 //! * `question`: choices and factors; `suspend`: what happens at any other site; `loops`: lifted loops;
-//! * [`stack`]: the model's own call stack, for messages; [`invalid`]: faults that only say that a run is outside of the
+//! * [`stack`]: the model's own call stack, for messages; [`invalid`]: faults of runs that are outside of the
 //!   model's support.
 
 pub mod address;
 pub mod answers;
 mod begin;
+mod cache;
 mod construct;
 mod interpret;
 pub mod invalid;
 mod keep;
 pub mod kept;
-mod known;
 mod loops;
 mod operate;
 mod question;
@@ -35,8 +35,8 @@ use crate::code::{FunctionId, Operand, Program};
 use crate::fault::Fault;
 use crate::value::Value;
 use answers::Answers;
+use cache::DistCache;
 use keep::Dropped;
-use known::Known;
 use niwaki_geom::Shape;
 use niwaki_math::{LastLog, Scalar};
 use stack::RunFault;
@@ -66,11 +66,11 @@ pub enum Stop {
     Returned,
     /// The future that ran waits for another.
     Waiting,
-    /// The score is minus infinity. Only where activations are kept: elsewhere the answers tell.
+    /// The score is minus infinity. Only where activations are kept: elsewhere the answers report it.
     Impossible,
 }
 
-/// A call of a pure function in progress: where to go on when it returns.
+/// A call of a pure function in progress: where to continue when it returns.
 struct PureCall {
     caller: FunctionId,
     pc: usize,
@@ -98,7 +98,7 @@ pub struct Machine<'p, S: Scalar = f64> {
     pure: Vec<PureCall>,
     buffer: Vec<Value<S>>,
     shapes: Vec<Shape>,
-    known: Known<S>,
+    cache: DistCache<S>,
     logs: LastLog<S>,
     here: Here,
 }
@@ -113,7 +113,7 @@ impl<'p, S: Scalar> Machine<'p, S> {
             pure: Vec::new(),
             buffer: Vec::new(),
             shapes: Vec::new(),
-            known: Known::default(),
+            cache: DistCache::default(),
             logs: LastLog::default(),
             here: Here { node: NodeId::NONE, function: program.entry, pc: 0, scratch: 0 },
         }
@@ -137,7 +137,7 @@ impl<'p, S: Scalar> Machine<'p, S> {
     /// Runs a runnable future until an answer pauses it, it returns, or it must wait.
     ///
     /// # Errors
-    /// A fault of the program, with the model's call stack. The state is then of no further use.
+    /// A fault of the program, with the model's call stack. The state cannot be used afterwards.
     #[inline]
     pub fn resume<A: Answers<S>>(
         &mut self,

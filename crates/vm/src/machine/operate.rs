@@ -1,7 +1,7 @@
 //! The operations of two operands that have an instruction of their own.
 //!
-//! Two numbers of one kind come first and are worked out in the loop over instructions, where the result is written
-//! straight to its register. What is left (other kinds, and whatever may fail) is behind a call.
+//! Two numbers of one kind are handled first, in the loop over instructions, where the result is written directly to
+//! its register. Other kinds, and whatever may fail, are handled by a call.
 
 use crate::code::Binary;
 use crate::fault::Fault;
@@ -86,7 +86,7 @@ fn holds_of_others<S: Scalar>(op: Binary, a: &Value<S>, b: &Value<S>) -> Result<
 
 #[cfg(test)]
 mod tests {
-    //! The quick ways agree with the operators of values.
+    //! The fast paths agree with the operators of values.
     use super::*;
 
     const ARITHMETIC: [Binary; 6] =
@@ -94,7 +94,7 @@ mod tests {
     const COMPARISONS: [Binary; 6] = [Binary::Eq, Binary::Ne, Binary::Lt, Binary::Le, Binary::Gt, Binary::Ge];
 
     #[test]
-    fn quick_and_general_ways_agree() {
+    fn fast_and_general_paths_agree() {
         let reals_ = [-2.5, -0.0, 0.0, 1.0, 3.0, f64::INFINITY, f64::NAN];
         let ints_ = [i64::MIN, -7, -1, 0, 1, 3, i64::MAX];
         let bits = |v: &Value| match v {

@@ -1,7 +1,7 @@
-//! The questions that a run asks most: choices and factors. Everything else that happens at a site is in `suspend`.
+//! The most frequent questions of a run: choices and factors. Everything else that happens at a site is in `suspend`.
 //!
-//! Each is one call from the loop over instructions, with all that it needs inlined: inlined into the loop itself, they
-//! are no faster and cost every other instruction.
+//! Each is one call from the loop over instructions, with all that it needs inlined. Inlined into the loop itself, they
+//! are no faster and slow down every other instruction.
 
 use super::Machine;
 use super::answers::{Answer, Answers, At, Factor};
@@ -28,7 +28,7 @@ fn no_number<S: Scalar>(value: &Value<S>) -> Fault {
     Fault::new("type-mismatch", format!("expected a number, found {}", value.described()))
 }
 
-/// The distribution that a value is.
+/// The distribution in a value.
 #[inline(always)]
 fn as_dist<S: Scalar>(value: &Value<S>) -> Result<&Dist<S>, Fault> {
     match value {
@@ -48,13 +48,13 @@ pub(super) fn as_real<S: Scalar>(value: &Value<S>) -> Result<S, Fault> {
     }
 }
 
-/// Why a question does not let the run go on. Two words with the `Ok` around it, so that it is returned in registers.
+/// Why the run stops at a question. Two words with the `Ok` around it, so that it is returned in registers.
 pub(super) enum Halt {
     /// The answer was to pause.
     Paused,
     /// The score is minus infinity.
     Impossible,
-    /// The question cannot be asked, or was answered by a fault.
+    /// The question is not valid, or was answered by a fault.
     Fault(Fault),
 }
 
@@ -65,7 +65,7 @@ impl From<Fault> for Halt {
     }
 }
 
-/// The log density of a value: of numbers at once, of anything else by way of a draw.
+/// The log density of a value: of numbers directly, of anything else through a `Draw`.
 #[inline(always)]
 pub(super) fn log_density<S: Scalar>(dist: &Dist<S>, value: &Value<S>) -> Result<S, Fault> {
     match value {
@@ -86,7 +86,7 @@ fn log_density_of_other<S: Scalar>(dist: &Dist<S>, value: &Value<S>) -> Result<S
 impl<S: Scalar> Machine<'_, S> {
     /// A distribution of a known family, from its parameters.
     #[inline(always)]
-    fn made(
+    fn dist_of_family(
         &mut self,
         state: &State<S>,
         r: Registers<'_, S>,
@@ -109,7 +109,7 @@ impl<S: Scalar> Machine<'_, S> {
         }
     }
 
-    /// The distribution of a choice or observation: where it lies, or made of the parameters `args`.
+    /// The distribution of a choice or observation: the one in a register, or one built from the parameters `args`.
     #[inline(always)]
     pub(super) fn dist<'b>(
         &'b mut self,
@@ -117,7 +117,7 @@ impl<S: Scalar> Machine<'_, S> {
         r: Registers<'b, S>,
         site: &Site,
         args: Args,
-        made: &'b mut Option<Dist<S>>,
+        owned: &'b mut Option<Dist<S>>,
     ) -> Result<&'b Dist<S>, Fault> {
         macro_rules! get {
             ($i:expr) => {
@@ -128,20 +128,20 @@ impl<S: Scalar> Machine<'_, S> {
             SiteKind::Sample(Source::Value) | SiteKind::Observe(Source::Value) => as_dist(get!(0)),
             SiteKind::Sample(Source::Family(family)) | SiteKind::Observe(Source::Family(family)) => {
                 if let [only] = r.f.operands[args.range()]
-                    && let Some(row) = self.known.row(r.get(state, &self.scratch, only))
+                    && let Some(index) = self.cache.index(r.get(state, &self.scratch, only))
                 {
-                    return self.known.dist(row, family, r.get(state, &self.scratch, only));
+                    return self.cache.dist(index, family, r.get(state, &self.scratch, only));
                 }
-                Ok(made.insert(self.made(state, r, args, family)?))
+                Ok(owned.insert(self.dist_of_family(state, r, args, family)?))
             }
             _ => match index::index_ref(get!(0), get!(1)) {
                 Some(value) => as_dist(value),
-                None => Ok(made.insert(as_dist(&index::index(get!(0), get!(1))?)?.clone())),
+                None => Ok(owned.insert(as_dist(&index::index(get!(0), get!(1))?)?.clone())),
             },
         }
     }
 
-    /// Asks for a random choice and puts it into its register.
+    /// Gets the value of a random choice and puts it into its register.
     #[inline(never)]
     pub(super) fn choose<A: Answers<S>>(
         &mut self,
@@ -151,8 +151,8 @@ impl<S: Scalar> Machine<'_, S> {
         node: NodeId,
         site: &Site,
     ) -> Result<(), Halt> {
-        let (program, mut made) = (self.program, None);
-        let dist = self.dist(state, r, site, site.args, &mut made)?;
+        let (program, mut owned) = (self.program, None);
+        let dist = self.dist(state, r, site, site.args, &mut owned)?;
         match answers.choice(&At { site, function: r.f, node, state, program }, dist)? {
             Answer::Go(value) => {
                 state.registers[r.own + site.to.index()].store(value);
@@ -162,7 +162,7 @@ impl<S: Scalar> Machine<'_, S> {
         }
     }
 
-    /// Tells of a factor.
+    /// Reports a factor.
     #[inline(never)]
     pub(super) fn factor<A: Answers<S>>(
         &mut self,
@@ -185,11 +185,11 @@ impl<S: Scalar> Machine<'_, S> {
                 (Factor::Condition, S::from_f64(log))
             }
             _ => {
-                // The value of `observe` is the value observed, so that it can stand where a choice stood.
+                // The value of `observe` is the value observed, so that an observation can replace a choice.
                 let value = get!(last).clone();
-                let mut made = None;
+                let mut owned = None;
                 let args = Args { len: last as u16, ..site.args };
-                let dist = self.dist(state, r, site, args, &mut made)?;
+                let dist = self.dist(state, r, site, args, &mut owned)?;
                 let log = log_density(dist, &value)?;
                 if site.is_read {
                     state.registers[r.own + site.to.index()].store(value);

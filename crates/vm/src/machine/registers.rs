@@ -1,11 +1,11 @@
-//! From operands to values: the registers of the activation in hand.
+//! From operands to values: the registers of the current activation.
 
 use super::state::State;
 use crate::code::{Args, Function, Operand};
 use crate::value::Value;
 use niwaki_math::Scalar;
 
-/// Where the operands of an activation lie. Small, and passed by value: the loop of `interpret` then keeps its
+/// Where the operands of an activation are. Small, and passed by value: the loop of `interpret` then keeps its
 /// fields in registers of the processor, which a reference to it would forbid.
 #[derive(Clone, Copy)]
 pub(super) struct Registers<'a, S: Scalar> {
@@ -21,7 +21,7 @@ pub(super) struct Registers<'a, S: Scalar> {
 
 impl<'a, S: Scalar> Registers<'a, S> {
     /// The value of an operand.
-    // Tests in the order of how often they hold: a `match` becomes a jump through a table, which the processor guesses
+    // The most frequent cases are tested first: a `match` becomes a jump through a table, which the processor predicts
     // worse. An operand of the first class is its own index.
     #[inline(always)]
     pub fn get<'b>(self, state: &'b State<S>, scratch: &'b [Value<S>], o: Operand) -> &'b Value<S>

@@ -6,7 +6,7 @@
 //! | function, parent, site | whose activation this is, who called it and where |
 //! | registers | first of its registers in the state's register file |
 //! | iteration | of an iteration: which one |
-//! | pc | where a suspended activation goes on |
+//! | pc | where a suspended activation continues |
 //! | slots | first of its slots, where activations are kept (`kept`) |
 //! | path | hash of the path of sites from the root |
 //!
@@ -43,15 +43,15 @@ pub(crate) struct Node {
     pub registers: u32,
     /// Of an iteration: which one.
     pub iteration: u32,
-    /// Of a suspended activation: where it goes on. Of a kept iteration: how it ended.
+    /// Of a suspended activation: where it continues. Of a kept iteration: how it ended.
     pub pc: u32,
     /// Of a kept activation: its first slot; of a kept loop node: its number among the loops.
     pub slots: u32,
-    /// Of a kept activation: the transaction that made it.
-    pub made: u32,
+    /// Of a kept activation: the transaction that created it.
+    pub created: u32,
 }
 
-/// Where a future stands.
+/// The state of a future.
 #[derive(Clone, Debug)]
 pub(crate) enum Status<S: Scalar> {
     /// It can run, from this node.
@@ -69,7 +69,7 @@ pub(crate) enum Status<S: Scalar> {
 pub(crate) struct Future<S: Scalar> {
     pub status: Status<S>,
     pub has_waiters: bool,
-    /// Nobody holds its handle: its number is free once it has returned.
+    /// No value holds its handle: its number is free once it has returned.
     pub detached: bool,
 }
 
@@ -112,7 +112,7 @@ impl<S: Scalar> Clone for State<S> {
     }
 }
 
-/// `clone_from` for the few elements that a state has of each kind: a loop that is inlined, no calls.
+/// `clone_from` for short slices: an inlined loop without calls.
 #[inline(always)]
 fn copy<T: Clone>(to: &mut Vec<T>, from: &[T]) {
     if to.len() != from.len() {
@@ -126,7 +126,7 @@ fn copy<T: Clone>(to: &mut Vec<T>, from: &[T]) {
 }
 
 impl<S: Scalar> State<S> {
-    /// A state of nothing.
+    /// An empty state.
     pub(crate) fn empty() -> Self {
         State {
             nodes: Vec::new(),
@@ -142,7 +142,7 @@ impl<S: Scalar> State<S> {
         }
     }
 
-    /// From now on futures remember where they were made, so that addresses below them are read from the root.
+    /// From now on futures remember where they were created, so that addresses below them are read from the root.
     pub fn remember_origins(&mut self) {
         self.origins = Some(HashMap::new());
     }
@@ -157,7 +157,7 @@ impl<S: Scalar> State<S> {
         self.unreturned == 0
     }
 
-    /// The path of the activation in which a runnable future stands: an address for the choice of running it.
+    /// The path of the activation in which a runnable future is suspended: an address for the choice of running it.
     pub fn path_of(&self, future: FutureId) -> u128 {
         match self.futures[future.0 as usize].status {
             Status::Runnable(node) | Status::Waiting(node, _) => self.nodes[node.0 as usize].path,
@@ -188,9 +188,9 @@ impl<S: Scalar> State<S> {
         State { futures: vec![root], ..State::empty() }
     }
 
-    /// Where every future stands: which activation is suspended where, and which waits for which. Two runs of one
-    /// program that stand alike go on alike but for the values that their activations hold.
-    pub fn stands(&self) -> u128 {
+    /// A hash of where every future is: which activation is suspended where, and which waits for which. Two runs of
+    /// one program with equal hashes differ only in the values that their activations hold.
+    pub fn suspension_hash(&self) -> u128 {
         let word = |a: u32, b: u32| u128::from(a) << 32 | u128::from(b);
         self.futures.iter().fold(self.futures.len() as u128, |hash, future| {
             let (kind, node, on) = match future.status {
@@ -228,7 +228,7 @@ impl<S: Scalar> State<S> {
         if self.free.is_empty() {
             self.free.resize(program.functions.len(), NodeId::NONE);
         }
-        let made = Node {
+        let fresh = Node {
             path,
             function,
             parent,
@@ -237,23 +237,23 @@ impl<S: Scalar> State<S> {
             iteration: 0,
             pc: 0,
             slots: u32::MAX,
-            made: 0,
+            created: 0,
         };
         let free = self.free[function.0 as usize];
         if free != NodeId::NONE {
             let node = &mut self.nodes[free.0 as usize];
             self.free[function.0 as usize] = node.parent;
-            *node = Node { registers: node.registers, slots: node.slots, ..made };
+            *node = Node { registers: node.registers, slots: node.slots, ..fresh };
             return free;
         }
         let at = self.registers.len();
         let count = program.function(function).node_registers as usize;
         self.registers.resize(at + count, Value::None);
-        self.nodes.push(Node { registers: at as u32, ..made });
+        self.nodes.push(Node { registers: at as u32, ..fresh });
         NodeId((self.nodes.len() - 1) as u32)
     }
 
-    /// Gives a node back. Its registers let go of what is shared; numbers may stay until they are overwritten.
+    /// Releases a node. Its registers drop what is shared; numbers may stay until they are overwritten.
     #[inline]
     pub(crate) fn release(&mut self, program: &Program<S>, id: NodeId) {
         let node = &mut self.nodes[id.0 as usize];
@@ -262,13 +262,13 @@ impl<S: Scalar> State<S> {
         self.free[function.0 as usize] = id;
         let count = program.function(function).node_registers as usize;
         let registers = &mut self.registers[at..at + count];
-        // Most activations hold numbers only: told in a pass that writes nothing.
+        // Most activations hold numbers only: a first pass detects that without writing.
         if registers.iter().fold(false, |shared, value| shared | !value.is_plain()) {
             registers.iter_mut().filter(|value| !value.is_plain()).for_each(|value| *value = Value::None);
         }
     }
 
-    /// A future stops at this instruction of this node, to go on there later.
+    /// A future stops at this instruction of this node, to continue there later.
     #[inline(always)]
     pub(crate) fn pause(&mut self, future: FutureId, node: NodeId, pc: usize) {
         self.nodes[node.0 as usize].pc = pc as u32;
@@ -283,14 +283,14 @@ impl<S: Scalar> State<S> {
         if !matches!(status, Status::Returned(_)) {
             self.unreturned += 1;
         }
-        let made = Future { status, has_waiters: false, detached };
+        let future = Future { status, has_waiters: false, detached };
         let id = match self.free_futures.pop() {
             Some(id) => {
-                self.futures[id as usize] = made;
+                self.futures[id as usize] = future;
                 id
             }
             None => {
-                self.futures.push(made);
+                self.futures.push(future);
                 (self.futures.len() - 1) as u32
             }
         };

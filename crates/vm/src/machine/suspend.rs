@@ -10,7 +10,7 @@ use crate::fault::Fault;
 use crate::value::{Value, index, iter_get, iter_len, ops};
 use niwaki_math::Scalar;
 
-/// How to go on after a site.
+/// How to continue after a site.
 pub(super) enum After {
     /// At the next instruction.
     Next,
@@ -20,7 +20,7 @@ pub(super) enum After {
     Goto(u32),
     /// In a pure function, its arguments in the buffer.
     Pure { function: FunctionId, to: Operand, as_future: bool },
-    /// Not now.
+    /// The run stops here.
     Stop(Stop),
 }
 
@@ -137,7 +137,7 @@ impl<S: Scalar> Machine<'_, S> {
         }
     }
 
-    /// The shapes of an `emit`: its arguments, lists and tuples of them taken apart.
+    /// The shapes of an `emit`: its arguments, with lists and tuples of them flattened.
     pub(super) fn collect_shapes(
         &mut self,
         state: &State<S>,
@@ -205,14 +205,14 @@ impl<S: Scalar> Machine<'_, S> {
     ) -> Result<NodeId, Fault> {
         let path = join(state.nodes[node.0 as usize].path, site.key);
         let nodes = state.nodes.len();
-        let made = state.new_node(self.program, function, node, u32::from(number.0), path);
+        let created = state.new_node(self.program, function, node, u32::from(number.0), path);
         // A node that was used before takes no further bytes.
         if state.nodes.len() > nodes && state.bytes() > self.limits.bytes {
             return Err(self.out_of_memory());
         }
-        let at = state.nodes[made.0 as usize].registers as usize;
+        let at = state.nodes[created.0 as usize].registers as usize;
         for (i, o) in r.f.operands[site.args.range()].iter().enumerate() {
-            // Numbers, which most arguments are, go over without being looked at twice.
+            // Most arguments are numbers, which are copied without a second test.
             match *r.get(state, &self.scratch, *o) {
                 Value::Real(x) => state.registers[at + i].store_real(x),
                 Value::Int(n) => state.registers[at + i].store_int(n),
@@ -222,7 +222,7 @@ impl<S: Scalar> Machine<'_, S> {
                 }
             }
         }
-        Ok(made)
+        Ok(created)
     }
 
     /// A new activation with the arguments in the buffer: a call, or (`Some(detached)`) a future.
@@ -239,23 +239,23 @@ impl<S: Scalar> Machine<'_, S> {
         let path = join(n.path, site.key);
         let deferred = future.filter(|_| !state.depth_first);
         let parent = if deferred.is_some() { NodeId::NONE } else { node };
-        let made = state.new_node(self.program, function, parent, u32::from(site_id.0), path);
-        let at = state.nodes[made.0 as usize].registers as usize;
+        let created = state.new_node(self.program, function, parent, u32::from(site_id.0), path);
+        let at = state.nodes[created.0 as usize].registers as usize;
         for (i, value) in self.buffer.drain(..).enumerate() {
             state.registers[at + i].store(value);
         }
         if state.bytes() > self.limits.bytes {
             return Err(self.out_of_memory());
         }
-        let Some(detached) = deferred else { return Ok(After::Enter(made, 0)) };
+        let Some(detached) = deferred else { return Ok(After::Enter(created, 0)) };
         if state.origins.is_some() {
             let above = state.path(self.program, node);
             let origin =
                 if above.is_empty() { site.label.to_string() } else { format!("{above}/{}", site.label) };
-            state.origins.as_mut().map(|origins| origins.insert(made, origin));
+            state.origins.as_mut().map(|origins| origins.insert(created, origin));
         }
-        let id = state.new_future(Status::Runnable(made), detached);
-        state.nodes[made.0 as usize].site = id.0;
+        let id = state.new_future(Status::Runnable(created), detached);
+        state.nodes[created.0 as usize].site = id.0;
         state.runnable.push(id);
         let own = n.registers as usize;
         state.registers[own + site.to.index()].store(if detached {
@@ -266,7 +266,7 @@ impl<S: Scalar> Machine<'_, S> {
         Ok(After::Next)
     }
 
-    /// An activation returns. Where to go on, if its future goes on.
+    /// An activation returns. Gives where to continue, if its future continues.
     #[inline]
     pub(super) fn give_back(
         &mut self,
@@ -289,10 +289,10 @@ impl<S: Scalar> Machine<'_, S> {
             (parent.function, parent.registers as usize)
         };
         let site = &self.program.function(function).sites[number];
-        // Depth first, a future has returned before anyone sees it.
+        // Depth first, a future has returned before its handle exists.
         let value = if site.kind.gives_future() { Value::returned(value) } else { value };
         let register = &mut state.registers[own + site.to.index()];
-        // A function that returns nothing, called where it was called before.
+        // A function that returns nothing, in a repeated call.
         if !matches!((&value, &register), (Value::None, Value::None)) {
             register.store(value);
         }

@@ -1,9 +1,9 @@
 //! Which lists are *collections*: lists that the program only builds, indexes, measures and returns.
 //!
-//! The elements of a collection are cells: references to registers of the activations that made them. When an element
-//! changes, the list does not: calls that were given the list, loops that carry it and callers that it was returned
-//! to see the same value, and only those who read the changed element run again. A list that is used in any other way
-//! (iterated over, compared, put into another value than a tuple) holds plain values.
+//! The elements of a collection are cells: references to registers of the activations that created them. When an
+//! element changes, the list does not: calls that were given the list, loops that carry it and callers that it was
+//! returned to see the same value, and only readers of the changed element run again. A list that is used in any other
+//! manner (iterated over, compared, put into another value than a tuple) holds plain values.
 //!
 //! The analysis joins variables that may hold the same list into classes, over the whole program and without
 //! regard to order; one use of another kind makes the whole class plain. Where activations are dropped, cells are
@@ -13,10 +13,10 @@ use super::effects::Effects;
 use crate::core::{Expr, ExprKind, Function, Module, Name, Stmt, StmtKind};
 use std::collections::HashMap;
 
-/// What stands for a function's result among its variables.
+/// The name of a function's result among its variables.
 const RESULT: &str = "";
 
-/// The expressions that make elements of collections or read them, by their addresses in memory, stable while the
+/// The expressions that create elements of collections or read them, by their addresses in memory, stable while the
 /// module is borrowed.
 #[derive(Default)]
 pub struct Collections {
@@ -30,13 +30,13 @@ struct Classes {
     parent: Vec<usize>,
     /// A list is built here element by element.
     built: Vec<bool>,
-    /// Used in a way that needs plain values.
+    /// Used where plain values are needed.
     plain: Vec<bool>,
     /// Of tuples: the classes of their parts.
     parts: Vec<Option<Vec<usize>>>,
-    /// Classes that are indexed: by which place, where it is written down, and the class of what is found there.
+    /// Classes that are indexed: the index where it is a literal, and the class of the element.
     indexed: Vec<(usize, Option<i64>, usize)>,
-    /// Classes that are indexed where no site can stand: of a collection, a use that needs plain values.
+    /// Classes that are indexed where no site is possible: for a collection, a use that needs plain values.
     read_plainly: Vec<usize>,
     /// Classes that are unpacked, into these.
     unpacked: Vec<(usize, Vec<usize>)>,
@@ -82,7 +82,7 @@ impl Classes {
         }
     }
 
-    /// Draws the consequences: of indexing and unpacking tuples, and of plain uses for what tuples hold.
+    /// Propagates: indexing and unpacking of tuples, and plain uses to the elements of tuples.
     fn settle(&mut self) {
         for (class, names) in std::mem::take(&mut self.unpacked) {
             let class = self.root(class);
@@ -104,10 +104,10 @@ impl Classes {
                 let Some(parts) = self.parts[class].clone() else { continue };
                 let at = place.map(|k| if k < 0 { k + parts.len() as i64 } else { k });
                 match at.and_then(|k| parts.get(usize::try_from(k).ok()?)) {
-                    Some(found) => self.join(*found, part),
-                    None => parts.iter().for_each(|found| {
-                        let found = self.root(*found);
-                        self.plain[found] = true;
+                    Some(other) => self.join(*other, part),
+                    None => parts.iter().for_each(|element| {
+                        let element = self.root(*element);
+                        self.plain[element] = true;
                     }),
                 }
             }
@@ -120,7 +120,7 @@ impl Classes {
             for class in 0..self.parent.len() {
                 let root = self.root(class);
                 let Some(parts) = self.parts[root].clone() else { continue };
-                // A list that is also a tuple, a tuple that holds itself, or one that is used in an unknown way.
+                // A list that is also a tuple, a tuple that holds itself, or one whose use is unknown.
                 self.plain[root] |= self.built[root] || self.holds_itself(root);
                 if self.plain[root] {
                     for part in parts {
@@ -169,10 +169,10 @@ struct Analysis<'m> {
     effects: &'m Effects,
     functions: HashMap<&'m Name, &'m Function>,
     variables: HashMap<(&'m str, &'m str), usize>,
-    found: Collections,
-    /// The function in hand.
+    result: Collections,
+    /// The current function.
     here: &'m Function,
-    /// Whether a site can stand here: not in a pure function, nor in a loop that is not lifted.
+    /// Whether a site is possible here: not in a pure function, nor in a loop that is not lifted.
     suspends: bool,
 }
 
@@ -185,7 +185,7 @@ impl Collections {
             effects,
             functions: module.functions.iter().map(|f| (&f.name, f)).collect(),
             variables: HashMap::new(),
-            found: Collections::default(),
+            result: Collections::default(),
             here: first,
             suspends: false,
         };
@@ -194,11 +194,11 @@ impl Collections {
             analysis.suspends = effects.function(&f.name);
             analysis.block(&f.body);
         }
-        analysis.found.classes.settle();
-        analysis.found
+        analysis.result.classes.settle();
+        analysis.result
     }
 
-    /// Whether the expression makes elements of a collection (a list, an `append`) or reads one (an `index`).
+    /// Whether the expression creates elements of a collection (a list, an `append`) or reads one (an `index`).
     pub fn contains(&self, e: &Expr) -> bool {
         self.class_of.get(&std::ptr::from_ref(e)).is_some_and(|class| {
             let class = self.classes.root(*class);
@@ -209,21 +209,21 @@ impl Collections {
 
 impl<'m> Analysis<'m> {
     fn variable(&mut self, function: &'m str, x: &'m str) -> usize {
-        let classes = &mut self.found.classes;
+        let classes = &mut self.result.classes;
         *self.variables.entry((function, x)).or_insert_with(|| classes.fresh())
     }
 
     fn joined(&mut self, a: Option<usize>, b: Option<usize>) -> Option<usize> {
         if let (Some(a), Some(b)) = (a, b) {
-            self.found.classes.join(a, b);
+            self.result.classes.join(a, b);
         }
         a.or(b)
     }
 
     fn plain(&mut self, class: Option<usize>) {
         if let Some(class) = class {
-            let class = self.found.classes.root(class);
-            self.found.classes.plain[class] = true;
+            let class = self.result.classes.root(class);
+            self.result.classes.plain[class] = true;
         }
     }
 
@@ -270,7 +270,7 @@ impl<'m> Analysis<'m> {
                 let class = self.expr(e);
                 let parts: Vec<usize> = names.iter().map(|x| self.variable(here, x)).collect();
                 if let Some(class) = class {
-                    self.found.classes.unpacked.push((class, parts));
+                    self.result.classes.unpacked.push((class, parts));
                 }
             }
             _ => s.expressions().into_iter().for_each(|e| self.escapes(e)),
@@ -293,14 +293,14 @@ impl<'m> Analysis<'m> {
 
     fn built(&mut self, e: &'m Expr, class: usize) -> Option<usize> {
         if self.suspends {
-            let root = self.found.classes.root(class);
-            self.found.classes.built[root] = true;
-            self.found.class_of.insert(std::ptr::from_ref(e), class);
+            let root = self.result.classes.root(class);
+            self.result.classes.built[root] = true;
+            self.result.class_of.insert(std::ptr::from_ref(e), class);
         }
         Some(class)
     }
 
-    /// The class of what an expression gives, if it can be a collection.
+    /// The class of an expression's value, if it can be a collection.
     fn expr(&mut self, e: &'m Expr) -> Option<usize> {
         use ExprKind::*;
         match &e.kind {
@@ -309,7 +309,7 @@ impl<'m> Analysis<'m> {
             Call(f, args) | Future(f, args) => self.pass(f, args, false),
             Closure(f, captures) => {
                 self.pass(f, captures, true);
-                // Who calls it with what, and where its result goes, is not known.
+                // Its callers, arguments and uses of its result are not known.
                 if let Some(f) = self.functions.get(f).copied() {
                     for x in f.params.iter().map(|x| &**x).chain([RESULT]) {
                         let class = self.variable(&f.name, x);
@@ -326,8 +326,8 @@ impl<'m> Analysis<'m> {
             }
             List(items) => {
                 items.iter().for_each(|item| self.escapes(item));
-                let class = self.found.classes.fresh();
-                // A list of constants is no collection for itself.
+                let class = self.result.classes.fresh();
+                // A list of constants alone is no collection.
                 if items.iter().all(is_constant) { Some(class) } else { self.built(e, class) }
             }
             Tuple(items) => {
@@ -335,11 +335,11 @@ impl<'m> Analysis<'m> {
                     .iter()
                     .map(|item| {
                         let part = self.expr(item);
-                        part.unwrap_or_else(|| self.found.classes.fresh())
+                        part.unwrap_or_else(|| self.result.classes.fresh())
                     })
                     .collect();
-                let class = self.found.classes.fresh();
-                self.found.classes.parts[class] = Some(parts);
+                let class = self.result.classes.fresh();
+                self.result.classes.parts[class] = Some(parts);
                 Some(class)
             }
             Query(key, value) => {
@@ -359,7 +359,7 @@ impl<'m> Analysis<'m> {
                     let class = (self.expr(a), self.expr(b));
                     let class = self.joined(class.0, class.1);
                     if let (Some(class), List(_), true) = (class, &b.kind, self.suspends) {
-                        self.found.class_of.insert(std::ptr::from_ref(e), class);
+                        self.result.class_of.insert(std::ptr::from_ref(e), class);
                     }
                     class
                 }
@@ -371,17 +371,17 @@ impl<'m> Analysis<'m> {
                     self.escapes(at);
                     let class = self.expr(list)?;
                     if !self.suspends {
-                        self.found.classes.read_plainly.push(class);
+                        self.result.classes.read_plainly.push(class);
                     } else {
-                        self.found.class_of.insert(std::ptr::from_ref(e), class);
+                        self.result.class_of.insert(std::ptr::from_ref(e), class);
                     }
-                    // Of a tuple, a part: which one is known when the place is written down.
-                    let part = self.found.classes.fresh();
+                    // Of a tuple, an element: it is known when the index is a literal.
+                    let part = self.result.classes.fresh();
                     let place = match &at.kind {
                         Literal(crate::core::Literal::Int(k)) => Some(*k),
                         _ => None,
                     };
-                    self.found.classes.indexed.push((class, place, part));
+                    self.result.classes.indexed.push((class, place, part));
                     Some(part)
                 }
                 _ => {

@@ -3,7 +3,7 @@
 //! A function that cannot is *pure*: it gets no node and no site. A call through a value of unknown
 //! origin counts as effectful.
 
-use crate::core::walk::each_stmt;
+use crate::core::visit::each_stmt;
 use crate::core::{Expr, ExprKind, Module, Name, Stmt};
 use std::collections::HashSet;
 

@@ -10,7 +10,7 @@ use std::collections::HashMap;
 
 pub(crate) type Result<T> = std::result::Result<T, CompileError>;
 
-/// What a variable stands for at a point of the program.
+/// The value of a variable at a point of the program.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) struct Binding {
     pub at: Operand,
@@ -26,7 +26,7 @@ pub(crate) struct Label(usize);
 
 /// What `break` and `continue` mean here.
 pub(crate) enum LoopContext {
-    /// A plain loop: registers of the loop variables, and where to go.
+    /// A plain loop: registers of the loop variables, and the jump targets.
     Plain { variables: Vec<(Name, Operand)>, next: Label, end: Label },
     /// The body of a lifted loop: the iteration returns.
     Lifted,
@@ -55,7 +55,7 @@ pub(crate) struct Builder<'u, 'm, S: Scalar> {
     pub loops: Vec<LoopContext>,
     /// In an iteration: the carried variables, in order.
     pub carried: Vec<Name>,
-    /// The variable that the statement in hand assigns.
+    /// The variable that the current statement assigns.
     pub target: Option<Name>,
 }
 
@@ -101,9 +101,9 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
             let none = b.literal(&Literal::None);
             b.op(Op::Return { a: none });
         }
-        let mut made = b.finish(f.params.len(), f.captures.len(), defaults, f.span)?;
-        made.parameters = f.params.iter().map(|x| Name::from(core::readable(x))).collect();
-        Ok(made)
+        let mut function = b.finish(f.params.len(), f.captures.len(), defaults, f.span)?;
+        function.parameters = f.params.iter().map(|x| Name::from(core::readable(x))).collect();
+        Ok(function)
     }
 
     fn default(&mut self, f: &core::Function, e: &core::Expr) -> Result<Operand> {
@@ -121,7 +121,7 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
         }
     }
 
-    /// Resolves labels, chooses places for the registers and hands the function over.
+    /// Resolves labels, chooses places for the registers and returns the function.
     pub fn finish(
         mut self,
         params: usize,
@@ -190,7 +190,7 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
         Ok(Operand::new(Place::Node, self.registers - 1))
     }
 
-    /// From here on, sites made after the first `from` sites and before `to` are not on the path.
+    /// From here on, the sites with numbers `from..to` are not on the path.
     pub fn clear(&mut self, from: usize, to: usize) {
         if from < to {
             self.op(Op::Clear { from: from as u16, to: to as u16 });
@@ -204,7 +204,7 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
         }
     }
 
-    /// The run leaves the function here: no later site of it is on the path. How many there are is known at the end.
+    /// The run leaves the function here: no later site of it is on the path. Their number is known at the end.
     pub fn clear_rest(&mut self) {
         self.clear(self.sites.len(), u16::MAX as usize);
     }

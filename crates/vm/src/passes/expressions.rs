@@ -72,7 +72,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
         }
     }
 
-    /// Everything that takes its arguments, in order, and makes a value of them.
+    /// Expressions that compute a value from their arguments, in order.
     fn construct(&mut self, e: &Expr) -> Result<Operand> {
         use ExprKind::*;
         let mut operands = e.parts().into_iter().map(|p| self.expr(p)).collect::<Result<Vec<_>>>()?;
@@ -126,7 +126,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
                 let rest = values.split_off(keys.len());
                 Value::Dict(Arc::new(crate::value::Dict::new(values.into_iter().zip(rest).collect())))
             }
-            // Bad parameters are left for the run, which knows how it got there.
+            // Bad parameters are left for the run, which knows the call stack.
             Dist(name, _) => {
                 Value::Dist(Arc::new(make_dist(super::sites::family(name).ok()?, &values).ok()?))
             }
@@ -177,7 +177,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
         Ok(to)
     }
 
-    /// The value of a built-in function of constants; one that fails is left for the run, which knows how it got there.
+    /// The value of a built-in function of constants; one that fails is left for the run, which knows the call stack.
     fn computed(&self, name: &str, operands: &[Operand]) -> Option<Value<S>> {
         if binary(name).is_some() || operands.iter().any(|o| o.place() != Place::Constant) {
             return None;

@@ -1,10 +1,10 @@
 //! Which variables are still needed at the head of each loop, on core form.
 //!
-//! A lifted loop hands from one iteration to the next just what is assigned in its body *and* live at its
+//! A lifted loop passes from one iteration to the next just what is assigned in its body *and* live at its
 //! head. Everything else stays inside an iteration, so that an iteration's result changes only when something
 //! that matters changes (re-running depends on that).
 
-use crate::core::walk::Names;
+use crate::core::visit::Names;
 use crate::core::{Stmt, StmtKind};
 use std::collections::HashMap;
 

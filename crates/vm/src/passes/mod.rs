@@ -1,11 +1,11 @@
 //! Core form to bytecode, in six steps:
 //!
 //! 1. [`effects`]: which functions can suspend (the others are pure);
-//! 2. [`collections`]: which lists hold references to what their elements are made from;
-//! 3. [`liveness`]: what a loop must hand from one iteration to the next;
-//! 4. `emit`, `expressions`, `sites`, `statements`: one walk over each function; static single assignment with
+//! 2. [`collections`]: which lists hold references to their elements;
+//! 3. [`liveness`]: what a loop must pass from one iteration to the next;
+//! 4. `emit`, `expressions`, `sites`, `statements`: one pass over each function; static single assignment with
 //!    merges written by each arm; loops that can suspend are *lifted* into functions of their own;
-//! 5. `place`: which registers live in the node and which are scratch, by liveness on bytecode;
+//! 5. `place`: which registers are in the node and which are scratch, by liveness on bytecode;
 //! 6. `slices`: what one changed value can reach.
 
 pub mod collections;
@@ -47,16 +47,16 @@ impl From<Fault> for CompileError {
     }
 }
 
-/// What all functions of a module share while they are lowered.
+/// Shared by all functions of a module while they are lowered.
 pub(crate) struct Unit<'m, S: Scalar> {
     pub module: &'m Module,
     pub effects: Effects,
     pub collections: Collections,
     pub ids: HashMap<Name, FunctionId>,
     pub data: Vec<Value<S>>,
-    /// Readable names of the variables to keep where choices stand.
+    /// Readable names of the variables to keep at choices.
     pub kept: &'m [Name],
-    /// Functions made so far; the module's own come first, lifted loops after them.
+    /// Functions so far; the module's own come first, lifted loops after them.
     pub functions: Vec<Option<Function<S>>>,
 }
 
@@ -73,7 +73,7 @@ pub fn compile<S: Scalar>(module: &Module, data: Vec<Value<S>>) -> Result<Progra
 /// the program does is the same: addresses, and so random streams, do not depend on it.
 ///
 /// # Errors
-/// As there.
+/// As for [`compile`].
 pub fn compile_keeping<S: Scalar>(
     module: &Module,
     data: Vec<Value<S>>,

@@ -1,8 +1,8 @@
-//! Where each register lives, by liveness on bytecode.
+//! Where each register is stored, by liveness on bytecode.
 //!
-//! Only what is needed after a suspension site goes into the node, with the results of sites and the arguments that
+//! Only what is needed after a suspension site is in the node, with the results of sites and the arguments that
 //! are read again ([`SiteKind::is_read_again`]). Everything else is scratch.
-//! Instructions without effect are dropped, and futures whose handle nobody reads are marked.
+//! Instructions without effect are dropped, and futures whose handle is never read are marked.
 
 use crate::code::{Args, Function, Mode, Op, Operand, Place, SiteKind};
 use niwaki_math::Scalar;
@@ -163,7 +163,7 @@ pub(crate) fn place<S: Scalar>(f: &mut Function<S>, registers: usize) {
             if s.kind.is_read_again() {
                 f.operands[s.args.range()].iter().for_each(|o| node.set(*o));
             }
-            // What a loop runs over is kept, so that it need not be made again to see that it is the same.
+            // What a loop iterates over is kept: it need not be computed again to see that it is the same.
             if let SiteKind::Loop(l) = &s.kind {
                 l.over.into_iter().for_each(|over| node.set(over));
             }
@@ -197,8 +197,8 @@ pub(crate) fn place<S: Scalar>(f: &mut Function<S>, registers: usize) {
     rewrite(f, |o| if o.place() == Place::Node { map[o.index()] } else { o });
 }
 
-/// Turns moves into registers that are never read, and clearing of no sites, into nothing: a jump to the next instruction costs a step of
-/// the interpreter, so they are removed and the jumps adjusted.
+/// Removes moves into registers that are never read, and clearing of no sites. A jump to the next instruction costs a
+/// step of the interpreter, so they are removed and the jumps adjusted.
 fn drop_dead<S: Scalar>(f: &mut Function<S>, registers: usize) {
     loop {
         let after = live_after(f, registers);
@@ -235,11 +235,11 @@ fn drop_dead<S: Scalar>(f: &mut Function<S>, registers: usize) {
     }
 }
 
-/// Puts every register elsewhere.
+/// Moves every register to its place.
 pub(crate) fn rewrite<S: Scalar>(f: &mut Function<S>, map: impl Fn(Operand) -> Operand) {
     f.operands.iter_mut().for_each(|o| *o = map(*o));
     for o in &mut f.defaults {
-        // Defaults name captured inputs, which keep their numbers in either place.
+        // Defaults name captured inputs, whose numbers are the same in either place.
         *o = map(*o);
     }
     f.scope.iter_mut().for_each(|x| x.at = map(x.at));

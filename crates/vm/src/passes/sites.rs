@@ -2,7 +2,7 @@
 //!
 //! A site's *key* is a hash of the function's qualified name, what is called, the name assigned to and the
 //! occurrence among equals. Addresses, and so random streams, are made of keys: editing a comment or moving a
-//! line re-rolls nothing.
+//! line changes no random number.
 
 use super::CompileError;
 use super::emit::{Builder, Result};
@@ -98,7 +98,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
         self.add_site(kind, &Name::from(what), (given, Name::from(what)), &operands)
     }
 
-    /// What an address calls a function value: the variable that holds it, or the function itself.
+    /// The name of a function value in an address: the variable that holds it, or the function itself.
     fn callee(&self, f: &Expr) -> Name {
         match &f.kind {
             ExprKind::Var(x) if !x.starts_with('%') => x.clone(),
@@ -108,16 +108,16 @@ impl<S: Scalar> Builder<'_, '_, S> {
         }
     }
 
-    /// The site kind of a choice or observation, fused with the making of its distribution where possible.
+    /// The site kind of a choice or observation, fused with its distribution where possible.
     fn distribution(&mut self, d: &Expr, sample: bool) -> Result<(SiteKind, Name, Vec<Operand>)> {
         let kind = if sample { SiteKind::Sample } else { SiteKind::Observe };
         match &d.kind {
             ExprKind::Dist(name, args) => {
                 let family = family(name)?;
                 let operands = self.exprs(args)?;
-                if let Some(made) = self.folded(d, &operands) {
-                    let made = self.constant(made);
-                    return Ok((kind(Source::Value), name.clone(), vec![made]));
+                if let Some(folded) = self.folded(d, &operands) {
+                    let operand = self.constant(folded);
+                    return Ok((kind(Source::Value), name.clone(), vec![operand]));
                 }
                 Ok((kind(Source::Family(family)), name.clone(), operands))
             }
@@ -134,13 +134,13 @@ impl<S: Scalar> Builder<'_, '_, S> {
         }
     }
 
-    /// Lowers what makes elements of a collection or reads one, outside of pure functions.
+    /// Lowers expressions that create or read elements of a collection, outside of pure functions.
     pub fn collection(&mut self, e: &Expr) -> Result<Option<Operand>> {
         if !self.unit.collections.contains(e) {
             return Ok(None);
         }
         match &e.kind {
-            // Constants are elements as they are.
+            // Constants are used as elements directly.
             ExprKind::List(items) if items.iter().all(super::collections::is_constant) => Ok(None),
             ExprKind::List(items) => {
                 let cells = items.iter().map(|item| self.cell(item)).collect::<Result<Vec<_>>>()?;
@@ -176,7 +176,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
         self.add_site(SiteKind::Append { content }, &name, (&None, name.clone()), &[list, value])
     }
 
-    /// An element of a collection. Constants are elements as they are.
+    /// An element of a collection. Constants are used as elements directly.
     fn cell(&mut self, item: &Expr) -> Result<Operand> {
         let value = self.expr(item)?;
         if value.place() == Place::Constant {
@@ -186,8 +186,8 @@ impl<S: Scalar> Builder<'_, '_, S> {
         self.add_site(SiteKind::Cell { content }, &name, (&None, name.clone()), &[value])
     }
 
-    /// Adds a site; its result goes into a register of its own. `label` is the one given in the text, and the one
-    /// that names give.
+    /// Adds a site; its result has a register of its own. `label` is the one given in the text, and the one
+    /// made from names.
     pub fn add_site(
         &mut self,
         kind: SiteKind,
@@ -225,7 +225,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
         Ok(to)
     }
 
-    /// Notes where the variables lie that are to be kept at the next site. The front end numbers the variables of the
+    /// Notes the places of the variables to keep at the next site. The front end numbers the variables of the
     /// source before its own, so of several with one readable name the first is meant.
     fn keep_scope(&mut self) {
         let site = SiteId(self.sites.len() as u16);
@@ -240,7 +240,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
         }
     }
 
-    /// The text itself, and how many equal ones came before it in this function.
+    /// The text, and the number of equal ones before it in this function.
     fn occurrence(&mut self, text: &str) -> (String, u32) {
         let count = self.occurrences.entry(text.to_string()).or_insert(0);
         *count += 1;

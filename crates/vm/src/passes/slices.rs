@@ -1,16 +1,16 @@
-//! Slices: of what follows a site or stands in a function, the part that one changed register can reach.
+//! Slices: the instructions of a function, or after a site, that depend on one changed register.
 //!
 //! A kept activation that is entered again because one value has changed need not be run whole: an instruction that
-//! reads nothing that has changed leaves what it left before. For each site, parameter and capture the instructions
-//! that depend on it are copied to the end of the function's code, in their order, with those that make the scratch
+//! reads nothing that has changed has the same result as before. For each site, parameter and capture the instructions
+//! that depend on it are copied to the end of the function's code, in their order, with those that compute the scratch
 //! values which they read. [`Op::Done`] ends a slice whose return does not depend on it.
 //!
-//! A slice is optimistic where its instructions tell at run time: a choice that keeps its value, a call or a loop that
-//! leaves what it left changes nothing further. Where one of them does, the run goes on in the whole code after it,
-//! which does all that the slice would do and more.
+//! A slice is optimistic where a test at run time is possible: a choice that keeps its value, or a call or a loop with
+//! the same result as before, changes nothing further. Otherwise the run continues in the whole code after it, which
+//! includes all instructions of the slice.
 //!
-//! Branches on what has not changed go the same way again; at a branch on what has, or at a loop that is no site, a
-//! slice ends with a jump into the whole code.
+//! A branch on an unchanged value takes the same arm as before; at a branch on a changed one, or at a loop that is no
+//! site, a slice ends with a jump into the whole code.
 
 use super::place::reads_and_writes;
 use crate::code::{Function, Mode, Op, Operand, Place, SiteId, SiteKind};
@@ -20,7 +20,7 @@ use std::collections::HashSet;
 /// All slices of a function together are at most this many times as long as its code.
 const MOST: usize = 8;
 
-/// At so many branches in a row a slice goes both ways; at those after them the other way is the whole code.
+/// A slice has both arms of so many consecutive branches; after those the other arm is the whole code.
 const DEEPEST: usize = 3;
 
 /// Appends the slices of a function to its code.
@@ -57,8 +57,8 @@ pub(crate) fn slice<S: Scalar>(f: &mut Function<S>) {
     }
 }
 
-/// Appends the slice from `start` on of what depends on those registers; where it begins. That is `start` itself when
-/// the slice would leave nothing out, or would be too long.
+/// Appends the slice from `start` on of what depends on those registers, and gives where it begins. That is `start`
+/// itself when the slice would leave nothing out, or would be too long.
 fn append<S: Scalar>(f: &mut Function<S>, start: u32, changed: &[Operand]) -> u32 {
     let base = f.code.len();
     for deepest in [DEEPEST, 0] {
@@ -80,22 +80,22 @@ fn append<S: Scalar>(f: &mut Function<S>, start: u32, changed: &[Operand]) -> u3
     start
 }
 
-/// A slice: one way to the end, and those that branch off it.
+/// A slice: one path to the end, and the paths that branch off.
 struct Slice {
     /// Registers that may have changed.
     tainted: HashSet<Operand>,
-    /// The instructions on the way.
+    /// The instructions on the path.
     path: Vec<usize>,
     /// Which of them are in the slice.
     taken: Vec<bool>,
-    /// At a place in `path`, a branch: the slice of its other way, or nothing where that is the whole code.
+    /// At a branch in `path`: the slice of its other arm, or nothing where that is the whole code.
     others: Vec<(usize, Option<Slice>)>,
-    /// Where the slice goes over into the whole code.
+    /// Where the slice continues in the whole code.
     rest: Option<usize>,
 }
 
 impl Slice {
-    /// Walks to the end and takes what depends on the changed registers; both ways at so many branches.
+    /// Visits the path to the end and collects what depends on the changed registers; both arms at so many branches.
     fn forward<S: Scalar>(
         f: &Function<S>,
         mut at: usize,
@@ -143,10 +143,10 @@ impl Slice {
                 }
                 Op::Site { site } => {
                     let site = &f.sites[site.0 as usize];
-                    // What a query tells lies in registers.
+                    // The values of a query are in registers.
                     slice.take(at, hit && !matches!(site.kind, SiteKind::Query));
                     let is_changed = match site.kind {
-                        // Whether they leave something else is known when they have run.
+                        // Whether their results change is known when they have run.
                         SiteKind::Sample(_)
                         | SiteKind::Call { .. }
                         | SiteKind::Loop(_)
@@ -177,8 +177,8 @@ impl Slice {
         self.taken.push(taken);
     }
 
-    /// Takes what makes the scratch values that are read, which live no longer than to the next site. The answer: the
-    /// scratch values that must be there where the slice begins, and whether all must be that the whole code has there.
+    /// Adds what computes the scratch values that are read, which are valid up to the next site. The result: the
+    /// scratch values that are needed where the slice begins, and whether all those of the whole code are needed.
     fn backward<S: Scalar>(&mut self, f: &Function<S>) -> (HashSet<Operand>, bool) {
         let mut needed: HashSet<Operand> = HashSet::new();
         let mut all = self.rest.is_some();
@@ -224,7 +224,7 @@ impl Slice {
             || self.others.iter().any(|(_, other)| other.as_ref().is_some_and(|other| other.leaves_out(f)))
     }
 
-    /// Writes its instructions, each with where it comes from, as they stand from `base` on.
+    /// Writes its instructions, each with its original, placed from `base` on.
     fn write<S: Scalar>(&self, f: &Function<S>, base: usize, ops: &mut Vec<(Op, usize)>) {
         let mut branches = Vec::new();
         for (i, at) in self.path.iter().enumerate().filter(|(i, _)| self.taken[*i]) {
@@ -270,7 +270,7 @@ impl Slice {
 
 #[cfg(test)]
 mod tests {
-    //! What a slice holds, as a person would write it down.
+    //! Slices are those that a person would write by hand.
     use super::*;
     use crate::code::disassemble;
     use crate::core::parse::parse;
@@ -316,7 +316,7 @@ mod tests {
             let part = |word: &str| slice.iter().any(|line| line.contains(word));
             (part("str"), part("Gaussian") && part("\"x\""), part("Mul"), part("Observe"), part("done"))
         };
-        // The count: neither the key's text nor the other choice, but the observation with what it reads.
+        // The count: not the key's text and the other choice, but the observation with what it reads.
         assert_eq!(has(f.sites[0].again), (false, false, true, true, true));
         // The mean of the other choice: that choice, and nothing else unless it changes.
         assert_eq!(has(f.inputs[1]), (false, true, false, false, true));

@@ -1,4 +1,4 @@
-//! Lowering statements. Every method answers whether control can go on after it.
+//! Lowering statements. Every method returns whether control can continue after it.
 //!
 //! Assignment gives a variable a new register; where two arms meet, each arm writes the register of the
 //! merge. A loop that cannot suspend keeps its variables in registers that are written again in each round;
@@ -7,7 +7,7 @@
 use super::CompileError;
 use super::emit::{Binding, Builder, Environment, LoopContext, Result};
 use crate::code::{Function, FunctionId, Loop, Mode, Op, Operand, Place, SiteKind, exit};
-use crate::core::walk::{Names, assigned, returns};
+use crate::core::visit::{Names, assigned, returns};
 use crate::core::{Expr, Literal, Name, Stmt, StmtKind, readable};
 use niwaki_math::Scalar;
 
@@ -239,7 +239,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
             iteration = Some((x, held, index, length));
             variables_set.insert(x.clone());
         }
-        // Each variable that a round can hand to the next, or to what follows, has a register for the whole loop.
+        // Each variable that a round can pass to the next, or to what follows, has a register for the whole loop.
         let mut variables = Vec::new();
         let mut unset_before = Vec::new();
         for x in self.handed_on(s, &variables_set) {
@@ -279,13 +279,13 @@ impl<S: Scalar> Builder<'_, '_, S> {
         Ok(true)
     }
 
-    /// Of the variables that a loop assigns, those that one iteration hands to the next, or to what follows.
+    /// Of the variables that a loop assigns, those that one iteration passes to the next, or to what follows.
     fn handed_on(&self, s: &Stmt, assigned: &Names) -> Vec<Name> {
         let live = self.heads.at(s);
         assigned.iter().filter(|x| live.contains(*x) || self.is_kept(x)).cloned().collect()
     }
 
-    /// Whether it is to be seen where choices stand.
+    /// Whether choices can read it.
     fn is_kept(&self, x: &Name) -> bool {
         self.unit.kept.iter().any(|name| **name == *readable(x))
     }
@@ -324,7 +324,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
         let carried = self.handed_on(s, &set);
         let mut reads = Names::new();
         test.into_iter().for_each(|t| t.reads(&mut reads));
-        crate::core::walk::each_stmt(body, &mut |s| {
+        crate::core::visit::each_stmt(body, &mut |s| {
             s.expressions().into_iter().for_each(|e| e.reads(&mut reads))
         });
         // What is kept for choices in the body; a variable that the body assigns is the iteration's own.

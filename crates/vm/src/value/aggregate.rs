@@ -11,7 +11,7 @@ use super::{Scalar, Value, compare, release};
 #[derive(Clone)]
 pub struct Tuple<S: Scalar = f64>(pub(super) Arc<TupleBody<S>>);
 
-/// The elements of a tuple. Points, pairs and colours are most of the tuples of a model: they live in place.
+/// The elements of a tuple. Points, pairs and colours are most of the tuples of a model: they are stored in place.
 pub(super) enum TupleBody<S: Scalar> {
     One([Value<S>; 1]),
     Two([Value<S>; 2]),
@@ -51,7 +51,7 @@ impl<S: Scalar> Tuple<S> {
         }
     }
 
-    /// Where it lies in memory: as long as the tuple lives, no other tuple has that address.
+    /// Its address in memory: no other tuple has it while this one exists.
     #[inline]
     pub fn address(&self) -> usize {
         Arc::as_ptr(&self.0) as usize
@@ -234,7 +234,7 @@ impl<S: Scalar> Drop for Dict<S> {
     }
 }
 
-/// `range(start, stop, step)`, with its length worked out.
+/// `range(start, stop, step)`, with its length computed.
 #[derive(Clone, Copy, Debug)]
 pub struct Range {
     /// First number.
@@ -281,7 +281,7 @@ pub struct Vector<S: Scalar = f64> {
 }
 
 impl<S: Scalar> Vector<S> {
-    /// A vector of up to four components; what goes beyond is cut off.
+    /// A vector of up to four components; further ones are cut off.
     pub fn new(components: &[S]) -> Vector<S> {
         let mut own = [S::from_f64(0.0); 4];
         let len = components.len().min(4);

@@ -1,10 +1,10 @@
 //! Python's `==`, `<` and hashing of keys.
 //!
-//! One walk in lockstep finds the first place where two values differ, on a stack of our own; `==` asks whether there is one, `<`
-//! compares what stands there (lexicographic order at every level, as Python defines it for sequences). Numbers
-//! compare exactly across int, bool and float.
+//! Both values are visited in lockstep, on a stack of our own, up to the first place where they differ. `==` tests
+//! whether there is one; `<` compares the two elements there (lexicographic order at every level, as Python defines it
+//! for sequences). Numbers compare exactly across int, bool and float.
 //!
-//! differs: Python's containers treat an object as equal to itself before asking `==`, so a list of one NaN object
+//! differs: Python's containers treat an object as equal to itself before they call `==`, so a list of one NaN object
 //! equals another list of that object; here a NaN inside two different lists is unequal, inside one list equal.
 
 use std::cmp::Ordering;
@@ -17,7 +17,7 @@ use crate::fault::Fault;
 /// would otherwise take exponential time.
 const BUDGET: usize = 1 << 26;
 
-/// What cannot be done with a future; nor with a value that holds one, wherever the two differ.
+/// Refuses a future, and a value that holds one where the two values differ.
 const COMPARED: &str = "compared";
 
 /// Python's `a == b`.
@@ -34,8 +34,8 @@ pub fn equal<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Result<bool, Fault> {
     }
 }
 
-/// Python's order of two values, `None` when a NaN stands where they differ; a fault for values without an order.
-/// `sign` is the operator to name in the message (`<`, `>=`, ...).
+/// Python's order of two values, `None` when one of them is a NaN at the first difference; a fault for values without
+/// an order. `sign` is the operator that the message names (`<`, `>=`, ...).
 pub fn order<S: Scalar>(a: &Value<S>, b: &Value<S>, sign: &str) -> Result<Option<Ordering>, Fault> {
     if let Some(order) = leaves_ordered(a, b) {
         return Ok(order);
@@ -148,7 +148,7 @@ impl<'a, S: Scalar> Items<'a, S> {
         }
     }
 
-    /// True when Python compares the two element by element: like with like, a named tuple also with tuples.
+    /// True when Python compares the two element by element: values of one kind, and a named tuple with tuples.
     fn comparable(a: &Value<S>, b: &Value<S>) -> bool {
         let tuple_like = |value: &Value<S>| match value {
             Value::Tuple(_) => true,
@@ -171,14 +171,14 @@ impl<'a, S: Scalar> Items<'a, S> {
 
 /// The first difference of two values, in order of reading.
 enum Difference<'a, S: Scalar> {
-    /// These two stand at one place; at least one has no parts, or they are of different kinds.
+    /// Two values at the same place; at least one has no parts, or they are of different kinds.
     Values(&'a Value<S>, &'a Value<S>),
     /// One sequence is the beginning of the other.
     Lengths(usize, usize),
 }
 
-/// Two values walked in lockstep, and the next place to look at.
-struct Walk<'a, S: Scalar> {
+/// Two values visited in lockstep, and the next place.
+struct Lockstep<'a, S: Scalar> {
     sides: Sides<'a, S>,
     next: usize,
 }
@@ -191,7 +191,7 @@ enum Sides<'a, S: Scalar> {
 }
 
 impl<'a, S: Scalar> Sides<'a, S> {
-    /// How to walk two values of kinds that are compared inside; `None` when they differ already.
+    /// How to visit two values of kinds that are compared inside; `None` when they differ already.
     fn of(a: &'a Value<S>, b: &'a Value<S>) -> Option<Sides<'a, S>> {
         match (a, b) {
             (Value::Dict(a), Value::Dict(b)) => (a.len() == b.len()).then_some(Sides::ByKey(a, b)),
@@ -205,7 +205,7 @@ fn first_difference<'a, S: Scalar>(
     a: &'a Value<S>,
     b: &'a Value<S>,
 ) -> Result<Option<Difference<'a, S>>, Fault> {
-    let mut stack: Vec<Walk<'a, S>> = Vec::new();
+    let mut stack: Vec<Lockstep<'a, S>> = Vec::new();
     let mut pair = Some((a, b));
     for _ in 0..BUDGET {
         if let Some((a, b)) = pair.take() {
@@ -213,21 +213,21 @@ fn first_difference<'a, S: Scalar>(
                 Some(true) => {}
                 Some(false) => return Ok(Some(Difference::Values(a, b))),
                 None => match Sides::of(a, b) {
-                    Some(sides) => stack.push(Walk { sides, next: 0 }),
+                    Some(sides) => stack.push(Lockstep { sides, next: 0 }),
                     None => return Ok(Some(Difference::Values(a, b))),
                 },
             }
         }
-        let Some(walk) = stack.last_mut() else { return Ok(None) };
-        let (left, right, lengths) = match walk.sides {
-            Sides::InOrder(a, b) => (a.get(walk.next), b.get(walk.next), (a.len(), b.len())),
+        let Some(lockstep) = stack.last_mut() else { return Ok(None) };
+        let (left, right, lengths) = match lockstep.sides {
+            Sides::InOrder(a, b) => (a.get(lockstep.next), b.get(lockstep.next), (a.len(), b.len())),
             Sides::ByKey(a, b) => {
-                let left = a.values().get(walk.next);
-                let right = a.keys().get(walk.next).and_then(|key| b.get(key));
+                let left = a.values().get(lockstep.next);
+                let right = a.keys().get(lockstep.next).and_then(|key| b.get(key));
                 (left, right, (a.len(), b.len()))
             }
         };
-        walk.next += 1;
+        lockstep.next += 1;
         match (left, right) {
             (Some(a), Some(b)) => pair = Some((a, b)),
             (None, None) => drop(stack.pop()),

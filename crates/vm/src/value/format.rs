@@ -80,7 +80,7 @@ impl Spec {
         }
     }
 
-    /// A number's text: its sign as asked for, thousands grouped, zeros filled in groups as well.
+    /// A number's text: its sign as specified, thousands grouped, zeros filled in groups as well.
     fn number(&self, negative: bool, digits: &str) -> String {
         let sign = match (negative, self.sign) {
             (true, _) => "-",
@@ -103,7 +103,7 @@ impl Spec {
     }
 }
 
-/// A run of decimal digits: `None` inside when there is none, outside when it is beyond any use.
+/// A run of decimal digits: `None` inside when there is none, outside when it is too large.
 fn number(rest: &mut Vec<char>) -> Option<Option<usize>> {
     let mut found: Option<usize> = None;
     while let Some(digit) = rest.last().and_then(|c| c.to_digit(10)) {
@@ -167,7 +167,7 @@ pub fn format<S: Scalar>(value: &Value<S>, spec: &str) -> Result<String, Fault> 
     }
 }
 
-/// The digits of a number that is not negative, in the style that a specification asks for.
+/// The digits of a number that is not negative, in the style of a specification.
 fn real_digits(x: f64, spec: &Spec) -> Option<String> {
     let percent = if spec.kind == Some('%') { "%" } else { "" };
     if let Some('d' | 'x') = spec.kind {
@@ -195,8 +195,8 @@ fn exponent(text: &str) -> String {
     format!("{digits}e{}{:02}", if power < 0 { '-' } else { '+' }, power.abs())
 }
 
-/// `g`: so many significant digits, trailing zeros removed, an exponent for very small and large numbers. Without a type
-/// letter at least one digit stays behind the point.
+/// `g`: so many significant digits, trailing zeros removed, an exponent for very small and large numbers. Without a
+/// type letter at least one digit stays behind the point.
 fn general(x: f64, precision: usize, keep_point: bool) -> String {
     let precision = precision.max(1);
     let scientific = format!("{x:.*e}", precision - 1);

@@ -1,16 +1,16 @@
-//! Futures inside values. A model may pass a future on, and only `force` looks at it: before that its value may not be
-//! there. What leaves the model shows the value.
+//! Futures inside values. A model may pass a future on, and only `force` reads it: before that it may have no value.
+//! Results of the model contain the value.
 
 use super::{Closure, Dict, List, Record, Scalar, Value};
 use crate::fault::Fault;
 use std::sync::Arc;
 
-/// What is left to do: look at a value, or put one together from those that are done.
+/// The next steps: visit a value, or build one from parts that are ready.
 enum Work<S: Scalar> {
     Look(Value<S>),
     /// A value like this one, of so many parts.
     Build(Value<S>, usize),
-    /// What was looked at last stands for a handle.
+    /// The value visited last replaces a handle.
     Changed,
 }
 
@@ -50,10 +50,10 @@ impl<S: Scalar> Value<S> {
         false
     }
 
-    /// Lets pass what is no future and holds none.
+    /// Accepts a value that is no future and holds none.
     ///
     /// # Errors
-    /// The future is not forced, and `done` says what cannot be done with it.
+    /// The future is not forced; `done` names the operation that is not possible.
     #[inline]
     pub fn refuse_futures(&self, done: &str) -> Result<(), Fault> {
         if (self.is_future() || self.holds_values()) && self.holds_future() {
@@ -62,14 +62,14 @@ impl<S: Scalar> Value<S> {
         Ok(())
     }
 
-    /// The value with each future that has returned, or that `known` has a value for, replaced by its value, at any depth.
-    /// What holds no such handle stays the same in memory, so that identity keeps its short-cuts.
+    /// The value with each future that has returned, or that `known` has a value for, replaced by its value, at any
+    /// depth. What holds no such handle stays the same in memory, so that identity keeps its short-cuts.
     pub fn replace_futures(&self, known: &dyn Fn(u32) -> Option<Value<S>>) -> Value<S> {
         if !self.holds_future() {
             return self.clone();
         }
         let mut work = vec![Work::Look(self.clone())];
-        // What is done, and whether it differs from what was looked at.
+        // The values that are ready, and whether each differs from its original.
         let mut done: Vec<(Value<S>, bool)> = Vec::new();
         while let Some(next) = work.pop() {
             match next {
@@ -110,12 +110,12 @@ impl<S: Scalar> Value<S> {
     }
 }
 
-/// False when none of a value's own parts is a handle or holds values: one scan spares the copy of most lists.
+/// False when none of a value's own parts is a handle or holds values: one scan avoids the copy of most lists.
 fn may_hold_futures<S: Scalar>(value: &Value<S>) -> bool {
     any_part(value, &mut |part| part.holds_values() || part.is_future())
 }
 
-/// Whether one of the values that a value holds passes the test; those before it are seen, too.
+/// Whether one of the values that a value holds passes the test; those before it are tested, too.
 fn any_part<'v, S: Scalar>(value: &'v Value<S>, test: &mut dyn FnMut(&'v Value<S>) -> bool) -> bool {
     match value {
         Value::Tuple(tuple) => tuple.items().iter().any(test),

@@ -1,6 +1,6 @@
-//! Reaching into values: `x[i]`, `x[a:b:c]`, `x in xs`, `len`, and going through them one by one.
+//! Elements of values: `x[i]`, `x[a:b:c]`, `x in xs`, `len`, and iteration.
 //!
-//! A named tuple is reached into as a tuple; a dictionary by key, and looped over by its keys.
+//! A named tuple is indexed as a tuple; a dictionary by key, and a loop visits its keys.
 
 use std::sync::Arc;
 

@@ -1,14 +1,14 @@
 //! Lists: a persistent vector, as a trie of 32 children a node with a tail.
 //!
 //! ```text
-//!   body: len 70, tail [64..70)        Elements go to the tail; a full tail becomes a leaf. A list of up
+//!   body: len 70, tail [64..70)        Elements are added to the tail; a full tail becomes a leaf. A list of up
 //!     root --+-- leaf [ 0..32)         to 32 elements is a tail alone, flat. Reading and replacing one
 //!            +-- leaf [32..64)         element touch one node on each level, copied only where shared.
 //! ```
 //!
-//! Appending costs O(1) on average and writes in place when nobody else holds the list. [`List::diff`] finds what differs
+//! Appending costs O(1) on average and writes in place when the list is not shared. [`List::diff`] finds what differs
 //! between two versions by skipping the nodes that they share, which is how a changed element of a long list wakes
-//! its readers and nobody else (facts of the spike: no persistent vector in the package index can do this).
+//! only its readers (no persistent vector in the package index can do this).
 //!
 //! Source: Bagwell's array mapped tries as in Clojure's vectors; the node width is measured, not derived.
 
@@ -89,7 +89,7 @@ impl<S: Scalar> Body<S> {
     }
 }
 
-/// A leaf under as many single-child branches as `shift` asks for.
+/// A leaf under as many single-child branches as `shift` requires.
 fn path<S: Scalar>(shift: u32, leaf: Arc<Node<S>>) -> Arc<Node<S>> {
     (0..shift / BITS).fold(leaf, |below, _| Arc::new(Node::Branch(vec![below])))
 }
@@ -132,7 +132,7 @@ impl<S: Scalar> List<S> {
         self.0.len == 0
     }
 
-    /// Where it lies in memory: as long as the list lives, no other list has that address.
+    /// Its address in memory: no other list has it while this one exists.
     #[inline]
     pub fn address(&self) -> usize {
         Arc::as_ptr(&self.0) as usize
@@ -148,7 +148,7 @@ impl<S: Scalar> List<S> {
     #[inline]
     pub fn get(&self, at: usize) -> Option<&Value<S>> {
         let start = self.0.tail_start();
-        // All of a list that is as short as most.
+        // Most lists are this short.
         if at >= start { self.0.tail.get(at - start) } else { self.chunk(at).first() }
     }
 
@@ -226,7 +226,7 @@ impl<S: Scalar> List<S> {
     }
 
     /// Calls `visit` with the position and both elements wherever two versions may differ: in the common
-    /// length, skipping all that they share in memory. Stops when told to.
+    /// length, skipping all that they share in memory. Stops when `visit` breaks.
     pub fn visit_unshared<'a, B>(
         old: &'a List<S>,
         new: &'a List<S>,
@@ -270,13 +270,13 @@ impl<S: Scalar> List<S> {
         changed
     }
 
-    /// True when nobody else holds this list.
+    /// True when this list is not shared.
     #[inline]
     pub(super) fn has_one_owner(&self) -> bool {
         Arc::strong_count(&self.0) == 1
     }
 
-    /// Hands the elements that go with this list to the work list of a drop.
+    /// Moves the elements that are dropped with this list to the work list.
     pub(super) fn gather(self, work: &mut Vec<Value<S>>) {
         if let Some(mut body) = Arc::into_inner(self.0) {
             release::gather(&mut body.tail, work);

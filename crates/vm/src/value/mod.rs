@@ -1,10 +1,10 @@
-//! Values: what registers hold.
+//! Values: the contents of registers.
 //!
 //! A value is 16 bytes: a tag and either the number itself or one thin pointer to something shared that never changes.
 //! [`List`] is a persistent trie of our own ([`list`]); tuples, records, dictionaries and closures are flat.
-//! Nothing in this room recurses on the host stack: dropping (`release`), identity (`same`), Python's
+//! Nothing in this module recurses on the host stack: dropping (`release`), identity (`same`), Python's
 //! `==` and `<` ([`compare`]), hashing and printing (`print`) all keep their own stack, so a chain of a million
-//! nested tuples is an ordinary value (facts of the spike: a plain drop of such a chain overflowed).
+//! nested tuples is an ordinary value (a plain drop of such a chain overflows).
 //!
 //! The scalar type is a parameter: `f64` when a model runs, a recording scalar when its gradient is wanted.
 
@@ -40,7 +40,7 @@ pub const MAX_ELEMENTS: usize = 1 << 26;
 ///
 /// The tag is a whole word, so that every payload begins at the second: a copy is two moves of eight bytes. (With a
 /// tag of one byte a truth value lies beside it, and every copy of a value whose kind is not known is taken apart
-/// into pieces of one, two and four bytes.) What holds nothing shared comes first: one comparison tells.
+/// into pieces of one, two and four bytes.) Kinds without shared data come first: one comparison finds them.
 #[derive(Default)]
 #[repr(u64)]
 pub enum Value<S: Scalar = f64> {
@@ -53,11 +53,11 @@ pub enum Value<S: Scalar = f64> {
     Int(i64),
     /// A real number.
     Real(S),
-    /// A future that may still run, by the machine's number for it.
+    /// A future that may still run, by its number.
     Future(u32),
     /// What a variable holds before it is assigned; no model ever sees it.
     Unset,
-    /// An element of a kept collection: it lies in a register. Only lists hold cells, and no model ever sees one.
+    /// An element of a kept collection: it is in a register. Only lists hold cells, and no model ever sees one.
     Cell(Cell),
     /// A string.
     Str(Text),
@@ -100,7 +100,7 @@ impl<S: Scalar> Clone for Value<S> {
     #[inline(always)]
     fn clone_from(&mut self, source: &Self) {
         match source {
-            // Numbers go over without being looked at twice; many a register holds nothing, before and after.
+            // Numbers are copied without a second test; many registers are empty, before and after.
             Value::Real(x) => self.store_real(*x),
             Value::Int(n) => self.store_int(*n),
             Value::None if matches!(self, Value::None) => {}
@@ -114,7 +114,7 @@ impl<S: Scalar> Clone for Value<S> {
 pub struct Cell {
     /// The register that holds the element.
     pub register: u32,
-    /// The list of those who read it.
+    /// The list of its readers.
     pub readers: u32,
 }
 
@@ -167,9 +167,9 @@ impl<S: Scalar> Value<S> {
         )
     }
 
-    /// Assigns. A register nearly always holds a number and is given one of the same kind: then one word is written.
-    // Writing both words would lead through the stack, where a value put down as two words and picked up as sixteen
-    // bytes makes the next instruction wait.
+    /// Assigns. A register nearly always holds a number and gets one of the same kind: then one word is written.
+    // Writing both words would use the stack, where a value stored as two words and loaded as sixteen
+    // bytes delays the next instruction.
     #[inline(always)]
     pub fn store(&mut self, value: Value<S>) {
         match (&mut *self, &value) {
@@ -178,7 +178,7 @@ impl<S: Scalar> Value<S> {
             (Value::Bool(old), Value::Bool(new)) => *old = *new,
             _ => return self.replace(value),
         }
-        // A number: nothing to drop, which the compiler does not see.
+        // A number: there is nothing to drop, but the compiler does not know that.
         std::mem::forget(value);
     }
 
@@ -235,7 +235,7 @@ impl<S: Scalar> Value<S> {
         Value::Vector(Arc::new(Vector::new(components)))
     }
 
-    /// The name of the value's kind, as Python says it.
+    /// The name of the value's kind, as in Python.
     pub fn kind(&self) -> &'static str {
         match self {
             Value::None => "None",
@@ -270,7 +270,7 @@ impl<S: Scalar> Value<S> {
         }
     }
 
-    /// True when the value holds other values: what the work lists of this room are for.
+    /// True when the value holds other values: what the work lists of this module are for.
     #[inline]
     pub fn holds_values(&self) -> bool {
         matches!(
@@ -294,7 +294,7 @@ impl<S: Scalar> std::fmt::Debug for Value<S> {
     }
 }
 
-/// Python's `==`, for tests and tables; a comparison beyond its budget counts as different.
+/// Python's `==`, for tests and tables; values count as different beyond the budget of a comparison.
 impl<S: Scalar> PartialEq for Value<S> {
     fn eq(&self, other: &Value<S>) -> bool {
         equal(self, other).unwrap_or(false)

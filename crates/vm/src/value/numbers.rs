@@ -40,8 +40,8 @@ impl<S: Scalar> Number<S> {
     }
 }
 
-/// The exact `f64` answer where the scalar is an `f64`; elsewhere the same answer as smooth arithmetic, so that a
-/// recording scalar sees how it depends on its inputs.
+/// The exact `f64` result where the scalar is an `f64`; elsewhere the same result by smooth arithmetic, so that a
+/// recording scalar records how it depends on its inputs.
 #[inline]
 pub fn exact_or<S: Scalar>(exact: f64, smooth: impl FnOnce() -> S) -> S {
     if TypeId::of::<S>() == TypeId::of::<f64>() { S::from_f64(exact) } else { smooth() }
@@ -123,8 +123,8 @@ fn floor_parts(a: f64, b: f64) -> (f64, f64) {
     (if quotient - floor > 0.5 { floor + 1.0 } else { floor }, rest)
 }
 
-/// Says that the run goes on with something that holds only while `lo <= x < hi`, such as a whole part. A recording
-/// scalar notes it; a plain number has nothing to note.
+/// Notes that the run uses a value that holds only while `lo <= x < hi`, such as a whole part. A recording
+/// scalar records a guard; a plain number does nothing.
 #[inline(always)]
 pub fn pin<S: Scalar>(x: S, lo: f64, hi: f64) {
     if x.varies() {
@@ -199,7 +199,8 @@ pub fn to_int(x: f64) -> Result<i64, Fault> {
     Err(Fault::integer_overflow(message))
 }
 
-/// `round(x, digits)` of a real, `inf` when it rounds out of range: to the nearest decimal, ties to even as seen by the exact binary value.
+/// `round(x, digits)` of a real, `inf` when it rounds out of range: to the nearest decimal, ties to even as seen by the
+/// exact binary value.
 pub fn round_real(x: f64, digits: i64) -> f64 {
     if !x.is_finite() || digits > 323 {
         return x;
@@ -241,7 +242,7 @@ pub fn round_int(n: i64, digits: i64) -> Result<i64, Fault> {
 mod tests {
     use super::*;
 
-    /// Expected quotients were worked out with CPython 3.11, which rounds the exact quotient.
+    /// Expected quotients were computed with CPython 3.11, which rounds the exact quotient.
     #[test]
     fn true_division_of_whole_numbers_rounds_once() {
         let cases = [

@@ -1,7 +1,7 @@
 //! The arithmetic and comparison of values: one function for each operator of the language.
 //!
-//! Real with real and int with int come first and stay small enough to be inlined into the machine's dispatch; all
-//! else (strings, sequences, vectors, faults) is behind a call that is marked cold.
+//! Real with real and int with int come first and are small enough to be inlined into the machine's dispatch. All
+//! else (strings, sequences, vectors, faults) is in a function that is marked cold.
 
 use std::cmp::Ordering;
 use std::sync::Arc;
@@ -10,7 +10,7 @@ use super::numbers::{self, Number};
 use super::{MAX_ELEMENTS, Scalar, Text, Value, Vector, compare};
 use crate::fault::Fault;
 
-/// What an operator answers.
+/// The result of an operator.
 pub type Answer<S> = Result<Value<S>, Fault>;
 
 /// `a + b`.
@@ -330,7 +330,7 @@ fn mul_others<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
     }
 }
 
-/// A vector times a number, a sequence repeated; `None` when the two do not go together.
+/// A vector times a number, a sequence repeated; `None` when the two do not fit.
 fn times<S: Scalar>(value: &Value<S>, by: Number<S>) -> Option<Answer<S>> {
     if let Value::Vector(v) = value {
         let by = by.real();
@@ -431,7 +431,7 @@ mod tests {
         answer.map_or_else(|fault| fault.code, |value| panic!("an answer: {value:?}"))
     }
 
-    /// What an operator gives, with its kind: `==` alone does not tell 1 from 1.0.
+    /// The result of an operator with its kind: `==` alone does not distinguish 1 from 1.0.
     fn shown(answer: Answer<f64>) -> String {
         answer.map_or_else(|fault| fault.code.to_string(), |value| format!("{value:?}"))
     }

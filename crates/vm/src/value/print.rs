@@ -63,7 +63,7 @@ pub fn str_of<S: Scalar>(value: &Value<S>) -> Result<String, Fault> {
     }
 }
 
-/// An aggregate on its way out.
+/// An aggregate that is being printed.
 struct Open<'a, S: Scalar> {
     items: Items<'a, S>,
     next: usize,
@@ -115,7 +115,7 @@ pub fn repr<S: Scalar>(value: &Value<S>) -> Result<String, Fault> {
                 out.push('=');
             }
             Items::Labelled(Labels::Keys(keys), _) => {
-                // Keys hold no dictionaries: this goes no deeper.
+                // Keys hold no dictionaries: this does not recurse further.
                 out.push_str(&keys.get(at).map_or(Ok(String::new()), repr)?);
                 out.push_str(": ");
             }

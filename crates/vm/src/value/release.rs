@@ -1,8 +1,8 @@
 //! Dropping nested values without the host stack.
 //!
-//! A plain drop of a chain of a million tuples calls itself a million times. Here the body that is about to go
-//! hands the children that would go with it to a work list, and so on for theirs: the bodies are empty when
-//! they are dropped. A body with no such children (nearly all of them) pays one scan over its tags.
+//! A plain drop of a chain of a million tuples calls itself a million times. Here a body moves the
+//! children that would be dropped with it to a work list, and so on for theirs: bodies are empty when they are
+//! dropped. A body without such children (nearly all of them) costs one scan over its tags.
 
 use std::sync::Arc;
 
@@ -18,7 +18,7 @@ pub(super) fn release<S: Scalar>(items: &mut [Value<S>]) {
     }
 }
 
-/// Moves the children that nobody else holds to the work list.
+/// Moves the children that are not shared to the work list.
 pub(super) fn gather<S: Scalar>(items: &mut [Value<S>], work: &mut Vec<Value<S>>) {
     for item in items {
         if goes_with_us(item) {
@@ -27,8 +27,8 @@ pub(super) fn gather<S: Scalar>(items: &mut [Value<S>], work: &mut Vec<Value<S>>
     }
 }
 
-/// True for an aggregate with one owner. Another thread may let go of a shared one at the same moment, which then
-/// costs one level of host stack, once; it cannot be mistaken the other way round.
+/// True for an aggregate with one owner. Another thread may drop a shared one at the same moment: that costs
+/// one level of host stack, once. A shared one is never taken for one with a single owner.
 #[inline]
 fn goes_with_us<S: Scalar>(value: &Value<S>) -> bool {
     match value {

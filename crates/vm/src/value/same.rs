@@ -1,9 +1,9 @@
 //! Identity of bits: the test that lets a run skip a call or stop.
 //!
-//! The same tag and bits: NaN is itself, -0.0 is not 0.0, 1 is not 1.0 and not True. Aggregates by pointer,
-//! then element by element on a stack of our own, skipping what two lists share. "Different" is always a legal answer (the run
-//! then does more work), so the walk has a budget, and shapes and distributions may give up early. Python's `==` is
-//! another question: see [`compare`](super::compare).
+//! The same tag and bits: NaN is itself, -0.0 is not 0.0, 1 is not 1.0 and not True. Aggregates by pointer, then
+//! element by element on a stack of our own, skipping what two lists share. "Different" is always a legal answer (the
+//! run then does more work), so the test has a budget, and shapes and distributions may give up early. Python's `==` is
+//! different: see [`compare`](super::compare).
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -12,10 +12,10 @@ use niwaki_geom::{Shape, Solid};
 
 use super::{Dist, Draw, List, Param, Scalar, Value};
 
-/// Elements that one identity test may look at before it answers "different".
+/// Elements that one identity test may visit before it answers "different".
 pub const BUDGET: usize = 4096;
 
-/// True when the two values cannot be told apart.
+/// True when the two values have the same bits.
 #[inline]
 pub fn same<S: Scalar>(a: &Value<S>, b: &Value<S>) -> bool {
     match glance(a, b) {
@@ -25,7 +25,7 @@ pub fn same<S: Scalar>(a: &Value<S>, b: &Value<S>) -> bool {
     }
 }
 
-/// What can be said without looking inside.
+/// What is known without a visit to the parts.
 #[derive(PartialEq)]
 enum Glance {
     Same,
@@ -49,7 +49,7 @@ fn same_scalars<S: Scalar>(a: &[S], b: &[S]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same_scalar(*a, *b))
 }
 
-/// Shapes are small and hold no values; only a mesh is worth giving up on.
+/// Shapes are small and hold no values; only a mesh is large enough to give up.
 fn same_shape(a: &Shape, b: &Shape) -> bool {
     match (a.solid(), b.solid()) {
         (Solid::Mesh(m), Solid::Mesh(n)) if !Arc::ptr_eq(m, n) => false,
@@ -96,7 +96,7 @@ fn glance<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Glance {
     }
 }
 
-/// The same for what lies behind a pointer.
+/// The same for shared data.
 fn glance_behind<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Glance {
     let look_if = |same_pointer: bool, look: bool| match (same_pointer, look) {
         (true, _) => Glance::Same,
@@ -128,7 +128,7 @@ fn glance_behind<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Glance {
     }
 }
 
-/// Two numbers that are not the same: most lists and tuples that differ do so in what comes first.
+/// Two numbers that are not the same: most lists and tuples that differ do so in the first element.
 #[inline]
 fn are_other_numbers<S: Scalar>(a: &Value<S>, b: &Value<S>) -> bool {
     match (a, b) {
@@ -138,7 +138,7 @@ fn are_other_numbers<S: Scalar>(a: &Value<S>, b: &Value<S>) -> bool {
     }
 }
 
-/// Whether nothing tells two tuples apart at once.
+/// Whether two tuples have no quick difference.
 #[inline]
 fn may_be_same<S: Scalar>(a: &[Value<S>], b: &[Value<S>]) -> bool {
     a.len() == b.len() && !a.iter().zip(b).take(4).any(|(a, b)| are_other_numbers(a, b))
@@ -149,7 +149,7 @@ fn may_be_same<S: Scalar>(a: &[Value<S>], b: &[Value<S>]) -> bool {
 pub fn same_within<'a, S: Scalar>(a: &'a Value<S>, b: &'a Value<S>, mut budget: usize) -> bool {
     let mut work = vec![(a, b)];
     while let Some((a, b)) = work.pop() {
-        // Only pairs that need a look are on the stack.
+        // Only pairs that need a visit are on the stack.
         let mut meet = |a: &'a Value<S>, b: &'a Value<S>| -> ControlFlow<()> {
             if budget == 0 {
                 return ControlFlow::Break(());

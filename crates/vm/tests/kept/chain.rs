@@ -103,7 +103,7 @@ impl<'p> Chain<'p> {
         }
         match became {
             Change::Impossible => "impossible".into(),
-            // Everything that decides, to the bit.
+            // All that decides, to the bit.
             Change::Same => "same".into(),
             Change::Done => format!("{accept} {log_ratio:?} {after:?} {choices}"),
         }
@@ -128,7 +128,7 @@ impl<'p> Chain<'p> {
         self.trace.rollback(self.program);
     }
 
-    /// Moves several numbers at once, each to a place near by.
+    /// Moves several numbers at once, each to a near value.
     pub fn block(&mut self, step: u64) -> String {
         let mut changes = Vec::new();
         for choice in self.trace.numbers() {
@@ -148,7 +148,7 @@ impl<'p> Chain<'p> {
         self.decide(step, change)
     }
 
-    /// Log densities of proposing these changes, there and back, when they have run; they are undone.
+    /// Log densities of proposing these changes and their reverse after a run; the changes are undone.
     pub fn forward_and_backward(&mut self, changes: Vec<Changed<f64>>) -> (f64, f64) {
         let mut draws = Draws { seed: self.seed, visit: 1, known: HashMap::new() };
         self.machine.change(&mut self.trace, changes, self.strategy, &mut draws).expect("a run");

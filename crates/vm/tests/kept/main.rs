@@ -1,4 +1,4 @@
-//! The claim: however much of a run is done again, the trace is the same to the bit: four strategies agree, a rollback
+//! The claim: however much of a run is repeated, the trace is the same to the bit: four strategies agree, a rollback
 //! restores everything, and the sums are those of a fresh run with the same choices.
 
 mod chain;
@@ -54,7 +54,7 @@ fn a_block_of_changes_agrees_with_a_rerun() {
     }
 }
 
-/// A changed choice that the run meets no more has no part in how likely the move was; one that it meets has.
+/// A changed choice that the run no longer reaches does not count in the move's density; one that it reaches does.
 #[test]
 fn what_is_not_met_again_was_not_proposed() {
     let program = compiled(
@@ -82,7 +82,7 @@ fn what_is_not_met_again_was_not_proposed() {
 /// Mutants: a slice of a choice, of a call's result, or of an argument or capture that does change alone, which ends
 /// before one of its instructions.
 #[test]
-fn a_slice_that_leaves_out_an_instruction_is_found_out() {
+fn a_slice_that_leaves_out_an_instruction_is_detected() {
     let program = compiled(
         r#"(module
           (fn "line" (params $n $a0 $sy)
@@ -164,7 +164,7 @@ fn call_sites_that_never_pay_are_switched_off_and_nothing_else_changes() {
 
 #[test]
 fn nothing_is_left_behind() {
-    // Programs that make and take away activations hold no more after a long run than after a short one, up to
+    // Programs that create and remove activations hold no more after a long run than after a short one, up to
     // the largest that they were.
     let program = compiled(programs::GEOMETRIC);
     let mut chain = Chain::start(&program, Strategy::C3, 3);

@@ -1,4 +1,4 @@
-//! Programs that make, take away and re-enter activations in every way that the language has.
+//! Programs that create, remove and re-enter activations by every construct of the language.
 
 use niwaki_vm::code::Program;
 use niwaki_vm::core::parse::parse;

@@ -1,8 +1,8 @@
-//! Call sites that never pay: where a call was reached again and again and never skipped, its arguments are no longer
+//! Call sites where reuse does not pay: when a call is reached often and never skipped, its arguments are no longer
 //! compared.
 //!
-//! Source: dissertation 3.3.4. A site is switched off when, after some proposals, it has been reached so many times in
-//! a row without one call being skipped on entry or found unchanged on return. Nothing depends on it but time. Here a
+//! Source: dissertation 3.3.4. A site is switched off when, after some proposals, it has been reached so many times
+//! without one call being skipped on entry or unchanged on return. It changes time only. Here a
 //! proposal counts once, however often it reaches the site.
 
 use super::super::state::{NodeId, State};
@@ -13,9 +13,9 @@ use niwaki_math::Scalar;
 /// When a call site is switched off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Adaptation {
-    /// Proposals before any site is.
+    /// Proposals before any site is switched off.
     pub proposals: u32,
-    /// Proposals in a row that reached it for nothing.
+    /// Consecutive proposals that reached it without a benefit.
     pub reached: u32,
 }
 
@@ -26,14 +26,14 @@ impl Default for Adaptation {
     }
 }
 
-/// How call sites have paid.
+/// What each call site has saved so far.
 #[derive(Debug)]
 pub(crate) struct Sites {
     /// `None`: all sites stay on.
     adaptation: Option<Adaptation>,
     /// Number of each function's first site.
     first: Vec<u32>,
-    /// Proposals in a row that reached a site for nothing, and the last of them; `OFF` for one that is switched off.
+    /// Consecutive proposals that reached a site without a benefit, and the last of them; `OFF` when switched off.
     reached: Vec<(u32, u32)>,
 }
 
@@ -76,7 +76,7 @@ impl Sites {
         let Some(adaptation) = self.adaptation else { return };
         let at = self.at(function, site);
         let (reached, last) = &mut self.reached[at];
-        // A proposal that changes what all calls read reaches a site many times, and says no more than once.
+        // A proposal that changes what all calls read reaches a site many times, and counts once.
         if *last == proposal {
             return;
         }
@@ -90,12 +90,12 @@ impl Sites {
 }
 
 impl<S: Scalar> Trace<S> {
-    /// From now on call sites that do not pay are switched off, or (`None`) all are on.
+    /// From now on call sites where reuse does not pay are switched off, or (`None`) all are on.
     pub fn adapt(&mut self, program: &Program<S>, adaptation: Option<Adaptation>) {
         self.kept.sites = Sites::new(program, adaptation);
     }
 
-    /// How many calls are kept, and how many of them stand at sites whose arguments are compared.
+    /// How many calls are kept, and how many of them are at sites whose arguments are compared.
     pub fn cached_calls(&self, program: &Program<S>) -> (usize, usize) {
         let (mut calls, mut cached) = (0, 0);
         let mut work = vec![NodeId(0)];

@@ -1,12 +1,12 @@
-//! Memory that the next proposal will need, asked for while this one runs: in a long chain a choice's activation lies in
-//! no cache, and each step on the way to it would wait for the one before.
-#![allow(unsafe_code)] // The processor's prefetch, which reads nothing and may be given any address.
+//! Prefetches the memory that the next proposal will need, while this one runs. In a long chain the activation of a
+//! choice is in no cache, and each access that leads to it would wait for the one before.
+#![allow(unsafe_code)] // The processor's prefetch, which reads nothing and accepts any address.
 
 use super::{ChoiceAt, Trace};
 use crate::code::{Mode, Program};
 use niwaki_math::Scalar;
 
-/// Asks for what lies there.
+/// Prefetches one address.
 #[inline(always)]
 fn fetch<T>(items: &[T], at: usize) {
     #[cfg(target_arch = "x86_64")]
@@ -20,7 +20,7 @@ fn fetch<T>(items: &[T], at: usize) {
 }
 
 impl<S: Scalar> Trace<S> {
-    /// A proposal to that choice comes soon: its activation's node is asked for.
+    /// A proposal to that choice comes soon: prefetches the node of its activation.
     #[inline]
     pub fn approach(&self, choice: usize) {
         if let Some(ChoiceAt { node, .. }) = self.kept.choices.get(choice) {
@@ -28,7 +28,7 @@ impl<S: Scalar> Trace<S> {
         }
     }
 
-    /// A proposal to that choice comes next: what its activation, and an iteration after it, hold is asked for.
+    /// A proposal to that choice comes next: prefetches what its activation, and the iteration after it, hold.
     #[inline]
     pub fn approach_closer(&self, program: &Program<S>, choice: usize) {
         let Some(ChoiceAt { node, .. }) = self.kept.choices.get(choice) else { return };
@@ -40,7 +40,7 @@ impl<S: Scalar> Trace<S> {
         if program.function(n.function).mode == Mode::Iteration {
             let header = &self.state.nodes[n.parent.0 as usize];
             fetch(&self.kept.loops[header.slots as usize], n.iteration as usize + 1);
-            // Iterations that were made one after the other lie so.
+            // Iterations that were created one after the other are adjacent in memory.
             fetch(&self.state.nodes, node.0 as usize + 1);
             fetch(&self.state.registers, registers + 8);
             fetch(&self.kept.slots, slots + 4);

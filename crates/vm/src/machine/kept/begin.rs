@@ -9,8 +9,8 @@ use crate::value::{Closure, Value};
 use niwaki_math::Scalar;
 
 impl<'p, S: Scalar> Machine<'p, S> {
-    /// Runs the program from the start and keeps its activations. The transaction that made them is open; a start that
-    /// came to a score of minus infinity is of no further use.
+    /// Runs the program from the start and keeps its activations. The transaction that created them is open; a start
+    /// that reached a score of minus infinity cannot be used.
     ///
     /// # Errors
     /// The wrong number of arguments, or a fault of the program.

@@ -1,4 +1,4 @@
-//! Calls of kept activations: entered, skipped, made, taken away.
+//! Calls of kept activations: entered, skipped, created, removed.
 
 use super::super::Machine;
 use super::super::address::join;
@@ -7,7 +7,7 @@ use super::super::question::Halt;
 use super::super::registers::Registers;
 use super::super::state::{NodeId, State};
 use super::super::suspend::After;
-use super::part::Entry;
+use super::slices::Entry;
 use super::{Kept, Slot, Step};
 use crate::code::{FunctionId, Mode, Program, Site, SiteId, SiteKind};
 use crate::fault::Fault;
@@ -15,7 +15,7 @@ use crate::value::{Value, same};
 use niwaki_math::Scalar;
 
 impl<S: Scalar> Kept<S> {
-    /// A call of a known function. The callee is skipped when it is there with the same arguments.
+    /// A call of a known function. The callee is skipped when it exists with the same arguments.
     #[allow(clippy::too_many_arguments)] // the registers of the loop in `interpret`, by value
     pub(super) fn call_known(
         &mut self,
@@ -36,13 +36,13 @@ impl<S: Scalar> Kept<S> {
         let held = self.slots[at].held;
         let operands = &r.f.operands[site.args.range()];
         if held == Slot::NOTHING {
-            let made = self.make(machine, state, node, number, site, function, at)?;
-            let to = state.nodes[made.0 as usize].registers as usize;
+            let created = self.make(machine, state, node, number, site, function, at)?;
+            let to = state.nodes[created.0 as usize].registers as usize;
             for (i, o) in operands.iter().enumerate() {
                 let value = r.get(state, &machine.scratch, *o).clone();
                 state.registers[to + i].store(value);
             }
-            return Ok(self.enter_call(made, 0));
+            return Ok(self.enter_call(created, 0));
         }
         let child = NodeId(held);
         let to = state.nodes[held as usize].registers as usize;
@@ -68,7 +68,7 @@ impl<S: Scalar> Kept<S> {
         Ok(self.call_again(state, child, changed))
     }
 
-    /// A call of a function value. Another function than before is another activation.
+    /// A call of a function value. A different function means a new activation.
     pub(super) fn apply(
         &mut self,
         machine: &mut Machine<'_, S>,
@@ -98,12 +98,12 @@ impl<S: Scalar> Kept<S> {
             return Ok(self.call_again(state, NodeId(held), changed));
         }
         self.vacate(machine.program, state, node, number.0);
-        let made = self.make(machine, state, node, number, site, function, at)?;
-        let to = state.nodes[made.0 as usize].registers as usize;
+        let created = self.make(machine, state, node, number, site, function, at)?;
+        let to = state.nodes[created.0 as usize].registers as usize;
         for (i, value) in machine.buffer.drain(..).enumerate() {
             state.registers[to + i].store(value);
         }
-        Ok(self.enter_call(made, 0))
+        Ok(self.enter_call(created, 0))
     }
 
     #[allow(clippy::too_many_arguments)] // the registers of the loop in `interpret`, by value
@@ -118,15 +118,15 @@ impl<S: Scalar> Kept<S> {
         at: usize,
     ) -> Result<NodeId, Fault> {
         let path = join(state.nodes[node.0 as usize].path, site.key);
-        let made = self.new_node(machine.program, state, function, node, u32::from(number.0), path);
+        let created = self.new_node(machine.program, state, function, node, u32::from(number.0), path);
         if state.bytes() > machine.limits.bytes {
             return Err(machine.out_of_memory());
         }
-        self.write_slot(self.quiet, at, Slot { held: made.0, mark: 0, log: 0.0 });
-        Ok(made)
+        self.write_slot(self.quiet, at, Slot { held: created.0, mark: 0, log: 0.0 });
+        Ok(created)
     }
 
-    /// A call that was made before: entered, unless it can be skipped. Its result is in the caller's register.
+    /// A repeated call: entered, unless it can be skipped. Its result is in the caller's register.
     #[inline]
     pub(super) fn call_again(&mut self, state: &State<S>, child: NodeId, changed: Entry) -> After {
         let (function, site) = Kept::caller(state, child);
@@ -152,7 +152,7 @@ impl<S: Scalar> Kept<S> {
         After::Enter(child, at)
     }
 
-    /// An activation returns. The run ends when nothing that it left is changed.
+    /// An activation returns. The run ends when none of its results has changed.
     pub(super) fn return_to_caller(
         &mut self,
         program: &Program<S>,
@@ -173,7 +173,7 @@ impl<S: Scalar> Kept<S> {
             return Onward::END;
         }
         let above = &state.nodes[parent.0 as usize];
-        let (own, is_new) = (above.registers as usize, above.made == self.now);
+        let (own, is_new) = (above.registers as usize, above.created == self.now);
         let site = &program.function(above.function).sites[number];
         let value = if site.kind.gives_future() { Value::returned(value) } else { value };
         let changed = self.write_to(state, is_new, own + site.to.index(), value);
@@ -195,7 +195,7 @@ impl<S: Scalar> Kept<S> {
         Onward::at(parent, if self.early { site.again } else { site.next })
     }
 
-    /// The site is not on the path taken: what its slot holds goes.
+    /// The site is not on the path taken: what its slot holds is removed.
     pub(super) fn vacate(&mut self, program: &Program<S>, state: &mut State<S>, node: NodeId, site: u16) {
         let at = Kept::slot_at(state, node, site as usize);
         let slot = self.slots[at];
@@ -211,7 +211,7 @@ impl<S: Scalar> Kept<S> {
         self.write_slot(self.is_new(state, node), at, Slot::EMPTY);
     }
 
-    /// Takes an activation away with all below it. Its nodes stay as they are until the transaction is kept.
+    /// Removes an activation with all below it. Its nodes stay as they are until the commit.
     pub(super) fn remove(&mut self, program: &Program<S>, state: &State<S>, node: NodeId) {
         self.leaves_its_activation();
         let from = self.journal.removed.len();

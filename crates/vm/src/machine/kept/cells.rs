@@ -1,13 +1,12 @@
-//! Collections: elements that lie in registers, and those who read them.
+//! Collections: elements that are stored in registers, and their readers.
 //!
 //! A read subscribes to its element. When the element changes, its readers are *woken*: a run that starts at the root
-//! marks them and the activations above them; a run that started at a choice (C3) takes them up one by one when
+//! marks them and the activations above them; a run that started at a choice (C3) runs them one by one when
 //! the rest has ended.
 //!
-//! C3 takes readers up in any order, which is right as long as none of them does more than score again: no
-//! activation is entered or left changed, no choice is made or taken away, no element changes while other readers
-//! wait. Where that does not hold the run is *tangled*: it is undone and done again from the root, where everything
-//! is met in program order.
+//! C3 runs readers in any order. That is right as long as none of them does more than score again: no activation is
+//! entered or returns changed, no choice is added or removed, no element changes while other readers wait. Where that
+//! does not hold the run is *tangled*: it is undone and repeated from the root, in program order.
 
 use super::super::Machine;
 use super::super::answers::Answers;
@@ -26,11 +25,11 @@ use niwaki_math::Scalar;
 pub(crate) struct Reader {
     pub node: NodeId,
     pub site: u16,
-    /// Its slot: `held` is the list it stands in, `mark` its place there.
+    /// Its slot: `held` is the list of readers that contains it, `mark` its place there.
     pub slot: u32,
 }
 
-/// Those who read one element.
+/// The readers of one element.
 #[derive(Debug, Default)]
 pub(crate) struct Readers {
     /// The register that holds the element.
@@ -39,7 +38,7 @@ pub(crate) struct Readers {
 }
 
 impl<S: Scalar> Kept<S> {
-    /// An element is made, or made again.
+    /// An element is created, or computed again.
     pub(super) fn cell(
         &mut self,
         state: &mut State<S>,
@@ -151,7 +150,7 @@ impl<S: Scalar> Kept<S> {
         if before.held != held {
             let reader = Reader { node, site: number, slot: slot as u32 };
             if before.is_filled() {
-                // Which list it stands in matters when an element changes, and when the transaction is kept: most are
+                // Which list contains it matters when an element changes, and at a commit: most transactions are
                 // not.
                 if before.mark & Slot::MOVING == 0 {
                     self.journal.moves.push((reader, before.held));
@@ -166,7 +165,7 @@ impl<S: Scalar> Kept<S> {
         Ok(())
     }
 
-    /// Readers that read another element than before leave the lists in which they stand and enter those of their
+    /// Readers that read another element than before leave their lists and enter those of their
     /// elements.
     pub(super) fn move_readers(&mut self) {
         for i in 0..self.journal.moves.len() {
@@ -180,7 +179,7 @@ impl<S: Scalar> Kept<S> {
         self.journal.moves.clear();
     }
 
-    /// A reader leaves the list it stands in and enters another; `held` may say that there is none.
+    /// A reader leaves its list and enters another; `held` may mean that there is none.
     pub(super) fn subscribe(&mut self, reader: Reader, held: u32) {
         let slot = self.slots[reader.slot as usize];
         if slot.held < Slot::UNWATCHED {
@@ -218,14 +217,14 @@ impl<S: Scalar> Kept<S> {
         self.confined = true;
     }
 
-    /// A run that must stay within one activation does not. It is of no use as it is.
+    /// A run that must stay within one activation does not: its result cannot be used.
     #[inline(always)]
     pub(super) fn leaves_its_activation(&mut self) {
         self.tangled |= self.confined;
     }
 
     /// The elements themselves, of a value that may be a collection, with the values of futures.
-    // Tuples that hold collections are no deeper than the text that makes them.
+    // Tuples that hold collections are no deeper than the program's text.
     pub(super) fn resolved(&self, state: &State<S>, value: &Value<S>) -> Value<S> {
         let value = &value.replace_futures(&|_| None);
         if let Value::Tuple(tuple) = value
@@ -246,8 +245,8 @@ impl<S: Scalar> Kept<S> {
 }
 
 impl<S: Scalar> Machine<'_, S> {
-    /// Where all that a reader does is to score once more, scores it here; false where it does more, and where
-    /// that does not go well: then it is to be run.
+    /// Scores a reader here if it does nothing but score; false where it does more, and where
+    /// scoring fails: then it has to be run.
     #[inline(always)]
     fn scores_alone(&mut self, state: &mut State<S>, kept: &mut Kept<S>, node: NodeId, pc: usize) -> bool {
         let f = self.program.function(state.nodes[node.0 as usize].function);
@@ -270,7 +269,7 @@ impl<S: Scalar> Machine<'_, S> {
         true
     }
 
-    /// Takes up those who were woken; `None` when the run is tangled.
+    /// Runs the readers that were woken; `None` when the run is tangled.
     pub(super) fn take_up_readers<A: Answers<S>>(
         &mut self,
         trace: &mut Trace<S>,
@@ -299,7 +298,7 @@ impl<S: Scalar> Machine<'_, S> {
             }
             match change {
                 Ok(Change::Done) => {}
-                // Met out of program order, a fault or a score of minus infinity may be none.
+                // Out of program order, a fault or a score of minus infinity may not be real.
                 _ if !alone => return Ok(None),
                 other => return other.map(Some),
             }

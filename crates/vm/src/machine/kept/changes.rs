@@ -1,5 +1,5 @@
-//! What an open transaction did to the choices: which came and which go, which were drawn anew where they stand; and
-//! the transaction that asks for just that, drawing choices anew.
+//! What an open transaction did to the choices: which were added, removed or drawn again in place; and the
+//! transaction that draws choices again.
 
 use super::super::Machine;
 use super::super::answers::Answers;
@@ -12,17 +12,17 @@ use crate::value::Value;
 use niwaki_math::{Family, Scalar};
 
 impl<S: Scalar> Trace<S> {
-    /// Where the choices stand that the open transaction made.
+    /// The places of the choices that the open transaction added.
     pub fn births<'a>(&'a self, program: &'a Program<S>) -> impl ExactSizeIterator<Item = Place<'a, S>> {
         self.kept.journal.births.iter().map(|birth| self.place_at(program, birth.node, birth.site))
     }
 
-    /// Numbers of the choices that go when the open transaction is kept, in no order. What they hold can still be read.
+    /// Numbers of the choices that a commit will remove, in no order. What they hold can still be read.
     pub fn deaths(&self) -> &[u32] {
         &self.kept.journal.deaths
     }
 
-    /// Choices that the open transaction drew anew where they stand: address, and the value before.
+    /// Choices that the open transaction drew again in place: address, and the value before.
     pub fn drawn_anew(&self) -> &[(u128, Value<S>)] {
         &self.kept.journal.anew
     }
@@ -48,7 +48,7 @@ impl<S: Scalar> Trace<S> {
     }
 
     /// Visits the choices at and below an activation, in no order: each with its place, its number (`None` where the
-    /// open transaction made it) and how many levels it stands below.
+    /// open transaction added it) and how many levels it is below.
     pub fn below(
         &self,
         program: &Program<S>,
@@ -80,7 +80,7 @@ impl<S: Scalar> Trace<S> {
 }
 
 impl<S: Scalar> Machine<'_, S> {
-    /// Draws choices anew from their distributions, in program order, and runs. The transaction is open afterwards;
+    /// Draws choices again from their distributions, in program order, and runs. The transaction is open afterwards;
     /// its fresh and stale log densities are those of the values drawn and of the values that they replace.
     ///
     /// # Errors
@@ -101,7 +101,7 @@ impl<S: Scalar> Machine<'_, S> {
         for choice in choices {
             let ChoiceAt { node, site } = kept.choices[*choice];
             let at = Kept::slot_at(state, node, site as usize);
-            // A family that none is: what is held does not fit, whatever the distribution.
+            // No family has this number: the held value does not fit, whatever the distribution.
             kept.write_slot(false, at, Slot { mark: Slot::FAMILY, ..kept.slots[at] });
             kept.mark_above(state, node);
         }

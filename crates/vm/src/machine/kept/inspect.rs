@@ -20,11 +20,11 @@ pub enum Item<'a, S: Scalar> {
     Query(&'a Value<S>, &'a Value<S>),
 }
 
-/// Where it stands.
+/// The place of an item in the program.
 pub struct Place<'a, S: Scalar> {
     /// The site.
     pub site: &'a Site,
-    /// The function it stands in.
+    /// The function that contains the site.
     pub function: &'a Function<S>,
     pub(super) node: NodeId,
     pub(super) trace: &'a Trace<S>,
@@ -32,7 +32,7 @@ pub struct Place<'a, S: Scalar> {
 }
 
 impl<S: Scalar> Place<'_, S> {
-    /// How many calls stand above it (iterations of loops are none).
+    /// How many calls are above it (iterations of loops do not count).
     pub fn depth(&self) -> usize {
         self.trace.depth_of(self.program, self.node)
     }
@@ -55,22 +55,22 @@ impl<S: Scalar> Place<'_, S> {
 /// An activation of a trace, named.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Activation {
-    /// The hash of its path: the same in whatever run it is made.
+    /// The hash of its path: the same in every run.
     pub key: u128,
-    /// That of the activation it was called from; a loop's iterations are called from what holds the loop.
+    /// The key of its caller; the caller of a loop's iterations is the activation with the loop.
     pub parent: u128,
-    /// What it is called: the component of an address, or the function's name for the root.
+    /// Its name: the component of an address, or the function's name for the root.
     pub label: String,
     /// The function.
     pub function: String,
-    /// How many calls and iterations stand above it.
+    /// How many calls and iterations are above it.
     pub depth: usize,
 }
 
 impl<S: Scalar> Trace<S> {
-    /// The activations in program order, those before what they call. Loops themselves are none, their iterations are.
+    /// The activations in program order, callers first. A loop is not an activation, its iterations are.
     pub fn outline(&self, program: &Program<S>) -> Vec<Activation> {
-        let mut found = Vec::new();
+        let mut activations = Vec::new();
         let mut work = vec![(NodeId(0), 0, 0usize)];
         while let Some((node, parent, depth)) = work.pop() {
             let n = &self.state.nodes[node.0 as usize];
@@ -83,7 +83,7 @@ impl<S: Scalar> Trace<S> {
             let path = self.state.path(program, node);
             let label =
                 if depth == 0 { f.name.to_string() } else { path.rsplit('/').next().unwrap_or("").into() };
-            found.push(Activation { key: n.path, parent, label, function: f.name.to_string(), depth });
+            activations.push(Activation { key: n.path, parent, label, function: f.name.to_string(), depth });
             for (i, site) in f.sites.iter().enumerate().rev() {
                 let slot = self.kept.slots[n.slots as usize + i];
                 if site.kind.makes_activation() && slot.is_filled() {
@@ -91,11 +91,11 @@ impl<S: Scalar> Trace<S> {
                 }
             }
         }
-        found
+        activations
     }
 
-    /// Whether one activation was called, by whatever way, from another.
-    pub fn stands_below(&self, node: NodeId, above: NodeId) -> bool {
+    /// Whether one activation was called, directly or indirectly, from another.
+    pub fn is_below(&self, node: NodeId, above: NodeId) -> bool {
         let mut at = node;
         while at != NodeId::NONE && at != above {
             at = self.state.nodes[at.0 as usize].parent;
@@ -182,7 +182,7 @@ impl<S: Scalar> Trace<S> {
         self.place(program, choice).path()
     }
 
-    /// Where a choice stands.
+    /// The place of a choice.
     pub fn place<'a>(&'a self, program: &'a Program<S>, choice: usize) -> Place<'a, S> {
         let at = self.kept.choices[choice];
         self.place_at(program, at.node, at.site)
@@ -193,7 +193,7 @@ impl<S: Scalar> Trace<S> {
         Place { site: &function.sites[site as usize], function, node, trace: self, program }
     }
 
-    /// The function and the site of a choice: what all choices made at one place of the text have in common.
+    /// The function and the site of a choice: the same for all choices from one place of the text.
     pub fn site_of(&self, choice: usize) -> (crate::code::FunctionId, u16) {
         let at = self.kept.choices[choice];
         (self.state.nodes[at.node.0 as usize].function, at.site)
@@ -208,7 +208,7 @@ impl<S: Scalar> Trace<S> {
         (&self.state.registers[n.registers as usize + site.to.index()], slot.log)
     }
 
-    /// How many calls stand above a choice (iterations of loops are none).
+    /// How many calls are above a choice (iterations of loops do not count).
     pub fn depth(&self, program: &Program<S>, choice: usize) -> usize {
         self.depth_of(program, self.kept.choices[choice].node)
     }
@@ -224,7 +224,7 @@ impl<S: Scalar> Trace<S> {
         depth - 1
     }
 
-    /// The choices of the trace by number, in the order of the table; it changes when choices are born or die.
+    /// The choices of the trace by number, in the order of the table; it changes when choices are added or removed.
     pub fn numbers(&self) -> std::ops::Range<usize> {
         0..self.kept.choices.len()
     }

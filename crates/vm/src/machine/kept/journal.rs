@@ -1,7 +1,7 @@
-//! The journal: what a transaction has overwritten, made and taken away.
+//! The journal: what a transaction has overwritten, created and removed.
 //!
 //! An entry is a place and what it held before. Undoing takes them last first, so that a place that was written twice
-//! gets its first value back. An activation made in the transaction needs no entries: it goes as a whole.
+//! gets its first value back. An activation created in the transaction needs no entries: it is removed as a whole.
 
 use super::super::state::NodeId;
 use super::cells::Reader;
@@ -16,23 +16,23 @@ pub(crate) struct Journal<S: Scalar> {
     pub slots: Vec<(u32, Slot)>,
     /// How an iteration had ended.
     pub ends: Vec<(NodeId, u32)>,
-    /// Number of a loop, and how many iterations it had when its last ones were taken away or added.
+    /// Number of a loop, and how many iterations it had before some were removed or added.
     pub loops: Vec<Cut>,
-    pub made: Vec<NodeId>,
+    pub created: Vec<NodeId>,
     pub removed: Vec<NodeId>,
-    /// Rows of primitives that were put into the scene, and those taken out.
+    /// Numbers of primitives that were added to the scene, and of those removed.
     pub emitted: Vec<u32>,
     pub retracted: Vec<u32>,
     pub births: Vec<Birth>,
     pub deaths: Vec<u32>,
-    /// Reads that went to another list of readers, and where they stood.
+    /// Reads that moved to another list of readers, and their places before.
     pub reads: Vec<(Reader, u32)>,
-    /// Reads of another element than before, and the list in which they still stand.
+    /// Reads of another element than before, and the list that still contains them.
     pub moves: Vec<(Reader, u32)>,
-    /// Lists of readers of cells that were made, and of those taken away.
+    /// Lists of readers of cells that were created, and of those removed.
     pub cells: Vec<u32>,
     pub dead_cells: Vec<u32>,
-    /// Choices that were drawn anew where they stand: address, and the value before.
+    /// Choices that were drawn again in place: address, and the value before.
     pub anew: Vec<(u128, Value<S>)>,
 }
 
@@ -41,11 +41,11 @@ pub(crate) struct Journal<S: Scalar> {
 pub(crate) struct Cut {
     pub number: u32,
     pub len: u32,
-    /// The iterations from `len` on, where some were taken away.
+    /// The iterations from `len` on, where some were removed.
     pub removed: Vec<NodeId>,
 }
 
-/// A choice that was made in the open transaction.
+/// A choice that the open transaction added.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Birth {
     pub address: u128,
@@ -60,7 +60,7 @@ impl<S: Scalar> Default for Journal<S> {
             slots: vec![],
             ends: vec![],
             loops: vec![],
-            made: vec![],
+            created: vec![],
             removed: vec![],
             emitted: vec![],
             retracted: vec![],
@@ -82,7 +82,7 @@ impl<S: Scalar> Journal<S> {
         self.slots.clear();
         self.ends.clear();
         self.loops.clear();
-        self.made.clear();
+        self.created.clear();
         self.removed.clear();
         self.emitted.clear();
         self.retracted.clear();

@@ -1,7 +1,7 @@
 //! Kept loops: a loop node with its iterations, each an activation of its own.
 //!
-//! When an iteration hands on what it handed on before, and neither what the loop runs over nor what its iterations
-//! capture has changed, all later iterations are unchanged.
+//! When an iteration passes on the same values as before, and neither what the loop runs over nor what its
+//! iterations capture has changed, all later iterations are unchanged.
 
 use super::super::Machine;
 use super::super::address::{iteration_key, join};
@@ -10,27 +10,27 @@ use super::super::registers::Registers;
 use super::super::state::{NodeId, State};
 use super::super::suspend::After;
 use super::journal::Cut;
-use super::part::Entry;
+use super::slices::Entry;
 use super::{Active, Kept, Slot, Step};
 use crate::code::{Args, Loop, Operand, Site, SiteId, SiteKind, exit};
 use crate::fault::Fault;
 use crate::value::{Value, iter_get, iter_len, same};
 use niwaki_math::Scalar;
 
-/// What an iteration is handed by the one before.
+/// The carried values that an iteration gets.
 #[derive(Clone, Copy, PartialEq)]
-pub(super) enum Handed {
-    /// What it was handed the last time.
+pub(super) enum Carried {
+    /// The same as the last time.
     Unchanged,
     /// What is in the machine's buffer.
     Buffer,
 }
 
-/// Where a loop goes on.
+/// Where a loop continues.
 pub(super) enum Next {
     /// In this iteration, at that instruction.
     Enter(NodeId, u32),
-    /// It has ended, and left what it left before or something else.
+    /// It has ended, with the same results as before or with others.
     Ended { changed: bool },
 }
 
@@ -97,7 +97,7 @@ impl<S: Scalar> Kept<S> {
         r.gather(state, &machine.scratch, l.carried, &mut machine.buffer);
         self.counters.entered += 1;
         self.note(Step::Entered(active.header));
-        match self.iterate(machine, state, active, 0, Handed::Buffer)? {
+        match self.iterate(machine, state, active, 0, Carried::Buffer)? {
             Next::Enter(child, at) => {
                 self.active.push(active);
                 self.depth += 1;
@@ -108,14 +108,14 @@ impl<S: Scalar> Kept<S> {
         }
     }
 
-    /// Goes on with iteration `i` of a loop: to the first that must be entered, or to its end.
+    /// Continues with iteration `i` of a loop: to the first that must be entered, or to its end.
     pub(super) fn iterate(
         &mut self,
         machine: &mut Machine<'_, S>,
         state: &mut State<S>,
         active: Active,
         mut i: usize,
-        mut handed: Handed,
+        mut carried: Carried,
     ) -> Result<Next, Fault> {
         let header = active.header;
         let (path, at, list) = {
@@ -127,14 +127,14 @@ impl<S: Scalar> Kept<S> {
         let first = usize::from(count != usize::MAX);
         loop {
             if i >= count {
-                return Ok(self.end(machine, state, header, i, exit::NEXT, handed));
+                return Ok(self.end(machine, state, header, i, exit::NEXT, carried));
             }
             let element = |state: &State<S>| (first == 1).then(|| iter_get(&state.registers[at], i));
             let Some(child) = self.loops[list].get(i).copied() else {
                 let element = element(state);
                 self.leaves_its_activation();
-                if handed == Handed::Unchanged {
-                    // The loop has grown: what its last iteration left is what it left the owner.
+                if carried == Carried::Unchanged {
+                    // The loop has more iterations: the results of its last iteration were those of the loop.
                     self.gather_left(machine, state, header);
                 }
                 let (owner, number) = {
@@ -144,14 +144,14 @@ impl<S: Scalar> Kept<S> {
                 let f = machine.program.function(state.nodes[owner.0 as usize].function);
                 let SiteKind::Loop(l) = &f.sites[number].kind else { unreachable!("a loop's site") };
                 let path = join(path, iteration_key(i as u32));
-                let made = self.new_node(machine.program, state, l.body, header, 0, path);
-                let node = &mut state.nodes[made.0 as usize];
+                let created = self.new_node(machine.program, state, l.body, header, 0, path);
+                let node = &mut state.nodes[created.0 as usize];
                 node.iteration = i as u32;
                 let to = node.registers as usize;
                 if !self.is_new(state, header) {
                     self.journal.loops.push(Cut { number: list as u32, len: i as u32, removed: vec![] });
                 }
-                self.loops[list].push(made);
+                self.loops[list].push(created);
                 for (k, value) in element.into_iter().chain(machine.buffer.drain(..)).enumerate() {
                     state.registers[to + k].store(value);
                 }
@@ -159,7 +159,7 @@ impl<S: Scalar> Kept<S> {
                     return Err(machine.out_of_memory());
                 }
                 self.counters.entered += 1;
-                return Ok(Next::Enter(made, 0));
+                return Ok(Next::Enter(created, 0));
             };
             let to = state.nodes[child.0 as usize].registers as usize;
             let mut changed = active.captures;
@@ -170,7 +170,7 @@ impl<S: Scalar> Kept<S> {
             {
                 changed.add(inputs[0]);
             }
-            if handed == Handed::Buffer {
+            if carried == Carried::Buffer {
                 for (k, value) in machine.buffer.drain(..).enumerate() {
                     if self.write_to(state, false, to + first + k, value) {
                         changed.add(inputs[first + k]);
@@ -186,7 +186,7 @@ impl<S: Scalar> Kept<S> {
             self.counters.skipped += 1;
             self.note(Step::Skipped(child));
             let ended = i64::from(state.nodes[child.0 as usize].pc);
-            handed = Handed::Unchanged;
+            carried = Carried::Unchanged;
             if ended != exit::NEXT || (!active.over && !self.is_marked(header)) {
                 return Ok(Next::Ended { changed: false });
             }
@@ -194,7 +194,7 @@ impl<S: Scalar> Kept<S> {
         }
     }
 
-    /// An iteration ends. The run ends when it has left nothing that is changed.
+    /// An iteration ends. The run ends when none of its results has changed.
     pub(super) fn end_of_iteration(
         &mut self,
         machine: &mut Machine<'_, S>,
@@ -209,7 +209,7 @@ impl<S: Scalar> Kept<S> {
         let (header, i) = (n.parent, n.iteration as usize);
         let above = state.nodes[header.0 as usize];
         let next = self.loops[above.slots as usize].get(i + 1).copied();
-        let is_new = n.made == self.now;
+        let is_new = n.created == self.now;
         let operands = &r.f.operands[carried.range()];
         let is_base = self.depth == 0;
         let active = match self.active.last() {
@@ -223,7 +223,7 @@ impl<S: Scalar> Kept<S> {
             && kind == exit::NEXT
             && i64::from(n.pc) == kind
         {
-            // The frequent case: nothing but what is handed on, or what all iterations capture, can have changed.
+            // The frequent case: only carried values, or what all iterations capture, can have changed.
             let mut changed = active.captures;
             if !operands.is_empty() {
                 let first = usize::from(!matches!(state.registers[above.registers as usize], Value::None));
@@ -282,9 +282,9 @@ impl<S: Scalar> Kept<S> {
         }
         r.gather(state, &machine.scratch, carried, &mut machine.buffer);
         let next = if kind == exit::NEXT {
-            self.iterate(machine, state, active, i + 1, Handed::Buffer)?
+            self.iterate(machine, state, active, i + 1, Carried::Buffer)?
         } else {
-            self.end(machine, state, header, i + 1, kind, Handed::Buffer)
+            self.end(machine, state, header, i + 1, kind, Carried::Buffer)
         };
         Ok(match next {
             Next::Enter(child, at) => Onward::at(child, at),
@@ -292,7 +292,7 @@ impl<S: Scalar> Kept<S> {
         })
     }
 
-    /// The loop has ended: its owner goes on, unless nothing is changed for it.
+    /// The loop has ended: its owner continues, unless nothing has changed for it.
     pub(super) fn go_on(
         &mut self,
         machine: &Machine<'_, S>,
@@ -324,7 +324,7 @@ impl<S: Scalar> Kept<S> {
         !matches!(state.registers[at], Value::None)
     }
 
-    /// The loop ends before iteration `i`: later ones go, and what it leaves goes to its owner.
+    /// The loop ends before iteration `i`: later ones are removed, and its owner gets the results.
     fn end(
         &mut self,
         machine: &mut Machine<'_, S>,
@@ -332,14 +332,14 @@ impl<S: Scalar> Kept<S> {
         header: NodeId,
         i: usize,
         kind: i64,
-        handed: Handed,
+        carried: Carried,
     ) -> Next {
         let n = state.nodes[header.0 as usize];
         let list = n.slots as usize;
         let shrunk = self.loops[list].len() > i;
         if shrunk {
-            if handed == Handed::Unchanged {
-                // Iteration `i` was handed what the loop leaves now.
+            if carried == Carried::Unchanged {
+                // The loop's results are the values that iteration `i` got.
                 self.gather_handed(machine, state, header, i);
             }
             let removed = self.loops[list].split_off(i);
@@ -347,14 +347,14 @@ impl<S: Scalar> Kept<S> {
                 self.remove(machine.program, state, *child);
             }
             self.journal.loops.push(Cut { number: list as u32, len: i as u32, removed });
-        } else if handed == Handed::Unchanged {
+        } else if carried == Carried::Unchanged {
             return Next::Ended { changed: false };
         }
         let changed = self.leave(machine, state, n.parent, SiteId(n.site as u16), kind);
         Next::Ended { changed }
     }
 
-    /// Into the buffer: what the loop left its owner.
+    /// Into the buffer: the loop's results in its owner.
     fn gather_left(&self, machine: &mut Machine<'_, S>, state: &State<S>, header: NodeId) {
         let (own, left) = left(machine, state, header, exit::NEXT);
         let values: Vec<Value<S>> = left.map(|o| state.registers[own + o.index()].clone()).collect();
@@ -362,7 +362,7 @@ impl<S: Scalar> Kept<S> {
         machine.buffer.extend(values);
     }
 
-    /// Into the buffer: what iteration `i` was handed.
+    /// Into the buffer: the carried values that iteration `i` got.
     fn gather_handed(&self, machine: &mut Machine<'_, S>, state: &State<S>, header: NodeId, i: usize) {
         let child = self.loops[state.nodes[header.0 as usize].slots as usize][i];
         let n = &state.nodes[child.0 as usize];
@@ -373,7 +373,7 @@ impl<S: Scalar> Kept<S> {
         machine.buffer.extend(state.registers[at + first..at + f.params as usize].iter().cloned());
     }
 
-    /// Writes what came out of a loop, in the buffer, to the registers of its owner; whether anything changed.
+    /// Writes the results of a loop, in the buffer, to the registers of its owner; whether anything changed.
     fn leave(
         &mut self,
         machine: &mut Machine<'_, S>,
@@ -384,7 +384,7 @@ impl<S: Scalar> Kept<S> {
     ) -> bool {
         let n = &state.nodes[owner.0 as usize];
         let (f, own, is_new) =
-            (machine.program.function(n.function), n.registers as usize, n.made == self.now);
+            (machine.program.function(n.function), n.registers as usize, n.created == self.now);
         let SiteKind::Loop(l) = &f.sites[number.0 as usize].kind else { return false };
         let mut changed = false;
         if let Some((how, value)) = l.exit {
@@ -401,8 +401,8 @@ impl<S: Scalar> Kept<S> {
     }
 }
 
-/// Where a loop's last iteration left its carried values (and, by `return`, its value): first register of the owner, and
-/// the operands.
+/// Where a loop's last iteration wrote its carried values (and, by `return`, its value): first register of the owner,
+/// and the operands.
 fn left<'a, S: Scalar>(
     machine: &Machine<'a, S>,
     state: &State<S>,

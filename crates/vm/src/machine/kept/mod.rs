@@ -1,4 +1,4 @@
-//! Kept activations: a trace whose parts are run again where a choice changed.
+//! Kept activations: a trace that is run again only where a choice changed.
 //!
 //! Every activation that can suspend stays as a node after it has returned, with one slot for each of its sites. A
 //! *transaction* changes choices and runs on from them: [`Machine::begin`], [`Machine::propose`] or
@@ -7,14 +7,15 @@
 //!
 //! * `begin`: the first run; `slot`, `journal`: what is remembered, and what can be undone;
 //! * `questions`: choices, factors, emits and queries that are reached again;
-//! * `calls`, `loops`: activations that are entered, skipped, made and taken away; `adapt`: calls that never pay;
-//! * `part`: activations that are entered for one change only, and run no more than what depends on it;
-//! * `cells`: elements of collections, and those who read them;
+//! * `calls`, `loops`: activations that are entered, skipped, created and removed; `adapt`: calls where reuse does not
+//!   pay;
+//! * `slices`: activations that are entered for one change only, and run no more than what depends on it;
+//! * `cells`: elements of collections, and their readers;
 //! * `transaction`: changing choices, keeping or undoing it; `changes`: what that did to the choices;
 //! * `ahead`: memory that the next proposal will need;
 //! * [`inspect`]: what a trace holds, in program order.
 //!
-//! Futures run where they are made, so what a future gives has returned.
+//! Futures run where they are created, so every future has returned when its value is read.
 //!
 //! Source: C3, dissertation chapter 3: its cache is the slots, its continuations are (node, program counter).
 
@@ -27,8 +28,8 @@ mod changes;
 pub mod inspect;
 mod journal;
 mod loops;
-mod part;
 mod questions;
+mod slices;
 mod slot;
 mod transaction;
 
@@ -51,7 +52,7 @@ use cells::{Reader, Readers};
 use journal::Journal;
 use niwaki_geom::Primitive;
 use niwaki_math::{Scalar, Total};
-use part::Entry;
+use slices::Entry;
 use slot::Slot;
 
 /// How much of a run is done again when a choice changes.
@@ -109,16 +110,16 @@ pub struct Counters {
     pub instructions: u64,
 }
 
-/// What happened to an activation in a run, for those who want to see it.
+/// What happened to an activation in a run, for reports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Step {
     /// Instructions of it were carried out.
     Entered(NodeId),
     /// It was skipped: its inputs were unchanged.
     Skipped(NodeId),
-    /// It was made.
-    Made(NodeId),
-    /// It was taken away.
+    /// It was created.
+    Created(NodeId),
+    /// It was removed.
     Removed(NodeId),
     /// It returned to its caller.
     Unwound(NodeId),
@@ -148,12 +149,12 @@ pub struct Totals {
     pub log_prior: Total,
     /// Factors and observations, nats.
     pub log_factors: Total,
-    /// How many factors and observations there are.
+    /// The number of factors and observations.
     pub factors: i64,
 }
 
 impl Totals {
-    /// Adds others.
+    /// Adds other sums.
     #[inline(always)]
     pub fn add(&mut self, other: &Totals) {
         self.log_prior.add_total(&other.log_prior);
@@ -177,7 +178,7 @@ pub(crate) struct Kept<S: Scalar> {
     pub choices: Vec<ChoiceAt>,
     pub emits: Vec<Option<Primitive>>,
     pub free_emits: Vec<u32>,
-    /// Those who read each cell.
+    /// The readers of each cell.
     pub readers: Vec<Readers>,
     pub free_readers: Vec<u32>,
     pub sites: Sites,
@@ -192,31 +193,31 @@ pub(crate) struct Kept<S: Scalar> {
     /// What it adds to the sums.
     pub change: Totals,
     pub result_before: Option<Value<S>>,
-    /// Log densities of choices that were drawn, and of those that went.
+    /// Log densities of choices that were drawn, and of those that were removed.
     pub fresh: Total,
     pub stale: Total,
-    /// The changed choice was to have a value that it cannot have.
+    /// The new value of the changed choice is outside its support.
     pub outside: bool,
-    /// The changed choices: slot, and the log densities of changing it there and back.
+    /// The changed choices: slot, and the log densities of the change and of its reverse.
     pub changed: Vec<(u32, f64, f64)>,
     pub now: u32,
     // The run in progress.
     depth: u32,
-    /// The instruction in hand, and where each activation entered from above goes on when it is left.
+    /// The current instruction, and where each activation entered from above continues when it is left.
     pc: u32,
     returns: Vec<u32>,
-    /// The activation in hand was made in this transaction: nothing of it needs to be journaled.
+    /// The current activation was created in this transaction: the journal need not record it.
     quiet: bool,
     early: bool,
     reuse: bool,
     active: Vec<Active>,
-    /// Transaction in which a node was marked as standing above a changed choice.
+    /// Transaction in which a node was marked as being above a changed choice.
     marks: Vec<u32>,
     marking: bool,
-    /// Readers of changed cells, and how many of them have been taken up.
+    /// Readers of changed cells, and how many of them have run.
     woken: Vec<Reader>,
     taken: usize,
-    /// The run must not leave the activation in hand; and whether it did.
+    /// The run must not leave the current activation; and whether it did.
     confined: bool,
     tangled: bool,
 }
@@ -275,7 +276,7 @@ impl<S: Scalar> Kept<S> {
 
     #[inline]
     fn is_new(&self, state: &State<S>, node: NodeId) -> bool {
-        state.nodes[node.0 as usize].made == self.now
+        state.nodes[node.0 as usize].created == self.now
     }
 
     #[inline(always)]
@@ -321,12 +322,12 @@ impl<S: Scalar> Kept<S> {
         path: u128,
     ) -> NodeId {
         let count = state.nodes.len();
-        let made = state.new_node(program, function, parent, site, path);
-        let node = &mut state.nodes[made.0 as usize];
-        node.made = self.now;
-        // How a new iteration ended is nothing that it can end with.
+        let created = state.new_node(program, function, parent, site, path);
+        let node = &mut state.nodes[created.0 as usize];
+        node.created = self.now;
+        // A new iteration has an exit code that no iteration ends with.
         node.pc = u32::MAX;
-        if made.0 as usize == count {
+        if created.0 as usize == count {
             let f = program.function(function);
             if f.mode == Mode::Loop {
                 node.slots = self.loops.len() as u32;
@@ -336,12 +337,12 @@ impl<S: Scalar> Kept<S> {
                 self.slots.resize(self.slots.len() + f.sites.len(), Slot::EMPTY);
             }
         }
-        self.journal.made.push(made);
-        self.note(Step::Made(made));
-        made
+        self.journal.created.push(created);
+        self.note(Step::Created(created));
+        created
     }
 
-    /// Gives a node back, its slots empty.
+    /// Releases a node, its slots empty.
     fn release(&mut self, program: &Program<S>, state: &mut State<S>, id: NodeId) {
         let node = state.nodes[id.0 as usize];
         let f = program.function(node.function);
@@ -354,7 +355,7 @@ impl<S: Scalar> Kept<S> {
         state.release(program, id);
     }
 
-    /// Whether the node stands above a changed choice, in a run that starts at the root.
+    /// Whether the node is above a changed choice, in a run that starts at the root.
     #[inline(always)]
     fn is_marked(&self, node: NodeId) -> bool {
         self.marking && self.marks.get(node.0 as usize).is_some_and(|mark| *mark == self.now)
@@ -366,7 +367,7 @@ impl<S: Scalar> Keep<S> for Kept<S> {
 
     #[inline(always)]
     fn enter(&mut self, state: &State<S>, node: NodeId) {
-        self.quiet = state.nodes[node.0 as usize].made == self.now;
+        self.quiet = state.nodes[node.0 as usize].created == self.now;
     }
 
     #[inline(always)]
@@ -481,7 +482,7 @@ impl<S: Scalar> Trace<S> {
         self.kept.resolved(&self.state, &self.kept.result)
     }
 
-    /// How many choices it has.
+    /// The number of choices.
     pub fn len(&self) -> usize {
         self.kept.choices.len()
     }
@@ -491,7 +492,7 @@ impl<S: Scalar> Trace<S> {
         self.kept.choices.is_empty()
     }
 
-    /// Bytes that the trace holds, what is shared apart.
+    /// Bytes that the trace holds, without shared values.
     pub fn bytes(&self) -> usize {
         self.state.bytes()
             + self.kept.slots.len() * size_of::<Slot>()

@@ -18,7 +18,7 @@ use niwaki_math::{Dist, Family, Scalar, grid};
 pub(super) use super::super::question::log_density;
 
 /// Whether a kept value can be a value of that distribution at all: vectors have the right number of components,
-/// and the one value of a delta is drawn anew.
+/// and the one value of a delta is drawn again.
 #[inline]
 pub fn fits<S: Scalar>(dist: &Dist<S>, value: &Value<S>) -> bool {
     match value {
@@ -180,8 +180,8 @@ impl<S: Scalar> Kept<S> {
             }
             return Ok(false);
         }
-        let mut made = None;
-        let dist = machine.dist(state, r, site, site.args, &mut made)?;
+        let mut owned = None;
+        let dist = machine.dist(state, r, site, site.args, &mut owned)?;
         let family = dist.family() as u32;
         if slot.is_filled() && slot.mark & Slot::FAMILY == family && fits(dist, &state.registers[place]) {
             let log = check(log_density(dist, &state.registers[place])?.value(), "a log density")?;
@@ -196,7 +196,7 @@ impl<S: Scalar> Kept<S> {
         let Answer::Go(value) = answers.choice(&question, dist)? else { return Err(Halt::Paused) };
         let log = check(log_density(dist, &value)?.value(), "a log density")?;
         let held = if slot.is_filled() {
-            // Drawn anew: the old value goes, as if it had died and been born again at the same place in the table.
+            // Drawn again: the old value counts as removed, the new one as added at the same place in the table.
             self.stale.add(slot.log);
             self.forget_change(at);
             self.change.log_prior.remove(slot.log);
@@ -237,10 +237,10 @@ impl<S: Scalar> Kept<S> {
             _ => match observed_number(machine, state, r, site) {
                 Some(log) => log,
                 None => {
-                    let mut made = None;
+                    let mut owned = None;
                     let args = Args { len: last as u16, ..site.args };
                     let value = r.get(state, &machine.scratch, operand).clone();
-                    let dist = machine.dist(state, r, site, args, &mut made)?;
+                    let dist = machine.dist(state, r, site, args, &mut owned)?;
                     let log = log_density(dist, &value)?.value();
                     if site.is_read {
                         self.write_to(state, self.quiet, r.own + site.to.index(), value);
@@ -278,21 +278,21 @@ impl<S: Scalar> Kept<S> {
             self.journal.retracted.push(slot.held);
         }
         let primitive = Some(Primitive::new(shapes));
-        let row = match self.free_emits.pop() {
-            Some(row) => {
-                self.emits[row as usize] = primitive;
-                row
+        let number = match self.free_emits.pop() {
+            Some(number) => {
+                self.emits[number as usize] = primitive;
+                number
             }
             None => {
                 self.emits.push(primitive);
                 self.emits.len() as u32 - 1
             }
         };
-        self.journal.emitted.push(row);
-        self.write_slot(self.quiet, at, Slot { held: row, mark: 0, log: 0.0 });
+        self.journal.emitted.push(number);
+        self.write_slot(self.quiet, at, Slot { held: number, mark: 0, log: 0.0 });
     }
 
-    /// A changed choice is not met after all: its proposal has no part in the move.
+    /// A changed choice is no longer reached: its proposal does not count in the move.
     fn forget_change(&mut self, at: usize) {
         if self.slots[at].mark & Slot::CHANGED != 0
             && let Some(change) = self.changed.iter_mut().find(|c| c.0 as usize == at)
@@ -301,7 +301,7 @@ impl<S: Scalar> Kept<S> {
         }
     }
 
-    /// Takes away what a question's slot holds.
+    /// Removes what a question's slot holds.
     pub(super) fn withdraw(&mut self, kind: &SiteKind, at: usize, node: NodeId, site: u16) {
         let slot = self.slots[at];
         self.leaves_its_activation();

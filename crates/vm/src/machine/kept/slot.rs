@@ -6,12 +6,12 @@
 //! | factor, observation | 0 | | nats |
 //! | call, future | the callee's node | | |
 //! | loop | the loop's node | | |
-//! | emit | row of its primitive | | |
+//! | emit | number of its primitive | | |
 //! | query, force | 0 | | |
 //! | cell | the list of its readers | | (append: address of the list before, as bits) |
-//! | read | the list in which it stands (or `UNWATCHED`) | its place there | |
+//! | read | the list of readers that contains it (or `UNWATCHED`) | its place there | |
 //!
-//! The value of a choice, the result of a call and what a query wrote lie in registers.
+//! The value of a choice, the result of a call and what a query wrote are in registers.
 
 /// One slot.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,7 +31,7 @@ impl Slot {
     /// The slot of a site that is not on the path.
     pub const EMPTY: Slot = Slot { held: Slot::NOTHING, mark: 0, log: 0.0 };
 
-    /// A choice that was born in the open transaction: its number is one among the births.
+    /// A choice that the open transaction added: its number is one among the births.
     pub const BORN: u32 = 1 << 31;
 
     /// The part of a choice's `mark` that is its family.
@@ -40,8 +40,8 @@ impl Slot {
     /// Set in the `mark` of a choice that the open transaction changes.
     pub const CHANGED: u32 = 1 << 8;
 
-    /// Set in the `mark` of a read that the open transaction has given another element: it stands in the list of the one
-    /// before.
+    /// Set in the `mark` of a read that the open transaction has given another element: the list of the old one still
+    /// contains it.
     pub const MOVING: u32 = 1 << 31;
 
     /// Whether its site is on the path taken.

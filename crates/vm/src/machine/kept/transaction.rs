@@ -1,4 +1,4 @@
-//! Transactions: choices change, what they reach is run again, and all of it is kept or undone.
+//! Transactions: choices change, what depends on them is run again, and all of it is committed or undone.
 
 use super::super::answers::{Answers, At};
 use super::super::stack::RunFault;
@@ -12,14 +12,14 @@ use crate::value::{Value, same};
 use niwaki_geom::Primitive;
 use niwaki_math::{Dist, Scalar, Total, grid};
 
-/// What became of a run.
+/// The outcome of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Change {
-    /// It went to its end.
+    /// It ran to its end.
     Done,
     /// Nothing changed: the new value is the old one.
     Same,
-    /// The score became minus infinity; the run stopped there, so that all it can do is be rolled back.
+    /// The score became minus infinity. The run stopped there and must be rolled back.
     Impossible,
 }
 
@@ -34,9 +34,9 @@ pub struct Proposed<S: Scalar> {
     pub backward: f64,
 }
 
-/// Whoever proposes a new value for one choice.
+/// Proposes a new value for one choice.
 pub trait Propose<S: Scalar> {
-    /// Whether it draws from the choice's own distribution: what it proposes forward with is the value's log density.
+    /// Whether it draws from the choice's own distribution: its forward log density is then that of the value.
     const FROM_PRIOR: bool = false;
 
     /// A new value for the choice, given its distribution, its value and that value's log density.
@@ -83,7 +83,7 @@ impl<S: Scalar> Kept<S> {
         (self.confined, self.tangled) = (false, false);
     }
 
-    /// Log densities of the proposal itself: of changing the changed choices, and of changing them back.
+    /// Log densities of the proposal itself: of the changes, and of their reverse.
     fn proposal(&self) -> (f64, f64) {
         let sum = |of: fn(&(u32, f64, f64)) -> f64| self.changed.iter().map(of).sum::<f64>();
         (sum(|c| c.1), sum(|c| c.2))
@@ -99,7 +99,7 @@ impl<S: Scalar> Kept<S> {
         self.stale.clear();
     }
 
-    /// The transaction ends, kept or undone.
+    /// The transaction ends, committed or undone.
     fn close(&mut self) {
         for (at, ..) in self.changed.drain(..) {
             self.slots[at as usize].mark &= !Slot::CHANGED;
@@ -117,18 +117,18 @@ impl<S: Scalar> Trace<S> {
         &self.kept.change
     }
 
-    /// How many choices the trace has with the open transaction.
+    /// The number of choices with the open transaction.
     pub fn len_after(&self) -> usize {
         let journal = &self.kept.journal;
         self.kept.choices.len() + journal.births.len() - journal.deaths.len()
     }
 
-    /// Log densities of the choices that the open transaction drew, and of those that it took away, nats.
+    /// Log densities of the choices that the open transaction drew, and of those that it removed, nats.
     pub fn fresh_and_stale(&self) -> (&Total, &Total) {
         (&self.kept.fresh, &self.kept.stale)
     }
 
-    /// Log densities of proposing what the open transaction changed, there and back, nats.
+    /// Log densities of the open transaction's proposals, forward and reverse, nats.
     pub fn forward_and_backward(&self) -> (f64, f64) {
         self.kept.proposal()
     }
@@ -138,17 +138,17 @@ impl<S: Scalar> Trace<S> {
         self.kept.outside
     }
 
-    /// Primitives that the open transaction put into the scene.
+    /// Primitives that the open transaction added to the scene.
     pub fn emitted(&self) -> impl Iterator<Item = &Primitive> + Clone {
-        self.kept.journal.emitted.iter().filter_map(|row| self.kept.emits[*row as usize].as_ref())
+        self.kept.journal.emitted.iter().filter_map(|number| self.kept.emits[*number as usize].as_ref())
     }
 
-    /// Primitives that the open transaction took out of the scene.
+    /// Primitives that the open transaction removed from the scene.
     pub fn retracted(&self) -> impl Iterator<Item = &Primitive> + Clone {
-        self.kept.journal.retracted.iter().filter_map(|row| self.kept.emits[*row as usize].as_ref())
+        self.kept.journal.retracted.iter().filter_map(|number| self.kept.emits[*number as usize].as_ref())
     }
 
-    /// Keeps what the open transaction did. Deaths leave the table of choices last first, births enter it in the
+    /// Commits the open transaction. Removed choices leave the table last first, added ones enter it in the
     /// order of their addresses, so that it does not depend on the strategy.
     pub fn commit(&mut self, program: &Program<S>) {
         let (state, kept) = (&mut self.state, &mut self.kept);
@@ -173,9 +173,9 @@ impl<S: Scalar> Trace<S> {
         while let Some(id) = kept.journal.removed.pop() {
             kept.release(program, state, id);
         }
-        while let Some(row) = kept.journal.retracted.pop() {
-            kept.emits[row as usize] = None;
-            kept.free_emits.push(row);
+        while let Some(number) = kept.journal.retracted.pop() {
+            kept.emits[number as usize] = None;
+            kept.free_emits.push(number);
         }
         while let Some(id) = kept.journal.dead_cells.pop() {
             debug_assert!(kept.readers[id as usize].all.is_empty(), "a cell is read by those who can see it");
@@ -190,7 +190,7 @@ impl<S: Scalar> Trace<S> {
         self.kept.close();
     }
 
-    /// Undoes what was done, and leaves the transaction open.
+    /// Undoes the changes, and leaves the transaction open.
     fn undo(&mut self, program: &Program<S>) {
         let (state, kept) = (&mut self.state, &mut self.kept);
         while let Some((reader, held)) = kept.journal.moves.pop() {
@@ -214,12 +214,12 @@ impl<S: Scalar> Trace<S> {
             children.truncate(cut.len as usize);
             children.extend(cut.removed);
         }
-        while let Some(id) = kept.journal.made.pop() {
+        while let Some(id) = kept.journal.created.pop() {
             kept.release(program, state, id);
         }
-        while let Some(row) = kept.journal.emitted.pop() {
-            kept.emits[row as usize] = None;
-            kept.free_emits.push(row);
+        while let Some(number) = kept.journal.emitted.pop() {
+            kept.emits[number as usize] = None;
+            kept.free_emits.push(number);
         }
         while let Some(id) = kept.journal.cells.pop() {
             kept.free_readers.push(id);
@@ -233,7 +233,7 @@ impl<S: Scalar> Trace<S> {
 }
 
 impl<S: Scalar> Machine<'_, S> {
-    /// Changes one choice to what is proposed for it, and runs on. The transaction is open afterwards.
+    /// Changes one choice to its proposed value, and runs. The transaction is open afterwards.
     ///
     /// # Errors
     /// A fault of the program or of the proposer.
@@ -255,8 +255,8 @@ impl<S: Scalar> Machine<'_, S> {
         let (own, outer) = self.bases(state, f, node);
         let place = own + site.to.index();
         let r = super::Registers { f, own, outer, scratch: 0 };
-        let mut made = None;
-        let proposal = self.dist(state, r, site, site.args, &mut made).and_then(|dist| {
+        let mut owned = None;
+        let proposal = self.dist(state, r, site, site.args, &mut owned).and_then(|dist| {
             let (question, old) = (At { site, function: f, node, state, program }, &state.registers[place]);
             let proposed = proposer.propose(&question, dist, old, kept.slots[at].log)?;
             let log = if P::FROM_PRIOR {
@@ -302,7 +302,7 @@ impl<S: Scalar> Machine<'_, S> {
             {
                 return Ok(change);
             }
-            // Once more, in program order: met before its readers, a fault or a score of minus infinity may be none.
+            // Repeated in program order: out of it, a fault or a score of minus infinity may not be real.
             trace.undo(program);
             trace.kept.prepare(Strategy::Cache);
             trace.kept.slots[at].mark |= Slot::CHANGED;
@@ -312,8 +312,8 @@ impl<S: Scalar> Machine<'_, S> {
         self.run_kept(trace, NodeId(0), 0, answers)
     }
 
-    /// Changes many choices at once, and runs. It starts at the root: in program order the changed choices are met
-    /// one after the other, and calls that hold none of them are skipped unless the strategy is to skip nothing.
+    /// Changes many choices at once, and runs. It starts at the root: the changed choices are reached in program order,
+    /// and calls that hold none of them are skipped unless the strategy is to skip nothing.
     ///
     /// # Errors
     /// A fault of the program.
@@ -346,7 +346,7 @@ impl<S: Scalar> Machine<'_, S> {
         self.run_kept(trace, NodeId(0), 0, answers)
     }
 
-    /// Runs on from an instruction of a node.
+    /// Continues from an instruction of a node.
     pub(super) fn run_kept<A: Answers<S>>(
         &mut self,
         trace: &mut Trace<S>,

@@ -1,22 +1,22 @@
-//! The parts that distributions are made of: over another kind of number, and as parameters.
+//! The fields of distributions: over another kind of number, and as parameters.
 
 use super::draw::{Draw, Param};
 use crate::scalar::Scalar;
 use std::sync::Arc;
 
-/// A part of a distribution over the numbers `S`.
-pub(super) trait Part<S: Scalar> {
-    /// The same part over other numbers.
+/// A field of a distribution over the numbers `S`.
+pub(super) trait Field<S: Scalar> {
+    /// The same field over other numbers.
     type Over<T: Scalar>;
 
-    /// The same part over another kind of number.
+    /// The same field over another kind of number.
     fn over<T: Scalar>(&self, number: &impl Fn(S) -> T) -> Self::Over<T>;
 
     /// The parameters that it holds, in their order.
     fn params(&self) -> Vec<Param<S>>;
 }
 
-impl<S: Scalar> Part<S> for S {
+impl<S: Scalar> Field<S> for S {
     type Over<T: Scalar> = T;
 
     fn over<T: Scalar>(&self, number: &impl Fn(S) -> T) -> T {
@@ -28,7 +28,7 @@ impl<S: Scalar> Part<S> for S {
     }
 }
 
-impl<S: Scalar> Part<S> for i64 {
+impl<S: Scalar> Field<S> for i64 {
     type Over<T: Scalar> = i64;
 
     fn over<T: Scalar>(&self, _: &impl Fn(S) -> T) -> i64 {
@@ -40,7 +40,7 @@ impl<S: Scalar> Part<S> for i64 {
     }
 }
 
-impl<S: Scalar> Part<S> for Arc<[S]> {
+impl<S: Scalar> Field<S> for Arc<[S]> {
     type Over<T: Scalar> = Arc<[T]>;
 
     fn over<T: Scalar>(&self, number: &impl Fn(S) -> T) -> Arc<[T]> {
@@ -52,7 +52,7 @@ impl<S: Scalar> Part<S> for Arc<[S]> {
     }
 }
 
-impl<S: Scalar> Part<S> for Draw<S> {
+impl<S: Scalar> Field<S> for Draw<S> {
     type Over<T: Scalar> = Draw<T>;
 
     fn over<T: Scalar>(&self, number: &impl Fn(S) -> T) -> Draw<T> {
@@ -64,7 +64,7 @@ impl<S: Scalar> Part<S> for Draw<S> {
     }
 }
 
-impl<S: Scalar, P: Part<S>> Part<S> for Arc<P> {
+impl<S: Scalar, P: Field<S>> Field<S> for Arc<P> {
     type Over<T: Scalar> = Arc<P::Over<T>>;
 
     fn over<T: Scalar>(&self, number: &impl Fn(S) -> T) -> Self::Over<T> {

@@ -1,4 +1,4 @@
-//! The light geometry of each convex solid: its corners, placed in the world, and the faces over them.
+//! The coarse mesh of each convex solid: its corners, placed in the world, and the faces over them.
 //!
 //! Polygons are inscribed and have a vertex on each axis that they can, because parts are attached flush exactly
 //! there. A frustum that ends in a point, and a limb whose rings cut each other's plane, take the general hull.

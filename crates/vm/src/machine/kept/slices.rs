@@ -1,6 +1,6 @@
 //! Activations that are entered for one change only, in a slice of their code (see `passes::slices`).
 //!
-//! Only C3 takes slices. A run from the root marks readers of changed elements as it goes, and those may stand in a call
+//! Only C3 uses slices. A run from the root marks readers of changed elements as it runs, and those may be in a call
 //! that a slice leaves out.
 
 use super::super::Machine;
@@ -8,14 +8,14 @@ use super::super::keep::Onward;
 use super::super::registers::Registers;
 use super::super::state::{NodeId, State};
 use super::super::suspend::After;
-use super::loops::{Handed, Next};
+use super::loops::{Carried, Next};
 use super::{Active, Kept, Step};
 use crate::code::{Function, Mode, Site, SiteId, exit};
 use crate::fault::Fault;
 use crate::value::same;
 use niwaki_math::Scalar;
 
-/// Where an activation is entered, by what has changed of its inputs.
+/// Where an activation is entered, depending on which inputs have changed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Entry {
     /// Nothing: it need not be entered.
@@ -44,13 +44,13 @@ impl<S: Scalar> Kept<S> {
         }
     }
 
-    /// Where to go on after a site: when what it leaves has changed, in the whole code.
+    /// Where to continue after a site: in the whole code when its result has changed.
     #[inline(always)]
     pub(super) fn after(&self, f: &Function<S>, site: &Site, changed: bool) -> After {
         if changed && self.pc >= f.body { After::Goto(site.next) } else { After::Next }
     }
 
-    /// A call that was made before, of whose arguments only one may have changed.
+    /// A repeated call of which only one argument may have changed.
     #[inline]
     pub(super) fn pass_one(
         &mut self,
@@ -75,7 +75,7 @@ impl<S: Scalar> Kept<S> {
         self.call_again(state, child, Entry::One(machine.program.function(function).inputs[arg as usize]))
     }
 
-    /// An activation leaves what it left before. The run ends when it was not entered from above.
+    /// An activation has the same results as before. The run ends when it was not entered from above.
     pub(super) fn leave_unchanged(
         &mut self,
         machine: &mut Machine<'_, S>,
@@ -88,8 +88,8 @@ impl<S: Scalar> Kept<S> {
         }
         let n = &state.nodes[node.0 as usize];
         let (header, end, i) = (n.parent, i64::from(n.pc), n.iteration as usize);
-        // What the iteration was entered for: a loop that was entered from above, or (when the iteration before changed
-        // what it handed on) one that was not.
+        // Why the iteration was entered: its loop was entered from above, or (when the iteration before changed
+        // its carried values) was not.
         let active = match self.active.last() {
             Some(active) if active.header == header => *active,
             _ if machine.program.function(n.function).mode == Mode::Node => {
@@ -117,7 +117,7 @@ impl<S: Scalar> Kept<S> {
                 None => self.go_on(machine, state, header, false, false),
             });
         }
-        Ok(match self.iterate(machine, state, active, i + 1, Handed::Unchanged)? {
+        Ok(match self.iterate(machine, state, active, i + 1, Carried::Unchanged)? {
             Next::Enter(child, at) => Onward::at(child, at),
             Next::Ended { changed } => self.go_on(machine, state, header, false, changed),
         })

@@ -47,7 +47,7 @@ impl Expr {
 }
 
 impl Stmt {
-    /// The expressions that stand directly in it (not those of nested statements).
+    /// Its own expressions (not those of nested statements).
     pub fn expressions(&self) -> Vec<&Expr> {
         match &self.kind {
             StmtKind::Set(_, e)
