@@ -46,8 +46,8 @@ class Chains:
         flat = self._flat()
         sizes = [diagnostics.ess_bulk(flat[:, :, k]) for k in range(flat.shape[2])]
         if len(flat) > 1:
-            worth = len(flat) * flat.var(axis=(0, 1), ddof=1) / flat.mean(axis=1).var(axis=0, ddof=1)
-            sizes = np.minimum(sizes, worth).tolist()
+            effective = len(flat) * flat.var(axis=(0, 1), ddof=1) / flat.mean(axis=1).var(axis=0, ddof=1)
+            sizes = np.minimum(sizes, effective).tolist()
         return float(min(sizes))
 
     @property

@@ -152,7 +152,13 @@ def timings(name: str, draws: int) -> list[dict[str, Any]]:
 
 
 def row(
-    way: str, drawing: Drawing, published: float | None, cpu: float, accepted: float, draws: int, worth: float
+    way: str,
+    drawing: Drawing,
+    published: float | None,
+    cpu: float,
+    accepted: float,
+    draws: int,
+    effective: float,
 ) -> dict[str, Any]:
     """One line of the table."""
     return {
@@ -162,5 +168,5 @@ def row(
         "cpu": round(cpu, 3),
         "accepted": round(accepted, 3),
         "accepted/s": round(draws * accepted / cpu, 1),
-        "effective/s": round(worth / cpu, 2),
+        "effective/s": round(effective / cpu, 2),
     }

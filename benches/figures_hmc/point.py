@@ -79,7 +79,7 @@ def row(
     tell: Callable[[dict], None], name: str, xy: np.ndarray, evaluations: int, spent: float, accepted
 ) -> None:
     """What a chain's draws are worth."""
-    worth = diagnostics.ess_vector(xy)
+    effective = diagnostics.ess_vector(xy)
     tell(
         {
             "chain": name,
@@ -87,10 +87,10 @@ def row(
             "evaluations": evaluations,
             "cpu": round(spent, 3),
             "accepted": accepted,
-            "effective": round(worth, 1),
+            "effective": round(effective, 1),
         }
     )
-    print(f"{name:22} {evaluations:8} evaluations, {worth:7.1f} effective draws", flush=True)
+    print(f"{name:22} {evaluations:8} evaluations, {effective:7.1f} effective draws", flush=True)
 
 
 def samples(found: dict) -> plt.Figure:

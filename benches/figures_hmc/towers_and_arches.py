@@ -12,11 +12,11 @@ import niwaki as nw
 import numpy as np
 from niwaki.draw.scene import Scene
 from PIL import Image
+from stacking.effective import autocorrelation
 from stacking.files import Drawn, Verdicts, chains
 from stacking.judging import passes
 from stacking.kinds import KINDS, Kind
 from stacking.table import corners
-from stacking.worth import autocorrelation
 
 #: Pixels of a picture's side.
 SIDE = 360

@@ -5,5 +5,5 @@ ours       our chains, from `crates/infer/examples/trajectories.rs`, and the lim
 peers      JAX, NumPyro, nutpie
 rates      gradients per second, one chain and 64, taking turns
 starts     what a person waits for
-worth      effective samples per second
+effective  effective samples per second
 """

@@ -5,6 +5,6 @@ following    chains that follow the gradient
 metropolis   chains that do not: the original's, and one that is put right
 files        what is kept between runs
 judging      the linear program and the simulation, for each draw
-worth        effective draws, by autocorrelation of all corners
+effective    effective draws, by autocorrelation of all corners
 table        the rows of the manual
 """

@@ -8,10 +8,10 @@ from typing import Any
 import niwaki as nw
 import numpy as np
 
+from stacking.effective import effective
 from stacking.files import Drawn, Verdicts, chains
 from stacking.judging import passes
 from stacking.kinds import KINDS, Kind
-from stacking.worth import effective
 
 HEAD = (
     "| model | sampler | width | draws | effective | balance | stand | polished | margin | litres | CPU s "

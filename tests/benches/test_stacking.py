@@ -8,9 +8,9 @@ from pathlib import Path
 import niwaki as nw
 import numpy as np
 import pytest
+from stacking.effective import autocorrelation, effective
 from stacking.files import Drawn, Verdicts, chain_file, chains
 from stacking.metropolis import Units, keeper, walk
-from stacking.worth import autocorrelation, effective
 
 
 def autoregressive(share: float, chains: int, draws: int) -> np.ndarray:

@@ -62,10 +62,10 @@ class _Mark:
     size: int = 11
 
 
-def said(value: Any) -> str:
+def value_text(value: Any) -> str:
     """A value in few characters."""
     if isinstance(value, tuple):
-        return f"({', '.join(said(part) for part in value)})"
+        return f"({', '.join(value_text(part) for part in value)})"
     return f"{value:.4g}" if isinstance(value, float) else repr(value)
 
 
@@ -107,7 +107,7 @@ def _marks(explained: dict[str, Any]) -> tuple[list[_Mark], int]:
             "text",
             MARGIN,
             38,
-            text=f"{said(explained['old'])} becomes {said(explained['new'])}",
+            text=f"{value_text(explained['old'])} becomes {value_text(explained['new'])}",
             fill="#777777",
         ),
     ]
@@ -120,10 +120,10 @@ def _marks(explained: dict[str, Any]) -> tuple[list[_Mark], int]:
             continue
         steps, complete = explained["runs"][name]
         marks += _panel(rows, spans, outcome(steps, len(rows)), explained["home"], y, top, bottom)
-        told = ", ".join(f"{n} {WORDS[word]}" for word, n in counts(steps, len(rows)).items() if n)
+        totals = ", ".join(f"{n} {WORDS[word]}" for word, n in counts(steps, len(rows)).items() if n)
         ended = "" if complete else "; stopped: the score became minus infinity"
         marks.append(_Mark("text", MARGIN, y, text=title, size=13))
-        marks.append(_Mark("text", MARGIN, y + 24 + PANEL, text=told + ended, fill="#777777"))
+        marks.append(_Mark("text", MARGIN, y + 24 + PANEL, text=totals + ended, fill="#777777"))
         y += PANEL + HEAD + 26
     x = float(MARGIN)
     for word, meaning in WORDS.items():

@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 
 from niwaki.errors.kinds import fill
-from niwaki.errors.messages import ADVICE, CHAINS, DOORS, FAULTS, FILES, INPUTS, LANGUAGE, Message
+from niwaki.errors.messages import ADVICE, CHAINS, FAULTS, FILES, INPUTS, LANGUAGE, SETTINGS, Message
 
 KINDS = (
     (LANGUAGE, "Reported when a model is compiled, before anything runs."),
@@ -18,7 +18,7 @@ KINDS = (
     (INPUTS, "Reported when a setting or an argument is checked."),
     (FILES, "Reported when a file is read or written."),
     (CHAINS, "Reported when a Markov chain, or a search with a proposal, starts or runs."),
-    (DOORS, "Reported when a setting, a model's name or a run's file is checked."),
+    (SETTINGS, "Reported when a setting, a model's name or a run's file is checked."),
     (ADVICE, "Advice of `niwaki check`: the model is right, and a search of it could be more efficient."),
 )
 

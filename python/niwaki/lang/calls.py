@@ -24,7 +24,7 @@ from niwaki.lang.inference import infer
 from niwaki.lang.marks import Host, underlying
 from niwaki.lang.names import MISSING, is_library, is_random, is_record_class, nearest
 from niwaki.lang.scope import Scope, Variable
-from niwaki.lang.statements import made_here
+from niwaki.lang.statements import first_assignment
 
 
 @lowers(ast.Call)
@@ -190,7 +190,7 @@ def changes(body: Body, node: ast.Call, callee: ast.Attribute, name: str, target
     if isinstance(callee.value, ast.Name):
         found = body.scopes.find(callee.value.id, body.scope)
         if isinstance(found, Variable) and found.assigned:
-            second = made_here(body, found)
+            second = first_assignment(body, found)
     argument = body.span(node.args[0]).text if node.args else "..."
     cure = vocabulary.CHANGERS[name].format(target=target, argument=argument)
     body.refuse("changes-a-value", node, second, name=target, cure=cure if "`" in cure else f"`{cure}`")

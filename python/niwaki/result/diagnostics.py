@@ -53,7 +53,7 @@ def ess_bulk(draws: ArrayLike) -> float:
         (chains, draws), at least 4 draws.
     """
     x = _split(_chains(draws))
-    return _ess(_normal_scores(x)) if _usable(x) else _worthless(x)
+    return _ess(_normal_scores(x)) if _usable(x) else _no_estimate(x)
 
 
 def ess_tail(draws: ArrayLike) -> float:
@@ -77,7 +77,7 @@ def ess_mean(draws: ArrayLike) -> float:
         (chains, draws), at least 4 draws.
     """
     x = _split(_chains(draws))
-    return _ess(x / _unit(x)) if _usable(x) else _worthless(x)
+    return _ess(x / _unit(x)) if _usable(x) else _no_estimate(x)
 
 
 def ess_quantile(draws: ArrayLike, share: float) -> float:
@@ -92,9 +92,9 @@ def ess_quantile(draws: ArrayLike, share: float) -> float:
     """
     whole = _chains(draws)
     if not _usable(_split(whole)):
-        return _worthless(_split(whole))
+        return _no_estimate(_split(whole))
     below = _split((whole <= np.quantile(whole, share)).astype(np.float64))
-    return _ess(below) if np.ptp(below) > 0 else _worthless(below)
+    return _ess(below) if np.ptp(below) > 0 else _no_estimate(below)
 
 
 def mcse_mean(draws: ArrayLike) -> float:
@@ -153,7 +153,7 @@ def ess_vector(draws: ArrayLike) -> float:
         chains, n, _ = x.shape
         centred = x - x.mean(axis=1, keepdims=True)
         lagged = _lagged_sums(np.moveaxis(centred, 1, 2)).sum(axis=1) / n
-        return _worth(lagged, float(x.mean(axis=1).var(axis=0, ddof=1).sum()))
+        return _effective_size(lagged, float(x.mean(axis=1).var(axis=0, ddof=1).sum()))
     x = x[0] if x.ndim == 3 else x
     n = len(x)
     # Geyer's pairs are of the biased estimate, whose far lags shrink.
@@ -356,7 +356,7 @@ def _usable(x: Reals) -> bool:
     return x.shape[1] >= 2 and bool(np.isfinite(x).all()) and float(np.ptp(x)) > 0.0
 
 
-def _worthless(x: Reals) -> float:
+def _no_estimate(x: Reals) -> float:
     """The size of draws that have none to speak of: NaN, or their number when all are the same."""
     constant = x.shape[1] >= 2 and bool(np.isfinite(x).all())
     return float(x.size) if constant else math.nan
@@ -394,10 +394,10 @@ def _ess(x: Reals) -> float:
     """Effective sample size of chains as they are (Vehtari et al. 2021, eq. 10 to 13)."""
     chains, n = x.shape
     lagged = _lagged_sums(x - x.mean(axis=1, keepdims=True)) / n
-    return _worth(lagged, float(x.mean(axis=1).var(ddof=1)) if chains > 1 else 0.0)
+    return _effective_size(lagged, float(x.mean(axis=1).var(ddof=1)) if chains > 1 else 0.0)
 
 
-def _worth(lagged: Reals, between: float) -> float:
+def _effective_size(lagged: Reals, between: float) -> float:
     """Effective sample size from each chain's autocovariances at every lag and the variance of the chains' means."""
     chains, n = lagged.shape
     within = lagged[:, 0].mean() * n / (n - 1)

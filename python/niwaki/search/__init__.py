@@ -1,6 +1,6 @@
 """Searching: what is asked of a model as a value, and how it is carried out on the engine.
 
-asking      `run` and `grow`, which make a search and run it
+entry       `run` and `grow`, which make a search and run it
 request     `Search`: all that decides what is found, as JSON, with a hash
 data        values as plain data, and back
 checks      what is refused before a search starts

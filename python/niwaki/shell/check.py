@@ -20,7 +20,7 @@ def check(
     bytecode: Annotated[bool, typer.Option("--bytecode", help="Print the bytecode.")] = False,
 ) -> None:
     """Compile MODEL and report its functions and choices, with advice; exit 1 when it does not compile."""
-    found = shell.finding.find(model)
+    found = shell.references.find(model)
     start = time.perf_counter()
     try:
         made = found.model.core()

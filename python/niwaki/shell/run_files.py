@@ -19,13 +19,13 @@ from niwaki.errors.files import write_whole
 from niwaki.lang.compiled import translated
 from niwaki.result import Result, Sample
 from niwaki.search import Search
-from niwaki.shell.finding import Found
+from niwaki.shell.references import ModelReference
 from niwaki.targets.target import TargetWarning
 
 FORMAT = 2
 
 
-def written(result: Result, found: Found) -> dict[str, Any]:
+def written(result: Result, found: ModelReference) -> dict[str, Any]:
     """A search and what it found as plain data."""
     return {
         "format": FORMAT,

@@ -49,7 +49,7 @@ def sample(
     **given: Any,
 ) -> None:
     """Sample MODEL by Markov chains; writes samples.csv and run.json, and best.glb, best.png, sheet.png for scenes."""
-    found = shell.finding.find(model)
+    found = shell.references.find(model)
     score = nw.Score()
     if target is not None:
         score = nw.no_self_intersection() * nw.match_volume(nw.Target.find(target), voxel, sigma)
@@ -70,7 +70,7 @@ def sample(
         raise typer.Exit(130)
 
 
-def _write(output: Path, result: nw.Result, found: shell.finding.Found, picture: bool) -> None:
+def _write(output: Path, result: nw.Result, found: shell.references.ModelReference, picture: bool) -> None:
     folder = made_folder(output)
     # The best of each chain is what can be replayed.
     bests = nw.Result(result.search, result.bests, result.seed, interrupted=result.interrupted)

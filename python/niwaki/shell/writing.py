@@ -47,7 +47,7 @@ class Files:
     size: tuple[int, int] | None = None
 
     @classmethod
-    def asked(
+    def of_flags(
         cls, formats: str, scale: float | None, fuse: float | None, frames: int | None, size: str | None
     ) -> Files:
         """The files that were typed; a setting for a format that is not among them is an error."""

@@ -66,7 +66,7 @@ class Contact(NamedTuple):
     across: Any
 
 
-class Asked(NamedTuple):
+class Tolerance(NamedTuple):
     """How exactly blocks should balance.
 
     Attributes
@@ -86,7 +86,7 @@ class Asked(NamedTuple):
     safety: Any
 
 
-class Made(NamedTuple):
+class StackValue(NamedTuple):
     """What a model of stacks returns.
 
     Attributes
@@ -170,24 +170,24 @@ def torque_balance(total, width):
     factor(softeq(total.x, 0.0, width) + softeq(total.y, 0.0, width) + softeq(total.z, 0.0, width))
 
 
-def asking(width, friction, safety):
+def tolerance_of(width, friction, safety):
     """Name how exactly blocks should balance; friction is "cone" or "pyramid"."""
     assert friction == "cone" or friction == "pyramid"
-    return Asked(width, friction == "cone", safety)
+    return Tolerance(width, friction == "cone", safety)
 
 
-def balance(blocks, contacts, friction, asked, down=DOWN):
+def balance(blocks, contacts, friction, tolerance, down=DOWN):
     """Ask for equilibrium under latent forces: a force and a torque factor for each block.
 
-    `asked` is the tolerance of the balance, `down` the direction of gravity. Every call has forces of its own. The
-    normal densities are whole, with their widths: a light block is not asked to be heavier.
+    `down` is the direction of gravity. Every call has its own forces. The normal densities include their widths, so
+    they do not make a light block heavier.
     """
-    safety = asked.safety
+    safety = tolerance.safety
     spared = [drawn_in(touch, safety) for touch in contacts]
     solids = [volume_and_centre(block) for block in blocks]
     mean_volume = sum([volume for volume, _ in solids]) / len(solids)
     size = mean_volume ** (1.0 / 3.0)
-    pushes = [forces(touch, (1.0 - safety) * friction, asked.cone) for touch in spared]
+    pushes = [forces(touch, (1.0 - safety) * friction, tolerance.cone) for touch in spared]
     for body in range(len(blocks)):
         volume, centre = solids[body]
         total = (volume / mean_volume) * down
@@ -199,7 +199,7 @@ def balance(blocks, contacts, friction, asked, down=DOWN):
             elif touch.first == body:
                 total = total - added(push)
                 torque = torque - turned(touch.points, push, centre)
-        width = asked.width * max(LIGHTEST, min(1.0, volume / mean_volume))
+        width = tolerance.width * max(LIGHTEST, min(1.0, volume / mean_volume))
         force_balance(total, width)
         torque_balance(torque / size, width)
 

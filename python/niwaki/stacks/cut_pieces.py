@@ -23,7 +23,7 @@ from niwaki.stacks.blocks import (
     top_shear_x,
 )
 from niwaki.stacks.clearance import clear
-from niwaki.stacks.contacts import DOWN, SAFETY, Made, asking, balance
+from niwaki.stacks.contacts import DOWN, SAFETY, StackValue, balance, tolerance_of
 from niwaki.stacks.towers import (
     FEET,
     GROUND_TOP,
@@ -73,27 +73,27 @@ def raised(blocks, i, count, tall, wide, margin, turned):
     return raised(blocks + [block], i + 1, count, tall, wide, margin, turned)
 
 
-def finish(pieces, touches, downs, asked, ground):
+def finish(pieces, touches, downs, tolerance, ground):
     """Balance for each direction of gravity, and emit."""
     for down in downs:
-        balance(pieces, touches, POPLAR, asked, down)
+        balance(pieces, touches, POPLAR, tolerance, down)
     clear(pieces, touches, ground)
     show(pieces)
-    return Made(tuple(pieces), touches, POPLAR, downs, (len(pieces),))
+    return StackValue(tuple(pieces), touches, POPLAR, downs, (len(pieces),))
 
 
 @model
 def cut_stack(width=0.01, friction="cone", safety=SAFETY):
     """A tower of outlines in one plane: 101 continuous choices."""
     pieces = pile(6, (0.04, 0.075), (0.015, 0.075), 0.01, False)
-    return finish(pieces, touching(pieces), (DOWN,), asking(width, friction, safety), GROUND_TOP)
+    return finish(pieces, touching(pieces), (DOWN,), tolerance_of(width, friction, safety), GROUND_TOP)
 
 
 @model
 def cut_lean(width=0.01, friction="cone", safety=SAFETY, astray=0.01):
     """A leaning tower of outlines, every other one turned: 106 continuous choices."""
     pieces = pile(6, (0.03, 0.07), (0.015, 0.07), 0.008, True)
-    made = finish(pieces, touching(pieces), (DOWN,), asking(width, friction, safety), GROUND_TOP)
+    made = finish(pieces, touching(pieces), (DOWN,), tolerance_of(width, friction, safety), GROUND_TOP)
     lean_on(made.blocks, astray)
     return made
 
@@ -102,7 +102,7 @@ def cut_lean(width=0.01, friction="cone", safety=SAFETY, astray=0.01):
 def cut_top_heavy(width=0.01, friction="cone", safety=SAFETY, ratio=1.5):
     """A tower of outlines that grow from the bottom to the top: 106 continuous choices."""
     pieces = pile(6, (0.015, 0.07), (0.015, 0.07), 0.008, True)
-    made = finish(pieces, touching(pieces), (DOWN,), asking(width, friction, safety), GROUND_TOP)
+    made = finish(pieces, touching(pieces), (DOWN,), tolerance_of(width, friction, safety), GROUND_TOP)
     grow_by(made.blocks, ratio)
     return made
 
@@ -111,7 +111,7 @@ def cut_top_heavy(width=0.01, friction="cone", safety=SAFETY, ratio=1.5):
 def tilt_stack(width=0.01, friction="cone", safety=SAFETY):
     """A tower that stands on ground tilted by ten degrees either way: 178 continuous choices."""
     pieces = pile(6, (0.015, 0.07), (0.015, 0.07), 0.008, True)
-    return finish(pieces, touching(pieces), TILTED, asking(width, friction, safety), GROUND_TOP)
+    return finish(pieces, touching(pieces), TILTED, tolerance_of(width, friction, safety), GROUND_TOP)
 
 
 def cut_curve():
@@ -127,7 +127,7 @@ def cut_arch(width=0.01, friction="cone", safety=SAFETY):
         pieces,
         tuple(links(0, 7, pieces) + feet(0, 7, pieces)),
         (DOWN,),
-        asking(width, friction, safety),
+        tolerance_of(width, friction, safety),
         ARCH_GROUND,
     )
 
@@ -140,6 +140,6 @@ def tilt_arch(width=0.01, friction="cone", safety=SAFETY):
         pieces,
         tuple(links(0, 7, pieces) + feet(0, 7, pieces)),
         TILTED,
-        asking(width, friction, safety),
+        tolerance_of(width, friction, safety),
         ARCH_GROUND,
     )

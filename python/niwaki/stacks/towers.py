@@ -27,7 +27,16 @@ from niwaki.stacks.blocks import (
     volume_and_centre,
 )
 from niwaki.stacks.clearance import clear
-from niwaki.stacks.contacts import DOWN, GROUND, SAFETY, Made, asking, balance, contact, corners
+from niwaki.stacks.contacts import (
+    DOWN,
+    GROUND,
+    SAFETY,
+    StackValue,
+    balance,
+    contact,
+    corners,
+    tolerance_of,
+)
 
 GROUND_TOP = -0.03
 FLOOR = (
@@ -129,10 +138,10 @@ def stack(width=0.005, blocks=6, friction="cone", safety=SAFETY):
     """A tower of random blocks that balances: 118 continuous choices."""
     pieces = pile(blocks, 0.01)
     touches = touching(pieces)
-    balance(pieces, touches, OAK, asking(width, friction, safety), DOWN)
+    balance(pieces, touches, OAK, tolerance_of(width, friction, safety), DOWN)
     clear(pieces, touches, GROUND_TOP)
     show(pieces)
-    return Made(tuple(pieces), touches, OAK, (DOWN,), (blocks,))
+    return StackValue(tuple(pieces), touches, OAK, (DOWN,), (blocks,))
 
 
 @model
@@ -174,10 +183,10 @@ def every_step(width=0.005, blocks=5, friction="cone", safety=SAFETY):
     pieces = centred([standing(sheared(0), FEET, UP)], 1, blocks)
     touches = touching(pieces)
     for built in range(2, blocks + 1):
-        balance(pieces[:built], touches[:built], OAK, asking(width, friction, safety), DOWN)
+        balance(pieces[:built], touches[:built], OAK, tolerance_of(width, friction, safety), DOWN)
     clear(pieces, touches, GROUND_TOP)
     show(pieces)
-    return Made(tuple(pieces), touches, OAK, (DOWN,), tuple([built for built in range(2, blocks + 1)]))
+    return StackValue(tuple(pieces), touches, OAK, (DOWN,), tuple([built for built in range(2, blocks + 1)]))
 
 
 def centred(blocks, i, count):

@@ -79,7 +79,7 @@ class View:
 
 
 @dataclass(frozen=True)
-class Ask:
+class SketchCall:
     """One sketch: the function of this module that makes it, what that is given, and what the engine has of it."""
 
     function: str
@@ -93,7 +93,7 @@ class Score:
 
     Attributes
     ----------
-    asks : tuple of Ask
+    asks : tuple of SketchCall
         The sketches, in the order of asking.
     target : Target or None
         What the scene should fill, for pictures.
@@ -101,20 +101,20 @@ class Score:
         Images that the scene or its shadow should match, for pictures.
     """
 
-    asks: tuple[Ask, ...] = ()
+    asks: tuple[SketchCall, ...] = ()
     target: Target | None = None
     views: tuple[View, ...] = ()
 
     @property
     def specs(self) -> list[_engine.SketchSpec]:
         """What the engine has of the sketches."""
-        return [ask.spec for ask in self.asks]
+        return [sketch.spec for sketch in self.asks]
 
     def data(self, write: Callable[[Any], Any]) -> list[dict[str, Any]]:
         """The sketches as plain data; `write` writes what one is given."""
         return [
-            {"sketch": ask.function, "given": {name: write(value) for name, value in ask.given.items()}}
-            for ask in self.asks
+            {"sketch": sketch.function, "given": {name: write(value) for name, value in sketch.given.items()}}
+            for sketch in self.asks
         ]
 
     @classmethod
@@ -139,7 +139,7 @@ class Score:
         return Score(self.asks + other.asks, target, views)
 
     def __repr__(self) -> str:
-        return " * ".join(ask.spec.name for ask in self.asks) or "no score"
+        return " * ".join(sketch.spec.name for sketch in self.asks) or "no score"
 
 
 def no_self_intersection(rule: str = "solid") -> Score:
@@ -344,7 +344,7 @@ def _score(
     views: tuple[View, ...] = (),
 ) -> Score:
     """A score of one sketch."""
-    return Score((Ask(function, given, spec),), target, views)
+    return Score((SketchCall(function, given, spec),), target, views)
 
 
 def _wish(image: Image, weight_image: Image | None) -> tuple[NDArray[np.bool_], NDArray[np.uint8] | None]:

@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 from niwaki import box, emit, flip, gaussian, host, kernels, model, uniform
 from niwaki.methods import Method
-from niwaki.shell.finding import find
+from niwaki.shell.references import find
 from niwaki.targets.examples import ship
 
 MODEL = """

@@ -53,7 +53,7 @@ Sigma = Annotated[float, typer.Option("--sigma", help="Strictness of the match; 
 
 
 @dataclass(frozen=True)
-class Asked:
+class Controls:
     """The controls as they were typed; None where nothing was said."""
 
     target: str | None = None
@@ -128,7 +128,7 @@ class Asked:
             if given and not there:
                 raise InputError("flag-alone", flag=flag, other=other, reason=reason)
 
-    def aim(self, found: shell.finding.Found) -> nw.Target | None:
+    def aim(self, found: shell.references.ModelReference) -> nw.Target | None:
         """The volume to fill: the one named; else the model's own, unless a picture is asked for."""
         if self.target is not None:
             return nw.Target.find(self.target)
@@ -138,7 +138,7 @@ class Asked:
             raise InputError("no-target", name=found.reference)
         return nw.Target.find(f"gallery:{found.entry.target_name}")
 
-    def controls(self, voxel: float | None, sigma: float) -> nw.Score:
+    def score(self, voxel: float | None, sigma: float) -> nw.Score:
         """Everything but the volume: what forbids comes before what scores."""
         score = nw.Score()
         if self.floor is not None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from niwaki.errors.texts.message import Message
 
-DOORS = (
+SETTINGS = (
     Message(
         "bad-setting",
         "`{name}` cannot be {found}",
