@@ -5,8 +5,8 @@
 
 Three densities (`hmc/densities.py`): a point near a curve, colours of 20 regions, a stack of blocks. All systems run on
 one processor, in one process or a child of it, and take turns. Rates are by wall: run it where nothing else runs; rates
-by CPU time stand beside them. Answers are checked before anything is timed. What is asked of each figure is printed
-beside it; a speed that is missed is said, a wrong answer fails. Peers that are not installed are left out, and named.
+by CPU time stand beside them. Answers are checked before anything is timed. The target of each figure is printed
+beside it. A speed below its target is reported; a wrong answer fails. Peers that are not installed are named.
 
 Every measurement is a line of `gradients.jsonl` in the folder (`benches/.cache/gradients`).
 """
@@ -36,7 +36,7 @@ ALLOWED = 1e-9
 
 
 def main() -> int:
-    """Measure what is asked for; 1 when an answer is wrong."""
+    """Measure the selected parts; 1 when an answer is wrong."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--quick", action="store_true", default=os.environ.get("QUICK", "0") not in ("", "0"))
     parser.add_argument("--only", default=",".join(PARTS))

@@ -70,10 +70,10 @@ def free(one: Entry) -> Scene:
 
 def cast_shadow(one: Entry) -> Image.Image:
     """What was wanted, what was made, and the scene that makes it."""
-    asked = next(experiment for experiment in EXPERIMENTS if experiment.model == one.name)
-    found = [asked.run(seed=seed).best for seed in range(1, RUNS + 1)]
+    chosen = next(experiment for experiment in EXPERIMENTS if experiment.model == one.name)
+    found = [chosen.run(seed=seed).best for seed in range(1, RUNS + 1)]
     best = max(found, key=lambda sample: sample.log_score)
-    return view_sheet(best.scene, asked.score().views[0], height=240)
+    return view_sheet(best.scene, chosen.score().views[0], height=240)
 
 
 def _beside(left: Image.Image, right: Image.Image, gap: int = 4) -> Image.Image:

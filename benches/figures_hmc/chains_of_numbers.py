@@ -1,4 +1,4 @@
-"""What the draws of a sampler are worth: of colors and of blocks alike."""
+"""Effective sample sizes of a sampler's draws, of colors and of blocks."""
 
 from dataclasses import dataclass
 from typing import Any

@@ -27,22 +27,22 @@ def draw(folder: Path, tell: Callable[[dict], None], quick: bool) -> None:
     for name in names:
         own = ours(name, seeds[0])
         as_many = max(1, round(own.values.shape[0] * STEPS * draws / own.gradients))
-        ways = {
+        samplers = {
             "HMC as the original": [originals(name, seed, draws)["HMC"] for seed in seeds],
             "explore": [ours(name, seed) for seed in seeds],
             "explore, as many": [ours(name, seed, as_many) for seed in seeds],
         }
         high = level(name, 20 if quick else 300)
-        for way, made in ways.items():
-            tell(shown(name, way, made, high, reach(made)))
+        for sampler, made in samplers.items():
+            tell(shown(name, sampler, made, high, reach(made)))
     steps = {"draws": 20, "steps": 50} if quick else {}
-    ways = {
+    samplers = {
         "HMC as the original": [blocks.originals(seed, **steps) for seed in seeds],
         "explore": [blocks.ours(seed) for seed in seeds],
     }
     high = blocks.level(30 if quick else 500)
-    for way, made in ways.items():
-        tell(shown("stack", way, made, high))
+    for sampler, made in samplers.items():
+        tell(shown("stack", sampler, made, high))
 
 
 def reach(made: list[Chains]) -> float:
@@ -51,13 +51,13 @@ def reach(made: list[Chains]) -> float:
 
 
 def shown(
-    design: str, way: str, made: list[Chains], high: float, bins: float | None = None
+    design: str, sampler: str, made: list[Chains], high: float, bins: float | None = None
 ) -> dict[str, Any]:
     """A row for one sampler on one design, whose long run lies at `high` nats: means over seeds, printed."""
     below = np.mean([high - np.quantile(one.log_density, (0.5, 0.05)) for one in made], axis=0)
     line = {
         "design": design,
-        "sampler": way,
+        "sampler": sampler,
         "gradients": round(float(np.mean([one.gradients for one in made]))),
         "cpu": round(float(np.mean([one.cpu for one in made])), 3),
         "bins": None if bins is None else round(bins, 1),
@@ -66,7 +66,7 @@ def shown(
         "below": [round(float(nats)) for nats in below],
     }
     print(
-        f"{design:8} {way:22} {line['gradients']:9} {line['cpu']:8.2f} {line['bins'] or '-':>6}"
+        f"{design:8} {sampler:22} {line['gradients']:9} {line['cpu']:8.2f} {line['bins'] or '-':>6}"
         f" {line['effective']:10.1f} {line['least']:7.1f}   {line['below'][0]}, {line['below'][1]}",
         flush=True,
     )

@@ -26,7 +26,7 @@ DRAWS, STEPS, LAGS = 2000, 100, 200
 
 
 def draw(folder: Path, tell: Callable[[dict], None], quick: bool) -> None:
-    """Both figures, and what each chain's draws are worth."""
+    """Both figures, and each chain's effective sample size."""
     draws = 100 if quick else DRAWS
     found = {}
     for width in (WIDE, NARROW):
@@ -78,7 +78,7 @@ def timed(tell: Callable[[dict], None], name: str, evaluations: int, made: Calla
 def row(
     tell: Callable[[dict], None], name: str, xy: np.ndarray, evaluations: int, spent: float, accepted
 ) -> None:
-    """What a chain's draws are worth."""
+    """The effective sample size of a chain."""
     effective = diagnostics.ess_vector(xy)
     tell(
         {

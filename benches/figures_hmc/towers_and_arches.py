@@ -139,8 +139,8 @@ def extent(scene: Scene) -> float:
 
 def curves(cell: Any, kind: Kind, folder: Path) -> None:
     """Autocorrelations of all corners, by draws."""
-    for way, title in TITLES.items():
-        found = chains(folder, kind.name, way)
+    for sampler, title in TITLES.items():
+        found = chains(folder, kind.name, sampler)
         if found and len(found[0].values) > 2:
             lags = autocorrelation(corners(kind, found))
             cell.plot(lags[: max(2, len(lags) * 4 // 5)], label=title)

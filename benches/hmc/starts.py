@@ -6,7 +6,7 @@ from chains.report import Report
 
 from hmc.ours import Programs
 
-#: Model, coordinates, most milliseconds until machine code (none is asked of the other sizes).
+#: Model, coordinates, most milliseconds until machine code (other sizes have no target).
 SIZES = {"ring": None, "coloring": None, "stack": 60.0, "stack12": None, "stack28": 250.0}
 FIRST_GRADIENT = 30.0
 

@@ -52,14 +52,14 @@ class Drawn:
         return cls(**found)
 
 
-def chain_file(folder: Path, kind: str, way: str, chain: int) -> Path:
-    return folder / f"{kind}-{way}-{chain}.json"
+def chain_file(folder: Path, kind: str, sampler: str, chain: int) -> Path:
+    return folder / f"{kind}-{sampler}-{chain}.json"
 
 
-def chains(folder: Path, kind: str, way: str) -> list[Drawn]:
+def chains(folder: Path, kind: str, sampler: str) -> list[Drawn]:
     """The chains that there are."""
     found = []
-    while (path := chain_file(folder, kind, way, len(found))).exists():
+    while (path := chain_file(folder, kind, sampler, len(found))).exists():
         found.append(Drawn.load(path))
     return found
 
@@ -67,8 +67,8 @@ def chains(folder: Path, kind: str, way: str) -> list[Drawn]:
 class Verdicts:
     """Lines of judged draws."""
 
-    def __init__(self, folder: Path, kind: str, way: str) -> None:
-        self.path = folder / f"{kind}-{way}.jsonl"
+    def __init__(self, folder: Path, kind: str, sampler: str) -> None:
+        self.path = folder / f"{kind}-{sampler}.jsonl"
         self.rows: list[dict[str, Any]] = []
         if self.path.exists():
             text = self.path.read_text()

@@ -62,7 +62,7 @@ def adaptive(kind: Kind, chain: int, draws: int, warmup: int = BURN_IN, thin: in
     return made(density, kept, started - begun, burnt - started, burnt, draws * thin, accepted, "adaptive")
 
 
-WAYS = {"mh-original": original, "mh-adaptive": adaptive}
+SAMPLERS = {"mh-original": original, "mh-adaptive": adaptive}
 
 
 class Units:

@@ -80,7 +80,7 @@ def populations(count: int, seed: int) -> dict[str, nw.methods.Smc]:
         "particles, resampled when few are effective": nw.smc(ess=0.6, **own),
         "particles, moved": nw.smc(at=1 + seed % 2, **moved),
         "particles, moved depth first": nw.smc(at="resampled", order="depth-first", **moved),
-        "particles, walking": nw.smc(at="end", draws=2, **moved),
+        "particles, final chain": nw.smc(at="end", draws=2, **moved),
     }
 
 
@@ -295,7 +295,7 @@ def answers_a_look(program: str, seed: int) -> str:
 
 
 def look(seeds: Iterable[int], tally: Tally) -> None:
-    """Looks at programs; the first that is wrong is made smaller and told."""
+    """Looks at programs; the first that is wrong is made smaller and reported."""
     before = set(linecache.cache)
     for seed in seeds:
         program, looks = text(seed), looking(seed)
@@ -403,12 +403,12 @@ def test_every_method_follows_the_exact_answer_for_long() -> None:
     first = int(os.environ.get("NIWAKI_SEED", secrets.randbelow(2**31)))
     seconds = float(os.environ.get("NIWAKI_FUZZ_SECONDS", "600"))
     print(f"NIWAKI_SEED={first}", flush=True)
-    tally, began, said = Tally(), time.monotonic(), 0.0
+    tally, began, printed = Tally(), time.monotonic(), 0.0
     seed = first
     while (spent := time.monotonic() - began) < seconds:
         look([seed], tally)
         seed += 1
-        if spent > said:
+        if spent > printed:
             print(f"{spent:.0f} s: {tally}", flush=True)
-            said = spent + 60
+            printed = spent + 60
     print(tally, flush=True)

@@ -95,7 +95,7 @@ KERNELS = {
     "regenerate one above": k.regenerate(1),
     "mixture": k.mixture(k.prior(), k.regenerate(), k.neighbour(), weights=[1, 2, 1]),
     "repeat": k.repeat(2, k.cycle(k.prior(), k.neighbour())),
-    "odds by depth": k.weighted(k.prior(), depth=lambda depth: 1 / (1 + depth) ** 2),
+    "selection weight by depth": k.weighted(k.prior(), depth=lambda depth: 1 / (1 + depth) ** 2),
     "temper": k.tempering(k.prior(), (1, 1 / 3, 1 / 9), every=20),
 }
 

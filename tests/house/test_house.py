@@ -98,9 +98,9 @@ def test_locks_agree_with_one_another(python: str):
     pins: dict[str, set[str]] = {}
     for lock in (ROOT / "requirements").glob("*.txt"):
         for line in re.findall(r"^[\w.-]+==.+?(?= *\\?$)", lock.read_text(), re.M):
-            asked = Requirement(line)
-            if asked.marker is None or asked.marker.evaluate(machine):
-                pins.setdefault(asked.name, set()).add(str(asked.specifier))
+            requirement = Requirement(line)
+            if requirement.marker is None or requirement.marker.evaluate(machine):
+                pins.setdefault(requirement.name, set()).add(str(requirement.specifier))
     assert len(pins) > 50
     assert {name: found for name, found in pins.items() if len(found) > 1} == {}
 
@@ -160,14 +160,14 @@ def test_help_names_only_what_there_is():
 
 
 def test_crates_import_only_the_rooms_above_them():
-    rooms = ["math", "geom", "vm", "grad", "infer", "py"]
-    for place, room in enumerate(rooms):
-        manifest = tomllib.loads((ROOT / "crates" / room / "Cargo.toml").read_text())
+    crates = ["math", "geom", "vm", "grad", "infer", "py"]
+    for place, crate in enumerate(crates):
+        manifest = tomllib.loads((ROOT / "crates" / crate / "Cargo.toml").read_text())
         used = {
             name.removeprefix("niwaki-") for name in manifest["dependencies"] if name.startswith("niwaki-")
         }
-        assert used <= set(rooms[:place]), room
-        assert room == "py" or "pyo3" not in manifest["dependencies"], room
+        assert used <= set(crates[:place]), crate
+        assert crate == "py" or "pyo3" not in manifest["dependencies"], crate
 
 
 def pages() -> list[Path]:

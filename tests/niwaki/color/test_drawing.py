@@ -170,7 +170,7 @@ def test_our_own_drawings_have_ten_to_twenty_regions_all_seen(name: str) -> None
 
 
 @pytest.mark.parametrize(
-    ("body", "code", "said"),
+    ("body", "code", "message"),
     [
         ('<rect width="9" height="9"/>', "drawing-no-regions", "no painted shape with a class or an id"),
         ('<rect class="a" width="9" height="9"/>', "drawing-no-regions", "one region, `a`"),
@@ -187,10 +187,10 @@ def test_our_own_drawings_have_ten_to_twenty_regions_all_seen(name: str) -> None
         ),
     ],
 )
-def test_a_drawing_that_cannot_be_read_says_why(tmp_path: Path, body: str, code: str, said: str) -> None:
+def test_a_drawing_that_cannot_be_read_says_why(tmp_path: Path, body: str, code: str, message: str) -> None:
     with pytest.raises(FileError) as found:
         drawing(tmp_path, body)
-    assert found.value.code == code and said in str(found.value)
+    assert found.value.code == code and message in str(found.value)
 
 
 def test_images_that_are_no_drawings(tmp_path: Path) -> None:

@@ -34,7 +34,7 @@ def test_a_chain_is_a_rule_for_each_neighbouring_pair() -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "code", "said"),
+    ("text", "code", "message"),
     [
         ('lightness = [["wall", "rof"]]', "rules-no-region", "did you mean `roof`"),
         ("[pinned]\nmoon = '#ffffff'", "rules-no-region", "it has wall, roof, ink, sky"),
@@ -49,9 +49,9 @@ def test_a_chain_is_a_rule_for_each_neighbouring_pair() -> None:
         ("lightness = [", "file-unreadable", "toml"),
     ],
 )
-def test_rules_that_cannot_be_used_say_why(tmp_path, text: str, code: str, said: str) -> None:
+def test_rules_that_cannot_be_used_say_why(tmp_path, text: str, code: str, message: str) -> None:
     error = refused(tmp_path, text)
-    assert error.code == code and said in str(error)
+    assert error.code == code and message in str(error)
 
 
 @pytest.mark.parametrize(

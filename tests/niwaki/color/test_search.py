@@ -93,13 +93,13 @@ def test_the_default_is_many_short_chains_that_follow_the_gradient() -> None:
 
 def test_the_command_writes_what_it_says(small, tmp_path) -> None:
     out = tmp_path / "out"
-    said = CliRunner().invoke(
+    result = CliRunner().invoke(
         app,
         ["color", str(small), "--rules", str(tmp_path / "rules.toml"), "-n", "2", "-o", str(out)]
         + ["--size", "120", "--seed", "1"],
         catch_exceptions=False,
     )
-    assert said.exit_code == 0 and "2 colourings" in said.stdout
+    assert result.exit_code == 0 and "2 colourings" in result.stdout
     names = ["01.png", "01.svg", "02.png", "02.svg", "colors.json", "residuals.csv", "sheet.png"]
     assert sorted(path.name for path in out.iterdir()) == names
     colors = json.loads((out / "colors.json").read_text())

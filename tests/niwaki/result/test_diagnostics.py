@@ -131,14 +131,14 @@ def theirs(x: Any) -> tuple[float, ...]:
         warnings.simplefilter("ignore")
         import arviz
 
-        asked: dict[str, Any] = {"bulk": {}, "tail": {"prob": (0.05, 0.95)}, "mean": {}}
+        settings: dict[str, Any] = {"bulk": {}, "tail": {"prob": (0.05, 0.95)}, "mean": {}}
         if int(arviz.__version__.split(".")[0]) >= 1:
             from arviz_stats.base import array_stats as stats
 
-            sizes = [stats.ess(x, method=method, **extra) for method, extra in asked.items()]
+            sizes = [stats.ess(x, method=method, **extra) for method, extra in settings.items()]
             found = (stats.rhat(x), *sizes, stats.mcse(x, method="mean"), np.ravel(stats.bfmi(x))[0])
         else:
-            sizes = [arviz.ess(x, method=method, **extra) for method, extra in asked.items()]
+            sizes = [arviz.ess(x, method=method, **extra) for method, extra in settings.items()]
             found = (arviz.rhat(x), *sizes, arviz.mcse(x, method="mean"), arviz.bfmi(x)[0])
     return tuple(float(one) for one in found)
 

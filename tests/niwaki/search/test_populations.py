@@ -174,13 +174,13 @@ def test_grow_gives_what_differs() -> None:
     assert ship is not None
     target = ship.target()
     assert target is not None
-    asked: dict[str, Any] = {"voxel": 0.5, "seed": 5, "rule": "surface"}
+    settings: dict[str, Any] = {"voxel": 0.5, "seed": 5, "rule": "surface"}
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        found = nw.grow(ship.model, target, particles=60, diverse=3, **asked)
+        found = nw.grow(ship.model, target, particles=60, diverse=3, **settings)
     assert len(found) == found.unique_models == 3
-    timed = nw.grow(ship.model, target, seconds=0.3, **asked)
-    again = nw.grow(ship.model, target, particles=timed.info.plan, **asked)
+    timed = nw.grow(ship.model, target, seconds=0.3, **settings)
+    again = nw.grow(ship.model, target, particles=timed.info.plan, **settings)
     assert timed.best.log_score == again.best.log_score
 
 
@@ -211,7 +211,7 @@ def test_powers_are_reported() -> None:
 
 
 def test_messages_of_populations(golden: Any) -> None:
-    asked: dict[str, Any] = {
+    settings: dict[str, Any] = {
         "sizes": lambda: nw.smc(particles=[10, 0]),
         "no size": lambda: nw.smc(particles=[]),
         "sizes and populations": lambda: nw.smc(particles=[10, 20], populations=2),
@@ -229,5 +229,5 @@ def test_messages_of_populations(golden: Any) -> None:
             COINS, method=nw.particle_gibbs(), choices=nw.run(COINS, seed=NEITHER).best.choices, seed=1
         ),
     }
-    found = [f"## {name}\n\n{refused(ask)}\n" for name, ask in asked.items()]
+    found = [f"## {name}\n\n{refused(ask)}\n" for name, ask in settings.items()]
     golden(GOLDEN / "populations.txt", "\n".join(found))

@@ -70,11 +70,11 @@ def test_final_chains_take_the_place_of_the_final_set(score):
 
 
 def test_grow_moves_too(score):
-    asked = {"score": score, "particles": 20, "power": 4.0, "seed": 2, "threads": 1}
+    settings = {"score": score, "particles": 20, "power": 4.0, "seed": 2, "threads": 1}
     moves = {"rejuvenate": kernels.prior(), "moves": 30, "at": "end", "draws": 5}
-    found = niwaki.grow(gnarly_tree, **asked, **moves)
+    found = niwaki.grow(gnarly_tree, **settings, **moves)
     assert len(found) == 1
-    assert found.best.log_score >= niwaki.grow(gnarly_tree, **asked).best.log_score
+    assert found.best.log_score >= niwaki.grow(gnarly_tree, **settings).best.log_score
 
 
 @pytest.mark.parametrize(

@@ -73,10 +73,10 @@ def grown(*words: str) -> dict[str, Any]:
 
 def test_an_image_is_matched_beside_a_wall_on_a_floor(place: Path) -> None:
     data = grown(*IMAGE, "--avoid", "wall.obj", "--floor", "0", "--within", "-5,0,-5,5,6,5", "--no-picture")
-    asked = {one["sketch"]: one["given"] for one in data["search"]["score"]}
-    assert list(asked) == ["no_self_intersection", "floor", "avoid", "match_image", "overshoot"]
-    assert asked["avoid"]["obstacle"]["file"] == str(place / "wall.obj") and asked["floor"]["y"] == 0.0
-    assert asked["match_image"]["camera"]["camera"]["height"] == 6.0
+    sketches = {one["sketch"]: one["given"] for one in data["search"]["score"]}
+    assert list(sketches) == ["no_self_intersection", "floor", "avoid", "match_image", "overshoot"]
+    assert sketches["avoid"]["obstacle"]["file"] == str(place / "wall.obj") and sketches["floor"]["y"] == 0.0
+    assert sketches["match_image"]["camera"]["camera"]["height"] == 6.0
     low, high = trimesh.load_scene("out/best.glb").bounds
     assert low[1] >= -1e-6
     # The wall stands from x = 2.5 on.

@@ -94,9 +94,9 @@ def beside(width: float = 0.01) -> float:
 
 
 def test_a_model_whose_contact_vanishes_is_told_where() -> None:
-    with pytest.raises(nw.NiwakiError) as told:
+    with pytest.raises(nw.NiwakiError) as error:
         stacks.start(beside, seed=1, width=0.01)
-    assert told.value.code == "impossible-trace"
-    message = told.value.render()
+    assert error.value.code == "impossible-trace"
+    message = error.value.render()
     assert "contacts.py" in message and "condition(low_x < high_x and low_y < high_y)" in message
     assert "beside at" in message

@@ -1,4 +1,4 @@
-"""The door's shapes, targets and sketches say what the engine says, and bad input costs an error with a code."""
+"""The binding's shapes, targets and sketches agree with the engine; bad input gives an error with a code."""
 
 from __future__ import annotations
 
