@@ -65,8 +65,8 @@ class Scene:
     """
 
     def __init__(self, parts: Iterable[Part | tuple[str, Iterable[Shape]]]) -> None:
-        made = [part if isinstance(part, Part) else Part(part[0], tuple(part[1])) for part in parts]
-        self.parts: tuple[Part, ...] = tuple(sorted(made, key=lambda part: _natural(part.address)))
+        listed = [part if isinstance(part, Part) else Part(part[0], tuple(part[1])) for part in parts]
+        self.parts: tuple[Part, ...] = tuple(sorted(listed, key=lambda part: _natural(part.address)))
 
     def __len__(self) -> int:
         """Count the parts."""

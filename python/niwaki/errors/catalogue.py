@@ -69,11 +69,11 @@ def pages() -> dict[str, str]:
 
 def write(folder: Path) -> None:
     """Write every page into a folder, and take away pages of codes that are gone; the index stays."""
-    made = pages()
+    texts = pages()
     for old in folder.glob("*.md"):
-        if old.name not in made and old.name != "index.md":
+        if old.name not in texts and old.name != "index.md":
             old.unlink()
-    for name, text in made.items():
+    for name, text in texts.items():
         (folder / name).write_text(text)
 
 

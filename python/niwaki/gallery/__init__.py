@@ -56,8 +56,8 @@ class Entry:
 
 def named_target(name: str) -> nw.Target:
     """Make one of the gallery's own targets."""
-    made: nw.Target = getattr(targets.examples, name)()
-    return made
+    value: nw.Target = getattr(targets.examples, name)()
+    return value
 
 
 def entries() -> list[Entry]:
@@ -77,7 +77,7 @@ def entry(name: str) -> Entry | None:
     if not hasattr(module, "MODEL"):
         return None
     title = getattr(module, "TITLE", (module.__doc__ or "").partition("\n")[0])
-    made = Entry(
+    value = Entry(
         stem.replace("_", "-"),
         title,
         module.MODEL,
@@ -85,4 +85,4 @@ def entry(name: str) -> Entry | None:
         getattr(module, "VOXEL", None),
         getattr(module, "PARTICLES", PARTICLES),
     )
-    return made
+    return value

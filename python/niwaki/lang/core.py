@@ -177,8 +177,8 @@ def constant_form(value: Any) -> Expr | None:
         return literal(value)
     if type(value) in (list, tuple):
         parts = [constant_form(part) for part in value]
-        made: list[Expr] = [part for part in parts if part is not None]
-        return Form(type(value).__name__, made) if len(made) == len(parts) else None
+        forms: list[Expr] = [part for part in parts if part is not None]
+        return Form(type(value).__name__, forms) if len(forms) == len(parts) else None
     if type(value) is dict:
         values = constant_form(list(value.values()))
         if isinstance(values, Form):

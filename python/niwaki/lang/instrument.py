@@ -29,10 +29,10 @@ def instrumented(function: FunctionType, hook: Any) -> FunctionType:
     code = _codes[function]
     cells = dict(zip(function.__code__.co_freevars, function.__closure__ or (), strict=True))
     closure = tuple(CellType(hook) if name == HOOK else cells[name] for name in code.co_freevars)
-    made = FunctionType(code, function.__globals__, function.__name__, function.__defaults__, closure)
-    made.__kwdefaults__ = function.__kwdefaults__
-    made.__qualname__ = function.__qualname__
-    return made
+    built = FunctionType(code, function.__globals__, function.__name__, function.__defaults__, closure)
+    built.__kwdefaults__ = function.__kwdefaults__
+    built.__qualname__ = function.__qualname__
+    return built
 
 
 def _compile(function: FunctionType) -> CodeType:
@@ -96,8 +96,8 @@ class _Namer(ast.NodeTransformer):
 
     def _hook(self, name: str, args: list[ast.expr], keywords: list[ast.keyword], at: ast.AST) -> ast.Call:
         hook = ast.Attribute(ast.Name(HOOK, ast.Load()), name, ast.Load())
-        made = ast.copy_location(ast.Call(hook, args, keywords), at)
-        return ast.fix_missing_locations(made)
+        built = ast.copy_location(ast.Call(hook, args, keywords), at)
+        return ast.fix_missing_locations(built)
 
     def visit_Call(self, node: ast.Call) -> ast.AST:
         label = self.labels.get(node, "")

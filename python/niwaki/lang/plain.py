@@ -123,7 +123,7 @@ def run(
     log_prior, log_score = densities.total(state.priors), densities.total(state.scores)
     queries = {key: futures.opened(answer) for key, answer in state.answers.items()}
     value = futures.opened(value)
-    return Run(value, state.made, log_prior, log_score, state.scene, queries, state.constraints)
+    return Run(value, state.choices_made, log_prior, log_score, state.scene, queries, state.constraints)
 
 
 class PlainRun:
@@ -135,7 +135,7 @@ class PlainRun:
         self.path: list[str] = []
         self.loops: list[int] = []
         self.pending = ""
-        self.made: dict[str, Any] = {}
+        self.choices_made: dict[str, Any] = {}
         self.priors: list[float] = []
         self.scores: list[float] = []
         self.scene: list[tuple[str, list[Any]]] = []
@@ -174,9 +174,9 @@ class PlainRun:
         """Run a function of the user."""
         if function.__code__ not in self.codes:
             if function not in self.functions:
-                made = instrumented(function, self)
-                self.functions[function] = made
-                self.know(made.__code__)
+                traced = instrumented(function, self)
+                self.functions[function] = traced
+                self.know(traced.__code__)
             function = self.functions[function]
         return function(*args, **kwargs)
 
@@ -198,7 +198,7 @@ class PlainRun:
                 return list(filter(None, lists[0]))
             rows = zip(*lists, strict=False)
             results = [(row[0], self.call(callee, function, *row)) for row in self.loop(loop, rows)]
-            return [made for _, made in results] if word is map else [item for item, keep in results if keep]
+            return [item for _, item in results] if word is map else [item for item, keep in results if keep]
         function = kwargs.pop("key", None)
         if function is None:
             return word(*args, **kwargs)
@@ -256,7 +256,7 @@ class PlainRun:
         """Make a choice."""
         address = self.address("sample")
         self.check(dist)
-        assert address not in self.made
+        assert address not in self.choices_made
         if self.given is not None and address in self.given:
             value = self.given[address]
         elif self.seed is None:
@@ -270,7 +270,7 @@ class PlainRun:
             except (ValueError, TypeError) as error:
                 raise ModelFault("bad-parameter", str(error), stack=self.stack()) from error
         self.priors.append(self.density(dist, value))
-        self.made[address] = value
+        self.choices_made[address] = value
         return value
 
     def observe(self, dist: Any, value: Any) -> Any:

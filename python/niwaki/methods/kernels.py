@@ -354,24 +354,24 @@ def parse(text: str) -> Kernel:
     Calls of the functions of this module with numbers, texts, lists and kernels; nothing else is carried out.
     """
     try:
-        made = _made(ast.parse(text.strip(), mode="eval").body)
+        result = _kernel_of(ast.parse(text.strip(), mode="eval").body)
     except (SyntaxError, ValueError, TypeError) as error:
         raise InputError("unreadable-kernel", found=text, reason=str(error).split(" (<")[0]) from None
-    if not isinstance(made, Kernel):
+    if not isinstance(result, Kernel):
         raise InputError(
             "unreadable-kernel", found=text, reason="it is not a call of a kernel, such as `prior()`"
         )
-    return made
+    return result
 
 
-def _made(part: ast.expr) -> Any:
+def _kernel_of(part: ast.expr) -> Any:
     if isinstance(part, ast.Name) and part.id in _WRITTEN:
         return _WRITTEN[part.id]()
     if isinstance(part, ast.Call) and isinstance(part.func, ast.Name) and part.func.id in _WRITTEN:
-        given = {word.arg: _made(word.value) for word in part.keywords if word.arg is not None}
-        return _WRITTEN[part.func.id](*(_made(one) for one in part.args), **given)
+        given = {word.arg: _kernel_of(word.value) for word in part.keywords if word.arg is not None}
+        return _WRITTEN[part.func.id](*(_kernel_of(one) for one in part.args), **given)
     if isinstance(part, (ast.List, ast.Tuple)):
-        return [_made(one) for one in part.elts]
+        return [_kernel_of(one) for one in part.elts]
     if isinstance(part, (ast.Name, ast.Call)):
         name = ast.unparse(part.func if isinstance(part, ast.Call) else part)
         near = get_close_matches(name, _WRITTEN, n=1)
@@ -385,8 +385,8 @@ def _made(part: ast.expr) -> Any:
 
 #: What can be written as text.
 _WRITTEN: dict[str, Callable[..., Kernel]] = {
-    made.__name__: made
-    for made in (
+    function.__name__: function
+    for function in (
         prior,
         drift,
         neighbour,

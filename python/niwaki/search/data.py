@@ -128,8 +128,8 @@ _WRITERS: dict[Any, Callable[[Writer, Any], Any]] = {
 
 def record_class(kind: type) -> dict[str, Any]:
     """Write a class of records: its name, its fields, and how it is made."""
-    made = "namedtuple" if is_named_tuple(kind) else "dataclass"
-    return {"name": kind.__name__, "fields": list(record_fields(kind)), "kind": made}
+    form = "namedtuple" if is_named_tuple(kind) else "dataclass"
+    return {"name": kind.__name__, "fields": list(record_fields(kind)), "kind": form}
 
 
 def of_record_class(data: Mapping[str, Any]) -> type:
@@ -185,8 +185,8 @@ class Reader:
 
     def record(self, data: Mapping[str, Any]) -> Any:
         """Read a record, as one of a class of its own."""
-        made = of_record_class(data["record"])
-        return made(**{name: self(value) for name, value in data["fields"].items()})
+        constructor = of_record_class(data["record"])
+        return constructor(**{name: self(value) for name, value in data["fields"].items()})
 
     def mesh(self, kind: type[Target] | type[Receiver], data: Mapping[str, Any]) -> Any:
         """Read a mesh: of its file, or of its arrays.
@@ -236,10 +236,10 @@ def _array(reader: Reader, data: Mapping[str, Any]) -> Any:
 
 
 def _distribution(reader: Reader, data: Mapping[str, Any]) -> Any:
-    made = getattr(distributions, data["dist"], None)
-    if not (isinstance(made, type) and issubclass(made, distributions.Distribution)):
+    constructor = getattr(distributions, data["dist"], None)
+    if not (isinstance(constructor, type) and issubclass(constructor, distributions.Distribution)):
         raise InputError("bad-run-file", path="the data", reason=f"no distribution {data['dist']!r}")
-    return made(*reader.each(data["parameters"]))
+    return constructor(*reader.each(data["parameters"]))
 
 
 _READERS: dict[str, Callable[[Reader, Any], Any]] = {

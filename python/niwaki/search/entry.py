@@ -213,6 +213,6 @@ def explain(
         came to its end. `niwaki.draw.reuse.draw` draws it.
     """
     model = as_model(model)
-    made = task(model, args, kwargs, (), max_steps)
+    prepared = task(model, args, kwargs, (), max_steps)
     with translated(model.name, f"seed={seed}"):
-        return _engine.explain(made, check_seed(seed), choice)
+        return _engine.explain(prepared, check_seed(seed), choice)

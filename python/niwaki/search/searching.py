@@ -119,10 +119,10 @@ def once(search: Search, seed: int, threads: int | None, watch: EngineWatch) -> 
     method, functions = _written(search.method)
     counted, clock = search.task.uncounted(), Clock()
     with translated(search.model.name, f"seed={seed}"):
-        runs, interrupted, said = counted.search(
+        runs, interrupted, counters = counted.search(
             method, seed, functions=functions, start=start, threads=threads, watch=watch
         )
-    info = INFOS.get(search.method.NAME, Info)(**said)
+    info = INFOS.get(search.method.NAME, Info)(**counters)
     diverse = getattr(search.method, "diverse", None)
     if diverse is not None and isinstance(info, PopulationInfo):
         runs = _different(runs, diverse, len(info.plan))

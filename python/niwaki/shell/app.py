@@ -32,8 +32,8 @@ Folder = Annotated[
 ]
 
 
-def made_folder(place: Path) -> Path:
-    """The folder, made where it is not there."""
+def ensure_folder(place: Path) -> Path:
+    """The folder, created if it does not exist."""
     try:
         place.mkdir(parents=True, exist_ok=True)
     except OSError as error:

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from niwaki import draw, search, shell
-from niwaki.shell.app import ModelName, app, made_folder
+from niwaki.shell.app import ModelName, app, ensure_folder
 
 
 @app.command()
@@ -26,7 +26,7 @@ def explain(
     """Draw which calls of MODEL each strategy runs, resumes, skips, creates and removes for a proposal."""
     found = shell.references.find(model)
     explained = search.explain(found.model, choice, seed=seed)
-    made_folder(output.parent)
+    ensure_folder(output.parent)
     draw.reuse.draw(explained, output)
     total = len(explained["activations"])
     old, new = (draw.reuse.value_text(explained[key]) for key in ("old", "new"))

@@ -13,7 +13,7 @@ import niwaki as nw
 from niwaki import draw, gallery, shell, targets
 from niwaki import result as results
 from niwaki.shell import controls, settings, writing
-from niwaki.shell.app import Folder, ModelName, app, made_folder, progress_line
+from niwaki.shell.app import Folder, ModelName, app, ensure_folder, progress_line
 
 
 @app.command()
@@ -118,7 +118,7 @@ def _write(
     picture: bool,
 ) -> None:
     """The record first: whatever fails after it can be made again from there."""
-    folder = made_folder(output)
+    folder = ensure_folder(output)
     shell.run_files.save(folder / "run.json", shell.run_files.written(result, found))
     best: nw.Sample = result.best
     if best.primitives == 0:

@@ -9,7 +9,7 @@ import typer
 
 from niwaki import shell
 from niwaki.shell import writing
-from niwaki.shell.app import Folder, app, made_folder
+from niwaki.shell.app import Folder, app, ensure_folder
 
 
 @app.command()
@@ -29,7 +29,7 @@ def replay(
     """Write the best result of a search again, byte for byte, in any format."""
     files = writing.Files.of_flags(formats, scale, fuse, frames, size)
     sample = shell.run_files.replayed(shell.run_files.load(run), number)
-    folder = made_folder(output or Path("out"))
+    folder = ensure_folder(output or Path("out"))
     for place in files.write(sample, folder):
         print(place)
     if picture and sample.primitives:

@@ -20,7 +20,7 @@ from niwaki import draw, kernels, shell
 from niwaki.errors.files import write_whole
 from niwaki.methods import Mh
 from niwaki.shell import settings
-from niwaki.shell.app import Folder, ModelName, app, made_folder
+from niwaki.shell.app import Folder, ModelName, app, ensure_folder
 
 
 @app.command()
@@ -71,7 +71,7 @@ def sample(
 
 
 def _write(output: Path, result: nw.Result, found: shell.references.ModelReference, picture: bool) -> None:
-    folder = made_folder(output)
+    folder = ensure_folder(output)
     # The best of each chain is what can be replayed.
     bests = nw.Result(result.search, result.bests, result.seed, interrupted=result.interrupted)
     shell.run_files.save(folder / "run.json", shell.run_files.written(bests, found))

@@ -132,10 +132,10 @@ class Target(Mesh):
     @classmethod
     def find(cls, source: str) -> Target:
         """The target of a `source`: a file, or `gallery:` and the name of an example."""
-        made = targets.examples.TARGETS.get(source.removeprefix("gallery:").replace("-", "_"))
-        if source.startswith("gallery:") and made is not None:
-            found = made()
-            found.source = f"gallery:{made.__name__}"
+        example = targets.examples.TARGETS.get(source.removeprefix("gallery:").replace("-", "_"))
+        if source.startswith("gallery:") and example is not None:
+            found = example()
+            found.source = f"gallery:{example.__name__}"
             return found
         return cls.load(source)
 

@@ -54,15 +54,15 @@ def view_sheet(
     PIL.Image.Image
         RGB; four panels from left to right: wanted, made, difference, scene.
     """
-    wanted, made = view.image, view.mask(scene)
+    wanted, drawn = view.image, view.mask(scene)
     rows, columns = wanted.shape
     size = (max(1, round(height * columns / rows)), height)
-    similarity = float((wanted == made).mean())
+    similarity = float((wanted == drawn).mean())
     panels = [
         (colored([(wanted, INK)], size), "wanted"),
-        (colored([(made, INK)], size), "silhouette" if view.kind == "image" else "shadow"),
+        (colored([(drawn, INK)], size), "silhouette" if view.kind == "image" else "shadow"),
         (
-            colored([(wanted & made, INK), (wanted & ~made, MISSING), (made & ~wanted, SURPLUS)], size),
+            colored([(wanted & drawn, INK), (wanted & ~drawn, MISSING), (drawn & ~wanted, SURPLUS)], size),
             f"difference: {100 * similarity:.1f} % of pixels agree",
         ),
         (through_camera(scene, view, size, samples=samples), "from its camera"),
