@@ -167,9 +167,9 @@ def arch(width=0.01, blocks=11, friction="cone", safety=SAFETY):
 @model
 def symmetric_arch(width=0.01, blocks=11, friction="cone", safety=SAFETY, apart=0.002):
     """One arch that is nearly its own mirror image."""
-    structure = arch(width, blocks, friction, safety)
-    mirrored(structure.blocks, structure.blocks, apart)
-    return structure
+    made = arch(width, blocks, friction, safety)
+    mirrored(made.blocks, made.blocks, apart)
+    return made
 
 
 def three(starts, tolerance):
@@ -211,13 +211,13 @@ def tri_arch(width=0.01, friction="cone", safety=SAFETY):
 def symmetric_tri_arch(width=0.01, friction="cone", safety=SAFETY, apart=0.002):
     """Two arches that carry a third, nearly their own mirror image: 555 continuous choices."""
     pull = 1.0 / 3.0
-    structure = three(
+    made = three(
         (ground_at(0.18, pull), ground_at(0.43, pull), ground_at(0.57, pull), ground_at(0.82, pull)),
         tolerance_of(width, friction, safety),
     )
-    mirrored(structure.blocks[:9], structure.blocks[9:18], apart)
-    mirrored(structure.blocks[18:], structure.blocks[18:], apart)
-    return structure
+    mirrored(made.blocks[:9], made.blocks[9:18], apart)
+    mirrored(made.blocks[18:], made.blocks[18:], apart)
+    return made
 
 
 def mirrored(one, other, apart):

@@ -93,18 +93,18 @@ def cut_stack(width=0.01, friction="cone", safety=SAFETY):
 def cut_lean(width=0.01, friction="cone", safety=SAFETY, astray=0.01):
     """A leaning tower of outlines, every other one turned: 106 continuous choices."""
     pieces = pile(6, (0.03, 0.07), (0.015, 0.07), 0.008, True)
-    structure = finish(pieces, touching(pieces), (DOWN,), tolerance_of(width, friction, safety), GROUND_TOP)
-    lean_on(structure.blocks, astray)
-    return structure
+    made = finish(pieces, touching(pieces), (DOWN,), tolerance_of(width, friction, safety), GROUND_TOP)
+    lean_on(made.blocks, astray)
+    return made
 
 
 @model
 def cut_top_heavy(width=0.01, friction="cone", safety=SAFETY, ratio=1.5):
     """A tower of outlines that grow from the bottom to the top: 106 continuous choices."""
     pieces = pile(6, (0.015, 0.07), (0.015, 0.07), 0.008, True)
-    structure = finish(pieces, touching(pieces), (DOWN,), tolerance_of(width, friction, safety), GROUND_TOP)
-    grow_by(structure.blocks, ratio)
-    return structure
+    made = finish(pieces, touching(pieces), (DOWN,), tolerance_of(width, friction, safety), GROUND_TOP)
+    grow_by(made.blocks, ratio)
+    return made
 
 
 @model

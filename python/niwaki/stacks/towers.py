@@ -147,9 +147,9 @@ def stack(width=0.005, blocks=6, friction="cone", safety=SAFETY):
 @model
 def lean(width=0.005, blocks=6, friction="cone", safety=SAFETY, astray=0.01):
     """A tower whose blocks' centres of mass keep to a leaning line, within `astray` metres."""
-    structure = stack(width, blocks, friction, safety)
-    lean_on(structure.blocks, astray)
-    return structure
+    made = stack(width, blocks, friction, safety)
+    lean_on(made.blocks, astray)
+    return made
 
 
 def lean_on(blocks, astray):
@@ -165,9 +165,9 @@ def lean_on(blocks, astray):
 @model
 def top_heavy(width=0.005, blocks=6, friction="cone", safety=SAFETY, ratio=2.0):
     """A tower in which each block has twice the volume of the one below."""
-    structure = stack(width, blocks, friction, safety)
-    grow_by(structure.blocks, ratio)
-    return structure
+    made = stack(width, blocks, friction, safety)
+    grow_by(made.blocks, ratio)
+    return made
 
 
 def grow_by(blocks, ratio):
