@@ -1,4 +1,4 @@
-"""What is coloured: regions with names, the share of the picture that each takes, and which lie next to which.
+"""The drawing: regions with names, the share of the picture that each takes, and which are neighbours.
 
 Regions come from an SVG file (`niwaki.color.svg`) or from an image whose colours are the regions. Two regions are
 neighbours when a pixel of one lies within two pixels, across or diagonally, of a pixel of the other: thin lines between

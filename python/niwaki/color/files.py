@@ -1,4 +1,4 @@
-"""Colourings as files: SVG and PNG, one sheet of all, their colours, and how well they keep the rules."""
+"""Colourings as files: SVG and PNG, one sheet of all, their colours, and the residuals of the rules."""
 
 from __future__ import annotations
 

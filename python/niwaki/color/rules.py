@@ -1,4 +1,4 @@
-"""What is asked of the regions of a drawing; a small TOML file.
+"""Rules about the regions of a drawing; a small TOML file.
 
 background = "sky"                            # one region; else the one that holds the picture's edge
 lightness = [["wall", "wall-shade", "ink"]]   # each about 15 units of CIELAB lightness above the next
@@ -135,7 +135,7 @@ class Rules:
                 yield Rule("muted", name, most=most)
 
     def on(self, names: Sequence[str]) -> Iterator[Rule]:
-        """The rules on a drawing of these regions: `all` is said of each region that it holds for."""
+        """The rules on a drawing of these regions: `all` becomes a rule for each region without its own."""
         yield from self
         if "all" in self.muted:
             for name in names:

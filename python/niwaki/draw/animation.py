@@ -1,6 +1,6 @@
 """Moving pictures: a scene growing part by part, or any sequence of its states, as GIF or animated PNG.
 
-Camera, floor and colours are those of the whole for every frame, so that nothing moves but what is new. GIF has 256
+Camera, floor and colours are those of the whole for every frame, so that only new parts change the picture. GIF has 256
 colours: all frames share one palette, and a fixed pattern of dots (Bayer 1973) hides its steps without flickering.
 """
 
@@ -175,7 +175,7 @@ def _together(states: Sequence[Scene]) -> Scene:
 
 
 def _shapes(part: Part) -> int:
-    """A number that tells a part's shapes from others at its address."""
+    """A number that distinguishes a part's shapes from others at its address."""
     return hash(tuple(shape.vertices().tobytes() for shape in part.shapes))
 
 

@@ -23,7 +23,7 @@ ACCENTS: tuple[Color, ...] = ((0.80, 0.37, 0.20), (0.84, 0.45, 0.24))
 BARKS: tuple[Color, ...] = ((0.44, 0.35, 0.29),)
 PINES: tuple[Color, ...] = ((0.36, 0.47, 0.28), (0.32, 0.43, 0.28), (0.41, 0.50, 0.30))
 
-#: Kinds of shapes that a garden is told by, and that have bark.
+#: Kinds of shapes that make a scene a garden, and that have bark.
 WOODEN = ("limb", "segment")
 
 

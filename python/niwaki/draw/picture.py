@@ -67,7 +67,7 @@ def picture(
     samples
         Rays for each pixel; 4 for a draft, 16 for a page, 64 for print.
     azimuth, elevation
-        Where the camera stands, degrees: 0, 0 looks from +z; azimuth 90 from +x; elevation 90 from above.
+        The direction of the camera, degrees: 0, 0 looks from +z; azimuth 90 from +x; elevation 90 from above.
     fov
         Vertical field of view, degrees.
     margin

@@ -1,8 +1,8 @@
 """What a proposal makes each strategy do, as a picture: dissertation figure 3.1, for any model.
 
-Each panel shows the calls of one run, those that a call makes below it, in the order of the program. A call is orange
-where it was run from its start, blue where it was only gone on with (from the choice, or from a call that returned),
-hatched grey where it was skipped, green where it was made, red where it was taken away, and white where it was not
+Each panel shows the calls of one run, the calls of a call below it, in the order of the program. A call is orange
+where it was run from its start, blue where it was resumed (from the choice, or from a call that returned),
+hatched grey where it was skipped, green where it was created, red where it was removed, and white where it was not
 touched. The ring marks the call that holds the changed choice.
 """
 

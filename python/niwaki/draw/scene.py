@@ -1,6 +1,6 @@
 """A scene: the parts that a model emitted, each named by the address of its `emit`.
 
-A scene is a bag; its parts are kept in the order of their addresses, so that two runs which emitted the same
+A scene is a multiset; its parts are kept in the order of their addresses, so that two runs which emitted the same
 parts in different order give the same files.
 """
 

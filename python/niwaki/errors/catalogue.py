@@ -1,6 +1,6 @@
 """The manual's pages about errors, written from the table of messages: one page for each code.
 
-`python -m niwaki.errors.catalogue docs/errors` writes them; a test holds the pages in step with the table.
+`python -m niwaki.errors.catalogue docs/errors` writes them; a test compares the pages with the table.
 """
 
 from __future__ import annotations

@@ -4,7 +4,7 @@ ModelError   a model breaks a rule of the language; found when it is compiled, w
 ModelFault   a model failed while it ran; with the model's own call stack
 InputError   a file, a setting or an argument cannot be used
 
-All texts live in one table, `niwaki.errors.messages`; `str(error)` is the message as it is meant to be read.
+All texts are in one table, `niwaki.errors.messages`; `str(error)` is the complete message.
 """
 
 from __future__ import annotations

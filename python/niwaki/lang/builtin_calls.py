@@ -24,7 +24,7 @@ TABLE: dict[Any, Callable[[Body, ast.Call], Expr]] = {}
 
 
 def lowers(*functions: Any) -> Callable[[Callable[[Body, ast.Call], Expr]], Callable[[Body, ast.Call], Expr]]:
-    """Register how calls of a live function are lowered."""
+    """Register how calls of a Python function are lowered."""
 
     def register(lower: Callable[[Body, ast.Call], Expr]) -> Callable[[Body, ast.Call], Expr]:
         TABLE.update(dict.fromkeys(functions, lower))

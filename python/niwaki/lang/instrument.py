@@ -1,7 +1,7 @@
-"""A model function that tells where it is: the user's own code, compiled from their file with each site named.
+"""A model function that reports where it is: the user's own code, compiled from their file with each site named.
 
 `f(x)` becomes `__nw__.call("f", f, x)`, `for i in xs` becomes `for i in __nw__.loop("i[]", xs)`, what is compared
-becomes `__nw__.compared(x)`; nested functions bear their names of the core form; nothing else changes, and every node
+becomes `__nw__.compared(x)`; nested functions have their names of the core form; nothing else changes, and every node
 keeps its line and columns, so that a debugger
 and a traceback show the file that the user wrote.
 `__nw__` is a cell of the function's closure: the user's module is not touched.

@@ -1,6 +1,6 @@
 """What a name means outside of a model: the module's globals, the cells of a closure, Python's built-ins.
 
-Only this file and `constants` look at live Python objects.
+Only this file and `constants` look at Python objects.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ class Namespace:
         self.cells = dict(zip(function.__code__.co_freevars, cells, strict=True))
 
     def find(self, name: str) -> Any:
-        """The live object, or MISSING."""
+        """The object, or MISSING."""
         if name in self.cells:
             try:
                 return self.cells[name].cell_contents
@@ -71,7 +71,7 @@ def record_fields(value: Any) -> tuple[str, ...]:
 
 
 def hashable(value: Any) -> bool:
-    """Whether a live object can be looked up in a table; a tuple that holds a list cannot."""
+    """Whether an object can be looked up in a table; a tuple that holds a list cannot."""
     try:
         hash(value)
     except TypeError:

@@ -1,6 +1,6 @@
 """A model as ordinary Python: the oracle for the engine, and what a debugger steps through.
 
-The user's own function runs (see `instrument`); this file keeps what happens: the path of calls and loops, choices by
+The user's own function runs (see `instrument`); this file records what happens: the path of calls and loops, choices by
 readable address, scores, shapes and answers. Futures run where they are created.
 """
 
@@ -145,7 +145,7 @@ class PlainRun:
         self.functions: dict[FunctionType, FunctionType] = {}
         self.codes: set[Any] = set()
 
-    # what the instrumented code asks
+    # called by the instrumented code
 
     def call(self, label: str | tuple[str, str], function: Any, /, *args: Any, **kwargs: Any) -> Any:
         """A call at a site."""
@@ -245,7 +245,7 @@ class PlainRun:
         """A `break`."""
         del self.path[self.loops.pop() :]
 
-    # what the words ask
+    # called by the words
 
     def address(self, fallback: str) -> str:
         """The address of the site that is being called."""

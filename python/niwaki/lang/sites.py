@@ -175,7 +175,7 @@ class _Namer:
         return "apply"
 
     def meaning(self, node: ast.expr) -> Any:
-        """The live object that a name outside of the model means, or MISSING."""
+        """The object that a name outside of the model means, or MISSING."""
         if isinstance(node, ast.Name):
             if self.scopes.find(node.id, self.scope) is not None:
                 return MISSING

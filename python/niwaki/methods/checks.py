@@ -1,4 +1,4 @@
-"""What the settings of methods are checked for."""
+"""Checks of the settings of methods."""
 
 from __future__ import annotations
 

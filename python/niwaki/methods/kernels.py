@@ -1,7 +1,7 @@
 """Markov kernels as values, for `niwaki.mh(kernel=...)`.
 
 Leaves propose: `prior`, `drift`, `neighbour`, `proposal` change one choice, `block` and `regenerate` many; `hmc_step`
-and `nuts_step` move the continuous ones along their gradient. Branches say which leaf is next: `cycle`, `mixture`,
+and `nuts_step` move the continuous ones along their gradient. Branches select the next leaf: `cycle`, `mixture`,
 `repeat`; `on` restricts a kernel to some choices, `weighted` gives them selection weights, `anneal` and `tempering`
 change the power of the score. One application of `cycle(a, b)` is one of `a` and then one of `b`.
 
@@ -44,7 +44,7 @@ __all__ = [
     "weighted",
 ]
 
-#: Depths for which a function of the depth is asked; the last holds for all beyond.
+#: Depths at which a function of the depth is evaluated; the last value holds for all deeper ones.
 _DEEPEST = 256
 
 #: Steps of a trajectory are counted in 32 bits.
@@ -86,7 +86,7 @@ class Kernel:
         return [Kernel("on", self.settings, (leaf,)) for leaf in inner] if self.name == "on" else inner
 
     def first(self, *names: str) -> Kernel | None:
-        """The first kernel of one of these names, this one or one in it."""
+        """The first kernel with one of these names: this one or one of its parts."""
         if self.name in names:
             return self
         return next((found for part in self.parts if (found := part.first(*names)) is not None), None)
@@ -169,7 +169,7 @@ def block(step: float = 0.2, share: float = 1.0, target: float = 0.234) -> Kerne
 
 
 def regenerate(levels: int = 0) -> Kernel:
-    """A call and all that it makes are drawn anew: the one that stands `levels` calls or iterations above a choice."""
+    """A call and all below it are drawn again: the call that is `levels` calls or iterations above a choice."""
     return Kernel("regenerate", {"levels": _whole("levels", levels, 0)})
 
 
@@ -335,7 +335,7 @@ def original(power: float = 16.0, nesting: str | None = None) -> Kernel:
     Parameters
     ----------
     power
-        Of the score: 16 makes a sigma of 0.02 one of 0.005, as the original did. Reported scores are
+        Of the score: 16 turns a sigma of 0.02 into 0.005, as the original did. Reported scores are
         those of power 1.
     nesting
         The name of a function: choices within n nested calls of it get the selection weight exp(-n), as on the

@@ -1,4 +1,4 @@
-"""How far a search is: what a person's `progress` is given now and then, and what the engine calls for it."""
+"""How far a search is: what the user's `progress` function receives, and the function that the engine calls."""
 
 from __future__ import annotations
 

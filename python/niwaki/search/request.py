@@ -1,7 +1,7 @@
-"""A search as a value: all that decides what is found, and nothing that does not.
+"""A search as a value: all that decides the result, and nothing else.
 
-`niwaki.grow` and `niwaki.run` make one and run it. It can be written to JSON and read again, sent to
-another process, and its hash says whether two searches are the same.
+`niwaki.grow` and `niwaki.run` create one and run it. It can be written to JSON, read again and sent to another process.
+Two searches are the same if their hashes are equal.
 
 >>> import niwaki as nw
 >>> @nw.model
@@ -37,13 +37,13 @@ from niwaki.search.checks import check_polish, check_seed, check_threads, fresh
 from niwaki.search.data import Reader, Writer, model_data, of_record_class, text_hash
 from niwaki.targets.sketches import Score
 
-#: The version of what a search is written down as.
+#: The version of the JSON form.
 FORMAT = 1
 
-#: What is kept of each run: every sample, or the best alone.
+#: What is kept of each run: every sample, or only the best.
 KEEP = ("all", "best")
 
-#: Places and names of files in core form, and texts, which stay as they are.
+#: Places and names of files in core form; and texts, which are kept.
 _PLACES = re.compile(r'\(file \d+ "(?:[^"\\]|\\.)*"\)|("(?:[^"\\]|\\.)*")| @\d+:\d+-\d+:\d+')
 
 
@@ -61,7 +61,7 @@ class StoredModel(Model[..., Any]):
 
 @dataclass(frozen=True, eq=False)
 class Search:
-    """What is asked of a model, and how it is searched.
+    """A model with its arguments, its score and the method that searches it.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ class Search:
     score
         What its scene should be like.
     method
-        How it is searched, such as `smc(...)`; one run of the prior when left out.
+        The method of the search, such as `smc(...)`; one run of the prior when left out.
     seed
         Decides every random choice, 0 to 2^64 - 1.
     choices
@@ -102,7 +102,7 @@ class Search:
     max_memory: int = 1 << 30
 
     def __post_init__(self) -> None:
-        """Check what it is made of."""
+        """Check the fields."""
         object.__setattr__(self, "model", as_model(self.model))
         object.__setattr__(self, "args", tuple(self.args))
         check_seed(self.seed)

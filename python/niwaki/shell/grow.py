@@ -117,7 +117,7 @@ def _write(
     files: writing.Files,
     picture: bool,
 ) -> None:
-    """The record first: whatever fails after it can be made again from there."""
+    """Write run.json first: the other files can be created again from it."""
     folder = ensure_folder(output)
     shell.run_files.save(folder / "run.json", shell.run_files.written(result, found))
     best: nw.Sample = result.best

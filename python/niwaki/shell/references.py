@@ -1,4 +1,4 @@
-"""Finding a model by what a person writes: a name of the gallery, or `file.py:function`."""
+"""Models by reference: a name of the gallery, or `file.py:function`."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from niwaki.lang.models import Model
 
 @dataclass(frozen=True)
 class ModelReference:
-    """A model and how to find it again.
+    """A model, and the reference to load it again.
 
     Attributes
     ----------
@@ -71,7 +71,7 @@ def _imported(place: Path) -> ModuleType:
     module.__file__ = str(place)
     sys.path.insert(0, str(place.parent))
     try:
-        # Not through the import system: its cache takes two edits within a second for one.
+        # Not through the import system: its cache misses the second of two edits within a second.
         code = compile(place.read_bytes(), str(place), "exec", dont_inherit=True)
         sys.modules[place.stem] = module
         exec(code, module.__dict__)
@@ -88,7 +88,7 @@ def _imported(place: Path) -> ModuleType:
 
 
 def _last_line(error: BaseException, place: Path) -> str:
-    """Where in the file it stopped."""
+    """The line of the file where it stopped."""
     found, trace = "", error.__traceback__
     while trace is not None:
         if trace.tb_frame.f_code.co_filename == str(place):

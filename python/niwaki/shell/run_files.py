@@ -1,6 +1,6 @@
-"""run.json: a search as a file that can be replayed, without this session's memory.
+"""run.json: a search as a file that can be replayed in another session.
 
-It holds the whole search (`Search.data`: the model itself, its arguments, what was asked, the method, the seed) and its
+It holds the whole search (`Search.data`: the model itself, its arguments, the score, the method, the seed) and its
 hash, and for each run its scores, its choices by readable address with their families, and its order choices.
 """
 
@@ -131,7 +131,7 @@ def replayed(data: dict[str, Any], number: int | None = None) -> Sample:
 
 
 def _searched(data: dict[str, Any]) -> Search:
-    """The search; without what was asked of the scene where a mesh of that is missing or has changed."""
+    """The search; without its score where a mesh of the score is missing or has changed."""
     try:
         return Search.of_data(data)
     except InputError as error:

@@ -113,7 +113,7 @@ def _summary(result: nw.Result, folder: Path) -> None:
 
 @contextmanager
 def _shown(name: str, proposals: int) -> Iterator[Callable[[nw.Progress], None]]:
-    """A line on stderr that tells how far the chains are; nothing where stderr is not a terminal."""
+    """A line of progress on stderr; nothing where stderr is not a terminal."""
     console = Console(stderr=True)
     if not console.is_terminal:
         yield lambda _: None

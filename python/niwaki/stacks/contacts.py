@@ -1,14 +1,14 @@
 """Contacts and equilibrium: latent forces at the corners of each contact, and a soft balance of every block.
 
-Dissertation 4.5 and appendix B.2. A contact's area is where two rectangles overlap; at each of its four corners stands
+Dissertation 4.5 and appendix B.2. A contact's area is where two rectangles overlap; at each of its four corners is
 a force of three latent numbers, twelve for a contact. Forces are in units of the structure's mean weight and torques in
 mean weight times the cube root of the mean volume, so that neither size nor density matters.
 
 Where this is not the original: friction is a true cone (the original's square pyramid is `friction="pyramid"`); the
 centre of mass is exact; a push has an exponential prior of ten mean weights, where the original's is flat in newtons
 and so prefers heavy structures by the power of the number of pushes; a block that is lighter than the mean balances
-within a share of its own weight, since one that stands on the tolerance of heavier ones falls; and latent forces spare
-a share of each contact and of its friction.
+within a share of its own weight, since the tolerance of heavier blocks would let it fall; and latent forces spare a
+share of each contact and of its friction.
 """
 
 from __future__ import annotations
@@ -34,10 +34,10 @@ GROUND = -1
 
 DOWN = vec(0.0, 0.0, -1.0)
 
-#: The share of a contact and of its friction that models spare unless told otherwise.
+#: The share of a contact and of its friction that models spare by default.
 SAFETY = 0.15
 
-#: The share of the mean weight below which a block's balance is asked for no more exactly.
+#: The share of the mean weight below which a block's balance need not be more exact.
 LIGHTEST = 0.01
 
 #: Mean of the prior of a push, mean weights.
@@ -77,8 +77,8 @@ class Tolerance(NamedTuple):
     cone : bool
         Friction in Coulomb's cone; otherwise in the original's square pyramid, which is up to 1.4 times too strong.
     safety : float
-        What is spared: latent forces stand inside each contact by this share of the way to its middle, with this share
-        less of friction. 0 is the original; then a draw may balance on an edge, or within the tolerance only.
+        The share that is spared: latent forces are moved towards the middle of each contact by this share, with this
+        share less of friction. 0 is the original; then a draw may balance on an edge, or within the tolerance only.
     """
 
     width: Any
@@ -161,12 +161,12 @@ def forces(touch, friction, cone):
 
 
 def force_balance(total, width):
-    """Ask for a net force of nothing, in mean weights."""
+    """Score a net force of zero, in mean weights."""
     factor(softeq(total.x, 0.0, width) + softeq(total.y, 0.0, width) + softeq(total.z, 0.0, width))
 
 
 def torque_balance(total, width):
-    """Ask for a net torque of nothing, in mean weights times the mean size."""
+    """Score a net torque of zero, in mean weights times the mean size."""
     factor(softeq(total.x, 0.0, width) + softeq(total.y, 0.0, width) + softeq(total.z, 0.0, width))
 
 
@@ -177,7 +177,7 @@ def tolerance_of(width, friction, safety):
 
 
 def balance(blocks, contacts, friction, tolerance, down=DOWN):
-    """Ask for equilibrium under latent forces: a force and a torque factor for each block.
+    """Score equilibrium under latent forces: a force and a torque factor for each block.
 
     `down` is the direction of gravity. Every call has its own forces. The normal densities include their widths, so
     they do not make a light block heavier.
@@ -205,7 +205,7 @@ def balance(blocks, contacts, friction, tolerance, down=DOWN):
 
 
 def drawn_in(touch, safety):
-    """A contact whose corners have moved to its middle by a share of the way."""
+    """A contact whose corners are moved towards its middle by a share of the distance."""
     a, b, c, d = touch.points
     middle = 0.25 * (a + b + c + d)
     points = tuple([p + safety * (middle - p) for p in touch.points])

@@ -1,7 +1,7 @@
 """Structures of pieces that are cut from a board: every block is a plane outline 38 mm deep (dissertation 4.5, 4.12).
 
-Among them the ones that stand when their ground is tilted by ten degrees either way: each tilt has forces of its own.
-Tilting the bodies and turning gravity the other way are the same. Numbers are the original's. Metres.
+Among them the ones that stand when their ground is tilted by ten degrees in either direction: each tilt has its own
+forces. Tilting the bodies is the same as turning gravity in the opposite direction. Numbers are the original's. Metres.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ def piece(i, tall, wide, turned):
 
 
 def pile(count, tall, wide, margin, turned):
-    """Pieces on one another, slid along x only or, where every other one is turned, both ways."""
+    """Pieces on one another, slid along x only or, where every other one is turned, along both axes."""
     return raised([standing(piece(0, tall, wide, turned), FEET, UP)], 1, count, tall, wide, margin, turned)
 
 
@@ -109,7 +109,7 @@ def cut_top_heavy(width=0.01, friction="cone", safety=SAFETY, ratio=1.5):
 
 @model
 def tilt_stack(width=0.01, friction="cone", safety=SAFETY):
-    """A tower that stands on ground tilted by ten degrees either way: 178 continuous choices."""
+    """A tower that stands on ground tilted by ten degrees in either direction: 178 continuous choices."""
     pieces = pile(6, (0.015, 0.07), (0.015, 0.07), 0.008, True)
     return finish(pieces, touching(pieces), TILTED, tolerance_of(width, friction, safety), GROUND_TOP)
 
@@ -134,7 +134,7 @@ def cut_arch(width=0.01, friction="cone", safety=SAFETY):
 
 @model
 def tilt_arch(width=0.01, friction="cone", safety=SAFETY):
-    """An arch of outlines that stands on ground tilted by ten degrees either way: 226 continuous choices."""
+    """An arch of outlines that stands on ground tilted by ten degrees in either direction: 226 continuous choices."""
     pieces = cut_curve()
     return finish(
         pieces,

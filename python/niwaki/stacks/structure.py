@@ -1,4 +1,4 @@
-"""A structure as arrays: what judges, files and pictures take, made from what a model of stacks returns."""
+"""A structure as arrays: the input of judges, files and pictures, converted from the value of a model of stacks."""
 
 from __future__ import annotations
 

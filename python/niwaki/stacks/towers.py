@@ -51,7 +51,7 @@ WIDEST = radians(30.0)
 
 #: Oak, as the original has it, and poplar of which its pieces are cut.
 OAK, POPLAR = 0.5, 0.3
-#: The line that `lean` asks for: 20 degrees from upright.
+#: The line that `lean` scores: 20 degrees from upright.
 LEANING = vec(
     -sin(radians(20.0)) * cos(radians(45.0)), -sin(radians(20.0)) * sin(radians(45.0)), cos(radians(20.0))
 )
@@ -153,7 +153,7 @@ def lean(width=0.005, blocks=6, friction="cone", safety=SAFETY, astray=0.01):
 
 
 def lean_on(blocks, astray):
-    """Ask for centres of mass on the leaning line through the first block's foot."""
+    """Score centres of mass on the leaning line through the first block's foot."""
     foot = middle(blocks[0], BOTTOM)
     for block in blocks:
         _, centre = volume_and_centre(block)
@@ -171,7 +171,7 @@ def top_heavy(width=0.005, blocks=6, friction="cone", safety=SAFETY, ratio=2.0):
 
 
 def grow_by(blocks, ratio):
-    """Ask that volumes grow from block to block."""
+    """Score volumes that grow from block to block."""
     volumes = [volume for volume, _ in [volume_and_centre(block) for block in blocks]]
     for i in range(1, len(volumes)):
         factor(softeq(volumes[i] / volumes[i - 1], ratio, 0.1))

@@ -1,9 +1,9 @@
-"""What a scene should be like: sketches as values that multiply, given by whoever runs a model and not by the model.
+"""What a scene should be like: sketches as values that multiply, chosen when a model is run, and not by the model.
 
     score = no_self_intersection() * match_volume(target, voxel=0.25)
     score = no_self_intersection() * floor(0) * avoid("wall.obj") * match_image("skyline.png", "cam.json")
 
-Log scores add. The order is the order of asking: cheap questions that may forbid a scene come first.
+Log scores add. Sketches are evaluated in order: cheap ones that may forbid a scene come first.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 RULES = ("solid", "surface")
 
-#: Cells of a grid whose size nobody gave: as fine as the eye wants, as coarse as the search likes.
+#: The number of cells of a grid without a given size: a compromise of detail and cost.
 CELLS = 65_000
 
 
@@ -80,7 +80,7 @@ class View:
 
 @dataclass(frozen=True)
 class SketchCall:
-    """One sketch: the function of this module that makes it, what that is given, and what the engine has of it."""
+    """One sketch: the function of this module that creates it, its arguments, and its specification in the engine."""
 
     function: str
     given: Mapping[str, Any]
@@ -94,7 +94,7 @@ class Score:
     Attributes
     ----------
     asks : tuple of SketchCall
-        The sketches, in the order of asking.
+        The sketches, in the order of evaluation.
     target : Target or None
         What the scene should fill, for pictures.
     views : tuple of View
@@ -107,7 +107,7 @@ class Score:
 
     @property
     def specs(self) -> list[_engine.SketchSpec]:
-        """What the engine has of the sketches."""
+        """The sketches' specifications in the engine."""
         return [sketch.spec for sketch in self.asks]
 
     def data(self, write: Callable[[Any], Any]) -> list[dict[str, Any]]:

@@ -1,6 +1,6 @@
 """Polygons of the plane: a room, a plot, an outline. A polygon is a list or tuple of its corners, in either direction.
 
-The first corner is not repeated. What is asked of a polygon that crosses itself has no meaning. `niwaki.load_polygon`
+The first corner is not repeated. Results for a polygon that crosses itself have no meaning. `niwaki.load_polygon`
 reads one from a file.
 """
 
