@@ -5,7 +5,7 @@
 
 Hidden Markov model, topics, mixture, regression (dissertation, appendix A) at sizes 1, 4, 10: proposals per CPU second
 of our four strategies, of WebPPL's MH and incrementalMH, and of the limit, on one thread, taking turns, with the same
-proposals; then ways of writing a program, global choices, long chains, a tree, and the figures of section 3.4.
+proposals; then variants of a program, global choices, long chains, a tree, and the figures of section 3.4.
 Answers are checked before anything is timed. The target of each figure is printed beside it; a speed below its target
 is reported, a wrong answer fails.
 

@@ -1,4 +1,4 @@
-"""The experiments of dissertation chapter 5 on our own targets: which model, asked for what, with how many particles.
+"""The experiments of dissertation chapter 5 on our own targets: each model, its target, and its number of particles.
 
 Table 5.1 with the cameras, lights and widths of figures 5.1 to 5.8. All of them also forbid self-intersection. Targets
 are ours throughout, and so is the camera in front of the ship, which is not on record.

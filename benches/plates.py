@@ -1,4 +1,4 @@
-"""The gallery's plates: each model grown into its target and left to itself, or with the shadow that it was asked for.
+"""The gallery's plates: each model grown into its target and free, or with the shadow that it should cast.
 
 python benches/plates.py docs/pictures/gallery [NAME ...]
 """
@@ -51,7 +51,7 @@ def has_plate(one: Entry) -> bool:
 
 
 def plate(one: Entry) -> Image.Image:
-    """One model: in its target and free, or with the shadow that it was asked for."""
+    """One model: in its target and free, or with the shadow that it should cast."""
     target = one.target()
     if target is None:
         return cast_shadow(one)

@@ -1,11 +1,11 @@
-"""What we recommend beside the original's weights, search by search: the models and the targets of figure 5.9.
+"""The recommended settings beside the original's weights, search by search: the models and the targets of figure 5.9.
 
     .venv/bin/python benches/recommended.py [PARTICLES:SEARCHES ...]
 
 Sigma 0.02, the original's rule for intersections (`surface`), seeds from 1000 on, the same for all methods, one thread.
 For each model and target, at each number of particles: mean, median and worst of the best log scores of the searches
-that ended, how many died, the mean difference to the original's weights with its standard error (of the seeds that
-ended by both methods), and CPU milliseconds of one search. `without a chain` stops where the population ends.
+that ended, how many became impossible, the mean difference to the original's weights with its standard error (of the
+seeds that ended with both), and CPU milliseconds of one search. `without a chain` stops where the population ends.
 """
 
 import math

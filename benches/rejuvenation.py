@@ -1,13 +1,13 @@
-"""Distinct results on the gnarly tree: what moves, final chains, particle Gibbs and separate populations do to copies.
+"""Distinct results on the gnarly tree: the effect of moves, final chains, particle Gibbs and separate populations.
 
-    .venv/bin/python benches/rejuvenation.py [SEEDS FIRST [WAY ...]]
+    .venv/bin/python benches/rejuvenation.py [SEEDS FIRST [METHOD ...]]
 
-The tree in the bent tube, voxel 0.4, sigma 0.02, one thread. Of every method 100 results are looked at. The means of
+The tree in the bent tube, voxel 0.4, sigma 0.02, one thread. Each method gives 100 results. The means of
 
 - `distinct`: results of which no other shares more than half of its (address, value) pairs, which is what
   `Result.unique_models` counts,
 - `apart`: the same where values count as shared when they are within a tenth of their spread over all results of the
-  method: a small step of everything makes no tree that a person would call another,
+  method: a small step of everything makes no visibly different tree,
 - the best log score of all, and CPU seconds,
 
 then, for each pair of a method that moves and one that does not: the differences of their best scores for the same

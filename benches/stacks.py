@@ -3,10 +3,10 @@
     python benches/stacks.py [--draws 200] [--chains 4] [--out out/stacks] [KIND ...]
     python benches/stacks.py --sampler mh-original --chains 1 stack lean top_heavy
     python benches/stacks.py --sampler explore --chains 1 --draws 64 stack lean top_heavy
-    python benches/stacks.py --table                        # the table of what there is
+    python benches/stacks.py --table                        # the table of all files
 
-Each chain starts from a balance of its own and warms up; every draw after that is judged by the linear program and by
-MuJoCo. Everything is kept in the folder as it comes, and a run that was stopped goes on where it was. The parts are in
+Each chain starts from its own balance and warms up; every draw after that is judged by the linear program and by
+MuJoCo. Everything is kept in the folder as it comes, and a stopped run continues where it was. The parts are in
 `stacking`. Needs the extra `stacks`.
 """
 
@@ -47,7 +47,7 @@ def main() -> None:
     parser.add_argument("--chains", type=int, default=4)
     parser.add_argument("--sampler", choices=list(SAMPLERS), default=FOLLOWING)
     parser.add_argument("--out", type=Path, default=Path("out/stacks"))
-    parser.add_argument("--table", action="store_true", help="print the table of what there is, and stop")
+    parser.add_argument("--table", action="store_true", help="print the table of all files, and stop")
     args = parser.parse_args()
     if args.table:
         print(table(args.out, tuple(SAMPLERS)))

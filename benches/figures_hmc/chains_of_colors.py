@@ -1,7 +1,7 @@
 """Chains that color our four drawings: the original's two samplers with its settings, and ours.
 
 The original's: 2000 proposals of single-site MH from a run of the prior, then 1000 draws of HMC with 100 steps, or of
-MH 200 proposals apart. Ours: `niwaki.explore()` as it stands.
+MH 200 proposals apart. Ours: `niwaki.explore()` with its defaults.
 """
 
 import time

@@ -1,10 +1,10 @@
-"""What our default sampler sees of a design space beside the original's settings, in little time and per gradient.
+"""How much of a design space our default sampler reaches, beside the original's settings: per time and per gradient.
 
-Colourings: `niwaki.explore()` as it stands beside 1000 draws of HMC with 100 steps; then with as many chains as spend
-the same 100 000 gradients. The stack: as it stands beside 200 draws with 1000 steps. Effective draws are by the
+Colourings: `niwaki.explore()` with its defaults beside 1000 draws of HMC with 100 steps; then with as many chains as
+use the same 100 000 gradients. The stack: its defaults beside 200 draws with 1000 steps. Effective draws are by the
 autocorrelation of the whole vector with the chain's own mean, and the smallest bulk size of a coordinate. `below` is
-how far under the level of a long run the median draw lies, and the lowest twentieth, nats: what a sampler sees on its
-way there counts as seen too, so it must not be more than the original counts. Means over seeds.
+how far under the level of a long run the median draw lies, and the lowest twentieth, nats: draws of
+the warm-up phase also count as reached, so it must not be above that of the original. Means over seeds.
 """
 
 from collections.abc import Callable
@@ -21,7 +21,7 @@ SEEDS = (1, 2, 3)
 
 
 def draw(folder: Path, tell: Callable[[dict], None], quick: bool) -> None:
-    """Print and tell a row for each drawing and sampler, then the stack's."""
+    """Print and report a row for each drawing and sampler, then the stack's."""
     names, draws, seeds = (("bug",), 40, SEEDS[:1]) if quick else (DRAWINGS, DRAWS, SEEDS)
     print(f"{'design':8} {'sampler':22} gradients    cpu s   bins  effective   least   below")
     for name in names:

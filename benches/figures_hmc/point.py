@@ -1,4 +1,4 @@
-"""Figures 4.2 and 4.3: a point near a curve, by MH and by HMC, and what their draws have to do with one another.
+"""Figures 4.2 and 4.3: a point near a curve, by MH and by HMC, and the autocorrelation of their draws.
 
 The original's settings: 2000 draws of HMC with 100 steps; 2000 of MH, every 200th of a random walk with a fixed width
 of 1.2 where the curve is wide (0.1) and of 0.04 where it is narrow (0.005). Each chain's autocorrelation is by its

@@ -1,8 +1,8 @@
 """Figures 4.8, 4.9, 4.11, 4.12, 4.13 and the table of 4.10: structures of blocks.
 
 Chains come from `benches/stacks.py`, which keeps them beside the figures in FOLDER/stacks (STACKS names another
-folder, such as the out/stacks of an earlier run) and goes on where it was. The figures show draws chosen by a rule, not
-by eye: those farthest apart among the draws that both judges pass.
+folder, such as the out/stacks of an earlier run) and continues where it stopped. The figures show draws chosen by a
+rule, not by eye: those farthest apart among the draws that both judges pass.
 """
 
 import os

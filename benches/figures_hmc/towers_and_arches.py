@@ -124,7 +124,7 @@ def compared(path: Path, folder: Path, names: tuple[str, ...]) -> None:
 
 
 def widest(kind: Kind, found: list[Drawn]) -> tuple[int, int]:
-    """The draw that takes the most room."""
+    """The draw with the largest extent."""
     at = corners(kind, found)
     boxes = np.ptp(at.reshape(*at.shape[:2], -1, 3), axis=2)
     chain, draw = np.unravel_index(np.linalg.norm(boxes, axis=-1).argmax(), at.shape[:2])

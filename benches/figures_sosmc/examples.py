@@ -1,8 +1,8 @@
 """Figures 5.1 to 5.8 and table 5.1: every experiment of chapter 5 on our own targets.
 
 Each row of a picture is the best of a few searches: above with the original's settings (so many particles, whole
-scores), below with ours. The target stands beside the result. A silhouette or a shadow is shown as it was
-asked for, and the scene from one other side.
+scores), below with ours. The target is beside the result. A silhouette or a shadow is shown in its own
+view, and the scene from one other side.
 """
 
 import statistics

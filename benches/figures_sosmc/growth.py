@@ -1,11 +1,11 @@
 """What a primitive costs when there are many already: the gnarly tree, made larger by its arguments.
 
-The tree's least radius, and the coins for a side branch and for going on, are arguments: SIZES makes trees of about 50,
-200, 800 and 3200 segments. A population grows each, with a score that looks at volume and hardly selects, so that all
-sizes cost what their segments cost. (Trees of thousands of segments all run through themselves, so intersections are
-not asked for; `controls.py` measures what those cost.) Reported are microseconds of one thread for each segment that
-stands in the final population. Then the memory of a thousand particles of a thousand primitives: how much the largest
-resident set of a process grows over that of the same process with one particle.
+The tree's least radius, and the coins for a side branch and for continuing, are arguments: SIZES makes trees of about
+50, 200, 800 and 3200 segments. A population grows each, with a score of the volume that hardly selects, so that all
+sizes cost what their segments cost. (Trees of thousands of segments all intersect themselves, so intersections are not
+excluded; `controls.py` measures what those cost.) Reported are microseconds of one thread for each segment of the final
+population. Then the memory of a thousand particles of a thousand primitives: how much the largest resident set of a
+process grows over that of the same process with one particle.
 """
 
 import os

@@ -1,7 +1,7 @@
-"""What a second thread saves: wall seconds of experiments of chapter 5 on one thread and on two.
+"""The time that a second thread saves: wall seconds of experiments of chapter 5 on one thread and on two.
 
 The original's settings and particles, on our own targets. A seed is searched in turn on one thread and on two, several
-times over, and the least of each counts: other programs can only add to it. What is found must be the same to the bit.
+times over, and the least of each counts: other programs can only add to it. Results must be the same to the bit.
 """
 
 from collections.abc import Callable

@@ -1,4 +1,4 @@
-"""What a person waits for: from a recorded graph to the first gradient and to machine code; compiling the peers."""
+"""The time until chains start: from a recorded graph to the first gradient and to machine code; compiling the peers."""
 
 import statistics
 

@@ -1,9 +1,9 @@
-"""What is kept between runs: a file of draws for each chain, and a line for each draw that was judged.
+"""The files between runs: a file of draws for each chain, and a line for each draw that was judged.
 
-    KIND-WAY-CHAIN.json   addresses, values (draws, choices), seconds, gradients
-    KIND-WAY.jsonl        chain, draw, and what the judges say
+    KIND-SAMPLER-CHAIN.json   addresses, values (draws, choices), seconds, gradients
+    KIND-SAMPLER.jsonl        chain, draw, and the judges' results
 
-A run that was stopped goes on where it was: a chain that has a file is not drawn again, a draw that has a line is not
+A stopped run continues where it was: a chain that has a file is not drawn again, a draw that has a line is not
 judged again.
 """
 
@@ -23,7 +23,7 @@ class Drawn:
     """The draws of a chain.
 
     `values` is (draws, choices). `warmup_seconds` and `seconds` are CPU seconds, `gradients` counts evaluations after
-    the warm-up, `acceptance` is their mean, `settings` says how they were drawn.
+    the warm-up, `acceptance` is their mean, `settings` are those of the sampler.
     """
 
     addresses: list[str]

@@ -1,9 +1,9 @@
-"""Random model programs whose answer enumeration knows, full of futures that wait.
+"""Random model programs that enumeration can answer, with many futures that wait.
 
 Every choice has few values, every program few runs. What can be forced (a future, or a value that is none) is chosen by
 branches, unpacked from tuples, and lies in lists, records, dictionaries and closures; it goes through calls, is forced
 twice, late, in loops and in comprehensions, and futures make futures. Names are shadowed by parameters, comprehensions
-and loops. A barrier may stand anywhere, so that a force waits or does not.
+and loops. A barrier may be anywhere, so that a force waits or does not.
 
 `text(seed)` is a whole module with the model `m`; the same seed gives the same text. `looking(seed)` is one whose every
 run looks at a future that is not forced. `reduced` makes a text that fails smaller, line by line.

@@ -1,20 +1,20 @@
-"""On random finite programs every method follows the exact answer, and every sample is what its choices say.
+"""On random finite programs every method follows the exact answer, and every sample agrees with its choices.
 
 Programs of `finite_programs`: futures of every shape, loops, closures, branches, shadowed names. Of each:
 
 - plain Python and the engine do the same with the same choices, in both directions;
 - particles in both orders, with every kind of resampling and of rejuvenation, particle Gibbs and PIMH: a sample's value
-  is one that enumeration knows, and plain Python with the sample's choices gives its value and scores;
+  has a probability by enumeration, and plain Python with the sample's choices gives its value and scores;
 - the evidence is unbiased, and each value has its share: z-scores against enumeration. Few particles and many small
   populations are most sensitive, as nothing averages an error away;
-- states of Markov chains are what their choices say, and the four strategies agree to the bit.
+- states of Markov chains agree with their choices, and the four strategies agree to the bit.
 
 Programs whose every run looks at a future that is not forced are refused by each of them.
 
 A quantity is wrong only if it is so twice: by 5 standard errors, and with fresh seeds and sixteen times the runs by 7.
-Only values of at least a twentieth are counted, and a standard error is taken to be no less than three runs' worth, so
-that rare runs that nobody saw do not count against a method. For a share of a twentieth, both bounds on its binomial
-count together are passed once in 1e13 by chance; a soak of an hour looks at less than 1e7 quantities, so that it fails
+Only values of at least a twentieth are counted, and a standard error is taken to be no less than that of three runs, so
+that rare runs that never occurred do not count against a method. For a share of a twentieth, both bounds on its
+binomial count together are passed once in 1e13 by chance; a soak of an hour looks at less than 1e7 quantities, so that it fails
 once in a million.
 
 Mutants. Each method is judged by the answer of a program that lacks what counts twice in its own, and is seen to be
@@ -22,7 +22,7 @@ wrong. Two engines that were wrong have failed. One's force read its promise fro
 (in `place.rs`, no `SiteKind::Force` among those that are read again, and no check of it in `verify.rs`): every fourth
 or fifth program failed. The other's chains tested, of `a or b`, what the last run had left (in `expressions.rs`,
 `shortcut` jumps by `to`; no check of it in `verify.rs`): the 974th and the 114th program of two runs failed, and
-`EITHER` is what was left of them.
+`EITHER` is their reduced form.
 """
 
 from __future__ import annotations
@@ -156,7 +156,7 @@ class Exact:
         return self.scores(rows.reshape(len(names), -1), [self.shares[name] for name in self.counted])
 
     def of_chain(self, names: list[str]) -> list[float]:
-        """The share of each value, by batches; the first batches are the way to the posterior."""
+        """The share of each value, by batches; the first batches are the warm-up."""
         size = len(names) // (BATCHES + BATCHES // 10)
         rows = np.array(
             [[name == other for other in self.counted] for name in names[-BATCHES * size :]], float

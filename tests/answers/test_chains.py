@@ -1,4 +1,4 @@
-"""Every kernel and composition answers every model that it suits as enumeration does, from Python on.
+"""Every kernel and composition agrees with enumeration on every model that it suits, through Python.
 
 Fixed seeds. Each row takes 40,000 proposals after a warm-up of 2,000 and compares the share of each value with the
 exact one, by the spread of the shares of 40 stretches of the chain, which are nearly independent: |t| with 39 degrees

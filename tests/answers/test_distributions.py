@@ -1,4 +1,4 @@
-"""Every family has the density, the support and the draws that SciPy says it has.
+"""Every family has the density, the support and the draws of SciPy.
 
 Densities. Two log densities agree when their difference is below 1e-10 times the larger of one and their
 size: near zero nats that is a relative error of 1e-10 in the density itself.

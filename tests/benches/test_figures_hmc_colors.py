@@ -1,4 +1,4 @@
-"""The figures of the point and of the colourings can be drawn, and the samplers that they compare are what they say."""
+"""The figures of the point and of the colourings can be drawn, and the samplers that they compare are correct."""
 
 import json
 import os

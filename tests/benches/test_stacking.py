@@ -1,4 +1,4 @@
-"""What the bench of structures rests on: files that go on where they were, worth, two chains without gradients.
+"""The parts of the bench of structures: files that continue, effective draws, two chains without gradients.
 
 Each statistical test fails a true program in fewer than one of ten thousand seeds; seeds are fixed.
 """

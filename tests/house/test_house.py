@@ -1,4 +1,4 @@
-"""The house is in order: what is tracked is small, says where it belongs, and names nobody's machine."""
+"""Rules of the repository: tracked files are small, have a purpose, and name no machine."""
 
 import ast
 import re

@@ -1,6 +1,6 @@
 """Reads the specification: Markdown with programs that run.
 
-A fenced block that starts with ```python is a program; it defines a model `m`. What follows it says what must hold:
+A fenced block that starts with ```python is a program; it defines a model `m`. The blocks after it state the result:
 
     ```value         m() with seed 1, or with the choices of a ```choices block before it, gives this
     ```choices       a dict of choices by address, given to the run

@@ -1,6 +1,6 @@
 """Deliberate errors in the engine, each of which a test must reject: `make mutants`.
 
-`mutants.toml` holds one entry for each error: a file, the text that stands there, the text of the error, and the
+`mutants.toml` holds one entry for each error: a file, the text that is there, the text of the error, and the
 judge, which is the tests that must fail. The sources are copied to `target/mutants/tree`, so that the working tree is
 never changed. Each judge first passes there without any error. Then, for each entry, the text is replaced, the judge is
 built and run, and the text is put back.

@@ -47,7 +47,7 @@ class Rules:
     lightness, lighter, same_chroma, same_hue : list of list of str
         Chains of regions; a rule holds between each and the next.
     muted : dict of str to float
-        How far from grey a region may be, CIELAB units; `all` for those without a number of their own.
+        How far from grey a region may be, CIELAB units; `all` for those without their own number.
     background : str or None
         The region that the others lie on; None for the one that holds the picture's edge.
     pinned : dict of str to str

@@ -89,7 +89,7 @@ class Artwork:
         colors
             By region, as CSS writes them: `#a04020`. Regions that are left out keep their own.
         plain
-            Without transparency, filters and soft edges; what has no region is black.
+            Without transparency, filters and soft edges; shapes without a region are black.
         """
         root = deepcopy(self._tree)
         copies = {id(old): new for old, new in zip(self._tree.iter(), root.iter(), strict=True)}

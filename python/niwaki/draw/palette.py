@@ -1,6 +1,6 @@
-"""Colours for parts whose shapes have none of their own.
+"""Colours for parts whose shapes have no colours.
 
-Two palettes: *machine* (warm greys, graphite for what is round, a burnt orange accent) and *garden* (bark for
+Two palettes: *machine* (warm greys, graphite for round shapes, a burnt orange accent) and *garden* (bark for
 limbs, pine greens for the rest), taken when a scene holds limbs. Each part's tone varies a little with its
 address and with nothing else, so that a part keeps its colour when others change.
 """

@@ -147,7 +147,7 @@ def save(scene: Scene, path: str | PathLike[str], target: Volume | None = None, 
 
 
 def save_image(draw: Any, path: str | PathLike[str]) -> Path:
-    """Write the image that `draw()` makes, whole or not at all; its name is checked before drawing."""
+    """Write the image that `draw()` returns, completely or not at all; its name is checked before drawing."""
     place = Path(path)
     if place.suffix.lower() not in IMAGE_FORMATS:
         raise FileError(

@@ -70,7 +70,7 @@ def value_text(value: Any) -> str:
 
 
 def outcome(steps: Sequence[tuple[str, int]], count: int) -> list[str]:
-    """What happened to each activation: the strongest of what the steps say."""
+    """What happened to each activation: the strongest word of its steps."""
     rank = {word: place for place, word in enumerate(COLORS)}
     found = ["untouched"] * count
     for what, at in steps:

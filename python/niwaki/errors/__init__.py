@@ -1,7 +1,7 @@
 """The errors of the package, each with a code, a place and a cure.
 
 kinds      the classes of errors, and the renderer that draws the carets
-files      files that come in or go out, and the errors about them
+files      files that are read or written, and the errors about them
 extras     libraries that may be missing
 source     a file of a model, the places in it, and the syntax tree of a function object
 messages   every message by its code; `texts` holds them by the part that reports the error

@@ -46,7 +46,7 @@ def page(message: Message, found: str) -> str:
 
 
 def _block(text: str) -> str:
-    """A block of code: Python, or what is typed into a shell or found in a file."""
+    """A block of code: Python, a shell command, or text of a file."""
     try:
         ast.parse(text)
         language = "python"

@@ -161,7 +161,7 @@ class InputError(NiwakiError):
     code
         A code of the table of messages.
     values
-        What the message's templates name; `detail` is shown on a line of its own.
+        Values for the message's templates; `detail` is shown on a separate line.
     """
 
     def __init__(self, code: str, **values: Any) -> None:
@@ -182,7 +182,7 @@ _UNKNOWN = Message("unknown", "the model failed")
 
 
 def fill(template: str, values: dict[str, Any]) -> str:
-    """A template with its names filled in; names that nobody gave become empty."""
+    """A template with its names filled in; names without a value become empty."""
 
     class Given(dict[str, Any]):
         def __missing__(self, key: str) -> str:

@@ -41,7 +41,7 @@ def generator(seed: int) -> Callable[[], float]:
 
 
 def hidden_chain(steps: int = 100, states: int = 10, symbols: int = 10, seed: int = 11) -> Chain:
-    """A chain whose tables are drawn uniformly, and what it shows in `steps` steps."""
+    """A chain whose tables are drawn uniformly, and its observations in `steps` steps."""
     uniform = generator(seed)
     initial = _simplex(uniform, states)
     transition = tuple(_simplex(uniform, states) for _ in range(states))
@@ -79,7 +79,7 @@ def clusters(points: int = 100, seed: int = 13) -> Row:
 
 
 def growth(sequences: int = 20, seed: int = 14) -> tuple[Row, ...]:
-    """Sequences measured at -2, -1, 0, 1, 2, each along a line of its own: (sequences, 5)."""
+    """Sequences measured at -2, -1, 0, 1, 2, each along its own line: (sequences, 5)."""
     uniform = generator(seed)
     values: list[Row] = []
     for _ in range(sequences):

@@ -5,7 +5,7 @@ in place where it could be a future, and a choice that is drawn before a barrier
 the text: `emit`, `factor`, `observe` and `condition` are barriers, and so is a call that reaches one.
 
 Only what can be moved is reported. A branch or call is left alone where later code reads what it assigned or
-returned, where it leaves the function or the loop, and where nothing that builds follows it: what the next part depends
+returned, where it leaves the function or the loop, and where nothing after it builds: what the next part depends
 on cannot be a future. A choice is reported only where a later part in the same block is the first to read it. Chance
 is followed through variables and calls, not through arguments.
 """
@@ -210,7 +210,7 @@ class _Reader:
     def block(
         self, body: Sequence[ast.stmt], after: Sequence[ast.stmt], loop: ast.stmt | None
     ) -> Iterator[Advice]:
-        """Advice on a block. `after` is what the function still does behind it; that of a `loop` follows itself."""
+        """Advice on a block. `after` has the statements of the function after it; a `loop` follows itself."""
         decided = self.decisions(body)
         for number, part in enumerate(body):
             later = [*body[number + 1 :], *after]

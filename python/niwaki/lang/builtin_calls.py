@@ -133,7 +133,7 @@ def map_(body: Body, node: ast.Call) -> Expr:
 
 @lowers(filter)
 def filter_(body: Body, node: ast.Call) -> Expr:
-    """`filter(f, xs)`: a list, made at once; `filter(None, xs)` keeps what is true."""
+    """`filter(f, xs)`: a list, computed at once; `filter(None, xs)` keeps what is true."""
     no_keywords(body, node, "filter")
     if len(node.args) != 2:
         body.refuse(

@@ -143,7 +143,7 @@ class Core:
     entry : str
         The model's qualified name.
     parameters : tuple of str
-        The entry's parameters, for whoever passes arguments.
+        The entry's parameters, for the caller that passes arguments.
     required : int
         How many of them have no default.
     """

@@ -116,7 +116,7 @@ def searched(value: Any) -> Any:
 
 
 def refuse(function: Callable[..., Any], args: Iterable[Any], keywords: Mapping[str, Any]) -> None:
-    """Refuse futures as arguments of what is no model code and looks at its arguments."""
+    """Refuse futures as arguments of functions that are not model code and use their arguments."""
     if function in _PASSING:
         return
     owner, name = getattr(function, "__self__", None), getattr(function, "__name__", "")

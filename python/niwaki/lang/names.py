@@ -56,7 +56,7 @@ def is_named_tuple(value: Any) -> bool:
 
 
 def is_record_class(value: Any) -> bool:
-    """Whether it is a class whose instances are records; vectors and distributions are values of their own."""
+    """Whether it is a class whose instances are records; vectors and distributions are other kinds of values."""
     if not isinstance(value, type):
         return False
     own = value.__module__.startswith("niwaki.words.")

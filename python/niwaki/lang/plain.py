@@ -107,7 +107,7 @@ def run(
     seed: int | None = None,
     choices: Mapping[str, Any] | None = None,
 ) -> Run:
-    """`run_python` with the arguments as values of their own, so that a model may call its parameters as it likes."""
+    """`run_python` with the arguments apart from its own, so that a model may have parameters of any name."""
     if seed is None and choices is None:
         seed = secrets.randbits(63)
     state = PlainRun(seed, choices)

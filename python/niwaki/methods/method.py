@@ -68,7 +68,7 @@ class Method:
         Raises
         ------
         InputError
-            A method or a setting that there is not.
+            The error about an unknown method or setting.
         """
         given = dict(data)
         own = Method.KNOWN.get(given.pop("method", ""))

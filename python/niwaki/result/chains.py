@@ -65,7 +65,7 @@ class Trajectories:
     settled : int
         Transitions after the warm-up.
     acceptance : float
-        Mean acceptance of the trajectories' points after the warm-up: what the step was adapted to.
+        Mean acceptance of the trajectories' points after the warm-up: the step was adapted to it.
     divergences : Divergences
         Trajectories after the warm-up that broke off, by the reason; each was rejected.
     warmup_divergences : int
@@ -79,7 +79,7 @@ class Trajectories:
     step : tuple of float
         The step for one coordinate, by chain (and power).
     fault : ModelFault or None
-        With its line: what the first trajectory met that came to a point without a finite gradient.
+        The fault, with its line, of the first trajectory that reached a point without a finite gradient.
     """
 
     kernel: Kernel
@@ -98,7 +98,7 @@ class Trajectories:
 
 
 class Running(NamedTuple):
-    """Chains on the engine, and what they need to go on."""
+    """Chains on the engine, and what they need to continue."""
 
     chains: _engine.Chains
     counted: _engine.Task
@@ -197,7 +197,7 @@ class MhInfo(Info):
         return [] if self.method.kernel is None else self.method.kernel.leaves()
 
     def warn(self) -> None:
-        """Say what a person must know of the trajectories before using the samples."""
+        """Warn about trajectories that affect the use of the samples."""
         name = self.search.model.name
         if self._leaves and all(leaf.name in ("hmc_step", "nuts_step") for leaf in self._leaves):
             values = (item for sample in self.last for item in sample.choices.items())

@@ -152,7 +152,7 @@ class HmcInfo(Info):
     fixed : list of dict
         The choices that each chain held fixed, by address.
     fault : ModelFault or None
-        With its line: what the first trajectory met that came to a point without a finite gradient.
+        The fault, with its line, of the first trajectory that reached a point without a finite gradient.
     sizes : tuple of int
         How many draws each chain has.
     """
@@ -200,7 +200,7 @@ class HmcInfo(Info):
         return {**self.__dict__, "_found": None}
 
     def _of_each(self, look: Callable[[_engine.Trajectories, int], Any]) -> list[Any]:
-        """What the engine has of each chain; what a pickled record needs was looked at before."""
+        """The engine's results of each chain; pickling reads what it needs before."""
         assert self._found is not None
         return [look(self._found, chain) for chain in range(len(self.sizes))]
 
@@ -263,7 +263,7 @@ class HmcInfo(Info):
         return {**self.stats, "lp": self.log_density, "step_size": step}
 
     def warn(self, method: Hmc | Nuts) -> None:
-        """Say what a person must know before using the draws: what was held fixed, what broke off."""
+        """Warn about what affects the use of the draws: fixed choices, and trajectories that broke off."""
         name, broke = self.search.model.name, self.divergences
         held = sorted({path for fixed in self.fixed for path in fixed})
         if held:

@@ -35,7 +35,7 @@ EngineWatch = Callable[[int, int, float], None]
 
 
 def watcher(progress: Watch | None, number: int = 0, runs: int = 1) -> EngineWatch:
-    """What the engine calls, for a person's `progress`."""
+    """The function that the engine calls, around the user's `progress`."""
 
     def watch(done: int, ended: int, best: float) -> None:
         if progress is not None:

@@ -184,7 +184,7 @@ class Reader:
         return [self(one) for one in data]
 
     def record(self, data: Mapping[str, Any]) -> Any:
-        """Read a record, as one of a class of its own."""
+        """Read a record; its class is created for it."""
         constructor = of_record_class(data["record"])
         return constructor(**{name: self(value) for name, value in data["fields"].items()})
 

@@ -68,7 +68,7 @@ def run(
     threads
         How many to use; all of the machine's when left out. The result does not depend on it.
     progress
-        Called now and then with a `Progress`; what it raises ends the search.
+        Called now and then with a `Progress`; an exception that it raises ends the search.
 
     Returns
     -------
@@ -132,7 +132,7 @@ def grow(
     rule
         As for `no_self_intersection`.
     polish
-        How to go on from the best of each run, `mh(...)`: the best state of its chains takes its place
+        The chains that continue from the best of each run, `mh(...)`: the best state of its chains takes its place
         (`Result.polish`).
     runs
         How many results, with seeds `seed`, `seed + 1`, ...

@@ -82,7 +82,7 @@ class Search:
     keep
         "all" samples of the search, or the "best" of each.
     polish
-        How to go on from the best of each run, `mh(...)`.
+        The chains that continue from the best of each run, `mh(...)`.
     max_steps
         Most calls and loop steps of one run.
     max_memory
@@ -138,7 +138,7 @@ class Search:
         threads
             How many to use; all of the machine's when left out. The result does not depend on it.
         progress
-            Called now and then with a `Progress`; what it raises ends the search.
+            Called now and then with a `Progress`; an exception that it raises ends the search.
         """
         return searching.carried_out(self, check_threads(threads), progress)
 
@@ -201,7 +201,7 @@ class Search:
         Raises
         ------
         InputError
-            What is written there is no search, names a mesh that has changed, or calls a function that is not trusted.
+            The text is not a search, names a mesh that has changed, or calls a function that is not trusted.
         """
         read = Reader(tuple(trust))
 
@@ -275,7 +275,7 @@ def engine_hash() -> str:
 
 
 def model_hash(model: Model[..., Any]) -> str:
-    """SHA-256 of what a model does: its core form without places, its constants, the sources of its host functions."""
+    """SHA-256 of a model: its core form without places, its constants, the sources of its host functions."""
     core = model.core()
 
     def kept(found: re.Match[str]) -> str:

@@ -95,7 +95,7 @@ def starts(method: Method) -> bool:
 
 
 def given(search: Search, seed: int | None = None) -> Result:
-    """The one run whose choices are given; those that are missing are drawn where there is a seed."""
+    """The one run whose choices are given; missing ones are drawn if there is a seed."""
     with translated(search.model.name, choices=search.choices):
         trace = search.task.replay(dict(search.choices or {}), seed)
     return Result(search, [Sample.of_trace(trace, search)], search.seed)
@@ -216,7 +216,7 @@ def polished(result: Result, method: Mh, seed: int, threads: int | None, watch: 
     """Chains from the best sample of a result; their time is added to that of the search.
 
     A population compares many runs, each built once. A proposal of a chain changes one choice of one run, and costs
-    only what depends on it. So chains improve what a population finds.
+    only what depends on it. So chains improve the best of a population.
     """
     check_polish(method)
     check_seed(seed)

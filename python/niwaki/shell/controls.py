@@ -139,7 +139,7 @@ class Controls:
         return nw.Target.find(f"gallery:{found.entry.target_name}")
 
     def score(self, voxel: float | None, sigma: float) -> nw.Score:
-        """Everything but the volume: what forbids comes before what scores."""
+        """Everything but the volume; sketches that forbid scenes come first."""
         score = nw.Score()
         if self.floor is not None:
             score *= nw.floor(self.floor)

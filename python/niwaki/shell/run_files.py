@@ -26,7 +26,7 @@ FORMAT = 2
 
 
 def written(result: Result, found: ModelReference) -> dict[str, Any]:
-    """A search and what it found as plain data."""
+    """A search and its result as plain data."""
     return {
         "format": FORMAT,
         "niwaki": _engine.__version__,
@@ -41,7 +41,7 @@ def written(result: Result, found: ModelReference) -> dict[str, Any]:
 
 
 def numbers(sample: Sample) -> dict[str, Any]:
-    """The scores of a run, as `--json` prints them; what is not finite becomes null."""
+    """The scores of a run, as `--json` prints them; numbers that are not finite become null."""
     found = {
         "log_score": sample.log_score,
         "log_prior": sample.log_prior,
@@ -83,7 +83,7 @@ def _chosen(value: Any) -> Any:
 
 
 def save(path: str | PathLike[str], data: dict[str, Any]) -> Path:
-    """Write a search, whole or not at all."""
+    """Write a search, completely or not at all."""
     return write_whole(Path(path), (json.dumps(data, indent=1, allow_nan=False) + "\n").encode())
 
 

@@ -164,7 +164,7 @@ def typed(given: dict[str, Any]) -> dict[str, Any]:
 
 
 def polish(steps: int | None, kernel: str | None) -> Mh | None:
-    """The chain that goes on from the best, if there is to be one."""
+    """The chain that continues from the best, or None."""
     if steps is None:
         if kernel is None:
             return None

@@ -44,7 +44,7 @@ TILTED = (vec(-sin(TILT), 0.0, -cos(TILT)), vec(sin(TILT), 0.0, -cos(TILT)))
 
 
 def piece(i, tall, wide, turned):
-    """A sheared outline; odd ones turned by a quarter about z where asked for."""
+    """A sheared outline; odd ones turned by a quarter about z if `turned`."""
     height, width = uniform(tall[0], tall[1]), uniform(wide[0], wide[1])
     block = box_corners(vec(0.0, 0.0, 0.0), width, BOARD, height)
     block = shear_x(top_shear_x(block, slope()), slope())

@@ -330,5 +330,5 @@ def svg_page(width: float, height: float, body: list[str]) -> str:
 
 
 def need(module: str) -> Any:
-    """Import a library of the extra `stacks`, or say how to get it."""
+    """Import a library of the extra `stacks`, or raise an error that names the extra."""
     return optional(module, "laying pieces out on a board", "stacks")

@@ -2,7 +2,7 @@
 
 `balanced` computes by a linear program (HiGHS, through SciPy) contact forces in the friction cone that hold every block
 exactly. The program is elastic: it always has a solution, with the smallest residual. `simulated` hands the blocks to
-MuJoCo, each a rigid body of its own, and waits.
+MuJoCo, each as a rigid body, and simulates some seconds.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ def balanced(structure: Structure, cone: bool = True, margin: bool = True) -> Ba
     Parameters
     ----------
     structure
-        What should stand.
+        The structure that should stand.
     cone
         Friction within Coulomb's cone, a polygon of 32 sides inside it; otherwise the original's pyramid around it.
     margin
@@ -173,7 +173,7 @@ def simulated(structure: Structure, seconds: float = 5.0, time_step: float = 0.0
     Parameters
     ----------
     structure
-        What should stand, in every direction of gravity and at every step of construction that it names.
+        The structure that should stand, in every direction of gravity and at every step of construction that it names.
     seconds
         Simulated time of each.
     time_step
@@ -245,5 +245,5 @@ def _floor(part: Structure) -> float:
 
 
 def need(module: str) -> Any:
-    """Import a library of the extra `stacks`, or say how to get it."""
+    """Import a library of the extra `stacks`, or raise an error that names the extra."""
     return optional(module, "judging a structure", "stacks")

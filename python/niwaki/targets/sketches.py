@@ -38,7 +38,7 @@ CELLS = 65_000
 
 @dataclass(frozen=True)
 class View:
-    """An image to match, with what it takes to draw a scene as its sketch sees it.
+    """An image to match, with the view from which its sketch sees a scene.
 
     Attributes
     ----------

@@ -31,7 +31,7 @@ class TargetWarning(UserWarning):
 
 
 class Mesh:
-    """A triangle mesh with a name; `Target` and `Receiver` say what it is for.
+    """A triangle mesh with a name; `Target` and `Receiver` are its two uses.
 
     Attributes
     ----------

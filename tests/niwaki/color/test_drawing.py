@@ -1,4 +1,4 @@
-"""A drawing's regions, areas and neighbours are those one would count by hand; what cannot be read says why."""
+"""A drawing's regions, areas and neighbours are those counted by hand; unreadable drawings give an error."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def area_of(found: Drawing, name: str) -> float:
 
 def test_neighbours_lie_within_two_pixels_across_or_diagonally() -> None:
     labels = np.full((9, 12), -1)
-    labels[0, 0], labels[2, 2] = 0, 1  # two apart both ways: neighbours
+    labels[0, 0], labels[2, 2] = 0, 1  # two apart in both directions: neighbours
     labels[0, 6], labels[0, 9] = 2, 3  # three apart: not
     labels[6, 1], labels[8, 0] = 4, 5  # down and to the left
     assert neighbours(labels, 6) == [(0, 1), (4, 5)]

@@ -1,4 +1,4 @@
-"""Colourings keep rules and pinned colours, differ, are the same for a seed, and come out as the files promised."""
+"""Colourings keep rules and pinned colours, differ, are the same for a seed, and are written to files."""
 
 from __future__ import annotations
 

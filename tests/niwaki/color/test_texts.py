@@ -1,4 +1,4 @@
-"""The messages about drawings and rules that cannot be used is as reviewed; each message comes from a real mistake."""
+"""The messages about drawings and rules that cannot be used are as reviewed; each message comes from a real mistake."""
 
 from __future__ import annotations
 

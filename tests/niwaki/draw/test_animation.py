@@ -1,4 +1,4 @@
-"""Claim: in a moving picture the parts appear one after another in the order asked for, and nothing else moves."""
+"""Claim: in a moving picture the parts appear one after another in the given order, and nothing else moves."""
 
 from __future__ import annotations
 

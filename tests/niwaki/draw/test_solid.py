@@ -1,5 +1,5 @@
-"""Claim: a printed solid is the union of the shapes, closed, in millimetres with z up; what is not a solid is said by
-its address. The files are read by trimesh (STL) and lib3mf (3MF), which did not write them."""
+"""Claim: a printed solid is the union of the shapes, closed, in millimetres with z up; a part that is not a solid is named
+by its address. The files are read by trimesh (STL) and lib3mf (3MF), which did not write them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The manual has a page for each error, in step with the table (`python -m niwaki.errors.catalogue docs/errors`)."""
+"""The manual has a page for each error, as in the table (`python -m niwaki.errors.catalogue docs/errors`)."""
 
 from __future__ import annotations
 

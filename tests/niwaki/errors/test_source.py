@@ -1,4 +1,4 @@
-"""A live function is found again in its file: decorated, nested, or one of several lambdas on a line."""
+"""A function object is found in its file: decorated, nested, or one of several lambdas on a line."""
 
 from __future__ import annotations
 

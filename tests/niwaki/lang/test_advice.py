@@ -1,4 +1,4 @@
-"""Advice on models: what can be moved is pointed at, what the next part builds upon is not."""
+"""Advice on models: what can be moved is reported, what the next part needs is not."""
 
 from __future__ import annotations
 

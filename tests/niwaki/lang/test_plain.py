@@ -1,4 +1,4 @@
-"""A plain run makes the choices it is told, scores them, and fails with the user's own lines."""
+"""A plain run makes the given choices, scores them, and fails with the user's own lines."""
 
 from __future__ import annotations
 

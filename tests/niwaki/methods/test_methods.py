@@ -1,4 +1,4 @@
-"""Claim: the settings of chains are checked when they are made, and each refusal names its setting."""
+"""Claim: the settings of chains are checked when they are created, and each refusal names its setting."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""Claim: our diagnostics are ArviZ's figures, and see what they should see.
+"""Claim: our diagnostics are those of ArviZ, and detect what they should detect.
 
 The reference numbers of `REFERENCE` were computed with ArviZ 0.23.4 from the chains that `chains` makes of whole-number
-arithmetic; where ArviZ is installed, it is asked as well. Nothing here is random.
+arithmetic; where ArviZ is installed, it is compared as well. Nothing here is random.
 """
 
 from __future__ import annotations

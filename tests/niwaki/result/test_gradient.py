@@ -1,5 +1,5 @@
 """The claim: `log_density` is the model's own log joint over coordinates, its gradient is the slope, and the JAX text
-says the same; what has no slope is refused with the reason."""
+gives the same; what has no gradient is refused with the reason."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Chains that follow a gradient, from Python: what they give back, what they hold fixed, what they refuse."""
+"""Chains that follow a gradient, from Python: their results, the choices that they hold fixed, and their refusals."""
 
 from __future__ import annotations
 

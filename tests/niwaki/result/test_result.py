@@ -1,4 +1,4 @@
-"""A result says what was found: numbers in its repr, weights that sum to one, files and pictures of the best. After any
+"""The parts of a result: numbers in its repr, weights that sum to one, files and pictures of the best. After any
 method it is the same class, can be pickled, and has draws by address."""
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Markov chains from Python: a seed decides everything, chains go on where they stopped, errors say what to do."""
+"""Markov chains from Python: a seed decides everything, chains continue where they stopped, errors contain the cure."""
 
 from __future__ import annotations
 
@@ -189,7 +189,7 @@ def test_a_selection_may_wait_for_a_site_that_is_not_there_yet() -> None:
 
 
 def failing() -> dict[str, Callable[[], Any]]:
-    """Every way to go wrong, by what it is."""
+    """Every kind of error, by name."""
     run = nw.run
     return {
         "no first state: a condition": lambda: run(MODELS["impossible"], nw.mh(steps=10, tries=50), seed=1),

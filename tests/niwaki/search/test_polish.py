@@ -1,5 +1,5 @@
-"""Claim: `Result.polish` and `grow(polish=...)` go on from the best sample of a search, end no worse than it, and do
-what chains with those choices do."""
+"""Claim: `Result.polish` and `grow(polish=...)` continue from the best sample of a search, are at least as good, and
+equal chains from those choices."""
 
 from __future__ import annotations
 

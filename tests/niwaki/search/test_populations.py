@@ -1,4 +1,4 @@
-"""Populations from Python: several, by time, that differ; chains of whole runs. The algorithms are proved in Rust."""
+"""Populations from Python: several, by time, that differ; chains of whole runs. The algorithms are tested in Rust."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`smc(rejuvenate=...)` from Python: what is told, what is refused, and scenes that stay what their choices say."""
+"""`smc(rejuvenate=...)` from Python: what is reported, what is refused, and scenes that agree with their choices."""
 
 import niwaki
 import pytest

@@ -1,6 +1,6 @@
-"""A search is one value: it goes unchanged through JSON, to another process and folder, and its hash is its meaning.
+"""A search is one value: JSON, another process and another folder keep it, and its hash identifies it.
 
-Small models, few particles: what is looked at is that the same samples come back, to the bit.
+Small models, few particles: the same samples must come back, to the bit.
 """
 
 import json

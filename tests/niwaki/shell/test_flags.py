@@ -1,5 +1,5 @@
-"""Claim: from the shell one can ask for every control and every search of chapter 5; flags that contradict one another,
-lack a companion or name what cannot be used are refused with a message before anything is searched."""
+"""Claim: the shell has every control and every search of chapter 5; flags that contradict one another,
+lack another flag or name what cannot be used are refused with a message before anything is searched."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Claim: a gap or a thickness that is lacking is felt by the known amount; blocks that lack neither are hardly felt.
+"""Claim: a missing gap or thickness costs the known amount; blocks that lack neither cost almost nothing.
 
 Distances to check against are those of boxes, by hand.
 """

@@ -22,7 +22,7 @@ MODELS = (stacks.cut_stack, stacks.cut_lean, stacks.cut_arch, stacks.tilt_stack)
 
 
 def structure(model: object = stacks.cut_arch, seed: int = 1) -> Structure:
-    """A draw of the prior that has convex blocks: nothing here asks for balance."""
+    """A draw of the prior that has convex blocks: nothing here needs balance."""
     for k in range(seed, 100_000, 10):
         try:
             return Structure.of(nw.run_python(model, seed=k))  # type: ignore[arg-type]

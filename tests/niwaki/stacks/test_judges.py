@@ -1,4 +1,4 @@
-"""Claim: the two judges know what stands. Each structure of a known answer stands beside one that differs a little."""
+"""Claim: the two judges are right. Each structure with a known answer is beside one that differs a little."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Claim: our targets are closed, have the sizes that models count on, and survive writing and reading."""
+"""Claim: our targets are closed, have the sizes that models need, and survive writing and reading."""
 
 from __future__ import annotations
 

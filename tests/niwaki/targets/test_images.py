@@ -1,4 +1,4 @@
-"""Claim: a pixel is on where its red is above zero, whatever the format; what is no image costs a message."""
+"""Claim: a pixel is on where its red is above zero, whatever the format; a file that is no image gives an error."""
 
 from __future__ import annotations
 

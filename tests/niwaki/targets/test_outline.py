@@ -1,4 +1,4 @@
-"""Claim: a polygon comes from JSON and SVG as it was drawn, counter-clockwise; what is no polygon is refused."""
+"""Claim: a polygon comes from JSON and SVG as it was drawn, counter-clockwise; a file without a polygon is refused."""
 
 from __future__ import annotations
 

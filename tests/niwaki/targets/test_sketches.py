@@ -1,4 +1,4 @@
-"""Claim: the controls score what Python's own arithmetic scores, they multiply, and bad input costs a message."""
+"""Claim: the controls score as plain Python arithmetic does, they multiply, and bad input gives an error."""
 
 from __future__ import annotations
 

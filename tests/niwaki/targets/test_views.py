@@ -1,4 +1,4 @@
-"""Claim: the panels show what was wanted, what was made and where they differ, in colours that say which."""
+"""Claim: the panels show the wanted picture, the actual one and their difference, each in its colour."""
 
 from __future__ import annotations
 

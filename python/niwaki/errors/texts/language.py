@@ -1,4 +1,4 @@
-"""What the compiler refuses: one entry for each rule of the modelling language.
+"""Errors of the compiler: one entry for each rule of the modelling language.
 
 Each example is compiled by the tests and must be refused with this code, each cure
 must compile.

@@ -1,4 +1,4 @@
-"""What is wrong with settings, models and run files, given in Python or in a shell."""
+"""Errors about settings, models and run files, given in Python or in a shell."""
 
 from __future__ import annotations
 
