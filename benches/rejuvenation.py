@@ -67,7 +67,7 @@ METHODS = {
     "shaken at the end, 40": lambda: moving(shake(0.01), 40, "end"),
     "moved at the end, 300": lambda: moving(drifts(), 300, "end"),
     "moved at each barrier, 1": lambda: moving(drifts(), 1, 1),
-    "rows of 10, diverse": lambda: smc(10, diverse=100),
+    "populations of 10, diverse": lambda: smc(10, diverse=100),
     "final chain, 100": lambda: chain_of_final_set(100),
     "final chain, 300": lambda: chain_of_final_set(300),
     "particle Gibbs, 10": lambda: niwaki.particle_gibbs(10, N, power=POWER),

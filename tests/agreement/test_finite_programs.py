@@ -14,8 +14,8 @@ Programs whose every run looks at a future that is not forced are refused by eac
 A quantity is wrong only if it is so twice: by 5 standard errors, and with fresh seeds and sixteen times the runs by 7.
 Only values of at least a twentieth are counted, and a standard error is taken to be no less than that of three runs, so
 that rare runs that never occurred do not count against a method. For a share of a twentieth, both bounds on its
-binomial count together are passed once in 1e13 by chance; a soak of an hour looks at less than 1e7 quantities, so that it fails
-once in a million.
+binomial count together are passed once in 1e13 by chance; a soak of an hour looks at less than 1e7 quantities, so
+that it fails once in a million.
 
 Mutants. Each method is judged by the answer of a program that lacks what counts twice in its own, and is seen to be
 wrong. Two engines that were wrong have failed. One's force read its promise from a register that others had overwritten

@@ -130,7 +130,7 @@ def test_strategies_answer_as_enumeration_does(strategy: str) -> None:
     ("name", "sites"),
     [("coins", {"a": 3.0, "*": 0.5}), ("shapes", {"*bernoulli*": 0.3}), ("bounds", {"j": 4.0})],
 )
-def test_odds_by_site_answer_as_enumeration_does(name: str, sites: dict[str, float]) -> None:
+def test_selection_weights_by_site_answer_as_enumeration_does(name: str, sites: dict[str, float]) -> None:
     assert t_values(MODELS[name], k.weighted(k.prior(), sites=sites)) < 6
 
 

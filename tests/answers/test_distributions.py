@@ -425,7 +425,9 @@ def test_a_draw_is_a_function_of_its_coordinates() -> None:
         ("beta", [1.0], "b", "missing"),
     ],
 )
-def test_bad_parameters_say_what_is_wrong(family: str, params: list[Any], parameter: str, found: str) -> None:
+def test_bad_parameters_give_an_error_with_the_cause(
+    family: str, params: list[Any], parameter: str, found: str
+) -> None:
     with pytest.raises(_engine.BadParameter) as caught:
         _engine.draw(family, params, 1, 1)
     error = caught.value

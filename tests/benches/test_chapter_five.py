@@ -57,7 +57,7 @@ def test_models_are_as_large_as_published(
     assert as_published(sizes(model, runs), mean, sd, published)
 
 
-def test_a_tree_with_fewer_branches_is_told_apart() -> None:
+def test_a_tree_with_fewer_branches_is_rejected() -> None:
     assert not as_published(sizes(gnarly_tree, 1000, fork=0.25), 73.5, 51.0, 300)
 
 

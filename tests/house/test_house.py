@@ -67,7 +67,7 @@ def test_no_file_names_a_machine_or_the_host_of_a_registry():
     assert not found
 
 
-def test_no_file_speaks_of_what_only_its_authors_can_look_up():
+def test_no_file_refers_to_sources_that_readers_lack():
     pattern = re.compile(r"\b(issue|ticket|pull request|PR) #?\d+", re.I)
     assert not [f"{name}: {match[0]}" for name, text in texts() for match in pattern.finditer(text)]
 

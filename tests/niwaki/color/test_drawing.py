@@ -187,7 +187,9 @@ def test_our_own_drawings_have_ten_to_twenty_regions_all_seen(name: str) -> None
         ),
     ],
 )
-def test_a_drawing_that_cannot_be_read_says_why(tmp_path: Path, body: str, code: str, message: str) -> None:
+def test_a_drawing_that_cannot_be_read_gives_an_error(
+    tmp_path: Path, body: str, code: str, message: str
+) -> None:
     with pytest.raises(FileError) as found:
         drawing(tmp_path, body)
     assert found.value.code == code and message in str(found.value)

@@ -1,4 +1,4 @@
-"""The compatibility model's scores agree with other computations: colours, single terms, whole colourings, gradients."""
+"""The compatibility model's scores agree with known ones: colours, single terms, whole colourings, gradients."""
 
 from __future__ import annotations
 

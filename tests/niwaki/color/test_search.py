@@ -91,7 +91,7 @@ def test_the_default_is_many_short_chains_that_follow_the_gradient() -> None:
     assert default_method(12) == explore(draws=1, chains=36)
 
 
-def test_the_command_writes_what_it_says(small, tmp_path) -> None:
+def test_the_command_writes_the_files_that_it_names(small, tmp_path) -> None:
     out = tmp_path / "out"
     result = CliRunner().invoke(
         app,

@@ -107,7 +107,7 @@ def cafe() -> nw.Sample:
     return nw.run(furniture.coffee_shop, seed=2).best
 
 
-def test_furniture_stands_free_and_in_the_room(cafe: nw.Sample) -> None:
+def test_furniture_does_not_overlap_and_is_in_the_room(cafe: nw.Sample) -> None:
     discs = [(place, furniture.TABLE_RADIUS) for place, _, _ in cafe.value]
     discs += [(seat, furniture.CHAIR_RADIUS) for _, _, chairs in cafe.value for seat, _ in chairs]
     assert len(cafe.value) >= 5

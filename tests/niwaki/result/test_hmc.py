@@ -212,7 +212,7 @@ def messages(*given: Any, **settings: Any) -> tuple[Any, list[str]]:
     [nw.nuts(draws=300, warmup=200, thin=2), nw.hmc(draws=300, steps=10, warmup=200)],
     ids=["nuts", "hmc"],
 )
-def test_what_is_refused_for_structure_is_said_with_its_count(method: Any) -> None:
+def test_trajectories_refused_for_structure_are_reported_with_their_count(method: Any) -> None:
     """The count is the engine's; draws mark the same trajectories one by one."""
     result, warned = messages(MODELS["halves"], method, seed=1)
     refused, marked = result.divergences.structure, result.stats["refused_for_structure"]
@@ -228,7 +228,7 @@ def test_what_is_refused_for_structure_is_said_with_its_count(method: Any) -> No
     assert repr(result.summary()).endswith(f"\ntrajectories: {refused} refused for structure")
 
 
-def test_what_diverged_is_said_with_its_count() -> None:
+def test_divergences_are_reported_with_their_count() -> None:
     """A funnel that is drawn from its spread; of the same model, reparametrised, nothing is warned."""
     method = nw.nuts(draws=500, warmup=300)
     result, warned = messages(MODELS["funnel"], method, True, seed=1)
@@ -259,7 +259,7 @@ def test_a_step_that_was_given_is_to_be_smaller() -> None:
     assert result.divergences.energy > 0 and "a smaller `step_size` than 3" in warned[0]
 
 
-def test_what_is_no_number_is_said_with_its_count() -> None:
+def test_gradients_that_are_not_finite_are_reported_with_their_count() -> None:
     result, warned = messages(MODELS["overflow"], few(), seed=1)
     assert warned[0].startswith(
         f"{result.divergences.not_finite} trajectories of `overflow` reached points without"
@@ -275,7 +275,7 @@ def test_an_extreme_scale_that_is_a_choice_is_an_error() -> None:
                 nw.run(MODELS[name], method, spread, seed=1)
 
 
-def test_chains_start_where_they_are_told() -> None:
+def test_chains_start_from_given_choices() -> None:
     choices = {path: 0.3 for path in nw.run(point, seed=1).best.choices}
     method = nw.hmc(draws=1, steps=1, warmup=0, chains=2, step_size=1e-9)
     result = nw.run(point, method, 1.0, seed=1, choices=choices)
@@ -291,7 +291,7 @@ def test_ctrl_c_gives_what_there_is() -> None:
     assert result.log_density.shape == next(iter(result.draws.values())).shape
 
 
-def test_progress_is_told() -> None:
+def test_progress_is_reported() -> None:
     seen: list[int] = []
     method = nw.hmc(draws=4000, steps=60, chains=1)
     nw.run(point, method, 1.0, seed=1, progress=lambda p: seen.append(p.done))
@@ -331,7 +331,7 @@ def test_errors_are_as_reviewed(golden) -> None:
     golden(GOLDEN / "gradients.txt", "\n\n".join(lines) + "\n")
 
 
-def test_chains_that_climb_start_higher_and_count_the_gradients_of_the_way() -> None:
+def test_chains_that_climb_start_higher_and_count_the_gradients_of_the_ascent() -> None:
     settings = {"draws": 1, "steps": 1, "step_size": 1e-9, "chains": 8, "warmup": 0, "metric": "unit"}
     flat, climbed, again = (
         nw.run(point, 0.001, method=nw.hmc(**settings, climb=climb), seed=3) for climb in (0, 1000, 1000)

@@ -140,7 +140,7 @@ def test_sketches_follow_the_chain(kernel: k.Kernel) -> None:
     assert len({sample.primitives for sample in result}) > 1
 
 
-def test_acceptance_is_told_by_site() -> None:
+def test_acceptance_is_reported_by_site() -> None:
     result = nw.run(GARDEN, nw.mh(steps=4000, warmup=1000, kernel=k.drift(step=30.0)), seed=2)
     rows = result.acceptance
     assert set(rows) == {"garden/mean", "garden/width", "garden/i#0/x"} or len(rows) == 3

@@ -124,7 +124,7 @@ def test_nothing_that_is_possible_is_an_error(method: Any) -> None:
     assert "`condition` at line 7" in str(found.value)
 
 
-def test_particle_gibbs_starts_from_a_population_that_lives() -> None:
+def test_particle_gibbs_starts_from_a_possible_population() -> None:
     """Of two particles 0.81 die; ten populations all die for 12 seeds of 100."""
     found = nw.run(RARE, method=nw.particle_gibbs(particles=2, sweeps=39), seed=2)
     assert 0 < found.info.died < 40 and len(found) == 39
@@ -154,7 +154,7 @@ def test_weights_of_what_is_impossible_are_an_error() -> None:
             ask()
 
 
-def test_fewer_that_differ_are_said() -> None:
+def test_fewer_results_that_differ_give_a_warning() -> None:
     with pytest.warns(SearchWarning, match="of 30 results that differ are in 1 population;"):
         found = nw.run(COINS, method=nw.smc(particles=50, populations=1, diverse=30), seed=1)
     assert 1 <= len(found) < 30
@@ -184,7 +184,7 @@ def test_grow_gives_what_differs() -> None:
     assert timed.best.log_score == again.best.log_score
 
 
-def test_a_chain_says_how_it_moved_and_starts_where_it_is_told() -> None:
+def test_a_chain_counts_its_moves_and_starts_from_given_choices() -> None:
     found = nw.run(WALL, method=nw.particle_gibbs(particles=6, sweeps=20), seed=3)
     assert len(found) == len(found.info.renewed) == 20
     assert (

@@ -21,7 +21,7 @@ def score():
 
 
 @pytest.mark.parametrize("at", [7, "resampled", "end"])
-def test_moved_particles_are_what_their_choices_say(score, at):
+def test_moved_particles_agree_with_their_choices(score, at):
     method = niwaki.smc(12, rejuvenate=KERNEL, moves=3, at=at)
     result = niwaki.run(gnarly_tree, method=method, score=score, seed=3, threads=1)
     (running, running_kept), (ended, ended_kept) = result.info.moved_running, result.info.moved_ended

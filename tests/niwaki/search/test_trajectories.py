@@ -128,7 +128,7 @@ def test_every_state_scores_what_it_scores_when_it_is_run_again() -> None:
         assert abs(sum(sample.choices["shares"]) - 1.0) < 1e-12
 
 
-def test_what_became_of_trajectories_is_told() -> None:
+def test_statistics_of_trajectories_are_reported() -> None:
     kernel = k.cycle(k.prior(), k.on("size", k.hmc_step(steps=4)), k.on("shares", k.nuts_step(max_depth=3)))
     result = nw.run(BEADS, nw.mh(steps=6000, warmup=3000, kernel=kernel), seed=2)
     sizes, shares = result.trajectories
@@ -200,7 +200,7 @@ def chain(
     ],
     ids=repr,
 )
-def test_what_is_refused_for_structure_is_said_where_no_other_kernel_moves_there(
+def test_refusals_for_structure_are_reported_where_no_other_kernel_moves_there(
     kernel: k.Kernel, unmoved: str | None
 ) -> None:
     """Each chain has trajectories that are refused; where something else changes the structure that is no matter."""
@@ -220,7 +220,7 @@ def test_what_is_refused_for_structure_is_said_where_no_other_kernel_moves_there
     assert len(values) == 1 or kernel.name == "tempering"
 
 
-def test_what_diverged_is_said_with_its_count() -> None:
+def test_divergences_are_reported_with_their_count() -> None:
     result, warned = chain(k.cycle(k.prior(), k.hmc_step(steps=3, step=50.0)), model="needle", warmup=0)
     (one,) = result.trajectories
     assert one.divergences.energy > 0

@@ -137,7 +137,7 @@ def test_boards_are_saved_one_to_a_file(tmp_path: Path) -> None:
     ],
     ids=["solid", "board", "kerf", "format"],
 )
-def test_what_cannot_be_cut_is_said(make: object, words: str) -> None:
+def test_pieces_that_cannot_be_cut_are_reported(make: object, words: str) -> None:
     with pytest.raises(nw.NiwakiError, match=words):
         make()  # type: ignore[operator]
 

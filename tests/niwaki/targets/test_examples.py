@@ -78,7 +78,7 @@ def test_images_have_the_size_and_the_weight_of_the_originals(name: str, side: i
     assert on(name).mean() == pytest.approx(share, abs=0.01)
 
 
-def test_images_say_what_their_experiments_need() -> None:
+def test_images_fit_their_experiments() -> None:
     # Pipes start above the middle of the floor and can only fill what is one piece.
     assert on("digits")[125, 125]
     assert pieces(on("digits")) == pieces(on("face")) == pieces(on("ship_front")) == 1

@@ -79,7 +79,7 @@ def test_a_slanted_light_throws_the_shadow_aside() -> None:
     assert rows.max() - rows.min() + 1 == 5
 
 
-def test_two_views_are_told_apart_in_the_measures() -> None:
+def test_two_views_are_distinct_in_the_measures() -> None:
     side = nw.Camera.orthographic((20, 0, 0), (0, 0, 0), height=10)
     score = nw.match_volume(cube()) * nw.match_image(ON, CAMERA) * nw.match_image(ON, side)
     assert [name for name in started(score).measures() if name.startswith("similarity")] == [
