@@ -75,7 +75,7 @@ class Experiment:
     polish: Mh | None = None
 
     def score(self, rule: str = "solid") -> Score:
-        """Make what it asks for, on our own targets; `rule` is that of `no_self_intersection`."""
+        """Create its score, on our own targets; `rule` is that of `no_self_intersection`."""
         from niwaki.targets import sketches
 
         score = sketches.no_self_intersection(rule)

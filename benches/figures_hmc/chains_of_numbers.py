@@ -40,7 +40,7 @@ class Chains:
     def least(self) -> float:
         """The smallest bulk effective size of a coordinate.
 
-        Of several chains no more than their means are worth, as so many independent numbers: halves of a short chain
+        Of several chains at most the size that their means give as independent numbers: halves of a short chain
         that hardly moved would count as two.
         """
         flat = self._flat()

@@ -67,7 +67,7 @@ def gallery(names: tuple[str, ...]) -> Image.Image:
 
 
 def as_rules(drawing: Drawing, rules: Rules) -> dict[str, str]:
-    """The rules as colours: one hue for shades of one colour, darker where a chain of lightness says so."""
+    """The rules as colours: one hue for shades of one colour, darker by a chain of lightness."""
     group = {name: name for name in drawing.names}
     for one in rules:
         if one.kind == "same-chroma":

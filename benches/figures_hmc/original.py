@@ -93,7 +93,7 @@ def mh(
         log_ratio = at - value
         if corrected:
             # The Jacobian of a bounded number is (y - low) (high - y), up to a factor. What would be moved back to the
-            # bounds is refused: the way back from there is another.
+            # bounds is refused: the reverse move is a different one.
             log_ratio += math.log((y[i] - low) * (high - y[i]) / ((moved - low) * (high - moved)))
             log_ratio = log_ratio if moved == wanted else -math.inf
         if math.log(1.0 - random.uniform()) < log_ratio:

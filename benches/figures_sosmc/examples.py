@@ -92,7 +92,7 @@ def searches(
 
 
 def row(one: Experiment, preset: str, found: list[tuple[nw.Result, float]], impossible: int) -> dict:
-    """What the table says about an experiment."""
+    """The line of the table for an experiment."""
     return {
         "experiment": one.name,
         "preset": preset,

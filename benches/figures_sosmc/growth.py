@@ -30,7 +30,7 @@ LARGEST, MEGABYTES = (1000, 1000), 1000
 
 @nw.model
 def tower(n):
-    """Pile up `n` turned boxes: every particle has as many primitives, and none is like another's."""
+    """Pile up `n` turned boxes: every particle has as many primitives, all different."""
     for k in range(n):
         turn = nw.uniform(0.0, 1.5)
         size = (nw.uniform(0.5, 2.0), 0.1, nw.uniform(0.5, 2.0))

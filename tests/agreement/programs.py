@@ -47,7 +47,7 @@ class Maker:
         self.locals: list[str] = []
 
     def fresh(self, stem: str) -> str:
-        """A name that nobody has."""
+        """A new name."""
         self.count += 1
         return f"{stem}{self.count}"
 

@@ -17,12 +17,11 @@ that rare runs that never occurred do not count against a method. For a share of
 binomial count together are passed once in 1e13 by chance; a soak of an hour looks at less than 1e7 quantities, so
 that it fails once in a million.
 
-Mutants. Each method is judged by the answer of a program that lacks what counts twice in its own, and is seen to be
-wrong. Two engines that were wrong have failed. One's force read its promise from a register that others had overwritten
-(in `place.rs`, no `SiteKind::Force` among those that are read again, and no check of it in `verify.rs`): every fourth
-or fifth program failed. The other's chains tested, of `a or b`, what the last run had left (in `expressions.rs`,
-`shortcut` jumps by `to`; no check of it in `verify.rs`): the 974th and the 114th program of two runs failed, and
-`EITHER` is their reduced form.
+Mutants. Each method is judged by the answer of a program that lacks what counts twice in its own, and must be wrong by
+it. Two wrong engines have failed. In one, `force` read its future from a register that was overwritten (in `place.rs`,
+no `SiteKind::Force` among those that are read again, and no check of it in `verify.rs`): every fourth or fifth program
+failed. In the other, chains tested, of `a or b`, a value of the last run (in `expressions.rs`, `shortcut` jumps by
+`to`; no check of it in `verify.rs`): the 974th and the 114th program of two runs failed, and `EITHER` is their reduced form.
 """
 
 from __future__ import annotations
@@ -263,7 +262,7 @@ def wrong(program: str, seed: int, tally: Tally | None = None) -> str:
 
 
 def answers_a_look(program: str, seed: int) -> str:
-    """Who does not refuse a program that looks at a future, or nobody."""
+    """The executor that does not refuse a program that uses a future without `force`, or an empty text."""
     model = load(program)
     try:
         model.core()
@@ -322,7 +321,7 @@ def still_wrong(program: str, seed: int, before: str) -> bool:
         return False
 
 
-#: A promise that one branch makes, forced where nobody waited for it before.
+#: A future that one branch creates, forced where nothing waited for it before.
 CHOSEN = """from niwaki import model; from niwaki.words import *
 
 def leaf():

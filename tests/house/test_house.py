@@ -171,7 +171,7 @@ def test_crates_import_only_the_rooms_above_them():
 
 
 def pages() -> list[Path]:
-    """The pages that a person reads."""
+    """The pages for readers."""
     return [ROOT / "README.md", ROOT / "ARCHITECTURE.md", *sorted((ROOT / "docs").rglob("*.md"))]
 
 

@@ -48,7 +48,7 @@ def cases(path: Path) -> Iterator[Case]:
 
 
 def load(program: str, name: str) -> Any:
-    """The model `m` of a program. The prelude stands on the line before the first, so that lines count from 1."""
+    """The model `m` of a program. The prelude is on the line before the first, so that lines count from 1."""
     text = program if program.startswith("from __future__") else program
     linecache.cache[name] = (len(text), None, text.splitlines(True), name)
     space: dict[str, Any] = {"__name__": "specification"}

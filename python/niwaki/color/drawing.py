@@ -84,7 +84,7 @@ class Drawing:
         if path.suffix.lower() == ".svg":
             artwork = Artwork(path.read_bytes(), path)
             if len(artwork.names) < 2:
-                raise FileError("drawing-no-regions", path, found=_found(artwork.names))
+                raise FileError("drawing-no-regions", path, found=_region_names(artwork.names))
             if len(artwork.names) > MOST_REGIONS:
                 raise FileError("drawing-too-many", path, count=len(artwork.names), most=MOST_REGIONS)
             return cls(artwork.names, artwork.labels(size), artwork, path)
@@ -151,5 +151,5 @@ def _of_image(path: Path) -> tuple[tuple[str, ...], NDArray[np.int64]]:
     return tuple(f"#{value:06x}" for value in values.tolist()), labels
 
 
-def _found(names: tuple[str, ...]) -> str:
+def _region_names(names: tuple[str, ...]) -> str:
     return f"one region, `{names[0]}`" if names else "no painted shape with a class or an id"

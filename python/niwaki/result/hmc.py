@@ -167,7 +167,7 @@ class HmcInfo(Info):
     gradients: int
     fixed: list[dict[str, Any]]
     fault: ModelFault | None
-    _found: _engine.Trajectories | None
+    _trajectories: _engine.Trajectories | None
 
     @classmethod
     def of(cls, search: Search, seed: int, found: _engine.Trajectories) -> HmcInfo:
@@ -190,19 +190,19 @@ class HmcInfo(Info):
             gradients=sum(count["gradients"] for count in counts),
             fixed=[{choice.path: choice.value for choice in found.fixed(chain)} for chain in chains],
             fault=as_fault(first, search.model.name, f"seed={seed}"),
-            _found=found,
+            _trajectories=found,
         )
 
     def __getstate__(self) -> dict[str, Any]:
         """All numbers of the draws, without the engine."""
         for name in ("values", "positions", "_scores"):
             getattr(self, name)
-        return {**self.__dict__, "_found": None}
+        return {**self.__dict__, "_trajectories": None}
 
     def _of_each(self, look: Callable[[_engine.Trajectories, int], Any]) -> list[Any]:
         """The engine's results of each chain; pickling reads what it needs before."""
-        assert self._found is not None
-        return [look(self._found, chain) for chain in range(len(self.sizes))]
+        assert self._trajectories is not None
+        return [look(self._trajectories, chain) for chain in range(len(self.sizes))]
 
     @cached_property
     def values(self) -> list[dict[str, Reals]]:

@@ -135,5 +135,5 @@ def test_twelve_colourings_of_our_drawings_keep_the_rules_and_differ(name: str) 
     weights = np.sqrt(found[0].drawing.areas)
     for k in range(12):
         for j in range(k):
-            # 10 units are a difference that nobody misses.
+            # 10 units are a visible difference.
             assert np.linalg.norm(labs[k] - labs[j], axis=1) @ weights / weights.sum() > 10.0

@@ -189,7 +189,7 @@ def test_autoregressive_chains_have_the_known_autocorrelation_and_size() -> None
         # Three coordinates of different sizes; inner products weigh them by variance, and each has the same phi.
         x = np.stack([scale * walk(phi, 3, n)[k] for k, scale in enumerate((1.0, 0.5, 2.0))], axis=1) + 7.0
         # Bartlett: an estimate of AC(t) has a standard error below sqrt((1 + phi^2) / (1 - phi^2) / n) = 0.0155 at 0.9,
-        # times the root of 1.2 for three unequal coordinates' worth; 5 of those.
+        # times the root of 1.2 for three unequal coordinates; 5 of those.
         error = 5.0 * math.sqrt(1.2 * (1 + phi**2) / (1 - phi**2) / n)
         found = diagnostics.autocorrelation(x)[:far]
         assert np.abs(found - phi ** np.arange(far)).max() < error

@@ -339,7 +339,7 @@ def test_chains_that_climb_start_higher_and_count_the_gradients_of_the_ascent() 
     # From thousands of nats below to within a few of the top, where the log density is about 3, or tens at most.
     assert np.median(flat.log_density) < -1000.0
     assert np.median(climbed.log_density) > 0.0 and climbed.log_density.min() > -100.0
-    # The way up ends by itself, where nothing is to be gained.
+    # The ascent ends by itself, where there is nothing to gain.
     assert flat.gradients + 8 * 40 < climbed.gradients < flat.gradients + 8 * 1000
     assert np.array_equal(climbed.log_density, again.log_density)
     assert len({round(float(x), 3) for x in climbed.draws[next(iter(climbed.draws))][:, 0]}) > 4

@@ -34,7 +34,7 @@ def test_a_chain_starts_where_the_search_ended() -> None:
     before, now = found.best.choices, one.last[0].choices
     assert sum(before[address] != now[address] for address in before) <= 1
     assert one.best.log_score >= found.best.log_score
-    # Mutant: a chain that starts anew differs in many.
+    # Mutant: a chain from a new start differs in many.
     anew = nw.run(row, method=nw.mh(1, keep=0), seed=found.seed).last[0].choices
     assert sum(before[address] != anew[address] for address in before) > 5
 

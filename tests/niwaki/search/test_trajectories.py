@@ -159,7 +159,7 @@ def test_without_a_warmup_nothing_is_adapted() -> None:
 
 
 def test_trajectories_that_reach_what_is_no_number_are_counted() -> None:
-    """Below zero the root is a fault where the coin says so: neither silent, nor the end of the chain."""
+    """Below zero the root is a fault for one value of the coin: it is reported, and the chain continues."""
     kernel = k.cycle(k.on("a", k.prior()), k.on("x", k.hmc_step(steps=5, step=0.8)))
     with pytest.warns(GradientWarning, match="without a finite gradient"):
         result = nw.run(MODELS["edge"], nw.mh(steps=2000, kernel=kernel), seed=1)
@@ -242,7 +242,7 @@ def test_tempering_reaches_the_other_side_of_a_tight_constraint() -> None:
 
 
 def failing() -> dict[str, Callable[[], Any]]:
-    """Every way to go wrong, by what it is."""
+    """Every kind of error, by name."""
     run, hmc = nw.run, k.cycle(k.prior(), k.hmc_step())
     return {
         "nothing continuous": lambda: run(MODELS["coins"], nw.mh(steps=10, kernel=hmc), seed=1),

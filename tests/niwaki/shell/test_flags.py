@@ -79,7 +79,7 @@ def test_an_image_is_matched_beside_a_wall_on_a_floor(place: Path) -> None:
     assert sketches["match_image"]["camera"]["camera"]["height"] == 6.0
     low, high = trimesh.load_scene("out/best.glb").bounds
     assert low[1] >= -1e-6
-    # The wall stands from x = 2.5 on.
+    # The wall begins at x = 2.5.
     assert high[0] < 2.5
 
 
@@ -162,7 +162,7 @@ def test_a_time_instead_of_particles(place: Path) -> None:
     assert data["search"]["method"]["seconds"] == 0.3 and len(data["plan"]) >= 1
 
 
-@pytest.mark.filterwarnings("ignore::niwaki.draw.solid.PrintWarning")  # towers stand apart
+@pytest.mark.filterwarnings("ignore::niwaki.draw.solid.PrintWarning")  # towers do not touch
 def test_every_format_from_a_search_and_from_its_record(place: Path) -> None:
     both = ["--format", "glb,stl,3mf,obj,ply,gif,apng", "--scale", "10", "--frames", "2", "--size", "64x48"]
     grown(*IMAGE, *both, "--no-picture")

@@ -88,7 +88,7 @@ def test_images_fit_their_experiments() -> None:
     # The stroke runs along the face's edge: half of it lies on either side.
     stroke = on("face_stroke")
     assert on("face")[stroke].mean() == pytest.approx(0.5, abs=0.1)
-    # The town stands on row 128, as its camera sees the ground.
+    # The town is on row 128 of pixels, as its camera sees the ground.
     rows = np.flatnonzero(on("skyline").any(axis=1))
     assert rows.max() == 128
 
