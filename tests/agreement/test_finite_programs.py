@@ -21,7 +21,8 @@ Mutants. Each method is judged by the answer of a program that lacks what counts
 it. Two wrong engines have failed. In one, `force` read its future from a register that was overwritten (in `place.rs`,
 no `SiteKind::Force` among those that are read again, and no check of it in `verify.rs`): every fourth or fifth program
 failed. In the other, chains tested, of `a or b`, a value of the last run (in `expressions.rs`, `shortcut` jumps by
-`to`; no check of it in `verify.rs`): the 974th and the 114th program of two runs failed, and `EITHER` is their reduced form.
+`to`; no check of it in `verify.rs`): the 974th and the 114th program of two runs failed, and `EITHER` is their reduced
+form.
 """
 
 from __future__ import annotations

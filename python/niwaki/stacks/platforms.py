@@ -23,16 +23,7 @@ from niwaki.stacks.blocks import (
     welded,
 )
 from niwaki.stacks.clearance import clear
-from niwaki.stacks.contacts import (
-    DOWN,
-    GROUND,
-    SAFETY,
-    StackValue,
-    balance,
-    contact,
-    corners,
-    tolerance_of,
-)
+from niwaki.stacks.contacts import DOWN, GROUND, SAFETY, StackValue, balance, contact, corners, tolerance_of
 from niwaki.stacks.towers import GROUND_TOP, OAK, PAINTS, UP, WIDEST, slope
 
 HALF = 0.65

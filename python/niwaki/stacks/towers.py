@@ -27,16 +27,7 @@ from niwaki.stacks.blocks import (
     volume_and_centre,
 )
 from niwaki.stacks.clearance import clear
-from niwaki.stacks.contacts import (
-    DOWN,
-    GROUND,
-    SAFETY,
-    StackValue,
-    balance,
-    contact,
-    corners,
-    tolerance_of,
-)
+from niwaki.stacks.contacts import DOWN, GROUND, SAFETY, StackValue, balance, contact, corners, tolerance_of
 
 GROUND_TOP = -0.03
 FLOOR = (
