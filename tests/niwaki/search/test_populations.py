@@ -84,7 +84,6 @@ def test_each_follows_the_exact_answer(method: Any) -> None:
 def test_a_search_by_time_is_repeated_by_its_plan() -> None:
     timed = nw.run(WALL, method=nw.smc(seconds=0.3), seed=4)
     assert len(timed) == sum(timed.info.plan) and len(set(timed.info.plan)) == 1
-    assert timed.seconds < 1.0
     again = nw.run(WALL, method=nw.smc(particles=timed.info.plan), seed=4)
     assert timed.log_evidence == again.log_evidence
     assert [s.log_weight for s in timed] == [s.log_weight for s in again]

@@ -94,7 +94,7 @@ impl Particle {
     }
 
     /// A uniform draw among the runnable futures.
-    fn pick(&self, n: usize, seed: u64) -> usize {
+    pub fn pick(&self, n: usize, seed: u64) -> usize {
         let u = Stream::new(seed, self.lineage, u128::from(self.picks + 1), ORDER).uniform();
         ((u * n as f64) as usize).min(n - 1)
     }

@@ -176,7 +176,7 @@ impl<'p> Chain<'p> {
     }
 }
 
-/// The sums of a fresh run with the chain's choices.
+/// The sums of a fresh run with the chain's choices; its transaction is still open.
 pub fn fresh_totals(program: &Program, chain: &Chain) -> Totals {
     let mut known = HashMap::new();
     chain.trace.visit(program, |place, item| {
@@ -188,5 +188,5 @@ pub fn fresh_totals(program: &Program, chain: &Chain) -> Totals {
     let mut draws = Draws { seed: 0, visit: 0, known };
     let (trace, change) = machine.begin(&[], &mut draws).expect("a run");
     assert_eq!(change, Change::Done);
-    trace.totals().clone()
+    trace.change().clone()
 }

@@ -31,6 +31,11 @@ fn task(text: &str) -> Task {
     Task::new(Arc::new(compile(&parse(text).unwrap(), vec![]).unwrap()))
 }
 
+/// The value of an entry as text; of an order choice, which future ran.
+fn written(entry: &crate::log::Entry) -> String {
+    entry.which().map_or_else(|| repr(&entry.value).unwrap(), |which| format!("future {which}"))
+}
+
 /// Programs whose answer enumeration knows.
 const PROGRAMS: [(&str, &str); 10] = [
     (
@@ -317,7 +322,7 @@ fn copies_are_the_same_in_batches() {
         }
         let one = |p: &Particle| {
             let own = p.record.log.entries();
-            (p.lineage, own.iter().map(|e| (e.address(), repr(&e.value).unwrap())).collect::<Vec<_>>())
+            (p.lineage, own.iter().map(|e| (e.address(), written(e))).collect::<Vec<_>>())
         };
         (population.particles.iter().map(one).collect::<Vec<_>>(), ancestor, lineages)
     };

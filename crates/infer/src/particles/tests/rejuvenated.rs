@@ -6,10 +6,10 @@
 //! 300 counts are looked at, and a z beyond 5 comes once in 1.7 million (normal approximation; states that are expected
 //! fewer than 10 times are left out), so a re-seeded suite fails once in 5,000 runs.
 
-use super::super::partial_run::{PartialRun, With};
 use super::super::population::Population;
 use super::*;
 use crate::chain::kernel::Kernel;
+use crate::chooser::Prior;
 
 /// Programs in which moves have more to do: choices that come and go between two barriers, and values that a suspended
 /// activation holds.
@@ -72,7 +72,7 @@ fn rejuvenation(kernel: Kernel, moves: u64, at: Moment) -> Option<Rejuvenation> 
 
 /// A run as text: in order while it runs, as a set once it has ended.
 fn text(p: &Particle) -> String {
-    let one = |e: &crate::log::Entry| format!("{:x}={}", e.address(), repr(&e.value).unwrap());
+    let one = |e: &crate::log::Entry| format!("{:x}={}", e.address(), written(e));
     let entries = p.record.log.entries();
     if !p.state.has_ended() {
         return entries.iter().map(|e| if e.is_order() { format!("!{}", one(e)) } else { one(e) }).collect();
@@ -82,46 +82,32 @@ fn text(p: &Particle) -> String {
     format!("ended {}", own.concat())
 }
 
-/// The log probability of the order choices of a run up to so many barriers, or to its end.
-fn log_order(
-    task: &Task,
-    settings: &Settings,
-    first: &mut Particle,
-    entries: &[crate::log::Entry],
-    barriers: usize,
-) -> f64 {
-    let depth_first = settings.order == Order::DepthFirst;
-    let with = With { task, depth_first, origins: false, weigh: &|_| Box::default() };
-    let mut machine = task.machine();
-    let run = PartialRun::of(with, &mut machine, entries, barriers, &mut |_| panic!("the order is known"));
-    let Some(run) = run.unwrap() else { return 0.0 };
-    let (mut again, has_ended) = (first.fork(), run.state.has_ended());
-    let segments = run.segments();
-    let to_barriers = &segments[..if has_ended { segments.len() } else { barriers }];
-    let mut sum = 0.0;
-    for (number, segment) in to_barriers.iter().enumerate() {
-        let last = has_ended && number + 1 == segments.len();
-        sum += again.follow(&mut machine, task, segment, last, None).unwrap().unwrap();
-    }
-    sum
-}
-
 /// The worst z of the counts of moved draws from the law at a barrier, the number of states, and the moves.
 fn moved_draws(task: &Task, settings: &Settings, barriers: usize) -> (f64, usize, Moved) {
     let mut population = Population::start(task, settings, false).unwrap();
-    let mut first = population.particles[0].fork();
+    let (mut machine, mut log_orders) = (task.machine(), vec![0.0; settings.particles]);
     for _ in 0..barriers {
-        population.advance(None).unwrap();
+        for (p, log_order) in population.particles.iter_mut().zip(&mut log_orders) {
+            p.was_ended = p.state.has_ended();
+            while p.is_running() {
+                let n = p.state.runnable().len();
+                let which = if n > 1 { p.pick(n, settings.seed) } else { 0 };
+                *log_order -= (n as f64).ln();
+                if p.run(&mut machine, task, which, Prior(p.stream)).unwrap() {
+                    break;
+                }
+            }
+        }
         population.barriers += 1;
     }
     let (mut law, mut whole, mut mass) = (HashMap::new(), HashMap::new(), 0.0);
-    for p in &mut population.particles {
+    for (p, log_order) in population.particles.iter_mut().zip(log_orders) {
         let entries = p.record.log.entries();
-        let log_run = p.record.log_prior.value() + log_order(task, settings, &mut first, &entries, barriers);
+        let log_run = p.record.log_prior.value() + log_order;
         let log_law = log_run + settings.power * p.record.log_score();
         p.weighed = p.record.score();
         p.log_weight = f64::NEG_INFINITY;
-        let own: Vec<_> = entries.iter().map(|e| (e.address(), repr(&e.value).unwrap())).collect();
+        let own: Vec<_> = entries.iter().map(|e| (e.address(), written(e))).collect();
         if whole.insert(own, ()).is_none() {
             mass += log_run.exp();
             *law.entry(text(p)).or_insert(0.0) += log_law.exp();
