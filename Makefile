@@ -59,7 +59,7 @@ $(STAMPS)/engine: $(RUST) pyproject.toml $(STAMPS)/core $(STAMPS)/build
 	VIRTUAL_ENV=$(CURDIR)/$(VENV) $(VENV)/bin/maturin develop $(CARGO_FLAGS)
 	@touch $@
 
-# ---- what a person asks for
+# ---- targets for users
 
 demo: $(STAMPS)/engine
 	$(PY) -m niwaki.shell.demo out

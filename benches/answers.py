@@ -1,4 +1,4 @@
-"""Answers worked out without sampling, which each timed run is checked against.
+"""Answers computed without sampling; each timed run is compared with them.
 
 The evidence of the particle programs, and the marginals of the hidden Markov chain.
 """
@@ -49,7 +49,7 @@ def branching() -> float:
 def quadrature(size: int, deepest: int = DEEPEST) -> float:
     """Log evidence of the branching program with tables of `size` by `size`, nats.
 
-    What a segment and all that grows from it are worth depends on its depth and on where it starts seen from
+    The value of a segment and all that grows from it depends on its depth and on where it starts seen from
     the origin: the distance r and the angle a between its heading and the direction away from the origin.
     With the end of the segment at (r', a'),
 

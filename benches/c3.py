@@ -5,9 +5,9 @@
 
 Hidden Markov model, topics, mixture, regression (dissertation, appendix A) at sizes 1, 4, 10: proposals per CPU second
 of our four strategies, of WebPPL's MH and incrementalMH, and of the limit, on one thread, taking turns, with the same
-proposals; then ways of writing a program, global choices, long chains, a tree, and the figures of section 3.4.
-Answers are checked before anything is timed. What is asked of each figure is printed beside it; a speed that is missed
-is said, a wrong answer fails.
+proposals; then variants of a program, global choices, long chains, a tree, and the figures of section 3.4.
+Answers are checked before anything is timed. The target of each figure is printed beside it; a speed below its target
+is reported, a wrong answer fails.
 
 Every measurement is a line of `c3.jsonl` in the folder (`benches/.cache/c3`), which also takes the figures.
 """
@@ -31,7 +31,7 @@ PARTS = ("answers", "sizes", "forms", "tree", "figures")
 
 
 def main() -> int:
-    """Measure what is asked for; 1 when an answer is wrong."""
+    """Measure the selected parts; 1 when an answer is wrong."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--quick", action="store_true", default=os.environ.get("QUICK", "0") not in ("", "0"))
     parser.add_argument("--only", default=",".join(PARTS))

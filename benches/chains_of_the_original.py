@@ -43,12 +43,12 @@ def main(runs: int = 10, *names: str) -> int:
     """Measure and print one line for each experiment and method."""
     warnings.simplefilter("ignore", SearchWarning)
     for name in names or ("ship", "building", "tall-tree"):
-        asked = experiment(name)
-        model = entry(asked.model)
-        if model is None or asked.fill is None:
+        chosen = experiment(name)
+        model = entry(chosen.model)
+        if model is None or chosen.fill is None:
             print(f"skipped: {name} fills no volume")
             continue
-        fill = niwaki.match_volume(named_target(asked.fill), voxel=asked.voxel, sigma=asked.sigma)
+        fill = niwaki.match_volume(named_target(chosen.fill), voxel=chosen.voxel, sigma=chosen.sigma)
         score = niwaki.no_self_intersection() * fill
         found: dict[str, list[float]] = {}
         budget = []
@@ -59,7 +59,7 @@ def main(runs: int = 10, *names: str) -> int:
             found.setdefault("SOSMC, 300", []).append(one.best.log_score)
             budget.append(one.cpu_seconds)
         seconds = statistics.fmean(budget)
-        for kind, kernel in chains("side_branch" if asked.model == "gnarly-tree" else None).items():
+        for kind, kernel in chains("side_branch" if chosen.model == "gnarly-tree" else None).items():
             for seed in range(1, runs + 1):
                 best = timed(model.model, score, kernel, seconds, seed).best
                 found.setdefault(kind, []).append(best.log_score)

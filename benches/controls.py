@@ -1,7 +1,7 @@
 """What one more part costs each sketch when there are already many: CPU microseconds, which should not grow.
 
 A row of turned boxes grows as a search grows it: before each part the sketch is copied and the old copy kept for a
-while, so that sharing is paid for. Run it alone on one core; the figures are this process's own CPU time.
+while, so that the cost of sharing is included. Run it alone on one core; the figures are this process's own CPU time.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The experiments of dissertation chapter 5 on our own targets: which model, asked for what, with how many particles.
+"""The experiments of dissertation chapter 5 on our own targets: each model, its target, and its number of particles.
 
 Table 5.1 with the cameras, lights and widths of figures 5.1 to 5.8. All of them also forbid self-intersection. Targets
 are ours throughout, and so is the camera in front of the ship, which is not on record.
@@ -26,7 +26,7 @@ RECOMMENDED: dict[str, Any] = {"power": 8.0, "anneal": [min(8.0, 2.0 + 0.2 * k) 
 
 @dataclass(frozen=True)
 class Experiment:
-    """What one figure asks of a model.
+    """What one figure needs from a model.
 
     Attributes
     ----------
@@ -75,7 +75,7 @@ class Experiment:
     polish: Mh | None = None
 
     def score(self, rule: str = "solid") -> Score:
-        """Make what it asks for, on our own targets; `rule` is that of `no_self_intersection`."""
+        """Create its score, on our own targets; `rule` is that of `no_self_intersection`."""
         from niwaki.targets import sketches
 
         score = sketches.no_self_intersection(rule)
@@ -98,42 +98,42 @@ class Experiment:
             image, self.light, ground, self.camera, weight_image=heavy, sigma=self.sigma
         )
 
-    def settings(self, way: str = "original") -> dict[str, Any]:
-        """What `smc` is told: "original" for whole scores and the original's particles, or "ours"."""
-        if way == "original":
+    def settings(self, preset: str = "original") -> dict[str, Any]:
+        """Settings of `smc`: "original" for whole scores and the original's particles, or "ours"."""
+        if preset == "original":
             return {"particles": self.particles, "weights": "absolute"}
         return {"particles": self.particles} | RECOMMENDED | self.ours
 
     def run(
         self,
-        way: str = "original",
+        preset: str = "original",
         *,
         seed: int = 1,
         threads: int | None = None,
         steps: int | None = None,
         **settings: Any,
     ) -> Result:
-        """Search, in a stochastic order, and by our way go on from the best.
+        """Search, in a stochastic order, and with "ours" go on from the best.
 
         Parameters
         ----------
-        way
+        preset
             As for `settings`.
         seed, threads
             As for `niwaki.run`.
         steps
             Proposals of the chain that goes on, instead of its own number.
         settings
-            Of `smc`, instead of those of the way.
+            Of `smc`, instead of those of the preset.
         """
         from niwaki.methods import smc
         from niwaki.search import run
 
         found = entry(self.model)
         assert found is not None
-        method = smc(**(self.settings(way) | settings))
+        method = smc(**(self.settings(preset) | settings))
         result = run(found.model, method=method, score=self.score(), seed=seed, threads=threads)
-        if way == "original" or self.polish is None:
+        if preset == "original" or self.polish is None:
             return result
         onward = self.polish if steps is None else replace(self.polish, steps=steps)
         return result.polish(onward, threads=threads)

@@ -23,7 +23,7 @@ import numpy as np
 def cost(runs: list[dict], path: Path, dots_per_inch: int = 120) -> None:
     """Draw CPU seconds against particles and against primitives, both axes logarithmic.
 
-    A series stands in the panel of what varies in it: particles where it has several numbers of them, else
+    A series is in the panel of its variable: particles where it has several numbers of them, else
     primitives. A dotted line through the first point of each shows what growing in proportion would be.
     """
     numbers: dict[str, set[int]] = defaultdict(set)
@@ -59,7 +59,7 @@ def grouped(runs: list[dict], size: str) -> dict[str, dict[int, list[float]]]:
 
 
 def colors() -> list[str]:
-    """The house's colours for curves, darkest first, told apart by eyes that do not see red or green."""
+    """Colours for curves, darkest first, that people with red-green colour blindness can distinguish."""
     return ["#1b4965", "#ca6702", "#5a9a8f", "#9b2226", "#7a6c9c"]
 
 

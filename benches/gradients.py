@@ -1,12 +1,12 @@
 """Chains that follow the gradient, beside JAX, NumPyro and nutpie (the peers) and gradients by hand (the limit).
 
     make bench-hmc                      # QUICK=1 for a run that shows no more than that everything runs
-    .venv/bin/python benches/gradients.py [--quick] [--only answers,rates,starts,worth] [--out FOLDER]
+    .venv/bin/python benches/gradients.py [--quick] [--only answers,rates,starts,effective] [--out FOLDER]
 
 Three densities (`hmc/densities.py`): a point near a curve, colours of 20 regions, a stack of blocks. All systems run on
 one processor, in one process or a child of it, and take turns. Rates are by wall: run it where nothing else runs; rates
-by CPU time stand beside them. Answers are checked before anything is timed. What is asked of each figure is printed
-beside it; a speed that is missed is said, a wrong answer fails. Peers that are not installed are left out, and named.
+by CPU time stand beside them. Answers are checked before anything is timed. The target of each figure is printed
+beside it. A speed below its target is reported; a wrong answer fails. Peers that are not installed are named.
 
 Every measurement is a line of `gradients.jsonl` in the folder (`benches/.cache/gradients`).
 """
@@ -26,17 +26,17 @@ os.environ.setdefault("JAX_PLATFORMS", "cpu")
 
 import numpy as np
 from chains.report import Report
-from hmc import densities, peers, rates, starts, worth
+from hmc import densities, effective, peers, rates, starts
 from hmc.ours import Programs
 from machine import CACHE, machine
 
-PARTS = ("answers", "rates", "starts", "worth")
+PARTS = ("answers", "rates", "starts", "effective")
 #: Largest relative error of a value or a gradient against what is known.
 ALLOWED = 1e-9
 
 
 def main() -> int:
-    """Measure what is asked for; 1 when an answer is wrong."""
+    """Measure the selected parts; 1 when an answer is wrong."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--quick", action="store_true", default=os.environ.get("QUICK", "0") not in ("", "0"))
     parser.add_argument("--only", default=",".join(PARTS))
@@ -65,13 +65,13 @@ def main() -> int:
         match part:
             case "answers":
                 check(report, programs, found)
-                worth.moments(report, programs, points["ring"], 3_000 if quick else 10_000)
+                effective.moments(report, programs, points["ring"], 3_000 if quick else 10_000)
             case "rates":
                 compiling = rates.measure(report, programs, points, 2 if quick else 5, share)
             case "starts":
                 starts.measure(report, programs, 1 if quick else 5, compiling)
-            case "worth":
-                worth.measure(report, programs, models[:1] if quick else models, share)
+            case "effective":
+                effective.measure(report, programs, models[:1] if quick else models, share)
         report.console.print(f"[dim]{part}: {time.monotonic() - started:.0f} s since the start[/dim]")
     return report.close()
 

@@ -8,7 +8,7 @@ rate is particle-steps per second of the process's CPU time. A particle-step is 
 meets a factor; particles that ended take none.
 
 Every run of every system gives an estimate of the evidence, and the mean of the estimates must be the answer
-that `answers.py` works out without sampling: a fast wrong answer fails.
+that `answers.py` computes without sampling: a fast wrong answer fails.
 
 Prints a JSON line for each measurement (with the answer, not every estimate), then a table. Needs node, npm and
 cargo for the peers.
@@ -129,7 +129,7 @@ def niwaki_rate(program: str, particles: int, seconds: float, seed: int) -> Meas
 
 
 def peer(*command: str) -> Measurement:
-    """What a peer's one JSON line says."""
+    """The one JSON line of a peer."""
     line = subprocess.run(command, check=True, capture_output=True, text=True).stdout
     return Measurement(**json.loads(line))
 

@@ -2,7 +2,7 @@
 
     python benches/mixed.py [SECONDS]
 
-Each kernel has the same CPU time, 10 seconds when nothing else is said. Printed are its proposals a second, gradients a
+Each kernel has the same CPU time, 10 seconds by default. Printed are its proposals a second, gradients a
 second, structures recorded, how often the scheme changed from one kept state to
 the next, and effective samples a second of the main hue (its sine and cosine, the smaller) and of the log score.
 """

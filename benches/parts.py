@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
-#: Draws a part into a folder and tells each measurement; the last argument asks for a smoke run.
+#: Draws a part into a folder and reports each measurement; the last argument selects a smoke run.
 Part = Callable[[Path, Callable[[dict], None], bool], None]
 
 

@@ -1,4 +1,4 @@
-"""The gallery's plates: each model grown into its target and left to itself, or with the shadow that it was asked for.
+"""The gallery's plates: each model grown into its target and free, or with the shadow that it should cast.
 
 python benches/plates.py docs/pictures/gallery [NAME ...]
 """
@@ -51,7 +51,7 @@ def has_plate(one: Entry) -> bool:
 
 
 def plate(one: Entry) -> Image.Image:
-    """One model: in its target and free, or with the shadow that it was asked for."""
+    """One model: in its target and free, or with the shadow that it should cast."""
     target = one.target()
     if target is None:
         return cast_shadow(one)
@@ -70,10 +70,10 @@ def free(one: Entry) -> Scene:
 
 def cast_shadow(one: Entry) -> Image.Image:
     """What was wanted, what was made, and the scene that makes it."""
-    asked = next(experiment for experiment in EXPERIMENTS if experiment.model == one.name)
-    found = [asked.run(seed=seed).best for seed in range(1, RUNS + 1)]
+    chosen = next(experiment for experiment in EXPERIMENTS if experiment.model == one.name)
+    found = [chosen.run(seed=seed).best for seed in range(1, RUNS + 1)]
     best = max(found, key=lambda sample: sample.log_score)
-    return view_sheet(best.scene, asked.score().views[0], height=240)
+    return view_sheet(best.scene, chosen.score().views[0], height=240)
 
 
 def _beside(left: Image.Image, right: Image.Image, gap: int = 4) -> Image.Image:

@@ -1,11 +1,11 @@
-"""What we recommend beside the original's weights, search by search: the models and the targets of figure 5.9.
+"""The recommended settings beside the original's weights, search by search: the models and the targets of figure 5.9.
 
     .venv/bin/python benches/recommended.py [PARTICLES:SEARCHES ...]
 
-Sigma 0.02, the original's rule for intersections (`surface`), seeds from 1000 on, the same for all ways, one thread.
+Sigma 0.02, the original's rule for intersections (`surface`), seeds from 1000 on, the same for all methods, one thread.
 For each model and target, at each number of particles: mean, median and worst of the best log scores of the searches
-that lived, how many died, the mean difference to the original's weights with its standard error (of the seeds that
-lived both ways), and CPU milliseconds of one search. `without a chain` stops where the population ends.
+that ended, how many became impossible, the mean difference to the original's weights with its standard error (of the
+seeds that ended with both), and CPU milliseconds of one search. `without a chain` stops where the population ends.
 """
 
 import math
@@ -16,7 +16,7 @@ from pathlib import Path
 sys.path.append(str(Path(__file__).parent / "figures_sosmc"))
 
 import niwaki as nw
-from comparison import CASES, WAYS, meshes, onward, score_of, searched
+from comparison import CASES, METHODS, meshes, onward, score_of, searched
 from niwaki.gallery import entry
 
 SEED = 1000
@@ -24,8 +24,8 @@ ORIGINAL, OURS, ALONE = "stochastic", "recommended", "without a chain"
 
 
 def main(*sizes: str) -> int:
-    """Measure and print one line for each target, size and way."""
-    asked = [
+    """Measure and print one line for each target, size and method."""
+    cases = [
         tuple(map(int, size.split(":")))
         for size in sizes or ("10:100", "30:60", "100:30", "300:12", "1000:4")
     ]
@@ -34,39 +34,39 @@ def main(*sizes: str) -> int:
             program, score = entry(model).model, score_of(target, voxel)
             # The first run compiles.
             searched(program, score, 2, {}, 0)
-            for particles, searches in asked:
+            for particles, searches in cases:
                 print_rows(f"{whose:<10}{model:<12}", program, score, particles, searches)
     return 0
 
 
 def print_rows(head: str, program: nw.Model, score: nw.Score, particles: int, searches: int) -> None:
-    """All ways at one number of particles."""
+    """All methods at one number of particles."""
     chain = onward(program, particles)
-    ways = {
-        ORIGINAL: (WAYS[ORIGINAL], None),
-        ALONE: (WAYS[OURS], None),
-        OURS: (WAYS[OURS], chain),
+    methods = {
+        ORIGINAL: (METHODS[ORIGINAL], None),
+        ALONE: (METHODS[OURS], None),
+        OURS: (METHODS[OURS], chain),
     }
     rows = [
         {
-            way: searched(program, score, particles, settings, seed, more)
-            for way, (settings, more) in ways.items()
+            method: searched(program, score, particles, settings, seed, more)
+            for method, (settings, more) in methods.items()
         }
         for seed in range(SEED, SEED + searches)
     ]
-    for way in ways:
-        lived = [row[way][0] for row in rows if row[way][0] is not None]
+    for method in methods:
+        ended = [row[method][0] for row in rows if row[method][0] is not None]
         less = [
-            row[way][0] - row[ORIGINAL][0]
+            row[method][0] - row[ORIGINAL][0]
             for row in rows
-            if row[way][0] is not None and row[ORIGINAL][0] is not None
+            if row[method][0] is not None and row[ORIGINAL][0] is not None
         ]
         error = statistics.stdev(less) / math.sqrt(len(less))
-        cpu = 1000.0 * statistics.fmean(row[way][1] for row in rows)
-        middle, died = statistics.median(lived), searches - len(lived)
+        cpu = 1000.0 * statistics.fmean(row[method][1] for row in rows)
+        middle, died = statistics.median(ended), searches - len(ended)
         print(
-            f"{head}{particles:>5} {way:<16} mean {statistics.fmean(lived):7.2f}  median {middle:7.2f}"
-            f"  worst {min(lived):8.2f}  died {died:>2} of {searches}"
+            f"{head}{particles:>5} {method:<16} mean {statistics.fmean(ended):7.2f}  median {middle:7.2f}"
+            f"  worst {min(ended):8.2f}  died {died:>2} of {searches}"
             f"  {statistics.fmean(less):+6.2f} ({error:.2f})  {cpu:6.1f} ms",
             flush=True,
         )

@@ -4,10 +4,10 @@
 
 The meshes of figure 5.9 (shipProxy2.obj, buildingProxy1_thicker.obj, treeProxy_long_2.obj) may be used to compare
 scores and are not part of this project: they are taken from the folder that the variable names, and without it
-this bench says so and ends. All with sigma 0.02 and the original's rule for intersections (`surface`).
+this bench ends with a message. All with sigma 0.02 and the original's rule for intersections (`surface`).
 
 First the grids: cells, filled cells and the score of the empty scene. Then the searches: median and mean of the best
-log score over RUNS seeds, and CPU seconds of inference on one thread, beside what is asked of them: at least so much in
+log score over RUNS seeds, and CPU seconds of inference on one thread, beside their targets: at least so much in
 the median, and at most so many seconds in the mean (a thirtieth of what the original's code takes). Last, on the ship:
 at least 8 more on average in a stochastic order than depth-first, with the same particles.
 """

@@ -1,18 +1,18 @@
-"""Distinct results on the gnarly tree: what moves, final chains, particle Gibbs and separate populations do to copies.
+"""Distinct results on the gnarly tree: the effect of moves, final chains, particle Gibbs and separate populations.
 
-    .venv/bin/python benches/rejuvenation.py [SEEDS FIRST [WAY ...]]
+    .venv/bin/python benches/rejuvenation.py [SEEDS FIRST [METHOD ...]]
 
-The tree in the bent tube, voxel 0.4, sigma 0.02, one thread. Of every way 100 results are looked at. The means of
+The tree in the bent tube, voxel 0.4, sigma 0.02, one thread. Each method gives 100 results. The means of
 
 - `distinct`: results of which no other shares more than half of its (address, value) pairs, which is what
   `Result.unique_models` counts,
 - `apart`: the same where values count as shared when they are within a tenth of their spread over all results of the
-  way: a small step of everything makes no tree that a person would call another,
+  method: a small step of everything makes no visibly different tree,
 - the best log score of all, and CPU seconds,
 
-then, for each way that moves and each that does not, the differences of their best scores for the same seeds, and how
-many times the CPU of the other it took. The seeds 1 to 20 tell what is said in the manual; settings were chosen on
-others, from 101 on.
+then, for each pair of a method that moves and one that does not: the differences of their best scores for the same
+seeds, and the ratio of their CPU times. The manual's numbers are of seeds 1 to 20; settings were chosen on seeds from
+101 on.
 """
 
 import json
@@ -53,13 +53,13 @@ def shake(step: float) -> Any:
     return kernels.on(["yaw", "pitch", "length", "end", "angle", "thick"], kernels.block(step, 1.0))
 
 
-def walked(particles: int) -> Any:
+def chain_of_final_set(particles: int) -> Any:
     """One of the final set followed to a hundred results: twenty moves of one choice and two shakes between each."""
     kernel = kernels.cycle(kernels.repeat(20, kernels.prior()), kernels.repeat(2, shake(0.0005)))
     return smc(particles, rejuvenate=kernel, moves=22, at="end", draws=N)
 
 
-WAYS = {
+METHODS = {
     "plain": lambda: smc(),
     "plain, 700": lambda: smc(700),
     "plain, 2500": lambda: smc(2500),
@@ -67,9 +67,9 @@ WAYS = {
     "shaken at the end, 40": lambda: moving(shake(0.01), 40, "end"),
     "moved at the end, 300": lambda: moving(drifts(), 300, "end"),
     "moved at each barrier, 1": lambda: moving(drifts(), 1, 1),
-    "rows of 10, diverse": lambda: smc(10, diverse=100),
-    "walked, 100": lambda: walked(100),
-    "walked, 300": lambda: walked(300),
+    "populations of 10, diverse": lambda: smc(10, diverse=100),
+    "final chain, 100": lambda: chain_of_final_set(100),
+    "final chain, 300": lambda: chain_of_final_set(300),
     "particle Gibbs, 10": lambda: niwaki.particle_gibbs(10, N, power=POWER),
 }
 
@@ -102,10 +102,10 @@ def apart(result: Any) -> int:
 
 
 def searched(name: str, score: Any, seed: int, looks_apart: bool) -> dict[str, Any] | None:
-    """What one search of a way found; nothing where the population died."""
+    """The result of one search; None where all particles became impossible."""
     began = time.process_time()
     try:
-        result = niwaki.run(gnarly_tree, method=WAYS[name](), score=score, seed=seed, threads=1)
+        result = niwaki.run(gnarly_tree, method=METHODS[name](), score=score, seed=seed, threads=1)
     except niwaki.InputError as error:
         if error.code != "everything-impossible":
             raise
@@ -124,48 +124,53 @@ def paired(ours: list[dict[str, Any] | None], plain: list[dict[str, Any] | None]
     both = [(a, b) for a, b in zip(ours, plain, strict=True) if a is not None and b is not None]
     steps = [a["best"] - b["best"] for a, b in both]
     mean, median = statistics.fmean(steps), statistics.median(steps)
-    told: dict[str, Any] = {"mean": round(mean, 2), "median": round(median, 2)}
+    record: dict[str, Any] = {"mean": round(mean, 2), "median": round(median, 2)}
     if len(steps) > 1:
         # The 97.5 % quantile of Student's t, to a hundredth above 8 degrees of freedom (Abramowitz & Stegun 26.7.5).
         z, free = 1.959964, len(steps) - 1
         t = z + (z**3 + z) / (4 * free) + (5 * z**5 + 16 * z**3 + 3 * z) / (96 * free**2)
         half = t * statistics.stdev(steps) / math.sqrt(len(steps))
-        told["95 %"] = [round(mean - half, 2), round(mean + half, 2)]
-    told["above"] = f"{sum(step > 0.0 for step in steps)} of {len(steps)}"
+        record["95 %"] = [round(mean - half, 2), round(mean + half, 2)]
+    record["above"] = f"{sum(step > 0.0 for step in steps)} of {len(steps)}"
     cpu = statistics.fmean(a["cpu"] for a, _ in both) / statistics.fmean(b["cpu"] for _, b in both)
-    return told | {"CPU, times": round(cpu, 2)}
+    return record | {"CPU, times": round(cpu, 2)}
 
 
 def main(seeds: int = 20, first: int = 1, *names: str) -> int:
-    """Measure, ways taking turns; one line for each way, and one for each with each plain one."""
+    """Measure the methods in turn; print a line for each method, and for each with each plain method."""
     warnings.simplefilter("ignore", SearchWarning)
     score = niwaki.no_self_intersection() * niwaki.match_volume(
         named_target("bent_tube"), voxel=0.4, sigma=0.02
     )
-    ways = names or tuple(WAYS)
-    found: dict[str, list[dict[str, Any] | None]] = {name: [] for name in ways}
+    methods = names or tuple(METHODS)
+    found: dict[str, list[dict[str, Any] | None]] = {name: [] for name in methods}
     for seed in range(first, first + seeds):
-        for name in ways:
+        for name in methods:
             found[name].append(searched(name, score, seed, seed < first + 3))
     for name, every in found.items():
         rows = [row for row in every if row is not None]
-        told: dict[str, Any] = {"way": name, "seeds": [first, first + seeds - 1], "died": seeds - len(rows)}
+        record: dict[str, Any] = {
+            "method": name,
+            "seeds": [first, first + seeds - 1],
+            "died": seeds - len(rows),
+        }
         for key in ("distinct", "apart", "best", "cpu"):
             values = [row[key] for row in rows if key in row]
-            told[key] = round(statistics.fmean(values), 3) if values else None
-        told |= {"least distinct": min(row["distinct"] for row in rows)}
-        told |= {"worst best": round(min(row["best"] for row in rows), 2)}
+            record[key] = round(statistics.fmean(values), 3) if values else None
+        record |= {"least distinct": min(row["distinct"] for row in rows)}
+        record |= {"worst best": round(min(row["best"] for row in rows), 2)}
         moved = [row["moved"] for row in rows if row["moved"] is not None]
         for place, which in enumerate(("running", "ended")):
             made, kept = (sum(pairs[place][k] for pairs in moved) for k in (0, 1))
             if made:
-                told[f"moves kept, {which}"] = f"{kept} of {made}"
-        print(json.dumps(told), flush=True)
-    for name in ways:
-        for other in ways:
+                record[f"moves kept, {which}"] = f"{kept} of {made}"
+        print(json.dumps(record), flush=True)
+    for name in methods:
+        for other in methods:
             if other.startswith("plain") and not name.startswith("plain"):
                 print(
-                    json.dumps({"way": name, "less": other} | paired(found[name], found[other])), flush=True
+                    json.dumps({"method": name, "less": other} | paired(found[name], found[other])),
+                    flush=True,
                 )
     return 0
 

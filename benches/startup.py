@@ -1,4 +1,4 @@
-"""What a person waits for before anything runs: `import niwaki`, and compiling the spaceship.
+"""The time before anything runs: `import niwaki`, and compiling the spaceship.
 
     .venv/bin/python benches/startup.py [PROCESSES]
 

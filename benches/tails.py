@@ -3,9 +3,9 @@
     NIWAKI_REFERENCE_TARGETS=folder .venv/bin/python benches/tails.py [BLOCKS] [PARTICLES ...]
 
 The spaceship in shipProxy2.obj, voxel 0.25, sigma 0.02, the original's rule for intersections (`surface`). Each search
-gives the best log score of its final set, always reported at sigma 0.02. For each way to weigh: the mean over all runs
+gives the best log score of its final set, always reported at sigma 0.02. For each weighting: the mean over all runs
 and the mean over BLOCKS of the worst of ten runs, each with its standard error, and CPU seconds of one search on one
-thread. Ways with the same particles get the same seeds.
+thread. Weightings with the same particles get the same seeds.
 """
 
 import json
@@ -23,7 +23,7 @@ from niwaki.search import SearchWarning
 TEN = 10
 STEPS = range(1, 200)
 #: Name and settings.
-WAYS = {
+WEIGHTINGS = {
     "absolute": {"weights": "absolute"},
     "ratio, 4": {"power": 4.0},
     "ratio, 8": {"power": 8.0},
@@ -45,7 +45,7 @@ def spread(values: list[float]) -> list[float]:
 
 
 def main(blocks: int = 6, *sizes: int) -> int:
-    """Measure and print one line for each way and size."""
+    """Measure and print one line for each weighting and size."""
     named = os.environ.get("NIWAKI_REFERENCE_TARGETS")
     if not named:
         print("skipped: NIWAKI_REFERENCE_TARGETS names no folder of reference meshes")
@@ -53,13 +53,19 @@ def main(blocks: int = 6, *sizes: int) -> int:
     warnings.simplefilter("ignore", SearchWarning)
     ship = niwaki.Target.load(Path(named) / "shipProxy2.obj")
     for particles in sizes or (10, 30, 100, 300, 1000):
-        for name, settings in WAYS.items():
-            asked = {"voxel": 0.25, "sigma": 0.02, "rule": "surface", "threads": 1, "particles": particles}
-            found = niwaki.grow(spaceship, ship, runs=TEN * blocks, seed=1, **asked, **settings)
+        for name, settings in WEIGHTINGS.items():
+            common = {
+                "voxel": 0.25,
+                "sigma": 0.02,
+                "rule": "surface",
+                "threads": 1,
+                "particles": particles,
+            }
+            found = niwaki.grow(spaceship, ship, runs=TEN * blocks, seed=1, **common, **settings)
             scores = [sample.log_score for sample in found]
             worst = [min(scores[at : at + TEN]) for at in range(0, len(scores) - TEN + 1, TEN)]
             cpu = statistics.median(sample.cpu_seconds for sample in found)
-            row = {"particles": particles, "way": name, "runs": len(scores), "mean": spread(scores)}
+            row = {"particles": particles, "weighting": name, "runs": len(scores), "mean": spread(scores)}
             print(json.dumps(row | {"worst of ten": spread(worst), "cpu": cpu}), flush=True)
     return 0
 

@@ -1,7 +1,7 @@
-"""What is timed is right: marginals against forward-backward, scores against full evaluations.
+"""Checks of what is timed: marginals against forward-backward, scores against full evaluations.
 
 A hidden Markov chain of 6 steps and 3 states is small enough for long chains: forty of them, started apart, give each
-marginal with a standard error of its own. The other programs have no such answer; there each total that the chain
+marginal with its standard error. The other programs have no such answer; there each total that the chain
 carries along must be that of a fresh evaluation of the same choices, bit for bit, and the limit's local ratios must be
 differences of its full densities.
 """

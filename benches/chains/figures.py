@@ -1,7 +1,7 @@
 """Figures 3.4 and 3.5 of the dissertation and the speedup figure after them, drawn again.
 
 Each point is the mean of 20 runs with the 95 % interval of that mean in a lighter shade. Times are CPU seconds
-of one thread, chains start where they start: as in the dissertation, the first state on.
+of one thread. As in the dissertation, chains are shown from their first state on.
 """
 
 import statistics
@@ -112,7 +112,7 @@ def tree(path: Path, found: list[Measured], target: object, fit: object) -> None
     """Figure 3.5: the tube, a tree that chains found for it, and proposals per second of the four strategies."""
     figure = plt.figure(figsize=(10, 4.2), layout="constrained")
     left, middle, right = figure.subplots(1, 3, width_ratios=(0.62, 0.62, 1.4))
-    for panel, image, title in ((left, target, "asked for"), (middle, fit, "found")):
+    for panel, image, title in ((left, target, "target"), (middle, fit, "result")):
         panel.imshow(image)
         panel.set(title=title, xticks=[], yticks=[])
         panel.spines[:].set_visible(False)

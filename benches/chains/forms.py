@@ -1,4 +1,4 @@
-"""Ways of writing one program; global choices alone; the first thousand proposals; chains of 100 to 100,000 steps.
+"""Variants of one program; global choices alone; the first thousand proposals; chains of 100 to 100,000 steps.
 
 One proposal to a state in the middle of the first hundred must enter as many activations and execute as many
 instructions whether a hundred steps follow or a hundred thousand. Random numbers are functions of addresses, so the

@@ -1,6 +1,6 @@
 """The four programs of appendix A and the kernel of each: the same proposals in all systems.
 
-Every choice is picked with equal odds. Discrete choices, probability vectors and deviations are proposed from the
+All choices are selected equally often. Discrete choices, probability vectors and deviations are proposed from the
 prior; means, intercepts and slopes take a Gaussian step. A step is given in deviations of the choice's own
 distribution: 0.02 of 10 is the peers' 0.2. An intercept of one sequence steps by 0.375 of the population's deviation,
 which is the peers' 0.3 where that is the 0.8 that made the data, and a slope by 0.5 of it, their 0.2 at 0.4.
@@ -45,7 +45,7 @@ class Program:
 
 
 def weighted(*parts: tuple[int, str | list[str], Kernel]) -> Kernel:
-    """Each kernel on its sites, as often as there are choices there: every choice has the same odds."""
+    """Each kernel on its sites, as often as there are choices there: every choice has the same selection weight."""
     counts, sites, inner = zip(*parts, strict=True)
     restricted = [kernels.on(site, one) for site, one in zip(sites, inner, strict=True)]
     return kernels.mixture(*restricted, weights=counts)

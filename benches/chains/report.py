@@ -1,4 +1,4 @@
-"""Tables on the terminal, what was asked beside what was found, and every measurement as a line of JSON."""
+"""Tables on the terminal, targets beside results, and every measurement as a line of JSON."""
 
 import json
 import statistics
@@ -48,12 +48,12 @@ class Report:
         self.console.print(table)
 
     def ask(self, what: str, found: float, least: float | None = None, most: float | None = None) -> None:
-        """Hold a figure against what is asked of it."""
+        """Hold a figure against its target."""
         found = float(found)
         holds = (least is None or found >= least) and (most is None or found <= most)
-        asked = f"at least {short(least)}" if least is not None else f"at most {short(most or 0.0)}"
+        target = f"at least {short(least)}" if least is not None else f"at most {short(most or 0.0)}"
         self.missed += not holds
-        self.targets.append((what, short(found), asked, "pass" if holds else "MISSED"))
+        self.targets.append((what, short(found), target, "pass" if holds else "MISSED"))
         self.note(target=what, found=found, least=least, most=most, holds=holds)
 
     def answer(self, what: str, found: float, most: float) -> None:
@@ -66,7 +66,7 @@ class Report:
 
     def close(self) -> int:
         """Print all targets and answers; 1 when an answer is wrong."""
-        table = self.table("what is asked", "figure", "found", "asked", "")
+        table = self.table("targets", "figure", "result", "target", "")
         for row in self.targets:
             table.add_row(*row, style="red" if row[-1] in ("MISSED", "WRONG") else None)
         self.show(table)

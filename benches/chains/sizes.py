@@ -19,7 +19,7 @@ OVER_RERUN = {"hmm": 100, "lda": 20, "gmm": 20, "hlr": 20}
 
 
 def measure(report: Report, peers: Peers, sizes: tuple[int, ...], rounds: int, seconds: float) -> None:
-    """Measure all, print the table, and hold it against what is asked."""
+    """Measure all, print the table, and compare it with the targets."""
     rates: dict[tuple[str, int], dict[str, list[float]]] = defaultdict(lambda: defaultdict(list))
     for seed in range(1, rounds + 1):
         for name, program in PROGRAMS.items():

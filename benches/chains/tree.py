@@ -1,4 +1,4 @@
-"""The tree that is to fit a bent tube with an egg-shaped crown: figure 3.5, on the gallery's gnarly tree.
+"""The tree that should fit a bent tube with an egg-shaped crown: figure 3.5, on the gallery's gnarly tree.
 
 A proposal to the trunk moves every segment above it, one to a twig moves one. So there is a bound on what skipping can
 gain over running everything again: the number of segments over the mean number that a proposal moves, which the chain

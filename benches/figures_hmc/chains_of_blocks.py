@@ -1,7 +1,7 @@
 """Chains that stack six blocks on one another: the original's HMC with its settings, and ours.
 
-The original's: 200 draws with 1000 steps, from where `niwaki.stacks.start` finds a balance. Ours: `niwaki.explore()` as
-it stands, from runs of the prior.
+The original's: 200 draws with 1000 steps, from the balance of `niwaki.stacks.start`. Ours: `niwaki.explore()` with its
+defaults, from runs of the prior.
 """
 
 import time

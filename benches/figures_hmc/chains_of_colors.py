@@ -1,7 +1,7 @@
 """Chains that color our four drawings: the original's two samplers with its settings, and ours.
 
 The original's: 2000 proposals of single-site MH from a run of the prior, then 1000 draws of HMC with 100 steps, or of
-MH 200 proposals apart. Ours: `niwaki.explore()` as it stands.
+MH 200 proposals apart. Ours: `niwaki.explore()` with its defaults.
 """
 
 import time
@@ -36,17 +36,17 @@ def originals(name: str, seed: int, draws: int = DRAWS) -> dict[str, Chains]:
     ask, found = density.value_and_gradient, {}
     burnt, _ = original.mh(ask, density.start, BURN_IN, seed, UNIT)
     proposals = 2 * STEPS * draws
-    ways = {
+    samplers = {
         "HMC": (STEPS * draws, lambda: original.hmc(ask, burnt[-1], draws, STEPS, seed)),
         "MH": (proposals, lambda: original.mh(ask, burnt[-1], proposals, seed, UNIT, thin=2 * STEPS)),
     }
-    for way, (evaluations, make) in ways.items():
+    for sampler, (evaluations, make) in samplers.items():
         start = time.process_time()
         coordinates, accepted = make()
         spent = time.process_time() - start
         colors = 1.0 / (1.0 + np.exp(-coordinates.reshape(1, draws, len(drawing.names), 3)))
         heights = np.array([ask(x)[0] for x in coordinates])
-        found[way] = Chains(colors, evaluations, spent, accepted, heights)
+        found[sampler] = Chains(colors, evaluations, spent, accepted, heights)
     return found
 
 

@@ -1,4 +1,4 @@
-"""What the draws of a sampler are worth: of colors and of blocks alike."""
+"""Effective sample sizes of a sampler's draws, of colors and of blocks."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -40,14 +40,14 @@ class Chains:
     def least(self) -> float:
         """The smallest bulk effective size of a coordinate.
 
-        Of several chains no more than their means are worth, as so many independent numbers: halves of a short chain
+        Of several chains at most the size that their means give as independent numbers: halves of a short chain
         that hardly moved would count as two.
         """
         flat = self._flat()
         sizes = [diagnostics.ess_bulk(flat[:, :, k]) for k in range(flat.shape[2])]
         if len(flat) > 1:
-            worth = len(flat) * flat.var(axis=(0, 1), ddof=1) / flat.mean(axis=1).var(axis=0, ddof=1)
-            sizes = np.minimum(sizes, worth).tolist()
+            effective = len(flat) * flat.var(axis=(0, 1), ddof=1) / flat.mean(axis=1).var(axis=0, ddof=1)
+            sizes = np.minimum(sizes, effective).tolist()
         return float(min(sizes))
 
     @property

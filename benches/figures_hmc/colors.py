@@ -67,7 +67,7 @@ def gallery(names: tuple[str, ...]) -> Image.Image:
 
 
 def as_rules(drawing: Drawing, rules: Rules) -> dict[str, str]:
-    """The rules as colours: one hue for shades of one colour, darker where a chain of lightness says so."""
+    """The rules as colours: one hue for shades of one colour, darker by a chain of lightness."""
     group = {name: name for name in drawing.names}
     for one in rules:
         if one.kind == "same-chroma":
@@ -104,17 +104,17 @@ def comparison(names: tuple[str, ...], draws: int) -> plt.Figure:
     for line, name in zip(axes, names, strict=True):
         drawing, _ = task(name)
         chains = {**originals(name, 1, draws), "explore": ours(name, 1)}
-        for one, (way, made) in zip(line, chains.items(), strict=False):
+        for one, (sampler, made) in zip(line, chains.items(), strict=False):
             found = coverage.reached(made.all_draws)
             one.imshow(coverage.picture(drawing, found))
             one.set(xticks=[], yticks=[])
-            one.set_title(f"{way}: {found.mean():.1f} of {coverage.REACHABLE} bins", fontsize=9)
+            one.set_title(f"{sampler}: {found.mean():.1f} of {coverage.REACHABLE} bins", fontsize=9)
             for side in one.spines.values():
                 side.set_color("0.8")
         line[3].axhline(0.0, color="0.6", linewidth=0.8)
-        for way, color in (("HMC", "#3274a1"), ("MH", "#3a923a")):
-            flat = chains[way].values[0].reshape(draws, -1)
-            line[3].plot(diagnostics.autocorrelation(flat)[:LAGS], color=color, label=way)
+        for sampler, color in (("HMC", "#3274a1"), ("MH", "#3a923a")):
+            flat = chains[sampler].values[0].reshape(draws, -1)
+            line[3].plot(diagnostics.autocorrelation(flat)[:LAGS], color=color, label=sampler)
         line[3].set(ylim=(-0.4, 1.05), xlabel="lag, draws")
         line[3].set_title("autocorrelation", fontsize=9)
     axes[0, 3].legend(frameon=False, fontsize=8)
@@ -140,27 +140,33 @@ def timings(name: str, draws: int) -> list[dict[str, Any]]:
     rows.append(
         row("MH", drawing, theirs_mh[0], found.cpu_seconds, accepted, draws, diagnostics.ess_vector(colors))
     )
-    ways = {
+    samplers = {
         "HMC": (theirs_hmc[0], nw.hmc(draws, STEPS, chains=1, metric="unit", warmup=200, climb=100)),
         "explore": (None, nw.explore()),
     }
-    for way, (published, method) in ways.items():
+    for sampler, (published, method) in samplers.items():
         made = timed(name, method, 1)
         count = made.values.shape[0] * made.values.shape[1]
-        rows.append(row(way, drawing, published, made.cpu, made.accepted, count, made.effective))
+        rows.append(row(sampler, drawing, published, made.cpu, made.accepted, count, made.effective))
     return [{"drawing": name, **one} for one in rows]
 
 
 def row(
-    way: str, drawing: Drawing, published: float | None, cpu: float, accepted: float, draws: int, worth: float
+    sampler: str,
+    drawing: Drawing,
+    published: float | None,
+    cpu: float,
+    accepted: float,
+    draws: int,
+    effective: float,
 ) -> dict[str, Any]:
     """One line of the table."""
     return {
-        "method": way,
+        "method": sampler,
         "dims": 3 * len(drawing.names),
         "published s": published,
         "cpu": round(cpu, 3),
         "accepted": round(accepted, 3),
         "accepted/s": round(draws * accepted / cpu, 1),
-        "effective/s": round(worth / cpu, 2),
+        "effective/s": round(effective / cpu, 2),
     }

@@ -1,10 +1,10 @@
-"""What our default sampler sees of a design space beside the original's settings, in little time and per gradient.
+"""How much of a design space our default sampler reaches, beside the original's settings: per time and per gradient.
 
-Colourings: `niwaki.explore()` as it stands beside 1000 draws of HMC with 100 steps; then with as many chains as spend
-the same 100 000 gradients. The stack: as it stands beside 200 draws with 1000 steps. Effective draws are by the
+Colourings: `niwaki.explore()` with its defaults beside 1000 draws of HMC with 100 steps; then with as many chains as
+use the same 100 000 gradients. The stack: its defaults beside 200 draws with 1000 steps. Effective draws are by the
 autocorrelation of the whole vector with the chain's own mean, and the smallest bulk size of a coordinate. `below` is
-how far under the level of a long run the median draw lies, and the lowest twentieth, nats: what a sampler sees on its
-way there counts as seen too, so it must not be more than the original counts. Means over seeds.
+how far under the level of a long run the median draw lies, and the lowest twentieth, nats: draws of
+the warm-up phase also count as reached, so it must not be above that of the original. Means over seeds.
 """
 
 from collections.abc import Callable
@@ -21,28 +21,28 @@ SEEDS = (1, 2, 3)
 
 
 def draw(folder: Path, tell: Callable[[dict], None], quick: bool) -> None:
-    """Print and tell a row for each drawing and sampler, then the stack's."""
+    """Print and report a row for each drawing and sampler, then the stack's."""
     names, draws, seeds = (("bug",), 40, SEEDS[:1]) if quick else (DRAWINGS, DRAWS, SEEDS)
     print(f"{'design':8} {'sampler':22} gradients    cpu s   bins  effective   least   below")
     for name in names:
         own = ours(name, seeds[0])
         as_many = max(1, round(own.values.shape[0] * STEPS * draws / own.gradients))
-        ways = {
+        samplers = {
             "HMC as the original": [originals(name, seed, draws)["HMC"] for seed in seeds],
             "explore": [ours(name, seed) for seed in seeds],
             "explore, as many": [ours(name, seed, as_many) for seed in seeds],
         }
         high = level(name, 20 if quick else 300)
-        for way, made in ways.items():
-            tell(shown(name, way, made, high, reach(made)))
+        for sampler, made in samplers.items():
+            tell(shown(name, sampler, made, high, reach(made)))
     steps = {"draws": 20, "steps": 50} if quick else {}
-    ways = {
+    samplers = {
         "HMC as the original": [blocks.originals(seed, **steps) for seed in seeds],
         "explore": [blocks.ours(seed) for seed in seeds],
     }
     high = blocks.level(30 if quick else 500)
-    for way, made in ways.items():
-        tell(shown("stack", way, made, high))
+    for sampler, made in samplers.items():
+        tell(shown("stack", sampler, made, high))
 
 
 def reach(made: list[Chains]) -> float:
@@ -51,13 +51,13 @@ def reach(made: list[Chains]) -> float:
 
 
 def shown(
-    design: str, way: str, made: list[Chains], high: float, bins: float | None = None
+    design: str, sampler: str, made: list[Chains], high: float, bins: float | None = None
 ) -> dict[str, Any]:
     """A row for one sampler on one design, whose long run lies at `high` nats: means over seeds, printed."""
     below = np.mean([high - np.quantile(one.log_density, (0.5, 0.05)) for one in made], axis=0)
     line = {
         "design": design,
-        "sampler": way,
+        "sampler": sampler,
         "gradients": round(float(np.mean([one.gradients for one in made]))),
         "cpu": round(float(np.mean([one.cpu for one in made])), 3),
         "bins": None if bins is None else round(bins, 1),
@@ -66,7 +66,7 @@ def shown(
         "below": [round(float(nats)) for nats in below],
     }
     print(
-        f"{design:8} {way:22} {line['gradients']:9} {line['cpu']:8.2f} {line['bins'] or '-':>6}"
+        f"{design:8} {sampler:22} {line['gradients']:9} {line['cpu']:8.2f} {line['bins'] or '-':>6}"
         f" {line['effective']:10.1f} {line['least']:7.1f}   {line['below'][0]}, {line['below'][1]}",
         flush=True,
     )

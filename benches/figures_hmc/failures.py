@@ -43,11 +43,11 @@ def failures(path: Path, folder: Path) -> None:
 def why(row: dict[str, Any]) -> str:
     """What the judges have against a draw."""
     if "refused" in row:
-        told = row["refused"].replace("-", " ")
+        text = row["refused"].replace("-", " ")
     else:
         program = "balances" if row["holds"] else f"lacks {100 * row['residual']:.2g} % of a weight"
         drop = "stands" if row["stands"] else f"block {row['block'] + 1} moves {100 * row['moved']:.0f} %"
-        told = f"{program},\n{drop}"
+        text = f"{program},\n{drop}"
     if "polished" in row:
-        told += "; polished it passes" if passes(row["polished"]) else "; polished it does not either"
-    return told
+        text += "; polished it passes" if passes(row["polished"]) else "; polished it does not either"
+    return text

@@ -1,9 +1,9 @@
-"""The samplers of dissertation chapter 4 as its own code has them, over a log density of ours.
+"""The samplers of dissertation chapter 4 as in its own code, over one of our log densities.
 
 HMC: no metric, a fixed number of leapfrog steps, a first step found from the log density alone, and dual averaging
 that never stops, with half the usual gain and its iterates drawn to a step of about 1. MH: one coordinate at a time,
-moved by a normal of its own width in the bounded space, while the density that is asked is that of the unbounded one;
-each width grows or shrinks by 1 % at each proposal, for ever.
+moved by a normal of its own width in the bounded space, while the density is that of the unbounded one;
+each width grows or shrinks by 1 % at each proposal, without end.
 """
 
 import math
@@ -93,7 +93,7 @@ def mh(
         log_ratio = at - value
         if corrected:
             # The Jacobian of a bounded number is (y - low) (high - y), up to a factor. What would be moved back to the
-            # bounds is refused: the way back from there is another.
+            # bounds is refused: the reverse move is a different one.
             log_ratio += math.log((y[i] - low) * (high - y[i]) / ((moved - low) * (high - moved)))
             log_ratio = log_ratio if moved == wanted else -math.inf
         if math.log(1.0 - random.uniform()) < log_ratio:

@@ -1,4 +1,4 @@
-"""Figures 4.2 and 4.3: a point near a curve, by MH and by HMC, and what their draws have to do with one another.
+"""Figures 4.2 and 4.3: a point near a curve, by MH and by HMC, and the autocorrelation of their draws.
 
 The original's settings: 2000 draws of HMC with 100 steps; 2000 of MH, every 200th of a random walk with a fixed width
 of 1.2 where the curve is wide (0.1) and of 0.04 where it is narrow (0.005). Each chain's autocorrelation is by its
@@ -26,7 +26,7 @@ DRAWS, STEPS, LAGS = 2000, 100, 200
 
 
 def draw(folder: Path, tell: Callable[[dict], None], quick: bool) -> None:
-    """Both figures, and what each chain's draws are worth."""
+    """Both figures, and each chain's effective sample size."""
     draws = 100 if quick else DRAWS
     found = {}
     for width in (WIDE, NARROW):
@@ -78,8 +78,8 @@ def timed(tell: Callable[[dict], None], name: str, evaluations: int, made: Calla
 def row(
     tell: Callable[[dict], None], name: str, xy: np.ndarray, evaluations: int, spent: float, accepted
 ) -> None:
-    """What a chain's draws are worth."""
-    worth = diagnostics.ess_vector(xy)
+    """The effective sample size of a chain."""
+    effective = diagnostics.ess_vector(xy)
     tell(
         {
             "chain": name,
@@ -87,10 +87,10 @@ def row(
             "evaluations": evaluations,
             "cpu": round(spent, 3),
             "accepted": accepted,
-            "effective": round(worth, 1),
+            "effective": round(effective, 1),
         }
     )
-    print(f"{name:22} {evaluations:8} evaluations, {worth:7.1f} effective draws", flush=True)
+    print(f"{name:22} {evaluations:8} evaluations, {effective:7.1f} effective draws", flush=True)
 
 
 def samples(found: dict) -> plt.Figure:

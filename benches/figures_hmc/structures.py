@@ -1,8 +1,8 @@
 """Figures 4.8, 4.9, 4.11, 4.12, 4.13 and the table of 4.10: structures of blocks.
 
 Chains come from `benches/stacks.py`, which keeps them beside the figures in FOLDER/stacks (STACKS names another
-folder, such as the out/stacks of an earlier run) and goes on where it was. The figures show draws chosen by a rule, not
-by eye: those farthest apart among the draws that both judges pass.
+folder, such as the out/stacks of an earlier run) and continues where it stopped. The figures show draws chosen by a
+rule, not by eye: those farthest apart among the draws that both judges pass.
 """
 
 import os
@@ -43,13 +43,13 @@ def draw(folder: Path, tell: Callable[[dict], None], quick: bool) -> None:
     draws, count, names = (3, 2, 1) if quick else (50, 4, None)
     for name in FOLLOWED[:names]:
         measure(name, FOLLOWING, chains, draws, range(count), 30 if quick else None)
-    for way in ("mh-original", "mh-adaptive"):
+    for sampler in ("mh-original", "mh-adaptive"):
         for name in COMPARED[:names]:
-            measure(name, way, chains, count * draws, range(1), 200 if quick else None)
+            measure(name, sampler, chains, count * draws, range(1), 200 if quick else None)
     print("\n".join(HEAD), flush=True)
-    for way in (FOLLOWING, "mh-original", "mh-adaptive"):
+    for sampler in (FOLLOWING, "mh-original", "mh-adaptive"):
         for name in FOLLOWED:
-            found = summary(KINDS[name], way, chains)
+            found = summary(KINDS[name], sampler, chains)
             if found:
                 tell(found)
                 print(line(found), flush=True)
@@ -70,16 +70,16 @@ def seconds(folder: Path, chains: Path) -> None:
         "| --- | --- | --- | --- | --- | --- | --- | --- | --- |",
     ]
     for name, published in PUBLISHED.items():
-        for way, (burn_in, sampling) in {
+        for sampler, (burn_in, sampling) in {
             FOLLOWING: published[:2],
             "mh-original": published[2:],
             "mh-adaptive": published[2:],
         }.items():
-            one = summary(KINDS[name], way, chains)
+            one = summary(KINDS[name], sampler, chains)
             if one:
                 spent = max(one["seconds"], 1e-9)
                 lines.append(
-                    f"| {name} ({way}) | {one['choices']} | {one['start_seconds'] + one['warmup_seconds']:.1f} "
+                    f"| {name} ({sampler}) | {one['choices']} | {one['start_seconds'] + one['warmup_seconds']:.1f} "
                     f"| {burn_in} | {one['seconds']:.1f} | {sampling} | {one['acceptance']:.2f} "
                     f"| {one['acceptance'] * one['draws'] / spent:.2f} | {one['effective'] / spent:.2f} |"
                 )

@@ -12,11 +12,11 @@ import niwaki as nw
 import numpy as np
 from niwaki.draw.scene import Scene
 from PIL import Image
+from stacking.effective import autocorrelation
 from stacking.files import Drawn, Verdicts, chains
 from stacking.judging import passes
 from stacking.kinds import KINDS, Kind
 from stacking.table import corners
-from stacking.worth import autocorrelation
 
 #: Pixels of a picture's side.
 SIDE = 360
@@ -124,7 +124,7 @@ def compared(path: Path, folder: Path, names: tuple[str, ...]) -> None:
 
 
 def widest(kind: Kind, found: list[Drawn]) -> tuple[int, int]:
-    """The draw that takes the most room."""
+    """The draw with the largest extent."""
     at = corners(kind, found)
     boxes = np.ptp(at.reshape(*at.shape[:2], -1, 3), axis=2)
     chain, draw = np.unravel_index(np.linalg.norm(boxes, axis=-1).argmax(), at.shape[:2])
@@ -139,8 +139,8 @@ def extent(scene: Scene) -> float:
 
 def curves(cell: Any, kind: Kind, folder: Path) -> None:
     """Autocorrelations of all corners, by draws."""
-    for way, title in TITLES.items():
-        found = chains(folder, kind.name, way)
+    for sampler, title in TITLES.items():
+        found = chains(folder, kind.name, sampler)
         if found and len(found[0].values) > 2:
             lags = autocorrelation(corners(kind, found))
             cell.plot(lags[: max(2, len(lags) * 4 // 5)], label=title)

@@ -1,15 +1,15 @@
-"""Figure 5.9: the best score that so many particles find, by four ways to search.
+"""Figure 5.9: the best score by number of particles, for four methods.
 
 Three models on our own targets and, where NIWAKI_REFERENCE_TARGETS names their folder, on the original's. At each
 number of particles ten searches by stochastic order, ten depth-first, both weighted by whole scores as in the original;
-ten Metropolis-Hastings chains for as many CPU seconds as the first took on average; and ten by the way we recommend:
+ten Metropolis-Hastings chains for as many CPU seconds as the first took on average; and ten by the method we recommend:
 weights that are ratios, a temperature that rises, and a chain of as many proposals as particles from the best. One
 thread; sigma 0.02; the original's rule for intersections (`surface`).
 
-The chains move by `kernels.original`: its proposals, its sharpening to sigma 0.005 and, on the tree, its odds by depth;
-scores are reported at 0.02. They run on the models of the particles, by the strategy of this engine, which runs again
-only what a change touches. Their first possible state is outside the budget. Populations that became impossible are
-counted apart.
+The chains move by `kernels.original`: its proposals, its sharpening to sigma 0.005 and, on the tree, its selection
+weights by depth. Scores are reported at 0.02. They run on the models of the particles, by the strategy of this engine,
+which runs again only what a change touches. Their first possible state is outside the budget. Populations that became
+impossible are counted apart.
 """
 
 import os
@@ -60,7 +60,7 @@ PUBLISHED = {
         1000: (-5.77, 1.10, -8.86, -12.89),
     },
 }
-WAYS = {
+METHODS = {
     "stochastic": {"weights": "absolute"},
     "depth-first": {"weights": "absolute", "order": "depth-first"},
     "recommended": RECOMMENDED,
@@ -98,25 +98,25 @@ def meshes() -> dict[str, list[nw.Target]]:
 def measured(
     model: str, target: nw.Target, voxel: float, sizes: tuple[int, ...], runs: int
 ) -> Iterator[dict]:
-    """One row for each number of particles and way: all best scores, and mean CPU seconds."""
+    """One row for each number of particles and method: all best scores, and mean CPU seconds."""
     program, score = entry(model).model, score_of(target, voxel)
     # The first run compiles.
     searched(program, score, 2, {}, 0)
     for particles in sizes:
         budget = 0.0
-        # Searches of the ways take turns, so that a busy machine is busy for all of them.
-        found: dict[str, list[tuple[float | None, float]]] = {way: [] for way in WAYS}
+        # Searches of the methods take turns, so that a busy machine is busy for all of them.
+        found: dict[str, list[tuple[float | None, float]]] = {method: [] for method in METHODS}
         for seed in range(1, runs + 1):
-            for way, settings in WAYS.items():
-                more = onward(program, particles) if way == "recommended" else None
-                found[way].append(searched(program, score, particles, settings, seed, more))
+            for method, settings in METHODS.items():
+                more = onward(program, particles) if method == "recommended" else None
+                found[method].append(searched(program, score, particles, settings, seed, more))
         budget = statistics.fmean(cpu for _, cpu in found["stochastic"])
         found[CHAINS] = [chained(program, score, moves(program), budget, seed) for seed in range(1, runs + 1)]
-        for way, ends in found.items():
+        for method, ends in found.items():
             scores = [one for one, _ in ends if one is not None]
             yield {
                 "particles": particles,
-                "way": way,
+                "method": method,
                 "scores": scores,
                 "impossible": len(ends) - len(scores),
                 "cpu": statistics.fmean(cpu for _, cpu in ends),
@@ -124,7 +124,7 @@ def measured(
 
 
 def score_of(target: nw.Target, voxel: float) -> nw.Score:
-    """What is asked of all of them."""
+    """The score of all searches."""
     return nw.no_self_intersection("surface") * nw.match_volume(target, voxel, SIGMA)
 
 
@@ -176,16 +176,16 @@ def described(row: dict) -> str:
     spread = statistics.stdev(scores) if len(scores) > 1 else 0.0
     known = PUBLISHED[row["model"]].get(row["particles"]) if row["whose"] == "reference" else None
     text = (
-        f"{row['model']:<12}{row['target']:<24}{row['particles']:>5}  {row['way']:<18}"
+        f"{row['model']:<12}{row['target']:<24}{row['particles']:>5}  {row['method']:<18}"
         f"{statistics.fmean(scores) if scores else float('nan'):8.2f} ({spread:5.2f})  worst {worst:8.2f}"
         f"  {row['cpu']:7.3f} s"
     )
     text += f"  {row['impossible']} impossible" if row["impossible"] else ""
     if known is None:
         return text
-    beside = {"stochastic": known[0], "depth-first": known[2], CHAINS: known[3]}.get(row["way"])
+    beside = {"stochastic": known[0], "depth-first": known[2], CHAINS: known[3]}.get(row["method"])
     text += "" if beside is None else f"  published {beside:7.2f}"
-    if row["way"] == "stochastic":
+    if row["method"] == "stochastic":
         text += f" ({known[1]:.2f})"
     return text
 
@@ -195,11 +195,13 @@ def curves(rows: list[dict], path: Path) -> None:
     models = list(dict.fromkeys(row["model"] for row in rows))
     figure, panels = plt.subplots(1, len(models), figsize=(12, 4), layout="constrained")
     for panel, model in zip(panels, models, strict=True):
-        for way, color in COLORS.items():
-            points = [row for row in rows if (row["model"], row["way"]) == (model, way) and row["scores"]]
+        for method, color in COLORS.items():
+            points = [
+                row for row in rows if (row["model"], row["method"]) == (model, method) and row["scores"]
+            ]
             means = [statistics.fmean(row["scores"]) for row in points]
             at = [row["particles"] for row in points]
-            panel.plot(at, means, "o-", color=color, label=way, markersize=3.5)
+            panel.plot(at, means, "o-", color=color, label=method, markersize=3.5)
             # One search alone has no spread.
             sixths = [
                 statistics.quantiles(2 * scores if len(scores) == 1 else scores, n=6, method="inclusive")

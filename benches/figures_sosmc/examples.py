@@ -1,8 +1,8 @@
 """Figures 5.1 to 5.8 and table 5.1: every experiment of chapter 5 on our own targets.
 
 Each row of a picture is the best of a few searches: above with the original's settings (so many particles, whole
-scores), below with ours. What was asked for stands beside what was found. A silhouette or a shadow is shown as it was
-asked for, and the scene from one other side.
+scores), below with ours. The target is beside the result. A silhouette or a shadow is shown in its own
+view, and the scene from one other side.
 """
 
 import statistics
@@ -36,7 +36,7 @@ TITLES = {"original": "with the original's settings", "ours": "with ours"}
 SEEDS = (1, 2, 3, 4)
 SIZE = (300, 300)
 GREY = (0.72, 0.72, 0.71)
-#: From where each model shows itself: azimuth and elevation, degrees; the second beside a view that was asked for.
+#: From where each model shows itself: azimuth and elevation, degrees; the second beside a view that the target has.
 EYES = {"spaceship": (38.0, 30.0), "building": (30.0, 26.0), "gnarly-tree": (20.0, 14.0)}
 SIDES = {
     "toy-blocks": (25.0, 22.0),
@@ -56,46 +56,48 @@ def draw(folder: Path, tell: Callable[[dict], None], quick: bool) -> None:
         if one.name not in PUBLISHED:
             continue
         rows = []
-        for way in ("original", "ours"):
-            found = searches(one, way, seeds, quick)
+        for preset in ("original", "ours"):
+            found = searches(one, preset, seeds, quick)
             if not found:
-                tell({"experiment": one.name, "way": way, "impossible": len(seeds)})
-                print(f"{one.name}, {way}: all {len(seeds)} searches became impossible", flush=True)
+                tell({"experiment": one.name, "preset": preset, "impossible": len(seeds)})
+                print(f"{one.name}, {preset}: all {len(seeds)} searches became impossible", flush=True)
                 continue
-            told = row(one, way, found, len(seeds) - len(found))
-            tell(told)
-            print(line(told), flush=True)
+            record = row(one, preset, found, len(seeds) - len(found))
+            tell(record)
+            print(line(record), flush=True)
             best = max(found, key=lambda pair: pair[0].best.log_score)[0].best
-            rows.append((TITLES[way], panels(one, best, draft=quick)))
+            rows.append((TITLES[preset], panels(one, best, draft=quick)))
         if rows:
             written(folder / f"figure-{one.figure.replace('.', '-')}-{one.name}.png", stacked(rows))
     written(folder / "figure-5-2.png", order_matters(quick))
 
 
-def searches(one: Experiment, way: str, seeds: tuple[int, ...], quick: bool) -> list[tuple[nw.Result, float]]:
+def searches(
+    one: Experiment, preset: str, seeds: tuple[int, ...], quick: bool
+) -> list[tuple[nw.Result, float]]:
     """Results of all seeds, on one thread, each with the seconds that it takes on all threads."""
     found = []
     for seed in seeds:
         less = {"particles": 30, "populations": 1} if quick else {}
-        less |= {"moves": 1} if quick and "moves" in one.settings(way) else {}
+        less |= {"moves": 1} if quick and "moves" in one.settings(preset) else {}
         less |= {"steps": 1000} if quick else {}
         try:
-            result = one.run(way, seed=seed, threads=1, **less)
+            result = one.run(preset, seed=seed, threads=1, **less)
         except nw.InputError as error:
             if error.code != "everything-impossible":
                 raise
             continue
-        found.append((result, one.run(way, seed=seed, **less).seconds))
+        found.append((result, one.run(preset, seed=seed, **less).seconds))
     return found
 
 
-def row(one: Experiment, way: str, found: list[tuple[nw.Result, float]], impossible: int) -> dict:
-    """What the table says about an experiment."""
+def row(one: Experiment, preset: str, found: list[tuple[nw.Result, float]], impossible: int) -> dict:
+    """The line of the table for an experiment."""
     return {
         "experiment": one.name,
-        "way": way,
-        "particles": one.settings(way)["particles"],
-        "published": PUBLISHED[one.name] if way == "original" else None,
+        "preset": preset,
+        "particles": one.settings(preset)["particles"],
+        "published": PUBLISHED[one.name] if preset == "original" else None,
         "cpu": statistics.fmean(result.cpu_seconds for result, _ in found),
         "wall": statistics.fmean(seconds for _, seconds in found),
         "scores": [result.best.log_score for result, _ in found],
@@ -104,18 +106,18 @@ def row(one: Experiment, way: str, found: list[tuple[nw.Result, float]], impossi
     }
 
 
-def line(told: dict) -> str:
+def line(record: dict) -> str:
     """A row of the table for people."""
-    name = told["experiment"] if told["way"] == "original" else "  our settings"
-    known = told["published"]
-    text = f"{name:<18}{told['particles']:>10}{known or '':>9}{told['cpu']:>8.2f}{told['wall']:>16.2f}"
-    text += f"{known / told['cpu']:>7.0f}" if known else f"{'':>7}"
-    text += "  " + " ".join(f"{score:.1f}" for score in told["scores"])
-    return text + (f"  {told['impossible']} impossible" if told["impossible"] else "")
+    name = record["experiment"] if record["preset"] == "original" else "  our settings"
+    known = record["published"]
+    text = f"{name:<18}{record['particles']:>10}{known or '':>9}{record['cpu']:>8.2f}{record['wall']:>16.2f}"
+    text += f"{known / record['cpu']:>7.0f}" if known else f"{'':>7}"
+    text += "  " + " ".join(f"{score:.1f}" for score in record["scores"])
+    return text + (f"  {record['impossible']} impossible" if record["impossible"] else "")
 
 
 def panels(one: Experiment, sample: nw.Sample, draft: bool) -> Image.Image:
-    """What was asked for, beside what was found."""
+    """The target beside the result."""
     scene, samples = sample.scene, 2 if draft else 16
     if one.image is not None:
         left = view_sheet(scene, one.score().views[0], height=SIZE[1], samples=samples, captions=False)
@@ -123,13 +125,13 @@ def panels(one: Experiment, sample: nw.Sample, draft: bool) -> Image.Image:
         side = scene.picture(size=SIZE, samples=samples, azimuth=azimuth, elevation=elevation, margin=0.04)
         return beside([left, side.convert("RGB")])
     target = named_target(one.fill)
-    asked = together(Scene([]), target)
+    target_scene = together(Scene([]), target)
     azimuth, elevation = EYES[one.model]
     look = {"size": SIZE, "samples": samples, "elevation": elevation, "margin": 0.03}
     obstacle = None if one.avoid is None else named_target(one.avoid)
     shown = scene if obstacle is None else together(scene, obstacle)
     look["frame"] = together(shown, target)
-    views = [asked.picture(azimuth=azimuth, **look), scene.picture(target, azimuth=azimuth, **look)]
+    views = [target_scene.picture(azimuth=azimuth, **look), scene.picture(target, azimuth=azimuth, **look)]
     views += [shown.picture(azimuth=turned, **look) for turned in (azimuth, azimuth + 110.0)]
     return beside([view.convert("RGB") for view in views])
 

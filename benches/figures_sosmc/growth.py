@@ -1,11 +1,11 @@
 """What a primitive costs when there are many already: the gnarly tree, made larger by its arguments.
 
-The tree's least radius, and the coins for a side branch and for going on, are arguments: SIZES makes trees of about 50,
-200, 800 and 3200 segments. A population grows each, with a score that looks at volume and hardly selects, so that all
-sizes cost what their segments cost. (Trees of thousands of segments all run through themselves, so intersections are
-not asked for; `controls.py` measures what those cost.) Reported are microseconds of one thread for each segment that
-stands in the final population. Then the memory of a thousand particles of a thousand primitives: how much the largest
-resident set of a process grows over that of the same process with one particle.
+The tree's least radius, and the coins for a side branch and for continuing, are arguments: SIZES makes trees of about
+50, 200, 800 and 3200 segments. A population grows each, with a score of the volume that hardly selects, so that all
+sizes cost what their segments cost. (Trees of thousands of segments all intersect themselves, so intersections are not
+excluded; `controls.py` measures what those cost.) Reported are microseconds of one thread for each segment of the final
+population. Then the memory of a thousand particles of a thousand primitives: how much the largest resident set of a
+process grows over that of the same process with one particle.
 """
 
 import os
@@ -20,7 +20,7 @@ from niwaki import Frame
 from niwaki.gallery.gnarly_tree import ahead, behind_the_bend, gnarly_tree, on_the_bark
 from niwaki.targets import examples as targets
 
-#: Least radius as a share of the trunk's, odds of a side branch, decay of going on; by the segments that they give.
+#: By number of segments: least radius as a share of the trunk's, probability of a side branch, decay of continuing.
 SIZES = {50: (0.12, 0.5, 0.1), 200: (0.04, 0.5, 0.1), 800: (0.016, 0.5, 0.1), 3200: (0.006, 0.5, 0.1)}
 PARTICLES, SEEDS = 30, (1, 2, 3)
 FLAT = 1.5
@@ -30,7 +30,7 @@ LARGEST, MEGABYTES = (1000, 1000), 1000
 
 @nw.model
 def tower(n):
-    """Pile up `n` turned boxes: every particle has as many primitives, and none is like another's."""
+    """Pile up `n` turned boxes: every particle has as many primitives, all different."""
     for k in range(n):
         turn = nw.uniform(0.0, 1.5)
         size = (nw.uniform(0.5, 2.0), 0.1, nw.uniform(0.5, 2.0))
@@ -82,7 +82,7 @@ def draw(folder: Path, tell: Callable[[dict], None], quick: bool) -> None:
             f"trees of about {wanted:>5}: {mean:7.0f} segments, {costs[-1]:6.1f} us of CPU for each",
             flush=True,
         )
-    print(f"largest over smallest: {max(costs) / min(costs):.2f}, asked for at most {FLAT}")
+    print(f"largest over smallest: {max(costs) / min(costs):.2f}, target: at most {FLAT}")
     particles, primitives = (50, 50) if quick else LARGEST
     for solids in MODELS:
         for sigma, name in ((0.02, "selected as in a search"), (1e3, "none like another")):
@@ -90,7 +90,7 @@ def draw(folder: Path, tell: Callable[[dict], None], quick: bool) -> None:
             kept = {"particles": particles, "primitives": primitives, "solids": solids, "sigma": sigma}
             tell(kept | {"megabytes": many - few})
             text = f"{particles} particles of {primitives} {solids}, {name}: {many - few:.0f} MB"
-            print(f"{text}, asked for under {MEGABYTES}", flush=True)
+            print(f"{text}, target: under {MEGABYTES}", flush=True)
 
 
 def score() -> nw.Score:

@@ -1,7 +1,7 @@
-"""What a second thread saves: wall seconds of experiments of chapter 5 on one thread and on two.
+"""The time that a second thread saves: wall seconds of experiments of chapter 5 on one thread and on two.
 
 The original's settings and particles, on our own targets. A seed is searched in turn on one thread and on two, several
-times over, and the least of each counts: other programs can only add to it. What is found must be the same to the bit.
+times over, and the least of each counts: other programs can only add to it. Results must be the same to the bit.
 """
 
 from collections.abc import Callable
@@ -12,7 +12,7 @@ from experiments import Experiment, experiment
 NAMES = ("tree", "digits-of-pipes", "face-of-blocks", "ship", "building")
 SEEDS, REPEATS = (1, 2, 3), 7
 THREADS = (1, 2)
-#: Wall seconds with two threads that are asked for at most, as a share of those with one.
+#: Wall seconds with two threads at most, as a share of those with one.
 MOST = 0.6
 
 
@@ -30,7 +30,7 @@ def draw(folder: Path, tell: Callable[[dict], None], quick: bool) -> None:
         print(
             f"{one.name:<18}{one.particles:>10}{wall[0]:>13.3f}{wall[1]:>14.3f}{shares[-1]:>7.2f}", flush=True
         )
-    print(f"largest share: {max(shares):.2f}, asked for at most {MOST}")
+    print(f"largest share: {max(shares):.2f}, target: at most {MOST}")
 
 
 def fastest(one: Experiment, seed: int, repeats: int) -> list[float]:

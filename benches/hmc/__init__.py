@@ -4,6 +4,6 @@ densities  three log densities over NumPy-like libraries, and where chains start
 ours       our chains, from `crates/infer/examples/trajectories.rs`, and the limit by hand
 peers      JAX, NumPyro, nutpie
 rates      gradients per second, one chain and 64, taking turns
-starts     what a person waits for
-worth      effective samples per second
+starts     the time until chains start
+effective  effective samples per second
 """

@@ -107,7 +107,7 @@ def coloring(xp: Any, x: Any) -> Any:
 
 
 BLOCKS, FRICTION, TOLERANCE = 6, 0.5, 0.01
-#: Half sizes, height, taper, how far the top is moved, where the next block stands on it.
+#: Half sizes, height, taper, how far the top is moved, the place of the next block on it.
 BOUNDS = [(0.3, 1.0)] * 3 + [(0.5, 1.2)] * 2 + [(-0.3, 0.3)] + [(-0.6, 0.6)] * 2
 COUNTS = [BLOCKS] * 6 + [BLOCKS - 1] * 2
 SHAPE = sum(COUNTS)
@@ -126,7 +126,7 @@ def stack(xp: Any, x: Any) -> Any:
     sideways = [FRICTION * normal * (2.0 * sigmoid(xp, v) - 1.0) for v in (first, second)]
     log = log_jacobian(xp, x[:SHAPE]).sum() + 3.0 * push.sum()
     log = log + log_jacobian(xp, first).sum() + log_jacobian(xp, second).sum()
-    # Where blocks stand: sums over those below.
+    # Places of blocks: sums over those below.
     zero, below = np.zeros(1), np.tril(np.ones((n, n)), -1)
     top_x, top_y = hx * tx, hy * ty
     cx = xp.concatenate([zero, below[1:, :-1] @ (ux[:-1] + ox * top_x[:-1])])

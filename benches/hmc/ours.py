@@ -52,7 +52,7 @@ class Programs:
         return run(read(self.chains, what, model, written(point), *words, out), out, model, draws)
 
     def nuts(self, model: str, point: np.ndarray, warmup: int, draws: int, seed: int) -> Run:
-        """The no-U-turn sampler with its own warm-up; machine code is made on the way."""
+        """The no-U-turn sampler with its own warm-up; machine code is compiled during the run."""
         out = CACHE / "hmc.draws"
         found = read(self.chains, "nuts", model, written(point), warmup, draws, seed, out)
         return run(found, out, model, draws)
@@ -72,7 +72,7 @@ def written(point: np.ndarray) -> Path:
 
 
 def run(found: dict[str, Any], out: Path, model: str, draws: int) -> Run:
-    """What a program said and wrote."""
+    """The output of a program, and what it wrote."""
     rows = np.fromfile(out).reshape((-1, densities.DIMS[model]))[:draws]
     return Run(found["gradients"], found["seconds"], found["cpu_seconds"], found["accept"], rows)
 

@@ -15,7 +15,7 @@ DRAWS = {"ring": 60_000, "coloring": 600, "stack": 40}
 DRAWS_OF_64 = {"ring": 10_000, "coloring": 12, "stack": 2}
 CHAINS = 64
 
-#: What is asked: times the better of JAX and NumPyro, of the limit, and times JAX under vmap.
+#: Targets: times the better of JAX and NumPyro, of the limit, and times JAX under vmap.
 OF_PEERS = {"ring": 2.0, "coloring": 2.0, "stack": 6.0}
 OF_LIMIT = {"ring": 0.9, "coloring": 0.9}
 OF_VMAP = {"ring": 0.8, "coloring": 2.0, "stack": 2.0}
@@ -75,7 +75,7 @@ def systems_of(
 
 
 def show(report: Report, table: object, model: str, runs: dict[str, list[Run]], chains: int) -> None:
-    """Rows of a table, and what is asked."""
+    """Rows of a table, and their targets."""
     ours = runs["niwaki"]
     ratios = {
         name: [mine.rate / run.rate for mine, run in zip(ours, theirs, strict=True)]

@@ -1,4 +1,4 @@
-"""What a person waits for: from a recorded graph to the first gradient and to machine code; compiling the peers."""
+"""The time until chains start: from a recorded graph to the first gradient and to machine code; compiling the peers."""
 
 import statistics
 
@@ -6,7 +6,7 @@ from chains.report import Report
 
 from hmc.ours import Programs
 
-#: Model, coordinates, most milliseconds until machine code (none is asked of the other sizes).
+#: Model, coordinates, most milliseconds until machine code (other sizes have no target).
 SIZES = {"ring": None, "coloring": None, "stack": 60.0, "stack12": None, "stack28": 250.0}
 FIRST_GRADIENT = 30.0
 

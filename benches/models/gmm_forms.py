@@ -1,4 +1,4 @@
-"""The mixture of Gaussians of appendix A, written in every way that a person might: all mean the same.
+"""The mixture of Gaussians of appendix A, in many equivalent variants.
 
 Each takes the number of points, 100 to 1000 for the sizes 1 to 10, and makes the same choices and observations in the
 same order. FORMS names them.

@@ -1,6 +1,6 @@
 """A hidden Markov chain of 100 steps: the model of `webppl/hmm.wppl` and `limit/src/hmm.rs`.
 
-The distributions are built once, outside the model. Two ways to write it, which should cost about the same.
+The distributions are built once, outside the model. Two variants, which should cost about the same.
 """
 
 import data

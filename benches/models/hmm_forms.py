@@ -1,4 +1,4 @@
-"""The hidden Markov chain of appendix A, written in every way that a person might: all mean the same.
+"""The hidden Markov chain of appendix A, in many equivalent variants.
 
 Each takes the number of steps, 100 to 1000 for the sizes 1 to 10, and makes the same choices and observations in the
 same order; so the densities of equal choices are equal. FORMS names them.
@@ -86,15 +86,15 @@ def returned_list(steps=100):
 @model
 def queried(steps=100):
     """One by one, with a `query` of each state; the last state."""
-    return told(steps - 1)
+    return state(steps - 1)
 
 
-def told(n):
+def state(n):
     """The state of step n, recorded."""
     if n == 0:
         state = sample(INITIAL)
     else:
-        previous = told(n - 1)
+        previous = state(n - 1)
         state = sample(TRANSITION[previous])
     observe(EMISSION[state], OBSERVATIONS[n])
     query(f"state {n}", state)

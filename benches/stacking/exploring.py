@@ -1,4 +1,4 @@
-"""Many short chains: `niwaki.explore()` as it stands, the last draw of each chain, each from a run of its own."""
+"""Many short chains: `niwaki.explore()` with its defaults, the last draw of each chain, each from its own run."""
 
 from __future__ import annotations
 

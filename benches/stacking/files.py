@@ -1,9 +1,9 @@
-"""What is kept between runs: a file of draws for each chain, and a line for each draw that was judged.
+"""The files between runs: a file of draws for each chain, and a line for each draw that was judged.
 
-    KIND-WAY-CHAIN.json   addresses, values (draws, choices), seconds, gradients
-    KIND-WAY.jsonl        chain, draw, and what the judges say
+    KIND-SAMPLER-CHAIN.json   addresses, values (draws, choices), seconds, gradients
+    KIND-SAMPLER.jsonl        chain, draw, and the judges' results
 
-A run that was stopped goes on where it was: a chain that has a file is not drawn again, a draw that has a line is not
+A stopped run continues where it was: a chain that has a file is not drawn again, a draw that has a line is not
 judged again.
 """
 
@@ -23,7 +23,7 @@ class Drawn:
     """The draws of a chain.
 
     `values` is (draws, choices). `warmup_seconds` and `seconds` are CPU seconds, `gradients` counts evaluations after
-    the warm-up, `acceptance` is their mean, `settings` says how they were drawn.
+    the warm-up, `acceptance` is their mean, `settings` are those of the sampler.
     """
 
     addresses: list[str]
@@ -52,14 +52,14 @@ class Drawn:
         return cls(**found)
 
 
-def chain_file(folder: Path, kind: str, way: str, chain: int) -> Path:
-    return folder / f"{kind}-{way}-{chain}.json"
+def chain_file(folder: Path, kind: str, sampler: str, chain: int) -> Path:
+    return folder / f"{kind}-{sampler}-{chain}.json"
 
 
-def chains(folder: Path, kind: str, way: str) -> list[Drawn]:
+def chains(folder: Path, kind: str, sampler: str) -> list[Drawn]:
     """The chains that there are."""
     found = []
-    while (path := chain_file(folder, kind, way, len(found))).exists():
+    while (path := chain_file(folder, kind, sampler, len(found))).exists():
         found.append(Drawn.load(path))
     return found
 
@@ -67,8 +67,8 @@ def chains(folder: Path, kind: str, way: str) -> list[Drawn]:
 class Verdicts:
     """Lines of judged draws."""
 
-    def __init__(self, folder: Path, kind: str, way: str) -> None:
-        self.path = folder / f"{kind}-{way}.jsonl"
+    def __init__(self, folder: Path, kind: str, sampler: str) -> None:
+        self.path = folder / f"{kind}-{sampler}.jsonl"
         self.rows: list[dict[str, Any]] = []
         if self.path.exists():
             text = self.path.read_text()

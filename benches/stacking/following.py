@@ -1,6 +1,6 @@
 """Chains that follow the gradient: no-U-turn trajectories in a low-rank metric, frozen after the warm-up.
 
-Each chain starts where `niwaki.stacks.start` finds a balance from a seed of its own.
+Each chain starts where `niwaki.stacks.start` finds a balance from its own seed.
 """
 
 from __future__ import annotations

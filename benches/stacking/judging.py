@@ -18,10 +18,10 @@ MARGINS = 5
 JUDGED = ("refused", "residual", "moved", "block")
 
 
-def judge(kind: Kind, way: str, folder: Path, polish: bool = True) -> None:
+def judge(kind: Kind, sampler: str, folder: Path, polish: bool = True) -> None:
     """Judge all draws that have no line yet."""
-    verdicts = Verdicts(folder, kind.name, way)
-    for chain, drawn in enumerate(chains(folder, kind.name, way)):
+    verdicts = Verdicts(folder, kind.name, sampler)
+    for chain, drawn in enumerate(chains(folder, kind.name, sampler)):
         for draw in range(len(drawn.values)):
             if not verdicts.has(chain, draw):
                 verdicts.add(row(kind, drawn, chain, draw, polish))

@@ -1,4 +1,4 @@
-"""What is drawn: the models of `niwaki.stacks`, each with its tolerance, which is the original's."""
+"""The models of `niwaki.stacks`, each with its tolerance, which is the original's."""
 
 from __future__ import annotations
 

@@ -1,9 +1,9 @@
 """Chains that do not follow the gradient: one choice at a time, with normal steps.
 
-`original` is the dissertation's, as its program has it: a step in the choice's own units, scored by the density of the
+`original` is the dissertation's, as in its program: a step in the choice's own units, scored by the density of the
 unbounded coordinates, Jacobian and all (which is the density of another model); bounds by clamping; a bandwidth for
-each choice that starts at 0.002 and grows or shrinks by 1 % at every proposal, for ever, as the share accepted so far
-is above 0.234 or below, which overshoots; latent forces start at nothing. `adaptive` is put right: steps in the
+each choice that starts at 0.002 and at every proposal, without end, grows or shrinks by 1 %, as the share accepted so
+far is above 0.234 or below, which overshoots; latent forces start at zero. `adaptive` is correct: steps in the
 coordinates that the density is over, each bandwidth led to an acceptance of 0.44 (the best for one coordinate) by gains
 that fall, in the warm-up only, and the same start as the chains that follow the gradient.
 """
@@ -62,7 +62,7 @@ def adaptive(kind: Kind, chain: int, draws: int, warmup: int = BURN_IN, thin: in
     return made(density, kept, started - begun, burnt - started, burnt, draws * thin, accepted, "adaptive")
 
 
-WAYS = {"mh-original": original, "mh-adaptive": adaptive}
+SAMPLERS = {"mh-original": original, "mh-adaptive": adaptive}
 
 
 class Units:

@@ -8,10 +8,10 @@ from typing import Any
 import niwaki as nw
 import numpy as np
 
+from stacking.effective import effective
 from stacking.files import Drawn, Verdicts, chains
 from stacking.judging import passes
 from stacking.kinds import KINDS, Kind
-from stacking.worth import effective
 
 HEAD = (
     "| model | sampler | width | draws | effective | balance | stand | polished | margin | litres | CPU s "
@@ -31,10 +31,10 @@ def corners_of(kind: Kind, choices: dict[str, float]) -> Any:
     return np.array([[list(point) for point in block] for block in made.blocks]).reshape(-1)
 
 
-def summary(kind: Kind, way: str, folder: Path) -> dict[str, Any] | None:
+def summary(kind: Kind, sampler: str, folder: Path) -> dict[str, Any] | None:
     """One row; None where nothing was judged."""
-    rows = list(Verdicts(folder, kind.name, way))
-    found = chains(folder, kind.name, way)
+    rows = list(Verdicts(folder, kind.name, sampler))
+    found = chains(folder, kind.name, sampler)
     if not rows or not found:
         return None
     failed = [one for one in rows if not passes(one)]
@@ -42,7 +42,7 @@ def summary(kind: Kind, way: str, folder: Path) -> dict[str, Any] | None:
     sizes = [one["litres"] for one in rows if "litres" in one]
     return {
         "model": kind.name,
-        "way": way,
+        "sampler": sampler,
         "width": kind.width,
         "choices": len(found[0].addresses),
         "draws": len(rows),
@@ -69,13 +69,13 @@ def line(one: dict[str, Any]) -> str:
     litres = "" if one["litres"] is None else f"{one['litres']:.3g}"
     mended = f"{one['mended']} of {one['failed']}" if one["failed"] else ""
     return (
-        f"| `{one['model']}` | {one['way']} | {one['width']:g} | {one['draws']} "
+        f"| `{one['model']}` | {one['sampler']} | {one['width']:g} | {one['draws']} "
         f"| {one['effective']:.0f} | {one['holds']} | {one['stands']} | {mended} | {margin} | {litres} "
         f"| {one['seconds']:.0f} | {one['gradients']} |"
     )
 
 
-def table(folder: Path, ways: tuple[str, ...]) -> str:
+def table(folder: Path, samplers: tuple[str, ...]) -> str:
     """All rows that there are."""
-    found = [summary(kind, way, folder) for way in ways for kind in KINDS.values()]
+    found = [summary(kind, sampler, folder) for sampler in samplers for kind in KINDS.values()]
     return "\n".join([*HEAD, *(line(one) for one in found if one)])

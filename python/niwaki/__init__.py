@@ -1,6 +1,6 @@
 """Niwaki grows procedural models into the shapes you ask for.
 
-A model is a Python function marked with `@model`. What it may say:
+A model is a Python function marked with `@model`. It may use:
 
     sample, flip, uniform, gaussian, ...        make a random choice
     condition, factor, observe                  forbid a run, weigh it, score it by data
@@ -15,9 +15,9 @@ Searching a model:
 
     grow                                        grow a model into a target
     run                                         run a model by any method
-    Search                                      what `grow` and `run` carry out, as a value: JSON, a hash
+    Search                                      what `grow` and `run` run, as a value: JSON, a hash
     smc, particle_gibbs, pimh                   methods: particles
-    mh, kernels                                 methods: Markov chains, and what they are made from
+    mh, kernels                                 methods: Markov chains and their kernels
     hmc, nuts, explore                          methods: chains that follow the gradient
     enumerate_all, rejection, importance        methods: exact answers, and independent runs
 
@@ -27,7 +27,7 @@ What a scene should be like:
     match_volume, match_image, match_shadow     scores: fill a volume, have a silhouette, cast a shadow
     no_self_intersection, avoid, floor          scores: what a scene must not do
 
-What a search gives back:
+The results of a search:
 
     Result, Sample                              all runs, and one: its value, choices, scores, picture, files
     residuals                                   how far soft constraints are from holding

@@ -1,7 +1,7 @@
-"""Random model programs for chains: what `programs` makes, and what makes re-running hard.
+"""Random model programs for chains: those of `programs`, with features that make re-running hard.
 
 Lists of choices whose elements are read by indices that change later, captures that are read in loops, lists that only
-grow, in recursions by one and by halves and in loops; counts, branches and closures that hang on choices; primitives
+grow, in recursions by one and by halves and in loops; counts, branches and closures that depend on choices; primitives
 that come and go; soft factors over all of it. Every program ends.
 """
 
@@ -11,7 +11,7 @@ from programs import Maker, Program
 
 
 class ChainMaker(Maker):
-    """Makes fragments that hang on each other by way of choices."""
+    """Makes fragments that depend on each other through choices."""
 
     def sampled(self) -> str:
         """A random choice of a real number, its parameters perhaps choices too."""

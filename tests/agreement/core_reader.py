@@ -1,7 +1,7 @@
-"""The core form, run in the plainest way there is: the third opinion between plain Python and the engine.
+"""A simple interpreter of the core form: an independent check of plain Python and the engine.
 
 It reads the *text*, so it tests the writer too, and it knows nothing of Python's syntax trees. Calls recurse on the
-host stack, closures are (name, values), every effect is asked of a `PlainRun`, whose path it keeps by the labels in the
+host stack, closures are (name, values), every effect is done by a `PlainRun`, whose path it keeps by the labels in the
 text. It is only for tests.
 """
 
@@ -24,7 +24,7 @@ FAMILY = {family.family: family for family in FAMILIES}
 
 
 class Stop(Exception):
-    """`break`, `continue` or `return`, on its way out."""
+    """`break`, `continue` or `return`, as an exception."""
 
     def __init__(self, kind: str, value: Any = None) -> None:
         super().__init__(kind)

@@ -1,4 +1,4 @@
-"""Programs that use one part of the language each, to compare ways of running them."""
+"""Programs that use one part of the language each, to compare executors."""
 
 # ruff: noqa: E501
 

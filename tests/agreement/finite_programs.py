@@ -1,9 +1,9 @@
-"""Random model programs whose answer enumeration knows, full of futures that wait.
+"""Random model programs that enumeration can answer, with many futures that wait.
 
 Every choice has few values, every program few runs. What can be forced (a future, or a value that is none) is chosen by
 branches, unpacked from tuples, and lies in lists, records, dictionaries and closures; it goes through calls, is forced
 twice, late, in loops and in comprehensions, and futures make futures. Names are shadowed by parameters, comprehensions
-and loops. A barrier may stand anywhere, so that a force waits or does not.
+and loops. A barrier may be anywhere, so that a force waits or does not.
 
 `text(seed)` is a whole module with the model `m`; the same seed gives the same text. `looking(seed)` is one whose every
 run looks at a future that is not forced. `reduced` makes a text that fails smaller, line by line.
@@ -45,12 +45,12 @@ class Scope:
     truths: tuple[str, ...]
     #: A future, or an integer.
     promises: tuple[str, ...] = ()
-    #: Two or more promises.
+    #: Two or more futures.
     lists: tuple[str, ...] = ()
     pairs: tuple[str, ...] = ()
     records: tuple[str, ...] = ()
     dicts: tuple[str, ...] = ()
-    #: Functions of an integer that give an integer, and those that give a promise.
+    #: Functions of an integer that give an integer, and those that give a future.
     functions: tuple[str, ...] = ()
     makers: tuple[str, ...] = ()
 
@@ -71,7 +71,7 @@ class Maker:
     # names
 
     def fresh(self, stem: str) -> str:
-        """A name that nobody has."""
+        """A new name."""
         self.count += 1
         return f"{stem}{self.count}"
 
@@ -266,7 +266,7 @@ class Maker:
         return [f"{name} = {text}"]
 
     def unpacked(self) -> list[str]:
-        """Two promises out of one value."""
+        """Two futures out of one value."""
         a, b = self.fresh("f"), self.fresh("f")
         given = self.random.choice([*self.scope.pairs, f"({self.promise(1)}, {self.promise(1)})"])
         self.know("promises", a)
@@ -297,7 +297,7 @@ class Maker:
         return [f"    {line}" for line in lines]
 
     def branch(self, depth: int, loop: bool) -> list[str]:
-        """`if`, perhaps with `else`; a promise that one of its arms makes."""
+        """`if`, perhaps with `else`; a future that one of its arms creates."""
         if self.chance(0.3):
             # Assigned twice, so no closure may capture it.
             name = self.fresh("f")
@@ -309,7 +309,7 @@ class Maker:
         return lines
 
     def for_loop(self, depth: int) -> list[str]:
-        """A loop, over promises or numbers; its variable may shadow."""
+        """A loop, over futures or numbers; its variable may shadow."""
         if self.scope.lists and self.chance(0.5):
             name = self.random.choice(self.scope.lists)
             k = self.fresh("k")
@@ -322,7 +322,7 @@ class Maker:
         return [*head, *self.block(depth, True)]
 
     def while_loop(self, depth: int) -> list[str]:
-        """A loop that counts, and carries a promise from one iteration to the next."""
+        """A loop that counts, and carries a future from one iteration to the next."""
         k, f = self.fresh("k"), self.fresh("f")
         return [
             f"{k}, {f} = 0, {self.promise(1)}",
@@ -391,7 +391,7 @@ class Maker:
         return [f"{name} = {self.sure(2)}", *self.random.choice(looks)]
 
     def nested(self) -> list[str]:
-        """A closure that captures promises, and whose parameters shadow."""
+        """A closure that captures futures, and whose parameters shadow."""
         name = self.fresh("g")
         kind = self.random.choice(["functions", "functions", "makers"])
         with self.closure():
@@ -448,7 +448,7 @@ def text(seed: int, size: int = 6, looks: bool = False) -> str:
     for i in range(size):
         lines += maker.statement(2) if i != at else maker.look()
     s = maker.scope
-    # A promise may be what a model returns: its value is seen.
+    # A future may be what a model returns: its value is seen.
     seen = [*s.integers[1:][-1:], *s.truths[1:][-2:], *s.promises[-2:], *s.lists[-1:], *s.pairs[-1:]]
     lines.append(f"return ({', '.join(['n', 'b', *seen])})")
     body = "\n".join(f"    {line}" for line in lines)

@@ -1,7 +1,7 @@
-"""Random terminating model programs, as source text, to compare ways of running them.
+"""Random terminating model programs, as source text, to compare executors.
 
 `program(seed, size)` is a whole module whose last function is the model `m`; the same seed gives the same text. A
-program is made of numbered fragments, so that `shrink` can leave fragments out: what fails is tried again with less.
+program consists of numbered fragments, so that `shrink` can leave fragments out: what fails is tried again with less.
 Loops have fixed bounds and recursion counts down, so every program ends.
 """
 
@@ -47,12 +47,12 @@ class Maker:
         self.locals: list[str] = []
 
     def fresh(self, stem: str) -> str:
-        """A name that nobody has."""
+        """A new name."""
         self.count += 1
         return f"{stem}{self.count}"
 
     def pick(self, *makers: Callable[[int], str] | str, depth: int = 0) -> str:
-        """One of several ways to go on."""
+        """One of several continuations."""
         made = self.random.choice(makers)
         return made if isinstance(made, str) else made(depth - 1)
 

@@ -1,4 +1,4 @@
-"""The four strategies from one seed make the same chain to the bit, on random programs and with every kind of kernel.
+"""The four strategies give the same chain for a seed, to the bit, on random programs and with every kind of kernel.
 
 The engine runs them in step: after each proposal decisions and sums are compared, now and then also the values, scenes
 and queries of the states, a proposal that is undone, and a run from the start, once keeping calls and once without. A

@@ -1,28 +1,28 @@
-"""On random finite programs every method follows the exact answer, and every sample is what its choices say.
+"""On random finite programs every method follows the exact answer, and every sample agrees with its choices.
 
 Programs of `finite_programs`: futures of every shape, loops, closures, branches, shadowed names. Of each:
 
 - plain Python and the engine do the same with the same choices, in both directions;
 - particles in both orders, with every kind of resampling and of rejuvenation, particle Gibbs and PIMH: a sample's value
-  is one that enumeration knows, and plain Python with the sample's choices gives its value and scores;
+  has a probability by enumeration, and plain Python with the sample's choices gives its value and scores;
 - the evidence is unbiased, and each value has its share: z-scores against enumeration. Few particles and many small
   populations are most sensitive, as nothing averages an error away;
-- states of Markov chains are what their choices say, and the four strategies agree to the bit.
+- states of Markov chains agree with their choices, and the four strategies agree to the bit.
 
 Programs whose every run looks at a future that is not forced are refused by each of them.
 
 A quantity is wrong only if it is so twice: by 5 standard errors, and with fresh seeds and sixteen times the runs by 7.
-Only values of at least a twentieth are counted, and a standard error is taken to be no less than three runs' worth, so
-that rare runs that nobody saw do not count against a method. For a share of a twentieth, both bounds on its binomial
-count together are passed once in 1e13 by chance; a soak of an hour looks at less than 1e7 quantities, so that it fails
-once in a million.
+Only values of at least a twentieth are counted, and a standard error is taken to be no less than that of three runs, so
+that rare runs that never occurred do not count against a method. For a share of a twentieth, both bounds on its
+binomial count together are passed once in 1e13 by chance; a soak of an hour looks at less than 1e7 quantities, so
+that it fails once in a million.
 
-Mutants. Each method is judged by the answer of a program that lacks what counts twice in its own, and is seen to be
-wrong. Two engines that were wrong have failed. One's force read its promise from a register that others had overwritten
-(in `place.rs`, no `SiteKind::Force` among those that are read again, and no check of it in `verify.rs`): every fourth
-or fifth program failed. The other's chains tested, of `a or b`, what the last run had left (in `expressions.rs`,
-`shortcut` jumps by `to`; no check of it in `verify.rs`): the 974th and the 114th program of two runs failed, and
-`EITHER` is what was left of them.
+Mutants. Each method is judged by the answer of a program that lacks what counts twice in its own, and must be wrong by
+it. Two wrong engines have failed. In one, `force` read its future from a register that was overwritten (in `place.rs`,
+no `SiteKind::Force` among those that are read again, and no check of it in `verify.rs`): every fourth or fifth program
+failed. In the other, chains tested, of `a or b`, a value of the last run (in `expressions.rs`, `shortcut` jumps by
+`to`; no check of it in `verify.rs`): the 974th and the 114th program of two runs failed, and `EITHER` is their reduced
+form.
 """
 
 from __future__ import annotations
@@ -80,7 +80,7 @@ def populations(count: int, seed: int) -> dict[str, nw.methods.Smc]:
         "particles, resampled when few are effective": nw.smc(ess=0.6, **own),
         "particles, moved": nw.smc(at=1 + seed % 2, **moved),
         "particles, moved depth first": nw.smc(at="resampled", order="depth-first", **moved),
-        "particles, walking": nw.smc(at="end", draws=2, **moved),
+        "particles, final chain": nw.smc(at="end", draws=2, **moved),
     }
 
 
@@ -156,7 +156,7 @@ class Exact:
         return self.scores(rows.reshape(len(names), -1), [self.shares[name] for name in self.counted])
 
     def of_chain(self, names: list[str]) -> list[float]:
-        """The share of each value, by batches; the first batches are the way to the posterior."""
+        """The share of each value, by batches; the first batches are the warm-up."""
         size = len(names) // (BATCHES + BATCHES // 10)
         rows = np.array(
             [[name == other for other in self.counted] for name in names[-BATCHES * size :]], float
@@ -263,7 +263,7 @@ def wrong(program: str, seed: int, tally: Tally | None = None) -> str:
 
 
 def answers_a_look(program: str, seed: int) -> str:
-    """Who does not refuse a program that looks at a future, or nobody."""
+    """The executor that does not refuse a program that uses a future without `force`, or an empty text."""
     model = load(program)
     try:
         model.core()
@@ -295,7 +295,7 @@ def answers_a_look(program: str, seed: int) -> str:
 
 
 def look(seeds: Iterable[int], tally: Tally) -> None:
-    """Looks at programs; the first that is wrong is made smaller and told."""
+    """Looks at programs; the first that is wrong is made smaller and reported."""
     before = set(linecache.cache)
     for seed in seeds:
         program, looks = text(seed), looking(seed)
@@ -322,7 +322,7 @@ def still_wrong(program: str, seed: int, before: str) -> bool:
         return False
 
 
-#: A promise that one branch makes, forced where nobody waited for it before.
+#: A future that one branch creates, forced where nothing waited for it before.
 CHOSEN = """from niwaki import model; from niwaki.words import *
 
 def leaf():
@@ -403,12 +403,12 @@ def test_every_method_follows_the_exact_answer_for_long() -> None:
     first = int(os.environ.get("NIWAKI_SEED", secrets.randbelow(2**31)))
     seconds = float(os.environ.get("NIWAKI_FUZZ_SECONDS", "600"))
     print(f"NIWAKI_SEED={first}", flush=True)
-    tally, began, said = Tally(), time.monotonic(), 0.0
+    tally, began, printed = Tally(), time.monotonic(), 0.0
     seed = first
     while (spent := time.monotonic() - began) < seconds:
         look([seed], tally)
         seed += 1
-        if spent > said:
+        if spent > printed:
             print(f"{spent:.0f} s: {tally}", flush=True)
-            said = spent + 60
+            printed = spent + 60
     print(tally, flush=True)

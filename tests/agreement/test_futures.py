@@ -1,7 +1,7 @@
-"""A future that is looked at without `force` is refused by every executor, with one code and the user's line.
+"""Every executor refuses the use of a future without `force`, with one code and the user's line.
 
 In the engine's particles and enumeration a future may still have to run; chains and plain Python have its value at
-once. A look that one of them answered would be a wrong answer that nobody sees.
+once. If one of them accepted it, a wrong answer would go unnoticed.
 """
 
 from __future__ import annotations
@@ -155,7 +155,7 @@ def text(look: str, callee: str) -> str:
 
 
 def executors(model: Any) -> dict[str, Any]:
-    """Every way to run a model, by name."""
+    """Every executor of a model, by name."""
     runs = {name: lambda method=method: nw.run(model, method, seed=1) for name, method in METHODS.items()}
     runs["plain"] = lambda: run_python(model, seed=1)
     for strategy in STRATEGIES:

@@ -1,4 +1,4 @@
-"""Every kernel and composition answers every model that it suits as enumeration does, from Python on.
+"""Every kernel and composition agrees with enumeration on every model that it suits, through Python.
 
 Fixed seeds. Each row takes 40,000 proposals after a warm-up of 2,000 and compares the share of each value with the
 exact one, by the spread of the shares of 40 stretches of the chain, which are nearly independent: |t| with 39 degrees
@@ -95,7 +95,7 @@ KERNELS = {
     "regenerate one above": k.regenerate(1),
     "mixture": k.mixture(k.prior(), k.regenerate(), k.neighbour(), weights=[1, 2, 1]),
     "repeat": k.repeat(2, k.cycle(k.prior(), k.neighbour())),
-    "odds by depth": k.weighted(k.prior(), depth=lambda depth: 1 / (1 + depth) ** 2),
+    "selection weight by depth": k.weighted(k.prior(), depth=lambda depth: 1 / (1 + depth) ** 2),
     "temper": k.tempering(k.prior(), (1, 1 / 3, 1 / 9), every=20),
 }
 
@@ -130,7 +130,7 @@ def test_strategies_answer_as_enumeration_does(strategy: str) -> None:
     ("name", "sites"),
     [("coins", {"a": 3.0, "*": 0.5}), ("shapes", {"*bernoulli*": 0.3}), ("bounds", {"j": 4.0})],
 )
-def test_odds_by_site_answer_as_enumeration_does(name: str, sites: dict[str, float]) -> None:
+def test_selection_weights_by_site_answer_as_enumeration_does(name: str, sites: dict[str, float]) -> None:
     assert t_values(MODELS[name], k.weighted(k.prior(), sites=sites)) < 6
 
 

@@ -1,4 +1,4 @@
-"""Every family has the density, the support and the draws that SciPy says it has.
+"""Every family has the density, the support and the draws of SciPy.
 
 Densities. Two log densities agree when their difference is below 1e-10 times the larger of one and their
 size: near zero nats that is a relative error of 1e-10 in the density itself.
@@ -425,7 +425,9 @@ def test_a_draw_is_a_function_of_its_coordinates() -> None:
         ("beta", [1.0], "b", "missing"),
     ],
 )
-def test_bad_parameters_say_what_is_wrong(family: str, params: list[Any], parameter: str, found: str) -> None:
+def test_bad_parameters_give_an_error_with_the_cause(
+    family: str, params: list[Any], parameter: str, found: str
+) -> None:
     with pytest.raises(_engine.BadParameter) as caught:
         _engine.draw(family, params, 1, 1)
     error = caught.value

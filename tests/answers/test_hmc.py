@@ -213,7 +213,7 @@ def above(result: Any) -> tuple[float, float]:
 
 
 @pytest.mark.parametrize("kernel", [kernels.nuts_step(), kernels.hmc_step()], ids=repr)
-def test_a_structure_is_sampled_where_mh_stands_beside_the_gradient(kernel: kernels.Kernel) -> None:
+def test_a_structure_is_sampled_by_mh_beside_the_gradient(kernel: kernels.Kernel) -> None:
     """What the warning advises gives the share 0.720; the gradient alone, its mutant, keeps to one side."""
     method = nw.mh(steps=12_000, warmup=2000, chains=4, thin=4, kernel=kernels.cycle(kernels.prior(), kernel))
     assert above(nw.run(halves, method, seed=3))[1] < 4.5

@@ -1,9 +1,9 @@
-"""Claim: posterior means are those that others found.
+"""Claim: posterior means are those of other samplers.
 
 Five models of the Inference Gym (Apache-2.0), whose data and ground truths lie in its wheel; these files are read as
 data, so that TensorFlow is not needed. Every mean lies within 4 standard errors, ours and theirs combined. A true
 sampler is outside once in 16,000 means; 360 means are judged, so one set of seeds in 45 would fail; the seeds are
-fixed. A mutant, whose observations are twice as noisy as the data's, must be found out.
+fixed. A mutant, whose observations are twice as noisy as the data's, must be rejected.
 """
 
 from __future__ import annotations
@@ -219,7 +219,7 @@ def test_convection() -> None:
         float(data[name]) for name in ("INNOVATION_SCALE", "OBSERVATION_SCALE", "STEP_SIZE")
     )
     given = (seen, innovation, noise, step)
-    # Started anywhere, a chain may stay on a path that spirals the other way, 275 nats below: start where runs do well.
+    # A chain may stay on a path that spirals in the opposite direction, 275 nats below: start from a good run.
     start = nw.run(convection, nw.importance(2000), *given, seed=4).best.choices
     result = nw.run(convection, nuts(), *given, seed=4, choices=start)
     off = errors(result, "convection_lorenz_bridge", ("",), lambda draws: states(draws, innovation, step))

@@ -1,5 +1,5 @@
 """Claim: chains whose discrete choices move by Metropolis-Hastings and whose continuous ones move along their gradient
-draw from the model's distribution, where both decide what there is.
+draw from the model's distribution, where both decide the structure.
 
 A mixture whose number of components, labels and means are random is conjugate given the labels, so that every labelling
 of every number of components can be summed: the exact probabilities of the numbers, of two points sharing a component,

@@ -1,4 +1,4 @@
-"""The answers that the benches are checked against are right: counted out, or met by plain simulation."""
+"""The reference answers of the benches are right: by counting, or by plain simulation."""
 
 import itertools
 import math

@@ -1,11 +1,11 @@
-"""Claim: the models of chapter 5 have the published sizes, and run through themselves as often as the original's do.
+"""Claim: the models of chapter 5 have the published sizes, and intersect themselves as often as the original's do.
 
 The figures that we compare with are means of several hundred forward runs, as are ours; each test names the standard
 error of the difference and allows four of them, so that a true model fails one in 16 000 seeds. The seeds are fixed.
 Standard deviations of the sizes: building 55, tree 51, blocks 7.6, pipes 1000. Shares of self-intersection, by the rule
 of surfaces: a share p of n runs has the standard error sqrt(p (1 - p) / n).
 
-A mutant stands beside them: a tree whose branches are half as likely is told from the true one.
+A mutant stands beside them: a tree whose branches are half as likely is rejected.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ def test_models_are_as_large_as_published(
     assert as_published(sizes(model, runs), mean, sd, published)
 
 
-def test_a_tree_with_fewer_branches_is_told_apart() -> None:
+def test_a_tree_with_fewer_branches_is_rejected() -> None:
     assert not as_published(sizes(gnarly_tree, 1000, fork=0.25), 73.5, 51.0, 300)
 
 

@@ -1,4 +1,4 @@
-"""The figures of the point and of the colourings can be drawn, and the samplers that they compare are what they say."""
+"""The figures of the point and of the colourings can be drawn, and the samplers that they compare are correct."""
 
 import json
 import os
@@ -82,6 +82,6 @@ def test_the_originals_hmc_draws_from_its_density_at_the_acceptance_it_seeks() -
     import original
 
     found, accepted = original.hmc(logistic, np.zeros(2), 4000, 5, 3)
-    # The logistic density has variance pi^2 / 3; at 65 % some 2000 of 8000 numbers are worth one each.
+    # The logistic density has variance pi^2 / 3; at 65 % the effective size is some 2000 of 8000.
     assert found.var() == pytest.approx(np.pi**2 / 3, rel=0.2)
     assert accepted == pytest.approx(0.65, abs=0.05)

@@ -19,7 +19,7 @@ def test_a_smoke_run_draws_and_measures(tmp_path: Path) -> None:
     command = [sys.executable, str(BENCHES / "figures_hmc"), str(tmp_path), "structures"]
     subprocess.run(command, check=True, env=settings, stdout=subprocess.DEVNULL)
     rows = [json.loads(line) for line in (tmp_path / "structures.jsonl").read_text().splitlines()]
-    assert [(row["model"], row["way"], row["draws"]) for row in rows] == [
+    assert [(row["model"], row["sampler"], row["draws"]) for row in rows] == [
         ("stack", "nuts", 6),
         ("stack", "mh-original", 6),
         ("stack", "mh-adaptive", 6),

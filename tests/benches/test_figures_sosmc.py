@@ -51,7 +51,7 @@ def test_every_search_is_measured(drawn: Path) -> None:
     assert len(table) == 18
     assert all(row["cpu"] > 0.0 and row["primitives"] for row in table if "scores" in row)
     compared = rows(drawn / "comparison.jsonl")
-    assert {row["way"] for row in compared} == {
+    assert {row["method"] for row in compared} == {
         "stochastic",
         "depth-first",
         "recommended",

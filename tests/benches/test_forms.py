@@ -1,4 +1,4 @@
-"""The forms of one bench model mean the same: equal choices in program order have equal densities, in both worlds."""
+"""The forms of a bench model are equivalent: equal choices have equal densities, in plain Python and on the engine."""
 
 import niwaki as nw
 import pytest

@@ -1,4 +1,4 @@
-"""What the bench of structures rests on: files that go on where they were, worth, two chains without gradients.
+"""The parts of the bench of structures: files that continue, effective draws, two chains without gradients.
 
 Each statistical test fails a true program in fewer than one of ten thousand seeds; seeds are fixed.
 """
@@ -8,9 +8,9 @@ from pathlib import Path
 import niwaki as nw
 import numpy as np
 import pytest
+from stacking.effective import autocorrelation, effective
 from stacking.files import Drawn, Verdicts, chain_file, chains
 from stacking.metropolis import Units, keeper, walk
-from stacking.worth import autocorrelation, effective
 
 
 def autoregressive(share: float, chains: int, draws: int) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""The house is in order: what is tracked is small, says where it belongs, and names nobody's machine."""
+"""Rules of the repository: tracked files are small, have a purpose, and name no machine."""
 
 import ast
 import re
@@ -67,7 +67,7 @@ def test_no_file_names_a_machine_or_the_host_of_a_registry():
     assert not found
 
 
-def test_no_file_speaks_of_what_only_its_authors_can_look_up():
+def test_no_file_refers_to_sources_that_readers_lack():
     pattern = re.compile(r"\b(issue|ticket|pull request|PR) #?\d+", re.I)
     assert not [f"{name}: {match[0]}" for name, text in texts() for match in pattern.finditer(text)]
 
@@ -98,9 +98,9 @@ def test_locks_agree_with_one_another(python: str):
     pins: dict[str, set[str]] = {}
     for lock in (ROOT / "requirements").glob("*.txt"):
         for line in re.findall(r"^[\w.-]+==.+?(?= *\\?$)", lock.read_text(), re.M):
-            asked = Requirement(line)
-            if asked.marker is None or asked.marker.evaluate(machine):
-                pins.setdefault(asked.name, set()).add(str(asked.specifier))
+            requirement = Requirement(line)
+            if requirement.marker is None or requirement.marker.evaluate(machine):
+                pins.setdefault(requirement.name, set()).add(str(requirement.specifier))
     assert len(pins) > 50
     assert {name: found for name, found in pins.items() if len(found) > 1} == {}
 
@@ -160,18 +160,18 @@ def test_help_names_only_what_there_is():
 
 
 def test_crates_import_only_the_rooms_above_them():
-    rooms = ["math", "geom", "vm", "grad", "infer", "py"]
-    for place, room in enumerate(rooms):
-        manifest = tomllib.loads((ROOT / "crates" / room / "Cargo.toml").read_text())
+    crates = ["math", "geom", "vm", "grad", "infer", "py"]
+    for place, crate in enumerate(crates):
+        manifest = tomllib.loads((ROOT / "crates" / crate / "Cargo.toml").read_text())
         used = {
             name.removeprefix("niwaki-") for name in manifest["dependencies"] if name.startswith("niwaki-")
         }
-        assert used <= set(rooms[:place]), room
-        assert room == "py" or "pyo3" not in manifest["dependencies"], room
+        assert used <= set(crates[:place]), crate
+        assert crate == "py" or "pyo3" not in manifest["dependencies"], crate
 
 
 def pages() -> list[Path]:
-    """The pages that a person reads."""
+    """The pages for readers."""
     return [ROOT / "README.md", ROOT / "ARCHITECTURE.md", *sorted((ROOT / "docs").rglob("*.md"))]
 
 

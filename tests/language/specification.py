@@ -1,6 +1,6 @@
 """Reads the specification: Markdown with programs that run.
 
-A fenced block that starts with ```python is a program; it defines a model `m`. What follows it says what must hold:
+A fenced block that starts with ```python is a program; it defines a model `m`. The blocks after it state the result:
 
     ```value         m() with seed 1, or with the choices of a ```choices block before it, gives this
     ```choices       a dict of choices by address, given to the run
@@ -48,7 +48,7 @@ def cases(path: Path) -> Iterator[Case]:
 
 
 def load(program: str, name: str) -> Any:
-    """The model `m` of a program. The prelude stands on the line before the first, so that lines count from 1."""
+    """The model `m` of a program. The prelude is on the line before the first, so that lines count from 1."""
     text = program if program.startswith("from __future__") else program
     linecache.cache[name] = (len(text), None, text.splitlines(True), name)
     space: dict[str, Any] = {"__name__": "specification"}

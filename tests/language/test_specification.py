@@ -1,4 +1,4 @@
-"""The language is what its specification says: every program in it evaluates, or is refused, as written there."""
+"""Every program in the language's specification evaluates, or is refused, as written there."""
 
 from __future__ import annotations
 

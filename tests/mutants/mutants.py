@@ -1,6 +1,6 @@
 """Deliberate errors in the engine, each of which a test must reject: `make mutants`.
 
-`mutants.toml` holds one entry for each error: a file, the text that stands there, the text of the error, and the
+`mutants.toml` holds one entry for each error: a file, the text that is there, the text of the error, and the
 judge, which is the tests that must fail. The sources are copied to `target/mutants/tree`, so that the working tree is
 never changed. Each judge first passes there without any error. Then, for each entry, the text is replaced, the judge is
 built and run, and the text is put back.
@@ -131,7 +131,7 @@ def copy_sources() -> None:
 
 
 def run(command: list[str], limit: float) -> tuple[int | None, str, float]:
-    """Status (None: too long), what it said, seconds."""
+    """Status (None: too long), its output, seconds."""
     env = {**os.environ, "CARGO_TARGET_DIR": str(SCRATCH / "build")}
     start = time.monotonic()
     with subprocess.Popen(
@@ -144,16 +144,16 @@ def run(command: list[str], limit: float) -> tuple[int | None, str, float]:
         start_new_session=True,
     ) as process:
         try:
-            said, _ = process.communicate(timeout=limit)
+            output, _ = process.communicate(timeout=limit)
             status: int | None = process.returncode
         except subprocess.TimeoutExpired:
             os.killpg(process.pid, signal.SIGKILL)
-            said, _ = process.communicate()
+            output, _ = process.communicate()
             status = None
         except KeyboardInterrupt:
             os.killpg(process.pid, signal.SIGKILL)
             raise
-    return status, said, time.monotonic() - start
+    return status, output, time.monotonic() - start
 
 
 @dataclass
@@ -164,30 +164,30 @@ class Outcome:
     failed: list[str]
     build: float
     took: float
-    said: str
+    output: str
 
 
 def judged(judge: Judge, limit: float) -> Outcome:
     """Builds a judge and runs it; `passed` where no test of it failed."""
-    status, said, build = run([*judge.command(), "--no-run"], BUILD_LIMIT)
+    status, output, build = run([*judge.command(), "--no-run"], BUILD_LIMIT)
     if status != 0:
-        return Outcome("no build", [], build, 0.0, said)
+        return Outcome("no build", [], build, 0.0, output)
     # Not quiet: the names of the tests.
     command = [word for word in judge.command() if word != "--quiet"]
-    status, said, took = run([*command, "--", *judge.patterns], limit)
-    ended = dict(re.findall(r"^test (\S+).* \.\.\. (?:.*\n)*?.*?(ok|FAILED|ignored)$", said, re.M))
+    status, output, took = run([*command, "--", *judge.patterns], limit)
+    ended = dict(re.findall(r"^test (\S+).* \.\.\. (?:.*\n)*?.*?(ok|FAILED|ignored)$", output, re.M))
     if status is None:
-        return Outcome("timeout", [], build, took, said)
+        return Outcome("timeout", [], build, took, output)
     failed = sorted(name for name, how in ended.items() if how == "FAILED")
     unmatched = [p for p in judge.patterns if not any(p in name for name in ended)]
     # A process that crashed names no test that failed.
     if unmatched and status == 0:
-        return Outcome("no test", unmatched, build, took, said)
+        return Outcome("no test", unmatched, build, took, output)
     if status == 0:
-        return Outcome("passed", [], build, took, said)
+        return Outcome("passed", [], build, took, output)
     if not failed:
-        return Outcome("crashed", [], build, took, said)
-    return Outcome("failed", failed, build, took, said)
+        return Outcome("crashed", [], build, took, output)
+    return Outcome("failed", failed, build, took, output)
 
 
 def verdict(mutant: Mutant, found: Outcome) -> str:
@@ -241,7 +241,7 @@ def main(arguments: list[str]) -> int:
             flush=True,
         )
         if found.what != "passed":
-            print(found.said[-4000:], file=sys.stderr)
+            print(found.output[-4000:], file=sys.stderr)
             print(f"`{judge}` must pass before it can judge ({found.what} {found.failed})", file=sys.stderr)
             return 2
         usual[judge] = found.took
@@ -256,7 +256,7 @@ def main(arguments: list[str]) -> int:
             path.write_text(text, encoding="utf-8")
         what = verdict(m, found)
         if what in ("survived", "no build", "crashed"):
-            (SCRATCH / f"{m.name}.log").write_text(found.said, encoding="utf-8")
+            (SCRATCH / f"{m.name}.log").write_text(found.output, encoding="utf-8")
         expected = "survived" if m.survives else "caught"
         if what != expected:
             bad.append(m.name)

@@ -1,4 +1,4 @@
-"""Claim: the README's first program runs as printed, and every picture that the README shows is there and small."""
+"""Claim: the README's first program runs as printed, and every picture in the README exists and is small."""
 
 from __future__ import annotations
 

@@ -1,10 +1,10 @@
-"""Coloring art: a drawing, rules about its regions, and colours that keep them (dissertation 4.5, appendix B.1).
+"""Coloring art: a drawing, rules about its regions, and colours that satisfy them (dissertation 4.5, appendix B.1).
 
-drawing    what is coloured: regions, their areas, which lie next to which
-svg        the regions of an SVG file, and the file painted
-styles     which paint reaches a shape of an SVG
+drawing    the drawing: regions, their areas, which are neighbours
+svg        the regions of an SVG file, and the file with new colours
+styles     the paint of a shape of an SVG
 rule       one rule
-rules      what is asked of the regions; a small TOML file
+rules      rules about the regions; a small TOML file
 agree      whether rules can hold together, and which ones cannot
 model      the compatibility model
 search     colourings that differ

@@ -1,9 +1,9 @@
-"""Whether rules can hold together, and, where they cannot, which ones stand against one another.
+"""Whether rules can hold together, and, where they cannot, which ones contradict one another.
 
 Every rule about lightness bounds a difference of two lightnesses, and black, white and pinned colours bound them from
 the ground: `L(a) - L(b) <= c`. Such bounds can be met together unless some cycle of them adds up to less than 0
 (Bellman 1958); that cycle is the list of rules to show. With each bound loosened by `slack`, the least slack for which
-no cycle is left says how near all rules can come to holding.
+no such cycle is left measures how near all rules can come to holding.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from typing import Protocol
 from niwaki.color.lab import of_hex
 from niwaki.color.rule import LEAST, STEP, Rule
 
-#: Of a rule about lightness so much must be left, in units, for its order to be seen.
+#: The least difference of a rule about lightness, in units, for its order to be visible.
 LEFT = 0.1
 #: Pinned shades of one colour may differ by this much in a and b.
 CHROMA_APART = 15.0

@@ -1,4 +1,4 @@
-"""What is coloured: regions with names, the share of the picture that each takes, and which lie next to which.
+"""The drawing: regions with names, the share of the picture that each takes, and which are neighbours.
 
 Regions come from an SVG file (`niwaki.color.svg`) or from an image whose colours are the regions. Two regions are
 neighbours when a pixel of one lies within two pixels, across or diagonally, of a pixel of the other: thin lines between
@@ -84,7 +84,7 @@ class Drawing:
         if path.suffix.lower() == ".svg":
             artwork = Artwork(path.read_bytes(), path)
             if len(artwork.names) < 2:
-                raise FileError("drawing-no-regions", path, found=_found(artwork.names))
+                raise FileError("drawing-no-regions", path, found=_region_names(artwork.names))
             if len(artwork.names) > MOST_REGIONS:
                 raise FileError("drawing-too-many", path, count=len(artwork.names), most=MOST_REGIONS)
             return cls(artwork.names, artwork.labels(size), artwork, path)
@@ -151,5 +151,5 @@ def _of_image(path: Path) -> tuple[tuple[str, ...], NDArray[np.int64]]:
     return tuple(f"#{value:06x}" for value in values.tolist()), labels
 
 
-def _found(names: tuple[str, ...]) -> str:
+def _region_names(names: tuple[str, ...]) -> str:
     return f"one region, `{names[0]}`" if names else "no painted shape with a class or an id"

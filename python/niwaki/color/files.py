@@ -1,4 +1,4 @@
-"""Colourings as files: SVG and PNG, one sheet of all, their colours, and how well they keep the rules."""
+"""Colourings as files: SVG and PNG, one sheet of all, their colours, and the residuals of the rules."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def sheet(colorings: Sequence[Coloring], columns: int = 4, size: int = 320) -> I
 
 
 def table(colorings: Sequence[Coloring]) -> list[list[str]]:
-    """A row for each rule: its kind, its regions, what it wants, and each colouring's residual, CIELAB units."""
+    """A row for each rule: its kind, its regions, its goal, and each colouring's residual, CIELAB units."""
     rows = [["rule", "first", "second", "wanted", *(f"{k + 1:02}" for k in range(len(colorings)))]]
     kept = [one.kept for one in colorings]
     for k, first in enumerate(kept[0]):

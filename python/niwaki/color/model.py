@@ -8,9 +8,9 @@ Each region that is not pinned draws red, green and blue, uniform on [0, 1]. The
     lightness relation  sum over rules: 15 units apart, within 5
     same chroma         sum over rules: equal a and b, within 5
 
-and three of ours, which a designer asks for and the dissertation's rules cannot say:
+and three of ours, which designers need and the dissertation's rules cannot express:
 
-    lighter             sum over rules: at least 12 units apart, within 5: an order that asks for no more
+    lighter             sum over rules: at least 12 units apart, within 5: only an order
     same hue            sum over rules: equal hue, strong or pale
     muted               sum over rules: no farther from grey than so many units, within 5
 
@@ -93,7 +93,7 @@ def paint(fixed):
 
 
 def apart(one, two, on_background):
-    """How well two neighbours can be told apart."""
+    """How well two neighbours can be distinguished."""
     dl, da, db = one.l - two.l, one.a - two.a, one.b - two.b
     distance = math.sqrt(dl * dl + da * da + db * db + TINY)
     return softeq(distance / FARTHEST, 0.3, 0.2) + softeq(abs(dl) / 100.0, 0.3 if on_background else 0.2, 0.4)
@@ -145,5 +145,5 @@ def to_lab(r, g, b):
 
 def root(t):
     """The cube root, with a straight foot below 216/24389 whose slope there is the root's."""
-    # Without a branch: dark colors do not make other paths of the model.
+    # Without a branch, so that dark colors do not change the path of the model.
     return max(t, KNEE) ** (1.0 / 3.0) + (min(t, KNEE) - KNEE) * (24389.0 / 27.0 / 116.0)

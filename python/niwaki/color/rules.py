@@ -1,4 +1,4 @@
-"""What is asked of the regions of a drawing; a small TOML file.
+"""Rules about the regions of a drawing; a small TOML file.
 
 background = "sky"                            # one region; else the one that holds the picture's edge
 lightness = [["wall", "wall-shade", "ink"]]   # each about 15 units of CIELAB lightness above the next
@@ -47,7 +47,7 @@ class Rules:
     lightness, lighter, same_chroma, same_hue : list of list of str
         Chains of regions; a rule holds between each and the next.
     muted : dict of str to float
-        How far from grey a region may be, CIELAB units; `all` for those without a number of their own.
+        How far from grey a region may be, CIELAB units; `all` for those without their own number.
     background : str or None
         The region that the others lie on; None for the one that holds the picture's edge.
     pinned : dict of str to str
@@ -135,7 +135,7 @@ class Rules:
                 yield Rule("muted", name, most=most)
 
     def on(self, names: Sequence[str]) -> Iterator[Rule]:
-        """The rules on a drawing of these regions: `all` is said of each region that it holds for."""
+        """The rules on a drawing of these regions: `all` becomes a rule for each region without its own."""
         yield from self
         if "all" in self.muted:
             for name in names:

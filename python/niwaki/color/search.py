@@ -1,8 +1,8 @@
 """Colourings of a drawing that keep its rules and differ from one another.
 
-The compatibility model is sampled by many short chains that follow its gradient, each from a run of its own; what
-they find is moved uphill until rules are kept; of the better half of that the colourings are chosen one by one, each
-as far as can be in CIELAB from those already chosen (farthest-point choice, Gonzalez 1985).
+The compatibility model is sampled by many short chains that follow its gradient, each from its own run. Their samples
+are moved uphill until the rules hold. From the better half the colourings are chosen one by one, each as far as
+possible in CIELAB from those already chosen (farthest-point choice, Gonzalez 1985).
 """
 
 from __future__ import annotations
@@ -151,7 +151,7 @@ def arguments(drawing: Drawing, rules: Rules, weight: float = 100.0) -> tuple[An
 
 
 def default_method(count: int) -> Method:
-    """How colourings are searched for where nobody said."""
+    """How colourings are searched for by default."""
     return explore(draws=1, chains=3 * count)
 
 
@@ -167,7 +167,7 @@ def color(
     threads: int | None = None,
     progress: Callable[[Progress], None] | None = None,
 ) -> list[Coloring]:
-    """Color a drawing in several ways.
+    """Color a drawing, several times.
 
     Parameters
     ----------

@@ -1,6 +1,6 @@
-"""A colouring moved uphill: from where a sampler left it to where its rules are kept as well as they can be nearby.
+"""A colouring moved uphill: from a sample to a nearby point where its rules hold as well as possible.
 
-A chain that has not met all rules yet, or that trembles around them, is followed along the slope of the model's log
+A sample that does not satisfy all rules exactly is moved along the slope of the model's log
 density (steps after Kingma & Ba 2015, algorithm 1, each coordinate by the size of its own slopes), in the unconstrained
 coordinates of `niwaki.log_density`.
 """
@@ -13,7 +13,7 @@ import numpy as np
 
 from niwaki.result import Sample
 
-#: Length of a step in logits, at first and at last; colours are on a logistic scale.
+#: Length of the first and last steps, in logits; colours are on a logistic scale.
 FIRST, LAST = 0.1, 0.003
 SLOPE_MEMORY, SIZE_MEMORY = 0.9, 0.99
 #: Colours of this many digits; none is at the ends, where a logit has no end.
@@ -21,7 +21,7 @@ DIGITS, GRAIN = 6, 1e-6
 
 
 def settled(sample: Sample, steps: int) -> dict[str, Any]:
-    """The choices of the best point on the way uphill from a sample.
+    """The choices of the best point of the ascent from a sample.
 
     Parameters
     ----------

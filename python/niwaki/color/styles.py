@@ -1,7 +1,7 @@
-"""Which paint reaches a shape of an SVG: presentation attributes, style sheets, inline styles, inheritance.
+"""The paint of a shape of an SVG: presentation attributes, style sheets, inline styles, inheritance.
 
-Only what decides whether a shape is painted is resolved: `fill`, `stroke`, `display`, `visibility`. Selectors may be
-made of a tag, classes and ids (`path.roof`, `#moon`); of those that match, the more special wins, then the later (CSS
+Only what decides whether a shape is painted is resolved: `fill`, `stroke`, `display`, `visibility`. Selectors may
+contain a tag, classes and ids (`path.roof`, `#moon`); of those that match, the more special wins, then the later (CSS
 2.1, 6.4.3).
 """
 

@@ -28,7 +28,7 @@ XLINK = "http://www.w3.org/1999/xlink"
 SHAPES = {"path", "rect", "circle", "ellipse", "line", "polyline", "polygon", "text"}
 NO_PAINT = ("none", "transparent")
 GROUPS = {"svg", "g", "a", "switch"}
-# A file whose `use`s copy more than this is hostile, or made by a machine for machines.
+# A file whose `use`s copy more than this is hostile, or was generated for other uses.
 MOST_SHAPES = 20_000
 DEEPEST = 200
 
@@ -89,7 +89,7 @@ class Artwork:
         colors
             By region, as CSS writes them: `#a04020`. Regions that are left out keep their own.
         plain
-            Without transparency, filters and soft edges; what has no region is black.
+            Without transparency, filters and soft edges; shapes without a region are black.
         """
         root = deepcopy(self._tree)
         copies = {id(old): new for old, new in zip(self._tree.iter(), root.iter(), strict=True)}
@@ -158,7 +158,7 @@ class Artwork:
                 "drawing-unclear", self.place, reason=f"its `use`s create more than {MOST_SHAPES} shapes"
             )
         copy = deepcopy(source)
-        # The definition's id is its handle; the region is named by who uses it, or by a class.
+        # The definition's id is only a reference; the region is named by the `use`, or by a class.
         for one in copy.iter():
             if one is copy or tag_of(one) not in SHAPES | GROUPS | {"use"}:
                 one.attrib.pop("id", None)

@@ -5,9 +5,9 @@ picture.py  a scene, and its target as a ghost, as one picture
 sheet.py    several pictures on one page, with captions
 plan.py     a scene from above, as SVG or pixels
 swatches.py palettes of colours in rows
-palette.py  colours for parts that have none of their own
+palette.py  colours for parts without colours
 
-files.py        a scene as a file; the end of its name says which
+files.py        a scene as a file; the suffix decides the format
 parts.py        the meshes of its parts, by their paints
 instances.py    which parts are one mesh in several places
 glb.py          GLB: a node for each part

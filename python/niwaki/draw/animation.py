@@ -1,6 +1,6 @@
 """Moving pictures: a scene growing part by part, or any sequence of its states, as GIF or animated PNG.
 
-Camera, floor and colours are those of the whole for every frame, so that nothing moves but what is new. GIF has 256
+Camera, floor and colours are those of the whole for every frame, so that only new parts change the picture. GIF has 256
 colours: all frames share one palette, and a fixed pattern of dots (Bayer 1973) hides its steps without flickering.
 """
 
@@ -101,7 +101,7 @@ def animate(
     Returns
     -------
     pathlib.Path
-        The file, written whole or not at all.
+        The file, written completely or not at all.
     """
     place = Path(path)
     suffix = place.suffix.lower()
@@ -135,7 +135,7 @@ def _gif(images: Sequence[Image.Image], times: list[int]) -> bytes:
 def _palette(images: Sequence[Image.Image]) -> Image.Image:
     """The colours of the first, middle and last image, each as often as the square root of its count.
 
-    A wide backdrop would else take all the places in the palette, and a small part in a colour of its own none.
+    Otherwise a wide backdrop would use the whole palette, and the colour of a small part would be lost.
     """
     shown = [images[k] for k in sorted({0, len(images) // 2, len(images) - 1})]
     pixels = np.concatenate([np.asarray(image).reshape(-1, 3) for image in shown])
@@ -175,7 +175,7 @@ def _together(states: Sequence[Scene]) -> Scene:
 
 
 def _shapes(part: Part) -> int:
-    """A number that tells a part's shapes from others at its address."""
+    """A number that distinguishes a part's shapes from others at its address."""
     return hash(tuple(shape.vertices().tobytes() for shape in part.shapes))
 
 

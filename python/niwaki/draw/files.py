@@ -1,11 +1,11 @@
-"""A scene as a file that the next tool opens; the end of the file's name says which.
+"""A scene as a file for another tool; the suffix decides the format.
 
 .glb         a node for each part, materials, shared meshes: Blender, game engines, the web   glb.py
 .obj, .ply   plain meshes with colours                                                        mesh_files.py
 .stl, .3mf   one watertight solid in millimetres, z up, for printing                          solid.py, print_files.py
 .gif, .apng  the scene growing, part by part                                                  animation.py
 
-A file appears whole or not at all.
+A file is written completely or not at all.
 """
 
 from __future__ import annotations

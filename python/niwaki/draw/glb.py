@@ -5,7 +5,7 @@ container, 3.6 for buffers, 3.5.3 for nodes). Each node also carries its address
 names after 63 bytes. Parts of equal geometry (`niwaki.draw.instances`) share its buffers; where their paints are
 equal too they share the whole mesh, so that a modelling program opens them as linked copies.
 
-Lengths are scene units, y is up, as glTF asks. A node's origin is the middle of its part.
+Lengths are scene units, y is up, as glTF requires. A node's origin is the middle of its part.
 """
 
 from __future__ import annotations

@@ -31,7 +31,7 @@ Quaternion = tuple[float, float, float, float]
 
 @dataclass(frozen=True)
 class Instance:
-    """Where a part stands.
+    """The place of a part.
 
     Attributes
     ----------
@@ -73,7 +73,7 @@ class _Bucket:
 
 
 def instances(parts: Sequence[PartMesh]) -> tuple[list[Geometry], list[Instance]]:
-    """The different geometries of some parts, and where each part stands; an instance for each part."""
+    """The different geometries of some parts, and an instance with its place for each part."""
     geometries: list[Geometry] = []
     clouds: list[NDArray[np.float64]] = []
     placed: list[Instance] = []

@@ -1,6 +1,6 @@
-"""Colours for parts whose shapes have none of their own.
+"""Colours for parts whose shapes have no colours.
 
-Two palettes: *machine* (warm greys, graphite for what is round, a burnt orange accent) and *garden* (bark for
+Two palettes: *machine* (warm greys, graphite for round shapes, a burnt orange accent) and *garden* (bark for
 limbs, pine greens for the rest), taken when a scene holds limbs. Each part's tone varies a little with its
 address and with nothing else, so that a part keeps its colour when others change.
 """
@@ -23,7 +23,7 @@ ACCENTS: tuple[Color, ...] = ((0.80, 0.37, 0.20), (0.84, 0.45, 0.24))
 BARKS: tuple[Color, ...] = ((0.44, 0.35, 0.29),)
 PINES: tuple[Color, ...] = ((0.36, 0.47, 0.28), (0.32, 0.43, 0.28), (0.41, 0.50, 0.30))
 
-#: Kinds of shapes that a garden is told by, and that have bark.
+#: Kinds of shapes that make a scene a garden, and that have bark.
 WOODEN = ("limb", "segment")
 
 

@@ -1,7 +1,7 @@
 """The parts of a scene as meshes to write: for each part, one mesh for each of its paints.
 
-Tones that the palette varies from part to part are brought together here (to steps of `TONE_STEP`, which no eye
-sees), so that a file has a few dozen materials and not one for each part; colours that a model names stay exact.
+Tones that the palette varies from part to part are brought together here (to steps of `TONE_STEP`, too small
+to see), so that a file has a few dozen materials and not one for each part; colours that a model names stay exact.
 """
 
 from __future__ import annotations

@@ -67,7 +67,7 @@ def picture(
     samples
         Rays for each pixel; 4 for a draft, 16 for a page, 64 for print.
     azimuth, elevation
-        Where the camera stands, degrees: 0, 0 looks from +z; azimuth 90 from +x; elevation 90 from above.
+        The direction of the camera, degrees: 0, 0 looks from +z; azimuth 90 from +x; elevation 90 from above.
     fov
         Vertical field of view, degrees.
     margin
@@ -147,7 +147,7 @@ def save(scene: Scene, path: str | PathLike[str], target: Volume | None = None, 
 
 
 def save_image(draw: Any, path: str | PathLike[str]) -> Path:
-    """Write the image that `draw()` makes, whole or not at all; its name is checked before drawing."""
+    """Write the image that `draw()` returns, completely or not at all; its name is checked before drawing."""
     place = Path(path)
     if place.suffix.lower() not in IMAGE_FORMATS:
         raise FileError(

@@ -1,7 +1,7 @@
 """A scene from above, as an architect draws it: SVG for a page, pixels for a screen.
 
 Each shape is drawn as the convex outline of what lies under it, lower ones first. The plan has x to the right and -z
-upwards: what is nearer to the viewer of a scene is further down on the page.
+upwards: shapes nearer to the viewer of a scene are further down on the page.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ def patches(scene: Scene, outline: Sequence[VecLike] = ()) -> list[Patch]:
     Parameters
     ----------
     scene
-        What stands on the floor.
+        The shapes on the floor.
     outline
         The floor, a polygon in the plan's coordinates; none when left out.
     """
@@ -85,7 +85,7 @@ def plan(
     Parameters
     ----------
     scene
-        What stands on the floor.
+        The shapes on the floor.
     outline
         The floor, a polygon in the plan's coordinates.
     width

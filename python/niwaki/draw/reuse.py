@@ -1,8 +1,8 @@
 """What a proposal makes each strategy do, as a picture: dissertation figure 3.1, for any model.
 
-Each panel shows the calls of one run, those that a call makes below it, in the order of the program. A call is orange
-where it was run from its start, blue where it was only gone on with (from the choice, or from a call that returned),
-hatched grey where it was skipped, green where it was made, red where it was taken away, and white where it was not
+Each panel shows the calls of one run, the calls of a call below it, in the order of the program. A call is orange
+where it was run from its start, blue where it was resumed (from the choice, or from a call that returned),
+hatched grey where it was skipped, green where it was created, red where it was removed, and white where it was not
 touched. The ring marks the call that holds the changed choice.
 """
 
@@ -62,15 +62,15 @@ class _Mark:
     size: int = 11
 
 
-def said(value: Any) -> str:
+def value_text(value: Any) -> str:
     """A value in few characters."""
     if isinstance(value, tuple):
-        return f"({', '.join(said(part) for part in value)})"
+        return f"({', '.join(value_text(part) for part in value)})"
     return f"{value:.4g}" if isinstance(value, float) else repr(value)
 
 
 def outcome(steps: Sequence[tuple[str, int]], count: int) -> list[str]:
-    """What happened to each activation: the strongest of what the steps say."""
+    """What happened to each activation: the strongest word of its steps."""
     rank = {word: place for place, word in enumerate(COLORS)}
     found = ["untouched"] * count
     for what, at in steps:
@@ -95,19 +95,19 @@ def draw(explained: dict[str, Any], path: str | PathLike[str]) -> Path:
 
 
 def _marks(explained: dict[str, Any]) -> tuple[list[_Mark], int]:
-    rows = explained["activations"]
-    depths = [row[2] for row in rows]
+    calls = explained["activations"]
+    depths = [call[2] for call in calls]
     home, deepest = depths[explained["home"]], max(depths)
     top = 0 if deepest < LEVELS else min(max(0, home - LEVELS // 2), deepest + 1 - LEVELS)
     bottom = min(deepest, top + LEVELS - 1)
-    spans = _spans(rows)
+    spans = _spans(calls)
     marks = [
         _Mark("text", MARGIN, 18, text=f"a proposal to {explained['path']}", size=15),
         _Mark(
             "text",
             MARGIN,
             38,
-            text=f"{said(explained['old'])} becomes {said(explained['new'])}",
+            text=f"{value_text(explained['old'])} becomes {value_text(explained['new'])}",
             fill="#777777",
         ),
     ]
@@ -119,11 +119,11 @@ def _marks(explained: dict[str, Any]) -> tuple[list[_Mark], int]:
         if name not in explained["runs"]:
             continue
         steps, complete = explained["runs"][name]
-        marks += _panel(rows, spans, outcome(steps, len(rows)), explained["home"], y, top, bottom)
-        told = ", ".join(f"{n} {WORDS[word]}" for word, n in counts(steps, len(rows)).items() if n)
+        marks += _panel(calls, spans, outcome(steps, len(calls)), explained["home"], y, top, bottom)
+        totals = ", ".join(f"{n} {WORDS[word]}" for word, n in counts(steps, len(calls)).items() if n)
         ended = "" if complete else "; stopped: the score became minus infinity"
         marks.append(_Mark("text", MARGIN, y, text=title, size=13))
-        marks.append(_Mark("text", MARGIN, y + 24 + PANEL, text=told + ended, fill="#777777"))
+        marks.append(_Mark("text", MARGIN, y + 24 + PANEL, text=totals + ended, fill="#777777"))
         y += PANEL + HEAD + 26
     x = float(MARGIN)
     for word, meaning in WORDS.items():
@@ -133,18 +133,18 @@ def _marks(explained: dict[str, Any]) -> tuple[list[_Mark], int]:
     return marks, round(y + 28)
 
 
-def _spans(rows: Sequence[Any]) -> list[tuple[float, float]]:
+def _spans(calls: Sequence[Any]) -> list[tuple[float, float]]:
     """The stretch of each activation, in calls that call nothing."""
-    children: list[list[int]] = [[] for _ in rows]
-    for number, row in enumerate(rows):
-        if row[3] is not None and row[3] != number:
-            children[row[3]].append(number)
-    widths = [1.0] * len(rows)
-    for number in range(len(rows) - 1, -1, -1):
+    children: list[list[int]] = [[] for _ in calls]
+    for number, call in enumerate(calls):
+        if call[3] is not None and call[3] != number:
+            children[call[3]].append(number)
+    widths = [1.0] * len(calls)
+    for number in range(len(calls) - 1, -1, -1):
         if children[number]:
             widths[number] = sum(widths[child] for child in children[number])
-    starts = [0.0] * len(rows)
-    for number in range(len(rows)):
+    starts = [0.0] * len(calls)
+    for number in range(len(calls)):
         at = starts[number]
         for child in children[number]:
             starts[child] = at
@@ -153,7 +153,7 @@ def _spans(rows: Sequence[Any]) -> list[tuple[float, float]]:
 
 
 def _panel(
-    rows: Sequence[Any],
+    calls: Sequence[Any],
     spans: Sequence[tuple[float, float]],
     happened: Sequence[str],
     home: int,
@@ -165,18 +165,18 @@ def _panel(
     down = (PANEL - 4) / (bottom - top + 1)
     boxes: list[_Mark] = []
     rings: list[_Mark] = []
-    for number, (row, (start, width), what) in enumerate(zip(rows, spans, happened, strict=True)):
-        if not top <= row[2] <= bottom:
+    for number, (call, (start, width), what) in enumerate(zip(calls, spans, happened, strict=True)):
+        if not top <= call[2] <= bottom:
             continue
         x, wide = MARGIN + start * across, width * across
-        place = y + HEAD - 4 + (row[2] - top) * down
+        place = y + HEAD - 4 + (call[2] - top) * down
         if wide < 0.4 and what == "untouched":
             continue
         line = "#999999" if min(wide, down) > 4 else None
         boxes.append(_Mark("box", x, place, max(wide, 0.8), max(down, 0.8), COLORS[what], line))
-        if down >= 11 and wide > 7 * min(len(row[0]), 6):
+        if down >= 11 and wide > 7 * min(len(call[0]), 6):
             most = int(wide / 6.2) - 1
-            text = row[0] if len(row[0]) <= most else row[0][: max(most - 2, 1)] + ".."
+            text = call[0] if len(call[0]) <= most else call[0][: max(most - 2, 1)] + ".."
             dark = what in ("untouched", "skipped", "invoked")
             boxes.append(
                 _Mark(

@@ -1,6 +1,6 @@
 """A scene: the parts that a model emitted, each named by the address of its `emit`.
 
-A scene is a bag; its parts are kept in the order of their addresses, so that two runs which emitted the same
+A scene is a multiset; its parts are kept in the order of their addresses, so that two runs which emitted the same
 parts in different order give the same files.
 """
 
@@ -65,8 +65,8 @@ class Scene:
     """
 
     def __init__(self, parts: Iterable[Part | tuple[str, Iterable[Shape]]]) -> None:
-        made = [part if isinstance(part, Part) else Part(part[0], tuple(part[1])) for part in parts]
-        self.parts: tuple[Part, ...] = tuple(sorted(made, key=lambda part: _natural(part.address)))
+        listed = [part if isinstance(part, Part) else Part(part[0], tuple(part[1])) for part in parts]
+        self.parts: tuple[Part, ...] = tuple(sorted(listed, key=lambda part: _natural(part.address)))
 
     def __len__(self) -> int:
         """Count the parts."""

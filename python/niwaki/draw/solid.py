@@ -1,10 +1,9 @@
 """A scene as one watertight solid, for printing: the union of its shapes, through manifold3d (extra `print`).
 
-Every shape is checked alone first; a mesh with holes or inside out is said by the address of its part. Parts that may
-not run through one another only touch, and what only touches falls apart on a printer (or hangs together by the
-rounding of a number), so every shape is swollen along its normals by `FUSE` of the scene's longest side before
-joining: far less than a printer resolves, and enough. Printers take millimetres and have z up, so the solid is
-scaled, turned and moved to where all coordinates are positive.
+Every shape is checked first; the error about a mesh with holes or inside out names the address of its part. Parts that
+must not intersect only touch, and parts that only touch fall apart when printed. So every shape is expanded along its
+normals by `FUSE` of the scene's longest side before the union: far less than a printer resolves. Printers take
+millimetres and have z up, so the solid is scaled, turned and moved to where all coordinates are positive.
 """
 
 from __future__ import annotations
@@ -21,13 +20,13 @@ from niwaki.draw.scene import Scene
 from niwaki.errors import FileError
 from niwaki.errors.extras import optional
 
-#: Details of the union below this share of its longest side are melted away: slivers that a float cannot keep.
+#: Details of the union below this share of its longest side are removed: slivers that a float cannot represent.
 SMALLEST = 1e-6
 
-#: How far each shape is swollen, as a share of the scene's longest side; 0.002 mm for a print of 100 mm.
+#: How far each shape is expanded, as a share of the scene's longest side; 0.002 mm for a print of 100 mm.
 FUSE = 2e-5
 
-#: Millimetres in a scene unit when nobody says otherwise: scenes are in metres.
+#: Millimetres in a scene unit by default: scenes are in metres.
 METRE = 1000.0
 
 
@@ -67,7 +66,7 @@ def union(scene: Scene, scale: float = METRE, fuse: float | None = None) -> Soli
     scale
         Millimetres for each scene unit; 1000 when left out, because scenes are in metres.
     fuse
-        How far each shape is swollen, scene units, so that shapes closer than twice this hang together; when left out
+        How far each shape is expanded, scene units, so that shapes closer than twice this hang together; when left out
         `FUSE` of the longest side, enough for shapes that touch.
 
     Raises
@@ -119,7 +118,7 @@ def kernel() -> Any:
 
 
 def _solids(scene: Scene, tools: Any, swell: float) -> list[Any]:
-    """Each shape as a solid of manifold3d; those that are none are said together."""
+    """Each shape as a solid of manifold3d; those that are not closed are reported together."""
     found, bad = [], []
     for part in scene.parts:
         for number, shape in enumerate(part.shapes):
@@ -174,7 +173,7 @@ def _pieces(vertices: NDArray[Any], faces: NDArray[Any]) -> int:
 
 
 def _open_edges(faces: NDArray[Any]) -> int:
-    """Edges without a neighbour that runs along them the other way."""
+    """Edges without a neighbour in the opposite direction."""
     a, b = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]).T
     base = int(faces.max()) + 1
     return int(np.setxor1d(a * base + b, b * base + a).size // 2)

@@ -1,4 +1,4 @@
-"""Palettes of colours: as rows of swatches, several columns of them under titles; or as ribbons, a palette a column."""
+"""Palettes of colours: as rows of swatches in columns with titles; or as ribbons, one column for each palette."""
 
 from __future__ import annotations
 

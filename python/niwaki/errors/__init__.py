@@ -1,10 +1,10 @@
-"""What all other parts of the package raise: errors with a code, a place and a cure.
+"""The errors of the package, each with a code, a place and a cure.
 
 kinds      the classes of errors, and the renderer that draws the carets
-files      files that come in or go out, and the errors about them
+files      files that are read or written, and the errors about them
 extras     libraries that may be missing
-source     a file of a model, the places in it, and the syntax tree of a live function
-messages   every message by its code; `texts` holds them by who finds the error
+source     a file of a model, the places in it, and the syntax tree of a function object
+messages   every message by its code; `texts` holds them by the part that reports the error
 catalogue  a page of the manual for each message
 """
 

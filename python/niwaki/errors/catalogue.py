@@ -1,6 +1,6 @@
 """The manual's pages about errors, written from the table of messages: one page for each code.
 
-`python -m niwaki.errors.catalogue docs/errors` writes them; a test holds the pages in step with the table.
+`python -m niwaki.errors.catalogue docs/errors` writes them; a test compares the pages with the table.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 
 from niwaki.errors.kinds import fill
-from niwaki.errors.messages import ADVICE, CHAINS, DOORS, FAULTS, FILES, INPUTS, LANGUAGE, Message
+from niwaki.errors.messages import ADVICE, CHAINS, FAULTS, FILES, INPUTS, LANGUAGE, SETTINGS, Message
 
 KINDS = (
     (LANGUAGE, "Reported when a model is compiled, before anything runs."),
@@ -18,7 +18,7 @@ KINDS = (
     (INPUTS, "Reported when a setting or an argument is checked."),
     (FILES, "Reported when a file is read or written."),
     (CHAINS, "Reported when a Markov chain, or a search with a proposal, starts or runs."),
-    (DOORS, "Reported when a setting, a model's name or a run's file is checked."),
+    (SETTINGS, "Reported when a setting, a model's name or a run's file is checked."),
     (ADVICE, "Advice of `niwaki check`: the model is right, and a search of it could be more efficient."),
 )
 
@@ -46,7 +46,7 @@ def page(message: Message, found: str) -> str:
 
 
 def _block(text: str) -> str:
-    """A block of code: Python, or what is typed into a shell or found in a file."""
+    """A block of code: Python, a shell command, or text of a file."""
     try:
         ast.parse(text)
         language = "python"
@@ -69,11 +69,11 @@ def pages() -> dict[str, str]:
 
 def write(folder: Path) -> None:
     """Write every page into a folder, and take away pages of codes that are gone; the index stays."""
-    made = pages()
+    texts = pages()
     for old in folder.glob("*.md"):
-        if old.name not in made and old.name != "index.md":
+        if old.name not in texts and old.name != "index.md":
             old.unlink()
-    for name, text in made.items():
+    for name, text in texts.items():
         (folder / name).write_text(text)
 
 

@@ -9,7 +9,7 @@ from niwaki.errors.files import FileError
 
 
 def optional(module: str, task: str, extra: str) -> Any:
-    """Import a library that only an extra of the package installs, or say how to get it; `task` is what needs it."""
+    """Import a library of an extra of the package, or raise an error that names the extra and the `task`."""
     try:
         return import_module(module)
     except ImportError:

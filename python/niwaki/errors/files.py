@@ -1,4 +1,4 @@
-"""Files that come in or go out, and the errors about them; their texts are in `niwaki.errors.texts.files`.
+"""Files that are read or written, and the errors about them; their texts are in `niwaki.errors.texts.files`.
 
 A message has a code, a title, the file it is about, the reason and the cure.
 """

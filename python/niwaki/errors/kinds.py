@@ -4,7 +4,7 @@ ModelError   a model breaks a rule of the language; found when it is compiled, w
 ModelFault   a model failed while it ran; with the model's own call stack
 InputError   a file, a setting or an argument cannot be used
 
-All texts live in one table, `niwaki.errors.messages`; `str(error)` is the message as it is meant to be read.
+All texts are in one table, `niwaki.errors.messages`; `str(error)` is the complete message.
 """
 
 from __future__ import annotations
@@ -161,7 +161,7 @@ class InputError(NiwakiError):
     code
         A code of the table of messages.
     values
-        What the message's templates name; `detail` is shown on a line of its own.
+        Values for the message's templates; `detail` is shown on a separate line.
     """
 
     def __init__(self, code: str, **values: Any) -> None:
@@ -182,7 +182,7 @@ _UNKNOWN = Message("unknown", "the model failed")
 
 
 def fill(template: str, values: dict[str, Any]) -> str:
-    """A template with its names filled in; names that nobody gave become empty."""
+    """A template with its names filled in; names without a value become empty."""
 
     class Given(dict[str, Any]):
         def __missing__(self, key: str) -> str:

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from niwaki.errors.texts.advice import ADVICE
 from niwaki.errors.texts.chains import CHAINS
-from niwaki.errors.texts.doors import DOORS
 from niwaki.errors.texts.faults import FAULTS
 from niwaki.errors.texts.files import FILES
 from niwaki.errors.texts.inputs import INPUTS
 from niwaki.errors.texts.language import LANGUAGE
 from niwaki.errors.texts.message import Message
+from niwaki.errors.texts.settings import SETTINGS
 
 MESSAGES: dict[str, Message] = {
-    message.code: message for message in (*LANGUAGE, *FAULTS, *INPUTS, *FILES, *DOORS, *ADVICE, *CHAINS)
+    message.code: message for message in (*LANGUAGE, *FAULTS, *INPUTS, *FILES, *SETTINGS, *ADVICE, *CHAINS)
 }
 
-__all__ = ["ADVICE", "CHAINS", "DOORS", "FAULTS", "FILES", "INPUTS", "LANGUAGE", "MESSAGES", "Message"]
+__all__ = ["ADVICE", "CHAINS", "SETTINGS", "FAULTS", "FILES", "INPUTS", "LANGUAGE", "MESSAGES", "Message"]

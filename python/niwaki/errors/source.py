@@ -1,8 +1,8 @@
 """Where a model is written: its file, its text and the places in it.
 
 A :class:`Span` is a piece of a source file, counted as editors count it (lines and columns from 1, the end excluded).
-:func:`find_function` gives the syntax tree of a live function, cut out of the tree of its whole file, so that every
-node already carries the file's own lines and columns.
+:func:`find_function` gives the syntax tree of a function object, cut out of the tree of its whole file, so that every
+node already has the file's own lines and columns.
 """
 
 from __future__ import annotations
@@ -103,7 +103,7 @@ def head_span(node: ast.FunctionDef | ast.Lambda, file: SourceFile) -> Span:
 
 
 def find_function(function: FunctionType) -> tuple[SourceFile, ast.FunctionDef | ast.Lambda] | None:
-    """The syntax tree of a live function, or None when its source cannot be read."""
+    """The syntax tree of a function object, or None when its source cannot be read."""
     code = function.__code__
     parsed = _parsed(code.co_filename, function.__globals__)
     if parsed is None:

@@ -2,7 +2,7 @@
 
 A module of this folder is an entry of the gallery when it has MODEL (the model), and, where they make sense, TITLE (one
 line), TARGET (the name of a function of `niwaki.targets.examples`), VOXEL (the cell size that suits both) and PARTICLES
-(how many it takes to do it well).
+(how many a good result takes).
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from niwaki import targets
 #: Modules of this folder that hold no model; they are not imported to find that out.
 NOT_MODELS = ("data", "furnishings")
 
-#: Size of a population where nothing else is said.
+#: The default size of a population.
 PARTICLES = 300
 
 
@@ -56,8 +56,8 @@ class Entry:
 
 def named_target(name: str) -> nw.Target:
     """Make one of the gallery's own targets."""
-    made: nw.Target = getattr(targets.examples, name)()
-    return made
+    value: nw.Target = getattr(targets.examples, name)()
+    return value
 
 
 def entries() -> list[Entry]:
@@ -77,7 +77,7 @@ def entry(name: str) -> Entry | None:
     if not hasattr(module, "MODEL"):
         return None
     title = getattr(module, "TITLE", (module.__doc__ or "").partition("\n")[0])
-    made = Entry(
+    value = Entry(
         stem.replace("_", "-"),
         title,
         module.MODEL,
@@ -85,4 +85,4 @@ def entry(name: str) -> Entry | None:
         getattr(module, "VOXEL", None),
         getattr(module, "PARTICLES", PARTICLES),
     )
-    return made
+    return value

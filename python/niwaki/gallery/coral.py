@@ -1,7 +1,7 @@
 """A staghorn coral: arms that rise from one foot, fork, bend towards the light and end in pale, round tips.
 
 Two arms of a fork begin on the ring in which their parent ended, in one primitive: that makes the fork one skin.
-Whether an arm goes on, and whether it forks, is left to futures.
+Whether an arm continues, and whether it forks, is decided in futures.
 """
 
 from math import cos, pi, sin

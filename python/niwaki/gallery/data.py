@@ -41,7 +41,7 @@ def generator(seed: int) -> Callable[[], float]:
 
 
 def hidden_chain(steps: int = 100, states: int = 10, symbols: int = 10, seed: int = 11) -> Chain:
-    """A chain whose tables are drawn uniformly, and what it shows in `steps` steps."""
+    """A chain whose tables are drawn uniformly, and its observations in `steps` steps."""
     uniform = generator(seed)
     initial = _simplex(uniform, states)
     transition = tuple(_simplex(uniform, states) for _ in range(states))
@@ -60,32 +60,32 @@ def documents(
     """Documents of words, each word from one of its document's topics: (count, words) of whole numbers."""
     uniform = generator(seed)
     spoken = [_simplex(uniform, vocabulary) for _ in range(topics)]
-    made: list[tuple[int, ...]] = []
+    values: list[tuple[int, ...]] = []
     for _ in range(count):
         share = _simplex(uniform, topics)
-        made.append(tuple(_pick(uniform, spoken[_pick(uniform, share)]) for _ in range(words)))
-    return tuple(made)
+        values.append(tuple(_pick(uniform, spoken[_pick(uniform, share)]) for _ in range(words)))
+    return tuple(values)
 
 
 def clusters(points: int = 100, seed: int = 13) -> Row:
     """Numbers from a mixture of four Gaussians."""
     uniform = generator(seed)
     means, deviations, weights = (-6.0, -1.0, 2.0, 7.0), (1.0, 0.6, 0.8, 1.2), (0.2, 0.3, 0.3, 0.2)
-    made: list[float] = []
+    values: list[float] = []
     for _ in range(points):
         which = _pick(uniform, weights)
-        made.append(means[which] + deviations[which] * _normal(uniform))
-    return tuple(made)
+        values.append(means[which] + deviations[which] * _normal(uniform))
+    return tuple(values)
 
 
 def growth(sequences: int = 20, seed: int = 14) -> tuple[Row, ...]:
-    """Sequences measured at -2, -1, 0, 1, 2, each along a line of its own: (sequences, 5)."""
+    """Sequences measured at -2, -1, 0, 1, 2, each along its own line: (sequences, 5)."""
     uniform = generator(seed)
-    made: list[Row] = []
+    values: list[Row] = []
     for _ in range(sequences):
         start, slope = 1.0 + 0.8 * _normal(uniform), 0.5 + 0.4 * _normal(uniform)
-        made.append(tuple(start + slope * x + 0.5 * _normal(uniform) for x in (-2.0, -1.0, 0.0, 1.0, 2.0)))
-    return tuple(made)
+        values.append(tuple(start + slope * x + 0.5 * _normal(uniform) for x in (-2.0, -1.0, 0.0, 1.0, 2.0)))
+    return tuple(values)
 
 
 def _simplex(uniform: Callable[[], float], size: int) -> Row:

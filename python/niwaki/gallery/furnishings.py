@@ -100,12 +100,12 @@ def walls(inner: Sequence[Vec], outer: Sequence[Vec], height: float) -> list[Par
     height
         How high it is.
     """
-    made = []
+    pieces = []
     for n, a in enumerate(inner):
         m = (n + 1) % len(inner)
         quad = (outer[n], outer[m], inner[m], a)
-        made.append(slab([(x, 0.0, -y) for x, y in quad], height))
-    return made
+        pieces.append(slab([(x, 0.0, -y) for x, y in quad], height))
+    return pieces
 
 
 def lathe(profile: Sequence[tuple[float, float]], around: int) -> Part:

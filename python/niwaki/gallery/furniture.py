@@ -1,7 +1,7 @@
 """A coffee shop: tables and chairs laid out in a room, then plates and cups on the tables (dissertation 2.3.1).
 
 The layout is a problem of the plane: each thing counts as a disc, whose radius is that of the upright cylinder
-around its mesh. Factors keep discs apart and inside of the room and ask for a full room. `coffee_shop` searches for a
+around its mesh. Factors keep discs apart and inside of the room, and prefer a full room. `coffee_shop` searches for a
 layout with `infer`, takes the best and lays the tables: inference feeding a further random program.
 
 The plan has x to the right and y upwards; in the scene they are x and -z.
@@ -73,7 +73,7 @@ def layout():
     for _ in range(count):
         one = table(placed)
         more = floor_under(one)
-        # In the end the factor of the whole room; told table by table it leads a search.
+        # In the end the factor of the whole room; added table by table it guides a search.
         factor(fullness(covered + more) - fullness(covered))
         covered = covered + more
         placed = placed + [one]

@@ -45,7 +45,7 @@ def gnarly_tree(smallest=0.1, fork=0.5, decay=0.1):
     """Grow the trunk from the ground at the origin, and everything that grows from it.
 
     `smallest` is the radius, as a share of the trunk's, at which a branch ends; `fork` the odds of a branch on each
-    segment; a branch goes on after its segment i with probability exp(-decay i).
+    segment; a branch continues after its segment i with probability exp(-decay i).
     """
     thick = uniform(1.5, 2.0)
     start = Frame(vec(0.0, 0.0, 0.0), SKY, vec(0.0, 0.0, -1.0), thick)
@@ -56,7 +56,7 @@ def gnarly_tree(smallest=0.1, fork=0.5, decay=0.1):
 def branch(start, bark, i, habit):
     """Grow the `i`-th segment of a branch from `start`, perhaps a side branch on it, and perhaps the next segment.
 
-    `bark` is what the first segment of a branch grows from; `habit` the least radius, the odds of a side branch and
+    `bark` is what the first segment of a branch grows from; `habit` the least radius, the chance of a side branch and
     the decay of going on.
     """
     least, _, decay = habit

@@ -1,4 +1,4 @@
-"""Hierarchical linear regression: twenty sequences, each along a line of its own. Appendix A of the dissertation.
+"""Hierarchical linear regression: twenty sequences, each along its own line. Appendix A of the dissertation.
 
 Each sequence has an intercept and a slope; those of all sequences are drawn around a common mean.
 """

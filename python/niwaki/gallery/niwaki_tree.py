@@ -42,7 +42,7 @@ UP = vec(0.0, 1.0, 0.0)
 def niwaki_tree():
     """Grow the trunk from the ground at the origin to its crown, then two chances of a side branch on each limb.
 
-    The lowest limb stays bare. The trunk is whole before any branch may stand in its way. It bends most in x: such a
+    The lowest limb stays bare. The trunk is complete before any branch may block it. It bends most in x: such a
     tree has a front.
     """
     start, forward, radius = vec(0.0, 0.0, 0.0), UP, uniform(1.2, 2.0)

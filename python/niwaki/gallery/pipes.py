@@ -1,7 +1,7 @@
 """A maze of square pipes on a grid, each at right angles to the one before, for the shadow that they cast together.
 
 The generative process of dissertation 5.5. From the end of each pipe up to two others grow, a shorter kind and one that
-goes on; both are left to futures. A network of two thousand pipes is nothing unusual.
+goes on; both are left to futures. A network of two thousand pipes is not unusual.
 """
 
 from math import exp

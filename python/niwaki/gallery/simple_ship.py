@@ -1,7 +1,7 @@
 """The simplified spaceship of dissertation figure 5.2: a row of blocks, with wings that are rows of blocks.
 
 Fifteen lines of process, to show what an order can do. Body segments bring the ship closer to its target faster than
-wings; under a fixed order the particles that live are those that decided against the first wings. Body and wings are
+wings; under a fixed order the particles that survive are those that decided against the first wings. Body and wings are
 both futures, so that a random order can put the wings off.
 """
 

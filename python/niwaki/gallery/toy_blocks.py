@@ -1,7 +1,7 @@
 """Toy blocks scattered over a floor: boxes and cylinders, some of them lying on their sides.
 
-The generative process of dissertation 5.5, where their shadow is asked to be a face in profile. Nothing here branches,
-so that there are no futures: every order is the same.
+The generative process of dissertation 5.5, where their shadow should be a face in profile. Nothing here branches,
+so there are no futures: every order is the same.
 """
 
 from math import cos, exp, pi, sin

@@ -1,13 +1,13 @@
 """From a Python function to core form, and the plain-Python run.
 
-scope          who owns each name; what nested functions capture
+scope          the scope of each name; what nested functions capture
 names          what names mean outside of the model
-constants      which live objects may cross as data
+constants      which Python objects may cross as data
 sites          the readable names of choices, calls and loops
 vocabulary     built-ins, `math` and our words, as operations
 core           the core form: grammar and writer
 marks          functions that are marked for the language
-program, body  what one lowering, and one function in it, collects
+program, body  the state of one lowering, and of one function in it
 expressions, statements, comprehensions, arguments, callees, builtin_calls, inference, calls, refuse, lower
                the lowering: one function for each kind of syntax
 instrument, densities, plain

@@ -1,12 +1,12 @@
-"""Advice on a model that compiles: what keeps particles from being judged while they can still be saved.
+"""Advice on a model that compiles: what delays the scoring of particles.
 
 Two things cost a search more than anything else (dissertation 5.4 and 5.6.1): a decision on a random value that is made
 in place where it could be a future, and a choice that is drawn before a barrier that does not need it. Both are seen in
 the text: `emit`, `factor`, `observe` and `condition` are barriers, and so is a call that reaches one.
 
-Only what can be moved is pointed at. A branch or call is left alone where later code reads what it assigned or
-returned, where it leaves the function or the loop, and where nothing that builds follows it: what the next part builds
-upon is no future. A choice is pointed at only where a later part in the same block is the first to read it. Chance
+Only what can be moved is reported. A branch or call is left alone where later code reads what it assigned or
+returned, where it leaves the function or the loop, and where nothing after it builds: what the next part depends
+on cannot be a future. A choice is reported only where a later part in the same block is the first to read it. Chance
 is followed through variables and calls, not through arguments.
 """
 
@@ -43,7 +43,7 @@ class Advice:
     code : str
         Its name; each has a page in docs/errors.
     span, second : Span
-        Where, and what it stands in the way of.
+        The place, and what it delays.
     values : dict
         What the message's templates name.
     """
@@ -78,7 +78,7 @@ class _Facts:
         self.draws: set[ast.AST] = set()
         self.decides: set[ast.AST] = set()
         grown = -1
-        # A fixed point: what a callee reaches its callers reach.
+        # A fixed point: callers reach what their callees reach.
         while grown != (grown := len(self.builds) + len(self.draws) + len(self.decides)):
             for unit in program.units.values():
                 reader = _Reader(unit, self)
@@ -123,7 +123,7 @@ class _Reader:
     # what is called
 
     def meaning(self, node: ast.expr) -> Any:
-        """The live object, or the node of a nested function, that a callee is; else MISSING."""
+        """The object, or the node of a nested function, that a callee is; else MISSING."""
         if isinstance(node, ast.Lambda):
             return node
         if isinstance(node, ast.Name):
@@ -210,7 +210,7 @@ class _Reader:
     def block(
         self, body: Sequence[ast.stmt], after: Sequence[ast.stmt], loop: ast.stmt | None
     ) -> Iterator[Advice]:
-        """Advice on a block. `after` is what the function still does behind it; that of a `loop` follows itself."""
+        """Advice on a block. `after` has the statements of the function after it; a `loop` follows itself."""
         decided = self.decisions(body)
         for number, part in enumerate(body):
             later = [*body[number + 1 :], *after]

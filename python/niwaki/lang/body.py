@@ -2,7 +2,7 @@
 
 Expressions of Python may need statements in core form (a comprehension is a loop). Such statements are appended to the
 current block *before* the expression that needs them. `in_order` keeps Python's order of evaluation while that
-happens: what has been computed already and could notice is moved into temporaries first.
+happens: values already computed that the statements could change are moved into temporaries first.
 """
 
 from __future__ import annotations
@@ -76,7 +76,7 @@ class Body:
         return variable
 
     def within(self, make: Callable[[], Expr]) -> tuple[Block, Expr]:
-        """What `make` appends, kept apart from the current block, and what it returns."""
+        """The statements that `make` appends, apart from the current block, and its result."""
         outer, self.block = self.block, []
         try:
             value = make()

@@ -24,7 +24,7 @@ TABLE: dict[Any, Callable[[Body, ast.Call], Expr]] = {}
 
 
 def lowers(*functions: Any) -> Callable[[Callable[[Body, ast.Call], Expr]], Callable[[Body, ast.Call], Expr]]:
-    """Register how calls of a live function are lowered."""
+    """Register how calls of a Python function are lowered."""
 
     def register(lower: Callable[[Body, ast.Call], Expr]) -> Callable[[Body, ast.Call], Expr]:
         TABLE.update(dict.fromkeys(functions, lower))
@@ -133,7 +133,7 @@ def map_(body: Body, node: ast.Call) -> Expr:
 
 @lowers(filter)
 def filter_(body: Body, node: ast.Call) -> Expr:
-    """`filter(f, xs)`: a list, made at once; `filter(None, xs)` keeps what is true."""
+    """`filter(f, xs)`: a list, computed at once; `filter(None, xs)` keeps what is true."""
     no_keywords(body, node, "filter")
     if len(node.args) != 2:
         body.refuse(

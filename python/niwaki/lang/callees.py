@@ -1,4 +1,4 @@
-"""Who is called, once it is known: a value, a nested function, a function of a module, a built-in that computes."""
+"""The kinds of callees: a value, a nested function, a function of a module, a built-in that computes."""
 
 from __future__ import annotations
 

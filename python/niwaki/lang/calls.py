@@ -1,6 +1,6 @@
-"""Calls to core form: who is called decides what it becomes.
+"""Calls to core form: the callee decides the form.
 
-A name that is a nested function or a live model function is called directly; a built-in or a word becomes an
+A name that is a nested function or a model function is called directly; a built-in or a word becomes an
 operation; a record class makes a record; a value of unknown origin is applied. `builtin_calls` holds the built-ins
 that take functions or generators.
 """
@@ -24,7 +24,7 @@ from niwaki.lang.inference import infer
 from niwaki.lang.marks import Host, underlying
 from niwaki.lang.names import MISSING, is_library, is_random, is_record_class, nearest
 from niwaki.lang.scope import Scope, Variable
-from niwaki.lang.statements import made_here
+from niwaki.lang.statements import first_assignment
 
 
 @lowers(ast.Call)
@@ -52,7 +52,7 @@ def call(body: Body, node: ast.Call) -> Expr:
 
 
 def known(body: Body, node: ast.Call, value: Any) -> Expr:
-    """A call of a live object."""
+    """A call of a Python object."""
     try:
         special = builtin_calls.TABLE.get(value)
         operation = vocabulary.OPERATIONS.get(value)
@@ -140,7 +140,7 @@ def record(body: Body, node: ast.Call, kind: type) -> Expr:
 
 
 def host(body: Body, node: ast.Call, value: Host[Any, Any]) -> Expr:
-    """A pure host function; its keywords are written as positions when its signature tells them."""
+    """A pure host function; its keywords become positions where its signature is known."""
     try:
         parameters = vocabulary.parameters_of(value.function)
     except (TypeError, ValueError):
@@ -190,7 +190,7 @@ def changes(body: Body, node: ast.Call, callee: ast.Attribute, name: str, target
     if isinstance(callee.value, ast.Name):
         found = body.scopes.find(callee.value.id, body.scope)
         if isinstance(found, Variable) and found.assigned:
-            second = made_here(body, found)
+            second = first_assignment(body, found)
     argument = body.span(node.args[0]).text if node.args else "..."
     cure = vocabulary.CHANGERS[name].format(target=target, argument=argument)
     body.refuse("changes-a-value", node, second, name=target, cure=cure if "`" in cure else f"`{cure}`")

@@ -84,7 +84,7 @@ def _bad_argument(
 
 
 def arguments(model: Compiled[..., Any], args: Sequence[Any], kwargs: Mapping[str, Any]) -> list[Any]:
-    """The arguments by position, without the defaults that nobody changed at the end."""
+    """The arguments by position, without unchanged defaults at the end."""
     core = model.core()
     try:
         bound = _signature(model, max(len(args), core.required)).bind(*args, **kwargs)

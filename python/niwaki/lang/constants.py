@@ -1,4 +1,4 @@
-"""Which live objects may cross to the engine as data, and the copies that keep them from changing afterwards."""
+"""Which Python objects may cross to the engine as data, and copies of them that nothing can change."""
 
 from __future__ import annotations
 

@@ -18,7 +18,7 @@ class Constraint:
     address : str
         The calls and loops that led to it, then its kind.
     span : Span or None
-        Where it stands in the source.
+        Its place in the source.
     value, goal : float
         What is compared with what.
     width : float

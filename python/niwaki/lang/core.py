@@ -1,4 +1,4 @@
-"""The core form: what crosses from Python to the engine, as text; and the writer of it.
+"""The core form: what crosses from Python to the engine, as text; and its writer.
 
 Grammar (each `(HEAD ...)` may carry a span atom right after its head, `@L:C-L:C`, from 1, end excluded)
 
@@ -20,10 +20,10 @@ Grammar (each `(HEAD ...)` may carry a span atom right after its head, `@L:C-L:C
              | (OP E ...)
     PART    := STRING | (format E "spec" "conversion")
     ATOM    := integer | float | inf | -inf | nan | true | false | none | JSON string | (data K) | $v (a capture)
-    (data K) and (host K) refer to the table of constants that travels beside the text (`Core.constants`).
+    (data K) and (host K) refer to the table of constants that is passed with the text (`Core.constants`).
 
-Variables. `$name` is the user's variable. `$name%N` is one that the front end made (or a second variable of the same
-name); its readable name is what stands before the `%`, and may be empty: `$%N`. Numbers are unique within one
+Variables. `$name` is the user's variable. `$name%N` is one that the front end created (or a second variable of the same
+name); its readable name is the part before the `%`, and may be empty: `$%N`. Numbers are unique within one
 top-level function and the functions nested in it.
 
 Functions. NAME is the qualified name: `ship`, nested `ship.wing`, a lambda `ship.lambda`, a second one of a name
@@ -35,10 +35,10 @@ captured values, in the order of `captures`; so `call` and `future` always have 
 params and captures together. Used as a value it is `(closure "f" captures ...)`, rebuilt wherever it is used. So nested
 functions may call themselves and one another in any order, and no closure ever holds itself.
 
-Order. Arguments stand in the order of evaluation; where keywords were written in another order, the front end has put
+Order. Arguments are in the order of evaluation; where keywords were written in another order, the front end has put
 them into temporaries.
 
-Sites. The readable address of a choice is a path of components joined by "/". Each site's static component stands after
+Sites. The readable address of a choice is a path of components joined by "/". Each site's static component is after
 the span as an atom `#component`, see `niwaki.lang.sites`: on `sample`, `observe`, `factor`, `condition`, `query`,
 `emit`, `call`, `apply`, `future`, `future_apply`, `for` and `while` (with empty brackets, `#i[]`, `#i[]#1`).
 """
@@ -143,7 +143,7 @@ class Core:
     entry : str
         The model's qualified name.
     parameters : tuple of str
-        The entry's parameters, for whoever passes arguments.
+        The entry's parameters, for the caller that passes arguments.
     required : int
         How many of them have no default.
     """
@@ -177,8 +177,8 @@ def constant_form(value: Any) -> Expr | None:
         return literal(value)
     if type(value) in (list, tuple):
         parts = [constant_form(part) for part in value]
-        made: list[Expr] = [part for part in parts if part is not None]
-        return Form(type(value).__name__, made) if len(made) == len(parts) else None
+        forms: list[Expr] = [part for part in parts if part is not None]
+        return Form(type(value).__name__, forms) if len(forms) == len(parts) else None
     if type(value) is dict:
         values = constant_form(list(value.values()))
         if isinstance(values, Form):

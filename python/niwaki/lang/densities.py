@@ -1,4 +1,4 @@
-"""Draws and densities in a plain-Python run: the engine's own, so that both runs speak of the same numbers."""
+"""Draws and densities in a plain-Python run: the engine's own, so that both runs have the same numbers."""
 
 from __future__ import annotations
 

@@ -83,7 +83,7 @@ def variable(body: Body, node: ast.Name, found: Variable) -> Expr:
 
 
 def resolve(body: Body, node: ast.Name) -> Any:
-    """The live object that a global name means."""
+    """The object that a global name means."""
     value = body.namespace.find(node.id)
     if value is MISSING:
         local = [*(name for scope in body.scopes.of.values() for name in (*scope.variables, *scope.nested))]
@@ -98,7 +98,7 @@ def resolve(body: Body, node: ast.Name) -> Any:
 
 
 def outside(body: Body, node: ast.expr, value: Any) -> Expr:
-    """A live object used as a value."""
+    """A Python object used as a value."""
     text = body.span(node).text
     function = vocabulary.ALL_WORDS | set(vocabulary.OPERATIONS) | {map, filter, sorted, dict}
     if hashable(value) and (value in vocabulary.NOT_IN_A_MODEL or value in vocabulary.FORBIDDEN_BUILTINS):
@@ -316,7 +316,7 @@ def attribute(body: Body, node: ast.Attribute) -> Expr:
 
 
 def static(body: Body, node: ast.expr) -> Any:
-    """The live object that `module.name` means, or MISSING for anything that is only known when the model runs."""
+    """The object that `module.name` means, or MISSING for anything that is only known when the model runs."""
     if isinstance(node, ast.Name):
         return resolve(body, node) if body.scopes.find(node.id, body.scope) is None else MISSING
     if not isinstance(node, ast.Attribute):

@@ -1,7 +1,7 @@
-"""Futures of a plain run: values that are there already, and that only `force` shows.
+"""Futures of a plain run: their values are known, but only `force` returns them.
 
-In the engine the value of a future may not be there yet, so that a look at it without `force` is an error. Here every
-other use of a future is the same error.
+In the engine the value of a future may not exist yet, so any use of it without `force` is an error. Here the same uses
+give the same error.
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ from typing import Any
 from niwaki import words
 from niwaki.lang import vocabulary
 
-#: What is looked at by Python's own functions and operators, and not by the name of an attribute.
+#: Special methods, which Python calls without a look-up of an attribute.
 _LOOKS = """bool eq ne lt le gt ge hash len iter next contains getitem call str repr format int float complex index
 round trunc floor ceil abs neg pos invert reversed divmod rdivmod array"""
 _OPERATORS = "add sub mul matmul truediv floordiv mod pow and or xor lshift rshift"
-#: What takes futures and does not look at them.
+#: Functions that take futures without using their values.
 _PASSING = frozenset({words.force, words.future, words.query, words.choose})
 
 
@@ -116,7 +116,7 @@ def searched(value: Any) -> Any:
 
 
 def refuse(function: Callable[..., Any], args: Iterable[Any], keywords: Mapping[str, Any]) -> None:
-    """Refuse futures as arguments of what is no model code and looks at its arguments."""
+    """Refuse futures as arguments of functions that are not model code and use their arguments."""
     if function in _PASSING:
         return
     owner, name = getattr(function, "__self__", None), getattr(function, "__name__", "")

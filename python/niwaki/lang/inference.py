@@ -31,7 +31,7 @@ SEEDS = DiscreteUniform(0, LARGEST)
 
 
 def constant(method: Method, keep: str) -> tuple[str, str, str]:
-    """What the engine reads: that it is an inference, what it keeps, the text of its method.
+    """The constant for the engine: "infer", what to keep, the text of the method.
 
     Parameters
     ----------

@@ -1,7 +1,7 @@
-"""A model function that tells where it is: the user's own code, compiled from their file with each site named.
+"""A model function that reports where it is: the user's own code, compiled from their file with each site named.
 
 `f(x)` becomes `__nw__.call("f", f, x)`, `for i in xs` becomes `for i in __nw__.loop("i[]", xs)`, what is compared
-becomes `__nw__.compared(x)`; nested functions bear their names of the core form; nothing else changes, and every node
+becomes `__nw__.compared(x)`; nested functions have their names of the core form; nothing else changes, and every node
 keeps its line and columns, so that a debugger
 and a traceback show the file that the user wrote.
 `__nw__` is a cell of the function's closure: the user's module is not touched.
@@ -29,10 +29,10 @@ def instrumented(function: FunctionType, hook: Any) -> FunctionType:
     code = _codes[function]
     cells = dict(zip(function.__code__.co_freevars, function.__closure__ or (), strict=True))
     closure = tuple(CellType(hook) if name == HOOK else cells[name] for name in code.co_freevars)
-    made = FunctionType(code, function.__globals__, function.__name__, function.__defaults__, closure)
-    made.__kwdefaults__ = function.__kwdefaults__
-    made.__qualname__ = function.__qualname__
-    return made
+    built = FunctionType(code, function.__globals__, function.__name__, function.__defaults__, closure)
+    built.__kwdefaults__ = function.__kwdefaults__
+    built.__qualname__ = function.__qualname__
+    return built
 
 
 def _compile(function: FunctionType) -> CodeType:
@@ -96,8 +96,8 @@ class _Namer(ast.NodeTransformer):
 
     def _hook(self, name: str, args: list[ast.expr], keywords: list[ast.keyword], at: ast.AST) -> ast.Call:
         hook = ast.Attribute(ast.Name(HOOK, ast.Load()), name, ast.Load())
-        made = ast.copy_location(ast.Call(hook, args, keywords), at)
-        return ast.fix_missing_locations(made)
+        built = ast.copy_location(ast.Call(hook, args, keywords), at)
+        return ast.fix_missing_locations(built)
 
     def visit_Call(self, node: ast.Call) -> ast.AST:
         label = self.labels.get(node, "")

@@ -31,13 +31,13 @@ def lower(function: FunctionType) -> Core:
     """
     program = Program()
     entry = program.unit(function)
-    made = _functions(program)
+    forms = _functions(program)
     module: list[Expr] = [Form("file", [str(n), literal(file.path)]) for n, file in enumerate(program.files)]
     for number, record in enumerate(program.classes):
         fields = Form("", [literal(field) for field in record_fields(record)])
         kind = ["namedtuple"] if is_named_tuple(record) else []
         module.append(Form("class", [str(number), literal(record.__name__), fields, *kind]))
-    module += [*made, Form("entry", [literal(entry.name)])]
+    module += [*forms, Form("entry", [literal(entry.name)])]
     form = Form("module", module)
     parameters = entry.scopes.root.parameters
     defaults = len(function.__defaults__ or ()) + len(function.__kwdefaults__ or {})
@@ -63,11 +63,11 @@ def lowered(function: FunctionType) -> Program:
 
 def _functions(program: Program) -> list[Expr]:
     """Every function that waits, and those that they call."""
-    made: list[Expr] = []
+    forms: list[Expr] = []
     while program.waiting:
         unit = program.waiting.pop(0)
-        made += [_function(program, unit, scope) for scope in functions(unit.scopes)]
-    return made
+        forms += [_function(program, unit, scope) for scope in functions(unit.scopes)]
+    return forms
 
 
 def _function(program: Program, unit: Unit, scope: Scope) -> Form:

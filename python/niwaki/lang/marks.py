@@ -43,7 +43,7 @@ def host(function: Callable[P, T]) -> Host[P, T]:
     """Mark a Python function as pure, so that a model may call it as it is.
 
     It runs under Python's interpreter lock, once for every call in every particle, which is slow. It must give equal
-    results for equal arguments and change nothing; nobody checks.
+    results for equal arguments and change nothing; this is not checked.
 
     Parameters
     ----------

@@ -1,6 +1,6 @@
 """What a name means outside of a model: the module's globals, the cells of a closure, Python's built-ins.
 
-Only this file and `constants` look at live Python objects.
+Only this file and `constants` look at Python objects.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ class Namespace:
         self.cells = dict(zip(function.__code__.co_freevars, cells, strict=True))
 
     def find(self, name: str) -> Any:
-        """The live object, or MISSING."""
+        """The object, or MISSING."""
         if name in self.cells:
             try:
                 return self.cells[name].cell_contents
@@ -56,7 +56,7 @@ def is_named_tuple(value: Any) -> bool:
 
 
 def is_record_class(value: Any) -> bool:
-    """Whether it is a class whose instances are records; vectors and distributions are values of their own."""
+    """Whether it is a class whose instances are records; vectors and distributions are other kinds of values."""
     if not isinstance(value, type):
         return False
     own = value.__module__.startswith("niwaki.words.")
@@ -71,7 +71,7 @@ def record_fields(value: Any) -> tuple[str, ...]:
 
 
 def hashable(value: Any) -> bool:
-    """Whether a live object can be looked up in a table; a tuple that holds a list cannot."""
+    """Whether an object can be looked up in a table; a tuple that holds a list cannot."""
     try:
         hash(value)
     except TypeError:

@@ -1,6 +1,6 @@
 """A model as ordinary Python: the oracle for the engine, and what a debugger steps through.
 
-The user's own function runs (see `instrument`); this file keeps what happens: the path of calls and loops, choices by
+The user's own function runs (see `instrument`); this file records what happens: the path of calls and loops, choices by
 readable address, scores, shapes and answers. Futures run where they are created.
 """
 
@@ -107,7 +107,7 @@ def run(
     seed: int | None = None,
     choices: Mapping[str, Any] | None = None,
 ) -> Run:
-    """`run_python` with the arguments as values of their own, so that a model may call its parameters as it likes."""
+    """`run_python` with the arguments apart from its own, so that a model may have parameters of any name."""
     if seed is None and choices is None:
         seed = secrets.randbits(63)
     state = PlainRun(seed, choices)
@@ -123,7 +123,7 @@ def run(
     log_prior, log_score = densities.total(state.priors), densities.total(state.scores)
     queries = {key: futures.opened(answer) for key, answer in state.answers.items()}
     value = futures.opened(value)
-    return Run(value, state.made, log_prior, log_score, state.scene, queries, state.constraints)
+    return Run(value, state.choices_made, log_prior, log_score, state.scene, queries, state.constraints)
 
 
 class PlainRun:
@@ -135,7 +135,7 @@ class PlainRun:
         self.path: list[str] = []
         self.loops: list[int] = []
         self.pending = ""
-        self.made: dict[str, Any] = {}
+        self.choices_made: dict[str, Any] = {}
         self.priors: list[float] = []
         self.scores: list[float] = []
         self.scene: list[tuple[str, list[Any]]] = []
@@ -145,7 +145,7 @@ class PlainRun:
         self.functions: dict[FunctionType, FunctionType] = {}
         self.codes: set[Any] = set()
 
-    # what the instrumented code asks
+    # called by the instrumented code
 
     def call(self, label: str | tuple[str, str], function: Any, /, *args: Any, **kwargs: Any) -> Any:
         """A call at a site."""
@@ -174,9 +174,9 @@ class PlainRun:
         """Run a function of the user."""
         if function.__code__ not in self.codes:
             if function not in self.functions:
-                made = instrumented(function, self)
-                self.functions[function] = made
-                self.know(made.__code__)
+                traced = instrumented(function, self)
+                self.functions[function] = traced
+                self.know(traced.__code__)
             function = self.functions[function]
         return function(*args, **kwargs)
 
@@ -198,7 +198,7 @@ class PlainRun:
                 return list(filter(None, lists[0]))
             rows = zip(*lists, strict=False)
             results = [(row[0], self.call(callee, function, *row)) for row in self.loop(loop, rows)]
-            return [made for _, made in results] if word is map else [item for item, keep in results if keep]
+            return [item for _, item in results] if word is map else [item for item, keep in results if keep]
         function = kwargs.pop("key", None)
         if function is None:
             return word(*args, **kwargs)
@@ -245,7 +245,7 @@ class PlainRun:
         """A `break`."""
         del self.path[self.loops.pop() :]
 
-    # what the words ask
+    # called by the words
 
     def address(self, fallback: str) -> str:
         """The address of the site that is being called."""
@@ -256,7 +256,7 @@ class PlainRun:
         """Make a choice."""
         address = self.address("sample")
         self.check(dist)
-        assert address not in self.made
+        assert address not in self.choices_made
         if self.given is not None and address in self.given:
             value = self.given[address]
         elif self.seed is None:
@@ -270,7 +270,7 @@ class PlainRun:
             except (ValueError, TypeError) as error:
                 raise ModelFault("bad-parameter", str(error), stack=self.stack()) from error
         self.priors.append(self.density(dist, value))
-        self.made[address] = value
+        self.choices_made[address] = value
         return value
 
     def observe(self, dist: Any, value: Any) -> Any:

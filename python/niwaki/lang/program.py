@@ -1,7 +1,7 @@
-"""All that one lowering collects: functions to do, constants, record classes, files.
+"""The state of one lowering: functions to do, constants, record classes, files.
 
 A *unit* is a top-level function with everything nested in it; units are found as they are called and lowered one after
-the other. Functions are told apart as live objects, so two closures of one `def` are two functions.
+the other. Functions are compared as objects, so two closures of one `def` are two functions.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ class Program:
         self._constant_numbers: dict[int, int] = {}
 
     def unit(self, function: FunctionType, used_at: Span | None = None) -> Unit:
-        """The unit of a live function, made at its first use."""
+        """The unit of a function object, created at its first use."""
         if function not in self.units:
             found = find_function(function)
             if found is None:
@@ -102,7 +102,7 @@ class Program:
         return unique
 
     def constant(self, value: Any, used_at: Span, name: str) -> Expr:
-        """A live object as an expression: a literal, data of the table, or built from both."""
+        """A Python object as an expression: a literal, data of the table, or built from both."""
         value = underlying(value)
         if isinstance(value, FunctionType):
             if is_library(value):

@@ -1,6 +1,6 @@
-"""What the language leaves out: the syntax that is refused as such, whatever it holds, and with which message.
+"""Syntax that the language always refuses, with the message for each kind.
 
-The other refusals stand where the thing is lowered (a mutating method in `calls`, an unknown name in `expressions`).
+Other refusals are where the syntax is lowered (a mutating method in `calls`, an unknown name in `expressions`).
 """
 
 from __future__ import annotations

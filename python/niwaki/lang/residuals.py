@@ -1,4 +1,4 @@
-"""How far each soft constraint of a run is from holding, so that requests which contradict one another are seen.
+"""How far each soft constraint of a run is from holding, which shows constraints that contradict one another.
 
 The run is repeated in plain Python with the same choices; every `softeq`, `soft_at_least` and `soft_at_most` that it
 meets is noted with its line.

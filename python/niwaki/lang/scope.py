@@ -1,8 +1,8 @@
-"""Who owns each name: the scopes of one top-level function and of everything nested in it.
+"""The scope of each name: the scopes of one top-level function and of everything nested in it.
 
-Python's closures capture variables; ours capture values. Here is what makes the difference invisible: which variables
+Python's closures capture variables; ours capture values. This file computes what hides the difference: which variables
 a nested function needs from outside (its *captures*), in which order assignments and definitions happen, and which
-nested functions are only ever bound by their one `def` and can so be called directly, by name.
+nested functions are only ever bound by their one `def` and can therefore be called directly, by name.
 
 Captures are a fixed point: a function that calls a sibling needs what the sibling needs.
 """

@@ -154,9 +154,9 @@ class _Namer:
     def family(self, dist: ast.expr | None) -> str:
         """The family of a distribution that can be read off, else `sample`."""
         if isinstance(dist, ast.Call):
-            made = self.meaning(dist.func)
+            live = self.meaning(dist.func)
             return (
-                made.family if isinstance(made, type) and issubclass(made, words.Distribution) else "sample"
+                live.family if isinstance(live, type) and issubclass(live, words.Distribution) else "sample"
             )
         value = self.meaning(dist) if dist is not None else MISSING
         return value.family if isinstance(value, words.Distribution) else "sample"
@@ -175,7 +175,7 @@ class _Namer:
         return "apply"
 
     def meaning(self, node: ast.expr) -> Any:
-        """The live object that a name outside of the model means, or MISSING."""
+        """The object that a name outside of the model means, or MISSING."""
         if isinstance(node, ast.Name):
             if self.scopes.find(node.id, self.scope) is not None:
                 return MISSING

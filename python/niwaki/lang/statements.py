@@ -155,7 +155,7 @@ def changes(body: Body, target: ast.expr, node: ast.AST) -> None:
     if isinstance(owner, ast.Name):
         found = body.scopes.find(owner.id, body.scope)
         if isinstance(found, Variable) and found.assigned:
-            second = made_here(body, found)
+            second = first_assignment(body, found)
     text = body.span(owner).text
     if isinstance(target, ast.Subscript):
         index = body.span(target.slice).text
@@ -163,7 +163,7 @@ def changes(body: Body, target: ast.expr, node: ast.AST) -> None:
     body.refuse("changes-a-field", target, second, name=text, field=getattr(target, "attr", ""))
 
 
-def made_here(body: Body, found: Variable) -> Any:
+def first_assignment(body: Body, found: Variable) -> Any:
     """The place where a variable was first given a value, for a second label."""
     first = found.assigned[0][1]
     if isinstance(first, (ast.FunctionDef, ast.Lambda)):

@@ -1,6 +1,6 @@
-"""What the functions that a model may call are named in core form: built-ins, `math`, and our own words.
+"""The names in core form of the functions that a model may call: built-ins, `math`, and our own words.
 
-A table; nothing is decided here. An `Op` says which operation a Python function becomes and which arguments it takes.
+An `Op` is the operation that a Python function becomes, with its arguments.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ def _op(head: str, names: str = "", optional: str = "", variadic: bool = False, 
 
 
 def parameters_of(function: Any) -> tuple[Parameter, ...]:
-    """The parameters of a live function or class, with their defaults."""
+    """The parameters of a function or class, with their defaults."""
     found = inspect.signature(function).parameters.values()
     return tuple(Parameter(p.name, REQUIRED if p.default is p.empty else p.default) for p in found)
 

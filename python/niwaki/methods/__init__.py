@@ -1,12 +1,12 @@
-"""Methods as values: what `run` is asked to do, with every setting checked when it is made.
+"""Methods as values. Settings are checked when a method is created.
 
 direct      forward runs, enumeration, rejection, likelihood weighting
-particles   sequential Monte Carlo, and the chains made of it
+particles   sequential Monte Carlo, and chains whose proposals are populations
 chains      Metropolis-Hastings
 gradients   Hamiltonian Monte Carlo
 kernels     Markov kernels, for chains
-method      what all have in common: a method as data
-checks      what their settings are checked for
+method      the base class: a method as data
+checks      checks of settings
 """
 
 from niwaki.methods.chains import STRATEGIES, Mh, mh

@@ -1,4 +1,4 @@
-"""What the settings of methods are checked for."""
+"""Checks of the settings of methods."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from niwaki.methods.kernels import Kernel
 
 
 def bad(name: str, found: Any, expected: str, suggestion: str) -> InputError:
-    """Say what a setting cannot be."""
+    """The error about the value of a setting."""
     return InputError("bad-setting", name=name, found=repr(found), expected=expected, suggestion=suggestion)
 
 

@@ -66,7 +66,7 @@ class Importance(Method):
         How many runs.
     proposal
         Who draws the choices that the prior does not: `kernels.on(pattern, kernels.proposal(function))`, or a `cycle`
-        of several, of which the first whose pattern matches a choice holds. The weights take back what it does, so the
+        of several, of which the first whose pattern matches a choice holds. The weights correct for it, so the
         law and the evidence stay as they are.
     """
 

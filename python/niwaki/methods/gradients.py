@@ -36,19 +36,20 @@ class Hmc(Method):
     target_accept
         Mean acceptance that the step size is adapted to, (0, 1).
     metric
-        What is learnt of the target's shape: "diagonal", a scale for each coordinate; "low-rank", and a few directions;
-        "dense", the whole covariance, which suits what is nearly normal; "unit", nothing (the dissertation's setting).
+        What the warm-up learns of the target's shape: "diagonal", a scale for each coordinate; "low-rank", and a few
+        directions; "dense", the whole covariance, which suits nearly normal targets; "unit", nothing (the
+        dissertation's setting).
     step_size
         A step to keep instead of an adapted one.
     climb
-        Most steps uphill from each chain's first run, before the warm-up: where tight constraints leave almost every
-        run of the prior far from all that is likely. They end by themselves where they gain little beside how draws
-        waver. 0, the default, for none; `explore` takes up to 2000.
+        Most steps uphill from each chain's first run, before the warm-up. Useful where tight constraints leave almost
+        every run of the prior far from all likely runs. They stop when the gain is small beside the spread of draws. 0,
+        the default, for none; `explore` takes up to 2000.
     tries
         Most forward runs for the start of each chain.
     designs
-        The draws are for designs and not for figures, as those of `explore`: trajectories that diverged or were refused
-        are counted, and no warning is given.
+        The draws are for designs and not for estimates, as those of `explore`: trajectories that diverged or were
+        refused are counted, and no warning is given.
     """
 
     NAME = "hmc"
@@ -110,12 +111,12 @@ hmc, nuts = Hmc, Nuts
 
 
 def explore(draws: int = 8, chains: int = 128, warmup: int = 6, steps: int = 30, climb: int = 2000) -> Hmc:
-    """Many short chains, for designs rather than for figures: each climbs from a run of its own and looks around.
+    """Many short chains, for designs rather than for estimates: each starts from its own run, climbs, then samples.
 
     Tight constraints leave narrow ground in separate places, which one chain crosses slowly or never leaves. Chains
-    from many places see more of it with as many gradients. How much each place weighs is then left to where they come
-    from, and some chains are still on their way up to what is typical: take `nuts` with a long warm-up, and look at
-    `rhat`, where that matters. For the same reason trajectories that diverged or were refused for structure are
+    from many places see more of it with as many gradients. The weight of each place then depends on where the
+    chains start, and some chains have not reached the typical set. Where that matters, use `nuts` with a long warm-up
+    and look at `rhat`. For the same reason trajectories that diverged or were refused for structure are
     counted, and no warning is given.
 
     Parameters

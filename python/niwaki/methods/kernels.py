@@ -1,7 +1,7 @@
 """Markov kernels as values, for `niwaki.mh(kernel=...)`.
 
 Leaves propose: `prior`, `drift`, `neighbour`, `proposal` change one choice, `block` and `regenerate` many; `hmc_step`
-and `nuts_step` move the continuous ones along their gradient. Branches say which leaf is next: `cycle`, `mixture`,
+and `nuts_step` move the continuous ones along their gradient. Branches select the next leaf: `cycle`, `mixture`,
 `repeat`; `on` restricts a kernel to some choices, `weighted` gives them selection weights, `anneal` and `tempering`
 change the power of the score. One application of `cycle(a, b)` is one of `a` and then one of `b`.
 
@@ -44,7 +44,7 @@ __all__ = [
     "weighted",
 ]
 
-#: Depths for which a function of the depth is asked; the last holds for all beyond.
+#: Depths at which a function of the depth is evaluated; the last value holds for all deeper ones.
 _DEEPEST = 256
 
 #: Steps of a trajectory are counted in 32 bits.
@@ -86,7 +86,7 @@ class Kernel:
         return [Kernel("on", self.settings, (leaf,)) for leaf in inner] if self.name == "on" else inner
 
     def first(self, *names: str) -> Kernel | None:
-        """The first kernel of one of these names, this one or one in it."""
+        """The first kernel with one of these names: this one or one of its parts."""
         if self.name in names:
             return self
         return next((found for part in self.parts if (found := part.first(*names)) is not None), None)
@@ -169,7 +169,7 @@ def block(step: float = 0.2, share: float = 1.0, target: float = 0.234) -> Kerne
 
 
 def regenerate(levels: int = 0) -> Kernel:
-    """A call and all that it makes are drawn anew: the one that stands `levels` calls or iterations above a choice."""
+    """A call and all below it are drawn again: the call that is `levels` calls or iterations above a choice."""
     return Kernel("regenerate", {"levels": _whole("levels", levels, 0)})
 
 
@@ -335,7 +335,7 @@ def original(power: float = 16.0, nesting: str | None = None) -> Kernel:
     Parameters
     ----------
     power
-        Of the score: 16 makes a sigma of 0.02 one of 0.005, as the original did. Reported scores are
+        Of the score: 16 turns a sigma of 0.02 into 0.005, as the original did. Reported scores are
         those of power 1.
     nesting
         The name of a function: choices within n nested calls of it get the selection weight exp(-n), as on the
@@ -354,24 +354,24 @@ def parse(text: str) -> Kernel:
     Calls of the functions of this module with numbers, texts, lists and kernels; nothing else is carried out.
     """
     try:
-        made = _made(ast.parse(text.strip(), mode="eval").body)
+        result = _kernel_of(ast.parse(text.strip(), mode="eval").body)
     except (SyntaxError, ValueError, TypeError) as error:
         raise InputError("unreadable-kernel", found=text, reason=str(error).split(" (<")[0]) from None
-    if not isinstance(made, Kernel):
+    if not isinstance(result, Kernel):
         raise InputError(
             "unreadable-kernel", found=text, reason="it is not a call of a kernel, such as `prior()`"
         )
-    return made
+    return result
 
 
-def _made(part: ast.expr) -> Any:
+def _kernel_of(part: ast.expr) -> Any:
     if isinstance(part, ast.Name) and part.id in _WRITTEN:
         return _WRITTEN[part.id]()
     if isinstance(part, ast.Call) and isinstance(part.func, ast.Name) and part.func.id in _WRITTEN:
-        given = {word.arg: _made(word.value) for word in part.keywords if word.arg is not None}
-        return _WRITTEN[part.func.id](*(_made(one) for one in part.args), **given)
+        given = {word.arg: _kernel_of(word.value) for word in part.keywords if word.arg is not None}
+        return _WRITTEN[part.func.id](*(_kernel_of(one) for one in part.args), **given)
     if isinstance(part, (ast.List, ast.Tuple)):
-        return [_made(one) for one in part.elts]
+        return [_kernel_of(one) for one in part.elts]
     if isinstance(part, (ast.Name, ast.Call)):
         name = ast.unparse(part.func if isinstance(part, ast.Call) else part)
         near = get_close_matches(name, _WRITTEN, n=1)
@@ -385,8 +385,8 @@ def _made(part: ast.expr) -> Any:
 
 #: What can be written as text.
 _WRITTEN: dict[str, Callable[..., Kernel]] = {
-    made.__name__: made
-    for made in (
+    function.__name__: function
+    for function in (
         prior,
         drift,
         neighbour,

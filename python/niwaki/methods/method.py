@@ -1,7 +1,7 @@
 """A method as a value and as data: its class is the one description of its settings.
 
-The fields of the class are the settings, their defaults the defaults, its docstring what is said of them; the shell's
-flags, the engine's reader and the record of a search follow from the fields.
+The fields of the class are the settings with their defaults; its docstring describes them. The shell's flags, the
+engine's reader and the record of a search follow from the fields.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ class Method:
     Attributes
     ----------
     NAME : str
-        What the method is called where it is written down.
+        The name of the method in data.
     """
 
     NAME: ClassVar[str] = ""
@@ -41,7 +41,7 @@ class Method:
         Parameters
         ----------
         function
-            Writes a user's proposal, the one setting that is no plain value.
+            Writes a user's proposal, the only setting that is not a plain value.
         """
         found: dict[str, Any] = {"method": self.NAME}
         for field in fields(self):
@@ -68,7 +68,7 @@ class Method:
         Raises
         ------
         InputError
-            A method or a setting that there is not.
+            The error about an unknown method or setting.
         """
         given = dict(data)
         own = Method.KNOWN.get(given.pop("method", ""))
@@ -97,5 +97,5 @@ class Method:
             ) from None
 
     def _set(self, name: str, value: Any) -> None:
-        """Keep a setting as it is meant: a whole number that means a real one, a list that means a tuple."""
+        """Convert a setting: a whole number to a real one, a list to a tuple."""
         object.__setattr__(self, name, value)

@@ -1,4 +1,4 @@
-"""Sequential Monte Carlo, and the chains made of it."""
+"""Sequential Monte Carlo, and chains whose proposals are populations."""
 
 from __future__ import annotations
 
@@ -43,9 +43,9 @@ class Smc(Method):
         Resample only when the effective sample size falls below this share of the particles; at every barrier when left
         out.
     anneal
-        The power on the way: one for each barrier (the last also for those after it), or a share of the particles
-        between 0 and 1, so that it rises from 0 to `power` as fast as this share of the conditional effective sample
-        size allows. The final law is that of `power` whatever the way.
+        The schedule of powers: one for each barrier (the last also for those after it), or a share of the particles
+        between 0 and 1, so that the power rises from 0 to `power` as fast as this share of the conditional effective
+        sample size allows. The final law is that of `power` for every schedule.
     populations
         So many independent populations of `particles` each, side by side, combined by their evidence. 1, or with
         `diverse` and no `draws` as many as that, when left out.
@@ -57,17 +57,16 @@ class Smc(Method):
         Instead of a number of particles: a pilot, which is thrown away, measures what a particle costs; then
         populations of one size run one after the other. Those that are complete when this time is spent count, the one
         that still runs is dropped; where none is complete the first is finished, and takes longer. So the evidence is
-        unbiased though costly populations are often the good ones. `Result.info.plan` says how many there were and how
-        large.
+        unbiased though costly populations are often the good ones. `Result.info.plan` lists their sizes.
     proposal
-        Who draws the choices that the prior does not, as for `importance`. Not with absolute weights.
+        A kernel that draws choices in place of the prior, as for `importance`. Not with absolute weights.
     rejuvenate
         A kernel of `niwaki.kernels` that moves each particle without changing the law that all follow, so that copies
         become different again (Gilks & Berzuini 2001). A particle that still runs keeps its skeleton: which parts,
         which futures, where each call waits; one that has ended may change its structure. Not with absolute weights,
         no `anneal` or `tempering`, and `hmc_step` and `nuts_step` only at the end.
     moves
-        Proposals for each particle, each time; `Result.info` says how many were made and kept.
+        Proposals for each particle, each time; `Result.info` counts them, and those that were accepted.
     at
         When: once all have ended ("end"); and before that at every so-many-th barrier, or after each resampling
         ("resampled").
@@ -162,11 +161,11 @@ class Smc(Method):
 
 @dataclass(frozen=True)
 class ParticleGibbs(Method):
-    """A chain of whole runs: each sweep is a population that holds the last run, and one of it is the next.
+    """A chain of whole runs: each sweep is a population that contains the last run; one of its particles is the next.
 
     Right for any number of particles above 1 (Andrieu, Doucet & Holenstein 2010); with ancestor sampling (Lindsten,
-    Jordan & Schon 2014) the held run's past changes too. `Result.info` says how many ancestors were another's, and the
-    share of choices that each sweep made new.
+    Jordan & Schon 2014) the held run's past changes too. `Result.info` counts the ancestors that were
+    another particle, and has the share of choices that each sweep changed.
 
     Parameters
     ----------
@@ -177,9 +176,9 @@ class ParticleGibbs(Method):
     anneal
         The power at each barrier, as for `smc`.
     ancestors
-        Whether the past of the held run is drawn anew at each resampling.
+        Whether the past of the held run is drawn again at each resampling.
     proposal
-        Who draws the choices that the prior does not, as for `importance`.
+        A kernel that draws choices in place of the prior, as for `importance`.
     """
 
     NAME = "particle_gibbs"
@@ -207,9 +206,9 @@ class ParticleGibbs(Method):
 class Pimh(Method):
     """A chain whose proposals are whole populations, accepted by the ratio of their evidence.
 
-    Right for any number of particles (Andrieu, Doucet & Holenstein 2010, section 2.4.2). `Result.info` says how many
-    proposals were accepted. The evidence is the mean of the estimates of all `sweeps + 1` populations, in which those
-    that became impossible count as zero; where all did, it is an error.
+    Right for any number of particles (Andrieu, Doucet & Holenstein 2010, section 2.4.2). `Result.info` counts the
+    accepted proposals. The evidence is the mean of the estimates of all `sweeps + 1` populations, in which those that
+    became impossible count as zero; where all did, it is an error.
 
     Parameters
     ----------
@@ -220,7 +219,7 @@ class Pimh(Method):
     anneal
         The power at each barrier, as for `smc`.
     proposal
-        Who draws the choices that the prior does not, as for `importance`.
+        A kernel that draws choices in place of the prior, as for `importance`.
     """
 
     NAME = "pimh"
@@ -257,7 +256,7 @@ def _check_power(method: Smc | ParticleGibbs | Pimh) -> None:
 
 
 def _powers(anneal: Any, weights: str) -> float | tuple[float, ...] | None:
-    """The power on the way to `power`, where it makes sense."""
+    """The checked schedule of powers."""
     if anneal is None:
         return None
     if weights == "absolute":
@@ -268,16 +267,16 @@ def _powers(anneal: Any, weights: str) -> float | tuple[float, ...] | None:
         if not 0 < anneal < 1:
             raise InputError("bad-anneal", found=repr(anneal), reason="a share is between 0 and 1")
         return float(anneal)
-    path = tuple(anneal) if isinstance(anneal, Sequence) and not isinstance(anneal, str) else ()
-    if not path or not all(is_number(t) and 0 <= t < float("inf") for t in path):
+    schedule = tuple(anneal) if isinstance(anneal, Sequence) and not isinstance(anneal, str) else ()
+    if not schedule or not all(is_number(t) and 0 <= t < float("inf") for t in schedule):
         raise InputError(
             "bad-anneal", found=repr(anneal), reason="a schedule is a list of numbers that are not negative"
         )
-    return tuple(float(t) for t in path)
+    return tuple(float(t) for t in schedule)
 
 
 def _fixed(anneal: Any) -> tuple[float, ...] | None:
-    """The same for a chain, whose sweeps must all go the same way."""
+    """The same for a chain, whose sweeps must all have the same schedule."""
     powers = _powers(anneal, "ratio")
     if isinstance(powers, float):
         raise InputError(

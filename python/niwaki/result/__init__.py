@@ -2,9 +2,9 @@
 
 result       `Result`, a sequence of samples
 sample       `Sample`, one run
-info         what each method says of its search
-chains       Markov chains: what they say, and how they go on
-hmc          what chains that follow a gradient say
+info         the statistics of each method
+chains       statistics of Markov chains, and how chains continue
+hmc          statistics of chains that follow a gradient
 progress     how far a search is
 diagnostics  whether draws of chains can be trusted; draws for ArviZ
 gradient     the log density of a run, with its gradient

@@ -1,4 +1,4 @@
-"""What Markov chains say of their search: best states, acceptance by site, trajectories."""
+"""Statistics of Markov chains: best states, acceptance by site, trajectories."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Acceptance:
     Attributes
     ----------
     function, site : str
-        Where it stands: the function, and the site as it is written in addresses.
+        The function, and the site as it is written in addresses.
     line : int
         Its line in the source.
     proposed, accepted : int
@@ -54,7 +54,7 @@ class Acceptance:
 
 @dataclass(frozen=True)
 class Trajectories:
-    """What became of the trajectories of one `hmc` or `nuts` in a kernel, all chains together.
+    """Statistics of the trajectories of one `hmc` or `nuts` in a kernel, all chains together.
 
     Attributes
     ----------
@@ -65,14 +65,13 @@ class Trajectories:
     settled : int
         Transitions after the warm-up.
     acceptance : float
-        Mean acceptance of the trajectories' points after the warm-up: what the step was adapted to.
+        Mean acceptance of the trajectories' points after the warm-up: the step was adapted to it.
     divergences : Divergences
         Trajectories after the warm-up that broke off, by the reason; each was rejected.
     warmup_divergences : int
         Those of the warm-up.
     unwritten : int
-        Ends that the run itself did not take: it goes another way there than its recording, which is a matter of
-        rounding.
+        Ends that were refused because rounding takes the run along another branch than its recording.
     gradients : int
         Gradients taken, without those that first guesses of a step took.
     structures, recordings : int
@@ -80,7 +79,7 @@ class Trajectories:
     step : tuple of float
         The step for one coordinate, by chain (and power).
     fault : ModelFault or None
-        With its line: what the first trajectory met that came to a point without a finite gradient.
+        The fault, with its line, of the first trajectory that reached a point without a finite gradient.
     """
 
     kernel: Kernel
@@ -99,7 +98,7 @@ class Trajectories:
 
 
 class Running(NamedTuple):
-    """Chains on the engine, and what they need to go on."""
+    """Chains on the engine, and what they need to continue."""
 
     chains: _engine.Chains
     counted: _engine.Task
@@ -109,12 +108,12 @@ class Running(NamedTuple):
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class MhInfo(Info):
-    """Of `mh`: what its chains say of themselves, looked at when it is asked for.
+    """Of `mh`: statistics of its chains, computed when they are read.
 
     Attributes
     ----------
     search, method, seed
-        What was asked of the chains.
+        The search, the method and the seed of the chains.
     seconds : tuple of float
         Wall and processor time so far.
     visits : list of list of int
@@ -129,7 +128,7 @@ class MhInfo(Info):
     visits: list[list[int]] = field(default_factory=list)
 
     def __getstate__(self) -> dict[str, Any]:
-        """All that can be asked; the chains themselves stay where they are."""
+        """All statistics, without the chains themselves."""
         for name in ("bests", "last", "acceptance", "trajectories", "counters"):
             getattr(self, name)
         return {**self.__dict__, "_running": None}
@@ -198,7 +197,7 @@ class MhInfo(Info):
         return [] if self.method.kernel is None else self.method.kernel.leaves()
 
     def warn(self) -> None:
-        """Say what a person must know of the trajectories before using the samples."""
+        """Warn about trajectories that affect the use of the samples."""
         name = self.search.model.name
         if self._leaves and all(leaf.name in ("hmc_step", "nuts_step") for leaf in self._leaves):
             values = (item for sample in self.last for item in sample.choices.items())

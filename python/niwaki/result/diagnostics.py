@@ -1,4 +1,4 @@
-"""Whether draws of Markov chains can be trusted, and what they are worth; NumPy alone.
+"""Convergence and effective sample size of Markov chains, with NumPy alone.
 
 Draws of one quantity are an array (chains, draws). R-hat and effective sample sizes are those of Vehtari, Gelman,
 Simpson, Carpenter & Buerkner 2021 ("Rank-normalization, folding, and localization"); the vector autocorrelation is
@@ -53,7 +53,7 @@ def ess_bulk(draws: ArrayLike) -> float:
         (chains, draws), at least 4 draws.
     """
     x = _split(_chains(draws))
-    return _ess(_normal_scores(x)) if _usable(x) else _worthless(x)
+    return _ess(_normal_scores(x)) if _usable(x) else _no_estimate(x)
 
 
 def ess_tail(draws: ArrayLike) -> float:
@@ -77,7 +77,7 @@ def ess_mean(draws: ArrayLike) -> float:
         (chains, draws), at least 4 draws.
     """
     x = _split(_chains(draws))
-    return _ess(x / _unit(x)) if _usable(x) else _worthless(x)
+    return _ess(x / _unit(x)) if _usable(x) else _no_estimate(x)
 
 
 def ess_quantile(draws: ArrayLike, share: float) -> float:
@@ -92,9 +92,9 @@ def ess_quantile(draws: ArrayLike, share: float) -> float:
     """
     whole = _chains(draws)
     if not _usable(_split(whole)):
-        return _worthless(_split(whole))
+        return _no_estimate(_split(whole))
     below = _split((whole <= np.quantile(whole, share)).astype(np.float64))
-    return _ess(below) if np.ptp(below) > 0 else _worthless(below)
+    return _ess(below) if np.ptp(below) > 0 else _no_estimate(below)
 
 
 def mcse_mean(draws: ArrayLike) -> float:
@@ -146,17 +146,17 @@ def ess_vector(draws: ArrayLike) -> float:
     float
         `n / (1 + 2 sum of AC)` of n draws in all, with Geyer's initial monotone positive sequence. One chain is
         measured by its own mean and variance; several also by how far their means lie apart, as in Vehtari et al. 2021,
-        eq. 10, with inner products for products: chains that stay each in its own place are worth about one draw each.
+        eq. 10, with inner products for products: chains that stay each in its own place count as about one draw each.
     """
     x = np.asarray(draws, dtype=np.float64)
     if x.ndim == 3 and len(x) > 1:
         chains, n, _ = x.shape
         centred = x - x.mean(axis=1, keepdims=True)
         lagged = _lagged_sums(np.moveaxis(centred, 1, 2)).sum(axis=1) / n
-        return _worth(lagged, float(x.mean(axis=1).var(axis=0, ddof=1).sum()))
+        return _effective_size(lagged, float(x.mean(axis=1).var(axis=0, ddof=1).sum()))
     x = x[0] if x.ndim == 3 else x
     n = len(x)
-    # Geyer's pairs are of the biased estimate, whose far lags shrink.
+    # Geyer's pairs need the biased estimate, whose far lags shrink.
     rho = autocorrelation(x) * (n - np.arange(n)) / n
     return n / _time(rho)
 
@@ -314,7 +314,7 @@ def to_arviz(draws: Mapping[str, ArrayLike], stats: Mapping[str, ArrayLike] | No
     """
     try:
         with warnings.catch_warnings():
-            # 0.23 announces its successor whenever it is imported.
+            # ArviZ 0.23 warns about its successor on import.
             warnings.simplefilter("ignore", FutureWarning)
             import arviz
     except ImportError:
@@ -356,8 +356,8 @@ def _usable(x: Reals) -> bool:
     return x.shape[1] >= 2 and bool(np.isfinite(x).all()) and float(np.ptp(x)) > 0.0
 
 
-def _worthless(x: Reals) -> float:
-    """The size of draws that have none to speak of: NaN, or their number when all are the same."""
+def _no_estimate(x: Reals) -> float:
+    """The size where it cannot be estimated: NaN, or the number of draws when all are the same."""
     constant = x.shape[1] >= 2 and bool(np.isfinite(x).all())
     return float(x.size) if constant else math.nan
 
@@ -383,7 +383,7 @@ def _plain_rhat(x: Reals) -> float:
 
 
 def _lagged_sums(x: Reals) -> Reals:
-    """`sum_i x_i x_{i+t}` of each row at every lag, by the fast Fourier transform."""
+    """`sum_i x_i x_{i+t}` of each chain at every lag, by the fast Fourier transform."""
     n = x.shape[-1]
     size = 2 ** math.ceil(math.log2(2 * n))
     spectrum = np.fft.rfft(x, size, axis=-1)
@@ -394,17 +394,17 @@ def _ess(x: Reals) -> float:
     """Effective sample size of chains as they are (Vehtari et al. 2021, eq. 10 to 13)."""
     chains, n = x.shape
     lagged = _lagged_sums(x - x.mean(axis=1, keepdims=True)) / n
-    return _worth(lagged, float(x.mean(axis=1).var(ddof=1)) if chains > 1 else 0.0)
+    return _effective_size(lagged, float(x.mean(axis=1).var(ddof=1)) if chains > 1 else 0.0)
 
 
-def _worth(lagged: Reals, between: float) -> float:
+def _effective_size(lagged: Reals, between: float) -> float:
     """Effective sample size from each chain's autocovariances at every lag and the variance of the chains' means."""
     chains, n = lagged.shape
     within = lagged[:, 0].mean() * n / (n - 1)
     total = within * (n - 1) / n + between
     rho = 1.0 - (within - lagged.mean(axis=0)) / total
     rho[0] = 1.0
-    # A chain that alternates may be worth more than its draws, but not without bound.
+    # A chain that alternates may have a size above its number of draws, but not without bound.
     return float(chains * n / max(_time(rho), 1.0 / math.log10(chains * n)))
 
 

@@ -1,6 +1,6 @@
-"""What chains that follow a gradient say of their search: draws by address, their diagnostics, each draw as a sample.
+"""Results of chains that follow a gradient: draws by address, diagnostics, each draw as a sample.
 
-Draws are kept as numbers; a draw becomes a `Sample`, with scene and choices, when it is asked for.
+Draws are kept as numbers; a draw becomes a `Sample`, with scene and choices, when it is read.
 """
 
 from __future__ import annotations
@@ -28,16 +28,16 @@ if TYPE_CHECKING:
 
 Reals = NDArray[np.float64]
 
-#: The share of trajectories without a finite gradient from which on a person is told.
+#: The share of trajectories without a finite gradient above which there is a warning.
 SOME = 0.01
 
 
 class GradientWarning(UserWarning):
-    """Chains that follow a gradient gave draws, but not of all that was asked for."""
+    """Chains that follow a gradient gave draws, but did not move every choice or reach every place."""
 
 
 def say(text: str) -> None:
-    """Warn whoever asked for the draws, at the line of their own code."""
+    """Warn at the line of the user's code that started the search."""
     depth, frame = 1, sys._getframe()
     while frame.f_back is not None and frame.f_globals["__name__"].startswith("niwaki."):
         depth, frame = depth + 1, frame.f_back
@@ -52,7 +52,7 @@ def listed(paths: Sequence[str]) -> str:
 
 
 def kept(paths: Sequence[str], name: str) -> str:
-    """What becomes of discrete choices where all follows the gradient."""
+    """The warning that discrete choices kept their values."""
     many = len(paths) > 1
     return (
         f"{len(paths)} discrete choice{'s' if many else ''} of `{name}` kept the value of each "
@@ -63,7 +63,7 @@ def kept(paths: Sequence[str], name: str) -> str:
 
 
 def refused(count: int, trajectories: int, name: str) -> str:
-    """What being refused for structure is."""
+    """The warning that trajectories were refused for structure."""
     return (
         f"{count} of {trajectories} trajectories of `{name}` after the warm-up were refused for structure: "
         f"the model makes other choices at the points that they reached, and a gradient cannot change the structure"
@@ -71,7 +71,7 @@ def refused(count: int, trajectories: int, name: str) -> str:
 
 
 def diverged(count: int, trajectories: int, name: str, smaller: str) -> str:
-    """What a divergence is, and what helps; `smaller` says how to get a smaller step."""
+    """The warning that trajectories diverged; `smaller` describes how to get a smaller step."""
     return (
         f"{count} of {trajectories} trajectories of `{name}` after the warm-up diverged: the step is too large where "
         f"the density bends sharply, and the draws may miss such places; {smaller}, or reparametrise: instead of "
@@ -80,7 +80,7 @@ def diverged(count: int, trajectories: int, name: str, smaller: str) -> str:
 
 
 def without_slope(count: int, name: str, fault: ModelFault | None) -> str:
-    """Where a gradient was no number; without a fault the coordinates were none either."""
+    """The warning that a gradient was not finite; without a fault, neither were the coordinates."""
     why = (
         f"the first:\n{fault.render()}"
         if fault
@@ -101,7 +101,7 @@ def together(chains: Sequence[Mapping[str, NDArray[Any]]]) -> dict[str, NDArray[
 
 
 class Drawn(Sequence[Sample]):
-    """Draws as samples, those of the first chain first: each is made by a run of the model when it is asked for."""
+    """Draws as samples, those of the first chain first: each is created by a run of the model when it is read."""
 
     def __init__(self, info: HmcInfo, seconds: tuple[float, float]) -> None:
         self._info, self._seconds = info, seconds
@@ -128,19 +128,19 @@ class Drawn(Sequence[Sample]):
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class HmcInfo(Info):
-    """Of `hmc`, `nuts` and `explore`: the draws as numbers, and what became of the trajectories.
+    """Of `hmc`, `nuts` and `explore`: the draws as numbers, and statistics of the trajectories.
 
     Chains that were stopped may have different lengths; arrays (chains, draws) then hold as many draws as the shortest.
 
     Attributes
     ----------
     search, seed
-        What was asked of the chains.
+        The search, and the seed of the chains.
     log_density : array of shape (chains, draws)
         Over the coordinates in which the chains move, Jacobians included, nats.
     stats : dict of str to array
         Of each draw, (chains, draws): `energy` (nats), `acceptance_rate`, `n_steps`, `tree_depth`, and
-        whether a trajectory on the way to it was refused for structure (`refused_for_structure`) or broke off for
+        whether a trajectory since the draw before was refused for structure (`refused_for_structure`) or broke off for
         another reason (`diverging`).
     step_size : array of shape (chains,)
         The step sizes that the warm-up ended with.
@@ -152,7 +152,7 @@ class HmcInfo(Info):
     fixed : list of dict
         The choices that each chain held fixed, by address.
     fault : ModelFault or None
-        With its line: what the first trajectory met that came to a point without a finite gradient.
+        The fault, with its line, of the first trajectory that reached a point without a finite gradient.
     sizes : tuple of int
         How many draws each chain has.
     """
@@ -167,11 +167,11 @@ class HmcInfo(Info):
     gradients: int
     fixed: list[dict[str, Any]]
     fault: ModelFault | None
-    _found: _engine.Trajectories | None
+    _trajectories: _engine.Trajectories | None
 
     @classmethod
     def of(cls, search: Search, seed: int, found: _engine.Trajectories) -> HmcInfo:
-        """What chains on the engine found."""
+        """The results of chains on the engine."""
         chains = range(found.chains)
         draws = [found.draws(chain) for chain in chains]
         counts = [found.counters(chain) for chain in chains]
@@ -190,19 +190,19 @@ class HmcInfo(Info):
             gradients=sum(count["gradients"] for count in counts),
             fixed=[{choice.path: choice.value for choice in found.fixed(chain)} for chain in chains],
             fault=as_fault(first, search.model.name, f"seed={seed}"),
-            _found=found,
+            _trajectories=found,
         )
 
     def __getstate__(self) -> dict[str, Any]:
         """All numbers of the draws, without the engine."""
         for name in ("values", "positions", "_scores"):
             getattr(self, name)
-        return {**self.__dict__, "_found": None}
+        return {**self.__dict__, "_trajectories": None}
 
     def _of_each(self, look: Callable[[_engine.Trajectories, int], Any]) -> list[Any]:
-        """What the engine has of each chain; what a pickled record needs was looked at before."""
-        assert self._found is not None
-        return [look(self._found, chain) for chain in range(len(self.sizes))]
+        """The engine's results of each chain; pickling reads what it needs before."""
+        assert self._trajectories is not None
+        return [look(self._trajectories, chain) for chain in range(len(self.sizes))]
 
     @cached_property
     def values(self) -> list[dict[str, Reals]]:
@@ -233,7 +233,7 @@ class HmcInfo(Info):
 
     @cached_property
     def _scores(self) -> list[tuple[Reals, Reals]]:
-        """Log prior and log score of each chain's draws: each draw is run for them, when they are first asked for."""
+        """Log prior and log score of each chain's draws: each draw is run for them, when they are first read."""
         with translated(self.search.model.name, f"seed={self.seed}"):
             return self._of_each(lambda found, chain: found.scores(chain))
 
@@ -263,7 +263,7 @@ class HmcInfo(Info):
         return {**self.stats, "lp": self.log_density, "step_size": step}
 
     def warn(self, method: Hmc | Nuts) -> None:
-        """Say what a person must know before using the draws: what was held fixed, what broke off."""
+        """Warn about what affects the use of the draws: fixed choices, and trajectories that broke off."""
         name, broke = self.search.model.name, self.divergences
         held = sorted({path for fixed in self.fixed for path in fixed})
         if held:
@@ -284,6 +284,6 @@ class HmcInfo(Info):
                 else f"take a smaller `step_size` than {method.step_size:g}"
             )
             say(diverged(broke.energy, trajectories, name, smaller))
-        # A few trajectories that overshoot into overflow are of no consequence: they are rejected.
+        # A few trajectories that overshoot into overflow are harmless: they are rejected.
         if broke.not_finite > SOME * trajectories:
             say(without_slope(broke.not_finite, name, self.fault))

@@ -1,4 +1,4 @@
-"""What each method says of its search, beside the samples: a record for each kind of method."""
+"""Statistics of a search, beside its samples: one class for each kind of method."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ class Count(NamedTuple):
 
 @dataclass(frozen=True)
 class Info:
-    """What every method says.
+    """Statistics that every method has.
 
     Attributes
     ----------
@@ -91,7 +91,7 @@ class PopulationInfo(Info):
     moved_ended: Count = Count()  # noqa: RUF009
 
     def __post_init__(self) -> None:
-        """Name what the engine counts."""
+        """Name the counts of the engine."""
         for name in ("moved_running", "moved_ended"):
             object.__setattr__(self, name, Count(*getattr(self, name)))
 
@@ -107,7 +107,7 @@ class SweepInfo(Info):
     moves : int
         How often it did: ancestors that were another particle; proposals accepted.
     renewed : tuple of float
-        The share of choices that each sweep made new, from the first that found a possible run.
+        The share of choices that each sweep changed, from the first that found a possible run.
     died : int
         Populations in which every particle became impossible; their estimate is zero, and counts.
     """
@@ -118,7 +118,7 @@ class SweepInfo(Info):
     died: int = 0
 
 
-#: The record of each method, by its name.
+#: The class of each method, by its name.
 INFOS: dict[str, type[Info]] = {
     "enumerate_all": EnumerationInfo,
     "rejection": RejectionInfo,

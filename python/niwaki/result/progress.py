@@ -1,4 +1,4 @@
-"""How far a search is: what a person's `progress` is given now and then, and what the engine calls for it."""
+"""How far a search is: what the user's `progress` function receives, and the function that the engine calls."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ EngineWatch = Callable[[int, int, float], None]
 
 
 def watcher(progress: Watch | None, number: int = 0, runs: int = 1) -> EngineWatch:
-    """What the engine calls, for a person's `progress`."""
+    """The function that the engine calls, around the user's `progress`."""
 
     def watch(done: int, ended: int, best: float) -> None:
         if progress is not None:

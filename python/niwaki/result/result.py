@@ -1,4 +1,4 @@
-"""What a search gives back: samples, each with its scene, choices and scores, and the numbers of the whole."""
+"""The result of a search: samples, each with its scene, choices and scores, and the numbers of the whole."""
 
 from __future__ import annotations
 
@@ -37,15 +37,15 @@ if TYPE_CHECKING:
 
 
 class Result(Sequence[Sample]):
-    """What a search found; a sequence of its samples.
+    """The result of a search; a sequence of its samples.
 
-    What the method says of its search beside the samples is its `info`, and can be read of the result itself: after
-    `mh(...)` there are `result.acceptance` and `result.bests`, after `nuts(...)` `result.step_size`.
+    The method's statistics are its `info`, and are also attributes of the result itself: after `mh(...)` there are
+    `result.acceptance` and `result.bests`, after `nuts(...)` `result.step_size`.
 
     Attributes
     ----------
     search : Search
-        What was asked.
+        The search.
     method : Method
         How it was searched: the method of the search, or that of its polishing.
     samples : sequence of Sample
@@ -55,7 +55,7 @@ class Result(Sequence[Sample]):
     seed : int
         Of the (first) search.
     info : Info
-        What the method says of its search: see `niwaki.result.info`.
+        The method's statistics: see `niwaki.result.info`.
     interrupted : bool
         Whether it was stopped before its end.
     seconds, cpu_seconds : float
@@ -89,7 +89,7 @@ class Result(Sequence[Sample]):
         self.seconds, self.cpu_seconds = seconds
 
     def __getattr__(self, name: str) -> Any:
-        """What `info` has; only asked for where the result itself has no such attribute."""
+        """An attribute of `info`, where the result itself has none of this name."""
         if name == "info" or name.startswith("_"):
             raise AttributeError(name)
         try:
@@ -276,7 +276,7 @@ class Result(Sequence[Sample]):
     def weights(self) -> NDArray[np.float64]:
         """The samples' weights, (n,), summing to one; an error where every sample is impossible.
 
-        Particles of several runs have none: a weight says what a particle is beside those of its own population.
+        Particles of several runs have none: a weight compares a particle with those of its own population only.
         """
         if self.search.runs > 1 and self.search.method.NAME == "smc":
             raise InputError("weights-of-runs", runs=self.search.runs)
@@ -293,13 +293,13 @@ class Result(Sequence[Sample]):
     def distribution(self) -> dict[Any, float]:
         """The probability of each value: exact for enumeration, weighted shares of the samples else.
 
-        Values that cannot be keys of a dict stand under their `repr`.
+        Values that cannot be keys of a dict are replaced by their `repr`.
         """
         if isinstance(self.info, EnumerationInfo):
             total = self.log_evidence or 0.0
             rows = [(value, math.exp(log - total)) for value, log in self.info.table]
         else:
-            # A run that is impossible stopped on its way and has no value.
+            # An impossible run stopped before its end and has no value.
             rows = [(s.value, float(w)) for s, w in zip(self.samples, self.weights, strict=True) if w > 0.0]
         found: dict[Any, float] = {}
         for value, share in rows:
@@ -327,7 +327,7 @@ class Result(Sequence[Sample]):
         return self.best._repr_png_() if self.samples else None
 
     def _outside(self) -> list[str]:
-        """What is said of runs in which a distribution was invalid."""
+        """The part of the summary about runs in which a distribution was invalid."""
         return [f"{sum(self.invalid.values())} invalid"] if self.invalid else []
 
     def __repr__(self) -> str:

@@ -40,7 +40,7 @@ class Sample:
     cause : str or None
         What made the run impossible.
     search : Search
-        What was asked.
+        The search.
     seed : int or None
         Of the run of that search.
     seconds, cpu_seconds : float
@@ -177,7 +177,7 @@ class Sample:
 
 
 def _restored(search: Search, data: str, *rest: Any) -> Sample:
-    """The sample of its pickled data: what the model returned comes from running it once more, when it is asked for."""
+    """The sample of its pickled data; the returned value comes from another run, when it is read."""
     sample = Sample(search.task.run_of_data(data), search, *rest)
     sample._is_restored = True
     return sample
@@ -196,6 +196,6 @@ def log_density(sample: Sample) -> LogDensity:
     InputError
         The scene is scored by a sketch, which has no gradient, or there are no continuous choices.
     ModelFault
-        An operation on the way to the score has no derivative, or the run is impossible; with the line.
+        An operation that the score depends on has no derivative, or the run is impossible; with the line.
     """
     return sample.log_density()

@@ -1,10 +1,10 @@
-"""Searching: what is asked of a model as a value, and how it is carried out on the engine.
+"""Searches as values, and how the engine runs them.
 
-asking      `run` and `grow`, which make a search and run it
-request     `Search`: all that decides what is found, as JSON, with a hash
+entry       `run` and `grow`, which create a search and run it
+request     `Search`: all that decides a result, as JSON, with a hash
 data        values as plain data, and back
-checks      what is refused before a search starts
-searching   carrying a search out: run by run, each by its method
+checks      checks before a search starts
+searching   running a search: run by run, each by its method
 """
 
 import lazy_loader

@@ -1,8 +1,8 @@
-"""Values as plain data, and back: what a search is written down with, in JSON that another process can read.
+"""Values as plain data, and back: the JSON form of a search, which another process can read.
 
-Numbers, texts, truth values and None stand for themselves; everything else is a dict with one key that names its kind.
-No reader of data imports a module or runs a stored program: a host function is found again only in modules that
-whoever reads was told to trust.
+Numbers, texts, truth values and None are written as they are; everything else is a dict with one key that names its
+kind. Reading imports no module and runs no stored program: a host function is looked up only in modules that the caller
+declares trusted.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ class Writer:
     ----------
     files : str
         How a mesh that was read from a file is written: "named" (the file and the hash of what was read), "inside" (the
-        arrays), or "hashed" (the hash alone: what the hash of a search is made of).
+        arrays), or "hashed" (the hash alone, for the hash of a search).
     """
 
     files: str = "named"
@@ -111,7 +111,7 @@ class Writer:
         return {kind: hashed, "name": value.name, **arrays}
 
     def shape(self, value: _engine.Shape) -> dict[str, Any]:
-        """Write a shape, by what the engine knows of it."""
+        """Write a shape, as the engine describes it."""
         return {"shape": value.data()}
 
 
@@ -127,9 +127,9 @@ _WRITERS: dict[Any, Callable[[Writer, Any], Any]] = {
 
 
 def record_class(kind: type) -> dict[str, Any]:
-    """Write a class of records: its name, its fields, and how it is made."""
-    made = "namedtuple" if is_named_tuple(kind) else "dataclass"
-    return {"name": kind.__name__, "fields": list(record_fields(kind)), "kind": made}
+    """Write a class of records: its name, its fields, and its kind."""
+    form = "namedtuple" if is_named_tuple(kind) else "dataclass"
+    return {"name": kind.__name__, "fields": list(record_fields(kind)), "kind": form}
 
 
 def of_record_class(data: Mapping[str, Any]) -> type:
@@ -141,14 +141,14 @@ def of_record_class(data: Mapping[str, Any]) -> type:
 
 
 def host_reference(function: Any) -> dict[str, str]:
-    """Write a host function: where it is found, and the hash of its source."""
+    """Write a host function: its module and name, and the hash of its source."""
     plain = inspect.unwrap(function.function if isinstance(function, Host) else function)
     name = getattr(plain, "__qualname__", type(plain).__qualname__)
     return {"module": getattr(plain, "__module__", ""), "name": name, "sha256": source_hash(plain)}
 
 
 def source_hash(function: Any) -> str:
-    """SHA-256 of what a function does: its syntax tree without places and comments; its name where that is all."""
+    """SHA-256 of a function: of its syntax tree without places and comments, or of its name if it has no source."""
     try:
         return text_hash(ast.dump(ast.parse(textwrap.dedent(inspect.getsource(function)))))
     except (OSError, TypeError, SyntaxError):
@@ -184,9 +184,9 @@ class Reader:
         return [self(one) for one in data]
 
     def record(self, data: Mapping[str, Any]) -> Any:
-        """Read a record, as one of a class of its own."""
-        made = of_record_class(data["record"])
-        return made(**{name: self(value) for name, value in data["fields"].items()})
+        """Read a record; its class is created for it."""
+        constructor = of_record_class(data["record"])
+        return constructor(**{name: self(value) for name, value in data["fields"].items()})
 
     def mesh(self, kind: type[Target] | type[Receiver], data: Mapping[str, Any]) -> Any:
         """Read a mesh: of its file, or of its arrays.
@@ -236,10 +236,10 @@ def _array(reader: Reader, data: Mapping[str, Any]) -> Any:
 
 
 def _distribution(reader: Reader, data: Mapping[str, Any]) -> Any:
-    made = getattr(distributions, data["dist"], None)
-    if not (isinstance(made, type) and issubclass(made, distributions.Distribution)):
+    constructor = getattr(distributions, data["dist"], None)
+    if not (isinstance(constructor, type) and issubclass(constructor, distributions.Distribution)):
         raise InputError("bad-run-file", path="the data", reason=f"no distribution {data['dist']!r}")
-    return made(*reader.each(data["parameters"]))
+    return constructor(*reader.each(data["parameters"]))
 
 
 _READERS: dict[str, Callable[[Reader, Any], Any]] = {
@@ -262,7 +262,7 @@ _READERS: dict[str, Callable[[Reader, Any], Any]] = {
 
 
 def model_data(model: Model[..., Any], write: Writer) -> dict[str, Any]:
-    """Write a model: its core form, and what travels beside it."""
+    """Write a model: its core form, and its constants."""
     core = model.core()
     return {
         "name": model.name,

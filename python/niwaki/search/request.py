@@ -1,7 +1,7 @@
-"""A search as a value: all that decides what is found, and nothing that does not.
+"""A search as a value: all that decides the result, and nothing else.
 
-`niwaki.grow` and `niwaki.run` make one and run it. It can be written to JSON and read again, sent to
-another process, and its hash says whether two searches are the same.
+`niwaki.grow` and `niwaki.run` create one and run it. It can be written to JSON, read again and sent to another process.
+Two searches are the same if their hashes are equal.
 
 >>> import niwaki as nw
 >>> @nw.model
@@ -37,13 +37,13 @@ from niwaki.search.checks import check_polish, check_seed, check_threads, fresh
 from niwaki.search.data import Reader, Writer, model_data, of_record_class, text_hash
 from niwaki.targets.sketches import Score
 
-#: The version of what a search is written down as.
+#: The version of the JSON form.
 FORMAT = 1
 
-#: What is kept of each run: every sample, or the best alone.
+#: What is kept of each run: every sample, or only the best.
 KEEP = ("all", "best")
 
-#: Places and names of files in core form, and texts, which stay as they are.
+#: Places and names of files in core form; and texts, which are kept.
 _PLACES = re.compile(r'\(file \d+ "(?:[^"\\]|\\.)*"\)|("(?:[^"\\]|\\.)*")| @\d+:\d+-\d+:\d+')
 
 
@@ -61,7 +61,7 @@ class StoredModel(Model[..., Any]):
 
 @dataclass(frozen=True, eq=False)
 class Search:
-    """What is asked of a model, and how it is searched.
+    """A model with its arguments, its score and the method that searches it.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ class Search:
     score
         What its scene should be like.
     method
-        How it is searched, such as `smc(...)`; one run of the prior when left out.
+        The method of the search, such as `smc(...)`; one run of the prior when left out.
     seed
         Decides every random choice, 0 to 2^64 - 1.
     choices
@@ -82,7 +82,7 @@ class Search:
     keep
         "all" samples of the search, or the "best" of each.
     polish
-        How to go on from the best of each run, `mh(...)`.
+        The chains that continue from the best of each run, `mh(...)`.
     max_steps
         Most calls and loop steps of one run.
     max_memory
@@ -102,7 +102,7 @@ class Search:
     max_memory: int = 1 << 30
 
     def __post_init__(self) -> None:
-        """Check what it is made of."""
+        """Check the fields."""
         object.__setattr__(self, "model", as_model(self.model))
         object.__setattr__(self, "args", tuple(self.args))
         check_seed(self.seed)
@@ -138,7 +138,7 @@ class Search:
         threads
             How many to use; all of the machine's when left out. The result does not depend on it.
         progress
-            Called now and then with a `Progress`; what it raises ends the search.
+            Called now and then with a `Progress`; an exception that it raises ends the search.
         """
         return searching.carried_out(self, check_threads(threads), progress)
 
@@ -201,7 +201,7 @@ class Search:
         Raises
         ------
         InputError
-            What is written there is no search, names a mesh that has changed, or calls a function that is not trusted.
+            The text is not a search, names a mesh that has changed, or calls a function that is not trusted.
         """
         read = Reader(tuple(trust))
 
@@ -275,7 +275,7 @@ def engine_hash() -> str:
 
 
 def model_hash(model: Model[..., Any]) -> str:
-    """SHA-256 of what a model does: its core form without places, its constants, the sources of its host functions."""
+    """SHA-256 of a model: its core form without places, its constants, the sources of its host functions."""
     core = model.core()
 
     def kept(found: re.Match[str]) -> str:

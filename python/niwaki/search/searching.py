@@ -1,4 +1,4 @@
-"""Carrying a search out on the engine, timed: one run after the other, each by its method."""
+"""Running a search on the engine, timed: one run after the other, each by its method."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ if TYPE_CHECKING:
 
 
 class SearchWarning(UserWarning):
-    """A search gave a result, but less than was asked for."""
+    """A search gave a result, but fewer samples than its settings require."""
 
 
 def carried_out(search: Search, threads: int | None, progress: Watch | None) -> Result:
-    """Carry a search out, run by run.
+    """Run a search, run by run.
 
     Runs in which every particle became impossible are left out with a warning, and are an error when there is no other.
     """
@@ -53,12 +53,12 @@ def carried_out(search: Search, threads: int | None, progress: Watch | None) -> 
             failed.append(error)
             continue
         except KeyboardInterrupt:
-            # Pressed between two looks of the engine.
+            # Ctrl-C between two checks of the engine.
             if not found:
                 raise
             interrupted = True
             break
-        # Of several runs there is one record, that of the last, and no evidence; none where each has chains of its own.
+        # Several runs share the statistics of the last one, without evidence; runs of chains have none.
         if not isinstance(one.info, MhInfo | HmcInfo):
             info = replace(one.info, log_evidence=None)
         interrupted = one.interrupted
@@ -90,12 +90,12 @@ def carried_out(search: Search, threads: int | None, progress: Watch | None) -> 
 
 
 def starts(method: Method) -> bool:
-    """Whether a method goes on from a run whose choices are given."""
+    """Whether a method starts from a run whose choices are given."""
     return isinstance(method, Mh | Hmc | Nuts | ParticleGibbs)
 
 
 def given(search: Search, seed: int | None = None) -> Result:
-    """The one run whose choices are given; those that are missing are drawn where there is a seed."""
+    """The one run whose choices are given; missing ones are drawn if there is a seed."""
     with translated(search.model.name, choices=search.choices):
         trace = search.task.replay(dict(search.choices or {}), seed)
     return Result(search, [Sample.of_trace(trace, search)], search.seed)
@@ -119,10 +119,10 @@ def once(search: Search, seed: int, threads: int | None, watch: EngineWatch) -> 
     method, functions = _written(search.method)
     counted, clock = search.task.uncounted(), Clock()
     with translated(search.model.name, f"seed={seed}"):
-        runs, interrupted, said = counted.search(
+        runs, interrupted, counters = counted.search(
             method, seed, functions=functions, start=start, threads=threads, watch=watch
         )
-    info = INFOS.get(search.method.NAME, Info)(**said)
+    info = INFOS.get(search.method.NAME, Info)(**counters)
     diverse = getattr(search.method, "diverse", None)
     if diverse is not None and isinstance(info, PopulationInfo):
         runs = _different(runs, diverse, len(info.plan))
@@ -139,7 +139,7 @@ def _written(method: Method) -> tuple[str, list[_engine.Task]]:
 
 
 class Clock:
-    """Wall and processor time since it was made."""
+    """Wall and processor time since its creation."""
 
     def __init__(self) -> None:
         self._wall, self._cpu = time.perf_counter(), time.process_time()
@@ -215,9 +215,8 @@ def trajectories(
 def polished(result: Result, method: Mh, seed: int, threads: int | None, watch: EngineWatch) -> Result:
     """Chains from the best sample of a result; their time is added to that of the search.
 
-    A population is wide and short: it finds where to look, and each of its particles is built once. A chain is narrow
-    and long: each of its proposals changes one thing, and costs only what that touches. So one is good at starting
-    where the other ends.
+    A population compares many runs, each built once. A proposal of a chain changes one choice of one run, and costs
+    only what depends on it. So chains improve the best of a population.
     """
     check_polish(method)
     check_seed(seed)

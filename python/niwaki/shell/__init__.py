@@ -1,19 +1,19 @@
 """The shell's commands, one a file; `main` puts them together.
 
-app.py       the application they hang on, and what they share: arguments, folders, the line that shows progress
-asking.py    what a person asks of a shape, as flags
-searching.py how to search, as flags
-writing.py   which files a result becomes
-grow.py      `niwaki grow`: a search, written to a folder
-replay.py    `niwaki replay`: a result once more, in any format
-sample.py    `niwaki sample`: Markov chains, written to a folder
-explain.py   `niwaki explain`: what each strategy does for one proposal, as a picture
-models.py    `niwaki models`: the gallery
-color.py     `niwaki color`: a drawing in colours that differ
-finding.py   a model by what a person writes
-run_files.py a search and its runs as a file
-demo.py      the gallery, grown into its targets
-check.py     `niwaki check`: what a model is made of, with advice
+app.py        the application, and what the commands share: arguments, folders, the progress line
+controls.py   what the shape should be like, as flags
+settings.py   how to search, as flags
+writing.py    which files a result becomes
+grow.py       `niwaki grow`: a search, written to a folder
+replay.py     `niwaki replay`: a result once more, in any format
+sample.py     `niwaki sample`: Markov chains, written to a folder
+explain.py    `niwaki explain`: what each strategy does for one proposal, as a picture
+models.py     `niwaki models`: the gallery
+color.py      `niwaki color`: a drawing in colours that differ
+references.py a model by its name or its file
+run_files.py  a search and its runs as a file
+demo.py       the gallery, grown into its targets
+check.py      `niwaki check`: what a model is made of, with advice
 """
 
 import lazy_loader

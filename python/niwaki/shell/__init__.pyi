@@ -1,2 +1,2 @@
-from . import finding as finding
+from . import references as references
 from . import run_files as run_files

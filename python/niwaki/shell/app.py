@@ -1,6 +1,6 @@
-"""The application that the commands hang on, and what they share.
+"""The application, and what the commands share.
 
-What a person asked for goes to files and stdout, how it goes to stderr.
+Results go to files and stdout, progress and warnings to stderr.
 """
 
 from __future__ import annotations
@@ -32,8 +32,8 @@ Folder = Annotated[
 ]
 
 
-def made_folder(place: Path) -> Path:
-    """The folder, made where it is not there."""
+def ensure_folder(place: Path) -> Path:
+    """The folder, created if it does not exist."""
     try:
         place.mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -43,7 +43,7 @@ def made_folder(place: Path) -> Path:
 
 @contextmanager
 def progress_line(name: str) -> Iterator[Callable[[result.Progress], None]]:
-    """A line on stderr that tells how far the search is; nothing where stderr is not a terminal."""
+    """A line of progress on stderr; nothing where stderr is not a terminal."""
     console = Console(stderr=True)
     if not console.is_terminal:
         yield lambda _: None

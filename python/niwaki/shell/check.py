@@ -20,24 +20,24 @@ def check(
     bytecode: Annotated[bool, typer.Option("--bytecode", help="Print the bytecode.")] = False,
 ) -> None:
     """Compile MODEL and report its functions and choices, with advice; exit 1 when it does not compile."""
-    found = shell.finding.find(model)
+    found = shell.references.find(model)
     start = time.perf_counter()
     try:
-        made = found.model.core()
+        compiled = found.model.core()
     except ModelError as error:
         print(error, file=sys.stderr)
         raise typer.Exit(1) from None
     lowered = time.perf_counter() - start
     program = found.model.program()
     if core:
-        print(made.text, end="")
+        print(compiled.text, end="")
     if bytecode:
         print(program.disassemble(), end="")
     if core or bytecode:
         return
     own = [row for row in program.functions if "/" not in row[0]]
     print(f"{found.reference}: compiled in {1e3 * (lowered + program.seconds):.1f} ms")
-    print(f"  constants   {len(made.constants)}")
+    print(f"  constants   {len(compiled.constants)}")
     print(f"  functions   {len(own)}")
     width = max(len(name) for name, _, _ in own)
     for name, kind, sites in own:

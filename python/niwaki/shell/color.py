@@ -10,7 +10,7 @@ import typer
 
 from niwaki import color as coloring
 from niwaki import methods, search
-from niwaki.shell.app import Folder, app, made_folder
+from niwaki.shell.app import Folder, app, ensure_folder
 
 
 @app.command()
@@ -48,7 +48,7 @@ def color(
     start = time.perf_counter()
     found = coloring.color(read, asked, count, weight=weight, seed=seed, threads=threads)
     seconds = time.perf_counter() - start
-    folder = made_folder(output or Path("out"))
+    folder = ensure_folder(output or Path("out"))
     written = coloring.files.write(found, folder, size)
     _summary(found, seconds, seed)
     print(f"{len(written)} files in {folder}, sheet.png first of all")

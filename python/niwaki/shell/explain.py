@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from niwaki import draw, search, shell
-from niwaki.shell.app import ModelName, app, made_folder
+from niwaki.shell.app import ModelName, app, ensure_folder
 
 
 @app.command()
@@ -24,15 +24,14 @@ def explain(
     ] = Path("explain.svg"),
 ) -> None:
     """Draw which calls of MODEL each strategy runs, resumes, skips, creates and removes for a proposal."""
-    found = shell.finding.find(model)
-    told = search.explain(found.model, choice, seed=seed)
-    made_folder(output.parent)
-    draw.reuse.draw(told, output)
-    total = len(told["activations"])
-    print(
-        f"{told['path']}: {draw.reuse.said(told['old'])} becomes {draw.reuse.said(told['new'])}; {total} calls"
-    )
+    found = shell.references.find(model)
+    explained = search.explain(found.model, choice, seed=seed)
+    ensure_folder(output.parent)
+    draw.reuse.draw(explained, output)
+    total = len(explained["activations"])
+    old, new = (draw.reuse.value_text(explained[key]) for key in ("old", "new"))
+    print(f"{explained['path']}: {old} becomes {new}; {total} calls")
     print(f"{'':<8}" + "".join(f"{word:>20}" for word in draw.reuse.WORDS.values()))
-    for name, (steps, _) in told["runs"].items():
+    for name, (steps, _) in explained["runs"].items():
         print(f"{name:<8}" + "".join(f"{n:>20}" for n in draw.reuse.counts(steps, total).values()))
     print(output)

@@ -12,8 +12,8 @@ import typer
 import niwaki as nw
 from niwaki import draw, gallery, shell, targets
 from niwaki import result as results
-from niwaki.shell import asking, settings, writing
-from niwaki.shell.app import Folder, ModelName, app, made_folder, progress_line
+from niwaki.shell import controls, settings, writing
+from niwaki.shell.app import Folder, ModelName, app, ensure_folder, progress_line
 
 
 @app.command()
@@ -22,19 +22,19 @@ from niwaki.shell.app import Folder, ModelName, app, made_folder, progress_line
 )
 def grow(
     model: ModelName,
-    target: asking.TargetFile = None,
-    avoid: asking.AvoidFiles = None,
-    floor: asking.Floor = None,
-    within: asking.Within = None,
-    match_image: asking.ImageFile = None,
-    match_shadow: asking.ShadowFile = None,
-    camera: asking.CameraFile = None,
-    weight_image: asking.WeightFile = None,
-    weight: asking.Weight = None,
-    light: asking.Light = None,
-    receiver: asking.ReceiverFile = None,
-    voxel: asking.Voxel = None,
-    sigma: asking.Sigma = 0.02,
+    target: controls.TargetFile = None,
+    avoid: controls.AvoidFiles = None,
+    floor: controls.Floor = None,
+    within: controls.Within = None,
+    match_image: controls.ImageFile = None,
+    match_shadow: controls.ShadowFile = None,
+    camera: controls.CameraFile = None,
+    weight_image: controls.WeightFile = None,
+    weight: controls.Weight = None,
+    light: controls.Light = None,
+    receiver: controls.ReceiverFile = None,
+    voxel: controls.Voxel = None,
+    sigma: controls.Sigma = 0.02,
     rule: Annotated[str, typer.Option(help="Which parts count as intersecting: solid or surface.")] = "solid",
     method: settings.MethodName = "smc",
     polish: settings.Polish = None,
@@ -63,7 +63,7 @@ def grow(
     **given: Any,
 ) -> None:
     """Grow MODEL into its target; writes best.glb, best.png, sheet.png and run.json."""
-    asked = asking.Asked(
+    chosen = controls.Controls(
         target,
         tuple(avoid or ()),
         floor,
@@ -77,10 +77,10 @@ def grow(
         receiver,
     )
     onward = settings.polish(polish, polish_kernel)
-    files = writing.Files.asked(formats, scale, fuse, frames, size)
-    found = shell.finding.find(model)
-    aim = asked.aim(found)
-    controls = asked.controls(voxel, sigma)
+    files = writing.Files.of_flags(formats, scale, fuse, frames, size)
+    found = shell.references.find(model)
+    aim = chosen.aim(found)
+    score = chosen.score(voxel, sigma)
     if voxel is None and target is None and aim is not None and found.entry is not None:
         voxel = found.entry.voxel
     usual = found.entry.particles if found.entry is not None else gallery.PARTICLES
@@ -88,7 +88,7 @@ def grow(
         result = nw.grow(
             found.model,
             aim,
-            score=controls,
+            score=score,
             method=settings.method(method, given, usual),
             polish=onward,
             seed=seed,
@@ -113,12 +113,12 @@ def grow(
 def _write(
     output: Path,
     result: nw.Result,
-    found: shell.finding.Found,
+    found: shell.references.ModelReference,
     files: writing.Files,
     picture: bool,
 ) -> None:
-    """The record first: whatever fails after it can be made again from there."""
-    folder = made_folder(output)
+    """Write run.json first: the other files can be created again from it."""
+    folder = ensure_folder(output)
     shell.run_files.save(folder / "run.json", shell.run_files.written(result, found))
     best: nw.Sample = result.best
     if best.primitives == 0:

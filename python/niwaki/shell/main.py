@@ -1,7 +1,7 @@
 """The command line: every command of `niwaki.shell`, and the exit codes.
 
-Exit codes: 0 done, 1 a model that does not compile (`check`), 2 an error with a message, 130 stopped by Ctrl-C (what
-was found is written first).
+Exit codes: 0 done, 1 a model that does not compile (`check`), 2 an error with a message, 130 stopped by Ctrl-C (after
+results are written).
 """
 
 from __future__ import annotations

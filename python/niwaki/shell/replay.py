@@ -9,7 +9,7 @@ import typer
 
 from niwaki import shell
 from niwaki.shell import writing
-from niwaki.shell.app import Folder, app, made_folder
+from niwaki.shell.app import Folder, app, ensure_folder
 
 
 @app.command()
@@ -27,9 +27,9 @@ def replay(
     picture: Annotated[bool, typer.Option("--picture/--no-picture", help="Draw best.png.")] = True,
 ) -> None:
     """Write the best result of a search again, byte for byte, in any format."""
-    files = writing.Files.asked(formats, scale, fuse, frames, size)
+    files = writing.Files.of_flags(formats, scale, fuse, frames, size)
     sample = shell.run_files.replayed(shell.run_files.load(run), number)
-    folder = made_folder(output or Path("out"))
+    folder = ensure_folder(output or Path("out"))
     for place in files.write(sample, folder):
         print(place)
     if picture and sample.primitives:

@@ -1,6 +1,6 @@
-"""run.json: a search as a file that can be replayed, without this session's memory.
+"""run.json: a search as a file that can be replayed in another session.
 
-It holds the whole search (`Search.data`: the model itself, its arguments, what was asked, the method, the seed) and its
+It holds the whole search (`Search.data`: the model itself, its arguments, the score, the method, the seed) and its
 hash, and for each run its scores, its choices by readable address with their families, and its order choices.
 """
 
@@ -19,14 +19,14 @@ from niwaki.errors.files import write_whole
 from niwaki.lang.compiled import translated
 from niwaki.result import Result, Sample
 from niwaki.search import Search
-from niwaki.shell.finding import Found
+from niwaki.shell.references import ModelReference
 from niwaki.targets.target import TargetWarning
 
 FORMAT = 2
 
 
-def written(result: Result, found: Found) -> dict[str, Any]:
-    """A search and what it found as plain data."""
+def written(result: Result, found: ModelReference) -> dict[str, Any]:
+    """A search and its result as plain data."""
     return {
         "format": FORMAT,
         "niwaki": _engine.__version__,
@@ -41,7 +41,7 @@ def written(result: Result, found: Found) -> dict[str, Any]:
 
 
 def numbers(sample: Sample) -> dict[str, Any]:
-    """The scores of a run, as `--json` prints them; what is not finite becomes null."""
+    """The scores of a run, as `--json` prints them; numbers that are not finite become null."""
     found = {
         "log_score": sample.log_score,
         "log_prior": sample.log_prior,
@@ -83,7 +83,7 @@ def _chosen(value: Any) -> Any:
 
 
 def save(path: str | PathLike[str], data: dict[str, Any]) -> Path:
-    """Write a search, whole or not at all."""
+    """Write a search, completely or not at all."""
     return write_whole(Path(path), (json.dumps(data, indent=1, allow_nan=False) + "\n").encode())
 
 
@@ -131,7 +131,7 @@ def replayed(data: dict[str, Any], number: int | None = None) -> Sample:
 
 
 def _searched(data: dict[str, Any]) -> Search:
-    """The search; without what was asked of the scene where a mesh of that is missing or has changed."""
+    """The search; without its score where a mesh of the score is missing or has changed."""
     try:
         return Search.of_data(data)
     except InputError as error:

@@ -20,7 +20,7 @@ from niwaki import draw, kernels, shell
 from niwaki.errors.files import write_whole
 from niwaki.methods import Mh
 from niwaki.shell import settings
-from niwaki.shell.app import Folder, ModelName, app, made_folder
+from niwaki.shell.app import Folder, ModelName, app, ensure_folder
 
 
 @app.command()
@@ -49,7 +49,7 @@ def sample(
     **given: Any,
 ) -> None:
     """Sample MODEL by Markov chains; writes samples.csv and run.json, and best.glb, best.png, sheet.png for scenes."""
-    found = shell.finding.find(model)
+    found = shell.references.find(model)
     score = nw.Score()
     if target is not None:
         score = nw.no_self_intersection() * nw.match_volume(nw.Target.find(target), voxel, sigma)
@@ -70,8 +70,8 @@ def sample(
         raise typer.Exit(130)
 
 
-def _write(output: Path, result: nw.Result, found: shell.finding.Found, picture: bool) -> None:
-    folder = made_folder(output)
+def _write(output: Path, result: nw.Result, found: shell.references.ModelReference, picture: bool) -> None:
+    folder = ensure_folder(output)
     # The best of each chain is what can be replayed.
     bests = nw.Result(result.search, result.bests, result.seed, interrupted=result.interrupted)
     shell.run_files.save(folder / "run.json", shell.run_files.written(bests, found))
@@ -113,7 +113,7 @@ def _summary(result: nw.Result, folder: Path) -> None:
 
 @contextmanager
 def _shown(name: str, proposals: int) -> Iterator[Callable[[nw.Progress], None]]:
-    """A line on stderr that tells how far the chains are; nothing where stderr is not a terminal."""
+    """A line of progress on stderr; nothing where stderr is not a terminal."""
     console = Console(stderr=True)
     if not console.is_terminal:
         yield lambda _: None

@@ -1,6 +1,6 @@
-"""The settings of methods as flags, read from the methods' classes: their fields, and what is said of them.
+"""The settings of methods as flags, read from the methods' classes: their fields and docstrings.
 
-A setting that the chosen method does not have is refused, not forgotten.
+A setting that the chosen method does not have is an error.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ def with_settings(
 ) -> Callable[[Callable[..., None]], Callable[..., None]]:
     """Give a command an option for each setting of these methods, in place of its `**settings`.
 
-    What was not typed is None. `usual` says what the command takes then, where that is not the method's default.
+    A flag that was not given is None. `usual` has the command's own defaults, where they differ from the method's.
     """
 
     def decorated(command: Callable[..., None]) -> Callable[..., None]:
@@ -75,8 +75,8 @@ def _names(methods: tuple[type[Method], ...]) -> list[str]:
     return [name for name in dict.fromkeys(names) if name not in _FUNCTIONS]
 
 
-def _option(name: str, methods: tuple[type[Method], ...], said: str | None) -> inspect.Parameter:
-    """The option of one setting; `said` is its default in words."""
+def _option(name: str, methods: tuple[type[Method], ...], shown: str | None) -> inspect.Parameter:
+    """The option of one setting; `shown` is the default in its help text."""
     owners = [method for method in methods if name in {field.name for field in fields(method)}]
     kind = get_type_hints(owners[0])[name]
     plain = [one for one in _PLAIN if kind in (one, one | None)]
@@ -87,7 +87,7 @@ def _option(name: str, methods: tuple[type[Method], ...], said: str | None) -> i
         else f"{', '.join(method.NAME.replace('_', '-') for method in owners)}: "
     )
     default = {field.name: field.default for field in fields(owners[0])}[name]
-    shown = said or ("" if default is None or typed is bool else str(default))
+    shown = shown or ("" if default is None or typed is bool else str(default))
     usual = f" Default: {shown}." if shown else ""
     flag = f"--{name.replace('_', '-')}"
     names = [f"{flag}/--no-{name.replace('_', '-')}"] if typed is bool else [*_short(name), flag]
@@ -101,7 +101,7 @@ def _short(name: str) -> list[str]:
 
 
 def described(method: type[Method]) -> dict[str, str]:
-    """The first sentence of what a method's docstring says of each setting."""
+    """The first sentence of each setting in a method's docstring."""
     found: dict[str, str] = {}
     body = inspect.cleandoc(method.__doc__ or "").partition("Parameters\n----------\n")[2]
     for names, text in re.findall(r"^(\w[\w, ]*)\n((?:    .*\n?|\n)+)", body + "\n", re.MULTILINE):
@@ -109,22 +109,22 @@ def described(method: type[Method]) -> dict[str, str]:
         found |= {name.strip(): sentence.rstrip(".;:") + "." for name in names.split(",")}
     if method is not Smc:
         found |= {
-            name: said
-            for name, said in described(Smc).items()
+            name: text
+            for name, text in described(Smc).items()
             if found.get(name, "As for").startswith("As for")
         }
     return found
 
 
 def method(name: str, given: dict[str, Any], usual: int) -> Method:
-    """The method that was typed.
+    """The method with the given settings.
 
     Parameters
     ----------
     name
         One of `METHODS`.
     given
-        Its settings; None for those that were not typed.
+        Its settings; None for those that were not given.
     usual
         The number of particles that suits the model.
     """
@@ -137,25 +137,25 @@ def method(name: str, given: dict[str, Any], usual: int) -> Method:
             expected=f"one of {', '.join(METHODS)}",
             suggestion="smc",
         )
-    said = typed(given)
-    for key in said:
+    options = typed(given)
+    for key in options:
         if key not in {field.name for field in fields(chosen)}:
             owners = [own for own, kind in METHODS.items() if key in {field.name for field in fields(kind)}]
             other = " or ".join(f"`--method {own}`" for own in owners)
             reason = f"`--method {name}` has no such setting"
             raise InputError("flag-alone", flag=f"--{key}", other=other, reason=reason)
-    if "seconds" in said:
+    if "seconds" in options:
         for key, flag in (("particles", "-n"), ("populations", "--populations")):
-            if key in said:
+            if key in options:
                 raise InputError(
                     "flags-exclude",
                     flag="--seconds",
                     other=flag,
                     reason="the given time decides the numbers of particles and populations",
-                    cure=f"give only one of them; run.json contains the numbers for {said['seconds']:g} s",
+                    cure=f"give only one of them; run.json contains the numbers for {options['seconds']:g} s",
                 )
-    said = {"particles": usual, **said}
-    return search.sharpened(said) if chosen is Smc else chosen(**{"power": 16.0, **said})
+    options = {"particles": usual, **options}
+    return search.sharpened(options) if chosen is Smc else chosen(**{"power": 16.0, **options})
 
 
 def typed(given: dict[str, Any]) -> dict[str, Any]:
@@ -164,7 +164,7 @@ def typed(given: dict[str, Any]) -> dict[str, Any]:
 
 
 def polish(steps: int | None, kernel: str | None) -> Mh | None:
-    """The chain that goes on from the best, if there is to be one."""
+    """The chain that continues from the best, or None."""
     if steps is None:
         if kernel is None:
             return None

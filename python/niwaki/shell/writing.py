@@ -1,7 +1,7 @@
 """Which files a result becomes: `--format glb,stl,gif`, and the settings of each kind.
 
 The names are `best.` and the format; a moving picture is `growth.gif` or `growth.apng`. All settings are checked before
-the search, so that no search is lost to a slip of the hand.
+the search starts.
 """
 
 from __future__ import annotations
@@ -47,10 +47,10 @@ class Files:
     size: tuple[int, int] | None = None
 
     @classmethod
-    def asked(
+    def of_flags(
         cls, formats: str, scale: float | None, fuse: float | None, frames: int | None, size: str | None
     ) -> Files:
-        """The files that were typed; a setting for a format that is not among them is an error."""
+        """The files that the flags select; a setting of any other format is an error."""
         chosen = tuple(dict.fromkeys(part.strip().lower().lstrip(".") for part in formats.split(",")))
         unknown = [name for name in chosen if name not in FORMATS]
         if unknown or not chosen:

@@ -2,10 +2,9 @@
 
 Models: `stack`, `lean`, `top_heavy`, `every_step`; `platforms`; `arch`, `symmetric_arch`, `tri_arch`,
 `symmetric_tri_arch`, `wheel`; of pieces to cut, `cut_stack`, `cut_lean`, `cut_top_heavy`, `cut_arch`, `tilt_stack`,
-`tilt_arch`. All their choices are continuous. `start` finds where a chain may begin, `polished` moves
-a draw to where it balances more exactly. A sample becomes a `Structure`,
-which `balanced` and `simulated` judge and `cut_sheet` lays out on a board. What needs a library of the extra `stacks`
-imports it when it is used.
+`tilt_arch`. All their choices are continuous. `start` finds the start of a chain, `polished` makes the
+balance of a draw more exact. A sample becomes a `Structure`, which `balanced` and `simulated` judge and `cut_sheet`
+lays out on a board. Libraries of the extra `stacks` are imported when they are used.
 """
 
 from niwaki.stacks.arches import arch, symmetric_arch, symmetric_tri_arch, tri_arch, wheel

@@ -31,12 +31,12 @@ from niwaki.stacks.contacts import (
     DOWN,
     GROUND,
     SAFETY,
-    Made,
-    asking,
+    StackValue,
     balance,
     contact,
     corners,
     positive_volume,
+    tolerance_of,
 )
 from niwaki.stacks.towers import OAK, PAINTS, UP, slope
 
@@ -158,10 +158,10 @@ def arch(width=0.01, blocks=11, friction="cone", safety=SAFETY):
     """One arch: 209 continuous choices with eleven blocks."""
     pieces = curve((ground_at(0.2), 0.3 * UP, ground_at(0.8), 0.3 * UP), blocks)
     touches = tuple(links(0, blocks, pieces) + feet(0, blocks, pieces))
-    balance(pieces, touches, OAK, asking(width, friction, safety), DOWN)
+    balance(pieces, touches, OAK, tolerance_of(width, friction, safety), DOWN)
     clear(pieces, touches, GROUND_TOP)
     show(pieces)
-    return Made(tuple(pieces), touches, OAK, (DOWN,), (blocks,))
+    return StackValue(tuple(pieces), touches, OAK, (DOWN,), (blocks,))
 
 
 @model
@@ -172,7 +172,7 @@ def symmetric_arch(width=0.01, blocks=11, friction="cone", safety=SAFETY, apart=
     return made
 
 
-def three(starts, asked):
+def three(starts, tolerance):
     """Two arches on the ground and a third on their keystones."""
     a, b, c, d = starts
     left = curve((a, 0.3 * UP, b, 0.3 * UP), 9)
@@ -192,17 +192,18 @@ def three(starts, asked):
             contact(28, corners(pieces[28], TOP), 13, corners(pieces[13], BACK)),
         ]
     )
-    balance(pieces, touches, OAK, asked, DOWN)
+    balance(pieces, touches, OAK, tolerance, DOWN)
     clear(pieces, touches, GROUND_TOP)
     show(pieces)
-    return Made(tuple(pieces), touches, OAK, (DOWN,), (29,))
+    return StackValue(tuple(pieces), touches, OAK, (DOWN,), (29,))
 
 
 @model
 def tri_arch(width=0.01, friction="cone", safety=SAFETY):
     """Two arches that carry a third: 555 continuous choices."""
     return three(
-        (ground_at(0.05), ground_at(0.25), ground_at(0.6), ground_at(0.9)), asking(width, friction, safety)
+        (ground_at(0.05), ground_at(0.25), ground_at(0.6), ground_at(0.9)),
+        tolerance_of(width, friction, safety),
     )
 
 
@@ -212,7 +213,7 @@ def symmetric_tri_arch(width=0.01, friction="cone", safety=SAFETY, apart=0.002):
     pull = 1.0 / 3.0
     made = three(
         (ground_at(0.18, pull), ground_at(0.43, pull), ground_at(0.57, pull), ground_at(0.82, pull)),
-        asking(width, friction, safety),
+        tolerance_of(width, friction, safety),
     )
     mirrored(made.blocks[:9], made.blocks[9:18], apart)
     mirrored(made.blocks[18:], made.blocks[18:], apart)
@@ -250,7 +251,7 @@ def wheel(width=0.01, friction="cone", safety=SAFETY):
             contact(28, corners(pieces[28], TOP), 17, corners(pieces[17], FRONT)),
         ]
     )
-    balance(pieces, touches, OAK, asking(width, friction, safety), DOWN)
+    balance(pieces, touches, OAK, tolerance_of(width, friction, safety), DOWN)
     clear(pieces, touches, GROUND_TOP)
     show(pieces)
-    return Made(tuple(pieces), touches, OAK, (DOWN,), (29,))
+    return StackValue(tuple(pieces), touches, OAK, (DOWN,), (29,))

@@ -1,9 +1,9 @@
 """Blocks of some thickness that keep clear of one another (not in the dissertation).
 
-Equilibrium looks at blocks one by one: it does not see that two of them share room, nor that a corner has been sheared
-through the face opposite to it. Here each block is asked to be thick between every two opposite faces, which keeps it
+Equilibrium looks at blocks one by one: it does not exclude that two of them overlap, nor that a corner is sheared
+through the face opposite to it. Here each block must be thick between every two opposite faces, which keeps it
 convex, and bodies that touch the same third one, but not each other, to leave a gap. Both are flat where they hold and
-fall like a normal density where they do not, so that a chain feels them only near. Metres.
+fall like a normal density where they do not, so that a chain is affected only near. Metres.
 """
 
 from __future__ import annotations

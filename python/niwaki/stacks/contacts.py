@@ -1,14 +1,14 @@
 """Contacts and equilibrium: latent forces at the corners of each contact, and a soft balance of every block.
 
-Dissertation 4.5 and appendix B.2. A contact's area is where two rectangles overlap; at each of its four corners stands
+Dissertation 4.5 and appendix B.2. A contact's area is where two rectangles overlap; at each of its four corners is
 a force of three latent numbers, twelve for a contact. Forces are in units of the structure's mean weight and torques in
 mean weight times the cube root of the mean volume, so that neither size nor density matters.
 
 Where this is not the original: friction is a true cone (the original's square pyramid is `friction="pyramid"`); the
 centre of mass is exact; a push has an exponential prior of ten mean weights, where the original's is flat in newtons
 and so prefers heavy structures by the power of the number of pushes; a block that is lighter than the mean balances
-within a share of its own weight, since one that stands on the tolerance of heavier ones falls; and latent forces spare
-a share of each contact and of its friction.
+within a share of its own weight, since the tolerance of heavier blocks would let it fall; and latent forces spare a
+share of each contact and of its friction.
 """
 
 from __future__ import annotations
@@ -34,10 +34,10 @@ GROUND = -1
 
 DOWN = vec(0.0, 0.0, -1.0)
 
-#: The share of a contact and of its friction that models spare unless told otherwise.
+#: The share of a contact and of its friction that models spare by default.
 SAFETY = 0.15
 
-#: The share of the mean weight below which a block's balance is asked for no more exactly.
+#: The share of the mean weight below which a block's balance need not be more exact.
 LIGHTEST = 0.01
 
 #: Mean of the prior of a push, mean weights.
@@ -66,7 +66,7 @@ class Contact(NamedTuple):
     across: Any
 
 
-class Asked(NamedTuple):
+class Tolerance(NamedTuple):
     """How exactly blocks should balance.
 
     Attributes
@@ -77,8 +77,8 @@ class Asked(NamedTuple):
     cone : bool
         Friction in Coulomb's cone; otherwise in the original's square pyramid, which is up to 1.4 times too strong.
     safety : float
-        What is spared: latent forces stand inside each contact by this share of the way to its middle, with this share
-        less of friction. 0 is the original; then a draw may balance on an edge, or within the tolerance only.
+        The share that is spared: latent forces are moved towards the middle of each contact by this share, with this
+        share less of friction. 0 is the original; then a draw may balance on an edge, or within the tolerance only.
     """
 
     width: Any
@@ -86,7 +86,7 @@ class Asked(NamedTuple):
     safety: Any
 
 
-class Made(NamedTuple):
+class StackValue(NamedTuple):
     """What a model of stacks returns.
 
     Attributes
@@ -161,33 +161,33 @@ def forces(touch, friction, cone):
 
 
 def force_balance(total, width):
-    """Ask for a net force of nothing, in mean weights."""
+    """Score a net force of zero, in mean weights."""
     factor(softeq(total.x, 0.0, width) + softeq(total.y, 0.0, width) + softeq(total.z, 0.0, width))
 
 
 def torque_balance(total, width):
-    """Ask for a net torque of nothing, in mean weights times the mean size."""
+    """Score a net torque of zero, in mean weights times the mean size."""
     factor(softeq(total.x, 0.0, width) + softeq(total.y, 0.0, width) + softeq(total.z, 0.0, width))
 
 
-def asking(width, friction, safety):
+def tolerance_of(width, friction, safety):
     """Name how exactly blocks should balance; friction is "cone" or "pyramid"."""
     assert friction == "cone" or friction == "pyramid"
-    return Asked(width, friction == "cone", safety)
+    return Tolerance(width, friction == "cone", safety)
 
 
-def balance(blocks, contacts, friction, asked, down=DOWN):
-    """Ask for equilibrium under latent forces: a force and a torque factor for each block.
+def balance(blocks, contacts, friction, tolerance, down=DOWN):
+    """Score equilibrium under latent forces: a force and a torque factor for each block.
 
-    `asked` is the tolerance of the balance, `down` the direction of gravity. Every call has forces of its own. The
-    normal densities are whole, with their widths: a light block is not asked to be heavier.
+    `down` is the direction of gravity. Every call has its own forces. The normal densities include their widths, so
+    they do not make a light block heavier.
     """
-    safety = asked.safety
+    safety = tolerance.safety
     spared = [drawn_in(touch, safety) for touch in contacts]
     solids = [volume_and_centre(block) for block in blocks]
     mean_volume = sum([volume for volume, _ in solids]) / len(solids)
     size = mean_volume ** (1.0 / 3.0)
-    pushes = [forces(touch, (1.0 - safety) * friction, asked.cone) for touch in spared]
+    pushes = [forces(touch, (1.0 - safety) * friction, tolerance.cone) for touch in spared]
     for body in range(len(blocks)):
         volume, centre = solids[body]
         total = (volume / mean_volume) * down
@@ -199,13 +199,13 @@ def balance(blocks, contacts, friction, asked, down=DOWN):
             elif touch.first == body:
                 total = total - added(push)
                 torque = torque - turned(touch.points, push, centre)
-        width = asked.width * max(LIGHTEST, min(1.0, volume / mean_volume))
+        width = tolerance.width * max(LIGHTEST, min(1.0, volume / mean_volume))
         force_balance(total, width)
         torque_balance(torque / size, width)
 
 
 def drawn_in(touch, safety):
-    """A contact whose corners have moved to its middle by a share of the way."""
+    """A contact whose corners are moved towards its middle by a share of the distance."""
     a, b, c, d = touch.points
     middle = 0.25 * (a + b + c + d)
     points = tuple([p + safety * (middle - p) for p in touch.points])

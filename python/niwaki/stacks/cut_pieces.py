@@ -1,7 +1,7 @@
 """Structures of pieces that are cut from a board: every block is a plane outline 38 mm deep (dissertation 4.5, 4.12).
 
-Among them the ones that stand when their ground is tilted by ten degrees either way: each tilt has forces of its own.
-Tilting the bodies and turning gravity the other way are the same. Numbers are the original's. Metres.
+Among them the ones that stand when their ground is tilted by ten degrees in either direction: each tilt has its own
+forces. Tilting the bodies is the same as turning gravity in the opposite direction. Numbers are the original's. Metres.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from niwaki.stacks.blocks import (
     top_shear_x,
 )
 from niwaki.stacks.clearance import clear
-from niwaki.stacks.contacts import DOWN, SAFETY, Made, asking, balance
+from niwaki.stacks.contacts import DOWN, SAFETY, StackValue, balance, tolerance_of
 from niwaki.stacks.towers import (
     FEET,
     GROUND_TOP,
@@ -44,7 +44,7 @@ TILTED = (vec(-sin(TILT), 0.0, -cos(TILT)), vec(sin(TILT), 0.0, -cos(TILT)))
 
 
 def piece(i, tall, wide, turned):
-    """A sheared outline; odd ones turned by a quarter about z where asked for."""
+    """A sheared outline; odd ones turned by a quarter about z if `turned`."""
     height, width = uniform(tall[0], tall[1]), uniform(wide[0], wide[1])
     block = box_corners(vec(0.0, 0.0, 0.0), width, BOARD, height)
     block = shear_x(top_shear_x(block, slope()), slope())
@@ -52,7 +52,7 @@ def piece(i, tall, wide, turned):
 
 
 def pile(count, tall, wide, margin, turned):
-    """Pieces on one another, slid along x only or, where every other one is turned, both ways."""
+    """Pieces on one another, slid along x only or, where every other one is turned, along both axes."""
     return raised([standing(piece(0, tall, wide, turned), FEET, UP)], 1, count, tall, wide, margin, turned)
 
 
@@ -73,27 +73,27 @@ def raised(blocks, i, count, tall, wide, margin, turned):
     return raised(blocks + [block], i + 1, count, tall, wide, margin, turned)
 
 
-def finish(pieces, touches, downs, asked, ground):
+def finish(pieces, touches, downs, tolerance, ground):
     """Balance for each direction of gravity, and emit."""
     for down in downs:
-        balance(pieces, touches, POPLAR, asked, down)
+        balance(pieces, touches, POPLAR, tolerance, down)
     clear(pieces, touches, ground)
     show(pieces)
-    return Made(tuple(pieces), touches, POPLAR, downs, (len(pieces),))
+    return StackValue(tuple(pieces), touches, POPLAR, downs, (len(pieces),))
 
 
 @model
 def cut_stack(width=0.01, friction="cone", safety=SAFETY):
     """A tower of outlines in one plane: 101 continuous choices."""
     pieces = pile(6, (0.04, 0.075), (0.015, 0.075), 0.01, False)
-    return finish(pieces, touching(pieces), (DOWN,), asking(width, friction, safety), GROUND_TOP)
+    return finish(pieces, touching(pieces), (DOWN,), tolerance_of(width, friction, safety), GROUND_TOP)
 
 
 @model
 def cut_lean(width=0.01, friction="cone", safety=SAFETY, astray=0.01):
     """A leaning tower of outlines, every other one turned: 106 continuous choices."""
     pieces = pile(6, (0.03, 0.07), (0.015, 0.07), 0.008, True)
-    made = finish(pieces, touching(pieces), (DOWN,), asking(width, friction, safety), GROUND_TOP)
+    made = finish(pieces, touching(pieces), (DOWN,), tolerance_of(width, friction, safety), GROUND_TOP)
     lean_on(made.blocks, astray)
     return made
 
@@ -102,16 +102,16 @@ def cut_lean(width=0.01, friction="cone", safety=SAFETY, astray=0.01):
 def cut_top_heavy(width=0.01, friction="cone", safety=SAFETY, ratio=1.5):
     """A tower of outlines that grow from the bottom to the top: 106 continuous choices."""
     pieces = pile(6, (0.015, 0.07), (0.015, 0.07), 0.008, True)
-    made = finish(pieces, touching(pieces), (DOWN,), asking(width, friction, safety), GROUND_TOP)
+    made = finish(pieces, touching(pieces), (DOWN,), tolerance_of(width, friction, safety), GROUND_TOP)
     grow_by(made.blocks, ratio)
     return made
 
 
 @model
 def tilt_stack(width=0.01, friction="cone", safety=SAFETY):
-    """A tower that stands on ground tilted by ten degrees either way: 178 continuous choices."""
+    """A tower that stands on ground tilted by ten degrees in either direction: 178 continuous choices."""
     pieces = pile(6, (0.015, 0.07), (0.015, 0.07), 0.008, True)
-    return finish(pieces, touching(pieces), TILTED, asking(width, friction, safety), GROUND_TOP)
+    return finish(pieces, touching(pieces), TILTED, tolerance_of(width, friction, safety), GROUND_TOP)
 
 
 def cut_curve():
@@ -127,19 +127,19 @@ def cut_arch(width=0.01, friction="cone", safety=SAFETY):
         pieces,
         tuple(links(0, 7, pieces) + feet(0, 7, pieces)),
         (DOWN,),
-        asking(width, friction, safety),
+        tolerance_of(width, friction, safety),
         ARCH_GROUND,
     )
 
 
 @model
 def tilt_arch(width=0.01, friction="cone", safety=SAFETY):
-    """An arch of outlines that stands on ground tilted by ten degrees either way: 226 continuous choices."""
+    """An arch of outlines that stands on ground tilted by ten degrees in either direction: 226 continuous choices."""
     pieces = cut_curve()
     return finish(
         pieces,
         tuple(links(0, 7, pieces) + feet(0, 7, pieces)),
         TILTED,
-        asking(width, friction, safety),
+        tolerance_of(width, friction, safety),
         ARCH_GROUND,
     )

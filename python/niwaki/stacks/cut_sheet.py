@@ -1,4 +1,4 @@
-"""Pieces of a structure on boards, to be cut: outlines in millimetres with the kerf made good, numbered, packed.
+"""Pieces of a structure on boards, to be cut: outlines in millimetres with the kerf added, numbered, packed.
 
 Every block must be an outline of one thickness (`cut_pieces`). Each outline grows by half the kerf, which is what the
 saw takes; the rectangles around them are packed by rectpack (MaxRects), turned where that helps.
@@ -330,5 +330,5 @@ def svg_page(width: float, height: float, body: list[str]) -> str:
 
 
 def need(module: str) -> Any:
-    """Import a library of the extra `stacks`, or say how to get it."""
+    """Import a library of the extra `stacks`, or raise an error that names the extra."""
     return optional(module, "laying pieces out on a board", "stacks")

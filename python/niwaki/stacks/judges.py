@@ -1,8 +1,8 @@
-"""Two judges of a structure that share no assumption with the model's soft balance: a program, and a simulation.
+"""Two judges of a structure that share no assumption with the model's soft balance: a linear program, and a simulation.
 
-`balanced` asks a linear program (HiGHS, through SciPy) for contact forces in the friction cone that hold every block
-exactly; it is elastic, so it always answers: with the smallest residual there is. `simulated` hands the blocks to
-MuJoCo, each a rigid body of its own, and waits.
+`balanced` computes by a linear program (HiGHS, through SciPy) contact forces in the friction cone that hold every block
+exactly. The program is elastic: it always has a solution, with the smallest residual. `simulated` hands the blocks to
+MuJoCo, each as a rigid body, and simulates some seconds.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ PUSHES = 8
 
 @dataclass(frozen=True)
 class Balance:
-    """What the program says.
+    """The result of the linear program.
 
     Attributes
     ----------
@@ -38,7 +38,7 @@ class Balance:
     margin : float
         The largest share of its own weight by which every block can be pushed sideways, in the worst of eight
         directions, while balance remains: the tangent of the tilt at which it falls. 0 where there is no balance, NaN
-        where it was not asked for.
+        where it was not computed.
     """
 
     residual: float
@@ -56,7 +56,7 @@ def balanced(structure: Structure, cone: bool = True, margin: bool = True) -> Ba
     Parameters
     ----------
     structure
-        What should stand.
+        The structure that should stand.
     cone
         Friction within Coulomb's cone, a polygon of 32 sides inside it; otherwise the original's pyramid around it.
     margin
@@ -122,7 +122,7 @@ def _residual(rays: Any, weights: Floats, down: Floats) -> float:
     cost = np.zeros(columns + 1)
     cost[-1] = 1.0
     found = _solved(optimize.linprog(cost, A_ub=above, b_ub=np.concatenate([-loads, loads])))
-    # The solver keeps rows to 1e-7 only: say what its forces really leave.
+    # The solver satisfies its constraints to 1e-7 only: compute the residual of its forces.
     return float(np.abs(rays @ np.maximum(found.x[:-1], 0.0) + loads).max())
 
 
@@ -148,7 +148,7 @@ def _solved(found: Any) -> Any:
 
 @dataclass(frozen=True)
 class Simulation:
-    """What the simulation says.
+    """The result of the simulation.
 
     Attributes
     ----------
@@ -173,11 +173,11 @@ def simulated(structure: Structure, seconds: float = 5.0, time_step: float = 0.0
     Parameters
     ----------
     structure
-        What should stand, in every direction of gravity and at every step of construction that it names.
+        The structure that should stand, in every direction of gravity and at every step of construction that it names.
     seconds
         Simulated time of each.
     time_step
-        Seconds. A contact gives way by about gravity times the square of twice this: it says how hard blocks are.
+        Seconds. A contact yields by about gravity times the square of twice this, so it decides how hard blocks are.
 
     Raises
     ------
@@ -245,5 +245,5 @@ def _floor(part: Structure) -> float:
 
 
 def need(module: str) -> Any:
-    """Import a library of the extra `stacks`, or say how to get it."""
+    """Import a library of the extra `stacks`, or raise an error that names the extra."""
     return optional(module, "judging a structure", "stacks")

@@ -23,7 +23,7 @@ from niwaki.stacks.blocks import (
     welded,
 )
 from niwaki.stacks.clearance import clear
-from niwaki.stacks.contacts import DOWN, GROUND, SAFETY, Made, asking, balance, contact, corners
+from niwaki.stacks.contacts import DOWN, GROUND, SAFETY, StackValue, balance, contact, corners, tolerance_of
 from niwaki.stacks.towers import GROUND_TOP, OAK, PAINTS, UP, WIDEST, slope
 
 HALF = 0.65
@@ -139,8 +139,8 @@ def platforms(width=0.01, friction="cone", safety=SAFETY):
         + joined(9, 2, 8, corners(low, TOP), 17, pieces)
         + joined(11, 6, GROUND, FLOOR, 17, pieces)
     )
-    balance(pieces, touches, OAK, asking(width, friction, safety), DOWN)
+    balance(pieces, touches, OAK, tolerance_of(width, friction, safety), DOWN)
     clear(pieces, touches, GROUND_TOP)
     for i in range(len(pieces)):
         drawn(pieces[i], BAR if i == 8 or i == 17 else PAINTS[i % 5])
-    return Made(tuple(pieces), touches, OAK, (DOWN,), (18,))
+    return StackValue(tuple(pieces), touches, OAK, (DOWN,), (18,))

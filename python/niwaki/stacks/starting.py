@@ -18,7 +18,7 @@ from niwaki.search import run
 from niwaki.stacks.judges import need
 from niwaki.stacks.structure import Floats
 
-#: Tolerances on the way, as multiples of the last.
+#: The schedule of tolerances, as multiples of the last.
 WIDER = (300.0, 30.0, 3.0, 1.0)
 
 #: Tolerances of a polish, as multiples of the model's.
@@ -32,7 +32,7 @@ SPREAD = 0.3
 
 STEPS = 800
 
-#: What the search for a start takes for an impossible run, in nats.
+#: The log density that the search for a start uses for an impossible run, in nats.
 WALL = 1e30
 
 
@@ -84,7 +84,7 @@ def polished(
     choices
         Of a draw.
     width
-        The model's tolerance; balance is asked for within a thirtieth of it.
+        The model's tolerance; balance is required within a thirtieth of it.
     arguments
         The model's other arguments.
 

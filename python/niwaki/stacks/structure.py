@@ -1,4 +1,4 @@
-"""A structure as arrays: what judges, files and pictures take, made from what a model of stacks returns."""
+"""A structure as arrays: the input of judges, files and pictures, converted from the value of a model of stacks."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ class Structure:
     prefixes: tuple[int, ...]
 
     @classmethod
-    def of(cls, made: Any) -> Structure:
+    def of(cls, value: Any) -> Structure:
         """Make a structure of a sample of a result, or of what a model of stacks returned.
 
         Raises
@@ -67,8 +67,8 @@ class Structure:
         FileError
             A contact has vanished: its faces no longer overlap.
         """
-        made = getattr(made, "value", made)
-        corners = np.array([[list(point) for point in block] for block in made.blocks], dtype=np.float64)
+        value = getattr(value, "value", value)
+        corners = np.array([[list(point) for point in block] for block in value.blocks], dtype=np.float64)
         touches = tuple(
             Touch(
                 int(touch.first),
@@ -76,14 +76,14 @@ class Structure:
                 _points(touch.points),
                 _points((touch.normal, touch.along, touch.across)),
             )
-            for touch in made.contacts
+            for touch in value.contacts
         )
         found = cls(
             corners,
             touches,
-            float(made.friction),
-            _points(made.downs),
-            tuple(int(count) for count in made.prefixes),
+            float(value.friction),
+            _points(value.downs),
+            tuple(int(count) for count in value.prefixes),
         )
         found.check()
         return found
@@ -146,8 +146,8 @@ class Structure:
 def plain(corners: ArrayLike, touches: Any, friction: float, down: ArrayLike = (0.0, 0.0, -1.0)) -> Structure:
     """Make a structure from arrays: corners (blocks, 8, 3), and for each contact (first, second, points, frame)."""
     blocks = np.asarray(corners, dtype=np.float64)
-    made = tuple(Touch(a, b, np.asarray(p, float), np.asarray(f, float)) for a, b, p, f in touches)
-    found = Structure(blocks, made, friction, np.asarray([down], dtype=np.float64), (len(blocks),))
+    contacts = tuple(Touch(a, b, np.asarray(p, float), np.asarray(f, float)) for a, b, p, f in touches)
+    found = Structure(blocks, contacts, friction, np.asarray([down], dtype=np.float64), (len(blocks),))
     found.check()
     return found
 

@@ -27,7 +27,7 @@ from niwaki.stacks.blocks import (
     volume_and_centre,
 )
 from niwaki.stacks.clearance import clear
-from niwaki.stacks.contacts import DOWN, GROUND, SAFETY, Made, asking, balance, contact, corners
+from niwaki.stacks.contacts import DOWN, GROUND, SAFETY, StackValue, balance, contact, corners, tolerance_of
 
 GROUND_TOP = -0.03
 FLOOR = (
@@ -42,7 +42,7 @@ WIDEST = radians(30.0)
 
 #: Oak, as the original has it, and poplar of which its pieces are cut.
 OAK, POPLAR = 0.5, 0.3
-#: The line that `lean` asks for: 20 degrees from upright.
+#: The line that `lean` scores: 20 degrees from upright.
 LEANING = vec(
     -sin(radians(20.0)) * cos(radians(45.0)), -sin(radians(20.0)) * sin(radians(45.0)), cos(radians(20.0))
 )
@@ -129,10 +129,10 @@ def stack(width=0.005, blocks=6, friction="cone", safety=SAFETY):
     """A tower of random blocks that balances: 118 continuous choices."""
     pieces = pile(blocks, 0.01)
     touches = touching(pieces)
-    balance(pieces, touches, OAK, asking(width, friction, safety), DOWN)
+    balance(pieces, touches, OAK, tolerance_of(width, friction, safety), DOWN)
     clear(pieces, touches, GROUND_TOP)
     show(pieces)
-    return Made(tuple(pieces), touches, OAK, (DOWN,), (blocks,))
+    return StackValue(tuple(pieces), touches, OAK, (DOWN,), (blocks,))
 
 
 @model
@@ -144,7 +144,7 @@ def lean(width=0.005, blocks=6, friction="cone", safety=SAFETY, astray=0.01):
 
 
 def lean_on(blocks, astray):
-    """Ask for centres of mass on the leaning line through the first block's foot."""
+    """Score centres of mass on the leaning line through the first block's foot."""
     foot = middle(blocks[0], BOTTOM)
     for block in blocks:
         _, centre = volume_and_centre(block)
@@ -162,7 +162,7 @@ def top_heavy(width=0.005, blocks=6, friction="cone", safety=SAFETY, ratio=2.0):
 
 
 def grow_by(blocks, ratio):
-    """Ask that volumes grow from block to block."""
+    """Score volumes that grow from block to block."""
     volumes = [volume for volume, _ in [volume_and_centre(block) for block in blocks]]
     for i in range(1, len(volumes)):
         factor(softeq(volumes[i] / volumes[i - 1], ratio, 0.1))
@@ -174,10 +174,10 @@ def every_step(width=0.005, blocks=5, friction="cone", safety=SAFETY):
     pieces = centred([standing(sheared(0), FEET, UP)], 1, blocks)
     touches = touching(pieces)
     for built in range(2, blocks + 1):
-        balance(pieces[:built], touches[:built], OAK, asking(width, friction, safety), DOWN)
+        balance(pieces[:built], touches[:built], OAK, tolerance_of(width, friction, safety), DOWN)
     clear(pieces, touches, GROUND_TOP)
     show(pieces)
-    return Made(tuple(pieces), touches, OAK, (DOWN,), tuple([built for built in range(2, blocks + 1)]))
+    return StackValue(tuple(pieces), touches, OAK, (DOWN,), tuple([built for built in range(2, blocks + 1)]))
 
 
 def centred(blocks, i, count):

@@ -2,8 +2,8 @@
 
 target     meshes: the volume to fill, and surfaces that shadows fall on
 reading    meshes from files
-memory     whether there is memory enough for a mesh
-camera     from where an image is seen
+memory     whether there is enough memory for a mesh
+camera     the camera that sees an image
 images     which pixels of an image should be on
 sketches   scores of a scene, as values that multiply
 views      a scene as the sketch of an image or a shadow sees it, as a picture

@@ -1,4 +1,4 @@
-"""Cameras as values: from where an image to match was seen, written in Python or in a JSON file.
+"""Cameras as values: the view of an image to match, written in Python or in a JSON file.
 
 camera = Camera.perspective((31, 2, 33), look_at=(-3, 5, 0))
 camera = Camera.load("cam.json")      # {"kind": "perspective", "position": [31, 2, 33], "look_at": [-3, 5, 0]}
@@ -19,7 +19,7 @@ from niwaki.errors.files import existing, write_whole
 
 Triple = tuple[float, float, float]
 
-#: What each kind of camera is made of: names of its own, with the value when left out (None: must be given).
+#: The parameters of each kind of camera, with their defaults (None: must be given).
 KINDS: dict[str, dict[str, float | None]] = {
     "perspective": {"fov_degrees": 45.0, "near": 0.1},
     "orthographic": {"height": None},
@@ -35,11 +35,11 @@ class Camera:
     kind
         "perspective" or "orthographic".
     position
-        Where it stands. An orthographic camera sees what is in front of the plane across its view through here.
+        Its position. An orthographic camera sees what is in front of the plane across its view through here.
     look_at
         What is in the middle of the picture.
     up
-        Which way is up in the picture, roughly.
+        The approximate direction of up in the picture.
     fov_degrees
         Perspective: vertical field of view.
     near

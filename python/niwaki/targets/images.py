@@ -1,7 +1,7 @@
 """Images to match: which pixels should be on, and how much each matters.
 
 A pixel is on when its red is above zero, so that the grey edge of a smoothed shape counts as on; pixels that are
-wholly transparent are off. No flip: the image as one sees it is what the camera should see.
+wholly transparent are off. The image is not flipped: the camera should see it as it is.
 """
 
 from __future__ import annotations

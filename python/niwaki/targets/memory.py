@@ -1,4 +1,4 @@
-"""Whether there is memory enough for a mesh, before it is read."""
+"""Whether there is enough memory for a mesh, before it is read."""
 
 from __future__ import annotations
 

@@ -51,7 +51,7 @@ def _read(place: Path, suffix: str) -> tuple[NDArray[np.float64], NDArray[np.int
         loaded = trimesh.load_scene(place, process=False, **options)
         parts = [part for part in loaded.dump() if isinstance(part, trimesh.Trimesh)]
         arrays = [(np.asarray(part.vertices, np.float64), np.asarray(part.faces, np.int64)) for part in parts]
-    except Exception as error:  # readers of other people's formats fail in every way there is
+    except Exception as error:  # readers of meshes raise errors of any type
         reason = " ".join(str(error).split()) or type(error).__name__
         raise FileError("file-unreadable", place, suffix=suffix, reason=reason) from error
     if not any(len(faces) for _, faces in arrays):

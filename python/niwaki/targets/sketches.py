@@ -1,9 +1,9 @@
-"""What a scene should be like: sketches as values that multiply, given by whoever runs a model and not by the model.
+"""What a scene should be like: sketches as values that multiply, chosen when a model is run, and not by the model.
 
     score = no_self_intersection() * match_volume(target, voxel=0.25)
     score = no_self_intersection() * floor(0) * avoid("wall.obj") * match_image("skyline.png", "cam.json")
 
-Log scores add. The order is the order of asking: cheap questions that may forbid a scene come first.
+Log scores add. Sketches are evaluated in order: cheap ones that may forbid a scene come first.
 """
 
 from __future__ import annotations
@@ -32,13 +32,13 @@ if TYPE_CHECKING:
 
 RULES = ("solid", "surface")
 
-#: Cells of a grid whose size nobody gave: as fine as the eye wants, as coarse as the search likes.
+#: The number of cells of a grid without a given size: a compromise of detail and cost.
 CELLS = 65_000
 
 
 @dataclass(frozen=True)
 class View:
-    """An image to match, with what it takes to draw a scene as its sketch sees it.
+    """An image to match, with the view from which its sketch sees a scene.
 
     Attributes
     ----------
@@ -79,8 +79,8 @@ class View:
 
 
 @dataclass(frozen=True)
-class Ask:
-    """One sketch: the function of this module that makes it, what that is given, and what the engine has of it."""
+class SketchCall:
+    """One sketch: the function of this module that creates it, its arguments, and its specification in the engine."""
 
     function: str
     given: Mapping[str, Any]
@@ -93,28 +93,28 @@ class Score:
 
     Attributes
     ----------
-    asks : tuple of Ask
-        The sketches, in the order of asking.
+    asks : tuple of SketchCall
+        The sketches, in the order of evaluation.
     target : Target or None
         What the scene should fill, for pictures.
     views : tuple of View
         Images that the scene or its shadow should match, for pictures.
     """
 
-    asks: tuple[Ask, ...] = ()
+    asks: tuple[SketchCall, ...] = ()
     target: Target | None = None
     views: tuple[View, ...] = ()
 
     @property
     def specs(self) -> list[_engine.SketchSpec]:
-        """What the engine has of the sketches."""
-        return [ask.spec for ask in self.asks]
+        """The sketches' specifications in the engine."""
+        return [sketch.spec for sketch in self.asks]
 
     def data(self, write: Callable[[Any], Any]) -> list[dict[str, Any]]:
         """The sketches as plain data; `write` writes what one is given."""
         return [
-            {"sketch": ask.function, "given": {name: write(value) for name, value in ask.given.items()}}
-            for ask in self.asks
+            {"sketch": sketch.function, "given": {name: write(value) for name, value in sketch.given.items()}}
+            for sketch in self.asks
         ]
 
     @classmethod
@@ -139,7 +139,7 @@ class Score:
         return Score(self.asks + other.asks, target, views)
 
     def __repr__(self) -> str:
-        return " * ".join(ask.spec.name for ask in self.asks) or "no score"
+        return " * ".join(sketch.spec.name for sketch in self.asks) or "no score"
 
 
 def no_self_intersection(rule: str = "solid") -> Score:
@@ -344,7 +344,7 @@ def _score(
     views: tuple[View, ...] = (),
 ) -> Score:
     """A score of one sketch."""
-    return Score((Ask(function, given, spec),), target, views)
+    return Score((SketchCall(function, given, spec),), target, views)
 
 
 def _wish(image: Image, weight_image: Image | None) -> tuple[NDArray[np.bool_], NDArray[np.uint8] | None]:

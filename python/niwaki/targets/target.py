@@ -31,7 +31,7 @@ class TargetWarning(UserWarning):
 
 
 class Mesh:
-    """A triangle mesh with a name; `Target` and `Receiver` say what it is for.
+    """A triangle mesh with a name; `Target` and `Receiver` are its two uses.
 
     Attributes
     ----------
@@ -132,10 +132,10 @@ class Target(Mesh):
     @classmethod
     def find(cls, source: str) -> Target:
         """The target of a `source`: a file, or `gallery:` and the name of an example."""
-        made = targets.examples.TARGETS.get(source.removeprefix("gallery:").replace("-", "_"))
-        if source.startswith("gallery:") and made is not None:
-            found = made()
-            found.source = f"gallery:{made.__name__}"
+        example = targets.examples.TARGETS.get(source.removeprefix("gallery:").replace("-", "_"))
+        if source.startswith("gallery:") and example is not None:
+            found = example()
+            found.source = f"gallery:{example.__name__}"
             return found
         return cls.load(source)
 
@@ -173,7 +173,7 @@ class Receiver(Mesh):
     vertices : (n, 3) float64
         Scene units, finite.
     faces : (m, 3) int64
-        Either way round.
+        In either orientation.
     name
         For messages.
 
@@ -252,7 +252,7 @@ def _welded(
     is_used = np.zeros(len(vertices), dtype=bool)
     is_used[faces.ravel()] = True
     used = np.flatnonzero(is_used)
-    # -0.0 and 0.0 are one place. Sorted by coordinates, equal places follow each other; the sort is stable, so that
+    # -0.0 and 0.0 are equal. Sorted by coordinates, equal places follow each other; the sort is stable, so that
     # the first of them is the one with the lowest number.
     points = vertices[used] + 0.0
     order = np.lexsort(points.T[::-1])
@@ -271,7 +271,7 @@ def _welded(
 
 def _open_edges(faces: NDArray[np.int64]) -> int:
     count = int(faces.max()) + 1
-    # An edge is one number, whichever way round: there are fewer than 2^31 vertices.
+    # An edge is one number, in either direction: there are fewer than 2^31 vertices.
     edges = np.concatenate(
         [
             np.minimum(faces[:, k], faces[:, k - 1]) * count + np.maximum(faces[:, k], faces[:, k - 1])

@@ -1,4 +1,4 @@
-"""A result as its image or shadow sketch sees it: what was wanted, what was made, where the two differ.
+"""A result as its image or shadow sketch sees it: the wanted picture, the actual one, and their difference.
 
 In the difference, ink is right, blue is missing, orange is too much. The last panel is the scene itself from the same
 camera; for a shadow it lies over the shadow that it casts.
@@ -27,14 +27,14 @@ INK: Rgb = (58, 60, 66)
 MISSING: Rgb = (92, 148, 204)
 SURPLUS: Rgb = (226, 138, 84)
 SHADE: Rgb = (186, 181, 172)
-#: Vertical field of view, degrees, that stands for parallel rays.
+#: Vertical field of view, degrees, in place of parallel rays.
 FLAT = 1.5
 
 
 def view_sheet(
     scene: Scene, view: View, *, height: int = 360, samples: int = 16, captions: bool = True
 ) -> Image.Image:
-    """Draws a scene through the camera of an image or shadow sketch, beside the image that was asked for.
+    """Draws a scene through the camera of an image or shadow sketch, beside the image to match.
 
     Parameters
     ----------
@@ -54,15 +54,15 @@ def view_sheet(
     PIL.Image.Image
         RGB; four panels from left to right: wanted, made, difference, scene.
     """
-    wanted, made = view.image, view.mask(scene)
+    wanted, drawn = view.image, view.mask(scene)
     rows, columns = wanted.shape
     size = (max(1, round(height * columns / rows)), height)
-    similarity = float((wanted == made).mean())
+    similarity = float((wanted == drawn).mean())
     panels = [
         (colored([(wanted, INK)], size), "wanted"),
-        (colored([(made, INK)], size), "silhouette" if view.kind == "image" else "shadow"),
+        (colored([(drawn, INK)], size), "silhouette" if view.kind == "image" else "shadow"),
         (
-            colored([(wanted & made, INK), (wanted & ~made, MISSING), (made & ~wanted, SURPLUS)], size),
+            colored([(wanted & drawn, INK), (wanted & ~drawn, MISSING), (drawn & ~wanted, SURPLUS)], size),
             f"difference: {100 * similarity:.1f} % of pixels agree",
         ),
         (through_camera(scene, view, size, samples=samples), "from its camera"),

@@ -1,4 +1,4 @@
-"""Everything that a model may say.
+"""The functions and types that a model may use.
 
 choices         `sample`, `flip`, `gaussian`, ...: draws
 distributions   `Gaussian`, `Uniform`, ...: distributions as values
@@ -9,7 +9,7 @@ polygons        `polygon_area`, `polygon_contains`, `polygon_distance`, `polygon
 vectors         `vec`, `dot`, `cross`, `norm`, `normalize`, `distance`, `rotate`, `rotation`
 numbers         `clip`, `lerp`, `sign`
 soft            `softeq`, `soft_at_least`, `soft_at_most`, `smooth_max`, `smooth_min`, `smooth_abs`
-running         which run a word belongs to
+running         the run that a call belongs to
 """
 
 import lazy_loader

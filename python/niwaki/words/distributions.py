@@ -3,7 +3,7 @@
 The lower-case word of the same name (`gaussian(0, 1)`) draws from it at once. The engine knows a distribution by its
 family and its parameters in the order of the fields; densities and draws are the engine's.
 
-A table in the shape of classes, so that an editor can complete and explain every family; this is why it is long.
+Each family is a class, so that an editor can complete and explain it.
 """
 
 from __future__ import annotations
@@ -409,5 +409,5 @@ class Delta(Distribution):
     value: Any
 
 
-#: In the order in which they stand here.
+#: In the order of this file.
 FAMILIES: tuple[type[Distribution], ...] = tuple(Distribution.__subclasses__())

@@ -1,4 +1,4 @@
-"""What a model may do besides compute: score itself, record an answer, add to the scene, leave work for later."""
+"""The effects of a model: score a run, record an answer, add to the scene, postpone a call."""
 
 from __future__ import annotations
 

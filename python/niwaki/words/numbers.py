@@ -9,7 +9,7 @@ def clip(x: float, lo: float, hi: float) -> float:
 
 
 def lerp(a: float, b: float, t: float) -> float:
-    """The way from `a` (t = 0) to `b` (t = 1): `a + (b - a) * t`; also of vectors."""
+    """Linear interpolation from `a` (t = 0) to `b` (t = 1): `a + (b - a) * t`; also of vectors."""
     return a + (b - a) * t
 
 

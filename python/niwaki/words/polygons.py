@@ -1,6 +1,6 @@
 """Polygons of the plane: a room, a plot, an outline. A polygon is a list or tuple of its corners, in either direction.
 
-The first corner is not repeated. What is asked of a polygon that crosses itself has no meaning. `niwaki.load_polygon`
+The first corner is not repeated. Results for a polygon that crosses itself have no meaning. `niwaki.load_polygon`
 reads one from a file.
 """
 
@@ -120,10 +120,10 @@ def polygon_inset(polygon: Polygon, by: float) -> list[Vec]:
     """
     corners = _corners(polygon)
     turn = _twice(corners)
-    made = _inset(corners, by if turn > 0.0 else -by) if turn != 0.0 else None
-    if made is None:
+    inset = _inset(corners, by if turn > 0.0 else -by) if turn != 0.0 else None
+    if inset is None:
         raise ValueError(f"moved inwards by {by}, an edge of the polygon vanishes")
-    return [Vec(corner) for corner in made]
+    return [Vec(corner) for corner in inset]
 
 
 def _inset(corners: list[Point], by: float) -> list[Point] | None:
@@ -136,20 +136,20 @@ def _inset(corners: list[Point], by: float) -> list[Point] | None:
         length = math.sqrt(square)
         nx, ny = -(ey / length), ex / length
         lines.append(((nx, ny), nx * ax + ny * ay + by))
-    made: list[Point] = []
+    inset: list[Point] = []
     for at, ((kx, ky), q) in enumerate(lines):
         (mx, my), p = lines[at - 1]
         sine = mx * ky - my * kx
         if abs(sine) >= 1e-12:
-            made.append(((p * ky - q * my) / sine, (q * mx - p * kx) / sine))
+            inset.append(((p * ky - q * my) / sine, (q * mx - p * kx) / sine))
         elif mx * kx + my * ky < 0.0:
             return None
         else:
-            made.append((corners[at][0] + kx * by, corners[at][1] + ky * by))
-    for ((ax, ay), (bx, by_)), ((cx, cy), (dx, dy)) in zip(_edges(corners), _edges(made), strict=True):
+            inset.append((corners[at][0] + kx * by, corners[at][1] + ky * by))
+    for ((ax, ay), (bx, by_)), ((cx, cy), (dx, dy)) in zip(_edges(corners), _edges(inset), strict=True):
         if not (bx - ax) * (dx - cx) + (by_ - ay) * (dy - cy) > 0.0:
             return None
-    return made
+    return inset
 
 
 def _edges(corners: list[Point]) -> Iterator[tuple[Point, Point]]:

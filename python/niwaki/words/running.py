@@ -1,6 +1,6 @@
-"""Which run a word belongs to: inside a plain-Python run the words ask the runner, outside they are an error.
+"""The run that a call belongs to: inside a plain-Python run the functions call the runner, outside they raise.
 
-The compiled engine never calls these functions; it knows the words by name.
+The compiled engine never calls these functions; it has them by name.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Shapes, the things that `emit` adds to a scene. Right-handed, y up, metres unless the model says otherwise.
+"""Shapes, the things that `emit` adds to a scene. Right-handed, y up, metres by default.
 
 A point is a 3-tuple, a list or a `vec`. A colour is `(r, g, b)` in [0, 1]. A rotation is three rows of three numbers,
 as `rotation(axis, angle)` gives. In a plain-Python run a shape is the engine's own `Shape`.
@@ -29,7 +29,7 @@ class Frame(NamedTuple):
     forward
         Unit direction towards the tip.
     up
-        Unit direction at right angles to `forward`: which way the ring is turned.
+        Unit direction at right angles to `forward`: the rotation of the ring.
     radius
         Greater than 0.
     """
@@ -206,5 +206,5 @@ def mesh(
     return _make("mesh", vertices, faces, center, rotation, scale, color)
 
 
-#: The words for shapes; the engine has a function for each of the same name.
+#: The functions for shapes; the engine has one of the same name for each.
 SHAPES = (box, cylinder, limb, segment, mesh)

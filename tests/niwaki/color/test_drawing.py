@@ -1,4 +1,4 @@
-"""A drawing's regions, areas and neighbours are those one would count by hand; what cannot be read says why."""
+"""A drawing's regions, areas and neighbours are those counted by hand; unreadable drawings give an error."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def area_of(found: Drawing, name: str) -> float:
 
 def test_neighbours_lie_within_two_pixels_across_or_diagonally() -> None:
     labels = np.full((9, 12), -1)
-    labels[0, 0], labels[2, 2] = 0, 1  # two apart both ways: neighbours
+    labels[0, 0], labels[2, 2] = 0, 1  # two apart in both directions: neighbours
     labels[0, 6], labels[0, 9] = 2, 3  # three apart: not
     labels[6, 1], labels[8, 0] = 4, 5  # down and to the left
     assert neighbours(labels, 6) == [(0, 1), (4, 5)]
@@ -170,7 +170,7 @@ def test_our_own_drawings_have_ten_to_twenty_regions_all_seen(name: str) -> None
 
 
 @pytest.mark.parametrize(
-    ("body", "code", "said"),
+    ("body", "code", "message"),
     [
         ('<rect width="9" height="9"/>', "drawing-no-regions", "no painted shape with a class or an id"),
         ('<rect class="a" width="9" height="9"/>', "drawing-no-regions", "one region, `a`"),
@@ -187,10 +187,12 @@ def test_our_own_drawings_have_ten_to_twenty_regions_all_seen(name: str) -> None
         ),
     ],
 )
-def test_a_drawing_that_cannot_be_read_says_why(tmp_path: Path, body: str, code: str, said: str) -> None:
+def test_a_drawing_that_cannot_be_read_gives_an_error(
+    tmp_path: Path, body: str, code: str, message: str
+) -> None:
     with pytest.raises(FileError) as found:
         drawing(tmp_path, body)
-    assert found.value.code == code and said in str(found.value)
+    assert found.value.code == code and message in str(found.value)
 
 
 def test_images_that_are_no_drawings(tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""The compatibility model gives the scores that others computed: colours, single terms, whole colourings, gradients."""
+"""The compatibility model's scores agree with known ones: colours, single terms, whole colourings, gradients."""
 
 from __future__ import annotations
 
@@ -99,7 +99,7 @@ def test_rules_score_as_in_the_dissertation_code(name: str) -> None:
 
 
 def ring_score(rgb, weight):
-    """Six regions in a ring, by another way: NumPy on whole arrays."""
+    """Six regions in a ring, computed by NumPy on whole arrays."""
     colors = lab.of_rgb(rgb)
     light, chroma = colors[:, 0], np.hypot(colors[:, 1], colors[:, 2])
     saturation = sum(

@@ -34,7 +34,7 @@ def test_a_chain_is_a_rule_for_each_neighbouring_pair() -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "code", "said"),
+    ("text", "code", "message"),
     [
         ('lightness = [["wall", "rof"]]', "rules-no-region", "did you mean `roof`"),
         ("[pinned]\nmoon = '#ffffff'", "rules-no-region", "it has wall, roof, ink, sky"),
@@ -49,9 +49,9 @@ def test_a_chain_is_a_rule_for_each_neighbouring_pair() -> None:
         ("lightness = [", "file-unreadable", "toml"),
     ],
 )
-def test_rules_that_cannot_be_used_say_why(tmp_path, text: str, code: str, said: str) -> None:
+def test_rules_that_cannot_be_used_give_an_error(tmp_path, text: str, code: str, message: str) -> None:
     error = refused(tmp_path, text)
-    assert error.code == code and said in str(error)
+    assert error.code == code and message in str(error)
 
 
 @pytest.mark.parametrize(
@@ -95,7 +95,7 @@ def test_a_contradiction_shows_its_rules_and_no_others(tmp_path, text, shown, sp
     assert all(one in str(error) for one in shown) and not any(one in str(error) for one in spared)
 
 
-def test_the_least_slack_of_two_ways_of_unequal_length() -> None:
+def test_the_least_slack_of_two_paths_of_unequal_length() -> None:
     """From sky to line in three steps and in four: 3 (15 + s) = 4 (15 - s), so s = 15 / 7."""
     rules = Rules(lightness=[["sky", "a", "b", "line"], ["sky", "c", "d", "e", "line"]])
     slack, forced = least_slack(rules)

@@ -1,4 +1,4 @@
-"""Colourings keep rules and pinned colours, differ, are the same for a seed, and come out as the files promised."""
+"""Colourings keep rules and pinned colours, differ, are the same for a seed, and are written to files."""
 
 from __future__ import annotations
 
@@ -91,15 +91,15 @@ def test_the_default_is_many_short_chains_that_follow_the_gradient() -> None:
     assert default_method(12) == explore(draws=1, chains=36)
 
 
-def test_the_command_writes_what_it_says(small, tmp_path) -> None:
+def test_the_command_writes_the_files_that_it_names(small, tmp_path) -> None:
     out = tmp_path / "out"
-    said = CliRunner().invoke(
+    result = CliRunner().invoke(
         app,
         ["color", str(small), "--rules", str(tmp_path / "rules.toml"), "-n", "2", "-o", str(out)]
         + ["--size", "120", "--seed", "1"],
         catch_exceptions=False,
     )
-    assert said.exit_code == 0 and "2 colourings" in said.stdout
+    assert result.exit_code == 0 and "2 colourings" in result.stdout
     names = ["01.png", "01.svg", "02.png", "02.svg", "colors.json", "residuals.csv", "sheet.png"]
     assert sorted(path.name for path in out.iterdir()) == names
     colors = json.loads((out / "colors.json").read_text())
@@ -135,5 +135,5 @@ def test_twelve_colourings_of_our_drawings_keep_the_rules_and_differ(name: str) 
     weights = np.sqrt(found[0].drawing.areas)
     for k in range(12):
         for j in range(k):
-            # 10 units are a difference that nobody misses.
+            # 10 units are a visible difference.
             assert np.linalg.norm(labs[k] - labs[j], axis=1) @ weights / weights.sum() > 10.0

@@ -1,4 +1,4 @@
-"""What is said about drawings and rules that cannot be used is as reviewed; each message comes from a real mistake."""
+"""The messages about drawings and rules that cannot be used are as reviewed; each message comes from a real mistake."""
 
 from __future__ import annotations
 
@@ -39,11 +39,11 @@ MISTAKES = {
 
 
 def test_messages_about_drawings_are_as_reviewed(tmp_path, golden) -> None:
-    said = []
+    texts = []
     for name, (svg, rules) in MISTAKES.items():
         (tmp_path / "drawing.svg").write_text(svg, encoding="utf-8")
         (tmp_path / "rules.toml").write_text(rules, encoding="utf-8")
         with pytest.raises(FileError) as found:
             color(Drawing.load(tmp_path / "drawing.svg"), Rules.load(tmp_path / "rules.toml"), 1, seed=1)
-        said.append(f"## {name}\n\n{found.value}".replace(str(tmp_path), "FOLDER"))
-    golden(GOLDEN, "\n\n".join(said) + "\n")
+        texts.append(f"## {name}\n\n{found.value}".replace(str(tmp_path), "FOLDER"))
+    golden(GOLDEN, "\n\n".join(texts) + "\n")

@@ -1,4 +1,4 @@
-"""Claim: in a moving picture the parts appear one after another in the order asked for, and nothing else moves."""
+"""Claim: in a moving picture the parts appear one after another in the given order, and nothing else moves."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def test_many_parts_share_a_frame_and_the_last_has_all(tmp_path: Path) -> None:
     assert np.array_equal(frames(path)[-1], frames(alone)[0])
 
 
-def test_time_and_size_are_what_was_asked_for(tmp_path: Path) -> None:
+def test_time_and_size_are_as_given(tmp_path: Path) -> None:
     with Image.open(growth(row(), tmp_path / "row.gif", seconds=2.0, **SMALL)) as image:
         assert image.size == (96, 72)
         assert image.info["duration"] == 500 and image.info["loop"] == 0

@@ -1,5 +1,5 @@
 """Claim: an exported scene opens elsewhere with its parts, names and volume; equal scenes give equal bytes; a
-file that cannot be written whole is not written at all."""
+file that cannot be written completely is not written at all."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
-"""Claim: parts share a mesh exactly when a rotation and a translation take one onto the other; where a node is put, its
-part lies."""
+"""Claim: parts share a mesh exactly when a rotation and a translation take one onto the other; a node's place
+is that of its part."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Claim: a picture has the size asked for, the same bytes on any number of threads, and the right subject."""
+"""Claim: a picture has the given size, the same bytes on any number of threads, and the right subject."""
 
 from __future__ import annotations
 

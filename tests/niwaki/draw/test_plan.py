@@ -1,4 +1,4 @@
-"""Claim: a plan shows what stands under each shape, higher things on top, in the colours of the shapes."""
+"""Claim: a plan shows the outline of each shape, higher things on top, in the colours of the shapes."""
 
 from __future__ import annotations
 

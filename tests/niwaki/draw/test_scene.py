@@ -1,4 +1,4 @@
-"""Claim: a scene is a bag of parts kept in the order of their addresses, with honest bounds and meshes."""
+"""Claim: a scene is a multiset of parts kept in the order of their addresses, with correct bounds and meshes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Claim: a sheet has a cell for each scene, framed alike, and says what is wrong with its settings."""
+"""Claim: a sheet has a cell for each scene, framed alike, and wrong settings give an error."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
-"""Claim: a printed solid is the union of the shapes, closed, in millimetres with z up; what is not a solid is said by
-its address. The files are read by trimesh (STL) and lib3mf (3MF), which did not write them."""
+"""Claim: a printed solid is the union of the shapes, closed, in millimetres with z up; other parts are reported by
+address. The files are read by trimesh (STL) and lib3mf (3MF), which did not write them."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ def test_an_stl_is_the_union_in_millimetres(tmp_path: Path) -> None:
     assert np.allclose(found.bounds, [[0, 0, 0], [30, 30, 30]], atol=0.01)
 
 
-def test_a_scene_is_in_metres_unless_said_otherwise(tmp_path: Path) -> None:
+def test_a_scene_is_in_metres_by_default(tmp_path: Path) -> None:
     found = read_stl(overlapping().export(tmp_path / "cubes.stl"))
     assert np.allclose(found.extents, 3000.0, rtol=1e-4)
 
@@ -85,7 +85,7 @@ def test_what_is_up_on_the_screen_is_up_on_the_bed(tmp_path: Path) -> None:
     assert np.allclose([high.min(axis=0)[:2], high.max(axis=0)[:2]], [[3, 0], [4, 1]], atol=1e-3)
 
 
-def test_a_3mf_says_its_unit_and_name_and_is_closed(tmp_path: Path) -> None:
+def test_a_3mf_has_its_unit_and_name_and_is_closed(tmp_path: Path) -> None:
     from lib3mf import ModelUnit
 
     model, mesh = read_3mf(tower().export(tmp_path / "a <tower>.3mf", scale=10.0))
@@ -99,7 +99,7 @@ def test_a_3mf_says_its_unit_and_name_and_is_closed(tmp_path: Path) -> None:
     assert model.GetBuildItems().Count() == 1
 
 
-def test_what_touches_hangs_together_and_what_does_not_is_said() -> None:
+def test_touching_parts_are_joined_and_separate_ones_reported() -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         assert union(tower()).pieces == 1
@@ -154,7 +154,7 @@ def closed(solid: Solid) -> bool:
     return bool(trimesh.Trimesh(solid.vertices, solid.faces, process=False).is_watertight)
 
 
-def test_what_is_not_a_solid_is_said_by_its_address(tmp_path: Path) -> None:
+def test_parts_that_are_not_solids_are_reported_by_address(tmp_path: Path) -> None:
     scene = Scene(
         [
             ("ship/hull", [box(0, 0, 0)]),
@@ -172,7 +172,7 @@ def test_what_is_not_a_solid_is_said_by_its_address(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
-def test_without_the_extra_the_message_says_how_to_install_it(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_the_extra_the_message_names_it(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "manifold3d", None)
     with pytest.raises(FileError, match=r"pip install 'niwaki\[print\]'"):
         union(tower())

@@ -1,4 +1,4 @@
-"""The manual has a page for each error, in step with the table (`python -m niwaki.errors.catalogue docs/errors`)."""
+"""The manual has a page for each error, as in the table (`python -m niwaki.errors.catalogue docs/errors`)."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def test_the_pages_are_those_of_the_table() -> None:
     assert set(written) == {f"{code}.md" for code in MESSAGES}
 
 
-def test_every_page_says_what_to_do() -> None:
+def test_every_page_has_a_cure() -> None:
     for text in pages().values():
         assert "## What to do" in text
         assert "{" not in text.split("```")[0]

@@ -8,7 +8,17 @@ from pathlib import Path
 import pytest
 from niwaki.errors import Call, InputError, ModelError, ModelFault, NiwakiError
 from niwaki.errors.kinds import place
-from niwaki.errors.messages import ADVICE, CHAINS, DOORS, FAULTS, FILES, INPUTS, LANGUAGE, MESSAGES, Message
+from niwaki.errors.messages import (
+    ADVICE,
+    CHAINS,
+    FAULTS,
+    FILES,
+    INPUTS,
+    LANGUAGE,
+    MESSAGES,
+    SETTINGS,
+    Message,
+)
 from specification import PRELUDE, load
 
 REPOSITORY = Path(__file__).parents[3]
@@ -34,7 +44,7 @@ AWAITED = {
 
 
 def test_codes_and_titles_have_the_house_style() -> None:
-    tables = (LANGUAGE, FAULTS, INPUTS, FILES, DOORS, ADVICE, CHAINS)
+    tables = (LANGUAGE, FAULTS, INPUTS, FILES, SETTINGS, ADVICE, CHAINS)
     assert len(MESSAGES) == sum(len(table) for table in tables) >= 45
     for message in MESSAGES.values():
         assert re.fullmatch(r"[a-z]+(-[a-z]+)*", message.code)
@@ -75,7 +85,7 @@ def test_faults_and_inputs_are_as_reviewed(golden) -> None:
     golden(GOLDEN / "faults.txt", text + "\n")
 
 
-def test_every_code_that_is_raised_is_in_the_table_and_the_other_way_round() -> None:
+def test_raised_codes_are_those_of_the_table() -> None:
     sources = [*REPOSITORY.glob("python/niwaki/**/*.py")]
     raised: set[str] = set()
     quoted: set[str] = set()

@@ -1,4 +1,4 @@
-"""A live function is found again in its file: decorated, nested, or one of several lambdas on a line."""
+"""A function object is found in its file: decorated, nested, or one of several lambdas on a line."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def load(text: str) -> dict[str, object]:
     return space
 
 
-def test_lambdas_on_one_line_are_told_apart() -> None:
+def test_lambdas_on_one_line_are_distinguished() -> None:
     space = load("fs = [lambda x: x + 1, lambda y: y * 2, lambda: (lambda z: z)]\n")
     fs = space["fs"]
     assert isinstance(fs, list)

@@ -1,4 +1,4 @@
-"""Claim: every model of the gallery with a target runs in both worlds and grows; free ships are the dissertation's.
+"""Claim: models with a target run in plain Python and on the engine, and grow; free ships are the dissertation's.
 
 Rates of false alarms, each for a fresh seed, under the null that the published facts hold: the number of primitives is
 off by more than 4 standard errors in 6e-5 of the cases; a share of 0.32 in 600 samples has a standard error of 0.019,

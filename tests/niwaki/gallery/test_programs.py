@@ -1,7 +1,7 @@
-"""Claim: the programs of chapter 2 and appendix A run alike in both worlds, and their results are what they promise.
+"""Claim: the programs of chapter 2 and appendix A agree in plain Python and on the engine, and their results are right.
 
-The coin's answer is exact, and that of the hidden Markov model is held against the forward-backward recursion. That a
-layout stands free and palettes are harmonious are a designer's bars for fixed seeds, not theorems.
+The coin's answer is exact, and that of the hidden Markov model is compared with the forward-backward recursion. That a
+layout is free of overlaps and palettes are harmonious are limits for fixed seeds, not theorems.
 """
 
 from __future__ import annotations
@@ -82,7 +82,7 @@ def test_hidden_states_are_those_of_forward_backward() -> None:
             share = weights[is_it].sum()
             error = math.sqrt((weights**2 * (is_it - share) ** 2).sum())
             assert abs(share - exact[n, state]) < 4.9 * error + 1e-9
-    # A mutant: the marginals without the last observation are told apart.
+    # A mutant: the marginals without the last observation are rejected.
     blind = forwards[1] / forwards[1].sum()
     is_it = states[:, 1] == int(np.argmax(np.abs(blind - exact[1])))
     share = weights[is_it].sum()
@@ -107,7 +107,7 @@ def cafe() -> nw.Sample:
     return nw.run(furniture.coffee_shop, seed=2).best
 
 
-def test_furniture_stands_free_and_in_the_room(cafe: nw.Sample) -> None:
+def test_furniture_does_not_overlap_and_is_in_the_room(cafe: nw.Sample) -> None:
     discs = [(place, furniture.TABLE_RADIUS) for place, _, _ in cafe.value]
     discs += [(seat, furniture.CHAIR_RADIUS) for _, _, chairs in cafe.value for seat, _ in chairs]
     assert len(cafe.value) >= 5

@@ -1,4 +1,4 @@
-"""Advice on models: what can be moved is pointed at, what the next part builds upon is not."""
+"""Advice on models: what can be moved is reported, what the next part needs is not."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def test_the_gallery_needs_none() -> None:
     assert [(entry.name, str(one)) for entry in grown for one in advise(entry.model.function)] == []
 
 
-def test_a_ship_without_futures_is_told_of_each() -> None:
+def test_a_ship_without_futures_gets_advice_on_each() -> None:
     text = Path(SHIP).read_text()
     for callee in ("wings", "guns", "fins"):
         text = text.replace(f"future({callee}, ", f"{callee}(")

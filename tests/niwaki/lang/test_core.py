@@ -1,4 +1,4 @@
-"""The core form is written as its grammar says; two models have it on file, for a person to read what changes."""
+"""The core form follows its grammar; that of two models is a golden file, so that changes are reviewed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A plain run makes the choices it is told, scores them, and fails with the user's own lines."""
+"""A plain run makes the given choices, scores them, and fails with the user's own lines."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def test_a_missing_choice_names_the_nearest(model) -> None:
     assert '"i[0]/wing/size"' in str(found.value) and '"i[0]/wing/sise"' in str(found.value)
 
 
-def test_words_outside_of_a_model_say_so() -> None:
+def test_words_outside_of_a_model_raise() -> None:
     with pytest.raises(InputError, match="outside-a-model"):
         nw.gaussian(0, 1)
 

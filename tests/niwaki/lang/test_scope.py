@@ -1,4 +1,4 @@
-"""Captures: what a nested function needs is what it reads and what the functions that it calls need."""
+"""Captures: a nested function needs what it reads and what the functions that it calls need."""
 
 from __future__ import annotations
 

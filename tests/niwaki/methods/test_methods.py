@@ -1,4 +1,4 @@
-"""Claim: the settings of chains are checked when they are made, and each refusal names its setting."""
+"""Claim: the settings of chains are checked when they are created, and each refusal names its setting."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def test_settings_of_one_method_are_checked(make: Any, name: str) -> None:
         make()
 
 
-def test_defaults_are_what_the_functions_say() -> None:
+def test_defaults_are_those_of_the_functions() -> None:
     assert hmc() == Hmc() and nuts() == Nuts()
     assert hmc(500, steps=1000, metric="unit") == Hmc(draws=500, steps=1000, metric="unit")
     short = Hmc(8, 30, 0.5, chains=128, warmup=6, target_accept=0.65, metric="unit", climb=2000, designs=True)

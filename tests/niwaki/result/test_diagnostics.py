@@ -1,7 +1,7 @@
-"""Claim: our diagnostics are ArviZ's figures, and see what they should see.
+"""Claim: our diagnostics are those of ArviZ, and detect what they should detect.
 
 The reference numbers of `REFERENCE` were computed with ArviZ 0.23.4 from the chains that `chains` makes of whole-number
-arithmetic; where ArviZ is installed, it is asked as well. Nothing here is random.
+arithmetic; where ArviZ is installed, it is compared as well. Nothing here is random.
 """
 
 from __future__ import annotations
@@ -131,14 +131,14 @@ def theirs(x: Any) -> tuple[float, ...]:
         warnings.simplefilter("ignore")
         import arviz
 
-        asked: dict[str, Any] = {"bulk": {}, "tail": {"prob": (0.05, 0.95)}, "mean": {}}
+        settings: dict[str, Any] = {"bulk": {}, "tail": {"prob": (0.05, 0.95)}, "mean": {}}
         if int(arviz.__version__.split(".")[0]) >= 1:
             from arviz_stats.base import array_stats as stats
 
-            sizes = [stats.ess(x, method=method, **extra) for method, extra in asked.items()]
+            sizes = [stats.ess(x, method=method, **extra) for method, extra in settings.items()]
             found = (stats.rhat(x), *sizes, stats.mcse(x, method="mean"), np.ravel(stats.bfmi(x))[0])
         else:
-            sizes = [arviz.ess(x, method=method, **extra) for method, extra in asked.items()]
+            sizes = [arviz.ess(x, method=method, **extra) for method, extra in settings.items()]
             found = (arviz.rhat(x), *sizes, arviz.mcse(x, method="mean"), arviz.bfmi(x)[0])
     return tuple(float(one) for one in found)
 
@@ -155,7 +155,7 @@ def test_what_has_not_mixed_is_seen() -> None:
     assert diagnostics.rhat(drifting) > 1.3
 
 
-def test_draws_without_worth() -> None:
+def test_draws_without_an_effective_size() -> None:
     assert math.isnan(diagnostics.rhat(np.full((4, 100), 3.0)))
     assert diagnostics.ess_bulk(np.full((4, 100), 3.0)) == 400
     for bad in (math.nan, math.inf):
@@ -175,32 +175,32 @@ def test_autocorrelation_of_a_vector_is_that_of_its_parts_weighted_by_variance()
     assert found[1] < alone[1]
 
 
-def test_a_vector_of_one_coordinate_is_worth_what_the_coordinate_is() -> None:
+def test_a_vector_of_one_coordinate_has_the_size_of_the_coordinate() -> None:
     # phi = 0.9: (1 - phi) / (1 + phi) of the draws, 53 of 1000; one chain's estimate is within a factor of 2.
     x = walk(0.9, 1, 1000)[0]
     assert 26 < diagnostics.ess_vector(x[:, None]) < 106
     assert 700 < diagnostics.ess_vector(walk(0.0, 1, 1000)[0][:, None]) < 1400
 
 
-def test_autoregressive_chains_have_the_known_autocorrelation_and_worth() -> None:
-    """x' = phi x + noise: AC(t) = phi^t, and n draws are worth n (1 - phi) / (1 + phi)."""
+def test_autoregressive_chains_have_the_known_autocorrelation_and_size() -> None:
+    """x' = phi x + noise: AC(t) = phi^t, and n draws count as n (1 - phi) / (1 + phi)."""
     n, far = 40_000, 8
     for phi in (0.0, 0.5, 0.9):
         # Three coordinates of different sizes; inner products weigh them by variance, and each has the same phi.
         x = np.stack([scale * walk(phi, 3, n)[k] for k, scale in enumerate((1.0, 0.5, 2.0))], axis=1) + 7.0
         # Bartlett: an estimate of AC(t) has a standard error below sqrt((1 + phi^2) / (1 - phi^2) / n) = 0.0155 at 0.9,
-        # times the root of 1.2 for three unequal coordinates' worth; 5 of those.
+        # times the root of 1.2 for three unequal coordinates; 5 of those.
         error = 5.0 * math.sqrt(1.2 * (1 + phi**2) / (1 - phi**2) / n)
         found = diagnostics.autocorrelation(x)[:far]
         assert np.abs(found - phi ** np.arange(far)).max() < error
-        worth = n * (1.0 - phi) / (1.0 + phi)
-        assert diagnostics.ess_vector(x) == pytest.approx(worth, rel=0.15)
+        effective = n * (1.0 - phi) / (1.0 + phi)
+        assert diagnostics.ess_vector(x) == pytest.approx(effective, rel=0.15)
         # The dissertation's measure, with another run's mean and variance, is another number.
         wrong = (x[: n - 1] * x[1:]).sum() / (n - 1) / (x * x).sum(axis=1).mean()
         assert abs(wrong - phi) > error
 
 
-def test_several_chains_of_vectors_are_worth_their_sum_unless_they_stay_apart() -> None:
+def test_several_chains_of_vectors_have_the_sum_of_their_sizes_unless_they_stay_apart() -> None:
     chains = np.stack([walk(0.9, 8, 1000), 2.0 * walk(0.9, 9, 1000)[1:]], axis=2)
     # 53 each.
     assert diagnostics.ess_vector(chains) == pytest.approx(8 * 1000 * 0.1 / 1.9, rel=0.3)

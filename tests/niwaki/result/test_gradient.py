@@ -1,5 +1,5 @@
 """The claim: `log_density` is the model's own log joint over coordinates, its gradient is the slope, and the JAX text
-says the same; what has no slope is refused with the reason."""
+gives the same; what has no gradient is refused with the reason."""
 
 from __future__ import annotations
 
@@ -88,7 +88,7 @@ def shim() -> dict[str, types.ModuleType]:
     return {"jax": jax, "jax.numpy": np, "jax.scipy": scipy, "jax.scipy.special": special}
 
 
-def test_the_text_for_jax_says_the_same_and_nan_off_its_path(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_text_for_jax_gives_the_same_and_nan_off_its_path(monkeypatch: pytest.MonkeyPatch) -> None:
     for name, module in shim().items():
         monkeypatch.setitem(sys.modules, name, module)
     density = nw.log_density(nw.run(garden, seed=1).best)

@@ -1,4 +1,4 @@
-"""Chains that follow a gradient, from Python: what they give back, what they hold fixed, what they refuse."""
+"""Chains that follow a gradient, from Python: their results, the choices that they hold fixed, and their refusals."""
 
 from __future__ import annotations
 
@@ -176,9 +176,9 @@ def test_a_point_stays_near_its_curve() -> None:
 
 
 def test_what_is_discrete_is_held_fixed_with_a_warning_that_names_it() -> None:
-    with pytest.warns(GradientWarning) as said:
+    with pytest.warns(GradientWarning) as warned:
         result = nw.run(MODELS["fork"], few(chains=4), seed=1)
-    held, refused = (str(one.message) for one in said)
+    held, refused = (str(one.message) for one in warned)
     assert "kept the value" in held and "tall`" in held and "refused for structure" in refused
     assert len(result.fixed) == 4
     assert {type(value) for fixed in result.fixed for value in fixed.values()} == {bool}
@@ -199,12 +199,12 @@ def test_a_choice_of_one_value_is_not_called_fixed() -> None:
 
 
 def messages(*given: Any, **settings: Any) -> tuple[Any, list[str]]:
-    """A result, and what its run said; each said where the run was asked for."""
-    with warnings.catch_warnings(record=True) as said:
+    """A result and the warnings of its run. Each warning names the line that runs the model."""
+    with warnings.catch_warnings(record=True) as warned:
         warnings.simplefilter("always")
         result = nw.run(*given, **settings)
-    assert all(one.category is GradientWarning and one.filename == __file__ for one in said)
-    return result, [str(one.message) for one in said]
+    assert all(one.category is GradientWarning and one.filename == __file__ for one in warned)
+    return result, [str(one.message) for one in warned]
 
 
 @pytest.mark.parametrize(
@@ -212,14 +212,14 @@ def messages(*given: Any, **settings: Any) -> tuple[Any, list[str]]:
     [nw.nuts(draws=300, warmup=200, thin=2), nw.hmc(draws=300, steps=10, warmup=200)],
     ids=["nuts", "hmc"],
 )
-def test_what_is_refused_for_structure_is_said_with_its_count(method: Any) -> None:
+def test_trajectories_refused_for_structure_are_reported_with_their_count(method: Any) -> None:
     """The count is the engine's; draws mark the same trajectories one by one."""
-    result, said = messages(MODELS["halves"], method, seed=1)
+    result, warned = messages(MODELS["halves"], method, seed=1)
     refused, marked = result.divergences.structure, result.stats["refused_for_structure"]
     assert 300 < refused <= 1200 * method.thin and result.divergences.energy == 0
     assert marked.sum() == refused if method.thin == 1 else refused / 2 <= marked.sum() <= refused
     assert not result.stats["diverging"].any()
-    (text,) = said
+    (text,) = warned
     assert text.startswith(
         f"{refused} of {1200 * method.thin} trajectories of `halves` after the warm-up were refused"
     )
@@ -228,41 +228,43 @@ def test_what_is_refused_for_structure_is_said_with_its_count(method: Any) -> No
     assert repr(result.summary()).endswith(f"\ntrajectories: {refused} refused for structure")
 
 
-def test_what_diverged_is_said_with_its_count() -> None:
-    """A funnel that is drawn from its spread; of the same model, reparametrised, nothing is said."""
+def test_divergences_are_reported_with_their_count() -> None:
+    """A funnel that is drawn from its spread; of the same model, reparametrised, nothing is warned."""
     method = nw.nuts(draws=500, warmup=300)
-    result, said = messages(MODELS["funnel"], method, True, seed=1)
+    result, warned = messages(MODELS["funnel"], method, True, seed=1)
     count = result.divergences.energy
     assert count > 0 and result.divergences.structure == 0
     assert result.stats["diverging"].sum() == result.divergences.total
     assert not result.stats["refused_for_structure"].any()
-    assert said[0].startswith(f"{count} of 2000 trajectories of `funnel` after the warm-up diverged")
-    assert "raise `target_accept`, which is 0.8" in said[0] and "mean + spread * gaussian(0, 1)" in said[0]
+    assert warned[0].startswith(f"{count} of 2000 trajectories of `funnel` after the warm-up diverged")
+    assert (
+        "raise `target_accept`, which is 0.8" in warned[0] and "mean + spread * gaussian(0, 1)" in warned[0]
+    )
     assert f"{count} diverged" in repr(result) and f"{count} diverged" in repr(result.summary())
     better, quiet = messages(MODELS["funnel"], method, False, seed=1)
     assert quiet == [] and better.divergences.total == 0 and "trajectories" not in repr(better.summary())
 
 
 def test_designs_are_counted_and_not_warned_of() -> None:
-    result, said = messages(point, nw.explore(), seed=1)
-    assert result.divergences.energy > 0 and said == []
-    halves, said = messages(MODELS["halves"], nw.explore(), seed=1)
-    assert halves.divergences.structure > 0 and said == []
+    result, warned = messages(point, nw.explore(), seed=1)
+    assert result.divergences.energy > 0 and warned == []
+    halves, warned = messages(MODELS["halves"], nw.explore(), seed=1)
+    assert halves.divergences.structure > 0 and warned == []
 
 
 def test_a_step_that_was_given_is_to_be_smaller() -> None:
-    result, said = messages(
+    result, warned = messages(
         MODELS["funnel"], nw.hmc(draws=200, warmup=50, steps=5, step_size=3.0), True, seed=1
     )
-    assert result.divergences.energy > 0 and "a smaller `step_size` than 3" in said[0]
+    assert result.divergences.energy > 0 and "a smaller `step_size` than 3" in warned[0]
 
 
-def test_what_is_no_number_is_said_with_its_count() -> None:
-    result, said = messages(MODELS["overflow"], few(), seed=1)
-    assert said[0].startswith(
+def test_gradients_that_are_not_finite_are_reported_with_their_count() -> None:
+    result, warned = messages(MODELS["overflow"], few(), seed=1)
+    assert warned[0].startswith(
         f"{result.divergences.not_finite} trajectories of `overflow` reached points without"
     )
-    assert "factor(inf - inf" in said[0] and len(said) == 1
+    assert "factor(inf - inf" in warned[0] and len(warned) == 1
 
 
 def test_an_extreme_scale_that_is_a_choice_is_an_error() -> None:
@@ -273,7 +275,7 @@ def test_an_extreme_scale_that_is_a_choice_is_an_error() -> None:
                 nw.run(MODELS[name], method, spread, seed=1)
 
 
-def test_chains_start_where_they_are_told() -> None:
+def test_chains_start_from_given_choices() -> None:
     choices = {path: 0.3 for path in nw.run(point, seed=1).best.choices}
     method = nw.hmc(draws=1, steps=1, warmup=0, chains=2, step_size=1e-9)
     result = nw.run(point, method, 1.0, seed=1, choices=choices)
@@ -289,7 +291,7 @@ def test_ctrl_c_gives_what_there_is() -> None:
     assert result.log_density.shape == next(iter(result.draws.values())).shape
 
 
-def test_progress_is_told() -> None:
+def test_progress_is_reported() -> None:
     seen: list[int] = []
     method = nw.hmc(draws=4000, steps=60, chains=1)
     nw.run(point, method, 1.0, seed=1, progress=lambda p: seen.append(p.done))
@@ -329,15 +331,15 @@ def test_errors_are_as_reviewed(golden) -> None:
     golden(GOLDEN / "gradients.txt", "\n\n".join(lines) + "\n")
 
 
-def test_chains_that_climb_start_higher_and_count_the_gradients_of_the_way() -> None:
-    asked = {"draws": 1, "steps": 1, "step_size": 1e-9, "chains": 8, "warmup": 0, "metric": "unit"}
+def test_chains_that_climb_start_higher_and_count_the_gradients_of_the_ascent() -> None:
+    settings = {"draws": 1, "steps": 1, "step_size": 1e-9, "chains": 8, "warmup": 0, "metric": "unit"}
     flat, climbed, again = (
-        nw.run(point, 0.001, method=nw.hmc(**asked, climb=climb), seed=3) for climb in (0, 1000, 1000)
+        nw.run(point, 0.001, method=nw.hmc(**settings, climb=climb), seed=3) for climb in (0, 1000, 1000)
     )
     # From thousands of nats below to within a few of the top, where the log density is about 3, or tens at most.
     assert np.median(flat.log_density) < -1000.0
     assert np.median(climbed.log_density) > 0.0 and climbed.log_density.min() > -100.0
-    # The way up ends by itself, where nothing is to be gained.
+    # The ascent ends by itself, where there is nothing to gain.
     assert flat.gradients + 8 * 40 < climbed.gradients < flat.gradients + 8 * 1000
     assert np.array_equal(climbed.log_density, again.log_density)
     assert len({round(float(x), 3) for x in climbed.draws[next(iter(climbed.draws))][:, 0]}) > 4

@@ -1,4 +1,4 @@
-"""A result says what was found: numbers in its repr, weights that sum to one, files and pictures of the best. After any
+"""The parts of a result: numbers in its repr, weights that sum to one, files and pictures of the best. After any
 method it is the same class, can be pickled, and has draws by address."""
 
 from __future__ import annotations
@@ -97,7 +97,7 @@ def test_choices_can_be_given_and_the_rest_drawn() -> None:
     assert run.choices["i[0]/height"] == nw.run(tower, seed=4).best.choices["i[0]/height"]
 
 
-def test_values_that_are_no_keys_stand_under_their_repr() -> None:
+def test_values_that_cannot_be_keys_are_replaced_by_their_repr() -> None:
     @nw.model
     def pair():  # type: ignore[no-untyped-def]
         return [nw.flip(0.25), 1]
@@ -180,7 +180,7 @@ def test_after_any_method_arviz_reads_the_draws(name: str) -> None:
     assert read["sample_stats"]["lp"].shape == (len(result.sizes), min(result.sizes))
 
 
-def test_what_the_method_says_is_read_of_the_result() -> None:
+def test_the_statistics_of_a_method_are_attributes_of_the_result() -> None:
     chains = nw.run(pair, method=METHODS["mh"], seed=1)
     assert chains.acceptance is chains.info.acceptance and chains.visits[0] == list(range(10, 61, 10))
     with pytest.raises(AttributeError, match="a result of `mh` has no `step_size`"):

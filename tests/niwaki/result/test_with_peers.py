@@ -1,5 +1,5 @@
-"""Claims that need optional packages, the real ones: JAX says of the emitted text what the engine says, and ArviZ takes
-our draws and finds our figures. Each test says what it lacks where it is skipped; `make bench-hmc` runs them all.
+"""Claims that need optional packages, the real ones: the emitted text gives the engine's numbers in JAX, and ArviZ
+computes our figures from our draws. A skipped test names what is missing; `make bench-hmc` runs them all.
 """
 
 from __future__ import annotations

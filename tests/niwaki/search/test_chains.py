@@ -1,4 +1,4 @@
-"""Markov chains from Python: a seed decides everything, chains go on where they stopped, errors say what to do."""
+"""Markov chains from Python: a seed decides everything, chains continue where they stopped, errors contain the cure."""
 
 from __future__ import annotations
 
@@ -140,7 +140,7 @@ def test_sketches_follow_the_chain(kernel: k.Kernel) -> None:
     assert len({sample.primitives for sample in result}) > 1
 
 
-def test_acceptance_is_told_by_site() -> None:
+def test_acceptance_is_reported_by_site() -> None:
     result = nw.run(GARDEN, nw.mh(steps=4000, warmup=1000, kernel=k.drift(step=30.0)), seed=2)
     rows = result.acceptance
     assert set(rows) == {"garden/mean", "garden/width", "garden/i#0/x"} or len(rows) == 3
@@ -189,7 +189,7 @@ def test_a_selection_may_wait_for_a_site_that_is_not_there_yet() -> None:
 
 
 def failing() -> dict[str, Callable[[], Any]]:
-    """Every way to go wrong, by what it is."""
+    """Every kind of error, by name."""
     run = nw.run
     return {
         "no first state: a condition": lambda: run(MODELS["impossible"], nw.mh(steps=10, tries=50), seed=1),
@@ -213,7 +213,7 @@ def failing() -> dict[str, Callable[[], Any]]:
         "no kernel": lambda: nw.mh(kernel="drift"),  # type: ignore[arg-type]
         "tempering inside": lambda: k.cycle(k.tempering(k.prior())),
         "powers that rise": lambda: k.tempering(k.prior(), (0.5, 1.0)),
-        "odds below zero": lambda: k.weighted(k.prior(), depth=lambda depth: 1 - depth),
+        "selection weight below zero": lambda: k.weighted(k.prior(), depth=lambda depth: 1 - depth),
         "a kernel that does nothing": lambda: k.cycle(),
         "warm-up without end": lambda: nw.mh(steps=100, warmup=100),
         "no strategy": lambda: nw.mh(strategy="c4"),
@@ -250,12 +250,12 @@ def test_kernels_are_read_as_they_are_written() -> None:
 
 
 def test_explain_tells_what_each_strategy_did() -> None:
-    told = nw.search.explain(GARDEN, "x", seed=1)
-    assert set(told["runs"]) == {"rerun", "resume", "cache", "c3"}
+    explained = nw.search.explain(GARDEN, "x", seed=1)
+    assert set(explained["runs"]) == {"rerun", "resume", "cache", "c3"}
     from niwaki.draw.reuse import counts
 
-    total = len(told["activations"])
-    seen = {name: counts(steps, total) for name, (steps, _) in told["runs"].items()}
+    total = len(explained["activations"])
+    seen = {name: counts(steps, total) for name, (steps, _) in explained["runs"].items()}
     assert seen["rerun"]["invoked"] == total
     assert seen["c3"]["untouched"] > seen["resume"]["untouched"] >= 0
     assert seen["c3"]["invoked"] + seen["c3"]["unwound"] <= 2

@@ -71,6 +71,6 @@ def test_a_replay_repeats_the_inner_search() -> None:
     assert nw.run_python(twice, choices=best.choices).value == best.value
 
 
-def test_an_outer_enumeration_says_that_it_cannot() -> None:
+def test_an_outer_enumeration_is_refused() -> None:
     with pytest.raises(nw.NiwakiError, match="not-enumerable|no finite list"):
         nw.run(twice, method=nw.enumerate_all())

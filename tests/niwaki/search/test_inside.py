@@ -19,7 +19,7 @@ def inner():
 
 EXACT = 0.3 / (0.3 + 0.7 * math.exp(-1.5))
 
-# What was ignored once: rejuvenation, chains of the final set, populations, the power on the way, warm-up and kernels.
+# Settings that were ignored once: rejuvenation, chains of the final set, populations, powers, warm-up and kernels.
 HONOURED = {
     "populations": nw.smc((30, 20)),
     "anneal": nw.smc(60, anneal=[0.3, 1.0]),

@@ -1,7 +1,7 @@
-"""A chain can run for as long as one likes: what it carries along stays exact, and its memory stays flat.
+"""A chain can run without end: its totals stay exact, and its memory stays constant.
 
 At every stop the totals that millions of proposals added to and took from are those of a fresh evaluation of the same
-choices, to the bit; the sketch of the volume, which the chain only ever changed, is that of the scene made anew.
+choices, to the bit; the sketch of the volume, which the chain only ever changed, is that of the scene built again.
 Densities are multiples of 2^-32 nats, and their sums are exact in any order and of any size.
 """
 

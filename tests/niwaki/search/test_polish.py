@@ -1,5 +1,5 @@
-"""Claim: `Result.polish` and `grow(polish=...)` go on from the best sample of a search, end no worse than it, and do
-what chains with those choices do."""
+"""Claim: `Result.polish` and `grow(polish=...)` continue from the best sample of a search, are at least as good, and
+equal chains from those choices."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def test_a_chain_starts_where_the_search_ended() -> None:
     before, now = found.best.choices, one.last[0].choices
     assert sum(before[address] != now[address] for address in before) <= 1
     assert one.best.log_score >= found.best.log_score
-    # Mutant: a chain that starts anew differs in many.
+    # Mutant: a chain from a new start differs in many.
     anew = nw.run(row, method=nw.mh(1, keep=0), seed=found.seed).last[0].choices
     assert sum(before[address] != anew[address] for address in before) > 5
 

@@ -1,4 +1,4 @@
-"""Populations from Python: several, by time, that differ; chains of whole runs. The algorithms are proved in Rust."""
+"""Populations from Python: several, by time, that differ; chains of whole runs. The algorithms are tested in Rust."""
 
 from __future__ import annotations
 
@@ -123,7 +123,7 @@ def test_nothing_that_is_possible_is_an_error(method: Any) -> None:
     assert "`condition` at line 7" in str(found.value)
 
 
-def test_particle_gibbs_starts_from_a_population_that_lives() -> None:
+def test_particle_gibbs_starts_from_a_possible_population() -> None:
     """Of two particles 0.81 die; ten populations all die for 12 seeds of 100."""
     found = nw.run(RARE, method=nw.particle_gibbs(particles=2, sweeps=39), seed=2)
     assert 0 < found.info.died < 40 and len(found) == 39
@@ -153,7 +153,7 @@ def test_weights_of_what_is_impossible_are_an_error() -> None:
             ask()
 
 
-def test_fewer_that_differ_are_said() -> None:
+def test_fewer_results_that_differ_give_a_warning() -> None:
     with pytest.warns(SearchWarning, match="of 30 results that differ are in 1 population;"):
         found = nw.run(COINS, method=nw.smc(particles=50, populations=1, diverse=30), seed=1)
     assert 1 <= len(found) < 30
@@ -173,17 +173,17 @@ def test_grow_gives_what_differs() -> None:
     assert ship is not None
     target = ship.target()
     assert target is not None
-    asked: dict[str, Any] = {"voxel": 0.5, "seed": 5, "rule": "surface"}
+    settings: dict[str, Any] = {"voxel": 0.5, "seed": 5, "rule": "surface"}
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        found = nw.grow(ship.model, target, particles=60, diverse=3, **asked)
+        found = nw.grow(ship.model, target, particles=60, diverse=3, **settings)
     assert len(found) == found.unique_models == 3
-    timed = nw.grow(ship.model, target, seconds=0.3, **asked)
-    again = nw.grow(ship.model, target, particles=timed.info.plan, **asked)
+    timed = nw.grow(ship.model, target, seconds=0.3, **settings)
+    again = nw.grow(ship.model, target, particles=timed.info.plan, **settings)
     assert timed.best.log_score == again.best.log_score
 
 
-def test_a_chain_says_how_it_moved_and_starts_where_it_is_told() -> None:
+def test_a_chain_counts_its_moves_and_starts_from_given_choices() -> None:
     found = nw.run(WALL, method=nw.particle_gibbs(particles=6, sweeps=20), seed=3)
     assert len(found) == len(found.info.renewed) == 20
     assert (
@@ -210,7 +210,7 @@ def test_powers_are_reported() -> None:
 
 
 def test_messages_of_populations(golden: Any) -> None:
-    asked: dict[str, Any] = {
+    settings: dict[str, Any] = {
         "sizes": lambda: nw.smc(particles=[10, 0]),
         "no size": lambda: nw.smc(particles=[]),
         "sizes and populations": lambda: nw.smc(particles=[10, 20], populations=2),
@@ -228,5 +228,5 @@ def test_messages_of_populations(golden: Any) -> None:
             COINS, method=nw.particle_gibbs(), choices=nw.run(COINS, seed=NEITHER).best.choices, seed=1
         ),
     }
-    found = [f"## {name}\n\n{refused(ask)}\n" for name, ask in asked.items()]
+    found = [f"## {name}\n\n{refused(ask)}\n" for name, ask in settings.items()]
     golden(GOLDEN / "populations.txt", "\n".join(found))

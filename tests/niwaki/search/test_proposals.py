@@ -1,4 +1,4 @@
-"""Proposals of one's own in Python: they change how a search finds, not what it finds, and errors name what is wrong.
+"""User proposals in Python: they change the efficiency of a search, not its answer; errors name the cause.
 
 Two Gaussian numbers, each observed, have a known evidence and posterior mean. Every bound is five standard errors,
 found over independent seeds: one false alarm in 1.7 million for each of about twenty numbers.

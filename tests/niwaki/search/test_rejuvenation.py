@@ -1,4 +1,4 @@
-"""`smc(rejuvenate=...)` from Python: what is told, what is refused, and scenes that stay what their choices say."""
+"""`smc(rejuvenate=...)` from Python: what is reported, what is refused, and scenes that agree with their choices."""
 
 import niwaki
 import pytest
@@ -21,7 +21,7 @@ def score():
 
 
 @pytest.mark.parametrize("at", [7, "resampled", "end"])
-def test_moved_particles_are_what_their_choices_say(score, at):
+def test_moved_particles_agree_with_their_choices(score, at):
     method = niwaki.smc(12, rejuvenate=KERNEL, moves=3, at=at)
     result = niwaki.run(gnarly_tree, method=method, score=score, seed=3, threads=1)
     (running, running_kept), (ended, ended_kept) = result.info.moved_running, result.info.moved_ended
@@ -70,11 +70,11 @@ def test_final_chains_take_the_place_of_the_final_set(score):
 
 
 def test_grow_moves_too(score):
-    asked = {"score": score, "particles": 20, "power": 4.0, "seed": 2, "threads": 1}
+    settings = {"score": score, "particles": 20, "power": 4.0, "seed": 2, "threads": 1}
     moves = {"rejuvenate": kernels.prior(), "moves": 30, "at": "end", "draws": 5}
-    found = niwaki.grow(gnarly_tree, **asked, **moves)
+    found = niwaki.grow(gnarly_tree, **settings, **moves)
     assert len(found) == 1
-    assert found.best.log_score >= niwaki.grow(gnarly_tree, **asked).best.log_score
+    assert found.best.log_score >= niwaki.grow(gnarly_tree, **settings).best.log_score
 
 
 @pytest.mark.parametrize(

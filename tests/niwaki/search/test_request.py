@@ -1,6 +1,6 @@
-"""A search is one value: it goes unchanged through JSON, to another process and folder, and its hash is its meaning.
+"""A search is one value: JSON, another process and another folder keep it, and its hash identifies it.
 
-Small models, few particles: what is looked at is that the same samples come back, to the bit.
+Small models, few particles: the same samples must come back, to the bit.
 """
 
 import json
@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 from niwaki import box, emit, flip, gaussian, host, kernels, model, uniform
 from niwaki.methods import Method
-from niwaki.shell.finding import find
+from niwaki.shell.references import find
 from niwaki.targets.examples import ship
 
 MODEL = """
@@ -294,7 +294,7 @@ def line():
     return a + flip(0.5)
 
 
-def test_results_of_chains_are_pickled_with_all_that_they_say():
+def test_results_of_chains_are_pickled_with_all_statistics():
     chains = nw.run(
         line,
         nw.mh(600, chains=2, keep=20, kernel=kernels.cycle(kernels.prior(), kernels.hmc_step(3))),
@@ -315,7 +315,7 @@ def test_results_of_chains_are_pickled_with_all_that_they_say():
     assert [len(chain) for chain in again.by_chain] == [20, 20]
 
 
-def test_draws_stand_by_address_whatever_the_method():
+def test_draws_are_by_address_for_every_method():
     for method in (nw.mh(100, chains=2, keep=9), nw.smc(9), nw.importance(9), nw.pimh(5, 9)):
         result = nw.run(line, method, seed=3)
         a, heads = result.draws["a"], result.draws["bernoulli"]

@@ -42,9 +42,9 @@ def m():
 
 def exact() -> dict[tuple[bool, bool], float]:
     """By hand: the two coins, without the case of neither."""
-    odds = {(True, True): 0.18 * math.exp(-0.5), (True, False): 0.12 * math.exp(-0.5), (False, True): 0.42}
-    total = sum(odds.values())
-    return {key: value / total for key, value in odds.items()}
+    weights = {(True, True): 0.18 * math.exp(-0.5), (True, False): 0.12 * math.exp(-0.5), (False, True): 0.42}
+    total = sum(weights.values())
+    return {key: value / total for key, value in weights.items()}
 
 
 def test_enumeration_is_exact() -> None:

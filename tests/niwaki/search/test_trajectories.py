@@ -128,7 +128,7 @@ def test_every_state_scores_what_it_scores_when_it_is_run_again() -> None:
         assert abs(sum(sample.choices["shares"]) - 1.0) < 1e-12
 
 
-def test_what_became_of_trajectories_is_told() -> None:
+def test_statistics_of_trajectories_are_reported() -> None:
     kernel = k.cycle(k.prior(), k.on("size", k.hmc_step(steps=4)), k.on("shares", k.nuts_step(max_depth=3)))
     result = nw.run(BEADS, nw.mh(steps=6000, warmup=3000, kernel=kernel), seed=2)
     sizes, shares = result.trajectories
@@ -159,7 +159,7 @@ def test_without_a_warmup_nothing_is_adapted() -> None:
 
 
 def test_trajectories_that_reach_what_is_no_number_are_counted() -> None:
-    """Below zero the root is a fault where the coin says so: neither silent, nor the end of the chain."""
+    """Below zero the root is a fault for one value of the coin: it is reported, and the chain continues."""
     kernel = k.cycle(k.on("a", k.prior()), k.on("x", k.hmc_step(steps=5, step=0.8)))
     with pytest.warns(GradientWarning, match="without a finite gradient"):
         result = nw.run(MODELS["edge"], nw.mh(steps=2000, kernel=kernel), seed=1)
@@ -179,13 +179,13 @@ def test_a_comparison_with_nan_is_a_fault_with_its_place_and_no_path() -> None:
 def chain(
     kernel: k.Kernel, model: str = "halves", warmup: int = 500, **settings: Any
 ) -> tuple[Any, list[str]]:
-    """A chain, and what it said; each said where it was asked for."""
-    with warnings.catch_warnings(record=True) as said:
+    """A chain and its warnings. Each warning names the line that runs the chain."""
+    with warnings.catch_warnings(record=True) as warned:
         warnings.simplefilter("always")
         method = nw.mh(**{"steps": 3000, "kernel": kernel, "warmup": warmup} | settings)
         result = nw.run(MODELS[model], method, seed=2)
-    assert all(one.category is GradientWarning and one.filename == __file__ for one in said)
-    return result, [str(one.message) for one in said]
+    assert all(one.category is GradientWarning and one.filename == __file__ for one in warned)
+    return result, [str(one.message) for one in warned]
 
 
 @pytest.mark.parametrize(
@@ -200,18 +200,18 @@ def chain(
     ],
     ids=repr,
 )
-def test_what_is_refused_for_structure_is_said_where_no_other_kernel_moves_there(
+def test_refusals_for_structure_are_reported_where_no_other_kernel_moves_there(
     kernel: k.Kernel, unmoved: str | None
 ) -> None:
     """Each chain has trajectories that are refused; where something else changes the structure that is no matter."""
-    result, said = chain(kernel)
+    result, warned = chain(kernel)
     (one,) = result.trajectories
     assert one.divergences.structure > 50
     values = {sample.value for sample in result}
     if unmoved is None:
-        assert said == [] and values == {True, False}
+        assert warned == [] and values == {True, False}
         return
-    (text,) = said
+    (text,) = warned
     assert text.startswith(
         f"{one.divergences.structure} of {one.settled} trajectories of `halves` after the warm-up were refused"
     )
@@ -220,14 +220,14 @@ def test_what_is_refused_for_structure_is_said_where_no_other_kernel_moves_there
     assert len(values) == 1 or kernel.name == "tempering"
 
 
-def test_what_diverged_is_said_with_its_count() -> None:
-    result, said = chain(k.cycle(k.prior(), k.hmc_step(steps=3, step=50.0)), model="needle", warmup=0)
+def test_divergences_are_reported_with_their_count() -> None:
+    result, warned = chain(k.cycle(k.prior(), k.hmc_step(steps=3, step=50.0)), model="needle", warmup=0)
     (one,) = result.trajectories
     assert one.divergences.energy > 0
-    assert said[0].startswith(
+    assert warned[0].startswith(
         f"{one.divergences.energy} of {one.settled} trajectories of `needle` after the warm-up diverged"
     )
-    assert "give it a smaller `step`, or a `warmup`" in said[0] and one.settled == one.made
+    assert "give it a smaller `step`, or a `warmup`" in warned[0] and one.settled == one.made
 
 
 def test_tempering_reaches_the_other_side_of_a_tight_constraint() -> None:
@@ -242,7 +242,7 @@ def test_tempering_reaches_the_other_side_of_a_tight_constraint() -> None:
 
 
 def failing() -> dict[str, Callable[[], Any]]:
-    """Every way to go wrong, by what it is."""
+    """Every kind of error, by name."""
     run, hmc = nw.run, k.cycle(k.prior(), k.hmc_step())
     return {
         "nothing continuous": lambda: run(MODELS["coins"], nw.mh(steps=10, kernel=hmc), seed=1),

@@ -1,4 +1,4 @@
-"""The shell's door: a replay gives the same bytes, `--json` prints nothing else, errors exit with 2."""
+"""The shell: a replay gives the same bytes, `--json` prints nothing else, errors exit with 2."""
 
 from __future__ import annotations
 

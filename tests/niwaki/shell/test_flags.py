@@ -1,5 +1,5 @@
-"""Claim: from the shell one can ask for every control and every search of chapter 5; flags that contradict one another,
-lack a companion or name what cannot be used are refused with a message before anything is searched."""
+"""Claim: the shell has every control and every search of chapter 5; flags that contradict one another,
+lack another flag or name what cannot be used are refused with a message before anything is searched."""
 
 from __future__ import annotations
 
@@ -73,13 +73,13 @@ def grown(*words: str) -> dict[str, Any]:
 
 def test_an_image_is_matched_beside_a_wall_on_a_floor(place: Path) -> None:
     data = grown(*IMAGE, "--avoid", "wall.obj", "--floor", "0", "--within", "-5,0,-5,5,6,5", "--no-picture")
-    asked = {one["sketch"]: one["given"] for one in data["search"]["score"]}
-    assert list(asked) == ["no_self_intersection", "floor", "avoid", "match_image", "overshoot"]
-    assert asked["avoid"]["obstacle"]["file"] == str(place / "wall.obj") and asked["floor"]["y"] == 0.0
-    assert asked["match_image"]["camera"]["camera"]["height"] == 6.0
+    sketches = {one["sketch"]: one["given"] for one in data["search"]["score"]}
+    assert list(sketches) == ["no_self_intersection", "floor", "avoid", "match_image", "overshoot"]
+    assert sketches["avoid"]["obstacle"]["file"] == str(place / "wall.obj") and sketches["floor"]["y"] == 0.0
+    assert sketches["match_image"]["camera"]["camera"]["height"] == 6.0
     low, high = trimesh.load_scene("out/best.glb").bounds
     assert low[1] >= -1e-6
-    # The wall stands from x = 2.5 on.
+    # The wall begins at x = 2.5.
     assert high[0] < 2.5
 
 
@@ -162,7 +162,7 @@ def test_a_time_instead_of_particles(place: Path) -> None:
     assert data["search"]["method"]["seconds"] == 0.3 and len(data["plan"]) >= 1
 
 
-@pytest.mark.filterwarnings("ignore::niwaki.draw.solid.PrintWarning")  # towers stand apart
+@pytest.mark.filterwarnings("ignore::niwaki.draw.solid.PrintWarning")  # towers do not touch
 def test_every_format_from_a_search_and_from_its_record(place: Path) -> None:
     both = ["--format", "glb,stl,3mf,obj,ply,gif,apng", "--scale", "10", "--frames", "2", "--size", "64x48"]
     grown(*IMAGE, *both, "--no-picture")

@@ -1,4 +1,4 @@
-"""Claim: a gap or a thickness that is lacking is felt by the known amount; blocks that lack neither are hardly felt.
+"""Claim: a missing gap or thickness costs the known amount; blocks that lack neither cost almost nothing.
 
 Distances to check against are those of boxes, by hand.
 """
@@ -41,24 +41,24 @@ CUBES = 12 * lacking(0.05, LEAST)
 
 
 @pytest.mark.parametrize("gap", [0.02, GAP, GAP - SOFT, 0.0, -0.01])
-def test_a_gap_that_is_lacking_is_felt(gap: float) -> None:
+def test_a_missing_gap_is_penalised(gap: float) -> None:
     expected = CUBES + lacking(gap, GAP)
     assert score_of(box(0.0, 0.0), box(0.05 + gap, 0.0)) == pytest.approx(expected, abs=1e-6)
     assert score_of(box(0.05 + gap, 0.0), box(0.0, 0.0)) == pytest.approx(expected, abs=1e-6)
 
 
-def test_what_is_far_is_hardly_felt() -> None:
+def test_distant_blocks_are_hardly_penalised() -> None:
     assert -1e-3 < score_of(box(0.0, 0.0), box(0.2, 0.0)) <= 0.0
     assert score_of(box(0.0, 0.0), box(0.04, 0.0)) < -50.0
 
 
-def test_a_thickness_that_is_lacking_is_felt_at_both_faces() -> None:
+def test_a_missing_thickness_is_penalised_at_both_faces() -> None:
     thin = box(0.0, 0.0, high=LEAST - 2.0 * SOFT)
     change = 2 * (lacking(LEAST - 2.0 * SOFT, LEAST) - lacking(0.05, LEAST))
     assert score_of(thin, box(0.2, 0.0)) == pytest.approx(CUBES + change, abs=1e-3)
 
 
-def test_a_corner_beyond_the_opposite_face_is_felt() -> None:
+def test_a_corner_beyond_the_opposite_face_is_penalised() -> None:
     block = list(box(0.0, 0.0))
     block[4] = block[4] + nw.vec(0.0, 0.0, -0.06)
     assert score_of(tuple(block), box(0.3, 0.0)) < -50.0
@@ -93,10 +93,10 @@ def beside(width: float = 0.01) -> float:
     return 0.0
 
 
-def test_a_model_whose_contact_vanishes_is_told_where() -> None:
-    with pytest.raises(nw.NiwakiError) as told:
+def test_a_vanished_contact_is_reported_with_its_place() -> None:
+    with pytest.raises(nw.NiwakiError) as error:
         stacks.start(beside, seed=1, width=0.01)
-    assert told.value.code == "impossible-trace"
-    message = told.value.render()
+    assert error.value.code == "impossible-trace"
+    message = error.value.render()
     assert "contacts.py" in message and "condition(low_x < high_x and low_y < high_y)" in message
     assert "beside at" in message

@@ -22,7 +22,7 @@ MODELS = (stacks.cut_stack, stacks.cut_lean, stacks.cut_arch, stacks.tilt_stack)
 
 
 def structure(model: object = stacks.cut_arch, seed: int = 1) -> Structure:
-    """A draw of the prior that has convex blocks: nothing here asks for balance."""
+    """A draw of the prior that has convex blocks: nothing here needs balance."""
     for k in range(seed, 100_000, 10):
         try:
             return Structure.of(nw.run_python(model, seed=k))  # type: ignore[arg-type]
@@ -137,7 +137,7 @@ def test_boards_are_saved_one_to_a_file(tmp_path: Path) -> None:
     ],
     ids=["solid", "board", "kerf", "format"],
 )
-def test_what_cannot_be_cut_is_said(make: object, words: str) -> None:
+def test_pieces_that_cannot_be_cut_are_reported(make: object, words: str) -> None:
     with pytest.raises(nw.NiwakiError, match=words):
         make()  # type: ignore[operator]
 

@@ -1,4 +1,4 @@
-"""Claim: the two judges know what stands. Each structure of a known answer stands beside one that differs a little."""
+"""Claim: the two judges are right. Each structure with a known answer is beside one that differs a little."""
 
 from __future__ import annotations
 
@@ -112,7 +112,7 @@ def test_a_wedge_slides_from_between_two_blocks_where_friction_is_too_small() ->
 
 
 def test_every_step_of_a_construction_is_judged() -> None:
-    # The counterweight comes last: the whole stands, the second step does not.
+    # The counterweight comes last: the complete tower stands, the second step does not.
     boxes = [box(0.0, 0.0, 0.05, 0.05), box(0.03, 0.05, 0.1, 0.02), box(-0.005, 0.07, 0.05, 0.1)]
     whole = pile(boxes)
     assert balanced(whole).holds and simulated(whole).stands

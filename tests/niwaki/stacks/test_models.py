@@ -15,7 +15,7 @@ from niwaki import stacks
 from niwaki.lang import densities
 from niwaki.lang.models import Model
 from niwaki.stacks.blocks import box_corners, volume_and_centre
-from niwaki.stacks.contacts import DOWN, GROUND, Asked, Contact, balance, contact, corners, force_at
+from niwaki.stacks.contacts import DOWN, GROUND, Contact, Tolerance, balance, contact, corners, force_at
 from niwaki.stacks.structure import Structure
 from niwaki.stacks.towers import BOTTOM, FLOOR, GROUND_TOP, TOP
 from scipy import stats
@@ -129,7 +129,7 @@ def tower(width: float = 0.005) -> float:
     found = [contact(0, corners(pieces[0], BOTTOM), GROUND, FLOOR)]
     for i in range(1, 6):
         found = found + [contact(i, corners(pieces[i], BOTTOM), i - 1, corners(pieces[i - 1], TOP))]
-    balance(pieces, found, 0.5, Asked(width, True, 0.0), DOWN)
+    balance(pieces, found, 0.5, Tolerance(width, True, 0.0), DOWN)
     return 0.0
 
 
@@ -213,9 +213,9 @@ def test_contradictory_requests_are_named_by_the_residuals() -> None:
     # Blocks have at most 64 times the least volume: five steps of 40 cannot be.
     choices = nw.run_python(stacks.top_heavy, seed=1, ratio=40.0).choices
     found = nw.residuals(stacks.top_heavy, choices=choices, ratio=40.0)
-    asked = [one for one in found if "grow_by" in one.address]
-    assert len(asked) == 5
-    assert min(one.widths for one in asked) > 100
+    growths = [one for one in found if "grow_by" in one.address]
+    assert len(growths) == 5
+    assert min(one.widths for one in growths) > 100
 
 
 @pytest.mark.parametrize("model", [stacks.stack, stacks.arch, stacks.tilt_arch], ids=lambda model: model.name)

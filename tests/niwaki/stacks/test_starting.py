@@ -1,6 +1,6 @@
 """Claim: a start balances within the tolerance and passes both judges.
 
-Seeds are fixed. Rates of all kinds are for `benches/stacks.py` to measure.
+Seeds are fixed. `benches/stacks.py` measures the rates of all kinds.
 """
 
 from __future__ import annotations

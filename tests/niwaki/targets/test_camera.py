@@ -1,4 +1,4 @@
-"""Claim: a camera file means what it says, and one that sees nothing costs a message."""
+"""Claim: a camera file gives its camera, and a camera that sees nothing gives an error."""
 
 from __future__ import annotations
 

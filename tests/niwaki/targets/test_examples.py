@@ -1,4 +1,4 @@
-"""Claim: our targets are closed, have the sizes that models count on, and survive writing and reading."""
+"""Claim: our targets are closed, have the sizes that models need, and survive writing and reading."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ def test_images_have_the_size_and_the_weight_of_the_originals(name: str, side: i
     assert on(name).mean() == pytest.approx(share, abs=0.01)
 
 
-def test_images_say_what_their_experiments_need() -> None:
+def test_images_fit_their_experiments() -> None:
     # Pipes start above the middle of the floor and can only fill what is one piece.
     assert on("digits")[125, 125]
     assert pieces(on("digits")) == pieces(on("face")) == pieces(on("ship_front")) == 1
@@ -88,7 +88,7 @@ def test_images_say_what_their_experiments_need() -> None:
     # The stroke runs along the face's edge: half of it lies on either side.
     stroke = on("face_stroke")
     assert on("face")[stroke].mean() == pytest.approx(0.5, abs=0.1)
-    # The town stands on row 128, as its camera sees the ground.
+    # The town is on row 128 of pixels, as its camera sees the ground.
     rows = np.flatnonzero(on("skyline").any(axis=1))
     assert rows.max() == 128
 

@@ -1,4 +1,4 @@
-"""Claim: the model of the manual's page on garden paths does what the page says.
+"""Claim: the model of the manual's page on garden paths behaves as on the page.
 
 Each search is repeated with fixed seeds. The page claims that random order never comes to an end and depth-first order
 always does: were each to succeed in one run of two, ten runs of each would show it by chance once in a million.

@@ -1,4 +1,4 @@
-"""Claim: a pixel is on where its red is above zero, whatever the format; what is no image costs a message."""
+"""Claim: a pixel is on where its red is above zero, whatever the format; a file that is no image gives an error."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ GREY = (ON * 200).astype(np.uint8)
 
 
 @pytest.mark.parametrize("mode", ["1", "L", "RGB", "RGBA", "P", "I;16"])
-def test_modes_say_the_same(tmp_path: Path, mode: str) -> None:
+def test_modes_agree(tmp_path: Path, mode: str) -> None:
     grey = Image.fromarray(GREY, "L")
     if mode == "I;16":
         image = Image.fromarray(GREY.astype(np.uint16) * 250)

@@ -1,4 +1,4 @@
-"""Claim: a polygon comes from JSON and SVG as it was drawn, counter-clockwise; what is no polygon is refused."""
+"""Claim: a polygon comes from JSON and SVG as it was drawn, counter-clockwise; a file without a polygon is refused."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def saved(folder: Path, name: str, text: str) -> Path:
         ("room.svg", '<svg><path d="m 0,0 4,0 0,-2 -2,0 0,-2 -2,0 Z"/></svg>'),
     ],
 )
-def test_every_way_to_write_it_is_the_same_room(tmp_path: Path, name: str, text: str) -> None:
+def test_every_notation_gives_the_same_room(tmp_path: Path, name: str, text: str) -> None:
     found = load_polygon(saved(tmp_path, name, text))
     assert polygon_area(found) == 12.0
     assert {corner.parts for corner in found} == {(float(x), float(y)) for x, y in ELL}

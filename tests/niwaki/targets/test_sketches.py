@@ -1,4 +1,4 @@
-"""Claim: the controls score what Python's own arithmetic scores, they multiply, and bad input costs a message."""
+"""Claim: the controls score as plain Python arithmetic does, they multiply, and bad input gives an error."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ def test_a_slanted_light_throws_the_shadow_aside() -> None:
     assert rows.max() - rows.min() + 1 == 5
 
 
-def test_two_views_are_told_apart_in_the_measures() -> None:
+def test_two_views_are_distinct_in_the_measures() -> None:
     side = nw.Camera.orthographic((20, 0, 0), (0, 0, 0), height=10)
     score = nw.match_volume(cube()) * nw.match_image(ON, CAMERA) * nw.match_image(ON, side)
     assert [name for name in started(score).measures() if name.startswith("similarity")] == [

@@ -1,4 +1,4 @@
-"""Claim: every format keeps a target's coordinates, and bad files cost a message, never a result."""
+"""Claim: every format keeps a target's coordinates, and bad files give an error, never a result."""
 
 from __future__ import annotations
 

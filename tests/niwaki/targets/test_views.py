@@ -1,4 +1,4 @@
-"""Claim: the panels show what was wanted, what was made and where they differ, in colours that say which."""
+"""Claim: the panels show the wanted picture, the actual one and their difference, each in its colour."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def test_panels_of_a_silhouette() -> None:
         [PAPER, PAPER, INK, INK, PAPER],
         [PAPER, MISSING, INK, SURPLUS, PAPER],
     ]
-    # The scene itself stands where its silhouette is, to a pixel.
+    # The scene itself is where its silhouette is, to a pixel.
     own = np.asarray(page.crop((3 * width, 0, 3 * width + 200, 200)))
     rows = np.nonzero((np.abs(own.astype(int) - PAPER).sum(axis=2) > 40)[:, 100])[0]
     assert (rows.min(), rows.max()) == (pytest.approx(80, abs=2), pytest.approx(159, abs=2))

@@ -1,4 +1,4 @@
-"""The door's shapes, targets and sketches say what the engine says, and bad input costs an error with a code."""
+"""The binding's shapes, targets and sketches agree with the engine; bad input gives an error with a code."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from niwaki import _engine as engine
 CUBE = engine.Shape.box((0, 0, 0), (1, 1, 1))
 
 
-def test_shapes_lie_where_their_words_say() -> None:
+def test_shapes_are_at_their_given_places() -> None:
     rod = engine.Shape.cylinder((0, 0, 2), 0.5, 4, axis="z")
     assert rod.aabb() == ([-0.5, -0.5, 0.0], [0.5, 0.5, 4.0])
     assert rod == engine.Shape.cylinder((0, 0, 2), 0.5, 4, axis=(0, 0, 3))
@@ -60,7 +60,7 @@ def test_a_mesh_is_a_shape_and_a_target() -> None:
         ("bad-setting", lambda: engine.Sketch([engine.no_self_intersection()]).remove([CUBE])),
     ],
 )
-def test_bad_input_costs_an_error_with_a_code(code: str, make) -> None:
+def test_bad_input_gives_an_error_with_a_code(code: str, make) -> None:
     with pytest.raises(ValueError) as raised:
         make()
     assert raised.value.code == code

@@ -1,4 +1,4 @@
-"""Claim: soft constraints are the formulas that their pages state, without corners, and their residuals are seen."""
+"""Claim: soft constraints follow their documented formulas, are smooth, and their residuals are reported."""
 
 from __future__ import annotations
 

@@ -7,6 +7,6 @@ inputs     settings and arguments
 views      images to match, cameras, lights, receivers and obstacles; part of inputs
 files      files, and the settings of targets and pictures
 drawings   drawings to color, and rules about their regions; part of files
-doors      settings, models and run files, given in Python or in a shell
+settings   settings, models and run files, given in Python or in a shell
 advice     `niwaki check`: a model is right and could be more efficient
 """

@@ -1,4 +1,4 @@
-"""What is wrong with Markov chains: their first states, their kernels, what kernels select and propose."""
+"""Errors about Markov chains: their first states, their kernels, and what kernels select and propose."""
 
 from __future__ import annotations
 

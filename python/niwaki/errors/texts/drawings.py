@@ -1,4 +1,4 @@
-"""What is wrong with drawings to color, and with rules about their regions; part of the files."""
+"""Errors about drawings to color, and about rules of their regions; part of the files."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What can go wrong while a model runs: reported by the engine, and by the plain run where Python would raise.
+"""Errors while a model runs: reported by the engine, and by the plain run where Python would raise.
 
 The part that reports a fault usually gives the title, with the values; the titles here are the defaults.
 """

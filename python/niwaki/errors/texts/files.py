@@ -1,4 +1,4 @@
-"""What is wrong with the files that come in and go out, and with the settings of targets and pictures."""
+"""Errors about files that are read or written, and about the settings of targets and pictures."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is wrong with settings and arguments; files have a table of their own."""
+"""Errors about settings and arguments; files have their own table."""
 
 from __future__ import annotations
 

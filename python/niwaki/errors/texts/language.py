@@ -1,6 +1,6 @@
-"""What the compiler refuses: one entry for each rule of the modelling language.
+"""Errors of the compiler: one entry for each rule of the modelling language.
 
-A table, and long for that reason. Each example is compiled by the tests and must be refused with this code, each cure
+Each example is compiled by the tests and must be refused with this code, each cure
 must compile.
 """
 

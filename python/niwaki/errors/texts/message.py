@@ -7,14 +7,14 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Message:
-    """A message's texts. `{name}` stands for a value that the place which raises it gives.
+    """A message's texts. `{name}` is replaced by a value from the code that raises it.
 
     Attributes
     ----------
     code
         The error's name, kebab-case.
     title
-        What happened; stands alone, lower case, no full stop.
+        What happened, complete without `why`; lower case, no full stop.
     label, second
         The text beside the carets, and beside the second place if there is one.
     why

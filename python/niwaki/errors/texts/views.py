@@ -1,4 +1,4 @@
-"""What is wrong with images to match, cameras, lights, receivers and obstacles."""
+"""Errors about images to match, cameras, lights, receivers and obstacles."""
 
 from __future__ import annotations
 

@@ -13,7 +13,7 @@ from niwaki.targets.examples.lofts import curve
 
 Point = tuple[float, float]
 
-#: How much larger than asked for a picture is drawn.
+#: The factor by which a picture is drawn larger than its final size.
 FINE = 4
 
 #: From throat to hairline: the line that makes a profile a face.

@@ -1,4 +1,4 @@
-"""Things that stand in the way, and the volumes to fill around them."""
+"""Obstacles, and the volumes to fill around them."""
 
 from __future__ import annotations
 

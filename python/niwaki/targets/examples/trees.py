@@ -1,4 +1,4 @@
-"""Volumes to fill with what grows: they stand on the ground, their root at the origin."""
+"""Volumes to fill with plants: they stand on the ground, their root at the origin."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What draws are worth: the autocorrelation of the vector of all corners (dissertation 4.5), and effective draws.
+"""The autocorrelation of the vector of all corners (dissertation 4.5), and effective draws.
 
 Mean and variance are those of all chains together. Effective draws are N / (1 + 2 sum of autocorrelations), summed in
 pairs while these are positive (Geyer 1992).

@@ -1,4 +1,4 @@
-"""Finding a model by what a person writes: a name of the gallery, or `file.py:function`."""
+"""Models by reference: a name of the gallery, or `file.py:function`."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from niwaki.lang.models import Model
 
 
 @dataclass(frozen=True)
-class Found:
-    """A model and how to find it again.
+class ModelReference:
+    """A model, and the reference to load it again.
 
     Attributes
     ----------
@@ -33,7 +33,7 @@ class Found:
     entry: Entry | None = None
 
 
-def find(reference: str) -> Found:
+def find(reference: str) -> ModelReference:
     """Find a model by its gallery name or `file.py:function`."""
     place, colon, name = reference.rpartition(":")
     if reference.endswith(".py"):
@@ -42,14 +42,14 @@ def find(reference: str) -> Found:
         return _in_file(reference, Path(place), name)
     known = entry(reference)
     if known is not None:
-        return Found(known.name, known.model, known)
+        return ModelReference(known.name, known.model, known)
     names = [one.name for one in entries()]
     near = get_close_matches(reference, names, n=1)
     reason = f"did you mean `{near[0]}`?" if near else f"the gallery has {', '.join(names)}"
     raise InputError("unknown-model", name=reference, reason=reason)
 
 
-def _in_file(reference: str, place: Path, name: str) -> Found:
+def _in_file(reference: str, place: Path, name: str) -> ModelReference:
     if not place.is_file():
         raise InputError("unknown-model", name=reference, reason=f"there is no file {place.absolute()}")
     space = vars(_imported(place.resolve()))
@@ -62,7 +62,7 @@ def _in_file(reference: str, place: Path, name: str) -> Found:
     if not isinstance(found, Model):
         here = ", ".join(models) or "no function marked with `@model`"
         raise InputError("unknown-model", name=reference, reason=f"{place} defines {here}")
-    return Found(f"{place.resolve()}:{name}", found)
+    return ModelReference(f"{place.resolve()}:{name}", found)
 
 
 def _imported(place: Path) -> ModuleType:
@@ -71,7 +71,7 @@ def _imported(place: Path) -> ModuleType:
     module.__file__ = str(place)
     sys.path.insert(0, str(place.parent))
     try:
-        # Not through the import system: its cache takes two edits within a second for one.
+        # Not through the import system: its cache misses the second of two edits within a second.
         code = compile(place.read_bytes(), str(place), "exec", dont_inherit=True)
         sys.modules[place.stem] = module
         exec(code, module.__dict__)
@@ -88,7 +88,7 @@ def _imported(place: Path) -> ModuleType:
 
 
 def _last_line(error: BaseException, place: Path) -> str:
-    """Where in the file it stopped."""
+    """The line of the file where it stopped."""
     found, trace = "", error.__traceback__
     while trace is not None:
         if trace.tb_frame.f_code.co_filename == str(place):

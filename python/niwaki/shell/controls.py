@@ -1,10 +1,10 @@
-"""What a person asks of a shape, as flags: each is one control, and controls multiply.
+"""What the shape should be like, as flags: each is one control, and controls multiply.
 
     --target crown.obj --avoid wall.obj --floor 0
     --match-image skyline.png --camera cam.json
     --match-shadow face.png --weight-image face_w.png --light -1,-0.3,0 --receiver floor.obj
 
-Flags that contradict one another, or lack a companion, are refused before any file is read.
+Flags that contradict one another, or need another flag, are refused before any file is read.
 """
 
 from __future__ import annotations
@@ -53,8 +53,8 @@ Sigma = Annotated[float, typer.Option("--sigma", help="Strictness of the match; 
 
 
 @dataclass(frozen=True)
-class Asked:
-    """The controls as they were typed; None where nothing was said."""
+class Controls:
+    """The controls as they were given; None for flags that were not given."""
 
     target: str | None = None
     avoid: tuple[str, ...] = ()
@@ -128,8 +128,8 @@ class Asked:
             if given and not there:
                 raise InputError("flag-alone", flag=flag, other=other, reason=reason)
 
-    def aim(self, found: shell.finding.Found) -> nw.Target | None:
-        """The volume to fill: the one named; else the model's own, unless a picture is asked for."""
+    def aim(self, found: shell.references.ModelReference) -> nw.Target | None:
+        """The volume to fill: the one named; else the model's own, unless there is a picture to match."""
         if self.target is not None:
             return nw.Target.find(self.target)
         if self.match_image is not None or self.match_shadow is not None:
@@ -138,8 +138,8 @@ class Asked:
             raise InputError("no-target", name=found.reference)
         return nw.Target.find(f"gallery:{found.entry.target_name}")
 
-    def controls(self, voxel: float | None, sigma: float) -> nw.Score:
-        """Everything but the volume: what forbids comes before what scores."""
+    def score(self, voxel: float | None, sigma: float) -> nw.Score:
+        """Everything but the volume; sketches that forbid scenes come first."""
         score = nw.Score()
         if self.floor is not None:
             score *= nw.floor(self.floor)
@@ -168,7 +168,7 @@ class Asked:
 
 
 def numbers(flag: str, text: str, count: int) -> tuple[float, ...]:
-    """Numbers that were typed with commas between them."""
+    """Numbers with commas between them."""
     try:
         found = tuple(float(part) for part in text.split(","))
     except ValueError:

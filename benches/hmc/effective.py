@@ -11,7 +11,7 @@ from hmc.peers import Run
 WARMUP, DRAWS = 500, 1000
 
 
-def worth(draws: np.ndarray) -> float:
+def effective_size(draws: np.ndarray) -> float:
     """The smallest bulk effective size over coordinates of one chain, (draws, dim)."""
     return min(diagnostics.ess_bulk(draws[None, :, k]) for k in range(draws.shape[1]))
 
@@ -33,7 +33,7 @@ def measure(report: Report, programs: Programs, models: tuple[str, ...], share: 
         if "nutpie" in found and model != "stack":
             runs["nutpie"] = peers.nutpie_nuts(model, point, *sizes, seed=5), 0.0
         for name, (run, compiling) in runs.items():
-            size = worth(run.draws)
+            size = effective_size(run.draws)
             table.add_row(
                 model if name == "niwaki" else "",
                 name,

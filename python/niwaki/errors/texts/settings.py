@@ -1,10 +1,10 @@
-"""What is wrong with settings, models and run files, given in Python or in a shell."""
+"""Errors about settings, models and run files, given in Python or in a shell."""
 
 from __future__ import annotations
 
 from niwaki.errors.texts.message import Message
 
-DOORS = (
+SETTINGS = (
     Message(
         "bad-setting",
         "`{name}` cannot be {found}",

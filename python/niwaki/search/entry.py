@@ -1,7 +1,7 @@
-"""`run` a model by any method, and `grow` one into a target: both make a `Search` and run it.
+"""`run` a model by any method, and `grow` one into a target: both create a `Search` and run it.
 
 Seeds are 64-bit numbers; where none is given a fresh one is drawn and kept in the result. The same seed gives the same
-result on any number of threads. Ctrl-C stops a search, which then gives what it has (`Result.interrupted`).
+result on any number of threads. Ctrl-C stops a search, which then returns what it has (`Result.interrupted`).
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ def run(
     method
         `smc(...)`, `particle_gibbs(...)`, `pimh(...)`, `mh(...)`, `enumerate_all(...)`, `rejection(...)`,
         `importance(...)`, `hmc(...)`, `nuts(...)` or `forward(...)`, which is also what happens when it is left out.
-        It may also stand right after the model.
+        It may also be the argument after the model.
     score
         What its scene should be like.
     seed
@@ -68,7 +68,7 @@ def run(
     threads
         How many to use; all of the machine's when left out. The result does not depend on it.
     progress
-        Called now and then with a `Progress`; what it raises ends the search.
+        Called now and then with a `Progress`; an exception that it raises ends the search.
 
     Returns
     -------
@@ -111,19 +111,19 @@ def grow(
     progress: Watch | None = None,
     **kwargs: Any,
 ) -> Result:
-    """Grow a model into a target, or into anything else that can be asked for: the best of a population, `runs` times.
+    """Grow a model into a target, or to a high score of any kind: the best of a population, `runs` times.
 
     Parameters
     ----------
     model
         A model that emits shapes.
     target
-        What to fill: a `Target`, or a file; may be left out where `score` says what to match.
+        What to fill: a `Target`, or a file; may be left out where `score` has something to match.
     args, kwargs
         The model's arguments. What `kwargs` has of the settings of `smc` (particles, order, power, diverse, ...)
         is how to search, with a `power` of 16 for ratio weights when left out.
     score
-        What else is asked for, such as `floor(0) * match_image("skyline.png", "cam.json")`; it multiplies
+        Further sketches, such as `floor(0) * match_image("skyline.png", "cam.json")`; they multiply
         `no_self_intersection(rule)` and, where there is a target, `match_volume(target, voxel, sigma)`.
     method
         Another search than `smc` with those settings.
@@ -132,7 +132,7 @@ def grow(
     rule
         As for `no_self_intersection`.
     polish
-        How to go on from the best of each run, `mh(...)`: the best state of its chains takes its place
+        The chains that continue from the best of each run, `mh(...)`: the best state of its chains takes its place
         (`Result.polish`).
     runs
         How many results, with seeds `seed`, `seed + 1`, ...
@@ -155,16 +155,16 @@ def grow(
             expected="no settings together with `method`, which has its own",
             suggestion=f"`method` left out, or the setting in `{method.NAME}(...)`",
         )
-    asked = no_self_intersection(rule) * (Score() if score is None else score)
+    product = no_self_intersection(rule) * (Score() if score is None else score)
     if target is not None:
         aim = target if isinstance(target, Target) else Target.load(target)
-        asked *= match_volume(aim, voxel, sigma)
-    elif len(asked.asks) == 1:
+        product *= match_volume(aim, voxel, sigma)
+    elif len(product.asks) == 1:
         raise InputError("no-target", name=model.name)
     search = Search(
         model,
         tuple(arguments(model, args, kwargs)),
-        score=asked,
+        score=product,
         method=sharpened(settings) if method is None else method,
         seed=fresh(seed),
         runs=runs,
@@ -213,6 +213,6 @@ def explain(
         came to its end. `niwaki.draw.reuse.draw` draws it.
     """
     model = as_model(model)
-    made = task(model, args, kwargs, (), max_steps)
+    prepared = task(model, args, kwargs, (), max_steps)
     with translated(model.name, f"seed={seed}"):
-        return _engine.explain(made, check_seed(seed), choice)
+        return _engine.explain(prepared, check_seed(seed), choice)
