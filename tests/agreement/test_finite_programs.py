@@ -348,6 +348,31 @@ def m():
     return c
 """
 
+#: A truth value that `or` and `and` write in several places, where a future's argument changes below them.
+SEVERAL = """from dataclasses import dataclass
+from niwaki import model; from niwaki.words import *
+
+LOGS = (0.0, -0.7, 0.6)
+@dataclass(frozen=True)
+class Both:
+    first: object
+    second: object
+def late(promise, n=1):
+    factor(LOGS[n % 3])
+def h0(n, b=True):
+    k = categorical([1.0, 2.0, 1.0])
+    return k % 3
+@model
+def m():
+    n, b = 0, flip(0.6)
+    f1 = future(h0, n) if b else n
+    if flip(0.8):
+        c3 = ((n if (n > 1) else n) + (n - 2)) % 3
+    c4 = ((not (n % 2 == 0)) or (n % 2 == 0)) and (not (2 % 2 == 0))
+    r5 = Both(future(late, f1), f1)
+    return (n, b, c4, f1)
+"""
+
 ONCE = """from niwaki import model; from niwaki.words import *
 
 def leaf(n):
@@ -373,6 +398,10 @@ def test_a_force_that_waits_reads_what_it_waits_for() -> None:
 
 def test_a_chain_tests_what_it_has_now() -> None:
     assert not wrong(EITHER, 1)
+
+
+def test_what_several_places_write_is_not_set_back() -> None:
+    assert not wrong(SEVERAL, 1)
 
 
 @pytest.mark.parametrize("name", METHODS)

@@ -162,6 +162,8 @@ impl Slice {
                     }
                 }
                 _ => {
+                    // What was written anew before is written again here, whatever it now becomes.
+                    let hit = hit || writes.iter().any(|o| slice.tainted.contains(o));
                     slice.take(at, hit);
                     if hit {
                         slice.tainted.extend(writes);
@@ -188,7 +190,10 @@ impl Slice {
                 all = false;
             }
             let (mut reads, writes) = reads_and_writes(f, op);
-            self.taken[i] |= all || writes.iter().any(|o| needed.contains(o));
+            // The whole code needs all scratch values, and no other: registers of the node are as they were. One that is
+            // written in several places must not be set back to what the first of them gives.
+            let is_needed = |o: &Operand| needed.contains(o) || all && o.place() == Place::Scratch;
+            self.taken[i] |= writes.iter().any(is_needed);
             match self.others.iter_mut().find(|(place, _)| *place == i) {
                 Some((_, Some(other))) => {
                     let theirs = other.backward(f);

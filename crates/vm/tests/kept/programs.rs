@@ -25,6 +25,27 @@ pub const PROGRAMS: &[(&str, &str)] = &[
               (do (observe (index (data 0) $s) (mod $i 3))) (do (query $i $s)))) (return $s)) (entry "m"))"#,
     ),
     (
+        "truth values of truth values, before a future",
+        r#"(module
+          (class 0 "Both" ("first" "second")) (const 0 (list 0.0 -0.7 0.6))
+          (fn "m" (params)
+            (unpack ($n $b) (tuple 0 (sample #bernoulli (dist bernoulli 0.6))))
+            (set $f1 (cond $b (future #h0 "h0" $n true) $n))
+            (if #bernoulli#1 (sample #bernoulli#1 (dist bernoulli 0.8))
+              (then
+                (set $c3 (mod (add (cond (gt $n 1) $n $n) (sub $n 2)) 3)))
+              (else))
+            (set $c4 (and (or (not (eq (mod $n 2) 0)) (eq (mod $n 2) 0)) (not (eq (mod 2 2) 0))))
+            (set $r5 (record 0 (future #late "late" $f1 1) $f1))
+            (return (tuple $n $b $c4 $f1)))
+          (fn "h0" (params $n $b) (defaults true)
+            (set $k (sample #k (dist categorical (list 1.0 2.0 1.0))))
+            (return (mod $k 3)))
+          (fn "late" (params $promise $n) (defaults 1)
+            (do (factor #factor (index (data 0) (mod $n 3)))))
+          (entry "m"))"#,
+    ),
+    (
         "hmm by recursion",
         r#"(module (const 0 (list (dist categorical (list 0.7 0.2 0.1)) (dist categorical (list 0.1 0.5 0.4))
             (dist categorical (list 0.3 0.3 0.4))))
