@@ -252,7 +252,7 @@ impl PySketchSpec {
 /// Scores a scene by how well it fills ``target``; ``sigma`` is the standard deviation of both its terms.
 #[pyfunction(name = "match_volume")]
 #[pyo3(signature = (target, sigma=0.02))]
-fn py_volume_match(py: Python<'_>, target: &PyTarget, sigma: f64) -> PyResult<PySketchSpec> {
+fn py_match_volume(py: Python<'_>, target: &PyTarget, sigma: f64) -> PyResult<PySketchSpec> {
     match_volume(target.0.clone(), sigma).map(PySketchSpec).map_err(|e| value_error(py, &e))
 }
 
@@ -350,6 +350,6 @@ pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PyTarget>()?;
     module.add_class::<PySketchSpec>()?;
     module.add_class::<PySketch>()?;
-    module.add_function(wrap_pyfunction!(py_volume_match, module)?)?;
+    module.add_function(wrap_pyfunction!(py_match_volume, module)?)?;
     module.add_function(wrap_pyfunction!(py_no_self_intersection, module)?)
 }
