@@ -86,15 +86,15 @@ def returned_list(steps=100):
 @model
 def queried(steps=100):
     """One by one, with a `query` of each state; the last state."""
-    return state(steps - 1)
+    return recorded(steps - 1)
 
 
-def state(n):
+def recorded(n):
     """The state of step n, recorded."""
     if n == 0:
         state = sample(INITIAL)
     else:
-        previous = state(n - 1)
+        previous = recorded(n - 1)
         state = sample(TRANSITION[previous])
     observe(EMISSION[state], OBSERVATIONS[n])
     query(f"state {n}", state)

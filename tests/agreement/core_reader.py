@@ -298,4 +298,4 @@ def read(core: Core, args: list[Any], seed: int | None = None, choices: dict[str
     reader = Reader(core, state)
     value = reader.call(reader.entry, args, None)
     log_prior, log_score = densities.total(state.priors), densities.total(state.scores)
-    return Run(value, state.made, log_prior, log_score, state.scene, state.answers)
+    return Run(value, state.choices_made, log_prior, log_score, state.scene, state.answers)
