@@ -25,10 +25,10 @@ from niwaki.color.rule import Rule
 from niwaki.color.rules import Rules
 from niwaki.color.settle import settled
 from niwaki.errors import FileError, InputError
+from niwaki.errors.settings import bad, is_number
 from niwaki.lang.constraints import Constraint
 from niwaki.lang.residuals import Residuals, residuals
 from niwaki.methods import Method, at_least_one, explore
-from niwaki.methods.checks import bad, is_number
 from niwaki.result import Progress, Sample
 from niwaki.search import run
 

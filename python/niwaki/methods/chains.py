@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from niwaki.methods.checks import at_least_one, bad, from_zero, one_of
+from niwaki.errors.settings import bad
+from niwaki.methods.checks import at_least_one, from_zero, one_of
 from niwaki.methods.kernels import Kernel
 from niwaki.methods.method import Method
 

@@ -5,22 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from niwaki.errors import InputError
+from niwaki.errors.settings import bad, is_whole
 from niwaki.methods.kernels import Kernel
-
-
-def bad(name: str, found: Any, expected: str, suggestion: str) -> InputError:
-    """The error about the value of a setting."""
-    return InputError("bad-setting", name=name, found=repr(found), expected=expected, suggestion=suggestion)
-
-
-def is_whole(value: Any) -> bool:
-    """Whether it is a whole number, which a truth value is not."""
-    return isinstance(value, int) and not isinstance(value, bool)
-
-
-def is_number(value: Any) -> bool:
-    """Whether it is a number, which a truth value is not."""
-    return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
 def at_least_one(name: str, value: int) -> int:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from niwaki.methods.checks import at_least_one, bad, is_number, samples
+from niwaki.errors.settings import bad, is_number
+from niwaki.methods.checks import at_least_one, samples
 from niwaki.methods.checks import proposal as check_proposal
 from niwaki.methods.kernels import Kernel
 from niwaki.methods.method import Method

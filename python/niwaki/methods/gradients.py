@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from niwaki.methods.checks import at_least_one, bad, is_number, is_whole, one_of
+from niwaki.errors.settings import bad, is_number, is_whole
+from niwaki.methods.checks import at_least_one, one_of
 from niwaki.methods.method import Method
 
 #: Transitions of a chain are counted in 32 bits.

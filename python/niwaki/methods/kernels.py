@@ -22,6 +22,7 @@ from difflib import get_close_matches
 from typing import Any
 
 from niwaki.errors import InputError
+from niwaki.errors.settings import bad, is_number, is_whole
 
 __all__ = [
     "Kernel",
@@ -161,7 +162,7 @@ def block(step: float = 0.2, share: float = 1.0, target: float = 0.234) -> Kerne
         The acceptance to which the step is adapted during the warm-up.
     """
     if not _number(share) or not 0 < share <= 1:
-        raise _wrong("share", share, "a number above 0 and up to 1", "0.5")
+        raise bad("share", share, "a number above 0 and up to 1", "0.5")
     return Kernel(
         "block",
         {"step": _positive("step", step), "share": float(share), "target": _share("target", target)},
@@ -193,7 +194,7 @@ def hmc_step(steps: int = 10, step: float = 0.1, jitter: float = 0.0, target: fl
         The acceptance to which the step is adapted.
     """
     if not _number(jitter) or not 0 <= jitter <= 1:
-        raise _wrong("jitter", jitter, "a share in [0, 1]", "0.5")
+        raise bad("jitter", jitter, "a share in [0, 1]", "0.5")
     settings = {
         "steps": _whole("steps", steps, 1, _MOST),
         "step": _positive("step", step),
@@ -246,7 +247,7 @@ def mixture(*kernels: Kernel, weights: Sequence[float] | None = None) -> Kernel:
     parts = _parts("mixture", kernels)
     given = [1.0] * len(parts) if weights is None else [_positive("weights", one) for one in weights]
     if len(given) != len(parts):
-        raise _wrong("weights", weights, "one weight for each kernel", "such a list")
+        raise bad("weights", weights, "one weight for each kernel", "such a list")
     return Kernel("mixture", {"weights": given}, parts)
 
 
@@ -259,7 +260,7 @@ def on(sites: str | Sequence[str], kernel: Kernel) -> Kernel:
     """A kernel restricted to the choices whose address matches a pattern, or one of several."""
     patterns = [sites] if isinstance(sites, str) else list(sites)
     if not patterns or not all(isinstance(one, str) and one for one in patterns):
-        raise _wrong("sites", sites, "a pattern over addresses, or several", '"tree/width"')
+        raise bad("sites", sites, "a pattern over addresses, or several", '"tree/width"')
     return Kernel("on", _selection(sites=[patterns]), _parts("on", (kernel,)))
 
 
@@ -317,7 +318,7 @@ def tempering(kernel: Kernel, powers: Sequence[float] = (1.0, 0.5, 0.25, 0.125),
     """
     falling = [_positive("powers", one) for one in powers]
     if not falling or falling[0] != 1.0 or falling != sorted(falling, reverse=True):
-        raise _wrong("powers", powers, "powers that fall from 1", "(1, 0.5, 0.25, 0.125)")
+        raise bad("powers", powers, "powers that fall from 1", "(1, 0.5, 0.25, 0.125)")
     return Kernel(
         "tempering",
         {"powers": falling, "every": _whole("every", every, 1)},
@@ -413,12 +414,12 @@ def _selection(**given: Any) -> dict[str, Any]:
 
 def _parts(name: str, kernels: Sequence[Any]) -> tuple[Kernel, ...]:
     if not kernels:
-        raise _wrong(name, "nothing", "at least one kernel", "`kernels.prior()`")
+        raise bad(name, "nothing", "at least one kernel", "`kernels.prior()`")
     for one in kernels:
         if not isinstance(one, Kernel):
-            raise _wrong(name, one, "kernels", "one of `niwaki.kernels`, such as `kernels.prior()`")
+            raise bad(name, one, "kernels", "one of `niwaki.kernels`, such as `kernels.prior()`")
         if one.name == "tempering":
-            raise _wrong(
+            raise bad(
                 name,
                 one,
                 "kernels other than `tempering`, which can only be outermost",
@@ -427,35 +428,31 @@ def _parts(name: str, kernels: Sequence[Any]) -> tuple[Kernel, ...]:
     return tuple(kernels)
 
 
-def _wrong(name: str, found: Any, expected: str, suggestion: str) -> InputError:
-    return InputError("bad-setting", name=name, found=repr(found), expected=expected, suggestion=suggestion)
-
-
 def _number(value: Any) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+    return is_number(value) and math.isfinite(value)
 
 
 def _positive(name: str, value: Any) -> float:
     if not _number(value) or value <= 0:
-        raise _wrong(name, value, "a number above 0", "0.5")
+        raise bad(name, value, "a number above 0", "0.5")
     return float(value)
 
 
 def _weight(name: str, value: Any) -> float:
     if not _number(value) or value < 0:
-        raise _wrong(name, value, "selection weights, which are numbers of 0 or more", "1.0")
+        raise bad(name, value, "selection weights, which are numbers of 0 or more", "1.0")
     return float(value)
 
 
 def _share(name: str, value: Any) -> float:
     if not _number(value) or not 0 < value < 1:
-        raise _wrong(name, value, "a number between 0 and 1", "0.44")
+        raise bad(name, value, "a number between 0 and 1", "0.44")
     return float(value)
 
 
-def _whole(name: str, value: Any, least: int, most: int | None = None) -> int:
-    if not isinstance(value, int) or isinstance(value, bool) or value < least:
-        raise _wrong(name, value, f"a whole number, at least {least}", str(least))
+def _whole(name: str, value: int, least: int, most: int | None = None) -> int:
+    if not is_whole(value) or value < least:
+        raise bad(name, value, f"a whole number, at least {least}", str(least))
     if most is not None and value > most:
-        raise _wrong(name, value, f"a whole number, at most {most}", str(most))
+        raise bad(name, value, f"a whole number, at most {most}", str(most))
     return value

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from niwaki.errors import InputError
-from niwaki.methods.checks import at_least_one, bad, is_number, is_whole, one_of
+from niwaki.errors.settings import bad, is_number, is_whole
+from niwaki.methods.checks import at_least_one, one_of
 from niwaki.methods.checks import particles as check_particles
 from niwaki.methods.checks import proposal as check_proposal
 from niwaki.methods.kernels import Kernel

@@ -20,10 +20,10 @@ from numpy.typing import NDArray
 from niwaki import _engine, draw
 from niwaki.draw.scene import Scene
 from niwaki.errors import InputError
+from niwaki.errors.settings import bad
 from niwaki.lang.compiled import translated
 from niwaki.lang.models import Model
 from niwaki.methods import Method, Mh, at_least_one
-from niwaki.methods.checks import bad
 from niwaki.result import diagnostics
 from niwaki.result.chains import MhInfo
 from niwaki.result.hmc import HmcInfo, together

@@ -5,8 +5,8 @@ from __future__ import annotations
 import secrets
 from typing import Any
 
+from niwaki.errors.settings import bad
 from niwaki.methods import Mh
-from niwaki.methods.checks import bad
 
 
 def check_seed(seed: int) -> int:

@@ -25,11 +25,11 @@ from typing import Any
 
 from niwaki import _engine
 from niwaki.errors import InputError
+from niwaki.errors.settings import bad
 from niwaki.lang.compiled import arguments, task
 from niwaki.lang.core import Core
 from niwaki.lang.models import Model, as_model
 from niwaki.methods import Forward, Method, Mh
-from niwaki.methods.checks import bad
 from niwaki.result import Result
 from niwaki.result.progress import Watch, watcher
 from niwaki.search import searching

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING
 
 from niwaki import _engine
 from niwaki.errors import InputError, ModelFault
+from niwaki.errors.settings import bad
 from niwaki.lang.compiled import translated
 from niwaki.lang.models import as_model
 from niwaki.methods import Hmc, Method, Mh, Nuts, ParticleGibbs, Smc
-from niwaki.methods.checks import bad
 from niwaki.result import Result, Sample
 from niwaki.result.chains import MhInfo, Running
 from niwaki.result.hmc import Drawn, HmcInfo

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from niwaki import _engine, targets
 from niwaki.errors import InputError
+from niwaki.errors.settings import bad, is_number
 from niwaki.targets.camera import Camera
 from niwaki.targets.target import Receiver, Target
 
@@ -388,38 +389,22 @@ def automatic_voxel(target: Target) -> float:
 
 def check_positive(name: str, value: float) -> float:
     """The number, when it is finite and above zero."""
-    number = isinstance(value, (int, float)) and not isinstance(value, bool)
-    if not number or not 0 < value < float("inf"):
-        raise InputError(
-            "bad-setting",
-            name=name,
-            found=repr(value),
-            expected="a finite number above 0",
-            suggestion="a positive number",
-        )
+    if not is_number(value) or not 0 < value < float("inf"):
+        raise bad(name, value, "a finite number above 0", "a positive number")
     return float(value)
 
 
 def check_finite(name: str, value: float) -> float:
     """The number, when it is finite."""
-    number = isinstance(value, (int, float)) and not isinstance(value, bool)
-    if not number or not abs(value) < float("inf"):
-        raise InputError(
-            "bad-setting",
-            name=name,
-            found=repr(value),
-            expected="a finite number",
-            suggestion="such a number",
-        )
+    if not is_number(value) or not abs(value) < float("inf"):
+        raise bad(name, value, "a finite number", "such a number")
     return float(value)
 
 
 def check_not_negative(name: str, value: float) -> float:
     """The number, when it is finite and not below zero."""
     if check_finite(name, value) < 0:
-        raise InputError(
-            "bad-setting", name=name, found=repr(value), expected="0 or more", suggestion="0 or more"
-        )
+        raise bad(name, value, "0 or more", "0 or more")
     return float(value)
 
 
