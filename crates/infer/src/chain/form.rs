@@ -65,6 +65,11 @@ impl Form {
                 share: own.take("share")?,
                 target: own.take("target")?,
             },
+            "regrow" => Kernel::Regrow {
+                particles: own.take("particles")?,
+                turn: own.take("turn")?,
+                pick: own.take("pick")?,
+            },
             "regenerate" => Kernel::Regenerate { levels: own.take("levels")? },
             "hmc_step" => {
                 let length = Length::Fixed { steps: own.take("steps")?, jitter: own.take("jitter")? };

@@ -3,6 +3,7 @@
 //! One *application* of `cycle(a, b)` is one of `a` and then one of `b`; a chain applies its kernel again and again, and
 //! counts proposals, so it may stop in the middle of a cycle and go on there.
 
+use super::regrow::Pick;
 use super::user::User;
 use crate::hamiltonian::chains::Length;
 use std::sync::Arc;
@@ -52,6 +53,15 @@ pub enum Kernel {
     Regenerate {
         /// How many levels the call is above the picked choice.
         levels: usize,
+    },
+    /// A part of the run is grown again by conditional SMC.
+    Regrow {
+        /// Particles, the one with the present values among them.
+        particles: usize,
+        /// How often a discrete choice of the part gets another value, where it has one.
+        turn: f64,
+        /// Which part.
+        pick: Pick,
     },
     /// The continuous choices move together along their gradient.
     Trajectory {

@@ -7,6 +7,7 @@ use super::drift::Drift;
 use super::kernel::Selection;
 use super::neighbour::Neighbour;
 use super::proposal::{FromPrior, Move};
+use super::regrow::Regrow;
 use super::trajectory::Trajectory;
 use super::user::{User, UserMove};
 use crate::{Failure, Task};
@@ -30,6 +31,7 @@ pub(crate) enum Proposer {
     ByFamily,
     Block(Box<Block>),
     Regenerate(usize),
+    Regrow(Box<Regrow>),
     Trajectory(Box<Trajectory>),
     User(Arc<User>),
 }
@@ -40,7 +42,11 @@ impl Leaf {
     /// # Errors
     /// Sketches, which have no gradient that a trajectory could follow.
     pub fn prepare(&mut self, task: &Task) -> Result<(), Failure> {
-        if let Proposer::Trajectory(own) = &mut self.proposer { own.prepare(task) } else { Ok(()) }
+        match &mut self.proposer {
+            Proposer::Trajectory(own) => own.prepare(task),
+            Proposer::Regrow(own) => own.prepare(&self.selection),
+            _ => Ok(()),
+        }
     }
 }
 
@@ -59,6 +65,11 @@ pub(crate) trait Target {
 
     /// The call `levels` above a choice is drawn anew.
     fn regenerate(&mut self, _levels: usize) -> Result<(), Failure> {
+        Ok(())
+    }
+
+    /// A part is grown again.
+    fn regrow(&mut self, _own: &Regrow) -> Result<(), Failure> {
         Ok(())
     }
 
@@ -90,6 +101,7 @@ impl Proposer {
                 target.block(block)
             }
             Proposer::Regenerate(levels) => target.regenerate(*levels),
+            Proposer::Regrow(own) => target.regrow(own),
             Proposer::Trajectory(own) => {
                 own.warming = warming;
                 target.trajectory(own)

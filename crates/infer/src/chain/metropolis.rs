@@ -23,6 +23,7 @@ use super::state::Fresh;
 use super::streams::Ahead;
 use crate::{Failure, Task};
 use niwaki_math::Stream;
+use niwaki_vm::code::Program;
 use niwaki_vm::machine::Machine;
 use niwaki_vm::machine::kept::Change;
 use niwaki_vm::machine::stack::RunFault;
@@ -151,20 +152,26 @@ impl<R: Rules> Chain<R> {
         let fits = self.barriers.is_none_or(|n| barriers() == n as i64);
         let accepted = accepts(log_ratio, rng) && fits && !changed.is_impossible() && !self.undoing;
         if accepted {
-            if self.best.is_noting() {
-                self.best.note(&self.state, program, moved);
-            }
-            for table in &mut self.tables {
-                table.follow(&self.state.trace, program);
-            }
-            self.state.trace.commit(program);
-            self.best.compare(&self.state, program, self.visit);
+            self.keep(program, moved);
         } else {
             self.state.restore_sketches();
             self.state.trace.rollback(program);
         }
         self.last = Decision { same: false, accepted, log_ratio };
         Ok(self.last)
+    }
+
+    /// Keeps the open transaction.
+    #[inline(always)]
+    pub(super) fn keep(&mut self, program: &Program, moved: impl IntoIterator<Item = (u128, Value)>) {
+        if self.best.is_noting() {
+            self.best.note(&self.state, program, moved);
+        }
+        for table in &mut self.tables {
+            table.follow(&self.state.trace, program);
+        }
+        self.state.trace.commit(program);
+        self.best.compare(&self.state, program, self.visit);
     }
 
     /// A proposal raised a fault. Where a distribution is invalid, the proposal is impossible, and counted.

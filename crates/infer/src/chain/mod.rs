@@ -32,6 +32,7 @@ pub mod neighbour;
 pub(crate) mod plan;
 pub(crate) mod proposal;
 mod regenerate;
+pub mod regrow;
 pub mod samples;
 pub(crate) mod select;
 pub mod state;
@@ -55,6 +56,7 @@ use niwaki_vm::machine::kept::Strategy;
 use niwaki_vm::value::Value;
 use plan::Plan;
 use proposal::{FromPrior, Move};
+use regrow::Regrow;
 use samples::Samples;
 use state::State;
 use std::collections::HashMap;
@@ -319,6 +321,10 @@ impl<R: Rules> Target for Proposing<'_, '_, R> {
 
     fn regenerate(&mut self, levels: usize) -> Result<(), Failure> {
         self.chain.regenerate(self.task, self.machine, levels, self.table, self.beta)
+    }
+
+    fn regrow(&mut self, own: &Regrow) -> Result<(), Failure> {
+        self.chain.regrow(self.task, self.machine, own, self.table, self.beta)
     }
 
     fn trajectory(&mut self, own: &mut Trajectory) -> Result<(), Failure> {

@@ -7,6 +7,7 @@ use super::drift::Drift;
 use super::kernel::{Kernel, Selection};
 use super::leaf::{Leaf, Proposer};
 use super::neighbour::Neighbour;
+use super::regrow::Regrow;
 use super::trajectory::Trajectory;
 use crate::Failure;
 use niwaki_math::Stream;
@@ -82,6 +83,9 @@ impl Plan {
                 adapting: false,
             }))),
             Kernel::Regenerate { levels } => leaf(Proposer::Regenerate(*levels)),
+            Kernel::Regrow { particles, turn, pick } => {
+                leaf(Proposer::Regrow(Box::new(Regrow::new(*particles, *turn, pick.clone()))))
+            }
             Kernel::Trajectory { length, step, target } => {
                 leaf(Proposer::Trajectory(Box::new(Trajectory::new(*length, *step, *target))))
             }

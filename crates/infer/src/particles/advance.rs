@@ -14,7 +14,7 @@ use niwaki_vm::machine::{Machine, Stop};
 const ORDER: u64 = 1;
 
 /// A particle.
-pub(super) struct Particle {
+pub(crate) struct Particle {
     pub state: State,
     pub record: Record,
     /// Number of its random stream; no other particle has or had it.

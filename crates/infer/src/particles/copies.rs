@@ -180,7 +180,7 @@ pub(super) fn copy(batch: &mut [Indexed<'_>], seed: u64) {
 }
 
 /// Two different particles.
-fn pair(particles: &mut [Particle], a: usize, b: usize) -> [&mut Particle; 2] {
+pub(crate) fn pair<P>(particles: &mut [P], a: usize, b: usize) -> [&mut P; 2] {
     if a < b {
         let (left, right) = particles.split_at_mut(b);
         [&mut left[a], &mut right[0]]

@@ -28,8 +28,8 @@
 //! Random streams belong to a particle's lineage: at resampling the first copy keeps its parent's, every other
 //! copy gets a fresh one, and none is used again.
 
-mod advance;
-mod copies;
+pub(crate) mod advance;
+pub(crate) mod copies;
 pub mod distinct;
 mod final_chains;
 mod gibbs;
@@ -43,7 +43,7 @@ pub mod resampling;
 mod settings;
 mod shared;
 mod smc;
-mod weights;
+pub(crate) mod weights;
 
 #[cfg(test)]
 mod tests;

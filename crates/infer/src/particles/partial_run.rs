@@ -24,7 +24,7 @@ use std::collections::HashMap;
 
 /// A choice.
 #[derive(Clone, Debug)]
-pub(super) struct Choice {
+pub(crate) struct Choice {
     pub address: u128,
     pub value: Value,
     pub family: Family,
@@ -38,7 +38,7 @@ pub(super) struct Choice {
 
 /// One step of a run.
 #[derive(Clone, Debug)]
-pub(super) enum Step {
+pub(crate) enum Step {
     /// A future ran: its path; where several could, its place among them and a hash of their paths.
     Ran {
         path: u128,

@@ -71,7 +71,7 @@ fn place(weights: &[f64], total: f64, at: impl Fn(usize) -> f64) -> Vec<usize> {
 }
 
 /// How often each particle is drawn in `draws` independent draws by weight.
-pub(super) fn multinomial(weights: &[f64], draws: usize, random: &mut Stream) -> Vec<usize> {
+pub(crate) fn multinomial(weights: &[f64], draws: usize, random: &mut Stream) -> Vec<usize> {
     let cumulative: Vec<f64> = weights
         .iter()
         .scan(0.0, |sum, w| {

@@ -5,7 +5,7 @@ use crate::importance::log_sum_exp;
 
 /// Weights relative to the largest, with the log of their mean and the effective sample size.
 #[derive(Default)]
-pub(super) struct Normalised {
+pub(crate) struct Normalised {
     /// `exp(w_i - max)`.
     pub relative: Vec<f64>,
     /// Log of the mean weight, nats.

@@ -6,6 +6,7 @@ mod calibration;
 mod invalid;
 mod mixed;
 mod programs;
+mod regrown;
 mod scoped;
 
 use niwaki_geom::{Aabb, no_overshoot, vec3};
@@ -13,6 +14,7 @@ use niwaki_infer::Task;
 use niwaki_infer::chain::agreement::compare;
 use niwaki_infer::chain::kernel::{Kernel, Selection};
 use niwaki_infer::chain::ladder::Ladder;
+use niwaki_infer::chain::regrow::Pick;
 use niwaki_infer::chain::user::User;
 use niwaki_infer::chain::{Chain, Settings};
 use niwaki_vm::machine::kept::inspect::Item;
@@ -26,6 +28,7 @@ fn kernels(task: &Task) -> Vec<(&'static str, Kernel)> {
     let neighbour = || Kernel::Neighbour { reach: 2 };
     let block = || Kernel::Block { step: 0.3, share: 0.4, target: 0.23 };
     let regenerate = |levels| Kernel::Regenerate { levels };
+    let regrow = |turn, pick| Kernel::Regrow { particles: 4, turn, pick };
     let deep = Selection { depth: vec![1.0, 3.0, 0.5], ..Selection::default() };
     let first = choices(task).swap_remove(0).0;
     let by_site = Selection { weights: vec![(first, 3.0)], ..Selection::default() };
@@ -34,6 +37,7 @@ fn kernels(task: &Task) -> Vec<(&'static str, Kernel)> {
         Kernel::Repeat(2, Box::new(drift())),
         Kernel::Mixture(vec![(1.0, neighbour()), (2.0, block())]),
         regenerate(0),
+        regrow(0.5, Pick::Size),
         Kernel::On(deep.clone(), Box::new(Kernel::Prior)),
     ]);
     vec![
@@ -43,6 +47,8 @@ fn kernels(task: &Task) -> Vec<(&'static str, Kernel)> {
         ("block", block()),
         ("regenerate 0", regenerate(0)),
         ("regenerate 2", regenerate(2)),
+        ("regrow", regrow(0.3, Pick::Size)),
+        ("regrow by choice", regrow(1.0, Pick::Choice)),
         ("weights by depth", Kernel::On(deep, Box::new(Kernel::Cycle(vec![Kernel::Prior, regenerate(1)])))),
         ("weights by site", Kernel::On(by_site, Box::new(Kernel::Prior))),
         ("own proposals", own_proposals(task)),

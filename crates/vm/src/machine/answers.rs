@@ -50,6 +50,12 @@ impl<S: Scalar> At<'_, S> {
         join(self.state.nodes[self.node.0 as usize].path, self.site.key)
     }
 
+    /// The hash of the path of its activation.
+    #[inline]
+    pub fn activation(&self) -> u128 {
+        self.state.nodes[self.node.0 as usize].path
+    }
+
     /// The readable address. It visits all ancestors, so use it for records and messages, not for every choice.
     ///
     /// Under a stochastic order a future does not know its ancestors; its path then starts at the future.

@@ -386,8 +386,10 @@ impl<S: Scalar> Machine<'_, S> {
                         continue;
                     }
                     gather!(args);
-                    let (parent, next) = self.end_loop(state, node, kind);
-                    enter!(parent, next);
+                    match self.end_loop(state, future, node, kind) {
+                        Some((parent, next)) => enter!(parent, next),
+                        None => return Ok(Stop::Returned),
+                    }
                 }
                 Op::Pass { site, arg } => {
                     if K::KEEPS {

@@ -3,7 +3,7 @@
 use super::Machine;
 use super::address::{iteration_key, join};
 use super::registers::Registers;
-use super::state::{Node, NodeId, State};
+use super::state::{FutureId, Node, NodeId, State};
 use super::suspend::After;
 use crate::code::{Args, Loop, Site, SiteId, SiteKind, exit};
 use crate::fault::Fault;
@@ -95,14 +95,25 @@ impl<S: Scalar> Machine<'_, S> {
     }
 
     /// The loop ends with an iteration that has its carried values (and a returned value) in the buffer. Gives where to
-    /// continue.
-    pub(super) fn end_loop(&mut self, state: &mut State<S>, node: NodeId, kind: i64) -> (NodeId, u32) {
+    /// continue; `None` where the loop is a part that was run apart: then the future returns them.
+    pub(super) fn end_loop(
+        &mut self,
+        state: &mut State<S>,
+        future: FutureId,
+        node: NodeId,
+        kind: i64,
+    ) -> Option<(NodeId, u32)> {
         let header = state.nodes[node.0 as usize].parent;
         let above = state.nodes[header.0 as usize];
         state.release(self.program, node);
         state.release(self.program, header);
+        if above.parent == NodeId::NONE {
+            self.buffer.push(Value::Int(kind));
+            state.returned(future, Value::tuple(self.buffer.drain(..).collect()));
+            return None;
+        }
         let next = self.leave_loop(state, above.parent, SiteId(above.site as u16), kind);
-        (above.parent, next)
+        Some((above.parent, next))
     }
 
     /// Writes the results of a loop, in the buffer, to the registers of its owner.

@@ -319,6 +319,25 @@ impl<S: Scalar> State<S> {
         }
     }
 
+    /// The component of a loop's node in addresses, its iteration left open: that of its site, or, of a loop that is run
+    /// apart, its whole path.
+    fn loop_label(&self, program: &Program<S>, header: NodeId) -> String {
+        let n = &self.nodes[header.0 as usize];
+        if n.parent == NodeId::NONE {
+            let origin = self.origins.as_ref().and_then(|origins| origins.get(&header));
+            return origin.cloned().unwrap_or_default();
+        }
+        let above = &self.nodes[n.parent.0 as usize];
+        program.function(above.function).sites[n.site as usize].label.to_string()
+    }
+
+    /// The readable path of a loop's node, its iteration left open.
+    pub(crate) fn loop_path(&self, program: &Program<S>, header: NodeId) -> String {
+        let above = self.path(program, self.nodes[header.0 as usize].parent);
+        let label = self.loop_label(program, header);
+        if above.is_empty() { label } else { format!("{above}/{label}") }
+    }
+
     /// The readable path of an activation, from the root or from the future that it belongs to.
     pub(crate) fn path(&self, program: &Program<S>, node: NodeId) -> String {
         let mut parts: Vec<String> = Vec::new();
@@ -333,9 +352,8 @@ impl<S: Scalar> State<S> {
             let parent = &self.nodes[n.parent.0 as usize];
             if program.function(parent.function).mode == Mode::Loop {
                 // The component of a loop is made from the loop node's site and the iteration.
-                let above = &self.nodes[parent.parent.0 as usize];
-                let label = &program.function(above.function).sites[parent.site as usize].label;
-                parts.push(label.replacen("[]", &format!("[{}]", n.iteration), 1));
+                let component = self.loop_label(program, n.parent);
+                parts.push(component.replacen("[]", &format!("[{}]", n.iteration), 1));
                 at = parent.parent;
             } else {
                 parts.push(program.function(parent.function).sites[n.site as usize].label.to_string());

@@ -13,7 +13,7 @@
 //! * `cells`: elements of collections, and their readers;
 //! * `transaction`: changing choices, keeping or undoing it; `changes`: what that did to the choices;
 //! * `ahead`: memory that the next proposal will need;
-//! * [`inspect`]: what a trace holds, in program order.
+//! * [`inspect`]: what a trace holds, in program order; [`part`]: parts of it that can be run apart.
 //!
 //! Futures run where they are created, so every future has returned when its value is read.
 //!
@@ -28,6 +28,7 @@ mod changes;
 pub mod inspect;
 mod journal;
 mod loops;
+pub mod part;
 mod questions;
 mod slices;
 mod slot;

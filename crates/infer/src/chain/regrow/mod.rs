@@ -1,0 +1,292 @@
+//! Regrowth: a part of the run is grown again in place by conditional SMC, and everything else is held.
+//!
+//! Particle Gibbs of a block: the block `B` is what the part chooses, `R` is all else. Particles grow the part from its
+//! inputs, in a scene that already has everything of `R`; one of them holds the present values, under an order of its
+//! futures that is drawn anew. One particle is drawn by weight, and its values replace the part's. This leaves
+//! `p(B | R)` invariant for any number of particles (Andrieu, Doucet & Holenstein 2010, section 4.5).
+//!
+//! * `pick`: which part is grown again. The pick is an auxiliary variable: its probability, in each particle's run,
+//!   multiplies that particle's last weight.
+//! * `sweep`: SMC of a part; `turn`: other values of a discrete choice.
+//! * Where a part returns another value than before, the rest of the run is evaluated with it: the densities of the held
+//!   choices and the score change, and multiply the weight. A run that does not make exactly the choices of `R` beside
+//!   its own has weight zero.
+//! * *Turn and regrow*: a discrete choice of the part's own activation gets another value `v'`, drawn from `g(v' | v)`.
+//!   Conditional SMC with the old value estimates the normalising constant `Z`, free SMC with the new one estimates `Z'`,
+//!   and the probabilities of the pick, of the choice and of `g` are in both. The new part is kept with probability
+//!   `min(1, Z' / Z)`, else one is drawn from the conditional particles: a step of particle marginal
+//!   Metropolis-Hastings after one of particle Gibbs.
+
+mod pick;
+mod sweep;
+mod turn;
+
+pub use pick::Pick;
+
+use super::Chain;
+use super::accept::{Rules, accepts};
+use super::kernel::Selection;
+use super::metropolis::Decision;
+use super::state::Fresh;
+use crate::{Failure, Task};
+use niwaki_vm::fault::Fault;
+use niwaki_math::{RngCore, Stream, StreamKey, Total};
+use niwaki_vm::machine::Machine;
+use niwaki_vm::machine::kept::Change;
+use niwaki_vm::machine::kept::part::Piece;
+use niwaki_vm::value::{Value, same};
+use pick::Picked;
+use std::collections::HashMap;
+use sweep::{Block, Set};
+
+/// The settings of regrowth.
+#[derive(Clone, Debug)]
+pub struct Regrow {
+    /// Particles, the one with the present values among them.
+    pub particles: usize,
+    /// How often a discrete choice of the part is turned, where it has one.
+    pub turn: f64,
+    /// Which part is grown again.
+    pub pick: Pick,
+    /// Which choices may change.
+    pub(crate) selection: Selection,
+}
+
+impl Regrow {
+    /// The settings, for all choices.
+    pub(crate) fn new(particles: usize, turn: f64, pick: Pick) -> Regrow {
+        Regrow { particles, turn, pick, selection: Selection::default() }
+    }
+
+    /// Takes the choices that may change.
+    ///
+    /// # Errors
+    /// Fewer than two particles, a share outside of 0 to 1, selection weights.
+    pub(crate) fn prepare(&mut self, selection: &Selection) -> Result<(), Failure> {
+        let wrong = |what: String, help: &str| Err(Fault::new("bad-kernel", what).with_help(help).into());
+        if self.particles < 2 {
+            return wrong("regrowth needs a particle beside the present one".into(), "use at least two");
+        }
+        if !(0.0..=1.0).contains(&self.turn) {
+            return wrong(format!("`turn` is {}", self.turn), "use a share between 0 and 1");
+        }
+        if !selection.is_by_pattern() {
+            return wrong(
+                "regrowth takes which choices may change, not how often".into(),
+                "use patterns in `on`, and no weights",
+            );
+        }
+        self.selection = selection.clone();
+        Ok(())
+    }
+}
+
+/// A choice that is turned: its address, its value, and the new one.
+struct Turned {
+    address: u128,
+    old: Value,
+    new: Value,
+}
+
+impl<R: Rules> Chain<R> {
+    /// One regrowth.
+    pub(super) fn regrow(
+        &mut self,
+        task: &Task,
+        machine: &mut Machine<'_>,
+        own: &Regrow,
+        table: Option<usize>,
+        beta: f64,
+    ) -> Result<(), Failure> {
+        let (visit, program) = (self.visit, &*task.program);
+        self.visit += 1;
+        let mut rng = self.streams.decisions(visit);
+        let trace = &self.state.trace;
+        let is_selected = |choice: usize| table.is_none_or(|t| self.tables[t].weight(choice) > 0);
+        let Some(picked) = own.pick.draw(trace, program, &is_selected, &mut rng) else {
+            return Ok(());
+        };
+        let (mut held, mut rest, mut numbers, mut gone) = (HashMap::new(), HashMap::new(), vec![], vec![]);
+        trace.all_pieces(program, picked.part, |piece| match piece {
+            Piece::Choice(n) => {
+                let (address, value) = (trace.address(program, n), trace.choice(program, n).0.clone());
+                if is_selected(n) {
+                    numbers.push(n);
+                    held.insert(address, value);
+                } else {
+                    rest.insert(address, value);
+                }
+            }
+            Piece::Emit(primitive) => gone.push(primitive),
+            Piece::Part(_) => {}
+        });
+        let mut sketches = self.state.sketches.fork();
+        if !gone.is_empty() {
+            let kept = sketches.exchange(gone.iter().copied(), std::iter::empty());
+            debug_assert!(kept, "the sketches and the trace hold the same scene");
+        }
+        if sketches.forbidden_by().is_some() {
+            // The rest alone is impossible: no particle could start from it.
+            return Ok(());
+        }
+        let moves = self.streams.moves(visit);
+        let seed = |which: u128| moves.at(which).next_u64();
+        let block = Block {
+            task,
+            start: trace.start_part(program, picked.part, !own.selection.is_all()),
+            path: trace.part_path(picked.part),
+            sketches,
+            held: &held,
+            rest: &rest,
+            selection: &own.selection,
+            beta,
+            particles: own.particles,
+        };
+        let is_turned = rng.uniform() < own.turn;
+        let turned = if is_turned { block.turned(machine, &mut rng)? } else { None };
+        let mut present = block.conditional(machine, turned.as_ref(), seed(0))?;
+        self.finish(task, machine, own, &picked, &block, &numbers, &mut present, None)?;
+        let mut set = present;
+        let mut log_ratio = 0.0;
+        if let Some(turned) = &turned {
+            let held = set.grown[0].result();
+            let mut other = block.free(machine, turned, seed(1))?;
+            self.finish(task, machine, own, &picked, &block, &numbers, &mut other, Some((&set, held)))?;
+            log_ratio = other.log_mean - set.log_mean;
+            if accepts(log_ratio, &mut rng) {
+                set = other;
+            }
+        }
+        let chosen = &set.grown[set.weights.index(rng.uniform())];
+        let values = chosen.values(&block);
+        let is_same = values.len() == held.len()
+            && values.iter().all(|(address, value)| held.get(address).is_some_and(|old| same(old, value)));
+        if is_same || self.undoing {
+            self.last = Decision { same: is_same, accepted: false, log_ratio };
+            self.count_many(self.last);
+            return Ok(());
+        }
+        let moved: Vec<_> = held.iter().map(|(address, value)| (*address, value.clone())).collect();
+        let change = self.replace(task, machine, &numbers, &values)?;
+        debug_assert_eq!(change, Change::Done, "a particle that was drawn is possible");
+        self.state.update_sketches()?;
+        self.keep(program, moved);
+        self.last = Decision { same: false, accepted: true, log_ratio };
+        self.count_many(self.last);
+        Ok(())
+    }
+
+    /// Opens a transaction that gives choices of a part the values of a particle.
+    fn replace(
+        &mut self,
+        task: &Task,
+        machine: &mut Machine<'_>,
+        numbers: &[usize],
+        values: &HashMap<u128, Value>,
+    ) -> Result<Change, Failure> {
+        let mut answers = Fresh::of(StreamKey::new(0, 0, 0), Some(values), &*task.hosts);
+        match machine.redraw(&mut self.state.trace, numbers, self.settings.strategy, &mut answers) {
+            Ok(change) => Ok(change),
+            Err(met) => self.give_up(task, met),
+        }
+    }
+
+    /// The last weights of a set: the probability of the pick, and what the rest of the run says to what a part returns.
+    /// A set without present values is compared with the one that has them, whose first particle returned `held`.
+    #[allow(clippy::too_many_arguments)]
+    fn finish(
+        &mut self,
+        task: &Task,
+        machine: &mut Machine<'_>,
+        own: &Regrow,
+        picked: &Picked,
+        block: &Block<'_>,
+        numbers: &[usize],
+        set: &mut Set,
+        present: Option<(&Set, Value)>,
+    ) -> Result<(), Failure> {
+        let (first, returned) = match &present {
+            Some((present, returned)) => (&present.grown[0], returned.clone()),
+            None => (&set.grown[0], set.grown[0].result()),
+        };
+        let (score, is_turned) = (first.particle.record.score(), first.seen.log_turn.is_some());
+        let barriers = first.barriers;
+        let mut logs = Vec::with_capacity(set.grown.len());
+        for grown in &set.grown {
+            let mut log = grown.particle.log_weight;
+            if grown.is_complete(block, is_turned) && log > f64::NEG_INFINITY {
+                log += picked.log_probability(&grown.seen) + turn::log_form(own.turn, &grown.seen);
+            } else {
+                log = f64::NEG_INFINITY;
+            }
+            if log > f64::NEG_INFINITY && !same(&grown.result(), &returned) {
+                log += self.answer(task, machine, block, numbers, grown, &score)?;
+            } else if self.barriers.is_some() && grown.barriers != barriers {
+                log = f64::NEG_INFINITY;
+            }
+            logs.push(log);
+        }
+        set.close(&logs);
+        Ok(())
+    }
+
+    /// What the rest of the run adds to the log weight of a particle that returned another value: the change of the
+    /// densities of held choices and of the score, beyond that of the part itself. `score` is that of the part with the
+    /// present values.
+    fn answer(
+        &mut self,
+        task: &Task,
+        machine: &mut Machine<'_>,
+        block: &Block<'_>,
+        numbers: &[usize],
+        grown: &sweep::Grown,
+        score: &Total,
+    ) -> Result<f64, Failure> {
+        let values = grown.values(block);
+        let change = self.replace(task, machine, numbers, &values)?;
+        let program = &*task.program;
+        if change == Change::Impossible {
+            self.state.trace.rollback(program);
+            return Ok(f64::NEG_INFINITY);
+        }
+        if let Err(failure) = self.state.update_sketches() {
+            self.state.restore_sketches();
+            self.state.trace.rollback(program);
+            return Err(failure);
+        }
+        let trace = &self.state.trace;
+        let changed = trace.change();
+        // The choices of the rest are the same ones, and none was drawn.
+        let is_own = |address: &u128| values.contains_key(address) || block.held.contains_key(address);
+        let keeps_rest = trace.births(program).all(|place| is_own(&place.address()))
+            && trace.deaths().iter().all(|dead| is_own(&trace.address(program, *dead as usize)))
+            && trace.drawn_anew().iter().all(|(address, old)| {
+                // The one value of a delta is drawn again whenever its activation runs.
+                let now = || trace.numbers().find(|n| trace.address(program, *n) == *address);
+                is_own(address) || now().is_some_and(|n| same(trace.choice(program, n).0, old))
+            });
+        let barriers = self.state.primitives as i64 + trace.totals().factors + changed.factors;
+        let fits = self.barriers.is_none_or(|n| barriers == n as i64);
+        let mut log = f64::NEG_INFINITY;
+        if keeps_rest && fits && !changed.is_impossible() {
+            let (fresh, stale) = trace.fresh_and_stale();
+            let mut prior = changed.log_prior.less(fresh);
+            prior.add_total(stale);
+            let mut more = changed.log_factors.less(&grown.particle.record.score());
+            more.add_total(score);
+            if let Some(sketches) = self.state.sketch_change() {
+                more.add_total(&sketches);
+            }
+            let scored = if block.beta == 0.0 { 0.0 } else { block.beta * more.value() };
+            log = prior.value() + scored;
+        }
+        self.state.restore_sketches();
+        self.state.trace.rollback(program);
+        Ok(if log.is_nan() { f64::NEG_INFINITY } else { log })
+    }
+}
+
+/// A stream for the draws of a sweep.
+fn stream(seed: u64, which: u128) -> Stream {
+    Stream::new(seed, u64::MAX, which, 0)
+}

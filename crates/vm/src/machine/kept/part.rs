@@ -1,0 +1,144 @@
+//! Parts of a trace: what can be run once more apart from the rest.
+//!
+//! A part is an activation and everything below it, or the iterations of a loop from one on. A loop is thus divided as
+//! the recursion that it could be: the iterations from `i` on consist of iteration `i` and of those from `i + 1` on.
+//!
+//! The inputs of a part are in its own registers, and those of an iteration also in the loop's node. A run of the part
+//! needs nothing else. Its result is what it gives back: the value of a call, or how the iterations ended and what they
+//! carry.
+
+use super::super::state::{NodeId, State, Status};
+use super::Trace;
+use crate::code::{Mode, Program, SiteKind};
+use crate::value::Value;
+use niwaki_geom::Primitive;
+use niwaki_math::Scalar;
+use std::collections::HashMap;
+
+/// A part of a trace. It is valid until the trace changes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Part {
+    node: NodeId,
+    /// Of an iteration: whether those after it belong to the part.
+    onward: bool,
+}
+
+impl Part {
+    /// The whole run.
+    pub const WHOLE: Part = Part { node: NodeId(0), onward: false };
+
+    /// Whether it is the iterations of a loop from one on.
+    pub fn is_onward(self) -> bool {
+        self.onward
+    }
+}
+
+/// What a part consists of.
+pub enum Piece<'a> {
+    /// A choice of its own activation, by number.
+    Choice(usize),
+    /// A primitive that its own activation emitted.
+    Emit(&'a Primitive),
+    /// A part below.
+    Part(Part),
+}
+
+impl<S: Scalar> Trace<S> {
+    /// Visits what a part consists of, in program order. No transaction is open.
+    pub fn pieces<'a>(&'a self, program: &Program<S>, part: Part, mut each: impl FnMut(Piece<'a>)) {
+        let n = &self.state.nodes[part.node.0 as usize];
+        if part.onward {
+            each(Piece::Part(Part { onward: false, ..part }));
+            let header = &self.state.nodes[n.parent.0 as usize];
+            if let Some(next) = self.kept.loops[header.slots as usize].get(n.iteration as usize + 1) {
+                each(Piece::Part(Part { node: *next, onward: true }));
+            }
+            return;
+        }
+        for (i, site) in program.function(n.function).sites.iter().enumerate() {
+            let slot = self.kept.slots[n.slots as usize + i];
+            match &site.kind {
+                _ if !slot.is_filled() => {}
+                SiteKind::Sample(_) => each(Piece::Choice(slot.held as usize)),
+                SiteKind::Emit => {
+                    self.kept.emits[slot.held as usize].iter().for_each(|emit| each(Piece::Emit(emit)));
+                }
+                SiteKind::Loop(_) => {
+                    let header = &self.state.nodes[slot.held as usize];
+                    let first = self.kept.loops[header.slots as usize].first();
+                    first.into_iter().for_each(|node| each(Piece::Part(Part { node: *node, onward: true })));
+                }
+                kind if kind.makes_activation() => {
+                    each(Piece::Part(Part { node: NodeId(slot.held), onward: false }));
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// Visits the choices (by number) and the primitives of a part and of all below it, in no order.
+    pub fn all_pieces<'a>(&'a self, program: &Program<S>, part: Part, mut each: impl FnMut(Piece<'a>)) {
+        let mut work = vec![part];
+        while let Some(part) = work.pop() {
+            self.pieces(program, part, |piece| match piece {
+                Piece::Part(part) => work.push(part),
+                other => each(other),
+            });
+        }
+    }
+
+    /// The part that is the activation of a choice.
+    pub fn part_of(&self, choice: usize) -> Part {
+        Part { node: self.activation(choice, 0), onward: false }
+    }
+
+    /// The hash of the path of a part's first activation: the same in every run that reaches it with the same inputs.
+    pub fn part_path(&self, part: Part) -> u128 {
+        self.state.nodes[part.node.0 as usize].path
+    }
+
+    /// The readable path of a part's first activation; empty for the whole run.
+    pub fn part_name(&self, program: &Program<S>, part: Part) -> String {
+        self.state.path(program, part.node)
+    }
+
+    /// A run of a part that has not begun, with the inputs that the part has in this trace. Futures that it creates are
+    /// deferred. With `origins`, addresses below it can be read from the root.
+    pub fn start_part(&self, program: &Program<S>, part: Part, origins: bool) -> State<S> {
+        let mut state = State::empty();
+        let n = &self.state.nodes[part.node.0 as usize];
+        let f = program.function(n.function);
+        let copy = |state: &mut State<S>, from: NodeId, parent: NodeId, inputs: usize| {
+            let n = &self.state.nodes[from.0 as usize];
+            let to = state.new_node(program, n.function, parent, 0, n.path);
+            state.nodes[to.0 as usize].iteration = n.iteration;
+            let (at, own) = (state.nodes[to.0 as usize].registers as usize, n.registers as usize);
+            for i in 0..inputs {
+                state.registers[at + i] = self.kept.resolved(&self.state, &self.state.registers[own + i]);
+            }
+            to
+        };
+        let mut above = NodeId::NONE;
+        if f.mode == Mode::Iteration {
+            let header = &self.state.nodes[n.parent.0 as usize];
+            let all = program.function(header.function).node_registers as usize;
+            above = copy(&mut state, n.parent, NodeId::NONE, all);
+            if !part.onward {
+                // The loop has nothing more to run over.
+                let over = state.nodes[above.0 as usize].registers as usize;
+                state.registers[over] = Value::tuple(Vec::new());
+            }
+        }
+        let first = copy(&mut state, part.node, above, f.params as usize + f.captures as usize);
+        if origins {
+            let (node, name) = match above {
+                NodeId::NONE => (first, self.state.path(program, part.node)),
+                header => (header, self.state.loop_path(program, n.parent)),
+            };
+            state.origins = Some(HashMap::from([(node, name)]));
+        }
+        let future = state.new_future(Status::Runnable(first), false);
+        state.runnable.push(future);
+        state
+    }
+}
