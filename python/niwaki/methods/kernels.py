@@ -40,6 +40,7 @@ __all__ = [
     "prior",
     "proposal",
     "regenerate",
+    "regrow",
     "repeat",
     "tempering",
     "weighted",
@@ -172,6 +173,46 @@ def block(step: float = 0.2, share: float = 1.0, target: float = 0.234) -> Kerne
 def regenerate(levels: int = 0) -> Kernel:
     """A call and all below it are drawn again: the call that is `levels` calls or iterations above a choice."""
     return Kernel("regenerate", {"levels": _whole("levels", levels, 0)})
+
+
+def regrow(
+    particles: int = 60, *, turn: float = 0.5, pick: str = "size", parts: str | Sequence[str] | None = None
+) -> Kernel:
+    """A part of the run is grown again in place by particles, and everything else is held.
+
+    The part is a call with all below it, an iteration of a loop, or the iterations from one on. Particles grow it in the
+    scene that has everything else; one of them holds the present values, and one is drawn by weight (particle Gibbs of a
+    block). A particle search that lost a part early gets it back this way. Under `on` only the choices that match change.
+
+    Parameters
+    ----------
+    particles
+        How many, the one with the present values among them; at least 2.
+    turn
+        How often a discrete choice of the part's own call is given another value and the part grown with it: a branch
+        where there was none, a segment more, [0, 1].
+    pick
+        Which part: `"size"` draws the logarithm of its size evenly, so small and large parts have their turn, and
+        `"choice"` takes the call of a choice that is drawn evenly.
+    parts
+        Patterns over the addresses of calls and iterations, such as `"wing[1]"`: one of those that match is grown again,
+        drawn evenly, instead of `pick`.
+    """
+    if not _number(turn) or not 0 <= turn <= 1:
+        raise bad("turn", turn, "a share in [0, 1]", "0.5")
+    if pick not in ("size", "choice"):
+        raise bad("pick", pick, 'one of "size", "choice"', '"size"')
+    named = [parts] if isinstance(parts, str) else parts
+    if named is not None and not (named and all(isinstance(one, str) and one for one in named)):
+        raise bad("parts", parts, "a pattern over addresses of calls, or several", '"wing[1]"')
+    return Kernel(
+        "regrow",
+        {
+            "particles": _whole("particles", particles, 2),
+            "turn": float(turn),
+            "pick": pick if named is None else {"parts": list(named)},
+        },
+    )
 
 
 def hmc_step(steps: int = 10, step: float = 0.1, jitter: float = 0.0, target: float = 0.8) -> Kernel:
