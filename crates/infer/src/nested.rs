@@ -11,17 +11,14 @@ use crate::chain;
 use crate::chain::many::Chains;
 use crate::method::{Given, Info, Method, Mh};
 use crate::run::Run;
+use crate::streams::Reserved;
 use crate::task::{Hosts, Task};
-use niwaki_math::Stream;
 use niwaki_vm::code::{FunctionId, Program};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Limits;
 use niwaki_vm::value::{Closure, Value, same};
 use std::collections::{HashMap, VecDeque};
 use std::sync::{Arc, Mutex, PoisonError};
-
-/// The stream of the draw among weighted samples: no run and no lineage has this number.
-const PICK: u64 = u64::MAX - 1;
 
 /// How many `infer` may be inside one another. Each takes some of the host's stack.
 const DEPTH: usize = 16;
@@ -116,7 +113,7 @@ impl Inner {
                 .fold(0, |best, at| if runs[at].log_score > runs[best].log_score { at } else { best }),
             Keep::Sample => {
                 let weights: Vec<f64> = runs.iter().map(|run| (run.log_weight - most).exp()).collect();
-                let mut left = Stream::new(seed, PICK, 0, 0).uniform() * weights.iter().sum::<f64>();
+                let mut left = Reserved::Pick.stream(seed, 0, 0).uniform() * weights.iter().sum::<f64>();
                 let passed = weights.iter().position(|w| {
                     left -= w;
                     left < 0.0

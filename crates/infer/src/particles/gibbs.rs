@@ -23,23 +23,17 @@
 use super::advance::Particle;
 use super::many::Watch;
 use super::partial_run::{FollowSettings, PartialRun, Step};
-use super::population::{Population, RESAMPLING};
+use super::population::Population;
 use super::resampling::multinomial;
 use super::settings::{Anneal, Order, Settings, Weights};
 use super::smc::{Outcome, Progress, outcome, run};
 use super::weights::Normalised;
 use crate::log::Entry;
+use crate::streams::Reserved;
 use crate::{Failure, Task};
-use niwaki_math::Stream;
 use niwaki_math::streams::RngCore;
 use niwaki_vm::fault::Fault;
 use rayon::prelude::*;
-
-/// Streams of the draws between sweeps, of the ancestors, and of an order that a first run lacks: no lineage has these
-/// numbers.
-const SWEEPS: u64 = u64::MAX - 2;
-const ANCESTORS: u64 = u64::MAX - 3;
-const ORDERS: u64 = u64::MAX - 4;
 
 /// The runs that a chain of whole runs went through.
 #[derive(Default)]
@@ -72,12 +66,12 @@ pub enum Ancestors {
 
 /// The seed of a sweep.
 pub(super) fn sweep_seed(seed: u64, sweep: usize) -> u64 {
-    Stream::new(seed, SWEEPS, sweep as u128, 0).next_u64()
+    Reserved::Sweep.stream(seed, sweep as u128, 0).next_u64()
 }
 
 /// The index of the particle of the final set that becomes the next state of the chain.
 pub(super) fn draw_index(weights: &Normalised, seed: u64, sweep: usize) -> usize {
-    weights.index(Stream::new(seed, SWEEPS, sweep as u128, 1).uniform())
+    weights.index(Reserved::Sweep.stream(seed, sweep as u128, 1).uniform())
 }
 
 /// Refuses settings that a chain of whole runs cannot have.
@@ -122,7 +116,7 @@ pub fn particle_gibbs(
         .into());
     }
     let mut chain = Chain::default();
-    let mut orders = Stream::new(settings.seed, ORDERS, 0, 0);
+    let mut orders = Reserved::Order.stream(settings.seed, 0, 0);
     let mut machine = task.machine();
     let depth_first = settings.order == Order::DepthFirst;
     let with = FollowSettings { task, depth_first, origins: false, weigh: &|_| Box::default() };
@@ -175,7 +169,7 @@ fn first_run(
             Err(failure) if failure.is_impossible() && chain.died < sweeps => chain.died += 1,
             Err(failure) => return Err(failure),
         }
-        seed = Stream::new(settings.seed, SWEEPS, chain.died as u128, 2).next_u64();
+        seed = Reserved::Sweep.stream(settings.seed, chain.died as u128, 2).next_u64();
     }
 }
 
@@ -216,7 +210,7 @@ fn conditional(
             chain.tries += 1;
             chain.moves += usize::from(parent != held);
         }
-        let mut random = Stream::new(settings.seed, RESAMPLING, population.barriers as u128, 0);
+        let mut random = Reserved::Resampling.stream(settings.seed, population.barriers as u128, 0);
         let others = population.particles.len() - 1;
         let mut copies = multinomial(&population.weights.relative, others, &mut random);
         copies[parent] += 1;
@@ -275,6 +269,6 @@ fn sample_ancestor(
     if !weights.read(logs.iter().copied()) {
         return Ok(held);
     }
-    let mut random = Stream::new(settings.seed, ANCESTORS, population.barriers as u128, 0);
+    let mut random = Reserved::Ancestor.stream(settings.seed, population.barriers as u128, 0);
     Ok(weights.index(random.uniform()))
 }

@@ -43,18 +43,14 @@ use super::rejuvenation::MoveCounts;
 use super::settings::Settings;
 use super::smc::{Outcome, Progress, Result, run};
 use crate::importance::log_sum_exp;
+use crate::streams::Reserved;
 use crate::{Failure, Task};
-use niwaki_math::Stream;
 use niwaki_math::streams::RngCore;
 use niwaki_vm::fault::Fault;
 use rayon::prelude::*;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
-
-/// The streams for the seeds of further populations and of pilots: no lineage has these numbers.
-const POPULATIONS: u64 = u64::MAX - 1;
-const PILOTS: u64 = u64::MAX - 10;
 
 /// Particles of the first pilot.
 const PILOT: usize = 32;
@@ -71,7 +67,7 @@ const LEAST: usize = 16;
 
 /// The seed of the `number`-th population; of the first, the seed itself.
 fn population_seed(seed: u64, number: usize) -> u64 {
-    if number == 0 { seed } else { Stream::new(seed, POPULATIONS, number as u128, 0).next_u64() }
+    if number == 0 { seed } else { Reserved::Population.stream(seed, number as u128, 0).next_u64() }
 }
 
 /// The callback that watches several populations at once.
@@ -156,7 +152,7 @@ pub(super) fn by_clock(
     let mut number = 0;
     let cost = loop {
         let start = clock();
-        let seed = Stream::new(settings.seed, PILOTS, number, 0).next_u64();
+        let seed = Reserved::Pilot.stream(settings.seed, number, 0).next_u64();
         match one(size, seed, limit) {
             (Ok(_) | Err(Failure::Impossible { .. }), false) => {}
             (result, _) => return result.map(without_evidence),

@@ -22,17 +22,13 @@ use crate::chain::counts::Count;
 use crate::chain::kernel::Kernel;
 use crate::chain::plan::Plan;
 use crate::chain::state::Fresh;
+use crate::streams::Reserved;
 use crate::{Failure, Task};
-use niwaki_math::{Stream, StreamKey};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;
 use rayon::prelude::*;
 use serde::Deserialize;
 use std::collections::HashMap;
-
-/// Streams of the draws between moves, and of the first runs that spreads are read from: no lineage has these numbers.
-const SCHEDULE: u64 = u64::MAX - 6;
-const SPREADS: u64 = u64::MAX - 7;
 
 /// Forward runs from which the spreads of the sites' distributions are read.
 const FIRST_RUNS: u64 = 4;
@@ -146,7 +142,7 @@ impl Mover {
         let choosy = (0..plan.leaves.len()).filter(|n| !plan.leaves[*n].selection.is_all()).collect();
         let mut spreads = HashMap::new();
         for run in 0..FIRST_RUNS {
-            let key = StreamKey::new(settings.seed, SPREADS, run);
+            let key = Reserved::Spread.key(settings.seed, run);
             let mut answers = Fresh { spreads: Some(&mut spreads), ..Fresh::plain(key, &*task.hosts) };
             let mut machine = task.machine();
             // Of an invalid run, the sites up to its fault.
@@ -191,7 +187,7 @@ impl Population<'_> {
         let before = mover.clone();
         let number = mover.rounds;
         mover.rounds += 1;
-        let mut rng = Stream::new(self.settings.seed, SCHEDULE, u128::from(number), 0);
+        let mut rng = Reserved::MoveSchedule.stream(self.settings.seed, u128::from(number), 0);
         let schedule = (0..rejuvenation.moves).map(|_| mover.plan.next(&mut rng).0).collect();
         let ending = resampled.map(|_| self.barriers - 1);
         let round = Round {
