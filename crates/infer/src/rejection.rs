@@ -36,10 +36,10 @@ pub fn rejection(
     while runs.len() < n {
         if tries == max_tries {
             all.check()?;
-            let found = runs.len();
+            let accepted = runs.len();
             return Err(Fault::new(
                 "rejection-budget",
-                format!("{tries} runs gave {found} samples of the {n} asked for"),
+                format!("{tries} runs gave {accepted} of the {n} samples"),
             )
             .with_help("loosen the conditions, raise `max_tries`, or use particles")
             .into());

@@ -78,15 +78,18 @@ pub(super) fn draw_index(weights: &Normalised, seed: u64, sweep: usize) -> usize
 pub(super) fn check_chain(settings: &Settings, sweeps: usize) -> Result<(), Fault> {
     settings.check()?;
     if sweeps == 0 {
-        return Err(Fault::new("no-samples", "zero sweeps were asked for").with_help("ask for at least one"));
+        return Err(Fault::new("no-samples", "the number of sweeps is 0").with_help("use at least one"));
     }
     if settings.weights == Weights::Absolute {
-        return Err(Fault::new("bad-setting", "absolute weights have no law that a chain could keep")
-            .with_help("use ratio weights"));
+        return Err(Fault::new(
+            "bad-setting",
+            "absolute weights have no target distribution, which a chain needs",
+        )
+        .with_help("use ratio weights"));
     }
     if matches!(settings.anneal, Anneal::Adaptive(_)) {
         return Err(Fault::new("bad-anneal", "a chain needs the same powers in every sweep").with_help(
-            "give the power at each barrier, for example those that an adaptive search reported",
+            "give the power at each barrier, for example those in the result of an adaptive search",
         ));
     }
     Ok(())
@@ -110,7 +113,7 @@ pub fn particle_gibbs(
     if settings.particles < 2 {
         return Err(Fault::new(
             "no-particles",
-            "particle Gibbs needs a particle beside the one that is held",
+            "particle Gibbs needs another particle than the run that it keeps",
         )
         .with_help("use at least two")
         .into());

@@ -42,9 +42,9 @@
 use super::rejuvenation::MoveCounts;
 use super::settings::Settings;
 use super::smc::{Outcome, Progress, Result, run};
-use crate::importance::log_sum_exp;
 use crate::streams::Reserved;
 use crate::{Failure, Task};
+use niwaki_math::log_sums::log_sum_exp;
 use niwaki_math::streams::RngCore;
 use niwaki_vm::fault::Fault;
 use rayon::prelude::*;
@@ -133,8 +133,8 @@ pub(super) fn by_clock(
     watch: &mut Watch<'_>,
 ) -> std::result::Result<Result, Failure> {
     if time.is_zero() {
-        return Err(Fault::new("bad-setting", "no time was given to the search")
-            .with_help("give it a number of seconds above 0")
+        return Err(Fault::new("bad-setting", "the time of a search is not above 0")
+            .with_help("use a number of seconds above 0")
             .into());
     }
     let mut stopped = false;
@@ -219,7 +219,7 @@ fn combine(
     let total: f64 = plan.iter().map(|n| *n as f64).sum();
     if plan.len() == 1 || lived.is_empty() {
         let no_plan =
-            || Fault::new("no-particles", "zero populations were asked for").with_help("use at least one");
+            || Fault::new("no-particles", "the number of populations is 0").with_help("use at least one");
         return lived.pop().map(|one| one.1).ok_or_else(|| died.unwrap_or_else(|| no_plan().into()));
     }
     let log_normaliser = lived

@@ -43,7 +43,7 @@ pub mod resampling;
 mod settings;
 mod shared;
 mod smc;
-mod weights;
+pub(crate) mod weights;
 
 #[cfg(test)]
 mod tests;

@@ -18,9 +18,9 @@ use super::many::Watch;
 use super::settings::Settings;
 use super::smc::{Outcome, run};
 use super::weights::Normalised;
-use crate::importance::log_mean_exp;
 use crate::streams::Reserved;
 use crate::{Failure, Task};
+use niwaki_math::log_sums::log_mean_exp;
 
 /// `sweeps` sweeps after a first population. `watch` is called after each barrier; when it returns false, the sweeps so
 /// far are returned.

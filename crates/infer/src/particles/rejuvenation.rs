@@ -63,18 +63,21 @@ impl Rejuvenation {
     /// Refuses settings that make no sense.
     pub(super) fn check(&self, weights: Weights) -> Result<(), Fault> {
         if weights == Weights::Absolute {
-            return Err(Fault::new("bad-setting", "absolute weights have no law that a move could keep")
-                .with_help("use ratio weights"));
+            return Err(Fault::new(
+                "bad-setting",
+                "absolute weights have no target distribution, which a move needs",
+            )
+            .with_help("use ratio weights"));
         }
         let none = self.final_chains.is_some_and(|wanted| wanted.chains == 0 || wanted.draws == 0);
         if self.moves == 0 || self.at == Moment::Every(0) || none {
-            return Err(Fault::new("bad-setting", "no move was asked for").with_help("ask for at least one"));
+            return Err(Fault::new("bad-setting", "a number of moves, barriers, chains or draws is 0")
+                .with_help("use at least one"));
         }
         if self.kernel.any(&|part| matches!(part, Kernel::Anneal { .. })) {
-            let what = "an annealing kernel does not keep the particles' law";
-            return Err(
-                Fault::new("bad-kernel", what).with_help("anneal the particles, and move them plainly")
-            );
+            let what = "an annealing kernel changes the distribution of the particles";
+            return Err(Fault::new("bad-kernel", what)
+                .with_help("anneal the particles, and move them by the kernel inside `anneal`"));
         }
         if self.at != Moment::End && self.kernel.any(&|part| matches!(part, Kernel::Trajectory { .. })) {
             let what = "a particle that still runs has no gradient to follow";

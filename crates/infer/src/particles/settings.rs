@@ -112,7 +112,7 @@ impl Settings {
     pub fn check(&self) -> Result<(), Fault> {
         if self.particles == 0 {
             return Err(
-                Fault::new("no-particles", "zero particles were asked for").with_help("use at least one")
+                Fault::new("no-particles", "the number of particles is 0").with_help("use at least one")
             );
         }
         if !(self.power > 0.0 && self.power.is_finite()) {

@@ -156,7 +156,7 @@ pub fn format<S: Scalar>(value: &Value<S>, spec: &str) -> Result<String, Fault> 
                 let digits = if spec_.kind == Some('x') { format!("{size:x}") } else { size.to_string() };
                 Ok(spec_.number(n < 0, &digits))
             }
-            Some(x) if x.real().varies() => Err(Fault::no_derivative("text made from a number")),
+            Some(x) if x.real().varies() => Err(Fault::no_derivative("the text of a number")),
             Some(x) => {
                 let x = x.real().value();
                 let digits = real_digits(x.abs(), &spec_).ok_or_else(refused)?;
