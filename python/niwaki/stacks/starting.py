@@ -120,7 +120,9 @@ def height(density: LogDensity, x: Floats) -> tuple[float, Floats]:
 def _highest(density: LogDensity, x: Floats) -> Floats:
     """The local maximum to which an ascent from `x` leads."""
     minimize = need("scipy.optimize").minimize
-    return minimize(_downhill, x, args=(density,), jac=True, method="L-BFGS-B", options={"maxiter": STEPS}).x
+    settings: dict[str, Any] = {"jac": True, "method": "L-BFGS-B", "options": {"maxiter": STEPS}}
+    highest: Floats = minimize(_downhill, x, args=(density,), **settings).x
+    return highest
 
 
 def _downhill(x: Floats, density: LogDensity) -> tuple[float, Floats]:

@@ -132,15 +132,16 @@ impl Settings {
         if let Some(rejuvenation) = &self.rejuvenate {
             rejuvenation.check(self.weights)?;
         }
-        let fits = match &self.anneal {
+        let (fits, given) = match &self.anneal {
             Anneal::Constant => return Ok(()),
             Anneal::Schedule(powers) => {
-                !powers.is_empty() && powers.iter().all(|t| *t >= 0.0 && t.is_finite())
+                let fits = !powers.is_empty() && powers.iter().all(|t| *t >= 0.0 && t.is_finite());
+                (fits, format!("{powers:?}"))
             }
-            Anneal::Adaptive(share) => *share > 0.0 && *share < 1.0,
+            Anneal::Adaptive(share) => (*share > 0.0 && *share < 1.0, share.to_string()),
         };
         if !fits {
-            return Err(Fault::new("bad-anneal", format!("{:?} is no schedule of powers", self.anneal))
+            return Err(Fault::new("bad-anneal", format!("the schedule of powers is {given}"))
                 .with_help("give the power at each barrier, or a share of the particles between 0 and 1"));
         }
         if self.weights == Weights::Absolute {

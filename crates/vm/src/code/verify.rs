@@ -223,7 +223,8 @@ fn departs<S: Scalar>(
         let (Some(op), Some(original)) = (f.code.get(slice), f.code[..body].get(whole)) else {
             return Some(slice);
         };
-        let (forward, other) = successors(original, whole);
+        let (next, other) = successors(original, whole);
+        let is_last = next.is_none();
         match *original {
             // Here the whole code takes over.
             _ if matches!(*op, Op::Jump { target } if target as usize == whole) => return None,
@@ -244,12 +245,12 @@ fn departs<S: Scalar>(
             slice += 1;
         } else if other.is_some()
             || matches!(original, Op::Jump { .. })
-            || forward.is_none() && *op != Op::Done
+            || is_last && *op != Op::Done
             || writes.iter().any(|o| written.contains(o))
         {
             return Some(slice);
         }
-        if forward.is_none() {
+        if is_last {
             return None;
         }
         whole += 1;
