@@ -41,7 +41,7 @@ def measured(kernel: kernels.Kernel, seconds: float) -> list[str]:
     steps = max(8000, int(4000 * seconds / trial.cpu_seconds))
     result = nw.run(harmonies, nw.mh(steps=steps, warmup=steps // 5, thin=THIN, kernel=kernel), seed=1)
     schemes = [sample.value[0] for sample in result]
-    hue = 2 * math.pi * np.array([nw.to_hsv(sample.value[1][0]).x for sample in result])
+    hue = 2 * math.pi * np.array([nw.words.to_hsv(sample.value[1][0]).x for sample in result])
     score = np.array([sample.log_score for sample in result])
     hues = min(diagnostics.ess_bulk(wave(hue)[None]) for wave in (np.sin, np.cos))
     gradients = sum(one.gradients for one in result.trajectories)

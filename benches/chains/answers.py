@@ -12,7 +12,8 @@ from pathlib import Path
 import numpy as np
 from answers import hmm_marginals
 from data import gmm, hlr, hmm, lda, save
-from niwaki import Categorical, mh, model, observe, run, sample
+from niwaki import mh, model, observe, run, sample
+from niwaki.words import Categorical
 
 from chains.peers import Peers
 from chains.programs import PROGRAMS

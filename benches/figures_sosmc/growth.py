@@ -16,9 +16,9 @@ from collections.abc import Callable
 from pathlib import Path
 
 import niwaki as nw
-from niwaki import Frame
 from niwaki.gallery.gnarly_tree import ahead, behind_the_bend, gnarly_tree, on_the_bark
 from niwaki.targets import examples as targets
+from niwaki.words import Frame
 
 #: By number of segments: least radius as a share of the trunk's, probability of a side branch, decay of continuing.
 SIZES = {50: (0.12, 0.5, 0.1), 200: (0.04, 0.5, 0.1), 800: (0.016, 0.5, 0.1), 3200: (0.006, 0.5, 0.1)}

@@ -4,8 +4,9 @@ Each takes the number of points, 100 to 1000 for the sizes 1 to 10, and makes th
 same order. FORMS names them.
 """
 
-from niwaki import Gaussian, categorical, dirichlet, gaussian, model, observe, query, uniform
+from niwaki import categorical, dirichlet, gaussian, model, observe, query, uniform
 from niwaki.gallery.gmm import COMPONENTS, POINTS
+from niwaki.words import Gaussian
 
 
 def components():

@@ -4,7 +4,8 @@ The distributions are built once, outside the model. Two variants, which should 
 """
 
 import data
-from niwaki import Categorical, model, observe, sample
+from niwaki import model, observe, sample
+from niwaki.words import Categorical
 
 CHAIN = data.hmm()
 OBSERVATIONS = CHAIN["observations"]

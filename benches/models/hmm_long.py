@@ -1,7 +1,8 @@
 """The hidden Markov chain with observations for 100,000 steps, as a `for`."""
 
-from niwaki import Categorical, model, observe, sample
+from niwaki import model, observe, sample
 from niwaki.gallery import data
+from niwaki.words import Categorical
 
 CHAIN = data.hidden_chain(100_000)
 OBSERVATIONS = CHAIN.observations

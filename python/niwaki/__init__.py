@@ -1,39 +1,43 @@
 """Niwaki grows procedural models into the shapes you ask for.
 
-A model is a Python function marked with `@model`. It may use:
+A model is a Python function:
 
-    sample, flip, uniform, gaussian, ...        make a random choice
+    model                                       marks it
+    sample, flip, uniform, gaussian             make a random choice
     condition, factor, observe                  forbid a run, weigh it, score it by data
-    softeq, soft_at_least, soft_at_most         scores of numbers that should agree or be in order
-    emit                                        add shapes to the scene
-    box, cylinder, limb, segment, mesh          shapes
-    vec, dot, cross, norm, rotate, ...          vectors
+    emit, box, cylinder, vec                    add shapes to the scene, at points
     future, force                               leave a call for later, and wait for its value
-    infer                                       search another model
 
 Searching a model:
 
-    grow                                        grow a model into a target
-    run                                         run a model by any method
+    grow, run                                   grow a model into a target; run a model by any method
+    smc                                         method: particles
+    mh, hmc, nuts                               methods: Markov chains; those that follow the gradient
+    kernels                                     the kernels of Markov chains
     Search                                      what `grow` and `run` run, as a value: JSON, a hash
-    smc, particle_gibbs, pimh                   methods: particles
-    mh, kernels                                 methods: Markov chains and their kernels
-    hmc, nuts, explore                          methods: chains that follow the gradient
-    enumerate_all, rejection, importance        methods: exact answers, and independent runs
 
 What a scene should be like:
 
-    Target, Receiver, Camera                    a mesh to fill, a surface for shadows, a point of view
-    match_volume, match_image, match_shadow     scores: fill a volume, have a silhouette, cast a shadow
-    no_self_intersection, avoid, floor          scores: what a scene must not do
+    Target, match_volume                        a mesh, and the score for filling it
+    Camera, match_image                         a point of view, and the score for a silhouette from there
+    no_self_intersection                        score: parts must not overlap
 
 The results of a search:
 
     Result, Sample                              all runs, and one: its value, choices, scores, picture, files
-    residuals                                   how far soft constraints are from holding
-    log_density                                 a run as a function of its numbers, with its gradient
-    diagnostics                                 whether draws of chains can be trusted
     run_python                                  one run as plain Python, for a debugger
+
+Everything else:
+
+    niwaki.words      what a model may use: distributions as values, colours, vectors, polygons, soft constraints
+    niwaki.methods    all methods and their settings
+    niwaki.targets    what a scene should match
+    niwaki.result     results, diagnostics, gradients
+    niwaki.draw       scenes as pictures and files
+    niwaki.gallery    models
+    niwaki.errors     every error
+    niwaki.stacks     structures of blocks that stand
+    niwaki.color      colours for drawings
 
 Every name is imported when it is first used; `__init__.pyi` lists them all.
 """

@@ -11,6 +11,7 @@ import niwaki as nw
 import numpy as np
 import pytest
 from niwaki.errors import NiwakiError
+from niwaki.result.gradient import LogDensity
 from programs import program
 from test_engine import load
 
@@ -19,7 +20,7 @@ PROGRAMS = 1000
 WITHOUT = {"no-continuous-choices", "no-derivative", "impossible-trace"}
 
 
-def slope(f: nw.LogDensity, x: np.ndarray, k: int) -> tuple[float, float]:
+def slope(f: LogDensity, x: np.ndarray, k: int) -> tuple[float, float]:
     """Central differences of two widths, and their extrapolation with its own error estimate."""
     step = np.zeros_like(x)
     found = []

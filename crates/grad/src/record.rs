@@ -115,8 +115,8 @@ impl<'a> Recorder<'a> {
     fn add(&mut self, log: Var) -> Result<(), Fault> {
         self.density = self.density + log;
         if Var::met_nan() {
-            return Err(Fault::new("non-finite-score", "a comparison before this term met nan")
-                .with_help("keep roots, logarithms and quotients away from where they are no numbers"));
+            return Err(Fault::new("non-finite-score", "a comparison before this term has nan on one side")
+                .with_help("keep the arguments of roots, logarithms and quotients where these are numbers"));
         }
         if self.strict
             && let Some(bad) = log.slopes(&self.start).into_iter().find(|slope| !slope.is_finite())
@@ -143,7 +143,7 @@ pub(crate) fn no_coordinates(dist: &Dist<Var>) -> Fault {
 #[cold]
 fn impossible(what: &str) -> Fault {
     Fault::new("impossible-trace", format!("{what} makes this run impossible: it has no gradient to follow"))
-        .with_help("start from a run that is possible, for example one found by particles or rejection")
+        .with_help("start from a run that is possible, for example a result of particles or of rejection")
 }
 
 impl Answers<Var> for Recorder<'_> {
@@ -158,7 +158,7 @@ impl Answers<Var> for Recorder<'_> {
             let path = at.path();
             return Err(Fault::new("missing-choice", format!("there is no value for the choice `{path}`"))
                 .about(path)
-                .with_help("record with the same model that made the choices"));
+                .with_help("record with the model that the choices are from"));
         };
         let unfit = || Fault::type_mismatch(format!("no distribution draws {}", given.described()));
         let draw = value_to_draw(given).ok_or_else(unfit)?;

@@ -5,10 +5,10 @@
 use crate::Failure;
 use crate::chooser::{Chooser, Chosen, Context};
 use crate::forward::Forward;
-use crate::importance::log_sum_exp;
 use crate::record::{AllInvalid, Record};
 use crate::task::Task;
 use niwaki_math::Dist;
+use niwaki_math::log_sums::log_sum_exp;
 use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;

@@ -9,6 +9,7 @@ use crate::record::AllInvalid;
 use crate::run::Run;
 use crate::{Failure, Task};
 use niwaki_math::StreamKey;
+use niwaki_math::log_sums::log_mean_exp;
 use niwaki_vm::fault::Fault;
 use rayon::prelude::*;
 
@@ -37,8 +38,8 @@ pub fn importance(
     watch: &mut dyn FnMut(usize) -> bool,
 ) -> Result<Weighted, Failure> {
     if n == 0 {
-        return Err(Fault::new("no-samples", "zero samples were asked for")
-            .with_help("ask for at least one")
+        return Err(Fault::new("no-samples", "the number of samples is 0")
+            .with_help("use at least one")
             .into());
     }
     if let Some(proposal) = proposal {
@@ -68,22 +69,6 @@ pub fn importance(
         return Err(Failure::impossible(0, causes.map(|cause| (cause, 1))));
     }
     Ok(Weighted { runs, log_evidence })
-}
-
-/// The log of the mean of exponentials, added up in order.
-pub fn log_mean_exp(logs: impl Iterator<Item = f64> + Clone) -> f64 {
-    let (max, n) = logs.clone().fold((f64::NEG_INFINITY, 0usize), |(m, n), x| (m.max(x), n + 1));
-    if max == f64::NEG_INFINITY || n == 0 {
-        return f64::NEG_INFINITY;
-    }
-    let sum: f64 = logs.map(|x| (x - max).exp()).sum();
-    max + (sum / n as f64).ln()
-}
-
-/// The log of the sum of exponentials, added up in order.
-pub fn log_sum_exp(logs: impl Iterator<Item = f64> + Clone) -> f64 {
-    let n = logs.clone().count();
-    log_mean_exp(logs) + (n.max(1) as f64).ln()
 }
 
 #[cfg(test)]

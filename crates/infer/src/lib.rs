@@ -7,6 +7,7 @@
 //! * [`forward`]: a run of new choices; [`replay`]: take every choice from a log, and name it;
 //! * [`enumeration`], [`rejection`], [`importance`]: exact and direct answers, the oracles for the rest;
 //! * [`method`]: a search as data; [`run`]: a finished run;
+//! * `streams`: the random streams that belong to no run;
 //! * [`nested`]: inference inside a model;
 //! * [`particles`]: sequential Monte Carlo, in program order and in stochastic order;
 //! * [`chain`]: Metropolis-Hastings over kept runs, kernels as values;
@@ -31,6 +32,7 @@ pub mod record;
 pub mod rejection;
 pub mod replay;
 pub mod run;
+mod streams;
 pub mod task;
 
 pub use failure::Failure;

@@ -436,5 +436,6 @@ fn of_chain(mut chain: particles::Chain) -> Results {
 }
 
 fn bad(message: String) -> Fault {
-    Fault::new("bad-setting", message).with_help("methods are made by the functions of `niwaki.methods`")
+    Fault::new("bad-setting", message)
+        .with_help("use the functions of `niwaki.methods`, which check the settings")
 }

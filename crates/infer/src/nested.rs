@@ -10,18 +10,16 @@ use crate::Failure;
 use crate::chain;
 use crate::chain::many::Chains;
 use crate::method::{Given, Info, Method, Mh};
+use crate::particles::weights::Normalised;
 use crate::run::Run;
+use crate::streams::Reserved;
 use crate::task::{Hosts, Task};
-use niwaki_math::Stream;
 use niwaki_vm::code::{FunctionId, Program};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Limits;
 use niwaki_vm::value::{Closure, Value, same};
 use std::collections::{HashMap, VecDeque};
 use std::sync::{Arc, Mutex, PoisonError};
-
-/// The stream of the draw among weighted samples: no run and no lineage has this number.
-const PICK: u64 = u64::MAX - 1;
 
 /// How many `infer` may be inside one another. Each takes some of the host's stack.
 const DEPTH: usize = 16;
@@ -107,23 +105,14 @@ impl Inner {
     /// One of weighted runs.
     fn kept(&self, seed: u64, mut runs: Vec<Run>) -> Result<Value, Failure> {
         runs.retain(|run| run.has_ended);
-        let most = runs.iter().map(|run| run.log_weight).fold(f64::NEG_INFINITY, f64::max);
-        if most == f64::NEG_INFINITY {
+        let mut weights = Normalised::default();
+        if !weights.read(runs.iter().map(|run| run.log_weight)) {
             return Err(impossible());
         }
         let at = match self.keep {
             Keep::Best => (0..runs.len())
                 .fold(0, |best, at| if runs[at].log_score > runs[best].log_score { at } else { best }),
-            Keep::Sample => {
-                let weights: Vec<f64> = runs.iter().map(|run| (run.log_weight - most).exp()).collect();
-                let mut left = Stream::new(seed, PICK, 0, 0).uniform() * weights.iter().sum::<f64>();
-                let passed = weights.iter().position(|w| {
-                    left -= w;
-                    left < 0.0
-                });
-                // By rounding the sum may end too early: then the last possible run.
-                passed.or_else(|| weights.iter().rposition(|w| *w > 0.0)).unwrap_or(0)
-            }
+            Keep::Sample => weights.index(Reserved::Pick.stream(seed, 0, 0).uniform()),
         };
         Ok(runs.swap_remove(at).value)
     }

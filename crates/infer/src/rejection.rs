@@ -3,12 +3,9 @@
 use crate::forward::forward;
 use crate::record::AllInvalid;
 use crate::run::Run;
+use crate::streams::Reserved;
 use crate::{Failure, Task};
-use niwaki_math::Stream;
 use niwaki_vm::fault::Fault;
-
-/// The stream of the acceptance draws: no run has this number.
-const ACCEPTANCE: u64 = u64::MAX;
 
 /// Exact samples.
 pub struct Accepted {
@@ -39,10 +36,10 @@ pub fn rejection(
     while runs.len() < n {
         if tries == max_tries {
             all.check()?;
-            let found = runs.len();
+            let accepted = runs.len();
             return Err(Fault::new(
                 "rejection-budget",
-                format!("{tries} runs gave {found} samples of the {n} asked for"),
+                format!("{tries} runs gave {accepted} of the {n} samples"),
             )
             .with_help("loosen the conditions, raise `max_tries`, or use particles")
             .into());
@@ -58,7 +55,7 @@ pub fn rejection(
             .with_help("give a bound that no run exceeds")
             .into());
         }
-        let u = Stream::new(seed, ACCEPTANCE, u128::from(tries), 0).uniform();
+        let u = Reserved::RunAcceptance.stream(seed, u128::from(tries), 0).uniform();
         if u.ln() < log_accept {
             runs.push(run);
         }

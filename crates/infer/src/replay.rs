@@ -93,7 +93,7 @@ impl Chooser for Sourced<'_> {
             }
             (None, Missing::Stop) => return Ok(None),
             (None, Missing::Refuse) => {
-                return Refuse("replay with the same model that made the choices").choose(at, dist, seen);
+                return Refuse("replay with the model that the choices are from").choose(at, dist, seen);
             }
         };
         Chosen::given(value, dist).map(Some)

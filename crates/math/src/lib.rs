@@ -10,6 +10,7 @@
 //! | [`rounding`] | the grid on which log scores are added and subtracted exactly |
 //! | [`fingerprint`] | a hash of the bits that this machine computes |
 //! | [`total`] | exact sums of log scores of any size |
+//! | [`log_sums`] | sums of numbers that are given by their logarithms |
 //! | [`special`] | the special functions that the crates in use lack |
 //! | [`distributions`] | the families a model may draw from: density, support, sampler, parameter checks |
 //!
@@ -18,6 +19,7 @@
 pub mod color;
 pub mod distributions;
 pub mod fingerprint;
+pub mod log_sums;
 pub mod polygon;
 pub mod rounding;
 pub mod scalar;

@@ -141,13 +141,13 @@ impl PyDensity {
             let values = values.unwrap_or_else(|_| recorded.values(point));
             (recorded, values)
         });
-        let found = PyDict::new(py);
+        let values_by_path = PyDict::new(py);
         for choice in &recorded.choices {
             if let Some(value) = values.get(&choice.address) {
-                found.set_item(&choice.path, self.classes.object(py, value)?)?;
+                values_by_path.set_item(&choice.path, self.classes.object(py, value)?)?;
             }
         }
-        Ok(found)
+        Ok(values_by_path)
     }
 
     /// Compiles machine code now instead of later; returns whether this machine supports it.

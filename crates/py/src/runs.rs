@@ -35,7 +35,12 @@ impl PyRun {
         self.run.has_ended
     }
 
-    /// Its choices in the order made.
+    /// Its log score, nats, and the share of cells that are equal in the scene and its target.
+    pub fn scores(&self) -> (f64, Option<f64>) {
+        (self.run.log_score, self.run.similarity)
+    }
+
+    /// Its choices, in their order.
     pub fn entries(&self) -> Vec<Entry> {
         self.run.log.entries()
     }

@@ -213,11 +213,14 @@ impl PyTask {
         Ok(PyDensity::new(live, self.task.program.clone(), self.model.get().classes.clone()))
     }
 
-    /// Replays a run with its choices; a run that had not ended is replayed as far as its choices go.
+    /// Replays a run with its choices; a run that had not ended is replayed as far as its choices go. The scene is not scored
+    /// again: the sketches' score is that of the run.
     fn trace(&self, py: Python<'_>, run: &PyRun) -> PyResult<PyTrace> {
         let missing = if run.went_to_its_end() { Missing::Refuse } else { Missing::Stop };
         let source = Source::Addresses(run.by_address());
-        let trace = self.at_once(py, || replay(&self.task, source, missing))?;
+        let unscored = Task { sketches: vec![], ..self.task.clone() };
+        let mut trace = self.at_once(py, || replay(&unscored, source, missing))?;
+        (trace.run.log_score, trace.run.similarity) = run.scores();
         PyTrace::new(py, trace, &self.model.get().classes)
     }
 

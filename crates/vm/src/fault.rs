@@ -26,7 +26,7 @@ pub struct Details {
     pub subject: Option<String>,
     /// What to do instead, where that is known.
     pub help: Option<String>,
-    /// The family of a distribution whose parameters are numbers out of its range: a run that meets one is outside of
+    /// The family of a distribution whose parameters are numbers out of its range: a run with one is outside of
     /// the model's support.
     pub out_of_range: Option<Family>,
 }
@@ -66,17 +66,17 @@ macro_rules! kinds {
 }
 
 kinds! {
-    /// An operation met a value of a kind that it does not work on.
+    /// An operation has an operand of a kind that it does not take.
     type_mismatch = "type-mismatch";
     /// A future was read that is not forced.
     not_forced = "future-not-forced";
     /// A position outside a list, tuple, string, range or vector.
     list_index = "list-index";
-    /// `/`, `//`, `%` or a negative power met zero.
+    /// `/`, `//`, `%` or a negative power of zero.
     division_by_zero = "division-by-zero";
-    /// A whole number left 64 bits.
+    /// A whole number does not fit into 64 bits.
     integer_overflow = "integer-overflow";
-    /// A real number left the range of floats where Python raises `OverflowError`.
+    /// A real number is outside the range of floats where Python raises `OverflowError`.
     float_overflow = "float-overflow";
     /// A value of the right kind that the operation refuses.
     bad_argument = "bad-argument";
@@ -102,7 +102,7 @@ kinds! {
     not_callable = "not-callable";
     /// A mathematical function outside its domain.
     math_domain = "math-domain";
-    /// Text that does not read as a number, or is not found.
+    /// Text that is not a number, or that a method did not find.
     bad_text = "bad-text";
     /// A format specification that does not parse or does not fit the value.
     bad_format = "bad-format";
@@ -123,7 +123,7 @@ impl Fault {
         }))
     }
 
-    /// An operation without a derivative met a number that varies with the continuous choices.
+    /// An operation without a derivative, of a number that varies with the continuous choices.
     #[cold]
     pub fn no_derivative(what: &str) -> Fault {
         Fault::new(

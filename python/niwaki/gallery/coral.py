@@ -14,7 +14,6 @@ from niwaki import (
     flip,
     future,
     gaussian,
-    lerp,
     limb,
     model,
     norm,
@@ -23,6 +22,7 @@ from niwaki import (
     uniform,
     vec,
 )
+from niwaki.words import lerp
 
 TITLE = "a staghorn coral"
 TARGET = "fan"

@@ -9,15 +9,12 @@ one anywhere. Its base is laid onto its parent's bark, so that the two touch and
 from math import cos, exp, pi, sin
 
 from niwaki import (
-    Bark,
-    Frame,
     cross,
     dot,
     emit,
     flip,
     future,
     gaussian,
-    lerp,
     model,
     norm,
     normalize,
@@ -26,6 +23,7 @@ from niwaki import (
     uniform,
     vec,
 )
+from niwaki.words import Bark, Frame, lerp
 
 TITLE = "a gnarly tree of welded, tapering segments"
 TARGET = "bent_tube"

@@ -18,7 +18,6 @@ from niwaki import (
     flip,
     future,
     gaussian,
-    lerp,
     limb,
     model,
     norm,
@@ -27,6 +26,7 @@ from niwaki import (
     uniform,
     vec,
 )
+from niwaki.words import lerp
 
 TITLE = "a cloud-pruned garden tree"
 TARGET = "niwaki"

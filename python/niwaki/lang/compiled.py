@@ -11,6 +11,7 @@ from typing import Any
 
 from niwaki import _engine
 from niwaki.errors import InputError, ModelFault
+from niwaki.errors.messages import MESSAGES
 from niwaki.lang.core import Core
 from niwaki.lang.lower import lower
 from niwaki.lang.marks import Marked, P, T
@@ -159,4 +160,7 @@ def _error(fault: Any, name: str, replay: str, choices: Mapping[str, Any]) -> Ex
         causes = ", ".join(f"{cause} ({count})" for cause, count in fault.causes)
         place = f"barrier {fault.barrier}" if fault.barrier else "the end"
         return InputError("everything-impossible", barrier=place, count=total, constraint=causes)
-    return InputError(fault.code, name=name, found=fault.message, detail=fault.message)
+    if fault.code not in MESSAGES or MESSAGES[fault.code].names - {"detail"}:
+        # Its message is about a value that Python has checked, and has names that only Python knows.
+        return InputError("setting-refused", detail=fault.message, cure=fault.help or "use another value")
+    return InputError(fault.code, detail=fault.message)

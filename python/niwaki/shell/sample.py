@@ -112,7 +112,7 @@ def _summary(result: nw.Result, folder: Path) -> None:
 
 
 @contextmanager
-def _shown(name: str, proposals: int) -> Iterator[Callable[[nw.Progress], None]]:
+def _shown(name: str, proposals: int) -> Iterator[Callable[[nw.result.Progress], None]]:
     """A line of progress on stderr; nothing where stderr is not a terminal."""
     console = Console(stderr=True)
     if not console.is_terminal:
@@ -120,7 +120,7 @@ def _shown(name: str, proposals: int) -> Iterator[Callable[[nw.Progress], None]]
         return
     with console.status(f"sampling {name}") as status:
 
-        def show(now: nw.Progress) -> None:
+        def show(now: nw.result.Progress) -> None:
             best = f"{now.best:.2f}" if math.isfinite(now.best) else "-"
             status.update(
                 f"sampling {name}: {now.done} of {proposals} proposals, best {best}   (Ctrl-C keeps the states so far)"

@@ -7,7 +7,7 @@ x is sheared and slid, so that edges stay aligned. Numbers are the original's; m
 
 from __future__ import annotations
 
-from niwaki import dot, lerp, model, norm, rotate, uniform, vec
+from niwaki import dot, model, norm, rotate, uniform, vec
 from niwaki.stacks.blocks import (
     BOTTOM,
     TOP,
@@ -25,6 +25,7 @@ from niwaki.stacks.blocks import (
 from niwaki.stacks.clearance import clear
 from niwaki.stacks.contacts import DOWN, GROUND, SAFETY, StackValue, balance, contact, corners, tolerance_of
 from niwaki.stacks.towers import GROUND_TOP, OAK, PAINTS, UP, WIDEST, slope
+from niwaki.words import lerp
 
 HALF = 0.65
 MARGIN = 0.003

@@ -57,7 +57,6 @@ def start(model: Model[..., Any], seed: int, width: float, **arguments: Any) -> 
     array of shape (dim,)
         The coordinates found. They are a start, not a draw.
     """
-    optimize = need("scipy.optimize")
     random = np.random.default_rng(seed)
     x: Floats | None = None
     for wider in WIDER:
@@ -65,9 +64,7 @@ def start(model: Model[..., Any], seed: int, width: float, **arguments: Any) -> 
         density.compile()
         while x is None or _downhill(x, density)[0] == WALL:
             x = SPREAD * random.normal(size=density.dim)
-        x = optimize.minimize(
-            _downhill, x, args=(density,), jac=True, method="L-BFGS-B", options={"maxiter": STEPS}
-        ).x
+        x = _highest(density, x)
     assert x is not None
     return density, x
 
@@ -93,13 +90,9 @@ def polished(
     dict of str to values
         The choices of the structure that was found.
     """
-    optimize = need("scipy.optimize")
     for finer in FINER:
         density = log_density(run(model, choices=choices, width=finer * width, **arguments).best)
-        x = optimize.minimize(
-            _downhill, density.start, args=(density,), jac=True, method="L-BFGS-B", options={"maxiter": STEPS}
-        ).x
-        choices = density.values(x)
+        choices = density.values(_highest(density, density.start))
     return choices
 
 
@@ -122,6 +115,14 @@ def height(density: LogDensity, x: Floats) -> tuple[float, Floats]:
         if fault.code != "impossible-trace":
             raise
         return -np.inf, np.zeros_like(x)
+
+
+def _highest(density: LogDensity, x: Floats) -> Floats:
+    """The local maximum to which an ascent from `x` leads."""
+    minimize = need("scipy.optimize").minimize
+    settings: dict[str, Any] = {"jac": True, "method": "L-BFGS-B", "options": {"maxiter": STEPS}}
+    highest: Floats = minimize(_downhill, x, args=(density,), **settings).x
+    return highest
 
 
 def _downhill(x: Floats, density: LogDensity) -> tuple[float, Floats]:

@@ -1,7 +1,7 @@
 """Polygons of the plane: a room, a plot, an outline. A polygon is a list or tuple of its corners, in either direction.
 
-The first corner is not repeated. Results for a polygon that crosses itself have no meaning. `niwaki.load_polygon`
-reads one from a file.
+The first corner is not repeated. Results for a polygon that crosses itself have no meaning.
+`niwaki.targets.outline.load_polygon` reads one from a file.
 """
 
 from __future__ import annotations

@@ -33,8 +33,8 @@ def same(a: Any, b: Any) -> bool:
     """Equal structure; reals to 1e-12."""
     if isinstance(a, (list, tuple)):
         return type(a) is type(b) and len(a) == len(b) and all(map(same, a, b))
-    if isinstance(a, nw.Vec):
-        return isinstance(b, nw.Vec) and same(a.parts, b.parts)
+    if isinstance(a, nw.words.Vec):
+        return isinstance(b, nw.words.Vec) and same(a.parts, b.parts)
     return math.isclose(a, b, rel_tol=1e-12, abs_tol=1e-12)
 
 
@@ -112,8 +112,8 @@ def test_furniture_does_not_overlap_and_is_in_the_room(cafe: nw.Sample) -> None:
     discs += [(seat, furniture.CHAIR_RADIUS) for _, _, chairs in cafe.value for seat, _ in chairs]
     assert len(cafe.value) >= 5
     for place, radius in discs:
-        assert nw.polygon_contains(furniture.ROOM, place)
-        assert nw.polygon_distance(furniture.ROOM, place) > radius
+        assert nw.words.polygon_contains(furniture.ROOM, place)
+        assert nw.words.polygon_distance(furniture.ROOM, place) > radius
     for (a, r), (b, s) in combinations(discs, 2):
         assert nw.distance(a, b) > r + s
 
@@ -139,8 +139,8 @@ def test_the_shop_is_the_same_in_plain_python(cafe: nw.Sample) -> None:
     assert sorted(address for address, _ in here.scene) == sorted(part.address for part in cafe.scene)
 
 
-def hues(colors: list[nw.Vec]) -> list[float]:
-    return [nw.to_hsv(color).x for color in colors]
+def hues(colors: list[nw.words.Vec]) -> list[float]:
+    return [nw.words.to_hsv(color).x for color in colors]
 
 
 def apart(a: float, b: float) -> float:
@@ -155,7 +155,7 @@ def test_palettes_are_harmonious(seed: int) -> None:
     assert abs(apart(main, accent) - 150.0) < 6.0 and abs(apart(main, other) - 150.0) < 6.0
     assert abs(apart(accent, other) - 60.0) < 6.0
     assert apart(accent, shade) < 15.0 and apart(other, other_shade) < 15.0
-    assert all(nw.color_difference(a, b) > 8.0 for a, b in zip(colors, colors[1:], strict=False))
+    assert all(nw.words.color_difference(a, b) > 8.0 for a, b in zip(colors, colors[1:], strict=False))
     # A palette of any colours is not.
     wild = hues(nw.run(palettes.wild, seed=seed).value)
     assert abs(apart(wild[0], wild[1]) - 150.0) + abs(apart(wild[1], wild[3]) - 60.0) > 12.0
@@ -172,7 +172,7 @@ def test_one_chain_comes_through_many_harmonies() -> None:
     assert one.structures > 50 and one.acceptance > 0.5 and one.unwritten == 0
     for scheme, colors in drawn[::20]:
         assert len(colors) == harmonies.COLORS
-        off = [nw.color_difference(a, b) - harmonies.APART for a, b in pairwise(colors)]
+        off = [nw.words.color_difference(a, b) - harmonies.APART for a, b in pairwise(colors)]
         assert max(map(abs, off)) < 6 * harmonies.WITHIN
         for angle, color in zip(harmonies.ANGLES[scheme], colors[1:], strict=False):
             assert abs(apart(*hues([colors[0], color])) - min(abs(angle), 360 - abs(angle))) < 18.0

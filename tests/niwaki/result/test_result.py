@@ -62,6 +62,8 @@ def test_a_sample_has_value_choices_queries_and_scene(grown: nw.Result) -> None:
     assert list(best.choices) == ["i[0]/height", "i[1]/height", "i[2]/height"]
     assert best.value == best.queries["height"] == pytest.approx(sum(best.choices.values()))
     assert set(best.families.values()) == {"uniform"}
+    # The replay that names the choices and parts does not score the scene; its run has the scores of the first run.
+    assert best._trace.run.log_score == best.log_score and best._trace.run.similarity == best.similarity
     assert [part.address for part in best.scene] == ["i[0]/emit", "i[1]/emit", "i[2]/emit"]
 
 
@@ -127,7 +129,7 @@ def pair():  # type: ignore[no-untyped-def]
     first = nw.flip(0.4)
     x = nw.uniform(-1.0, 1.0)
     y = nw.dirichlet([1.0, 2.0])
-    nw.observe(nw.Gaussian(x + y[0], 1.0), 0.3)
+    nw.observe(nw.words.Gaussian(x + y[0], 1.0), 0.3)
     return (first, x)
 
 

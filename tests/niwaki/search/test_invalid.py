@@ -18,7 +18,7 @@ from niwaki import kernels
 def coins() -> tuple[int, bool]:
     n = nw.discrete_uniform(0, 4)
     a = nw.flip((5 - n) / 4)
-    nw.observe(nw.Gaussian(0, n - 1.5), 1.0)
+    nw.observe(nw.words.Gaussian(0, n - 1.5), 1.0)
     return n, a
 
 
@@ -26,7 +26,7 @@ def coins() -> tuple[int, bool]:
 def border() -> float:
     x = nw.uniform(0, 1)
     y = nw.uniform(0.5, x)
-    nw.observe(nw.Gaussian(y, 0.2), 0.7)
+    nw.observe(nw.words.Gaussian(y, 0.2), 0.7)
     return x
 
 

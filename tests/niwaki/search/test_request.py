@@ -211,13 +211,14 @@ def test_every_method_and_sketch_goes_through_json():
 
 
 def test_values_of_all_kinds_go_through_json():
-    from niwaki import Frame, rotation, vec
+    from niwaki import rotation, vec
     from niwaki.search.data import Reader, Writer
+    from niwaki.words import Frame
 
     values = [
         None, True, 3, 2**62, -0.0, 0.1, float("inf"), "text", (1, (2.5,)), [1, []], {"a": 1, 2: (3,)}, range(2, 9, 3),
-        vec(1, 2, 3), rotation((0, 1, 0), 0.3), box((0, 1, 0), (1, 2, 3), color=(0.1, 0.2, 0.3)), nw.Gaussian(0, 2.5),
-        np.arange(6.0).reshape(2, 3),
+        vec(1, 2, 3), rotation((0, 1, 0), 0.3), box((0, 1, 0), (1, 2, 3), color=(0.1, 0.2, 0.3)),
+        nw.words.Gaussian(0, 2.5), np.arange(6.0).reshape(2, 3),
     ]  # fmt: skip
     for value in values:
         text = json.dumps(Writer()(value), allow_nan=False)
@@ -290,7 +291,7 @@ def test_a_search_that_makes_no_sense_is_refused():
 @model
 def line():
     a = gaussian(0, 1)
-    nw.observe(nw.Gaussian(a, 0.5), 1.0)
+    nw.observe(nw.words.Gaussian(a, 0.5), 1.0)
     return a + flip(0.5)
 
 

@@ -138,9 +138,9 @@ def m():
         factor(-x * x)
     return x
 """)
-    seen: list[nw.Progress] = []
+    seen: list[nw.result.Progress] = []
 
-    def watch(now: nw.Progress) -> None:
+    def watch(now: nw.result.Progress) -> None:
         seen.append(now)
         if len(seen) == 3:
             os.kill(os.getpid(), signal.SIGINT)
@@ -157,7 +157,7 @@ def m():
 def test_what_progress_raises_ends_the_search() -> None:
     endless = load("@model\ndef m():\n    for i in range(1000000):\n        factor(-flip())\n")
 
-    def refuse(_: nw.Progress) -> None:
+    def refuse(_: nw.result.Progress) -> None:
         raise ZeroDivisionError
 
     with pytest.raises(ZeroDivisionError):

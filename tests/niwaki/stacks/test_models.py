@@ -50,9 +50,9 @@ def nominal(monkeypatch: pytest.MonkeyPatch) -> None:
     """Every uniform choice at its middle, every force at its median."""
 
     def draw(dist: Any, seed: Any, address: str) -> float:
-        if isinstance(dist, nw.Uniform):
+        if isinstance(dist, nw.words.Uniform):
             return 0.5 * (dist.lo + dist.hi)
-        return 1.0 if isinstance(dist, nw.Exponential) else 0.0
+        return 1.0 if isinstance(dist, nw.words.Exponential) else 0.0
 
     monkeypatch.setattr(densities, "draw", draw)
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from niwaki import load_polygon, polygon_area
 from niwaki.errors import FileError
+from niwaki.targets.outline import load_polygon
+from niwaki.words import polygon_area
 
 ELL = [(0, 0), (4, 0), (4, 2), (2, 2), (2, 4), (0, 4)]
 

@@ -23,7 +23,7 @@ def test_a_family_has_a_class_a_word_and_a_row_in_the_guide(family: str) -> None
     if family == "delta":
         return
     word = getattr(nw, WORDS.get(family, family))
-    assert getattr(nw, classes[family].__name__) is classes[family]
+    assert getattr(nw.words, classes[family].__name__) is classes[family]
     assert inspect.signature(word).parameters == parameters
     assert word.__doc__ == classes[family].__doc__
     with pytest.raises(InputError, match="outside"):

@@ -86,10 +86,10 @@ impl<M: Clone> Bag<M> {
     /// there is no such primitive.
     pub fn remove(&mut self, primitive: &Primitive, mark: impl FnOnce() -> M) -> Option<M> {
         let mut tree = self.tree();
-        let found = tree.remove(primitive.aabb(), |p| p.primitive == *primitive);
+        let removed = tree.remove(primitive.aabb(), |p| p.primitive == *primitive);
         self.bounds = tree.bounds();
         self.held = Held::Tree(tree);
-        found.map(|item| item.mark.get_or_init(mark).clone())
+        removed.map(|item| item.mark.get_or_init(mark).clone())
     }
 
     /// Becomes a tree, as by the first removal: copies then share it.

@@ -101,13 +101,13 @@ pub(crate) fn no_choice(pattern: &str, known: &[String]) -> Fault {
 
 /// The readable components of the program's choices.
 pub(crate) fn labels(program: &Program) -> Vec<String> {
-    let mut found: Vec<String> = Vec::new();
+    let mut labels: Vec<String> = Vec::new();
     for site in program.functions.iter().flat_map(|f| &f.sites) {
-        if matches!(site.kind, SiteKind::Sample(_)) && !found.iter().any(|l| **l == *site.label) {
-            found.push(site.label.to_string());
+        if matches!(site.kind, SiteKind::Sample(_)) && !labels.iter().any(|l| **l == *site.label) {
+            labels.push(site.label.to_string());
         }
     }
-    found
+    labels
 }
 
 impl Weigh for Selection {

@@ -50,7 +50,7 @@ impl User {
                 "bad-proposal",
                 format!("the proposal `{name}` makes choices or scores itself"),
             )
-            .with_help("give back the distribution instead of drawing from it"));
+            .with_help("return the distribution instead of drawing from it"));
         }
         Ok(User { task, name, constant: OnceLock::new() })
     }
@@ -98,10 +98,10 @@ impl User {
 
     /// A variable in scope at a choice.
     fn variable(&self, name: &Name, at: &At<'_, f64>) -> Result<Value, Fault> {
-        let wrong = |found: String| {
+        let wrong = |problem: String| {
             Fault::new(
                 "proposal-scope",
-                format!("the proposal `{}` asks for `{name}` at the choice `{}`, {found}", self.name, at.path()),
+                format!("the proposal `{}` asks for `{name}` at the choice `{}`, {problem}", self.name, at.path()),
             )
             .with_help(
                 "name variables of the choice's function that are assigned before the choice on every path and \
@@ -117,8 +117,8 @@ impl User {
 
     /// The distribution for these arguments.
     fn given(&self, args: &[Value]) -> Result<Dist, Fault> {
-        let wrong = |found: String| {
-            Fault::new("bad-proposal", format!("the proposal `{}` {found}", self.name)).with_help(
+        let wrong = |problem: String| {
+            Fault::new("bad-proposal", format!("the proposal `{}` {problem}", self.name)).with_help(
                 "a proposal takes `old` or variables in scope, and gives a distribution over new values",
             )
         };
@@ -153,12 +153,12 @@ impl Move for UserMove<'_> {
         let value = draw_to_value(draw.clone());
         if value.kind() != old.kind() {
             let (name, family) = (&self.0.name, dist.family());
-            let found = format!(
+            let problem = format!(
                 "the proposal `{name}` drew {}, where a choice of `{family}` holds {}",
                 value.described(),
                 old.described()
             );
-            return Err(Fault::new("proposal-kind", found)
+            return Err(Fault::new("proposal-kind", problem)
                 .with_help("propose values of the kind that the choice's own distribution draws"));
         }
         // A function that does not need the value before gives the same distribution for both directions.

@@ -72,15 +72,15 @@ impl Table {
     }
 
     fn descend(&self, mut at: u64) -> usize {
-        let (mut found, mut step) = (0, self.sums.len().next_power_of_two());
+        let (mut below, mut step) = (0, self.sums.len().next_power_of_two());
         while step > 0 {
-            if found + step <= self.sums.len() && self.sums[found + step - 1] <= at {
-                at -= self.sums[found + step - 1];
-                found += step;
+            if below + step <= self.sums.len() && self.sums[below + step - 1] <= at {
+                at -= self.sums[below + step - 1];
+                below += step;
             }
             step >>= 1;
         }
-        found
+        below
     }
 
     /// Sum of all weights once the open transaction is kept.

@@ -124,12 +124,12 @@ pub fn explore(
         .map(|group| group.into_iter().filter_map(|k| members[k].take()).collect())
         .collect();
     let look = || watch(done.fetch_add(GLANCE, Ordering::Relaxed) + GLANCE);
-    let found: Vec<Result<Vec<(usize, Explored)>, Failure>> =
+    let explored: Vec<Result<Vec<(usize, Explored)>, Failure>> =
         groups.into_par_iter().map(|group| together(task, plan, group, &look)).collect();
-    let mut found: Vec<(usize, Explored)> =
-        found.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect();
-    found.sort_by_key(|(number, _)| *number);
-    Ok(found.into_iter().map(|(_, explored)| explored).collect())
+    let mut explored: Vec<(usize, Explored)> =
+        explored.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect();
+    explored.sort_by_key(|(number, _)| *number);
+    Ok(explored.into_iter().map(|(_, chain)| chain).collect())
 }
 
 /// Chains that move together: those of one structure, in lanes; the others each alone.
@@ -164,7 +164,7 @@ fn start(
     let choices = state.choices(&task.program).collect();
     drop(state);
     let (target, start) = match first.and_then(|first| first.beside(&choices)) {
-        Some(found) => found,
+        Some(pair) => pair,
         None => {
             let live = live_of(model.clone(), &choices)?;
             let start = live.recorded().start.clone();

@@ -10,6 +10,7 @@ use super::metric::Metric;
 use super::potential::Potential;
 use super::transition::{Divergence, Transition, acceptance};
 use niwaki_math::Stream;
+use niwaki_math::log_sums::log_add_exp;
 
 /// A trajectory that ends where it turns back.
 #[derive(Clone, Debug)]
@@ -191,7 +192,7 @@ impl<P: Potential + ?Sized> Growth<'_, P> {
             return None;
         };
         // Within a subtree every point has its own weight: w_new / (w_old + w_new).
-        let total = log_add(older.log_weight, newer.log_weight);
+        let total = log_add_exp(older.log_weight, newer.log_weight);
         let take = self.stream.uniform() < acceptance(newer.log_weight - total);
         if self.join(&mut older, newer, take) {
             self.spare.push(older.vectors);
@@ -216,7 +217,7 @@ impl<P: Potential + ?Sized> Growth<'_, P> {
         older.vectors[end.clone()].copy_from_slice(&newer.vectors[end]);
         let turned =
             dot(older.part(FirstV), older.part(Rho)) <= 0.0 || dot(older.part(LastV), older.part(Rho)) <= 0.0;
-        older.log_weight = log_add(older.log_weight, newer.log_weight);
+        older.log_weight = log_add_exp(older.log_weight, newer.log_weight);
         if take {
             let point = older.places(X, Gradient);
             older.vectors[point.clone()].copy_from_slice(&newer.vectors[point]);
@@ -225,12 +226,6 @@ impl<P: Potential + ?Sized> Growth<'_, P> {
         self.spare.push(newer.vectors);
         turned || across
     }
-}
-
-/// `ln(exp(a) + exp(b))`.
-fn log_add(a: f64, b: f64) -> f64 {
-    let (large, small) = if a > b { (a, b) } else { (b, a) };
-    if large == f64::NEG_INFINITY { large } else { large + (small - large).exp().ln_1p() }
 }
 
 #[cfg(test)]

@@ -7,17 +7,14 @@
 //! as moves of every particle do, and the evidence is not touched. Final chains are cheaper, because a run is built once for
 //! a chain and not once for a copy, and they move further, because each state of a chain starts from the one before.
 
-use super::moves::{CHAINS, chain_from, record_of};
+use super::moves::{chain_from, record_of};
 use super::population::Population;
 use super::smc::{Outcome, Progress};
 use crate::Failure;
 use crate::chain::Chain;
-use niwaki_math::Stream;
+use crate::streams::Reserved;
 use niwaki_math::streams::RngCore;
 use rayon::prelude::*;
-
-/// The stream of the draw of the particles from which chains start: no lineage has this number.
-const STARTS: u64 = u64::MAX - 9;
 
 /// Chains from a few particles of the final set, instead of moves of all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,7 +44,7 @@ impl Population<'_> {
         let mut chains: Vec<(Chain, Vec<Outcome>)> = Vec::with_capacity(wanted.chains);
         for (number, index) in self.starts(wanted.chains).into_iter().enumerate() {
             let record = &mut self.particles[index].record;
-            let seed = Stream::new(seed, CHAINS, u128::from(u64::MAX), number as u64).next_u64();
+            let seed = Reserved::ChainSeed.stream(seed, u128::from(u64::MAX), number as u64).next_u64();
             let sketches = record.sketches.fork();
             let mut chain = chain_from(record, sketches, &self.task, mover, seed)?;
             chain.restrict(self.power, None);
@@ -86,7 +83,7 @@ impl Population<'_> {
 
     /// Particle indices drawn by weight, evenly spread (systematic resampling to another number of particles).
     fn starts(&self, chains: usize) -> Vec<usize> {
-        let u = Stream::new(self.settings.seed, STARTS, 0, 0).uniform();
+        let u = Reserved::ChainStart.stream(self.settings.seed, 0, 0).uniform();
         (0..chains).map(|number| self.weights.index((number as f64 + u) / chains as f64)).collect()
     }
 }

@@ -23,23 +23,17 @@
 use super::advance::Particle;
 use super::many::Watch;
 use super::partial_run::{FollowSettings, PartialRun, Step};
-use super::population::{Population, RESAMPLING};
+use super::population::Population;
 use super::resampling::multinomial;
 use super::settings::{Anneal, Order, Settings, Weights};
 use super::smc::{Outcome, Progress, outcome, run};
 use super::weights::Normalised;
 use crate::log::Entry;
+use crate::streams::Reserved;
 use crate::{Failure, Task};
-use niwaki_math::Stream;
 use niwaki_math::streams::RngCore;
 use niwaki_vm::fault::Fault;
 use rayon::prelude::*;
-
-/// Streams of the draws between sweeps, of the ancestors, and of an order that a first run lacks: no lineage has these
-/// numbers.
-const SWEEPS: u64 = u64::MAX - 2;
-const ANCESTORS: u64 = u64::MAX - 3;
-const ORDERS: u64 = u64::MAX - 4;
 
 /// The runs that a chain of whole runs went through.
 #[derive(Default)]
@@ -72,27 +66,30 @@ pub enum Ancestors {
 
 /// The seed of a sweep.
 pub(super) fn sweep_seed(seed: u64, sweep: usize) -> u64 {
-    Stream::new(seed, SWEEPS, sweep as u128, 0).next_u64()
+    Reserved::Sweep.stream(seed, sweep as u128, 0).next_u64()
 }
 
 /// The index of the particle of the final set that becomes the next state of the chain.
 pub(super) fn draw_index(weights: &Normalised, seed: u64, sweep: usize) -> usize {
-    weights.index(Stream::new(seed, SWEEPS, sweep as u128, 1).uniform())
+    weights.index(Reserved::Sweep.stream(seed, sweep as u128, 1).uniform())
 }
 
 /// Refuses settings that a chain of whole runs cannot have.
 pub(super) fn check_chain(settings: &Settings, sweeps: usize) -> Result<(), Fault> {
     settings.check()?;
     if sweeps == 0 {
-        return Err(Fault::new("no-samples", "zero sweeps were asked for").with_help("ask for at least one"));
+        return Err(Fault::new("no-samples", "the number of sweeps is 0").with_help("use at least one"));
     }
     if settings.weights == Weights::Absolute {
-        return Err(Fault::new("bad-setting", "absolute weights have no law that a chain could keep")
-            .with_help("use ratio weights"));
+        return Err(Fault::new(
+            "bad-setting",
+            "absolute weights have no target distribution, which a chain needs",
+        )
+        .with_help("use ratio weights"));
     }
     if matches!(settings.anneal, Anneal::Adaptive(_)) {
         return Err(Fault::new("bad-anneal", "a chain needs the same powers in every sweep").with_help(
-            "give the power at each barrier, for example those that an adaptive search reported",
+            "give the power at each barrier, for example those in the result of an adaptive search",
         ));
     }
     Ok(())
@@ -116,13 +113,13 @@ pub fn particle_gibbs(
     if settings.particles < 2 {
         return Err(Fault::new(
             "no-particles",
-            "particle Gibbs needs a particle beside the one that is held",
+            "particle Gibbs needs another particle than the run that it keeps",
         )
         .with_help("use at least two")
         .into());
     }
     let mut chain = Chain::default();
-    let mut orders = Stream::new(settings.seed, ORDERS, 0, 0);
+    let mut orders = Reserved::Order.stream(settings.seed, 0, 0);
     let mut machine = task.machine();
     let depth_first = settings.order == Order::DepthFirst;
     let with = FollowSettings { task, depth_first, origins: false, weigh: &|_| Box::default() };
@@ -175,7 +172,7 @@ fn first_run(
             Err(failure) if failure.is_impossible() && chain.died < sweeps => chain.died += 1,
             Err(failure) => return Err(failure),
         }
-        seed = Stream::new(settings.seed, SWEEPS, chain.died as u128, 2).next_u64();
+        seed = Reserved::Sweep.stream(settings.seed, chain.died as u128, 2).next_u64();
     }
 }
 
@@ -216,7 +213,7 @@ fn conditional(
             chain.tries += 1;
             chain.moves += usize::from(parent != held);
         }
-        let mut random = Stream::new(settings.seed, RESAMPLING, population.barriers as u128, 0);
+        let mut random = Reserved::Resampling.stream(settings.seed, population.barriers as u128, 0);
         let others = population.particles.len() - 1;
         let mut copies = multinomial(&population.weights.relative, others, &mut random);
         copies[parent] += 1;
@@ -275,6 +272,6 @@ fn sample_ancestor(
     if !weights.read(logs.iter().copied()) {
         return Ok(held);
     }
-    let mut random = Stream::new(settings.seed, ANCESTORS, population.barriers as u128, 0);
+    let mut random = Reserved::Ancestor.stream(settings.seed, population.barriers as u128, 0);
     Ok(weights.index(random.uniform()))
 }

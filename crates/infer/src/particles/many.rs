@@ -42,19 +42,15 @@
 use super::rejuvenation::MoveCounts;
 use super::settings::Settings;
 use super::smc::{Outcome, Progress, Result, run};
-use crate::importance::log_sum_exp;
+use crate::streams::Reserved;
 use crate::{Failure, Task};
-use niwaki_math::Stream;
+use niwaki_math::log_sums::log_sum_exp;
 use niwaki_math::streams::RngCore;
 use niwaki_vm::fault::Fault;
 use rayon::prelude::*;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
-
-/// The streams for the seeds of further populations and of pilots: no lineage has these numbers.
-const POPULATIONS: u64 = u64::MAX - 1;
-const PILOTS: u64 = u64::MAX - 10;
 
 /// Particles of the first pilot.
 const PILOT: usize = 32;
@@ -71,7 +67,7 @@ const LEAST: usize = 16;
 
 /// The seed of the `number`-th population; of the first, the seed itself.
 fn population_seed(seed: u64, number: usize) -> u64 {
-    if number == 0 { seed } else { Stream::new(seed, POPULATIONS, number as u128, 0).next_u64() }
+    if number == 0 { seed } else { Reserved::Population.stream(seed, number as u128, 0).next_u64() }
 }
 
 /// The callback that watches several populations at once.
@@ -137,8 +133,8 @@ pub(super) fn by_clock(
     watch: &mut Watch<'_>,
 ) -> std::result::Result<Result, Failure> {
     if time.is_zero() {
-        return Err(Fault::new("bad-setting", "no time was given to the search")
-            .with_help("give it a number of seconds above 0")
+        return Err(Fault::new("bad-setting", "the time of a search is not above 0")
+            .with_help("use a number of seconds above 0")
             .into());
     }
     let mut stopped = false;
@@ -156,7 +152,7 @@ pub(super) fn by_clock(
     let mut number = 0;
     let cost = loop {
         let start = clock();
-        let seed = Stream::new(settings.seed, PILOTS, number, 0).next_u64();
+        let seed = Reserved::Pilot.stream(settings.seed, number, 0).next_u64();
         match one(size, seed, limit) {
             (Ok(_) | Err(Failure::Impossible { .. }), false) => {}
             (result, _) => return result.map(without_evidence),
@@ -223,7 +219,7 @@ fn combine(
     let total: f64 = plan.iter().map(|n| *n as f64).sum();
     if plan.len() == 1 || lived.is_empty() {
         let no_plan =
-            || Fault::new("no-particles", "zero populations were asked for").with_help("use at least one");
+            || Fault::new("no-particles", "the number of populations is 0").with_help("use at least one");
         return lived.pop().map(|one| one.1).ok_or_else(|| died.unwrap_or_else(|| no_plan().into()));
     }
     let log_normaliser = lived

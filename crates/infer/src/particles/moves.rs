@@ -15,6 +15,7 @@ use crate::chain::streams::below;
 use crate::chain::{Chain, Settings as ChainSettings};
 use crate::record::{Record, score_of};
 use crate::replay::by_address;
+use crate::streams::Reserved;
 use crate::{Failure, Task};
 use niwaki_geom::sketch::product::Sketches;
 use niwaki_math::streams::RngCore;
@@ -28,8 +29,6 @@ use std::collections::HashMap;
 
 /// Visits of a particle's stream, four for each move: the model's own choices and the order have the first two.
 const VISITS: u64 = 4;
-/// The stream for the seeds of chains: no lineage has this number.
-pub(super) const CHAINS: u64 = u64::MAX - 8;
 
 /// A particle that still runs, while it is moved.
 struct Moving<'a, 'm> {
@@ -206,7 +205,8 @@ pub(super) fn move_ended(p: &mut Particle, round: &Round<'_>) -> Result<Count, F
     if p.was_ended && round.ending.is_some() {
         return Ok(Count::default());
     }
-    let seed = Stream::new(round.settings.seed, CHAINS, u128::from(p.lineage), round.number).next_u64();
+    let seed =
+        Reserved::ChainSeed.stream(round.settings.seed, u128::from(p.lineage), round.number).next_u64();
     let sketches = std::mem::take(&mut p.record.sketches);
     let mut chain = chain_from(&p.record, sketches, round.task, round.mover, seed)?;
     chain.restrict(round.power, round.ending);

@@ -18,12 +18,9 @@ use super::many::Watch;
 use super::settings::Settings;
 use super::smc::{Outcome, run};
 use super::weights::Normalised;
-use crate::importance::log_mean_exp;
+use crate::streams::Reserved;
 use crate::{Failure, Task};
-use niwaki_math::Stream;
-
-/// The stream of the acceptance draws: no lineage has this number.
-const ACCEPTANCE: u64 = u64::MAX - 5;
+use niwaki_math::log_sums::log_mean_exp;
 
 /// `sweeps` sweeps after a first population. `watch` is called after each barrier; when it returns false, the sweeps so
 /// far are returned.
@@ -68,7 +65,7 @@ pub fn pimh(
             continue;
         }
         chain.tries += 1;
-        let u = Stream::new(settings.seed, ACCEPTANCE, sweep as u128, 0).uniform();
+        let u = Reserved::SweepAcceptance.stream(settings.seed, sweep as u128, 0).uniform();
         let log_now = now.as_ref().map_or(f64::NEG_INFINITY, |at| at.0);
         let accepted = proposed.filter(|(log, _)| u.ln() < log - log_now);
         chain.moves += usize::from(accepted.is_some());

@@ -8,15 +8,13 @@ use super::settings::{Anneal, Order, Settings, Weights, When};
 use super::shared::share;
 use super::weights::{Normalised, conditional_share};
 use crate::record::{AllInvalid, Record};
+use crate::streams::Reserved;
 use crate::{Failure, Task};
-use niwaki_math::{Stream, StreamKey, Total};
+use niwaki_math::{StreamKey, Total};
 use niwaki_vm::machine::Limits;
 use std::collections::HashSet;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
-
-/// The stream of the resampling draws: no lineage has this number.
-pub(super) const RESAMPLING: u64 = u64::MAX;
 
 /// Most particles that one task of the thread pool advances.
 pub(super) const BATCH: usize = 16;
@@ -262,7 +260,7 @@ impl<'a> Population<'a> {
 
     /// Resamples, and resets the weights. Moves of the particles follow directly.
     pub fn resample(&mut self) {
-        let mut random = Stream::new(self.settings.seed, RESAMPLING, self.barriers as u128, 0);
+        let mut random = Reserved::Resampling.stream(self.settings.seed, self.barriers as u128, 0);
         let copies = self.settings.resampling.copies(&self.weights.relative, &mut random);
         self.survive(&copies);
     }

@@ -22,17 +22,13 @@ use crate::chain::counts::Count;
 use crate::chain::kernel::Kernel;
 use crate::chain::plan::Plan;
 use crate::chain::state::Fresh;
+use crate::streams::Reserved;
 use crate::{Failure, Task};
-use niwaki_math::{Stream, StreamKey};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;
 use rayon::prelude::*;
 use serde::Deserialize;
 use std::collections::HashMap;
-
-/// Streams of the draws between moves, and of the first runs that spreads are read from: no lineage has these numbers.
-const SCHEDULE: u64 = u64::MAX - 6;
-const SPREADS: u64 = u64::MAX - 7;
 
 /// Forward runs from which the spreads of the sites' distributions are read.
 const FIRST_RUNS: u64 = 4;
@@ -67,18 +63,21 @@ impl Rejuvenation {
     /// Refuses settings that make no sense.
     pub(super) fn check(&self, weights: Weights) -> Result<(), Fault> {
         if weights == Weights::Absolute {
-            return Err(Fault::new("bad-setting", "absolute weights have no law that a move could keep")
-                .with_help("use ratio weights"));
+            return Err(Fault::new(
+                "bad-setting",
+                "absolute weights have no target distribution, which a move needs",
+            )
+            .with_help("use ratio weights"));
         }
         let none = self.final_chains.is_some_and(|wanted| wanted.chains == 0 || wanted.draws == 0);
         if self.moves == 0 || self.at == Moment::Every(0) || none {
-            return Err(Fault::new("bad-setting", "no move was asked for").with_help("ask for at least one"));
+            return Err(Fault::new("bad-setting", "a number of moves, barriers, chains or draws is 0")
+                .with_help("use at least one"));
         }
         if self.kernel.any(&|part| matches!(part, Kernel::Anneal { .. })) {
-            let what = "an annealing kernel does not keep the particles' law";
-            return Err(
-                Fault::new("bad-kernel", what).with_help("anneal the particles, and move them plainly")
-            );
+            let what = "an annealing kernel changes the distribution of the particles";
+            return Err(Fault::new("bad-kernel", what)
+                .with_help("anneal the particles, and move them by the kernel inside `anneal`"));
         }
         if self.at != Moment::End && self.kernel.any(&|part| matches!(part, Kernel::Trajectory { .. })) {
             let what = "a particle that still runs has no gradient to follow";
@@ -146,7 +145,7 @@ impl Mover {
         let choosy = (0..plan.leaves.len()).filter(|n| !plan.leaves[*n].selection.is_all()).collect();
         let mut spreads = HashMap::new();
         for run in 0..FIRST_RUNS {
-            let key = StreamKey::new(settings.seed, SPREADS, run);
+            let key = Reserved::Spread.key(settings.seed, run);
             let mut answers = Fresh { spreads: Some(&mut spreads), ..Fresh::plain(key, &*task.hosts) };
             let mut machine = task.machine();
             // Of an invalid run, the sites up to its fault.
@@ -191,7 +190,7 @@ impl Population<'_> {
         let before = mover.clone();
         let number = mover.rounds;
         mover.rounds += 1;
-        let mut rng = Stream::new(self.settings.seed, SCHEDULE, u128::from(number), 0);
+        let mut rng = Reserved::MoveSchedule.stream(self.settings.seed, u128::from(number), 0);
         let schedule = (0..rejuvenation.moves).map(|_| mover.plan.next(&mut rng).0).collect();
         let ending = resampled.map(|_| self.barriers - 1);
         let round = Round {

@@ -112,7 +112,7 @@ impl Settings {
     pub fn check(&self) -> Result<(), Fault> {
         if self.particles == 0 {
             return Err(
-                Fault::new("no-particles", "zero particles were asked for").with_help("use at least one")
+                Fault::new("no-particles", "the number of particles is 0").with_help("use at least one")
             );
         }
         if !(self.power > 0.0 && self.power.is_finite()) {
@@ -132,15 +132,16 @@ impl Settings {
         if let Some(rejuvenation) = &self.rejuvenate {
             rejuvenation.check(self.weights)?;
         }
-        let fits = match &self.anneal {
+        let (fits, given) = match &self.anneal {
             Anneal::Constant => return Ok(()),
             Anneal::Schedule(powers) => {
-                !powers.is_empty() && powers.iter().all(|t| *t >= 0.0 && t.is_finite())
+                let fits = !powers.is_empty() && powers.iter().all(|t| *t >= 0.0 && t.is_finite());
+                (fits, format!("{powers:?}"))
             }
-            Anneal::Adaptive(share) => *share > 0.0 && *share < 1.0,
+            Anneal::Adaptive(share) => (*share > 0.0 && *share < 1.0, share.to_string()),
         };
         if !fits {
-            return Err(Fault::new("bad-anneal", format!("{:?} is no schedule of powers", self.anneal))
+            return Err(Fault::new("bad-anneal", format!("the schedule of powers is {given}"))
                 .with_help("give the power at each barrier, or a share of the particles between 0 and 1"));
         }
         if self.weights == Weights::Absolute {

@@ -1,7 +1,7 @@
 //! Log weights: normalising, means, effective sample size. Sums run in the order of the particles, so that they are
 //! the same for any number of threads.
 
-use crate::importance::log_sum_exp;
+use niwaki_math::log_sums::log_sum_exp;
 
 /// Weights relative to the largest, with the log of their mean and the effective sample size.
 #[derive(Default)]

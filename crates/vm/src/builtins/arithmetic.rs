@@ -41,7 +41,7 @@ pub fn int<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
         Some(Value::Str(text)) => {
             let read = digits(text).and_then(|text| text.parse().ok());
             read.map(Value::Int)
-                .ok_or_else(|| Fault::bad_text(format!("{} does not read as an int", print::quoted(text))))
+                .ok_or_else(|| Fault::bad_text(format!("{} is not an int in text", print::quoted(text))))
         }
         Some(value) => match Number::of(value) {
             Some(Number::Int(n)) => Ok(Value::Int(n)),
@@ -58,7 +58,7 @@ pub fn float<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
         Some(Value::Str(text)) => {
             let read = digits(text).and_then(|text| text.parse().ok());
             read.map(Value::real)
-                .ok_or_else(|| Fault::bad_text(format!("{} does not read as a float", print::quoted(text))))
+                .ok_or_else(|| Fault::bad_text(format!("{} is not a float in text", print::quoted(text))))
         }
         Some(value) => real("float", value).map(Value::Real),
     }

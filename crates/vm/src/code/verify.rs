@@ -2,7 +2,8 @@
 //!
 //! Every operand lies within its function's registers, constants or captures; every jump within the code;
 //! instructions end in a return; sites belong to functions that may suspend; each site belongs to one instruction; a
-//! register that other activations may have overwritten is never read; a register that was read is not overwritten.
+//! register that other activations may have overwritten is never read; a register that was read is not overwritten;
+//! a slice that writes a register of the node also has the instructions of its path that write it later.
 
 use super::{Function, Mode, Op, Operand, Place, Program, SiteKind};
 use crate::passes::place::{live_before, reads_and_writes, successors};
@@ -141,6 +142,12 @@ fn function<S: Scalar>(program: &Program<S>, f: &Function<S>, outer: usize) -> R
     {
         return fail(at, "a register of the node is read and assigned again");
     }
+    let inputs = f.inputs.iter().chain(&f.outers).map(|slice| (*slice, 0));
+    let mut slices = inputs.chain(f.sites.iter().map(|site| (site.again, site.next)));
+    let wrong = slices.find_map(|(slice, whole)| departs(f, slice as usize, whole as usize, HashSet::new()));
+    if let Some(at) = wrong {
+        return fail(at, "a slice departs from the code, or sets a register of the node back");
+    }
     // Slices end as the code does, or by being done.
     match (f.code.get((f.body as usize).wrapping_sub(1)), f.code.last()) {
         (
@@ -202,9 +209,73 @@ fn reads_what_will_be_overwritten<S: Scalar>(f: &Function<S>) -> Option<usize> {
     None
 }
 
+/// Where a slice has an instruction that is not next on the path of the code from `whole` on, or leaves out a branch, or
+/// an instruction that writes a register of the node which the slice has `written` before: the last writer of a register
+/// must be the same as on the path.
+fn departs<S: Scalar>(
+    f: &Function<S>,
+    mut slice: usize,
+    mut whole: usize,
+    mut written: HashSet<Operand>,
+) -> Option<usize> {
+    let body = f.body as usize;
+    while slice >= body {
+        let (Some(op), Some(original)) = (f.code.get(slice), f.code[..body].get(whole)) else {
+            return Some(slice);
+        };
+        let (next, other) = successors(original, whole);
+        let is_last = next.is_none();
+        match *original {
+            // Here the whole code takes over.
+            _ if matches!(*op, Op::Jump { target } if target as usize == whole) => return None,
+            Op::Jump { target } if target as usize > whole => {
+                whole = target as usize;
+                continue;
+            }
+            _ => {}
+        }
+        let (_, writes) = reads_and_writes(f, original);
+        if f.spans[slice] == f.spans[whole] && is_copy(f, op, original) {
+            if let (Some(mine), Some(theirs)) = (successors(op, slice).1, other)
+                && let Some(at) = departs(f, mine, theirs, written.clone())
+            {
+                return Some(at);
+            }
+            written.extend(writes.into_iter().filter(|o| o.is_node()));
+            slice += 1;
+        } else if other.is_some()
+            || matches!(original, Op::Jump { .. })
+            || is_last && *op != Op::Done
+            || writes.iter().any(|o| written.contains(o))
+        {
+            return Some(slice);
+        }
+        if is_last {
+            return None;
+        }
+        whole += 1;
+    }
+    (slice != whole).then_some(slice)
+}
+
+/// Whether an instruction of a slice is that one of the code, but for where a branch continues and for a call of which
+/// one argument changes.
+fn is_copy<S: Scalar>(f: &Function<S>, op: &Op, original: &Op) -> bool {
+    match (*op, *original) {
+        (Op::Pass { site: mine, .. }, Op::Site { site }) => mine == site,
+        (Op::JumpIf { .. }, Op::JumpIf { .. })
+        | (Op::JumpUnless { .. }, Op::JumpUnless { .. })
+        | (Op::JumpUnlessCompare { .. }, Op::JumpUnlessCompare { .. }) => {
+            reads_and_writes(f, op).0 == reads_and_writes(f, original).0
+        }
+        _ => op == original,
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    //! The claim: every read of a scratch value that may be overwritten is refused.
+    //! The claim: every read of a scratch value that may be overwritten is refused, and every slice that leaves a register
+    //! of the node with another value than the whole code would.
     use super::*;
     use crate::core::parse::parse;
     use crate::passes::{compile, place::rewrite};
@@ -299,6 +370,32 @@ mod tests {
             }
         }
         assert_eq!(kinds.len(), 19, "every kind of site, and every source of a distribution");
+    }
+
+    #[test]
+    fn a_slice_that_leaves_out_the_last_writer_is_refused() {
+        let text = r#"(module (fn "m" (params $n)
+            (set $a (sample (dist gaussian 0.0 1.0)))
+            (set $p (mul $a 2.0))
+            (set $q (sub $n 1.0))
+            (do (sample (dist bernoulli 0.5)))
+            (do (factor (mul $p $n)))
+            (return $q)) (entry "m"))"#;
+        let mut program = compile::<f64>(&parse(text).unwrap(), vec![]).unwrap();
+        let f = &mut program.functions[0];
+        let body = f.body as usize;
+        let writer = |name| {
+            let at = f.code[..body].iter().position(|op| format!("{op:?}").contains(name)).unwrap();
+            reads_and_writes(f, &f.code[at]).1[0]
+        };
+        let (p, q) = (writer("Mul"), writer("Sub"));
+        assert!(p.is_node() && q.is_node() && f.sites[0].again as usize >= body);
+        assert_eq!(verify(&program), Ok(()));
+        // As if both were one variable: the slice after the choice has its first assignment, and not the last.
+        rewrite(&mut program.functions[0], |o| if o == q { p } else { o });
+        assert!(
+            verify(&program).is_err_and(|error| error.message.contains("sets a register of the node back"))
+        );
     }
 
     #[test]

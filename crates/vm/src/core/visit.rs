@@ -102,7 +102,7 @@ pub fn assigned(block: &[Stmt]) -> Names {
 
 /// Whether a block contains a `return`.
 pub fn returns(block: &[Stmt]) -> bool {
-    let mut found = false;
-    each_stmt(block, &mut |s| found |= matches!(s.kind, StmtKind::Return(_)));
-    found
+    let mut returns = false;
+    each_stmt(block, &mut |s| returns |= matches!(s.kind, StmtKind::Return(_)));
+    returns
 }

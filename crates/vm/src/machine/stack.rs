@@ -140,13 +140,13 @@ impl<S: Scalar> Machine<'_, S> {
     pub(super) fn out_of_steps(&self) -> Fault {
         let n = self.limits.steps;
         Fault::new("step-budget", format!("the model took more than {n} steps without ending"))
-            .with_help("check that every loop and recursion comes to an end, or raise `max_steps`")
+            .with_help("check that every loop and recursion ends, or raise `max_steps`")
     }
 
     pub(super) fn out_of_memory(&self) -> Fault {
         let megabytes = self.limits.bytes >> 20;
         Fault::new("memory-budget", format!("the model needs more than {megabytes} MB for its calls"))
-            .with_help("check that every recursion comes to an end, or raise `max_memory`")
+            .with_help("check that every recursion ends, or raise `max_memory`")
     }
 
     /// The fault of futures that wait for each other.
@@ -160,8 +160,8 @@ impl<S: Scalar> Machine<'_, S> {
                 stack.push(Call { function: f.name.clone(), file: f.file, span });
             }
         }
-        let fault = Fault::new("waiting-cycle", "futures wait for each other, so none of them can go on")
-            .with_help("let one of them do without the other's value");
+        let fault = Fault::new("waiting-cycle", "futures wait for each other, so none of them can continue")
+            .with_help("change one of them so that it does not need the other's value");
         RunFault { fault, stack, omitted: 0, path: String::new() }
     }
 }

@@ -36,22 +36,24 @@ impl Effects {
     /// Whether evaluating the expression can suspend.
     pub fn in_expr(&self, e: &Expr) -> bool {
         use ExprKind::*;
-        let mut found = false;
+        let mut suspends = false;
         e.each(&mut |e| {
-            found |= match &e.kind {
+            suspends |= match &e.kind {
                 Sample(_) | Observe(..) | Factor(_) | Condition(_) | Query(..) | Emit(_) | Force(_) => true,
                 Future(..) | FutureApply(..) | Apply(..) => true,
                 Call(name, _) => self.function(name),
                 _ => false,
             };
         });
-        found
+        suspends
     }
 
     /// Whether running the block can suspend.
     pub fn in_block(&self, block: &[Stmt]) -> bool {
-        let mut found = false;
-        each_stmt(block, &mut |s| found = found || s.expressions().into_iter().any(|e| self.in_expr(e)));
-        found
+        let mut suspends = false;
+        each_stmt(block, &mut |s| {
+            suspends = suspends || s.expressions().into_iter().any(|e| self.in_expr(e))
+        });
+        suspends
     }
 }

@@ -105,15 +105,15 @@ impl Spec {
 
 /// A run of decimal digits: `None` inside when there is none, outside when it is too large.
 fn number(rest: &mut Vec<char>) -> Option<Option<usize>> {
-    let mut found: Option<usize> = None;
+    let mut number: Option<usize> = None;
     while let Some(digit) = rest.last().and_then(|c| c.to_digit(10)) {
         rest.pop();
-        found = Some(found.unwrap_or(0) * 10 + digit as usize);
-        if found > Some(1000) {
+        number = Some(number.unwrap_or(0) * 10 + digit as usize);
+        if number > Some(1000) {
             return None;
         }
     }
-    Some(found)
+    Some(number)
 }
 
 fn grouped(digits: &str) -> String {
@@ -156,7 +156,7 @@ pub fn format<S: Scalar>(value: &Value<S>, spec: &str) -> Result<String, Fault> 
                 let digits = if spec_.kind == Some('x') { format!("{size:x}") } else { size.to_string() };
                 Ok(spec_.number(n < 0, &digits))
             }
-            Some(x) if x.real().varies() => Err(Fault::no_derivative("text made from a number")),
+            Some(x) if x.real().varies() => Err(Fault::no_derivative("the text of a number")),
             Some(x) => {
                 let x = x.real().value();
                 let digits = real_digits(x.abs(), &spec_).ok_or_else(refused)?;

@@ -190,9 +190,9 @@ pub fn to_int(x: f64) -> Result<i64, Fault> {
         return Ok(x as i64);
     }
     let message = if x.is_nan() {
-        "a NaN cannot be made an int".to_string()
+        "a NaN cannot be converted to an int".to_string()
     } else if x.is_infinite() {
-        "an infinite float cannot be made an int".to_string()
+        "an infinite float cannot be converted to an int".to_string()
     } else {
         format!("{x:?} does not fit in a 64-bit int")
     };

@@ -133,7 +133,7 @@ fn begin<'a, S: Scalar>(value: &'a Value<S>, out: &mut String) -> Result<Option<
         Value::None => out.push_str("None"),
         Value::Bool(b) => out.push_str(if *b { "True" } else { "False" }),
         Value::Int(n) => out.push_str(&n.to_string()),
-        Value::Real(x) if x.varies() => return Err(Fault::no_derivative("text made from a number")),
+        Value::Real(x) if x.varies() => return Err(Fault::no_derivative("the text of a number")),
         Value::Real(x) => out.push_str(&float(x.value())),
         Value::Str(text) => out.push_str(&quoted(text)),
         Value::Tuple(tuple) => {

@@ -141,7 +141,6 @@ INPUTS = (
     Message(
         "out-of-time",
         "the search had no result within its time",
-        why="after {spent} it had {found}",
         help="give it more time or fewer particles",
         example="budget of 0.001 s",
         cure="budget of 10 s",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from string import Formatter
 
 
 @dataclass(frozen=True)
@@ -35,3 +36,9 @@ class Message:
     help: str = ""
     example: str = ""
     cure: str = ""
+
+    @property
+    def names(self) -> set[str]:
+        """The names of the values that it needs."""
+        texts = (self.title, self.why, self.help)
+        return {name for text in texts for _, name, _, _ in Formatter().parse(text) if name}

@@ -14,6 +14,13 @@ SETTINGS = (
         cure="grow(ship, target, voxel=0.2)",
     ),
     Message(
+        "setting-refused",
+        "the search cannot run with this setting",
+        help="{cure}",
+        example='a stored search whose method was changed by hand to `"particles": 0`',
+        cure="smc(100)",
+    ),
+    Message(
         "machine-limit",
         "the model is too large for the machine",
         why="the compiler says: {found}",

@@ -1,0 +1,28 @@
+//! Sums of numbers that are given by their logarithms: relative to the largest, so that nothing overflows.
+
+/// The log of the mean of exponentials, added up in order; `-inf` of none.
+///
+/// ```
+/// use niwaki_math::log_sums::log_mean_exp;
+/// assert_eq!(log_mean_exp([1000.0, 1000.0].into_iter()), 1000.0);
+/// ```
+pub fn log_mean_exp(logs: impl Iterator<Item = f64> + Clone) -> f64 {
+    let (max, n) = logs.clone().fold((f64::NEG_INFINITY, 0usize), |(m, n), x| (m.max(x), n + 1));
+    if max == f64::NEG_INFINITY || n == 0 {
+        return f64::NEG_INFINITY;
+    }
+    let sum: f64 = logs.map(|x| (x - max).exp()).sum();
+    max + (sum / n as f64).ln()
+}
+
+/// The log of the sum of exponentials, added up in order.
+pub fn log_sum_exp(logs: impl Iterator<Item = f64> + Clone) -> f64 {
+    let n = logs.clone().count();
+    log_mean_exp(logs) + (n.max(1) as f64).ln()
+}
+
+/// `ln(exp(a) + exp(b))`.
+pub fn log_add_exp(a: f64, b: f64) -> f64 {
+    let (large, small) = if a > b { (a, b) } else { (b, a) };
+    if large == f64::NEG_INFINITY { large } else { large + (small - large).exp().ln_1p() }
+}
