@@ -7,18 +7,18 @@
 //! enumeration: beyond 5 standard errors a share lies once in 1.7 million; some 900 are looked at, so a re-seeded suite
 //! fails once in 1,900 runs. The long form has a million starts, one move each.
 
-use super::programs::task;
+use super::programs::{leaf, task};
 use niwaki_geom::{Aabb, no_overshoot, vec3};
+use niwaki_infer::Task;
 use niwaki_infer::chain::kernel::{Kernel, Selection};
-use niwaki_infer::chain::regrow::Pick;
 use niwaki_infer::chain::{Chain, Settings};
 use niwaki_infer::enumeration::enumerate;
 use niwaki_infer::forward::forward;
 use niwaki_infer::replay::by_address;
 use niwaki_infer::run::Run;
-use niwaki_infer::Task;
 use niwaki_math::Stream;
-use niwaki_vm::value::{Value, repr};
+use niwaki_vm::value::{Value as Held, repr};
+use serde_json::{Value, json};
 use std::collections::HashMap;
 
 const PROGRAMS: [(&str, &str); 9] = [
@@ -120,8 +120,8 @@ fn tasks() -> Vec<(&'static str, Task)> {
     PROGRAMS.map(with_sketch).into()
 }
 
-fn regrow(particles: usize, turn: f64, pick: Pick) -> Kernel {
-    Kernel::Regrow { particles, turn, pick }
+fn regrow(particles: usize, turn: f64, pick: Value) -> Kernel {
+    leaf("regrow", json!({"particles": particles, "turn": turn, "pick": pick}))
 }
 
 fn on(pattern: &str, kernel: Kernel) -> Kernel {
@@ -134,30 +134,34 @@ fn kernels(task: &Task) -> Vec<(&'static str, Kernel)> {
     let first = chain.state.trace.path(&task.program, 0);
     let site = first.rsplit('/').next().unwrap_or_default().to_string();
     vec![
-        ("two particles", regrow(2, 0.0, Pick::Size)),
-        ("five particles", regrow(5, 0.0, Pick::Size)),
-        ("turned always, two particles", regrow(2, 1.0, Pick::Size)),
-        ("turned half the time, four particles", regrow(4, 0.5, Pick::Size)),
-        ("by choice", regrow(3, 0.5, Pick::Choice)),
-        ("named parts", regrow(3, 0.5, Pick::Parts(vec!["**".into()]))),
+        ("two particles", regrow(2, 0.0, json!("size"))),
+        ("five particles", regrow(5, 0.0, json!("size"))),
+        ("turned always, two particles", regrow(2, 1.0, json!("size"))),
+        ("turned half the time, four particles", regrow(4, 0.5, json!("size"))),
+        ("by choice", regrow(3, 0.5, json!("choice"))),
+        ("named parts", regrow(3, 0.5, json!({"parts": ["**"]}))),
         (
             "in a cycle with single choices",
-            Kernel::Cycle(vec![Kernel::Prior, regrow(3, 0.3, Pick::Size), Kernel::Neighbour { reach: 1 }]),
+            Kernel::Cycle(vec![
+                Kernel::PRIOR,
+                regrow(3, 0.3, json!("size")),
+                leaf("neighbour", json!({"reach": 1})),
+            ]),
         ),
-        ("a mixture", Kernel::Mixture(vec![(1.0, Kernel::Prior), (2.0, regrow(3, 0.5, Pick::Size))])),
-        ("some choices only", on(&site, regrow(3, 0.4, Pick::Size))),
+        ("a mixture", Kernel::Mixture(vec![(1.0, Kernel::PRIOR), (2.0, regrow(3, 0.5, json!("size")))])),
+        ("some choices only", on(&site, regrow(3, 0.4, json!("size")))),
     ]
 }
 
 /// How exact draws of a program are told apart: by its value, where it returns one, else by the number and the sum of its
 /// choices.
 fn outcome(task: &Task, run: &Run) -> String {
-    if !matches!(run.value, Value::None) && task.sketches.is_empty() {
+    if !matches!(run.value, Held::None) && task.sketches.is_empty() {
         return repr(&run.value).expect("a value");
     }
-    let number = |value: &Value| match value {
-        Value::Bool(b) => f64::from(u8::from(*b)),
-        Value::Int(k) => *k as f64,
+    let number = |value: &Held| match value {
+        Held::Bool(b) => f64::from(u8::from(*b)),
+        Held::Int(k) => *k as f64,
         _ => 0.0,
     };
     let values: Vec<f64> = run.log.entries().iter().map(|entry| number(&entry.value)).collect();

@@ -23,41 +23,40 @@ mod turn;
 
 pub use pick::Pick;
 
-use super::Chain;
 use super::accept::{Rules, accepts};
 use super::kernel::Selection;
+use super::leaf::ChainMove;
 use super::metropolis::Decision;
 use super::state::Fresh;
+use super::{Chain, Proposing};
 use crate::{Failure, Task};
-use niwaki_vm::fault::Fault;
 use niwaki_math::{RngCore, Stream, StreamKey, Total};
+use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Machine;
 use niwaki_vm::machine::kept::Change;
 use niwaki_vm::machine::kept::part::Piece;
 use niwaki_vm::value::{Value, same};
 use pick::Picked;
+use serde::Deserialize;
 use std::collections::HashMap;
-use sweep::{Block, Set};
+use sweep::{Block, Grown, Set};
 
-/// The settings of regrowth.
-#[derive(Clone, Debug)]
+/// One regrowth.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Regrow {
     /// Particles, the one with the present values among them.
-    pub particles: usize,
+    particles: usize,
     /// How often a discrete choice of the part is turned, where it has one.
-    pub turn: f64,
+    turn: f64,
     /// Which part is grown again.
-    pub pick: Pick,
+    pick: Pick,
     /// Which choices may change.
-    pub(crate) selection: Selection,
+    #[serde(skip)]
+    selection: Selection,
 }
 
 impl Regrow {
-    /// The settings, for all choices.
-    pub(crate) fn new(particles: usize, turn: f64, pick: Pick) -> Regrow {
-        Regrow { particles, turn, pick, selection: Selection::default() }
-    }
-
     /// Takes the choices that may change.
     ///
     /// # Errors
@@ -88,21 +87,14 @@ struct Turned {
     new: Value,
 }
 
-impl<R: Rules> Chain<R> {
-    /// One regrowth.
-    pub(super) fn regrow(
-        &mut self,
-        task: &Task,
-        machine: &mut Machine<'_>,
-        own: &Regrow,
-        table: Option<usize>,
-        beta: f64,
-    ) -> Result<(), Failure> {
-        let (visit, program) = (self.visit, &*task.program);
-        self.visit += 1;
-        let mut rng = self.streams.decisions(visit);
-        let trace = &self.state.trace;
-        let is_selected = |choice: usize| table.is_none_or(|t| self.tables[t].weight(choice) > 0);
+impl ChainMove for Regrow {
+    fn apply<R: Rules>(&mut self, proposing: Proposing<'_, '_, R>) -> Result<(), Failure> {
+        let Proposing { chain, task, machine, table, beta } = proposing;
+        let (own, visit, program) = (&*self, chain.visit, &*task.program);
+        chain.visit += 1;
+        let mut rng = chain.streams.decisions(visit);
+        let trace = &chain.state.trace;
+        let is_selected = |choice: usize| table.is_none_or(|t| chain.tables[t].weight(choice) > 0);
         let Some(picked) = own.pick.draw(trace, program, &is_selected, &mut rng) else {
             return Ok(());
         };
@@ -120,7 +112,7 @@ impl<R: Rules> Chain<R> {
             Piece::Emit(primitive) => gone.push(primitive),
             Piece::Part(_) => {}
         });
-        let mut sketches = self.state.sketches.fork();
+        let mut sketches = chain.state.sketches.fork();
         if !gone.is_empty() {
             let kept = sketches.exchange(gone.iter().copied(), std::iter::empty());
             debug_assert!(kept, "the sketches and the trace hold the same scene");
@@ -129,7 +121,7 @@ impl<R: Rules> Chain<R> {
             // The rest alone is impossible: no particle could start from it.
             return Ok(());
         }
-        let moves = self.streams.moves(visit);
+        let moves = chain.streams.moves(visit);
         let seed = |which: u128| moves.at(which).next_u64();
         let block = Block {
             task,
@@ -144,38 +136,46 @@ impl<R: Rules> Chain<R> {
         };
         let is_turned = rng.uniform() < own.turn;
         let turned = if is_turned { block.turned(machine, &mut rng)? } else { None };
-        let mut present = block.conditional(machine, turned.as_ref(), seed(0))?;
-        self.finish(task, machine, own, &picked, &block, &numbers, &mut present, None)?;
-        let mut set = present;
+        let mut set = block.conditional(machine, turned.as_ref(), seed(0))?;
+        let held_result = set.grown[0].result();
+        let weighing = Weighing { task, own, picked: &picked, block: &block, numbers: &numbers };
+        chain.weigh_last(machine, &weighing, &mut set, None)?;
         let mut log_ratio = 0.0;
         if let Some(turned) = &turned {
-            let held = set.grown[0].result();
             let mut other = block.free(machine, turned, seed(1))?;
-            self.finish(task, machine, own, &picked, &block, &numbers, &mut other, Some((&set, held)))?;
+            chain.weigh_last(machine, &weighing, &mut other, Some((&set.grown[0], held_result)))?;
             log_ratio = other.log_mean - set.log_mean;
             if accepts(log_ratio, &mut rng) {
                 set = other;
             }
         }
-        let chosen = &set.grown[set.weights.index(rng.uniform())];
-        let values = chosen.values(&block);
+        let values = set.grown[set.weights.index(rng.uniform())].values(&block);
         let is_same = values.len() == held.len()
             && values.iter().all(|(address, value)| held.get(address).is_some_and(|old| same(old, value)));
-        if is_same || self.undoing {
-            self.last = Decision { same: is_same, accepted: false, log_ratio };
-            self.count_many(self.last);
+        chain.last = Decision { same: is_same, accepted: !is_same, log_ratio };
+        chain.count_many(chain.last);
+        if is_same || chain.undoing {
             return Ok(());
         }
-        let moved: Vec<_> = held.iter().map(|(address, value)| (*address, value.clone())).collect();
-        let change = self.replace(task, machine, &numbers, &values)?;
+        let change = chain.replace(task, machine, &numbers, &values)?;
         debug_assert_eq!(change, Change::Done, "a particle that was drawn is possible");
-        self.state.update_sketches()?;
-        self.keep(program, moved);
-        self.last = Decision { same: false, accepted: true, log_ratio };
-        self.count_many(self.last);
+        chain.state.update_sketches()?;
+        chain.keep(program, held);
         Ok(())
     }
+}
 
+/// What the last weights of the particles depend on.
+struct Weighing<'a> {
+    task: &'a Task,
+    own: &'a Regrow,
+    picked: &'a Picked,
+    block: &'a Block<'a>,
+    /// The numbers of the part's choices that may change.
+    numbers: &'a [usize],
+}
+
+impl<R: Rules> Chain<R> {
     /// Opens a transaction that gives choices of a part the values of a particle.
     fn replace(
         &mut self,
@@ -192,35 +192,27 @@ impl<R: Rules> Chain<R> {
     }
 
     /// The last weights of a set: the probability of the pick, and what the rest of the run says to what a part returns.
-    /// A set without present values is compared with the one that has them, whose first particle returned `held`.
-    #[allow(clippy::too_many_arguments)]
-    fn finish(
+    /// A set without present values is compared with the particle that has them, and what that returned.
+    fn weigh_last(
         &mut self,
-        task: &Task,
         machine: &mut Machine<'_>,
-        own: &Regrow,
-        picked: &Picked,
-        block: &Block<'_>,
-        numbers: &[usize],
+        with: &Weighing<'_>,
         set: &mut Set,
-        present: Option<(&Set, Value)>,
+        present: Option<(&Grown, Value)>,
     ) -> Result<(), Failure> {
-        let (first, returned) = match &present {
-            Some((present, returned)) => (&present.grown[0], returned.clone()),
-            None => (&set.grown[0], set.grown[0].result()),
-        };
+        let (first, returned) = present.unwrap_or_else(|| (&set.grown[0], set.grown[0].result()));
         let (score, is_turned) = (first.particle.record.score(), first.seen.log_turn.is_some());
         let barriers = first.barriers;
         let mut logs = Vec::with_capacity(set.grown.len());
         for grown in &set.grown {
             let mut log = grown.particle.log_weight;
-            if grown.is_complete(block, is_turned) && log > f64::NEG_INFINITY {
-                log += picked.log_probability(&grown.seen) + turn::log_form(own.turn, &grown.seen);
+            if grown.is_complete(with.block, is_turned) && log > f64::NEG_INFINITY {
+                log += with.picked.log_probability(&grown.seen) + turn::log_form(with.own.turn, &grown.seen);
             } else {
                 log = f64::NEG_INFINITY;
             }
             if log > f64::NEG_INFINITY && !same(&grown.result(), &returned) {
-                log += self.answer(task, machine, block, numbers, grown, &score)?;
+                log += self.answer(machine, with, grown, &score)?;
             } else if self.barriers.is_some() && grown.barriers != barriers {
                 log = f64::NEG_INFINITY;
             }
@@ -235,16 +227,14 @@ impl<R: Rules> Chain<R> {
     /// present values.
     fn answer(
         &mut self,
-        task: &Task,
         machine: &mut Machine<'_>,
-        block: &Block<'_>,
-        numbers: &[usize],
-        grown: &sweep::Grown,
+        with: &Weighing<'_>,
+        grown: &Grown,
         score: &Total,
     ) -> Result<f64, Failure> {
-        let values = grown.values(block);
-        let change = self.replace(task, machine, numbers, &values)?;
-        let program = &*task.program;
+        let (block, values) = (with.block, grown.values(with.block));
+        let change = self.replace(with.task, machine, with.numbers, &values)?;
+        let program = &*with.task.program;
         if change == Change::Impossible {
             self.state.trace.rollback(program);
             return Ok(f64::NEG_INFINITY);

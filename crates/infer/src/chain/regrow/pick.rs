@@ -110,7 +110,11 @@ impl Pick {
                     let name = trace.part_name(program, sized.part);
                     // The iterations from one on have the name of the first, which is below them.
                     let is_named = !sized.part.is_onward() && patterns.iter().any(|p| matches(p, &name));
-                    if is_named && sized.size > 0 { matching.push(at) } else { work.extend(sized.below.clone()) }
+                    if is_named && sized.size > 0 {
+                        matching.push(at)
+                    } else {
+                        work.extend(sized.below.clone())
+                    }
                 }
                 if matching.is_empty() {
                     return None;
