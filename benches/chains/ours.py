@@ -40,7 +40,7 @@ class Timed:
     ) -> None:
         method = niwaki.mh(steps=1, keep=0, strategy=strategy, kernel=kernel)
         self.result = niwaki.run(model, *arguments, method=method, seed=seed, threads=1, score=score)
-        self.engine = self.result._chains
+        self.engine = self.result.info.running.chains
         self.floor = statistics.median(self.seconds(1) for _ in range(21))
 
     def seconds(self, proposals: int) -> float:
@@ -75,7 +75,7 @@ def first_thousand(model: Any, *arguments: Any, kernel: Kernel | None = None, se
     rates = []
     for seed in range(seeds):
         method = niwaki.mh(steps=1, keep=0, kernel=kernel)
-        engine = niwaki.run(model, *arguments, method=method, seed=seed, threads=1)._chains
+        engine = niwaki.run(model, *arguments, method=method, seed=seed, threads=1).info.running.chains
         start = time.process_time()
         engine.advance(1000, 1, None)
         whole = time.process_time() - start

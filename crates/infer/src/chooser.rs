@@ -48,11 +48,21 @@ impl Chosen {
 }
 
 /// What a chooser may use beside the choice.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy)]
 pub struct Context<'a> {
+    /// The address of the choice.
+    pub address: u128,
     /// The sketches of the scene so far. `None` for a task without sketches, and where they are not up to date at this
     /// choice (a run that is followed again, a Markov chain).
     pub sketches: Option<&'a Sketches>,
+}
+
+impl Context<'_> {
+    /// That of a choice without a scene.
+    #[inline(always)]
+    pub fn of(at: &At<'_, f64>) -> Self {
+        Context { address: at.address(), sketches: None }
+    }
 }
 
 /// Gives choices their values.
@@ -72,7 +82,7 @@ pub trait Chooser {
     /// As for [`Chooser::choose`].
     #[inline]
     fn draw(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Option<Value>, Fault> {
-        Ok(self.choose(at, dist, Context::default())?.map(|chosen| chosen.value))
+        Ok(self.choose(at, dist, Context::of(at))?.map(|chosen| chosen.value))
     }
 }
 
@@ -92,8 +102,8 @@ impl Chooser for Prior {
     const IS_PRIOR: bool = true;
 
     #[inline(always)]
-    fn choose(&mut self, at: &At<'_, f64>, dist: &Dist, _: Context<'_>) -> Result<Option<Chosen>, Fault> {
-        let (draw, log) = dist.sample_and_score(&mut self.0.at(at.address()));
+    fn choose(&mut self, _: &At<'_, f64>, dist: &Dist, seen: Context<'_>) -> Result<Option<Chosen>, Fault> {
+        let (draw, log) = dist.sample_and_score(&mut self.0.at(seen.address));
         Ok(Some(Chosen { value: draw_to_value(draw), log_prior: log, log_drawn: log }))
     }
 
@@ -113,14 +123,14 @@ pub struct Known<'a, C> {
 
 impl<C> Known<'_, C> {
     #[inline]
-    fn find(&self, at: &At<'_, f64>) -> Option<&Value> {
-        self.values?.get(&at.address())
+    fn find(&self, address: u128) -> Option<&Value> {
+        self.values?.get(&address)
     }
 }
 
 impl<C: Chooser> Chooser for Known<'_, C> {
     fn choose(&mut self, at: &At<'_, f64>, dist: &Dist, seen: Context<'_>) -> Result<Option<Chosen>, Fault> {
-        match self.find(at) {
+        match self.find(seen.address) {
             Some(value) => Chosen::given(value.clone(), dist).map(Some),
             None => self.otherwise.choose(at, dist, seen),
         }
@@ -128,7 +138,7 @@ impl<C: Chooser> Chooser for Known<'_, C> {
 
     #[inline]
     fn draw(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Option<Value>, Fault> {
-        match self.find(at) {
+        match self.find(at.address()) {
             Some(value) => Ok(Some(value.clone())),
             None => self.otherwise.draw(at, dist),
         }
@@ -161,7 +171,7 @@ impl<C: Chooser> Chooser for Guided<'_, C> {
         let Some(own) = self.proposal.dist(at, dist)? else {
             return self.otherwise.choose(at, dist, seen);
         };
-        let (draw, log_drawn) = own.sample_and_score(&mut self.stream.at(at.address()));
+        let (draw, log_drawn) = own.sample_and_score(&mut self.stream.at(seen.address));
         Ok(Some(Chosen { log_drawn, ..Chosen::given(draw_to_value(draw), dist)? }))
     }
 }

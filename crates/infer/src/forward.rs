@@ -84,7 +84,8 @@ impl<C: Chooser> Answers<f64> for Forward<'_, C> {
     #[inline(always)]
     fn choice(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Answer<Value>, Fault> {
         let sketches = Some(&self.record.sketches).filter(|sketches| !sketches.is_empty());
-        let Some(chosen) = self.chooser.choose(at, dist, Context { sketches })? else {
+        let address = at.address();
+        let Some(chosen) = self.chooser.choose(at, dist, Context { address, sketches })? else {
             return Ok(Answer::Pause);
         };
         if !C::IS_PRIOR {
@@ -94,7 +95,7 @@ impl<C: Chooser> Answers<f64> for Forward<'_, C> {
             }
             self.log_ratio += chosen.log_prior - chosen.log_drawn;
         }
-        self.record.choose(at.address(), &chosen.value, chosen.log_prior);
+        self.record.choose(address, &chosen.value, chosen.log_prior);
         Ok(Answer::Go(chosen.value))
     }
 

@@ -81,7 +81,7 @@ struct Sourced<'a> {
 impl Chooser for Sourced<'_> {
     fn choose(&mut self, at: &At<'_, f64>, dist: &Dist, seen: Context<'_>) -> Result<Option<Chosen>, Fault> {
         let known = match &self.source {
-            Source::Addresses(map) => map.get(&at.address()),
+            Source::Addresses(map) => map.get(&seen.address),
             Source::Paths(map) => map.get(&at.path()),
         };
         let value = match (known, self.missing) {
@@ -110,15 +110,16 @@ struct Replay<'a> {
 
 impl Answers<f64> for Replay<'_> {
     fn choice(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Answer<Value>, Fault> {
-        let Some(chosen) = self.chooser.choose(at, dist, Context::default())? else {
+        let seen = Context::of(at);
+        let Some(chosen) = self.chooser.choose(at, dist, seen)? else {
             return Ok(Answer::Pause);
         };
         let Chosen { value, log_prior: log_density, .. } = chosen;
-        self.record.choose(at.address(), &value, log_density);
+        self.record.choose(seen.address, &value, log_density);
         let family = dist.family().name();
         self.trace.choices.push(Choice {
             path: at.path(),
-            address: at.address(),
+            address: seen.address,
             family,
             value: value.clone(),
             log_density,

@@ -33,6 +33,7 @@ use crate::streams::Reserved;
 use crate::{Failure, Task};
 use niwaki_math::streams::RngCore;
 use niwaki_vm::fault::Fault;
+use niwaki_vm::machine::Machine;
 use rayon::prelude::*;
 
 /// The runs that a chain of whole runs went through.
@@ -235,7 +236,7 @@ fn sample_ancestor(
 ) -> Result<usize, Failure> {
     let rest = segments.get(population.barriers..).unwrap_or(&[]);
     let (task, settings, power) = (&population.task, population.settings, population.power);
-    let log_weight = |p: &mut Particle| -> Result<f64, Failure> {
+    let log_weight = |machine: &mut Machine<'_>, p: &mut Particle| -> Result<f64, Failure> {
         if p.log_weight == f64::NEG_INFINITY {
             return Ok(f64::NEG_INFINITY);
         }
@@ -245,11 +246,10 @@ fn sample_ancestor(
             let change = (settings.power - power) * p.weighed.value();
             return Ok(if both { p.log_weight + change } else { f64::NEG_INFINITY });
         }
-        let mut machine = task.machine();
         let mut trial = p.fork();
         let mut log_order = 0.0;
         for (number, segment) in rest.iter().enumerate() {
-            match trial.follow(&mut machine, task, segment, number + 1 == rest.len(), None)? {
+            match trial.follow(machine, task, segment, number + 1 == rest.len(), None)? {
                 Some(log) => log_order += log,
                 None => return Ok(f64::NEG_INFINITY),
             }
@@ -264,9 +264,11 @@ fn sample_ancestor(
         Ok(p.log_weight + log_prior + log_order + log_scores)
     };
     let logs: Vec<f64> = if population.parallel {
-        population.particles.par_iter_mut().map(log_weight).collect::<Result<_, _>>()?
+        let particles = population.particles.par_iter_mut();
+        particles.map_init(|| task.machine(), log_weight).collect::<Result<_, _>>()?
     } else {
-        population.particles.iter_mut().map(log_weight).collect::<Result<_, _>>()?
+        let mut machine = task.machine();
+        population.particles.iter_mut().map(|p| log_weight(&mut machine, p)).collect::<Result<_, _>>()?
     };
     let mut weights = Normalised::default();
     if !weights.read(logs.iter().copied()) {

@@ -285,12 +285,13 @@ impl<C> Recorder<'_, C> {
 
 impl<C: Chooser> Answers<f64> for Recorder<'_, C> {
     fn choice(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Answer<Value>, Fault> {
-        let chosen = self.chooser.choose(at, dist, Context::default())?;
+        let seen = Context::of(at);
+        let chosen = self.chooser.choose(at, dist, seen)?;
         let Some(Chosen { value, log_prior, .. }) = chosen.filter(|c| c.log_prior > f64::NEG_INFINITY) else {
             self.lost = true;
             return Ok(Answer::Pause);
         };
-        let (address, family, site, log) = (at.address(), dist.family(), at.site.key, grid(log_prior));
+        let (address, family, site, log) = (seen.address, dist.family(), at.site.key, grid(log_prior));
         let weights = (self.with.weigh)(at);
         self.log_prior.add(log);
         self.steps.push(Step::Chose(Choice { address, value: value.clone(), family, log, site, weights }));
@@ -330,7 +331,7 @@ where
     P: FnMut(&At<'_, f64>, &Choice, &Dist) -> Result<Option<Proposed<f64>>, Fault>,
 {
     fn choose(&mut self, at: &At<'_, f64>, dist: &Dist, seen: Context<'_>) -> Result<Option<Chosen>, Fault> {
-        let known = self.before.find(at.address(), &mut self.at);
+        let known = self.before.find(seen.address, &mut self.at);
         let Some(choice) = known.filter(|c| c.family == dist.family() && fits(dist, &c.value)) else {
             let chosen = self.fresh.choose(at, dist, seen)?;
             chosen.iter().for_each(|chosen| self.densities.fresh.add(grid(chosen.log_prior)));
@@ -358,9 +359,10 @@ struct Follow<'a> {
 }
 
 impl Chooser for Follow<'_> {
-    fn choose(&mut self, at: &At<'_, f64>, dist: &Dist, _: Context<'_>) -> Result<Option<Chosen>, Fault> {
+    #[inline]
+    fn choose(&mut self, at: &At<'_, f64>, dist: &Dist, seen: Context<'_>) -> Result<Option<Chosen>, Fault> {
         let next = self.steps.next().and_then(Step::choice);
-        let Some(choice) = next.filter(|c| c.address == at.address() && c.family == dist.family()) else {
+        let Some(choice) = next.filter(|c| c.address == seen.address && c.family == dist.family()) else {
             self.lost = true;
             return Ok(None);
         };
@@ -389,7 +391,10 @@ impl Particle {
         while self.is_running() && !paused {
             let Some(Step::Ran { path, .. }) = follow.steps.next() else { return Ok(None) };
             let Some(which) = place(&self.state, *path) else { return Ok(None) };
-            log_order -= (self.state.runnable().len() as f64).ln();
+            let futures = self.state.runnable().len();
+            if futures > 1 {
+                log_order -= (futures as f64).ln();
+            }
             paused = self.run(machine, task, which, &mut follow)?;
         }
         let arrived = if last { self.state.has_ended() } else { paused && self.record.cause.is_none() };

@@ -53,8 +53,7 @@ pub(super) struct Population<'a> {
     apart: Vec<Task>,
     /// The copies of the last resampling that are not made yet.
     copies: Copies,
-    // Kept from barrier to barrier, so that none allocates.
-    scores: Vec<Total>,
+    /// The log weights at a barrier; kept from one to the next, so that none allocates.
     logs: Vec<f64>,
 }
 
@@ -118,7 +117,6 @@ impl<'a> Population<'a> {
             parallel,
             apart: (0..if parallel { threads } else { 0 }).map(own).collect(),
             copies: Copies::default(),
-            scores: Vec::with_capacity(n),
             logs: Vec::with_capacity(n),
             task,
         })
@@ -185,28 +183,23 @@ impl<'a> Population<'a> {
     /// Every particle is impossible.
     pub fn weigh(&mut self) -> Result<BarrierSummary, Failure> {
         self.barriers += 1;
-        let (mut best, mut ended) = (f64::NEG_INFINITY, 0);
-        self.scores.clear();
-        for p in &self.particles {
-            let score = p.record.score();
-            best = best.max(score.value());
-            self.scores.push(score);
-            ended += usize::from(p.state.has_ended());
-        }
         // The ratios of proposed choices since the last barrier. They are not raised to a power, as the prior is not; the
         // power is chosen after they count.
         if self.settings.proposal.is_some() {
             self.particles.iter_mut().for_each(|p| p.log_weight += std::mem::take(&mut p.pending));
         }
         let next = self.next_power();
+        let (mut best, mut ended) = (f64::NEG_INFINITY, 0);
         self.logs.clear();
-        for (p, score) in self.particles.iter_mut().zip(&self.scores) {
+        for p in &mut self.particles {
+            let score = p.record.score();
+            best = best.max(score.value());
+            ended += usize::from(p.state.has_ended());
             match self.settings.weights {
-                Weights::Ratio if score.is_impossible() => p.log_weight = f64::NEG_INFINITY,
-                Weights::Ratio => p.log_weight += step(next, score, self.power, &p.weighed),
+                Weights::Ratio => p.log_weight += step(next, &score, self.power, &p.weighed),
                 Weights::Absolute => p.log_weight = self.settings.power * score.value(),
             }
-            p.weighed.clone_from(score);
+            p.weighed = score;
             self.logs.push(p.log_weight);
         }
         self.power = next;
@@ -234,8 +227,7 @@ impl<'a> Population<'a> {
     fn adapted(&self, share: f64) -> f64 {
         let keeps = |next: f64| {
             let old = self.particles.iter().map(|p| p.log_weight);
-            let steps = self.particles.iter().zip(&self.scores);
-            let steps = steps.map(|(p, score)| step(next, score, self.power, &p.weighed));
+            let steps = self.particles.iter().map(|p| step(next, &p.record.score(), self.power, &p.weighed));
             conditional_share(old, steps) >= share
         };
         let (mut low, mut high) = (self.power, self.settings.power);
@@ -303,13 +295,21 @@ impl<'a> Population<'a> {
 
 /// The log weight of a step to a score at a power. At zero it does not look at the score, unless the run is
 /// impossible.
-#[inline]
+#[inline(always)]
 fn step(next: f64, score: &Total, power: f64, weighed: &Total) -> f64 {
-    if score.is_impossible() {
-        return f64::NEG_INFINITY;
-    }
+    let (now, before) = (score.near(), weighed.near());
     // Equal powers by one product: the difference of scores is exact.
-    if next == power {
+    let log = if next == power { next * (now - before) } else { next * now - power * before };
+    if log.is_nan() { wide_step(next, score, power, weighed) } else { log }
+}
+
+/// The same, where a score is impossible or too large to be exact as an `f64`.
+#[cold]
+#[inline(never)]
+fn wide_step(next: f64, score: &Total, power: f64, weighed: &Total) -> f64 {
+    if score.is_impossible() {
+        f64::NEG_INFINITY
+    } else if next == power {
         next * score.less(weighed).value()
     } else {
         next * score.value() - power * weighed.value()

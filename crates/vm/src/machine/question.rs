@@ -124,9 +124,13 @@ impl<S: Scalar> Machine<'_, S> {
                 r.get(state, &self.scratch, r.f.operands[args.start as usize + $i])
             };
         }
-        match site.kind {
-            SiteKind::Sample(Source::Value) | SiteKind::Observe(Source::Value) => as_dist(get!(0)),
-            SiteKind::Sample(Source::Family(family)) | SiteKind::Observe(Source::Family(family)) => {
+        let source = match site.kind {
+            SiteKind::Sample(source) | SiteKind::Observe(source) => source,
+            _ => Source::Value,
+        };
+        match source {
+            Source::Value => as_dist(get!(0)),
+            Source::Family(family) => {
                 if let [only] = r.f.operands[args.range()]
                     && let Some(index) = self.cache.index(r.get(state, &self.scratch, only))
                 {
@@ -134,7 +138,7 @@ impl<S: Scalar> Machine<'_, S> {
                 }
                 Ok(owned.insert(self.dist_of_family(state, r, args, family)?))
             }
-            _ => match index::index_ref(get!(0), get!(1)) {
+            Source::Element => match index::index_ref(get!(0), get!(1)) {
                 Some(value) => as_dist(value),
                 None => Ok(owned.insert(as_dist(&index::index(get!(0), get!(1))?)?.clone())),
             },
