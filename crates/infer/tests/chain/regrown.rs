@@ -108,18 +108,6 @@ const PROGRAMS: [(&str, &str); 9] = [
     ),
 ];
 
-fn tasks() -> Vec<(&'static str, Task)> {
-    let domain = Aabb { low: vec3(-0.2, -0.4, -0.2), high: vec3(0.2, 0.4, 0.2) };
-    let with_sketch = |(name, text): (&'static str, &str)| {
-        let mut task = task(text);
-        if text.contains("emit") {
-            task.sketches = vec![no_overshoot(domain, 0.5).expect("a sketch")];
-        }
-        (name, task)
-    };
-    PROGRAMS.map(with_sketch).into()
-}
-
 fn regrow(particles: usize, turn: f64, pick: Value) -> Kernel {
     leaf("regrow", json!({"particles": particles, "turn": turn, "pick": pick}))
 }
@@ -228,17 +216,56 @@ fn furthest(task: &Task, kernel: &Kernel, starts: u64, moves: u64, seed: u64) ->
     if rare.1 > 0.0 { largest.max(z(rare.0, rare.1)) } else { largest }
 }
 
+/// The rows of one program that are further off than chance allows, after `moves` moves from each of `starts` draws.
+fn rejected(name: &str, starts: u64, moves: u64) -> Vec<String> {
+    let (_, text) = PROGRAMS.iter().find(|(own, _)| *own == name).expect("a program");
+    let domain = Aabb { low: vec3(-0.2, -0.4, -0.2), high: vec3(0.2, 0.4, 0.2) };
+    let mut task = task(text);
+    if text.contains("emit") {
+        task.sketches = vec![no_overshoot(domain, 0.5).expect("a sketch")];
+    }
+    let rows =
+        kernels(&task).into_iter().map(|(kind, kernel)| (kind, furthest(&task, &kernel, starts, moves, 1)));
+    rows.filter(|(_, z)| *z > 5.0).map(|(kind, z)| format!("{kind}: {z:.1}")).collect()
+}
+
+/// One test for each program.
+macro_rules! leaves_the_posterior_as_it_is {
+    ($($test:ident: $name:literal,)*) => {$(
+        #[test]
+        fn $test() {
+            assert_eq!(rejected($name, 6000, 6), Vec::<String>::new());
+        }
+    )*};
+}
+
+leaves_the_posterior_as_it_is! {
+    keeps_the_law_of_calls: "calls that depend on each other",
+    keeps_the_law_of_a_recursion: "a recursion with an end that counts",
+    keeps_the_law_of_futures: "a tree of futures that return nothing",
+    keeps_the_law_of_waits: "futures that wait for each other",
+    keeps_the_law_of_a_loop: "a loop that ends by chance",
+    keeps_the_law_of_breaks: "loops with break and a count",
+    keeps_the_law_of_lists: "lists that are built, passed and read",
+    keeps_the_law_of_counts: "a count without a bound",
+    keeps_the_law_of_shapes: "shapes that a sketch weighs",
+}
+
+/// What a longer chain cannot tell, bias from slow mixing: a million exact draws, one move of two particles each.
 #[test]
-fn every_form_leaves_the_posterior_as_it_is() {
-    let mut failed = Vec::new();
-    for (name, task) in tasks() {
-        for (kind, kernel) in kernels(&task) {
-            let z = furthest(&task, &kernel, 6000, 6, 1);
-            eprintln!("{name}, {kind}: {z:.1}");
-            if z > 5.0 {
-                failed.push(format!("{name}, {kind}: {z:.1}"));
-            }
+#[ignore = "a million starts; `make soak`"]
+fn keeps_the_law_of_a_million_draws() {
+    for name in [
+        "a recursion with an end that counts",
+        "futures that wait for each other",
+        "a loop that ends by chance",
+    ] {
+        let (_, text) = PROGRAMS.iter().find(|(own, _)| *own == name).expect("a program");
+        let task = task(text);
+        for turn in [0.0, 1.0] {
+            let z = furthest(&task, &regrow(2, turn, json!("size")), 1_000_000, 1, 2);
+            eprintln!("{name}, turned {turn}: {z:.2}");
+            assert!(z < 5.0, "{name}, turned {turn}: {z:.1}");
         }
     }
-    assert!(failed.is_empty(), "{failed:#?}");
 }

@@ -253,7 +253,8 @@ impl Block<'_> {
             let is_low = weights.effective < LOW * self.particles as f64;
             if is_low && grown.iter().any(|one| one.particle.is_running()) {
                 let mut random = stream(seed, step);
-                let copies = if held.is_some() {
+                let is_held = held.is_some();
+                let copies = if is_held {
                     let mut copies = multinomial(&weights.relative, self.particles - 1, &mut random);
                     copies[0] += 1;
                     copies
