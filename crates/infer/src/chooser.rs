@@ -12,6 +12,7 @@
 
 use crate::chain::glob::{last, matches};
 use crate::chain::kernel::{Kernel, Selection};
+use crate::chain::leaf::Proposer;
 use crate::chain::select::{labels, no_choice};
 use crate::chain::user::User;
 use crate::record::log_density;
@@ -194,7 +195,7 @@ impl Proposal {
 
     fn add(&mut self, kernel: &Kernel, selection: &Selection) -> Result<(), Fault> {
         match kernel {
-            Kernel::User(user) if user.needs_old() => Err(Fault::new(
+            Kernel::Leaf(Proposer::Proposal(user)) if user.needs_old() => Err(Fault::new(
                 "bad-proposal",
                 format!(
                     "the proposal `{}` asks for `old`, the value before, which a new run has not",
@@ -202,7 +203,7 @@ impl Proposal {
                 ),
             )
             .with_help("name variables of the model instead, or nothing; `old` is for `mh`")),
-            Kernel::User(user) => {
+            Kernel::Leaf(Proposer::Proposal(user)) => {
                 self.parts.push((selection.clone(), user.clone()));
                 Ok(())
             }

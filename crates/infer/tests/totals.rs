@@ -14,12 +14,17 @@ use niwaki_math::Total;
 use niwaki_vm::core::parse::parse;
 use niwaki_vm::machine::kept::Strategy;
 use niwaki_vm::passes::compile;
+use serde_json::{Value, json};
 use std::sync::Arc;
 
 const STRATEGIES: [Strategy; 4] = [Strategy::Rerun, Strategy::Resume, Strategy::Cache, Strategy::C3];
 
 fn task(text: &str) -> Task {
     Task::new(Arc::new(compile(&parse(text).expect("core form"), vec![]).expect("a program")))
+}
+
+fn leaf(name: &str, settings: Value) -> Kernel {
+    Kernel::leaf(name, settings).expect("a kernel")
 }
 
 /// The sums of a run from the start: log prior, log score.
@@ -38,7 +43,7 @@ fn a_chain_forgets_no_nat_of_a_start_far_away() {
           (do (observe (dist gaussian $y 1.0) 1.234))) (entry "m"))"#,
     );
     for strategy in STRATEGIES {
-        let kernel = Kernel::Drift { step: 0.5, target: 0.44 };
+        let kernel = leaf("drift", json!({"step": 0.5, "target": 0.44}));
         let settings = Settings { seed: 3, kernel, strategy, warmup: 8000, thin: 0, ..Settings::default() };
         let mut chains: Chains = Chains::start(&task, &settings, 4, None).expect("chains");
         let first: Vec<f64> = chains.chains.iter().map(|chain| chain.rungs[0].state.log_score()).collect();
@@ -78,9 +83,11 @@ fn cancelling(large: f64, huge: f64) -> Task {
 #[test]
 fn terms_that_cancel_leave_the_same_chain() {
     let sizes = [(1e6, 1e9), (1e18, 1e12), (1e18, 1e300)];
-    let (drift, block) =
-        (Kernel::Drift { step: 0.7, target: 0.44 }, Kernel::Block { step: 0.3, share: 0.5, target: 0.23 });
-    let kernel = Kernel::Cycle(vec![Kernel::Prior, drift, block, Kernel::Regenerate { levels: 1 }]);
+    let (drift, block) = (
+        leaf("drift", json!({"step": 0.7, "target": 0.44})),
+        leaf("block", json!({"step": 0.3, "share": 0.5, "target": 0.23})),
+    );
+    let kernel = Kernel::Cycle(vec![Kernel::PRIOR, drift, block, leaf("regenerate", json!({"levels": 1}))]);
     for powers in [vec![1.0], vec![1.0, 0.3]] {
         let settings = Settings {
             kernel: kernel.clone(),
@@ -133,7 +140,7 @@ fn terms_that_cancel_leave_the_same_particles() {
         };
         found.particles.iter().map(of).collect::<Vec<_>>()
     };
-    let drift = Kernel::Drift { step: 0.7, target: 0.44 };
+    let drift = leaf("drift", json!({"step": 0.7, "target": 0.44}));
     for rejuvenate in
         [None, Some(Rejuvenation { kernel: drift, moves: 2, at: Moment::Resampled, final_chains: None })]
     {

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import linecache
 import os
+import re
 import signal
 import threading
 from collections.abc import Callable
@@ -294,3 +295,17 @@ def test_the_shell_samples_and_explains(tmp_path: Path) -> None:
         drawn = CliRunner().invoke(app, ["explain", place, "--choice", "size", "-o", str(tmp_path / name)])
         assert drawn.exit_code == 0, drawn.output
         assert (tmp_path / name).stat().st_size > 2000
+
+
+def test_every_kernel_of_the_engine_has_a_function_a_text_and_a_row_in_the_manual():
+    with pytest.raises(nw.InputError) as raised:
+        nw.run(MODELS["garden"], nw.mh(steps=10, kernel=k.Kernel("nothing")), seed=1)
+    named = set(re.findall(r"`(\w+)`", str(raised.value).split("expected one of")[1].splitlines()[0]))
+    assert {"prior", "drift", "nuts_step"} <= named
+    with pytest.raises(nw.InputError) as raised:
+        k.parse("nothing()")
+    written = str(raised.value).split("there are ")[1]
+    page = (GOLDEN.parents[1] / "docs" / "guide" / "chains.md").read_text(encoding="utf-8")
+    for name in named - {"by_family"}:  # which is the leaf of `original`
+        assert name in k.__all__ and re.search(rf"\b{name}\b", written), name
+        assert f"`{name}(" in page, name

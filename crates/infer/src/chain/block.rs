@@ -7,7 +7,7 @@
 
 use super::Chain;
 use super::accept::Rules;
-use super::drift::{adapt, normal};
+use super::drift::{Step, normal};
 use super::metropolis::Decision;
 use super::neighbour::near;
 use super::state::Fresh;
@@ -17,20 +17,18 @@ use niwaki_vm::builtins::{draw_to_value, value_to_draw};
 use niwaki_vm::machine::Machine;
 use niwaki_vm::machine::kept::{Changed, Proposed};
 use niwaki_vm::value::Value;
+use serde::Deserialize;
 
 /// A block.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Block {
-    /// Log of the step, in spreads.
-    pub log_step: f64,
-    /// How often it was adapted.
-    pub adapted: u32,
+    /// The step, in spreads of each choice's first distribution.
+    pub(crate) step: Step,
     /// Probability with which each choice takes part.
-    pub share: f64,
-    /// Acceptance aimed at.
-    pub target: f64,
-    /// Whether the step is adapted now.
-    pub adapting: bool,
+    pub(crate) share: f64,
+    /// Acceptance that the step is adapted to while the chain warms up.
+    target: f64,
 }
 
 /// A step of one choice; `None` where it has none.
@@ -62,7 +60,7 @@ impl<R: Rules> Chain<R> {
         let (visit, program) = (self.visit, &*task.program);
         self.visit += 1;
         let (mut rng, key, size) =
-            (self.streams.decisions(visit), self.streams.moves(visit), block.log_step.exp());
+            (self.streams.decisions(visit), self.streams.moves(visit), block.step.size);
         let (mut changes, mut moved) = (Vec::new(), Vec::new());
         let trace = &self.state.trace;
         for choice in trace.numbers() {
@@ -90,8 +88,8 @@ impl<R: Rules> Chain<R> {
             };
         let decision = self.decide(task, change, beta, &mut rng, |_| 0.0, moved)?;
         self.count_many(decision);
-        if block.adapting && !decision.same {
-            adapt(&mut block.log_step, &mut block.adapted, decision, block.target);
+        if self.warming(visit).is_some() && !decision.same {
+            block.step.adapt(decision, block.target);
         }
         Ok(())
     }

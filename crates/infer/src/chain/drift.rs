@@ -11,43 +11,62 @@ use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;
 use niwaki_vm::machine::kept::Proposed;
 use niwaki_vm::value::Value;
+use serde::Deserialize;
 
 /// Drift with a step for each site, adapted while the chain warms up and frozen afterwards.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Drift {
-    /// The steps and their logs, by number of the site.
-    steps: Vec<f64>,
-    log_steps: Vec<f64>,
-    /// How often each was adapted.
-    adapted: Vec<u32>,
+    /// First step, in spreads of the choice's distribution.
+    step: Step,
+    /// Acceptance that the steps are adapted to.
     target: f64,
-    /// Whether steps are adapted now.
-    pub adapting: bool,
+    /// The steps, by number of the site, up to the last site that has drifted.
+    #[serde(skip)]
+    steps: Vec<Step>,
     /// Whether the last proposal was a drift.
+    #[serde(skip)]
     drifted: bool,
 }
 
 impl Drift {
-    /// The same first step at each site.
-    pub fn new(step: f64, target: f64, sites: usize) -> Drift {
-        let log_steps = vec![step.ln(); sites];
-        let steps = log_steps.iter().map(|log| log.exp()).collect();
-        Drift { steps, log_steps, adapted: vec![0; sites], target, adapting: false, drifted: false }
-    }
-
     /// The step at a site.
-    pub fn step(&self, site: usize) -> f64 {
-        self.steps[site]
+    fn step(&mut self, site: usize) -> f64 {
+        if site >= self.steps.len() {
+            self.steps.resize(site + 1, self.step);
+        }
+        self.steps[site].size
     }
 }
 
-/// Robbins and Monro's step towards a share of accepted proposals, the `n`-th.
-pub(super) fn adapt(log_step: &mut f64, n: &mut u32, decision: Decision, target: f64) {
-    *n += 1;
-    let probability = decision.log_ratio.min(0.0).exp();
-    let gain = 2.0 / f64::from(*n).powf(0.6);
-    *log_step = (*log_step + gain * (if probability.is_nan() { 0.0 } else { probability } - target))
-        .clamp(-30.0, 10.0);
+/// A step that adapts.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(from = "f64")]
+pub(crate) struct Step {
+    /// The step itself.
+    pub size: f64,
+    log: f64,
+    /// How often it was adapted.
+    adapted: u32,
+}
+
+impl From<f64> for Step {
+    fn from(first: f64) -> Step {
+        let log = first.ln();
+        Step { size: log.exp(), log, adapted: 0 }
+    }
+}
+
+impl Step {
+    /// Robbins and Monro's step towards a share of accepted proposals.
+    pub fn adapt(&mut self, decision: Decision, target: f64) {
+        self.adapted += 1;
+        let probability = decision.log_ratio.min(0.0).exp();
+        let gain = 2.0 / f64::from(self.adapted).powf(0.6);
+        let off = (if probability.is_nan() { 0.0 } else { probability }) - target;
+        self.log = (self.log + gain * off).clamp(-30.0, 10.0);
+        self.size = self.log.exp();
+    }
 }
 
 impl Move for Drift {
@@ -70,9 +89,8 @@ impl Move for Drift {
     }
 
     fn learn(&mut self, site: usize, decision: Decision) {
-        if self.adapting && self.drifted {
-            adapt(&mut self.log_steps[site], &mut self.adapted[site], decision, self.target);
-            self.steps[site] = self.log_steps[site].exp();
+        if self.drifted {
+            self.steps[site].adapt(decision, self.target);
         }
     }
 }

@@ -5,8 +5,8 @@
 //! ```
 
 use super::kernel::{Kernel, Selection};
+use super::leaf::Proposer;
 use super::user::User;
-use crate::hamiltonian::chains::Length;
 use niwaki_vm::fault::Fault;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
@@ -56,27 +56,10 @@ impl Form {
     pub fn kernel(&self, functions: &[Arc<User>]) -> Result<Kernel, Fault> {
         let mut own = self.own();
         let kernel = match self.name.as_str() {
-            "prior" => Kernel::Prior,
-            "by_family" => Kernel::ByFamily,
-            "drift" => Kernel::Drift { step: own.take("step")?, target: own.take("target")? },
-            "neighbour" => Kernel::Neighbour { reach: own.take("reach")? },
-            "block" => Kernel::Block {
-                step: own.take("step")?,
-                share: own.take("share")?,
-                target: own.take("target")?,
-            },
-            "regenerate" => Kernel::Regenerate { levels: own.take("levels")? },
-            "hmc_step" => {
-                let length = Length::Fixed { steps: own.take("steps")?, jitter: own.take("jitter")? };
-                Kernel::Trajectory { length, step: own.take("step")?, target: own.take("target")? }
-            }
-            "nuts_step" => {
-                let length = Length::NoUTurn { max_depth: own.take("max_depth")? };
-                Kernel::Trajectory { length, step: own.take("step")?, target: own.take("target")? }
-            }
             "proposal" => {
                 let function = self.function.and_then(|number| functions.get(number));
-                Kernel::User(function.cloned().ok_or_else(|| own.wrong("has no function here"))?)
+                let function = function.cloned().ok_or_else(|| own.wrong("has no function here"))?;
+                Kernel::Leaf(Proposer::Proposal(function))
             }
             "cycle" => Kernel::Cycle(own.parts(functions)?),
             "mixture" => {
@@ -103,13 +86,26 @@ impl Form {
                 kernel: Box::new(own.part(functions)?),
             },
             "tempering" => return Err(own.wrong("can only be outermost")),
-            _ => return Err(own.wrong("is no kernel")),
+            name => {
+                let settings = Value::Object(std::mem::take(&mut own.left));
+                Kernel::leaf(name, settings).map_err(|what| own.wrong(&format!("cannot be read: {what}")))?
+            }
         };
         own.end(kernel)
     }
 
     fn own(&self) -> Unread<'_> {
         Unread { form: self, left: self.settings.clone() }
+    }
+}
+
+impl Kernel {
+    /// A leaf by its name and settings.
+    ///
+    /// # Errors
+    /// An unknown name; a setting that is missing, unknown or has a value that it cannot have.
+    pub fn leaf(name: &str, settings: Value) -> Result<Kernel, serde_json::Error> {
+        Proposer::deserialize(Value::Object(Map::from_iter([(name.into(), settings)]))).map(Kernel::Leaf)
     }
 }
 

@@ -3,9 +3,7 @@
 //! One *application* of `cycle(a, b)` is one of `a` and then one of `b`; a chain applies its kernel again and again, and
 //! counts proposals, so it may stop in the middle of a cycle and go on there.
 
-use super::user::User;
-use crate::hamiltonian::chains::Length;
-use std::sync::Arc;
+use super::leaf::Proposer;
 
 /// Which choices a kernel may change, and with what selection weights.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -23,47 +21,8 @@ pub struct Selection {
 /// A Markov kernel.
 #[derive(Clone, Debug)]
 pub enum Kernel {
-    /// One choice, from its own distribution.
-    Prior,
-    /// One continuous choice moves a little; others are drawn from their own distribution.
-    Drift {
-        /// First step, in spreads of the choice's distribution.
-        step: f64,
-        /// Acceptance that the steps are adapted to while the chain warms up.
-        target: f64,
-    },
-    /// One discrete choice moves to a value near by; others are drawn from their own distribution.
-    Neighbour {
-        /// How far at most.
-        reach: u64,
-    },
-    /// One choice, by the move that the original's baseline has for its family.
-    ByFamily,
-    /// Many choices move a little at once.
-    Block {
-        /// First step, in spreads of each choice's first distribution.
-        step: f64,
-        /// Probability with which each choice takes part.
-        share: f64,
-        /// Acceptance that the step is adapted to while the chain warms up.
-        target: f64,
-    },
-    /// A call and all below it are drawn anew.
-    Regenerate {
-        /// How many levels the call is above the picked choice.
-        levels: usize,
-    },
-    /// The continuous choices move together along their gradient.
-    Trajectory {
-        /// How long trajectories are.
-        length: Length,
-        /// First step for one coordinate, in spreads of its site's first distribution.
-        step: f64,
-        /// Acceptance that the step is adapted to while the chain warms up.
-        target: f64,
-    },
-    /// One choice, from a distribution that a model function computes from its value.
-    User(Arc<User>),
+    /// One proposal.
+    Leaf(Proposer),
     /// One after the other.
     Cycle(Vec<Kernel>),
     /// One of several, by weight.
@@ -86,6 +45,9 @@ pub enum Kernel {
 }
 
 impl Kernel {
+    /// One choice, from its own distribution.
+    pub const PRIOR: Kernel = Kernel::Leaf(Proposer::Prior {});
+
     /// Whether the kernel, or one that it is made of, is of a kind.
     pub fn any(&self, is: &impl Fn(&Kernel) -> bool) -> bool {
         is(self)
@@ -95,7 +57,7 @@ impl Kernel {
                 Kernel::Repeat(_, kernel) | Kernel::On(_, kernel) | Kernel::Anneal { kernel, .. } => {
                     kernel.any(is)
                 }
-                _ => false,
+                Kernel::Leaf(_) => false,
             }
     }
 }

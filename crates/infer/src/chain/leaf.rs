@@ -1,16 +1,95 @@
-//! A leaf of a kernel: how it proposes, and for which choices. It is applied to the kept run of a chain or to the partial
-//! run of a particle; the dispatch to a proposal is here, for both.
+//! The proposals that there are: the leaves of a kernel. Each is a file with its settings, which are read as data, and what
+//! it adapts; [`Proposer`] names them all. A leaf is applied to the kept run of a chain or to the partial run of a particle.
 
+use super::Proposing;
+use super::accept::Rules;
 use super::block::Block;
 use super::by_family::ByFamily;
 use super::drift::Drift;
 use super::kernel::Selection;
 use super::neighbour::Neighbour;
 use super::proposal::{FromPrior, Move};
-use super::trajectory::Trajectory;
+use super::regenerate::Regenerate;
+use super::trajectory::{self, Trajectory};
 use super::user::{User, UserMove};
 use crate::{Failure, Task};
+use serde::Deserialize;
 use std::sync::Arc;
+
+/// How a leaf proposes. As data it is a name, which is the variant's in small letters, with the settings.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Proposer {
+    /// One choice, from its own distribution.
+    Prior {},
+    /// One continuous choice moves a little; others are drawn from their own distribution.
+    Drift(Box<Drift>),
+    /// One discrete choice moves to a value near by; others are drawn from their own distribution.
+    Neighbour(Neighbour),
+    /// One choice, by the move that the original's baseline has for its family.
+    ByFamily {},
+    /// Many choices move a little at once.
+    Block(Box<Block>),
+    /// A call and all below it are drawn anew.
+    Regenerate(Regenerate),
+    /// The continuous choices move together along their gradient, for a fixed number of steps.
+    #[serde(deserialize_with = "trajectory::hmc_step")]
+    HmcStep(Box<Trajectory>),
+    /// The same until they turn back.
+    #[serde(deserialize_with = "trajectory::nuts_step")]
+    NutsStep(Box<Trajectory>),
+    /// One choice, from a distribution that a model function computes from its value.
+    #[serde(skip)]
+    Proposal(Arc<User>),
+}
+
+impl Proposer {
+    /// Makes one proposal.
+    ///
+    /// # Errors
+    /// A fault of the program, or of the proposal.
+    #[inline]
+    pub(crate) fn apply(&mut self, target: &mut impl Target) -> Result<(), Failure> {
+        match self {
+            Proposer::Prior {} => target.single(&mut FromPrior),
+            Proposer::Drift(own) => target.single(&mut **own),
+            Proposer::Neighbour(own) => target.single(own),
+            Proposer::ByFamily {} => target.single(&mut ByFamily),
+            Proposer::Block(own) => target.block(own),
+            Proposer::Regenerate(own) => target.kept(own),
+            Proposer::HmcStep(own) | Proposer::NutsStep(own) => target.kept(&mut **own),
+            Proposer::Proposal(own) => target.single(&mut UserMove(own)),
+        }
+    }
+
+    /// The trajectories of a leaf that follows the gradient.
+    pub(crate) fn trajectory(&self) -> Option<&Trajectory> {
+        match self {
+            Proposer::HmcStep(own) | Proposer::NutsStep(own) => Some(own),
+            _ => None,
+        }
+    }
+}
+
+/// The run to which proposals are applied.
+pub(crate) trait Target {
+    /// One choice moves.
+    fn single<M: Move>(&mut self, proposer: &mut M) -> Result<(), Failure>;
+
+    /// Many choices move a little at once.
+    fn block(&mut self, block: &mut Block) -> Result<(), Failure>;
+
+    /// A move of a chain. It leaves a partial run unchanged.
+    fn kept(&mut self, _: &mut impl ChainMove) -> Result<(), Failure> {
+        Ok(())
+    }
+}
+
+/// A move that needs the kept run of a chain, and all that the chain has for it.
+pub(crate) trait ChainMove {
+    /// Makes one proposal, and decides on it.
+    fn apply<R: Rules>(&mut self, proposing: Proposing<'_, '_, R>) -> Result<(), Failure>;
+}
 
 /// A leaf: how it proposes, and for which choices.
 #[derive(Clone, Debug)]
@@ -21,79 +100,15 @@ pub(crate) struct Leaf {
     pub table: Option<usize>,
 }
 
-/// How a leaf proposes.
-#[derive(Clone, Debug)]
-pub(crate) enum Proposer {
-    Prior,
-    Drift(Box<Drift>),
-    Neighbour(Neighbour),
-    ByFamily,
-    Block(Box<Block>),
-    Regenerate(usize),
-    Trajectory(Box<Trajectory>),
-    User(Arc<User>),
-}
-
 impl Leaf {
     /// Prepares the leaf for a task, once.
     ///
     /// # Errors
     /// Sketches, which have no gradient that a trajectory could follow.
     pub fn prepare(&mut self, task: &Task) -> Result<(), Failure> {
-        if let Proposer::Trajectory(own) = &mut self.proposer { own.prepare(task) } else { Ok(()) }
-    }
-}
-
-/// The run to which proposals are applied. A proposal that it does not support leaves it unchanged.
-pub(crate) trait Target {
-    /// The share of the warm-up that is over, as long as steps are adapted.
-    fn warming(&self) -> Option<f64> {
-        None
-    }
-
-    /// One choice moves.
-    fn single<M: Move>(&mut self, proposer: &mut M) -> Result<(), Failure>;
-
-    /// Many choices move a little at once.
-    fn block(&mut self, block: &mut Block) -> Result<(), Failure>;
-
-    /// The call `levels` above a choice is drawn anew.
-    fn regenerate(&mut self, _levels: usize) -> Result<(), Failure> {
-        Ok(())
-    }
-
-    /// The continuous choices move along their gradient.
-    fn trajectory(&mut self, _own: &mut Trajectory) -> Result<(), Failure> {
-        Ok(())
-    }
-}
-
-impl Proposer {
-    /// Makes one proposal.
-    ///
-    /// # Errors
-    /// A fault of the program, or of the proposal.
-    #[inline]
-    pub fn apply(&mut self, target: &mut impl Target) -> Result<(), Failure> {
-        let warming = target.warming();
-        match self {
-            Proposer::Prior => target.single(&mut FromPrior),
-            Proposer::Drift(drift) => {
-                drift.adapting = warming.is_some();
-                target.single(&mut **drift)
-            }
-            Proposer::ByFamily => target.single(&mut ByFamily),
-            Proposer::Neighbour(neighbour) => target.single(neighbour),
-            Proposer::User(user) => target.single(&mut UserMove(user)),
-            Proposer::Block(block) => {
-                block.adapting = warming.is_some();
-                target.block(block)
-            }
-            Proposer::Regenerate(levels) => target.regenerate(*levels),
-            Proposer::Trajectory(own) => {
-                own.warming = warming;
-                target.trajectory(own)
-            }
+        match &mut self.proposer {
+            Proposer::HmcStep(own) | Proposer::NutsStep(own) => own.prepare(task),
+            _ => Ok(()),
         }
     }
 }

@@ -93,7 +93,7 @@ impl<R: Rules> Chain<R> {
         count.proposed += 1;
         count.accepted += u64::from(decision.accepted);
         count.outside += u64::from(outside);
-        if !decision.same {
+        if self.warming(visit).is_some() && !decision.same {
             proposer.learn(site, decision);
         }
         Ok(())

@@ -25,7 +25,7 @@ pub mod form;
 pub mod glob;
 pub mod kernel;
 pub mod ladder;
-pub(crate) mod leaf;
+pub mod leaf;
 pub mod many;
 pub(crate) mod metropolis;
 pub mod neighbour;
@@ -47,7 +47,7 @@ use best::Best;
 use block::Block;
 use counts::Counts;
 use kernel::Kernel;
-use leaf::{Proposer, Target};
+use leaf::{ChainMove, Proposer, Target};
 use metropolis::Decision;
 use niwaki_vm::code::Program;
 use niwaki_vm::machine::Machine;
@@ -60,7 +60,6 @@ use state::State;
 use std::collections::HashMap;
 use std::marker::PhantomData;
 use streams::{Ahead, Streams};
-use trajectory::Trajectory;
 use trajectory::counts::TrajectoryCounts;
 use weights::Table;
 
@@ -91,7 +90,7 @@ impl Default for Settings {
     fn default() -> Settings {
         Settings {
             seed: 0,
-            kernel: Kernel::Prior,
+            kernel: Kernel::PRIOR,
             strategy: Strategy::C3,
             warmup: 0,
             thin: 1,
@@ -149,14 +148,13 @@ impl<R: Rules> Chain<R> {
         number: u64,
         known: Option<&HashMap<u128, Value>>,
     ) -> Result<Chain<R>, Failure> {
-        let sites = task.program.functions.iter().map(|f| f.sites.len()).sum();
-        let (plan, streams) = (Plan::new(&settings.kernel, sites)?, Streams::new(settings.seed, number));
+        let (plan, streams) = (Plan::new(&settings.kernel)?, Streams::new(settings.seed, number));
         let (state, spreads) = State::start(task, streams, settings.tries, known)?;
         for leaf in &plan.leaves {
             if !leaf.selection.is_all() {
                 leaf.selection.check(&state.trace, &task.program)?;
             }
-            if matches!(leaf.proposer, Proposer::Trajectory(_))
+            if leaf.proposer.trajectory().is_some()
                 && !leaf.selection.may_be_continuous(&state.trace, &task.program)
             {
                 return Err(gradient::nothing_continuous().into());
@@ -268,12 +266,18 @@ impl<R: Rules> Chain<R> {
         while self.visit < until {
             let (leaf, power) = self.plan.next(&mut self.streams.schedule(self.visit));
             let (table, beta) = (self.plan.leaves[leaf].table, self.beta * power);
-            let mut proposer = std::mem::replace(&mut self.plan.leaves[leaf].proposer, Proposer::Prior);
+            let mut proposer = std::mem::replace(&mut self.plan.leaves[leaf].proposer, Proposer::Prior {});
             let done = proposer.apply(&mut Proposing { chain: self, task, machine, table, beta });
             self.plan.leaves[leaf].proposer = proposer;
             done?;
         }
         Ok(())
+    }
+
+    /// The share of the warm-up that is over before a proposal; none after the warm-up, when nothing is adapted.
+    fn warming(&self, visit: u64) -> Option<f64> {
+        let warmup = self.settings.warmup;
+        (visit < warmup).then(|| visit as f64 / warmup as f64)
     }
 
     /// The visit at which the next sample is due.
@@ -294,20 +298,17 @@ impl<R: Rules> Chain<R> {
 }
 
 /// A chain with the context of its next proposal.
-struct Proposing<'a, 'm, R: Rules> {
+pub(crate) struct Proposing<'a, 'm, R: Rules> {
     chain: &'a mut Chain<R>,
     task: &'a Task,
     machine: &'a mut Machine<'m>,
+    /// The weights of the leaf's choices; all weigh the same where there are none.
     table: Option<usize>,
+    /// The power of the score.
     beta: f64,
 }
 
 impl<R: Rules> Target for Proposing<'_, '_, R> {
-    fn warming(&self) -> Option<f64> {
-        let (visit, warmup) = (self.chain.visit, self.chain.settings.warmup);
-        (visit < warmup).then(|| visit as f64 / warmup as f64)
-    }
-
     #[inline(always)]
     fn single<M: Move>(&mut self, proposer: &mut M) -> Result<(), Failure> {
         self.chain.single(self.task, self.machine, proposer, self.table, self.beta)
@@ -317,11 +318,8 @@ impl<R: Rules> Target for Proposing<'_, '_, R> {
         self.chain.block(self.task, self.machine, block, self.table, self.beta)
     }
 
-    fn regenerate(&mut self, levels: usize) -> Result<(), Failure> {
-        self.chain.regenerate(self.task, self.machine, levels, self.table, self.beta)
-    }
-
-    fn trajectory(&mut self, own: &mut Trajectory) -> Result<(), Failure> {
-        self.chain.trajectory(self.task, self.machine, own, self.table, self.beta)
+    fn kept(&mut self, proposer: &mut impl ChainMove) -> Result<(), Failure> {
+        let Proposing { chain, task, machine, table, beta } = self;
+        proposer.apply(Proposing { chain, task, machine, table: *table, beta: *beta })
     }
 }

@@ -8,12 +8,15 @@ use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;
 use niwaki_vm::machine::kept::Proposed;
 use niwaki_vm::value::Value;
+use serde::Deserialize;
+use std::num::NonZeroU64;
 
 /// A move to a value near by.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Neighbour {
     /// How far at most.
-    pub reach: u64,
+    reach: NonZeroU64,
 }
 
 impl Move for Neighbour {
@@ -35,7 +38,7 @@ impl Move for Neighbour {
                     let other = super::streams::below(rng, n as u64 - 1) as i64;
                     other + i64::from(other >= *k)
                 }
-                _ => near(*k, self.reach, rng),
+                _ => near(*k, self.reach.get(), rng),
             })),
             _ => None,
         };

@@ -2,11 +2,8 @@
 //!
 //! The cursor is a stack of places in the tree, so a chain can stop between any two proposals.
 
-use super::block::Block;
-use super::drift::Drift;
 use super::kernel::{Kernel, Selection};
 use super::leaf::{Leaf, Proposer};
-use super::neighbour::Neighbour;
 use super::trajectory::Trajectory;
 use crate::Failure;
 use niwaki_math::Stream;
@@ -52,10 +49,10 @@ fn picked(sums: &[f64], rng: &mut Stream) -> usize {
 }
 
 impl Plan {
-    /// The plan of a kernel for a program with so many sites.
-    pub fn new(kernel: &Kernel, sites: usize) -> Result<Plan, Failure> {
+    /// The plan of a kernel.
+    pub fn new(kernel: &Kernel) -> Result<Plan, Failure> {
         let mut plan = Plan { leaves: vec![], branches: vec![], root: 0, flat: None, cursor: vec![] };
-        plan.root = plan.add(kernel, &Selection::default(), sites)?;
+        plan.root = plan.add(kernel, &Selection::default())?;
         if let Branch::Mixture(sums, inner) = &plan.branches[plan.root] {
             let leaf = |branch: &usize| match &plan.branches[*branch] {
                 Branch::Leaf(leaf) => Some(*leaf),
@@ -66,35 +63,20 @@ impl Plan {
         Ok(plan)
     }
 
-    fn add(&mut self, kernel: &Kernel, selection: &Selection, sites: usize) -> Result<usize, Failure> {
-        let leaf = |proposer| Ok(proposer);
-        let part: Result<Proposer, Branch> = match kernel {
-            Kernel::Prior => leaf(Proposer::Prior),
-            Kernel::Drift { step, target } => {
-                leaf(Proposer::Drift(Box::new(Drift::new(*step, *target, sites))))
+    fn add(&mut self, kernel: &Kernel, selection: &Selection) -> Result<usize, Failure> {
+        let branch = match kernel {
+            Kernel::Leaf(proposer) => {
+                let (proposer, selection) = (proposer.clone(), selection.clone());
+                self.leaves.push(Leaf { proposer, selection, table: None });
+                Branch::Leaf(self.leaves.len() - 1)
             }
-            Kernel::Neighbour { reach } => leaf(Proposer::Neighbour(Neighbour { reach: (*reach).max(1) })),
-            Kernel::Block { step, share, target } => leaf(Proposer::Block(Box::new(Block {
-                log_step: step.ln(),
-                adapted: 0,
-                share: *share,
-                target: *target,
-                adapting: false,
-            }))),
-            Kernel::Regenerate { levels } => leaf(Proposer::Regenerate(*levels)),
-            Kernel::Trajectory { length, step, target } => {
-                leaf(Proposer::Trajectory(Box::new(Trajectory::new(*length, *step, *target))))
-            }
-            Kernel::ByFamily => leaf(Proposer::ByFamily),
-            Kernel::User(user) => leaf(Proposer::User(user.clone())),
-            Kernel::On(inner, kernel) => return self.add(kernel, &selection.and(inner), sites),
+            Kernel::On(inner, kernel) => return self.add(kernel, &selection.and(inner)),
             Kernel::Cycle(kernels) => {
                 if kernels.is_empty() {
                     return Err(bad("has nothing to do"));
                 }
-                let inner: Result<Vec<_>, _> =
-                    kernels.iter().map(|k| self.add(k, selection, sites)).collect();
-                Err(Branch::Cycle(inner?))
+                let inner: Result<Vec<_>, _> = kernels.iter().map(|k| self.add(k, selection)).collect();
+                Branch::Cycle(inner?)
             }
             Kernel::Mixture(kernels) => {
                 let (mut sum, mut sums, mut inner) = (0.0, vec![], vec![]);
@@ -104,30 +86,23 @@ impl Plan {
                     }
                     sum += weight;
                     sums.push(sum);
-                    inner.push(self.add(kernel, selection, sites)?);
+                    inner.push(self.add(kernel, selection)?);
                 }
                 if inner.is_empty() {
                     return Err(bad("has nothing to do"));
                 }
-                Err(Branch::Mixture(sums, inner))
+                Branch::Mixture(sums, inner)
             }
             Kernel::Repeat(times, kernel) => {
                 if *times == 0 {
                     return Err(bad("has nothing to do"));
                 }
-                Err(Branch::Repeat(*times, self.add(kernel, selection, sites)?))
+                Branch::Repeat(*times, self.add(kernel, selection)?)
             }
             Kernel::Anneal { start, end, steps, kernel } => {
-                let inner = self.add(kernel, selection, sites)?;
-                Err(Branch::Anneal { start: *start, end: *end, steps: *steps, done: 0, inner })
+                let inner = self.add(kernel, selection)?;
+                Branch::Anneal { start: *start, end: *end, steps: *steps, done: 0, inner }
             }
-        };
-        let branch = match part {
-            Ok(proposer) => {
-                self.leaves.push(Leaf { proposer, selection: selection.clone(), table: None });
-                Branch::Leaf(self.leaves.len() - 1)
-            }
-            Err(branch) => branch,
         };
         self.branches.push(branch);
         Ok(self.branches.len() - 1)
@@ -135,16 +110,13 @@ impl Plan {
 
     /// The leaves that follow the gradient.
     pub fn trajectories(&self) -> impl Iterator<Item = &Trajectory> {
-        self.leaves.iter().filter_map(|leaf| match &leaf.proposer {
-            Proposer::Trajectory(own) => Some(&**own),
-            _ => None,
-        })
+        self.leaves.iter().filter_map(|leaf| leaf.proposer.trajectory())
     }
 
     /// Whether it is one leaf that draws from the prior, all choices alike.
     pub fn is_plain(&self) -> bool {
         self.leaves.len() == 1
-            && matches!(self.leaves[0], Leaf { proposer: Proposer::Prior, table: None, .. })
+            && matches!(self.leaves[0], Leaf { proposer: Proposer::Prior {}, table: None, .. })
             && !self.branches.iter().any(|branch| matches!(branch, Branch::Anneal { .. }))
     }
 
@@ -205,22 +177,21 @@ mod tests {
     use super::*;
 
     fn order(kernel: &Kernel, n: usize) -> Vec<usize> {
-        let mut plan = Plan::new(kernel, 0).unwrap();
+        let mut plan = Plan::new(kernel).unwrap();
         let mut rng = Stream::new(1, 2, 3, 4);
         (0..n).map(|_| plan.next(&mut rng).0).collect()
     }
 
     #[test]
     fn cycles_and_repeats_nest() {
-        let leaf = || Kernel::Prior;
-        let inner = Kernel::Cycle(vec![leaf(), Kernel::Repeat(2, Box::new(leaf()))]);
-        let kernel = Kernel::Cycle(vec![Kernel::Repeat(2, Box::new(inner)), leaf()]);
+        let inner = Kernel::Cycle(vec![Kernel::PRIOR, Kernel::Repeat(2, Box::new(Kernel::PRIOR))]);
+        let kernel = Kernel::Cycle(vec![Kernel::Repeat(2, Box::new(inner)), Kernel::PRIOR]);
         assert_eq!(order(&kernel, 9), [0, 1, 1, 0, 1, 1, 2, 0, 1]);
     }
 
     #[test]
     fn mixtures_choose_by_weight() {
-        let kernel = Kernel::Mixture(vec![(1.0, Kernel::Prior), (3.0, Kernel::Prior)]);
+        let kernel = Kernel::Mixture(vec![(1.0, Kernel::PRIOR), (3.0, Kernel::PRIOR)]);
         let second = order(&kernel, 4000).into_iter().filter(|leaf| *leaf == 1).count();
         // Mean 3000, standard deviation 27.4: five of them once in 1.7 million.
         assert!((2863..=3137).contains(&second), "{second}");
@@ -229,11 +200,11 @@ mod tests {
     #[test]
     fn annealing_ends_at_its_last_power() {
         let kernel =
-            Kernel::Anneal { start: 1.0 / 16.0, end: 4.0, steps: 2, kernel: Box::new(Kernel::Prior) };
-        let mut plan = Plan::new(&kernel, 0).unwrap();
+            Kernel::Anneal { start: 1.0 / 16.0, end: 4.0, steps: 2, kernel: Box::new(Kernel::PRIOR) };
+        let mut plan = Plan::new(&kernel).unwrap();
         let mut rng = Stream::new(1, 2, 3, 4);
         let powers: Vec<f64> = (0..4).map(|_| plan.next(&mut rng).1).collect();
         assert_eq!(powers, [1.0 / 16.0, 0.5, 4.0, 4.0]);
-        assert!(Plan::new(&Kernel::Cycle(vec![]), 0).is_err());
+        assert!(Plan::new(&Kernel::Cycle(vec![])).is_err());
     }
 }

@@ -24,7 +24,7 @@ pub(crate) trait Move {
         rng: &mut Stream,
     ) -> Result<Proposed<f64>, Fault>;
 
-    /// Adapts to the decision on its proposal.
+    /// Adapts to the decision on its proposal, while the chain warms up.
     #[inline(always)]
     fn learn(&mut self, _site: usize, _decision: Decision) {}
 }

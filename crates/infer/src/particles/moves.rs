@@ -131,7 +131,7 @@ impl Target for Moving<'_, '_> {
         if self.total(&self.now) == 0 {
             return Ok(());
         }
-        let (size, values) = (block.log_step.exp(), self.stream(1));
+        let (size, values) = (block.step.size, self.stream(1));
         let (weight, mover) = (self.weight, self.round.mover);
         let propose = |_: &At<'_, f64>, c: &Choice, _: &Dist| {
             let mut own = values.at(c.address);

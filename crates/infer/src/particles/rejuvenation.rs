@@ -79,7 +79,8 @@ impl Rejuvenation {
             return Err(Fault::new("bad-kernel", what)
                 .with_help("anneal the particles, and move them by the kernel inside `anneal`"));
         }
-        if self.at != Moment::End && self.kernel.any(&|part| matches!(part, Kernel::Trajectory { .. })) {
+        let follows = |part: &Kernel| matches!(part, Kernel::Leaf(own) if own.trajectory().is_some());
+        if self.at != Moment::End && self.kernel.any(&follows) {
             let what = "a particle that still runs has no gradient to follow";
             return Err(Fault::new("bad-kernel", what)
                 .with_help("move the particles at the end, or without `hmc_step()` and `nuts_step()`"));
@@ -140,7 +141,7 @@ impl Mover {
         let Some(rejuvenation) = &settings.rejuvenate else { return Ok(None) };
         let sites = task.program.functions.iter().flat_map(|f| &f.sites);
         let numbers: HashMap<u128, usize> = sites.enumerate().map(|(n, site)| (site.key, n)).collect();
-        let mut plan = Plan::new(&rejuvenation.kernel, numbers.len())?;
+        let mut plan = Plan::new(&rejuvenation.kernel)?;
         plan.leaves.iter_mut().try_for_each(|leaf| leaf.prepare(task))?;
         let choosy = (0..plan.leaves.len()).filter(|n| !plan.leaves[*n].selection.is_all()).collect();
         let mut spreads = HashMap::new();

@@ -6,16 +6,19 @@
 //! freedom. Beyond 6 it lies once in 8 million; some 700 shares are looked at, so a re-seeded board fails once in ten
 //! thousand runs.
 
+use super::programs::leaf;
 use super::programs::task;
 use niwaki_infer::Task;
 use niwaki_infer::chain::Settings;
 use niwaki_infer::chain::accept::{MetropolisHastings, Rules, Terms};
 use niwaki_infer::chain::kernel::{Kernel, Selection};
 use niwaki_infer::chain::ladder::Ladder;
+use niwaki_infer::chain::leaf::Proposer;
 use niwaki_infer::chain::user::User;
 use niwaki_infer::enumeration::enumerate;
 use niwaki_math::Total;
 use niwaki_vm::value::repr;
+use serde_json::json;
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -84,7 +87,7 @@ fn program(text: &str, power: &str) -> Task {
 /// A user's proposal: a distribution over whole numbers near the old one, skewed, so that its reverse matters.
 fn skewed() -> Kernel {
     let text = r#"(module (fn "near" (params $old) (return (dist binomial 3 (cond (eq $old 0) 0.2 0.6)))) (entry "near"))"#;
-    Kernel::User(Arc::new(User::new(task(text)).expect("a proposal")))
+    Kernel::Leaf(Proposer::Proposal(Arc::new(User::new(task(text)).expect("a proposal"))))
 }
 
 fn on(pattern: &str, kernel: Kernel) -> Kernel {
@@ -102,26 +105,30 @@ struct Row {
 }
 
 fn rows() -> Vec<Row> {
-    let prior = || Kernel::Prior;
+    let prior = || Kernel::PRIOR;
     let row = |name, kernel| Row { name, kernel, powers: vec![1.0], power: "1.0", only: "" };
-    let block = || Kernel::Block { step: 0.3, share: 0.5, target: 0.23 };
+    let block = || leaf("block", json!({"step": 0.3, "share": 0.5, "target": 0.23}));
     let deep = Selection { depth: vec![1.0, 1.0, 3.0, 9.0, 27.0], ..Selection::default() };
     let sites = Selection { weights: vec![("b".into(), 3.0), ("a".into(), 0.5)], ..Selection::default() };
     vec![
         row("prior", prior()),
-        row("neighbour", Kernel::Neighbour { reach: 2 }),
-        row("by family", Kernel::ByFamily),
-        row("drift", Kernel::Drift { step: 0.5, target: 0.44 }),
-        row("regenerate 0", Kernel::Regenerate { levels: 0 }),
-        row("regenerate 1", Kernel::Regenerate { levels: 1 }),
+        row("neighbour", leaf("neighbour", json!({"reach": 2}))),
+        row("by family", leaf("by_family", json!({}))),
+        row("drift", leaf("drift", json!({"step": 0.5, "target": 0.44}))),
+        row("regenerate 0", leaf("regenerate", json!({"levels": 0}))),
+        row("regenerate 1", leaf("regenerate", json!({"levels": 1}))),
         row("cycle", Kernel::Cycle(vec![prior(), block()])),
         row(
             "mixture",
-            Kernel::Mixture(vec![(1.0, block()), (2.0, prior()), (1.0, Kernel::Regenerate { levels: 0 })]),
+            Kernel::Mixture(vec![
+                (1.0, block()),
+                (2.0, prior()),
+                (1.0, leaf("regenerate", json!({"levels": 0}))),
+            ]),
         ),
         row(
             "repeat",
-            Kernel::Repeat(3, Box::new(Kernel::Cycle(vec![prior(), Kernel::Neighbour { reach: 1 }]))),
+            Kernel::Repeat(3, Box::new(Kernel::Cycle(vec![prior(), leaf("neighbour", json!({"reach": 1}))]))),
         ),
         row("weights by depth", Kernel::On(deep.clone(), Box::new(prior()))),
         Row {
@@ -132,7 +139,7 @@ fn rows() -> Vec<Row> {
             only: "a coin that decides how many more",
             ..row("weights by site", Kernel::On(sites, Box::new(prior())))
         },
-        row("on", Kernel::Cycle(vec![on("**", prior()), on("**", Kernel::Regenerate { levels: 0 })])),
+        row("on", Kernel::Cycle(vec![on("**", prior()), on("**", leaf("regenerate", json!({"levels": 0})))])),
         Row {
             power: "0.5",
             ..row(
@@ -224,8 +231,8 @@ fn a_step_that_is_not_adapted_finds_both_peaks() {
     );
     let exact = [("True".to_string(), BELOW), ("False".to_string(), 1.0 - BELOW)];
     for (name, kernel) in [
-        ("drift", Kernel::Drift { step: 3.0, target: 0.44 }),
-        ("block", Kernel::Block { step: 3.0, share: 1.0, target: 0.44 }),
+        ("drift", leaf("drift", json!({"step": 3.0, "target": 0.44}))),
+        ("block", leaf("block", json!({"step": 3.0, "share": 1.0, "target": 0.44}))),
     ] {
         let row = Row { name, kernel, powers: vec![1.0], power: "1.0", only: "" };
         let z = worst_of::<MetropolisHastings>(&two, &exact, &settings(&row, 11));

@@ -13,12 +13,14 @@
 //! given data whose deviation is as many times the root of the power.
 
 use super::board::{ExchangesAnyway, NoCountRatio, NoReverse, StaleForgotten};
+use super::programs::leaf;
 use super::programs::task;
 use niwaki_infer::Task;
 use niwaki_infer::chain::Settings;
 use niwaki_infer::chain::accept::{MetropolisHastings, Rules};
 use niwaki_infer::chain::kernel::{Kernel, Selection};
 use niwaki_infer::chain::ladder::Ladder;
+use niwaki_infer::chain::leaf::Proposer;
 use niwaki_infer::chain::state::State;
 use niwaki_infer::chain::streams::Streams;
 use niwaki_infer::chain::user::User;
@@ -26,6 +28,7 @@ use niwaki_infer::forward::forward;
 use niwaki_infer::replay::by_address;
 use niwaki_math::StreamKey;
 use niwaki_vm::value::Value;
+use serde_json::json;
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -227,17 +230,17 @@ fn smirnov(a: &[f64], b: &[f64]) -> f64 {
 }
 
 fn kernels() -> Vec<(&'static str, Kernel)> {
-    let drift = |step| Kernel::Drift { step, target: 0.44 };
-    let all = || Kernel::Cycle(vec![Kernel::Prior, drift(1.0), Kernel::Regenerate { levels: 0 }]);
+    let drift = |step| leaf("drift", json!({"step": step, "target": 0.44}));
+    let all = || Kernel::Cycle(vec![Kernel::PRIOR, drift(1.0), leaf("regenerate", json!({"levels": 0}))]);
     let weights = Selection { weights: vec![("g".into(), 5.0), ("k".into(), 0.5)], ..Selection::default() };
     let deep = Selection { depth: vec![1.0, 4.0, 2.0], ..Selection::default() };
     vec![
-        ("prior", Kernel::Prior),
+        ("prior", Kernel::PRIOR),
         ("drift", drift(1.0)),
-        ("neighbour", Kernel::Neighbour { reach: 2 }),
-        ("block", Kernel::Block { step: 0.5, share: 0.7, target: 0.23 }),
-        ("regenerate", Kernel::Regenerate { levels: 0 }),
-        ("regenerate 1", Kernel::Regenerate { levels: 1 }),
+        ("neighbour", leaf("neighbour", json!({"reach": 2}))),
+        ("block", leaf("block", json!({"step": 0.5, "share": 0.7, "target": 0.23}))),
+        ("regenerate", leaf("regenerate", json!({"levels": 0}))),
+        ("regenerate 1", leaf("regenerate", json!({"levels": 1}))),
         ("cycle", all()),
         ("mixture", mixture()),
         ("weights by depth", Kernel::On(deep, Box::new(mixture()))),
@@ -246,8 +249,8 @@ fn kernels() -> Vec<(&'static str, Kernel)> {
 }
 
 fn mixture() -> Kernel {
-    let drift = Kernel::Drift { step: 0.5, target: 0.44 };
-    Kernel::Mixture(vec![(1.0, Kernel::Prior), (2.0, drift), (1.0, Kernel::Regenerate { levels: 0 })])
+    let drift = leaf("drift", json!({"step": 0.5, "target": 0.44}));
+    Kernel::Mixture(vec![(1.0, Kernel::PRIOR), (2.0, drift), (1.0, leaf("regenerate", json!({"levels": 0})))])
 }
 
 #[test]
@@ -271,9 +274,9 @@ fn kernels_leave_the_posterior_as_it_is() {
 fn a_proposal_of_ones_own_leaves_the_posterior_as_it_is() {
     // A scale that depends on the value: going there is not as likely as coming back.
     let text = r#"(module (fn "near" (params $old) (return (dist gaussian (mul 0.5 $old) (add 0.3 (mul $old $old))))) (entry "near"))"#;
-    let own = Kernel::User(Arc::new(User::new(task(text)).expect("a proposal")));
+    let own = Kernel::Leaf(Proposer::Proposal(Arc::new(User::new(task(text)).expect("a proposal"))));
     let sites = Selection { sites: vec![vec!["x".into()]], ..Selection::default() };
-    let kernel = Kernel::Mixture(vec![(3.0, Kernel::On(sites, Box::new(own))), (1.0, Kernel::Prior)]);
+    let kernel = Kernel::Mixture(vec![(3.0, Kernel::On(sites, Box::new(own))), (1.0, Kernel::PRIOR)]);
     let d = distance::<MetropolisHastings>(PROGRAMS[0].1, &kernel);
     assert!(d < LIMIT, "{d}");
     let d = distance::<NoReverse>(PROGRAMS[0].1, &kernel);
@@ -308,7 +311,7 @@ fn tempering_leaves_the_posterior_as_it_is() {
 
 #[test]
 fn regeneration_and_mixtures_that_forget_a_term_are_found_out() {
-    let regenerate = Kernel::Regenerate { levels: 0 };
+    let regenerate = leaf("regenerate", json!({"levels": 0}));
     let mut missed = String::new();
     for (name, d) in [
         ("what went, regenerated", furthest::<StaleForgotten>(&[3, 5], &regenerate)),
@@ -336,9 +339,10 @@ fn a_step_that_is_not_adapted_leaves_the_posterior_as_it_is() {
         (set $x (sample (dist mixture (list 0.5 0.5) (list (dist gaussian 0.0 0.2) (dist gaussian 4.0 1.5)))))
         DATA(gaussian $x 3.0)
         (return (tuple $x (mul $x $y)))"#;
-    for kernel in
-        [Kernel::Drift { step: 3.0, target: 0.44 }, Kernel::Block { step: 3.0, share: 1.0, target: 0.44 }]
-    {
+    for kernel in [
+        leaf("drift", json!({"step": 3.0, "target": 0.44})),
+        leaf("block", json!({"step": 3.0, "share": 1.0, "target": 0.44})),
+    ] {
         let d = distance_at::<MetropolisHastings>(two, &kernel, REPLICATES, 40, 1.0, &[1.0]);
         assert!(d < LIMIT, "{kernel:?}: {d}");
     }
@@ -347,9 +351,9 @@ fn a_step_that_is_not_adapted_leaves_the_posterior_as_it_is() {
 #[test]
 fn a_drift_without_its_reverse_density_is_found_out() {
     for (at, kernel) in [
-        (0, Kernel::Drift { step: 1.0, target: 0.44 }),
-        (2, Kernel::Drift { step: 1.0, target: 0.44 }),
-        (4, Kernel::Block { step: 0.5, share: 0.7, target: 0.23 }),
+        (0, leaf("drift", json!({"step": 1.0, "target": 0.44}))),
+        (2, leaf("drift", json!({"step": 1.0, "target": 0.44}))),
+        (4, leaf("block", json!({"step": 0.5, "share": 0.7, "target": 0.23}))),
     ] {
         let d = distance::<NoReverse>(PROGRAMS[at].1, &kernel);
         assert!(d > 1.5 * LIMIT, "{}: {d} only", PROGRAMS[at].0);

@@ -6,6 +6,7 @@
 //! the draws of different seeds are independent: counts are binomial, and means have the standard error of the posterior.
 //! A z beyond 5 happens once in 1.7 million; about 250 are looked at.
 
+use super::programs::leaf;
 use super::programs::task;
 use super::{kernels, settings};
 use niwaki_infer::chain::agreement::compare;
@@ -23,6 +24,7 @@ use niwaki_infer::replay::by_address;
 use niwaki_infer::{Failure, Task};
 use niwaki_vm::machine::kept::Strategy;
 use niwaki_vm::value::{Value, repr};
+use serde_json::json;
 use std::collections::HashMap;
 
 const LIMIT: f64 = 5.0;
@@ -248,7 +250,14 @@ const FIXED: Length = Length::Fixed { steps: 5, jitter: 0.4 };
 const TURNING: Length = Length::NoUTurn { max_depth: 4 };
 
 fn trajectory(length: Length) -> Kernel {
-    Kernel::Trajectory { length, step: 0.4, target: 0.8 }
+    match length {
+        Length::Fixed { steps, jitter } => {
+            leaf("hmc_step", json!({"steps": steps, "jitter": jitter, "step": 0.4, "target": 0.8}))
+        }
+        Length::NoUTurn { max_depth } => {
+            leaf("nuts_step", json!({"max_depth": max_depth, "step": 0.4, "target": 0.8}))
+        }
+    }
 }
 
 #[test]
@@ -256,7 +265,7 @@ fn trajectories_in_a_chain_end_where_a_distribution_is_invalid() {
     for (text, score) in [(BORDER, border as Function), (COMING, coming)] {
         let task = task(text);
         for length in [FIXED, TURNING] {
-            let kernel = Kernel::Cycle(vec![Kernel::Prior, Kernel::Repeat(3, Box::new(trajectory(length)))]);
+            let kernel = Kernel::Cycle(vec![Kernel::PRIOR, Kernel::Repeat(3, Box::new(trajectory(length)))]);
             let draw = |seed| {
                 let settings = Settings { seed, kernel: kernel.clone(), ..settings() };
                 let known = exact_draw(&task, seed + (1 << 32), 0.3);

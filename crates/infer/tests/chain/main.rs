@@ -13,38 +13,40 @@ use niwaki_infer::Task;
 use niwaki_infer::chain::agreement::compare;
 use niwaki_infer::chain::kernel::{Kernel, Selection};
 use niwaki_infer::chain::ladder::Ladder;
+use niwaki_infer::chain::leaf::Proposer;
 use niwaki_infer::chain::user::User;
 use niwaki_infer::chain::{Chain, Settings};
 use niwaki_vm::machine::kept::inspect::Item;
 use niwaki_vm::value::Value;
-use programs::{PROGRAMS, task};
+use programs::{PROGRAMS, leaf, task};
+use serde_json::json;
 use std::sync::Arc;
 
 /// One of every kind, and all of them together.
 fn kernels(task: &Task) -> Vec<(&'static str, Kernel)> {
-    let drift = || Kernel::Drift { step: 0.7, target: 0.44 };
-    let neighbour = || Kernel::Neighbour { reach: 2 };
-    let block = || Kernel::Block { step: 0.3, share: 0.4, target: 0.23 };
-    let regenerate = |levels| Kernel::Regenerate { levels };
+    let drift = || leaf("drift", json!({"step": 0.7, "target": 0.44}));
+    let neighbour = || leaf("neighbour", json!({"reach": 2}));
+    let block = || leaf("block", json!({"step": 0.3, "share": 0.4, "target": 0.23}));
+    let regenerate = |levels| leaf("regenerate", json!({"levels": levels}));
     let deep = Selection { depth: vec![1.0, 3.0, 0.5], ..Selection::default() };
     let first = choices(task).swap_remove(0).0;
     let by_site = Selection { weights: vec![(first, 3.0)], ..Selection::default() };
     let all = Kernel::Cycle(vec![
-        Kernel::Prior,
+        Kernel::PRIOR,
         Kernel::Repeat(2, Box::new(drift())),
         Kernel::Mixture(vec![(1.0, neighbour()), (2.0, block())]),
         regenerate(0),
-        Kernel::On(deep.clone(), Box::new(Kernel::Prior)),
+        Kernel::On(deep.clone(), Box::new(Kernel::PRIOR)),
     ]);
     vec![
-        ("prior", Kernel::Prior),
+        ("prior", Kernel::PRIOR),
         ("drift", drift()),
         ("neighbour", neighbour()),
         ("block", block()),
         ("regenerate 0", regenerate(0)),
         ("regenerate 2", regenerate(2)),
-        ("weights by depth", Kernel::On(deep, Box::new(Kernel::Cycle(vec![Kernel::Prior, regenerate(1)])))),
-        ("weights by site", Kernel::On(by_site, Box::new(Kernel::Prior))),
+        ("weights by depth", Kernel::On(deep, Box::new(Kernel::Cycle(vec![Kernel::PRIOR, regenerate(1)])))),
+        ("weights by site", Kernel::On(by_site, Box::new(Kernel::PRIOR))),
         ("own proposals", own_proposals(task)),
         ("annealed", Kernel::Anneal { start: 0.25, end: 2.0, steps: 200, kernel: Box::new(all.clone()) }),
         ("all", all),
@@ -81,10 +83,11 @@ fn own_proposals(task: &Task) -> Kernel {
     ];
     let own = sites.into_iter().zip(dists).filter(|(sites, _)| !sites.is_empty()).map(|(sites, dist)| {
         let text = format!(r#"(module (fn "near" (params $old) (return (dist {dist}))) (entry "near"))"#);
-        let user = Kernel::User(Arc::new(User::new(programs::task(&text)).expect("a proposal")));
+        let user =
+            Kernel::Leaf(Proposer::Proposal(Arc::new(User::new(programs::task(&text)).expect("a proposal"))));
         Kernel::On(Selection { sites: vec![sites], ..Selection::default() }, Box::new(user))
     });
-    Kernel::Cycle(std::iter::once(Kernel::Prior).chain(own).collect())
+    Kernel::Cycle(std::iter::once(Kernel::PRIOR).chain(own).collect())
 }
 
 #[test]

@@ -8,6 +8,7 @@
 
 use super::board::NoReverse;
 use super::calibration::{LIMIT, PROGRAMS, distance_of};
+use super::programs::leaf;
 use super::programs::task;
 use niwaki_infer::Failure;
 use niwaki_infer::chain::accept::MetropolisHastings;
@@ -15,7 +16,7 @@ use niwaki_infer::chain::agreement::compare;
 use niwaki_infer::chain::kernel::{Kernel, Selection};
 use niwaki_infer::chain::{Chain, Settings};
 use niwaki_infer::hamiltonian;
-use niwaki_infer::hamiltonian::chains::Length;
+use serde_json::json;
 
 const REPLICATES: u64 = 2000;
 
@@ -46,11 +47,11 @@ const BRANCHES: &str = r#"
     (return (tuple $side $x $held $more (mul $x $y)))"#;
 
 fn hmc(step: f64) -> Kernel {
-    Kernel::Trajectory { length: Length::Fixed { steps: 5, jitter: 0.4 }, step, target: 0.8 }
+    leaf("hmc_step", json!({"steps": 5, "jitter": 0.4, "step": step, "target": 0.8}))
 }
 
 fn nuts(step: f64) -> Kernel {
-    Kernel::Trajectory { length: Length::NoUTurn { max_depth: 4 }, step, target: 0.8 }
+    leaf("nuts_step", json!({"max_depth": 4, "step": step, "target": 0.8}))
 }
 
 fn on(patterns: &[&str], kernel: Kernel) -> Kernel {
@@ -59,7 +60,7 @@ fn on(patterns: &[&str], kernel: Kernel) -> Kernel {
 }
 
 fn mixed(first: Kernel) -> Kernel {
-    Kernel::Cycle(vec![first, Kernel::Prior])
+    Kernel::Cycle(vec![first, Kernel::PRIOR])
 }
 
 /// Programs with a kernel that suits each.
@@ -130,8 +131,8 @@ fn module(text: &str) -> niwaki_infer::Task {
 fn four_strategies_make_the_same_mixed_chain() {
     let all = Kernel::Cycle(vec![
         hmc(0.4),
-        Kernel::Repeat(2, Box::new(Kernel::Prior)),
-        Kernel::Mixture(vec![(1.0, nuts(0.3)), (1.0, Kernel::Regenerate { levels: 0 })]),
+        Kernel::Repeat(2, Box::new(Kernel::PRIOR)),
+        Kernel::Mixture(vec![(1.0, nuts(0.3)), (1.0, leaf("regenerate", json!({"levels": 0})))]),
     ]);
     let annealed = Kernel::Anneal { start: 0.25, end: 2.0, steps: 200, kernel: Box::new(all.clone()) };
     for text in [MIXTURE, BRANCHES] {

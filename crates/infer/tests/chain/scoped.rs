@@ -10,6 +10,7 @@ use niwaki_infer::Task;
 use niwaki_infer::chain::accept::{MetropolisHastings, Rules};
 use niwaki_infer::chain::agreement::compare;
 use niwaki_infer::chain::kernel::{Kernel, Selection};
+use niwaki_infer::chain::leaf::Proposer;
 use niwaki_infer::chain::user::User;
 use niwaki_infer::chain::{Chain, Settings};
 use niwaki_vm::core::Name;
@@ -99,8 +100,8 @@ fn case(text: &str, pattern: &str, function: &str) -> (Task, Kernel) {
     let names: Vec<Name> = user.variables().cloned().collect();
     let program = compile_keeping(&parse(text).expect("core form"), vec![], &names).expect("a program");
     let on = Selection { sites: vec![vec![pattern.into()]], ..Selection::default() };
-    let own = Kernel::On(on, Box::new(Kernel::User(Arc::new(user))));
-    (Task::new(Arc::new(program)), Kernel::Cycle(vec![Kernel::Prior, own.clone(), own]))
+    let own = Kernel::On(on, Box::new(Kernel::Leaf(Proposer::Proposal(Arc::new(user)))));
+    (Task::new(Arc::new(program)), Kernel::Cycle(vec![Kernel::PRIOR, own.clone(), own]))
 }
 
 fn settings(kernel: Kernel) -> Settings {
@@ -138,7 +139,7 @@ fn to_keep_variables_changes_no_chain() {
         let (kept, _) = case(text, pattern, function);
         let states = |task: &Task| {
             let mut chain: Chain =
-                Chain::start(task, &settings(Kernel::Prior), 0, None).expect("a first state");
+                Chain::start(task, &settings(Kernel::PRIOR), 0, None).expect("a first state");
             chain.advance(task, 500, &mut |_, _| true).expect("a run");
             let totals = chain.state.trace.totals();
             let score = chain.state.log_score();

@@ -18,10 +18,11 @@ pub mod counts;
 pub(crate) mod scales;
 pub(crate) mod structures;
 
-use super::Chain;
 use super::accept::Rules;
+use super::leaf::ChainMove;
 use super::metropolis::Decision;
 use super::state::Fresh;
+use super::{Chain, Proposing};
 use crate::gradient::follow::reason;
 use crate::hamiltonian::chains::{Length, MAX_ENERGY_ERROR};
 use crate::hamiltonian::step_size::first_guess;
@@ -29,21 +30,46 @@ use crate::hamiltonian::{Cause, Kernel};
 use crate::{Failure, Task, gradient};
 use counts::TrajectoryCounts;
 use niwaki_grad::{Continuous, Model, Transform};
-use niwaki_vm::machine::Machine;
 use niwaki_vm::machine::kept::{Changed, Proposed};
 use scales::Scales;
+use serde::{Deserialize, Deserializer};
 use structures::{Moving, Structures};
 
 /// Trajectories of one leaf of a kernel.
-pub(crate) struct Trajectory {
+pub struct Trajectory {
     kernel: Kernel,
     scales: Scales,
     structures: Structures,
     model: Option<Model>,
     /// Their counts.
-    pub counts: TrajectoryCounts,
-    /// Whether step and scales are adapted now, and the share of the warm-up that is over.
-    pub warming: Option<f64>,
+    pub(crate) counts: TrajectoryCounts,
+}
+
+/// One of fixed length, from its settings.
+pub(super) fn hmc_step<'de, D: Deserializer<'de>>(from: D) -> Result<Box<Trajectory>, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Settings {
+        steps: u32,
+        jitter: f64,
+        step: f64,
+        target: f64,
+    }
+    let Settings { steps, jitter, step, target } = Settings::deserialize(from)?;
+    Ok(Box::new(Trajectory::new(Length::Fixed { steps, jitter }, step, target)))
+}
+
+/// One without a U-turn, from its settings.
+pub(super) fn nuts_step<'de, D: Deserializer<'de>>(from: D) -> Result<Box<Trajectory>, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Settings {
+        max_depth: u32,
+        step: f64,
+        target: f64,
+    }
+    let Settings { max_depth, step, target } = Settings::deserialize(from)?;
+    Ok(Box::new(Trajectory::new(Length::NoUTurn { max_depth }, step, target)))
 }
 
 impl Clone for Trajectory {
@@ -55,7 +81,6 @@ impl Clone for Trajectory {
             structures: Structures::default(),
             model: self.model.clone(),
             counts: TrajectoryCounts::default(),
-            warming: self.warming,
         }
     }
 }
@@ -67,14 +92,13 @@ impl std::fmt::Debug for Trajectory {
 }
 
 impl Trajectory {
-    pub fn new(length: Length, step: f64, target: f64) -> Trajectory {
+    fn new(length: Length, step: f64, target: f64) -> Trajectory {
         Trajectory {
             kernel: length.kernel(MAX_ENERGY_ERROR),
             scales: Scales::new(step, target),
             structures: Structures::default(),
             model: None,
             counts: TrajectoryCounts::default(),
-            warming: None,
         }
     }
 
@@ -82,7 +106,7 @@ impl Trajectory {
     ///
     /// # Errors
     /// Sketches, which have no gradient.
-    pub fn prepare(&mut self, task: &Task) -> Result<(), Failure> {
+    pub(crate) fn prepare(&mut self, task: &Task) -> Result<(), Failure> {
         if self.model.is_none() {
             self.model = Some(gradient::model(task)?);
         }
@@ -90,41 +114,36 @@ impl Trajectory {
     }
 
     /// The step in use.
-    pub fn step(&self) -> f64 {
+    pub(crate) fn step(&self) -> f64 {
         self.scales.step(1)
     }
 
     /// Graphs recorded: structures met, and runs recorded for them.
-    pub fn recorded(&self) -> (u64, u64) {
+    pub(crate) fn recorded(&self) -> (u64, u64) {
         self.structures.recorded()
     }
 }
 
-impl<R: Rules> Chain<R> {
+impl ChainMove for Trajectory {
     /// One transition of the continuous choices that a table gives weight; all of them, where there is none.
-    pub(super) fn trajectory(
-        &mut self,
-        task: &Task,
-        machine: &mut Machine<'_>,
-        own: &mut Trajectory,
-        table: Option<usize>,
-        beta: f64,
-    ) -> Result<(), Failure> {
-        let (visit, program) = (self.visit, &*task.program);
-        self.visit += 1;
-        self.last = Decision { same: true, accepted: true, log_ratio: 0.0 };
+    fn apply<R: Rules>(&mut self, proposing: Proposing<'_, '_, R>) -> Result<(), Failure> {
+        let (own, Proposing { chain, task, machine, table, beta }) = (self, proposing);
+        let (visit, program) = (chain.visit, &*task.program);
+        let warming = chain.warming(visit);
+        chain.visit += 1;
+        chain.last = Decision { same: true, accepted: true, log_ratio: 0.0 };
         own.prepare(task)?;
         let Some(model) = &own.model else { return Ok(()) };
-        if own.warming.is_none() {
+        if warming.is_none() {
             own.scales.freeze();
         }
         // The structure, its graph, and the coordinates of the trace.
-        let (trace, tables) = (&self.state.trace, &self.tables);
+        let (trace, tables) = (&chain.state.trace, &chain.tables);
         let moves = |choice: usize| table.is_none_or(|t| tables[t].weight(choice) > 0);
         let mut label = |number: usize, choice: &Continuous, place: usize| {
-            let site = self.counts.number(trace.site_of(number));
+            let site = chain.counts.number(trace.site_of(number));
             let is_plain = matches!(choice.transform, Transform::Line | Transform::Vector);
-            let scale = if is_plain { self.spreads[site] / choice.unit } else { 1.0 };
+            let scale = if is_plain { chain.spreads[site] / choice.unit } else { 1.0 };
             own.scales.label(site as u32, place as u32, scale)
         };
         own.structures.find(model, trace, program, beta, &moves, &mut label)?;
@@ -132,45 +151,45 @@ impl<R: Rules> Chain<R> {
         if target.is_still() {
             return Ok(());
         }
-        self.last = Decision { same: false, accepted: false, log_ratio: f64::NEG_INFINITY };
+        chain.last = Decision { same: false, accepted: false, log_ratio: f64::NEG_INFINITY };
         let mut phase = match target.start_phase(trace, program, numbers, beta) {
             Ok(phase) => phase,
             Err(stop) => {
                 let fault = || reason(target.live(), &target.all(&[]));
-                own.counts.refused(stop, own.warming.is_some(), fault);
-                self.count_many(self.last);
+                own.counts.refused(stop, warming.is_some(), fault);
+                chain.count_many(chain.last);
                 return Ok(());
             }
         };
         let (backward, _) = target.values(&phase.x, phase.log_density);
 
         // From x to x'.
-        let (key, dim) = (self.streams.moves(visit), phase.x.len());
+        let (key, dim) = (chain.streams.moves(visit), phase.x.len());
         let metric = own.scales.metric(labels);
-        if own.warming.is_some() && own.scales.wants_a_guess() {
+        if warming.is_some() && own.scales.wants_a_guess() {
             let guess = first_guess(target, &metric, &phase, own.scales.step(dim), &mut key.at(1));
             own.scales.guessed(guess, dim);
         }
         let step = own.scales.step(dim);
         let transition = own.kernel.step(target, &metric, step, &mut phase, &mut key.at(0));
-        if let Some(share) = own.warming {
+        if let Some(share) = warming {
             own.scales.learn(labels, &phase.gradient, transition.accept, share);
         }
         let faulty =
             transition.divergence.as_ref().filter(|d| d.stop.is_some_and(|s| s.cause == Cause::NotFinite));
         let faulty = faulty.map(|divergence| target.all(&divergence.end));
-        own.counts.count(&transition, own.warming.is_some(), || reason(target.live(), &faulty?));
-        self.last.log_ratio = transition.accept.ln();
+        own.counts.count(&transition, warming.is_some(), || reason(target.live(), &faulty?));
+        chain.last.log_ratio = transition.accept.ln();
         // The last point that was evaluated may be on another path than x'.
         let there = if transition.moved { target.log_density(&phase.x).ok() } else { None };
         let Some(log_density) = there else {
-            self.count_many(self.last);
+            chain.count_many(chain.last);
             return Ok(());
         };
 
         // The values there, as one block. The first choice carries the whole density of the proposal.
         let (forward, values) = target.values(&phase.x, log_density);
-        let noting = self.best.is_noting();
+        let noting = chain.best.is_noting();
         let (mut moved, mut changes) = (Vec::new(), Vec::with_capacity(values.len()));
         for (place, value) in values {
             let choice = numbers[place];
@@ -180,24 +199,24 @@ impl<R: Rules> Chain<R> {
             let (forward, backward) = if changes.is_empty() { (forward, backward) } else { (0.0, 0.0) };
             changes.push(Changed { choice, proposed: Proposed { value, forward, backward } });
         }
-        let mut answers = Fresh::plain(self.streams.fresh(visit), &*task.hosts);
+        let mut answers = Fresh::plain(chain.streams.fresh(visit), &*task.hosts);
         let change =
-            match machine.change(&mut self.state.trace, changes, self.settings.strategy, &mut answers) {
+            match machine.change(&mut chain.state.trace, changes, chain.settings.strategy, &mut answers) {
                 Ok(change) => change,
-                Err(met) => self.give_up(task, met)?,
+                Err(met) => chain.give_up(task, met)?,
             };
-        let selection = |chain: &Self| {
+        let selection = |chain: &Chain<R>| {
             let trace = &chain.state.trace;
             // New draws are not part of the recorded density: the reverse trajectory would not lead back here.
             let anew = trace.drawn_anew().iter().any(|(address, _)| own.structures.knows(*address));
             let is_other = trace.births(program).len() > 0 || !trace.deaths().is_empty() || anew;
             if is_other { f64::NEG_INFINITY } else { 0.0 }
         };
-        let mut rng = self.streams.decisions(visit);
-        let decision = self.decide(task, change, beta, &mut rng, selection, moved)?;
+        let mut rng = chain.streams.decisions(visit);
+        let decision = chain.decide(task, change, beta, &mut rng, selection, moved)?;
         own.counts.moved += u64::from(decision.accepted);
         own.counts.unwritten += u64::from(!decision.accepted);
-        self.count_many(decision);
+        chain.count_many(decision);
         Ok(())
     }
 }

@@ -25,10 +25,10 @@ fn states_of_final_chains_follow_the_posterior() {
         }
         // Weights that are not equal in the end decide where the chains start.
         let settings =
-            Settings { when: When::EffectiveBelow(0.2), ..following(Kernel::Prior, 1, 2, 2, Moment::End) };
+            Settings { when: When::EffectiveBelow(0.2), ..following(Kernel::PRIOR, 1, 2, 2, Moment::End) };
         let scores = z_scores(&task(text), &settings, 0..4000);
         assert!(worst(&scores) < LIMIT, "{name}, unequal weights: {scores:?}");
-        let scores = z_scores(&task(text), &following(Kernel::Prior, 1, 1, 2, Moment::End), 0..4000);
+        let scores = z_scores(&task(text), &following(Kernel::PRIOR, 1, 1, 2, Moment::End), 0..4000);
         assert!(worst(&scores) < LIMIT, "{name}, one chain: {scores:?}");
     }
 }
@@ -54,7 +54,7 @@ fn threads_change_nothing_in_final_chains() {
 #[test]
 fn final_chains_end_where_whoever_watches_says() {
     let task = task(PROGRAMS[5].1);
-    let settings = following(Kernel::Prior, 3, 2, 1000, Moment::End);
+    let settings = following(Kernel::PRIOR, 3, 2, 1000, Moment::End);
     let mut looks = 0;
     let run = smc(&task, &settings, &mut |_| {
         looks += 1;
@@ -68,7 +68,7 @@ fn final_chains_end_where_whoever_watches_says() {
 fn final_chains_of_no_state_are_refused() {
     let task = task(PROGRAMS[0].1);
     for (chains, draws) in [(0, 1), (1, 0)] {
-        let settings = following(Kernel::Prior, 1, chains, draws, Moment::End);
+        let settings = following(Kernel::PRIOR, 1, chains, draws, Moment::End);
         assert!(smc(&task, &settings, &mut |_| true).is_err());
     }
 }

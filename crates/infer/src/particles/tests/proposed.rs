@@ -7,6 +7,7 @@
 use super::chains::{counted, small, values_after};
 use super::*;
 use crate::chain::kernel::{Kernel, Selection};
+use crate::chain::leaf::Proposer;
 use crate::chain::user::User;
 use crate::chooser::Proposal;
 use crate::importance::importance;
@@ -67,7 +68,8 @@ fn guided(text: &str, parts: &[(&str, &str)]) -> (Task, Proposal) {
     let parts: Vec<(Selection, Arc<User>)> = parts.iter().map(own).collect();
     let names: Vec<Name> = parts.iter().flat_map(|(_, user)| user.variables().cloned()).collect();
     let program = compile_keeping(&parse(text).unwrap(), vec![], &names).unwrap();
-    let kernels = parts.into_iter().map(|(on, user)| Kernel::On(on, Box::new(Kernel::User(user))));
+    let kernels =
+        parts.into_iter().map(|(on, user)| Kernel::On(on, Box::new(Kernel::Leaf(Proposer::Proposal(user)))));
     (Task::new(Arc::new(program)), Proposal::of(&Kernel::Cycle(kernels.collect())).unwrap())
 }
 
@@ -102,7 +104,7 @@ fn nor_do_they_beside_other_settings() {
     for (name, task, proposal) in cases() {
         let plain = with(&proposal, Order::Stochastic, 8);
         let moved =
-            Rejuvenation { kernel: Kernel::Prior, moves: 2, at: Moment::Every(1), final_chains: None };
+            Rejuvenation { kernel: Kernel::PRIOR, moves: 2, at: Moment::Every(1), final_chains: None };
         for own in [
             Settings { when: When::EffectiveBelow(0.5), ..plain.clone() },
             Settings { anneal: Anneal::Schedule([0.3, 2.5, 0.7].as_slice().into()), ..plain.clone() },
@@ -272,9 +274,9 @@ fn what_a_proposal_cannot_be_is_refused() {
     assert_eq!(refused("d", "(params) (return (dist bernoulli 0.5))").0, "no-address");
     assert_eq!(refused("b", "(params) (return 0.5)").0, "bad-proposal");
     let old = r#"(module (fn "q" (params $old) (return (dist bernoulli 0.5))) (entry "q"))"#;
-    let user = Kernel::User(Arc::new(User::new(task(old)).unwrap()));
+    let user = Kernel::Leaf(Proposer::Proposal(Arc::new(User::new(task(old)).unwrap())));
     assert_eq!(Proposal::of(&user).unwrap_err().code, "bad-proposal");
-    assert_eq!(Proposal::of(&Kernel::Prior).unwrap_err().code, "bad-proposal");
+    assert_eq!(Proposal::of(&Kernel::PRIOR).unwrap_err().code, "bad-proposal");
     let (_, proposal) = guided(text, &[("b", "(params) (return (dist bernoulli 0.5))")]);
     let absolute = Settings { weights: Weights::Absolute, ..with(&Arc::new(proposal), Order::Stochastic, 8) };
     assert_eq!(absolute.check().unwrap_err().code, "bad-setting");

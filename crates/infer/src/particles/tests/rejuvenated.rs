@@ -10,6 +10,7 @@ use super::super::population::Population;
 use super::*;
 use crate::chain::kernel::Kernel;
 use crate::chooser::Prior;
+use serde_json::json;
 
 /// Programs in which moves have more to do: choices whose existence changes between two barriers, and values in a
 /// suspended activation.
@@ -55,14 +56,15 @@ fn programs() -> impl Iterator<Item = (&'static str, &'static str)> {
 }
 
 pub fn every_kind() -> Kernel {
-    let block = Kernel::Block { step: 0.5, share: 0.5, target: 0.3 };
+    let leaf = |name, settings| Kernel::leaf(name, settings).unwrap();
+    let block = leaf("block", json!({"step": 0.5, "share": 0.5, "target": 0.3}));
     Kernel::Mixture(vec![
-        (2.0, Kernel::Prior),
-        (1.0, Kernel::Neighbour { reach: 1 }),
-        (1.0, Kernel::ByFamily),
+        (2.0, Kernel::PRIOR),
+        (1.0, leaf("neighbour", json!({"reach": 1}))),
+        (1.0, leaf("by_family", json!({}))),
         (1.0, block),
-        (1.0, Kernel::Drift { step: 0.5, target: 0.4 }),
-        (1.0, Kernel::Regenerate { levels: 1 }),
+        (1.0, leaf("drift", json!({"step": 0.5, "target": 0.4}))),
+        (1.0, leaf("regenerate", json!({"levels": 1}))),
     ])
 }
 
@@ -185,7 +187,7 @@ fn evidence_and_posterior_stay_right() {
         }
         let settings = Settings {
             when: When::EffectiveBelow(0.5),
-            rejuvenate: rejuvenation(Kernel::Prior, 2, Moment::Every(2)),
+            rejuvenate: rejuvenation(Kernel::PRIOR, 2, Moment::Every(2)),
             ..settings(Order::Stochastic, Resampling::Systematic)
         };
         let scores = z_scores(&task, &settings, 0..2000);
@@ -208,7 +210,7 @@ const SOON: &str = r#"(module (fn "m" (params)
 fn who_is_moved_must_not_depend_on_the_others() {
     let settings = Settings {
         particles: 2,
-        rejuvenate: rejuvenation(Kernel::Prior, 1, Moment::Every(1)),
+        rejuvenate: rejuvenation(Kernel::PRIOR, 1, Moment::Every(1)),
         ..settings(Order::Stochastic, Resampling::Systematic)
     };
     let scores = z_scores(&task(SOON), &settings, 0..20_000);
@@ -238,15 +240,15 @@ fn threads_change_nothing_with_moves() {
 #[test]
 fn what_no_move_could_keep_is_refused() {
     let task = task(PROGRAMS[0].1);
-    let annealed = Kernel::Anneal { start: 0.5, end: 1.0, steps: 5, kernel: Box::new(Kernel::Prior) };
+    let annealed = Kernel::Anneal { start: 0.5, end: 1.0, steps: 5, kernel: Box::new(Kernel::PRIOR) };
     let bad = [
         Settings {
             weights: Weights::Absolute,
-            rejuvenate: rejuvenation(Kernel::Prior, 1, Moment::End),
+            rejuvenate: rejuvenation(Kernel::PRIOR, 1, Moment::End),
             ..Settings::default()
         },
         Settings { rejuvenate: rejuvenation(annealed, 1, Moment::End), ..Settings::default() },
-        Settings { rejuvenate: rejuvenation(Kernel::Prior, 0, Moment::End), ..Settings::default() },
+        Settings { rejuvenate: rejuvenation(Kernel::PRIOR, 0, Moment::End), ..Settings::default() },
     ];
     assert!(bad.iter().all(|settings| smc(&task, settings, &mut |_| true).is_err()));
 }
