@@ -53,7 +53,7 @@ def main(runs: int = 20) -> int:
     for name, (voxel, dims, filled, empty) in GRIDS.items():
         mesh = niwaki.Target.load(folder / name)
         target = _engine.Target(mesh.vertices, mesh.faces, voxel)
-        score = _engine.Sketch([_engine.match_volume(target, 0.02)]).log_score()
+        score = _engine.Sketch([_engine.SketchSpec('{"match_volume": {"sigma": 0.02}}', target)]).log_score()
         holds = (tuple(target.dims), target.filled, round(score, 2)) == (dims, filled, empty)
         missed += not holds
         print(

@@ -28,7 +28,6 @@ __all__ = [
     "Trajectories",
     "__version__",
     "agreement",
-    "avoid",
     "check_inside",
     "different",
     "draw",
@@ -38,18 +37,12 @@ __all__ = [
     "family_names",
     "fine_mesh",
     "fingerprint",
-    "floor",
     "frame_camera",
     "log_density",
-    "match_image",
-    "match_shadow",
-    "no_self_intersection",
-    "overshoot",
     "parameter_names",
     "render",
     "support",
     "unique_models",
-    "match_volume",
 ]
 
 __version__: str
@@ -148,6 +141,9 @@ class Target:
 
 @final
 class SketchSpec:
+    def __new__(
+        cls, form: str, target: Target | None = None, picture: Picture | None = None
+    ) -> SketchSpec: ...
     @property
     def name(self) -> str: ...
 
@@ -160,9 +156,6 @@ class Sketch:
     def similarity(self) -> float | None: ...
     def measures(self) -> dict[str, float]: ...
     def fork(self) -> Sketch: ...
-
-def match_volume(target: Target, sigma: float = 0.02) -> SketchSpec: ...
-def no_self_intersection(rule: str = "solid") -> SketchSpec: ...
 
 @final
 class Picture:
@@ -182,11 +175,6 @@ class Picture:
     def mask(self, shapes: Sequence[Shape]) -> NDArray[np.bool_]: ...
     def seen(self) -> NDArray[np.bool_]: ...
 
-def match_image(picture: Picture, sigma: float = 0.02) -> SketchSpec: ...
-def match_shadow(picture: Picture, sigma: float = 0.02) -> SketchSpec: ...
-def avoid(obstacle: Target) -> SketchSpec: ...
-def floor(height: float) -> SketchSpec: ...
-def overshoot(low: _Triple, high: _Triple, sigma: float = 0.02) -> SketchSpec: ...
 def render(
     meshes: Sequence[_Mesh],
     ghost: _Mesh | None = None,

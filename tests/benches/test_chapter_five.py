@@ -86,7 +86,7 @@ def test_segments_that_grow_from_one_another_only_touch() -> None:
                 continue
             pairs += 1
             for rule in overlapping:
-                sketch = _engine.Sketch([_engine.no_self_intersection(rule)])
+                sketch = _engine.Sketch(nw.no_self_intersection(rule).specs)
                 sketch.add(list(parent))
                 overlapping[rule] += sketch.add(list(shape)) is not None
     assert pairs > 1000

@@ -4,10 +4,8 @@
 //! of messages has the text for each code.
 
 use crate::values::Classes;
-use niwaki_geom::{
-    GeomError, Primitive, Rule, Shape, SketchSpec, Sketches, Target, TriMesh, Vec3, match_volume,
-    no_self_intersection,
-};
+use crate::views::PyPicture;
+use niwaki_geom::{GeomError, Primitive, Shape, SketchForm, SketchSpec, Sketches, Target, TriMesh, Vec3};
 use niwaki_vm::builtins::{builtin, builtin_id, shapes};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::value::Value;
@@ -242,33 +240,27 @@ pub struct PySketchSpec(pub Arc<dyn SketchSpec>);
 
 #[pymethods]
 impl PySketchSpec {
+    /// From its form, JSON, and the ``target`` or ``picture`` that it needs.
+    #[new]
+    #[pyo3(signature = (form, target=None, picture=None))]
+    fn new(
+        py: Python<'_>,
+        form: &str,
+        target: Option<&PyTarget>,
+        picture: Option<&PyPicture>,
+    ) -> PyResult<PySketchSpec> {
+        let form: Result<SketchForm, _> = serde_json::from_str(form);
+        form.map_err(|error| GeomError::new("bad-setting", format!("no sketch can be read: {error}")))
+            .and_then(|form| form.spec(target.map(|own| own.0.clone()), picture.map(|own| own.0.clone())))
+            .map(PySketchSpec)
+            .map_err(|e| value_error(py, &e))
+    }
+
     /// The name that messages use.
     #[getter]
     fn name(&self) -> &'static str {
         self.0.name()
     }
-}
-
-/// Scores a scene by how well it fills ``target``; ``sigma`` is the standard deviation of both its terms.
-#[pyfunction(name = "match_volume")]
-#[pyo3(signature = (target, sigma=0.02))]
-fn py_match_volume(py: Python<'_>, target: &PyTarget, sigma: f64) -> PyResult<PySketchSpec> {
-    match_volume(target.0.clone(), sigma).map(PySketchSpec).map_err(|e| value_error(py, &e))
-}
-
-/// Forbids scenes whose primitives intersect, by ``rule`` "solid" or "surface".
-#[pyfunction(name = "no_self_intersection")]
-#[pyo3(signature = (rule="solid"))]
-fn py_no_self_intersection(py: Python<'_>, rule: &str) -> PyResult<PySketchSpec> {
-    let rule = match rule {
-        "solid" => Rule::Solid,
-        "surface" => Rule::Surface,
-        _ => {
-            let message = format!("the rule is {rule:?}, expected \"solid\" or \"surface\"");
-            return Err(value_error(py, &GeomError::new("bad-setting", message)));
-        }
-    };
-    Ok(PySketchSpec(no_self_intersection(rule)))
 }
 
 /// The score of a scene, updated as primitives are added and removed.
@@ -349,7 +341,5 @@ pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("SHAPES", words)?;
     module.add_class::<PyTarget>()?;
     module.add_class::<PySketchSpec>()?;
-    module.add_class::<PySketch>()?;
-    module.add_function(wrap_pyfunction!(py_match_volume, module)?)?;
-    module.add_function(wrap_pyfunction!(py_no_self_intersection, module)?)
+    module.add_class::<PySketch>()
 }

@@ -1,13 +1,10 @@
-//! Images to match, obstacles and floors, for Python.
+//! Images to match, for Python.
 //!
 //! Every error is a `ValueError` with an attribute `code`, as in `geometry`.
 
-use crate::geometry::{PyShape, PySketchSpec, PyTarget, mesh_from, value_error};
+use crate::geometry::{PyShape, mesh_from, value_error};
 use niwaki_geom::view::{Camera, Lens, Light, shadow_rays};
-use niwaki_geom::{
-    Aabb, GeomError, Picture, Primitive, Shape, SketchSpec, TargetPicture, Vec3, avoid, floor, match_image,
-    match_shadow, no_overshoot,
-};
+use niwaki_geom::{GeomError, Picture, Primitive, Shape, TargetPicture, Vec3};
 use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray2, PyReadonlyArray2};
 use pyo3::prelude::*;
@@ -29,7 +26,7 @@ fn camera((position, look_at, up, perspective, number, near): Eye) -> Result<Cam
 
 /// An image to match and the rays that tell which pixels of a scene are on.
 #[pyclass(frozen, name = "Picture", module = "niwaki._engine")]
-pub struct PyPicture(Arc<Picture>);
+pub struct PyPicture(pub Arc<Picture>);
 
 #[pymethods]
 impl PyPicture {
@@ -105,49 +102,7 @@ impl PyPicture {
     }
 }
 
-fn spec(py: Python<'_>, spec: Result<Arc<dyn SketchSpec>, GeomError>) -> PyResult<PySketchSpec> {
-    spec.map(PySketchSpec).map_err(|e| value_error(py, &e))
-}
-
-/// Scores a scene by how well its silhouette is ``picture``.
-#[pyfunction(name = "match_image")]
-#[pyo3(signature = (picture, sigma=0.02))]
-fn py_match_image(py: Python<'_>, picture: &PyPicture, sigma: f64) -> PyResult<PySketchSpec> {
-    spec(py, match_image(picture.0.clone(), sigma))
-}
-
-/// Scores a scene by how well its shadow is ``picture``.
-#[pyfunction(name = "match_shadow")]
-#[pyo3(signature = (picture, sigma=0.02))]
-fn py_match_shadow(py: Python<'_>, picture: &PyPicture, sigma: f64) -> PyResult<PySketchSpec> {
-    spec(py, match_shadow(picture.0.clone(), sigma))
-}
-
-/// Forbids scenes that fill a cell of ``obstacle``.
-#[pyfunction(name = "avoid")]
-fn py_avoid(obstacle: &PyTarget) -> PySketchSpec {
-    PySketchSpec(avoid(obstacle.0.clone()))
-}
-
-/// Forbids scenes that reach below ``height``.
-#[pyfunction(name = "floor")]
-fn py_floor(py: Python<'_>, height: f64) -> PyResult<PySketchSpec> {
-    spec(py, floor(height))
-}
-
-/// Scores a scene by how far it reaches out of the box from ``low`` to ``high``.
-#[pyfunction(name = "overshoot")]
-#[pyo3(signature = (low, high, sigma=0.02))]
-fn py_overshoot(py: Python<'_>, low: Triple, high: Triple, sigma: f64) -> PyResult<PySketchSpec> {
-    spec(py, no_overshoot(Aabb { low: low.into(), high: high.into() }, sigma))
-}
-
 /// Puts this part into the module.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add_class::<PyPicture>()?;
-    module.add_function(wrap_pyfunction!(py_match_image, module)?)?;
-    module.add_function(wrap_pyfunction!(py_match_shadow, module)?)?;
-    module.add_function(wrap_pyfunction!(py_avoid, module)?)?;
-    module.add_function(wrap_pyfunction!(py_floor, module)?)?;
-    module.add_function(wrap_pyfunction!(py_overshoot, module)?)
+    module.add_class::<PyPicture>()
 }

@@ -8,6 +8,7 @@ Log scores add. Sketches are evaluated in order: cheap ones that may forbid a sc
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -160,7 +161,7 @@ def no_self_intersection(rule: str = "solid") -> Score:
             expected='"solid" or "surface"',
             suggestion='"solid"',
         )
-    return _score("no_self_intersection", {"rule": rule}, _engine.no_self_intersection(rule))
+    return _score("no_self_intersection", {"rule": rule}, {"rule": rule})
 
 
 def match_volume(target: Target, voxel: float | None = None, sigma: float = 0.02) -> Score:
@@ -179,8 +180,8 @@ def match_volume(target: Target, voxel: float | None = None, sigma: float = 0.02
     check_positive("sigma", sigma)
     with geometry_errors(target, size):
         grid = _engine.Target(target.vertices, target.faces, size)
-        spec = _engine.match_volume(grid, sigma)
-    return _score("match_volume", {"target": target, "voxel": size, "sigma": sigma}, spec, target)
+    given = {"target": target, "voxel": size, "sigma": sigma}
+    return _score("match_volume", given, {"sigma": sigma}, grid=grid, target=target)
 
 
 def match_image(
@@ -211,9 +212,8 @@ def match_image(
     check_positive("sigma", sigma)
     with picture_errors():
         picture = _engine.Picture(seen_by.lens(), on, greys, check_not_negative("weight", weight))
-        spec = _engine.match_image(picture, sigma)
     given = {"image": on, "camera": seen_by, "weight_image": greys, "weight": weight, "sigma": sigma}
-    return _score("match_image", given, spec, views=(View("image", seen_by, on, picture),))
+    return _score("match_image", given, {"sigma": sigma}, view=View("image", seen_by, on, picture))
 
 
 def match_shadow(
@@ -254,7 +254,6 @@ def match_shadow(
             (floor.vertices, floor.faces),
             direction,
         )
-        spec = _engine.match_shadow(picture, sigma)
     given = {
         "image": on,
         "light": direction,
@@ -264,8 +263,8 @@ def match_shadow(
         "weight": weight,
         "sigma": sigma,
     }
-    views = (View("shadow", seen_by, on, picture, floor, direction),)
-    return _score("match_shadow", given, spec, views=views)
+    view = View("shadow", seen_by, on, picture, floor, direction)
+    return _score("match_shadow", given, {"sigma": sigma}, view=view)
 
 
 def avoid(obstacle: Target | Place, voxel: float | None = None) -> Score:
@@ -282,14 +281,14 @@ def avoid(obstacle: Target | Place, voxel: float | None = None) -> Score:
     solid = obstacle if isinstance(obstacle, Target) else Target.load(obstacle)
     size = check_positive("voxel", automatic_voxel(solid) if voxel is None else voxel)
     with geometry_errors(solid, size):
-        spec = _engine.avoid(_engine.Target(solid.vertices, solid.faces, size))
-    return _score("avoid", {"obstacle": solid, "voxel": size}, spec)
+        grid = _engine.Target(solid.vertices, solid.faces, size)
+    return _score("avoid", {"obstacle": solid, "voxel": size}, {}, grid=grid)
 
 
 def floor(y: float = 0.0) -> Score:
     """Forbids scenes that reach below a height; standing on it is free."""
-    height = check_finite("y", y)
-    return _score("floor", {"y": height}, _engine.floor(height))
+    given = {"y": check_finite("y", y)}
+    return _score("floor", given, given)
 
 
 def overshoot(
@@ -327,7 +326,7 @@ def overshoot(
             suggestion="such a box, for instance ((-5, 0, -5), (5, 10, 5))",
         )
     given = {"domain": (low, high), "sigma": sigma}
-    return _score("overshoot", given, _engine.overshoot(low, high, sigma))
+    return _score("overshoot", given, given)
 
 
 #: The functions that make sketches, by name.
@@ -340,12 +339,16 @@ SKETCHES: dict[str, Callable[..., Score]] = {
 def _score(
     function: str,
     given: dict[str, Any],
-    spec: _engine.SketchSpec,
+    settings: dict[str, Any],
+    *,
+    grid: _engine.Target | None = None,
     target: Target | None = None,
-    views: tuple[View, ...] = (),
+    view: View | None = None,
 ) -> Score:
-    """A score of one sketch."""
-    return Score((SketchCall(function, given, spec),), target, views)
+    """A score of one sketch, from the engine's settings of it; `target` is what the scene should fill."""
+    picture = None if view is None else view.picture
+    spec = _engine.SketchSpec(json.dumps({function: settings}), grid, picture)
+    return Score((SketchCall(function, given, spec),), target, () if view is None else (view,))
 
 
 def _wish(image: Image, weight_image: Image | None) -> tuple[NDArray[np.bool_], NDArray[np.uint8] | None]:

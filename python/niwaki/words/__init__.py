@@ -12,6 +12,24 @@ soft            `softeq`, `soft_at_least`, `soft_at_most`, `smooth_max`, `smooth
 running         the run that a call belongs to
 """
 
-import lazy_loader
+from niwaki.words import choices, colors, distributions, effects, numbers, polygons, shapes, soft, vectors
+from niwaki.words.choices import *
+from niwaki.words.colors import *
+from niwaki.words.distributions import *
+from niwaki.words.effects import *
+from niwaki.words.numbers import *
+from niwaki.words.polygons import *
+from niwaki.words.shapes import *
+from niwaki.words.soft import *
+from niwaki.words.vectors import *
 
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+__all__ = []
+__all__ += choices.__all__
+__all__ += colors.__all__
+__all__ += distributions.__all__
+__all__ += effects.__all__
+__all__ += numbers.__all__
+__all__ += polygons.__all__
+__all__ += shapes.__all__
+__all__ += soft.__all__
+__all__ += vectors.__all__

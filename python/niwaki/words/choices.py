@@ -11,6 +11,32 @@ from typing import Any, ParamSpec, TypeVar
 from niwaki.words import distributions as d
 from niwaki.words.running import runner
 
+__all__ = [
+    "beta",
+    "binomial",
+    "categorical",
+    "cauchy",
+    "choose",
+    "dirichlet",
+    "discrete_uniform",
+    "exponential",
+    "flip",
+    "gamma",
+    "gaussian",
+    "geometric",
+    "inverse_gamma",
+    "laplace",
+    "log_normal",
+    "mixture",
+    "multivariate_gaussian",
+    "poisson",
+    "sample",
+    "student_t",
+    "truncated_gaussian",
+    "uniform",
+    "von_mises",
+]
+
 P = ParamSpec("P")
 T = TypeVar("T")
 

@@ -10,6 +10,8 @@ import math
 
 from niwaki.words.vectors import Vec, VecLike, _vec
 
+__all__ = ["color_difference", "hsv", "lab", "to_hsv", "to_lab"]
+
 TO_XYZ = (
     (0.4124564, 0.3575761, 0.1804375),
     (0.2126729, 0.7151522, 0.0721750),

@@ -12,6 +12,32 @@ from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from typing import Any, ClassVar
 
+__all__ = [
+    "Bernoulli",
+    "Beta",
+    "Binomial",
+    "Categorical",
+    "Cauchy",
+    "Delta",
+    "Dirichlet",
+    "DiscreteUniform",
+    "Distribution",
+    "Exponential",
+    "Gamma",
+    "Gaussian",
+    "Geometric",
+    "InverseGamma",
+    "Laplace",
+    "LogNormal",
+    "Mixture",
+    "MultivariateGaussian",
+    "Poisson",
+    "StudentT",
+    "TruncatedGaussian",
+    "Uniform",
+    "VonMises",
+]
+
 
 @dataclass(frozen=True)
 class Distribution:

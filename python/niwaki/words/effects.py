@@ -8,6 +8,8 @@ from typing import Any, TypeVar
 from niwaki.words.distributions import Distribution
 from niwaki.words.running import runner
 
+__all__ = ["condition", "emit", "factor", "force", "future", "infer", "observe", "query"]
+
 T = TypeVar("T")
 
 

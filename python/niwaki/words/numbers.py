@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+__all__ = ["clip", "lerp", "sign"]
+
 
 def clip(x: float, lo: float, hi: float) -> float:
     """`x`, or the nearer of `lo` and `hi` when it lies outside of them."""

@@ -11,6 +11,8 @@ from collections.abc import Iterator, Sequence
 
 from niwaki.words.vectors import Vec, VecLike, _vec
 
+__all__ = ["polygon_area", "polygon_contains", "polygon_disc_area", "polygon_distance", "polygon_inset"]
+
 Polygon = Sequence[VecLike]
 Point = tuple[float, float]
 

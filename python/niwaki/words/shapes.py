@@ -14,6 +14,8 @@ import numpy as np
 from niwaki import _engine
 from niwaki.words.vectors import VecLike
 
+__all__ = ["Bark", "Frame", "box", "cylinder", "limb", "mesh", "segment"]
+
 Rotation = Sequence[Sequence[float]]
 Color = Sequence[float]
 Axis = str | VecLike

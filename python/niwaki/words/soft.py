@@ -11,6 +11,8 @@ import math
 
 from niwaki.words.running import current
 
+__all__ = ["smooth_abs", "smooth_max", "smooth_min", "soft_at_least", "soft_at_most", "softeq"]
+
 HALF_LOG_TAU = 0.918_938_533_204_672_8
 
 

@@ -10,6 +10,19 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+__all__ = [
+    "Rotation",
+    "Vec",
+    "cross",
+    "distance",
+    "dot",
+    "norm",
+    "normalize",
+    "rotate",
+    "rotation",
+    "vec",
+]
+
 
 @dataclass(frozen=True)
 class Vec:

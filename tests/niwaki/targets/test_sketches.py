@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from math import log, pi
 from pathlib import Path
@@ -11,7 +12,7 @@ import niwaki as nw
 import numpy as np
 import pytest
 from niwaki import _engine
-from niwaki.targets.sketches import Score
+from niwaki.targets.sketches import SKETCHES, Score
 from niwaki.targets.target import TargetWarning
 
 GOLDEN = Path(__file__).parents[2] / "golden"
@@ -190,3 +191,11 @@ def test_an_open_obstacle_is_warned_of(tmp_path: Path) -> None:
         nw.avoid(path)
     # A receiver may be open: no warning.
     nw.match_shadow(ON, (0, -1, 0), path)
+
+
+def test_every_sketch_of_the_engine_has_a_public_function() -> None:
+    with pytest.raises(ValueError, match="unknown variant") as raised:
+        _engine.SketchSpec('{"nothing": {}}')
+    named = set(re.findall(r"`(\w+)`", str(raised.value).split("expected one of")[1]))
+    assert named == set(SKETCHES)
+    assert named <= set(nw.__all__)

@@ -2,11 +2,21 @@
 
 from __future__ import annotations
 
+import json
 import math
 
 import numpy as np
 import pytest
 from niwaki import _engine as engine
+
+
+def match_volume(target: engine.Target, sigma: float) -> engine.SketchSpec:
+    return engine.SketchSpec(json.dumps({"match_volume": {"sigma": sigma}}), target)
+
+
+def no_self_intersection(rule: str = "solid") -> engine.SketchSpec:
+    return engine.SketchSpec(json.dumps({"no_self_intersection": {"rule": rule}}))
+
 
 CUBE = engine.Shape.box((0, 0, 0), (1, 1, 1))
 
@@ -55,9 +65,12 @@ def test_a_mesh_is_a_shape_and_a_target() -> None:
         ("bad-shape", lambda: engine.Target(CUBE.vertices() * math.inf, CUBE.faces(), 0.1)),
         ("bad-setting", lambda: engine.Target(CUBE.vertices(), CUBE.faces(), 0.0)),
         ("too-many-cells", lambda: engine.Target(CUBE.vertices(), CUBE.faces(), 1e-5)),
-        ("bad-setting", lambda: engine.match_volume(engine.Target(CUBE.vertices(), CUBE.faces(), 0.1), -1)),
-        ("bad-setting", lambda: engine.no_self_intersection("edges")),
-        ("bad-setting", lambda: engine.Sketch([engine.no_self_intersection()]).remove([CUBE])),
+        ("bad-setting", lambda: match_volume(engine.Target(CUBE.vertices(), CUBE.faces(), 0.1), -1)),
+        ("bad-setting", lambda: no_self_intersection("edges")),
+        ("bad-setting", lambda: engine.SketchSpec('{"match_volume": {"sigma": 0.1}}')),
+        ("bad-setting", lambda: engine.SketchSpec('{"match_image": {"sigma": 0.1}}')),
+        ("bad-setting", lambda: engine.SketchSpec('{"nothing": {}}')),
+        ("bad-setting", lambda: engine.Sketch([no_self_intersection()]).remove([CUBE])),
     ],
 )
 def test_bad_input_gives_an_error_with_a_code(code: str, make) -> None:
@@ -69,7 +82,7 @@ def test_bad_input_gives_an_error_with_a_code(code: str, make) -> None:
 
 def test_a_scene_is_scored_as_it_grows_and_comes_back() -> None:
     target = engine.Target(CUBE.vertices(), CUBE.faces(), 0.1)
-    sketch = engine.Sketch([engine.no_self_intersection(), engine.match_volume(target, 0.02)])
+    sketch = engine.Sketch([no_self_intersection(), match_volume(target, 0.02)])
     empty = sketch.log_score()
     expected = 2 * (-0.5 * math.log(2 * math.pi) - math.log(0.02)) - 0.5 * (target.filled / 1728 / 0.02) ** 2
     assert empty == pytest.approx(expected, abs=1e-8)

@@ -15,10 +15,12 @@ pub mod triangles;
 use crate::convex::Convex;
 use crate::primitive::Primitive;
 use crate::shape::Shape;
+use serde::Deserialize;
 use triangles::Crossing;
 
 /// What counts as an intersection.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
 pub enum Rule {
     /// Insides overlap.
     Solid,

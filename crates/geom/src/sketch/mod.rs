@@ -10,6 +10,8 @@
 //! - [`overshoot`]: stay inside of a box
 //! - [`bag`]: the primitives of a sketch
 //! - [`product`]: several sketches of one scene
+//!
+//! [`SketchForm`] names all that a scene can be scored by.
 
 pub mod avoid;
 pub mod bag;
@@ -23,9 +25,20 @@ pub mod product;
 pub mod tiles;
 pub mod volume;
 
+pub use avoid::{Avoid, avoid};
+pub use floor::{Floor, floor};
+pub use intersection::{NoSelfIntersection, no_self_intersection};
+pub use overshoot::{Overshoot, no_overshoot};
+pub use picture::{Picture, PictureMatch, TargetPicture, match_image, match_shadow};
+pub use product::Sketches;
+pub use volume::{Target, VolumeMatch, match_volume};
+
+use crate::bounds::Aabb;
 use crate::error::GeomError;
+use crate::intersect::Rule;
 use crate::primitive::Primitive;
 use crate::tree::{BoxTree, Boxed};
+use serde::Deserialize;
 use std::any::Any;
 use std::sync::Arc;
 
@@ -51,6 +64,48 @@ pub trait SketchSpec: Send + Sync {
     fn name(&self) -> &'static str;
     /// The sketch of the empty scene.
     fn start(&self) -> Box<dyn Sketch>;
+}
+
+/// A sketch as data: its name and its settings, which are those of Python's function of that name. A target and an image
+/// are given beside them.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+#[expect(missing_docs, reason = "the settings are described where people read them: in Python's functions")]
+pub enum SketchForm {
+    NoSelfIntersection { rule: Rule },
+    MatchVolume { sigma: f64 },
+    MatchImage { sigma: f64 },
+    MatchShadow { sigma: f64 },
+    Avoid {},
+    Floor { y: f64 },
+    Overshoot { domain: [[f64; 3]; 2], sigma: f64 },
+}
+
+impl SketchForm {
+    /// Its specification.
+    ///
+    /// # Errors
+    /// `bad-setting` for a setting that it cannot have, and where it needs a target or an image that is not given.
+    pub fn spec(
+        &self,
+        target: Option<Arc<Target>>,
+        picture: Option<Arc<Picture>>,
+    ) -> Result<Arc<dyn SketchSpec>, GeomError> {
+        let missing = |what| GeomError::new("bad-setting", format!("this sketch needs {what}"));
+        let target = || target.ok_or_else(|| missing("a target"));
+        let picture = || picture.ok_or_else(|| missing("an image"));
+        match *self {
+            SketchForm::NoSelfIntersection { rule } => Ok(no_self_intersection(rule)),
+            SketchForm::MatchVolume { sigma } => match_volume(target()?, sigma),
+            SketchForm::MatchImage { sigma } => match_image(picture()?, sigma),
+            SketchForm::MatchShadow { sigma } => match_shadow(picture()?, sigma),
+            SketchForm::Avoid {} => Ok(avoid(target()?)),
+            SketchForm::Floor { y } => floor(y),
+            SketchForm::Overshoot { domain: [low, high], sigma } => {
+                no_overshoot(Aabb { low: low.into(), high: high.into() }, sigma)
+            }
+        }
+    }
 }
 
 /// Copies of a sketch whose kind is not known: every sketch that can be cloned has them.

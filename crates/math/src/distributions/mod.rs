@@ -10,13 +10,13 @@
 //! | `support` | [`Support`], and listing the values of the finite discrete families |
 //! | `coordinates` | real numbers with bounds as numbers without, and small moves there: [`Interval`] |
 //! | `whole` | bernoulli, discrete_uniform, geometric |
-//! | `counts` | poisson, binomial |
+//! | `counts` | numbers of events |
 //! | `weights` | categorical, and the table of weights that mixtures share |
-//! | `bell` | gaussian, log_normal |
+//! | `bell` | gaussian, and what becomes one by a logarithm |
 //! | `truncated` | truncated_gaussian |
-//! | `waiting` | exponential, gamma, inverse_gamma |
-//! | `interval` | uniform, beta |
-//! | `tails` | laplace, cauchy, student_t |
+//! | `waiting` | waiting times |
+//! | `interval` | families over an interval |
+//! | `tails` | families with heavier tails than the bell curve's |
 //! | `circle` | von_mises |
 //! | `vectors` | dirichlet, multivariate_gaussian |
 //! | `mixture` | mixture |
