@@ -31,6 +31,7 @@ KERNELS = (
     kernels.prior(),
     kernels.cycle(kernels.drift(), kernels.neighbour(), kernels.prior()),
     kernels.mixture(kernels.regenerate(), kernels.regenerate(1), kernels.prior(), kernels.drift()),
+    kernels.cycle(kernels.regrow(3), kernels.prior()),
     kernels.cycle(
         kernels.block(share=0.5),
         kernels.prior(),

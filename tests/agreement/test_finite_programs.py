@@ -62,7 +62,7 @@ FIRST_LIMIT, LIMIT = 5.0, 7.0
 #: Populations, runs of particle Gibbs, and batches of a chain at the first look; the second has sixteen times as many.
 POPULATIONS, STARTS, BATCHES, BATCH, TIMES = 150, 60, 40, 20, 16
 
-MOVES = kernels.mixture(kernels.prior(), kernels.neighbour(), kernels.regenerate(1))
+MOVES = kernels.mixture(kernels.prior(), kernels.neighbour(), kernels.regenerate(1), kernels.regrow(3))
 RESAMPLING = ("systematic", "residual", "stratified", "multinomial")
 
 

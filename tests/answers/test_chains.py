@@ -93,6 +93,8 @@ KERNELS = {
     "block and mh": k.cycle(k.block(share=0.5), k.prior()),
     "regenerate": k.regenerate(),
     "regenerate one above": k.regenerate(1),
+    "regrow": k.regrow(3),
+    "regrow by choice": k.regrow(2, turn=1.0, pick="choice"),
     "mixture": k.mixture(k.prior(), k.regenerate(), k.neighbour(), weights=[1, 2, 1]),
     "repeat": k.repeat(2, k.cycle(k.prior(), k.neighbour())),
     "selection weight by depth": k.weighted(k.prior(), depth=lambda depth: 1 / (1 + depth) ** 2),

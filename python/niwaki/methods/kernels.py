@@ -114,6 +114,10 @@ class Kernel:
         if self.name == "mixture":
             weights = ", ".join(map(repr, own["weights"]))
             return f"mixture({weights}, {', '.join(map(repr, self.parts))})"
+        if self.name == "regrow":
+            named = own["pick"] if isinstance(own["pick"], str) else None
+            shown = f"pick={named!r}" if named else f"parts={own['pick']['parts']!r}"
+            return f"regrow({own['particles']}, turn={own['turn']}, {shown})"
         parts = [repr(one) for one in (*own.values(), *self.parts)]
         if self.function is not None:
             parts.append(getattr(self.function, "name", getattr(self.function, "__name__", "function")))
@@ -180,9 +184,10 @@ def regrow(
 ) -> Kernel:
     """A part of the run is grown again in place by particles, and everything else is held.
 
-    The part is a call with all below it, an iteration of a loop, or the iterations from one on. Particles grow it in the
-    scene that has everything else; one of them holds the present values, and one is drawn by weight (particle Gibbs of a
-    block). A particle search that lost a part early gets it back this way. Under `on` only the choices that match change.
+    The part is a call with all below it, an iteration of a loop, or the iterations from one on. Particles grow it in
+    the scene that has everything else. One of them holds the present values, and one is drawn by weight (particle Gibbs
+    of a block). A particle search that lost a part early gets it back this way. Under `on` only the choices that match
+    change.
 
     Parameters
     ----------
@@ -195,8 +200,8 @@ def regrow(
         Which part: `"size"` draws the logarithm of its size evenly, so small and large parts have their turn, and
         `"choice"` takes the call of a choice that is drawn evenly.
     parts
-        Patterns over the addresses of calls and iterations, such as `"wing[1]"`: one of those that match is grown again,
-        drawn evenly, instead of `pick`.
+        Patterns over the addresses of calls and iterations, such as `"wing[1]"`: one of those that match is grown
+        again, drawn evenly, instead of `pick`.
     """
     if not _number(turn) or not 0 <= turn <= 1:
         raise bad("turn", turn, "a share in [0, 1]", "0.5")
@@ -434,6 +439,7 @@ _WRITTEN: dict[str, Callable[..., Kernel]] = {
         neighbour,
         block,
         regenerate,
+        regrow,
         hmc_step,
         nuts_step,
         cycle,
