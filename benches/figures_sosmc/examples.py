@@ -11,14 +11,14 @@ from pathlib import Path
 
 import niwaki as nw
 from experiments import EXPERIMENTS, Experiment
-from niwaki._engine import Shape
 from niwaki.draw.scene import Scene
 from niwaki.draw.sheet import sheet
 from niwaki.gallery import entry, named_target
 from niwaki.gallery.simple_ship import MODEL as SIMPLE_SHIP
 from niwaki.targets.views import view_sheet
+from pages import beside, stacked, together
 from pictures import written
-from PIL import Image, ImageDraw, ImageFont
+from PIL import Image
 
 #: Particles and seconds of table 5.1: Core i7-3840QM of 2012, one thread. The trees of 5.4 are one row there.
 PUBLISHED = {
@@ -35,7 +35,6 @@ PUBLISHED = {
 TITLES = {"original": "with the original's settings", "ours": "with ours"}
 SEEDS = (1, 2, 3, 4)
 SIZE = (300, 300)
-GREY = (0.72, 0.72, 0.71)
 #: From where each model shows itself: azimuth and elevation, degrees; the second beside a view that the target has.
 EYES = {"spaceship": (38.0, 30.0), "building": (30.0, 26.0), "gnarly-tree": (20.0, 14.0)}
 SIDES = {
@@ -136,11 +135,6 @@ def panels(one: Experiment, sample: nw.Sample, draft: bool) -> Image.Image:
     return beside([view.convert("RGB") for view in views])
 
 
-def together(scene: Scene, target: nw.Target) -> Scene:
-    """A scene with a target, in grey, as one more part."""
-    return Scene([*scene.parts, ("target", [Shape.mesh(target.vertices, target.faces, color=GREY)])])
-
-
 def order_matters(quick: bool) -> Image.Image:
     """Figure 5.2: simple ships by the same particles, depth-first above and in a stochastic order below."""
     target = entry("simple-ship").target()
@@ -157,28 +151,3 @@ def order_matters(quick: bool) -> Image.Image:
         scenes, captions, target, columns=2 if quick else 4, size=(280, 190), samples=samples, elevation=35.0
     )
     return page.convert("RGB")
-
-
-def beside(images: list[Image.Image], gap: int = 4) -> Image.Image:
-    """Paste pictures of one height in a row."""
-    page = Image.new(
-        "RGB", (sum(i.width + gap for i in images) - gap, max(i.height for i in images)), "white"
-    )
-    x = 0
-    for image in images:
-        page.paste(image, (x, 0))
-        x += image.width + gap
-    return page
-
-
-def stacked(rows: list[tuple[str, Image.Image]]) -> Image.Image:
-    """Paste rows below each other, each with its title above it."""
-    font, strip = ImageFont.load_default(13), 22
-    width, height = max(i.width for _, i in rows), sum(i.height + strip for _, i in rows)
-    page = Image.new("RGB", (width, height), "white")
-    pen, y = ImageDraw.Draw(page), 0
-    for title, image in rows:
-        pen.text((4, y + 0.5 * strip), title, (84, 82, 78), font, anchor="lm")
-        page.paste(image, (0, y + strip))
-        y += image.height + strip
-    return page

@@ -1,0 +1,132 @@
+"""The board of searches, which judges every change of the default: many kinds of problems, each by many methods.
+
+    make bench-searches                                  # 20 seeds of each
+    QUICK=1 make bench-searches                          # 5 seeds, about ten minutes
+    PROBLEMS="ship,forked stems" METHODS=default,chain SEEDS=8 make bench-searches
+    SET=held_out make bench-searches                     # the judgement, at the end: not while a search is changed
+    AGAINST=1a2b3c make bench-searches                   # beside what an older version left (hash or commit)
+    PAIR="chain,default" make bench-searches             # two methods, problem by problem
+
+A user's search, `niwaki.grow(model, target)`, and other methods with as many CPU seconds: `searches/methods.py`. Two
+worker processes with one thread each: searches run with `threads=1`, and the libraries of matrices are limited by
+OMP_NUM_THREADS and OPENBLAS_NUM_THREADS. Each search is a line of out/searches/records.jsonl (OUT names another
+folder); what this version of the package has done before is not done again. Leaves tables.md and a picture of each problem in
+the folder, with the default's median and worst result beside the target (PICTURES=0: none).
+"""
+
+import os
+import sys
+import time
+from pathlib import Path
+
+# A pool of threads that spins for matrices would count as ours; worker processes inherit these.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+os.environ.setdefault("OMP_NUM_THREADS", "1")
+
+from collections.abc import Iterator, Sequence
+from multiprocessing import get_context
+
+from searches import sheets, table
+from searches.methods import METHODS, Method
+from searches.problems import PROBLEMS, Problem
+from searches.records import Records, commit, version
+from searches.searching import searched, sized
+from searches.seeds import FULL, QUICK, SETS
+
+WORKERS = 2
+
+
+def measure(
+    records: Records,
+    problems: Sequence[Problem],
+    methods: Sequence[Method],
+    seeds: Sequence[int],
+    workers: int = WORKERS,
+) -> int:
+    """Do what is missing, and say how many searches that were."""
+    default = METHODS[0]
+    with get_context("spawn").Pool(workers) as pool:
+        alone = [one for one in problems if records.budget(one.name, default) is None]
+        for row in pool.imap_unordered(sized, [(one.name, default.name, 0.0) for one in alone]):
+            records.add(row)
+        unsized = [
+            (one.name, how.name, records.budget(one.name, default)["pilot_cpu"])
+            for one in problems
+            for how in methods
+            if records.budget(one.name, how) is None
+        ]
+        for done, row in enumerate(pool.imap_unordered(sized, unsized)):
+            records.add(row)
+            say(f"sizes {done + 1} of {len(unsized)}")
+        jobs = list(missing(records, problems, methods, seeds))
+        for done, row in enumerate(pool.imap_unordered(searched, jobs)):
+            records.add(row)
+            say(f"searches {done + 1} of {len(jobs)}: {row['problem']}, {row['method']}")
+    return len(jobs)
+
+
+def missing(
+    records: Records, problems: Sequence[Problem], methods: Sequence[Method], seeds: Sequence[int]
+) -> Iterator[tuple[str, str, int, int]]:
+    """Searches to do: methods take turns on each seed, so that a busy machine is busy for all of them."""
+    for one in problems:
+        for seed in seeds:
+            for how in methods:
+                if not records.has(how, one.name, seed):
+                    yield one.name, how.name, records.budget(one.name, how)["size"], seed
+
+
+def say(text: str) -> None:
+    """A line that replaces itself, where somebody looks."""
+    if sys.stderr.isatty():
+        print(f"\r{text:<78}", end="", file=sys.stderr, flush=True)
+
+
+def chosen(table: Sequence, variable: str) -> list:
+    """The rows of a table that a variable of the environment names, all without one."""
+    names = [name.strip() for name in os.environ.get(variable, "").split(",") if name.strip()]
+    known = {one.name: one for one in table}
+    if unknown := [name for name in names if name not in known]:
+        raise SystemExit(f"{variable}: no {unknown[0]!r}; there are {', '.join(known)}")
+    return [known[name] for name in names] or list(table)
+
+
+def main() -> int:
+    """Measure what is missing, write the tables and the pictures."""
+    started = time.monotonic()
+    problems, methods = chosen(PROBLEMS, "PROBLEMS"), chosen(METHODS, "METHODS")
+    count = int(os.environ.get("SEEDS") or (QUICK if os.environ.get("QUICK") else FULL))
+    name = os.environ.get("SET") or "tuning"
+    seeds = SETS[name][:count]
+    folder = Path(os.environ.get("OUT") or "out/searches")
+    records = Records(folder / "records.jsonl")
+    done = measure(records, problems, methods, seeds)
+    say("")
+    rows = [row for row in records.searches() if row["seed"] in seeds]
+    names = [how.name for how in methods]
+    parts = [
+        f"Version {version()}, commit {commit()}, {name} seeds, {len(seeds)} searches of each.",
+        *table.defaults(rows),
+        "",
+        *table.methods(rows, names),
+        "",
+        *table.against(rows, [one for one in names if one != "default"], rows, "default"),
+    ]
+    if pair := [one.strip() for one in os.environ.get("PAIR", "").split(",") if one.strip()]:
+        parts += ["", *table.by_problem(rows, pair[0], rows, pair[-1])]
+    if before := os.environ.get("AGAINST"):
+        older = records.searches(before)
+        parts += ["", *table.against(rows, names, older)]
+        for one in names:
+            parts += ["", *table.by_problem(rows, one, older, one)]
+    (folder / "tables.md").write_text("\n".join(parts) + "\n")
+    print("\n".join(parts))
+    if os.environ.get("PICTURES") != "0":
+        for one in problems:
+            print(sheets.drawn(one, rows, folder))
+    print(f"{done} searches in {time.monotonic() - started:.0f} s")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

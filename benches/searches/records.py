@@ -1,0 +1,105 @@
+"""The file of records: a JSON line for each search, and for each size that a pilot found; lines are only added.
+
+A line has the version of what ran: a hash of the package, the engine and the problems, and the commit for people. A
+search with the same version, problem, method and seed is not done again.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import subprocess
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import niwaki
+from niwaki import _engine
+
+from searches.methods import Method
+
+HERE = Path(__file__).parent
+#: The files here that decide no search by themselves: a record has its method's settings.
+OTHERS = ("methods.py", "records.py", "sheets.py", "table.py")
+
+
+@cache
+def version() -> str:
+    """A hash of the package, its engine and the problems, 12 hexadecimal digits."""
+    package, hashed = Path(niwaki.__file__).parent, hashlib.sha256()
+    own = [path for path in sorted(HERE.glob("*.py")) if path.name not in OTHERS]
+    for path in [*sorted(package.rglob("*.py")), Path(_engine.__file__), *own]:
+        hashed.update(path.name.encode() + path.read_bytes())
+    return hashed.hexdigest()[:12]
+
+
+@cache
+def commit() -> str:
+    """The commit, with `-dirty` where files differ from it; empty outside of a repository."""
+    asked = ["git", "-C", str(HERE), "describe", "--always", "--dirty", "--abbrev=12"]
+    found = subprocess.run(asked, capture_output=True, text=True)
+    return found.stdout.strip()
+
+
+class Records:
+    """The lines of a file.
+
+    Parameters
+    ----------
+    path
+        Created with its folder where it is missing.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self.rows: list[dict[str, Any]] = []
+        path.parent.mkdir(parents=True, exist_ok=True)
+        text = path.read_text() if path.exists() else ""
+        # A line that was cut short by a stop is measured again.
+        whole = text[: text.rfind("\n") + 1]
+        if whole != text:
+            path.write_text(whole)
+        self.rows = [json.loads(line) for line in whole.splitlines()]
+
+    def add(self, row: dict[str, Any]) -> dict[str, Any]:
+        """Write a line of this version."""
+        kept = row | {"version": version(), "commit": commit()}
+        self.rows.append(kept)
+        with self.path.open("a") as lines:
+            lines.write(json.dumps(kept) + "\n")
+        return kept
+
+    def searches(self, of: str | None = None) -> list[dict[str, Any]]:
+        """The searches of a version: this one, or the newest whose hash or commit begins so."""
+        wanted = version()
+        if of is not None:
+            named = [row["version"] for row in self.rows if is_of(row, of)]
+            if not named:
+                raise SystemExit(f"{self.path}: no record of {of}; there are {', '.join(self.versions())}")
+            wanted = named[-1]
+        return [row for row in self.rows if row["version"] == wanted and "seed" in row]
+
+    def has(self, one: Method, problem: str, seed: int) -> bool:
+        """Whether this version has searched with these settings."""
+        return any(
+            (row["problem"], row["method"], row["seed"]) == (problem, one.name, seed)
+            and row["settings"] == one.text(row["size"])
+            for row in self.searches()
+        )
+
+    def budget(self, problem: str, one: Method) -> dict[str, Any] | None:
+        """The size that this version has found for a method on a problem, and the CPU seconds of the pilot."""
+        for row in reversed(self.rows):
+            known = (row["version"], row["problem"], row["method"]) == (version(), problem, one.name)
+            if known and "seed" not in row and row["settings"] == one.text(row["size"]):
+                return row
+        return None
+
+    def versions(self) -> list[str]:
+        """Hash and commit of each version, oldest first."""
+        return list(dict.fromkeys(f"{row['version']} ({row['commit']})" for row in self.rows))
+
+
+def is_of(row: dict[str, Any], name: str) -> bool:
+    """Whether a record's hash or commit begins so."""
+    return str(row["version"]).startswith(name) or str(row["commit"]).startswith(name)

@@ -1,0 +1,158 @@
+"""The tables of the manual, and paired differences by seed with a bootstrap interval.
+
+A search that died counts with the score of the empty scene, which is what its user has. `complete` is the share of
+searches that a person would call complete: `Problem.is_complete`.
+"""
+
+from __future__ import annotations
+
+import statistics
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from searches.problems import PROBLEMS, Problem
+
+Rows = Sequence[dict[str, Any]]
+
+#: Draws of the bootstrap, and its seed.
+DRAWS, SEED = 10_000, 1
+
+
+def score(row: dict[str, Any]) -> float:
+    """The log score of a search, nats."""
+    return float(row["empty"] if row["score"] is None else row["score"])
+
+
+def of(rows: Rows, problem: str, method: str) -> dict[int, dict[str, Any]]:
+    """The searches of a problem by a method, by seed; the newest where there are several."""
+    return {row["seed"]: row for row in rows if (row["problem"], row["method"]) == (problem, method)}
+
+
+def summary(one: Problem, found: Rows) -> dict[str, Any]:
+    """Median, worst, dead, complete and mean CPU seconds of searches of a problem."""
+    return {
+        "searches": len(found),
+        "median": statistics.median(map(score, found)),
+        "worst": min(map(score, found)),
+        "dead": sum(row["score"] is None for row in found),
+        "complete": sum(one.is_complete(row["shares"]) for row in found),
+        "cpu": statistics.fmean(row["cpu"] for row in found),
+    }
+
+
+def interval(strata: Sequence[Sequence[float]]) -> tuple[float, float, float]:
+    """Mean over the strata of the means of differences, with its bootstrap 95 % interval.
+
+    Differences are drawn again within each stratum (percentile bootstrap).
+    """
+    random = np.random.default_rng(SEED)
+    drawn = [
+        np.asarray(one)[random.integers(len(one), size=(DRAWS, len(one)))].mean(axis=1) for one in strata
+    ]
+    low, high = np.percentile(np.mean(drawn, axis=0), (2.5, 97.5))
+    return float(np.mean([np.mean(one) for one in strata])), float(low), float(high)
+
+
+def pairs(
+    ours: dict[int, dict[str, Any]], others: dict[int, dict[str, Any]]
+) -> list[tuple[dict[str, Any], dict[str, Any]]]:
+    """Searches with the same seed on both sides."""
+    return [(ours[seed], others[seed]) for seed in sorted(ours.keys() & others.keys())]
+
+
+def gains(
+    one: Problem, found: list[tuple[dict[str, Any], dict[str, Any]]]
+) -> tuple[list[float], list[float]]:
+    """Differences of pairs: log scores in nats, and complete or not (1, 0 or -1)."""
+    scores = [score(a) - score(b) for a, b in found]
+    complete = [float(one.is_complete(a["shares"])) - one.is_complete(b["shares"]) for a, b in found]
+    return scores, complete
+
+
+def defaults(rows: Rows, method: str = "default") -> list[str]:
+    """One method on each problem, in full."""
+    lines = [
+        "| problem | kind | CPU s | median | worst | empty scene | dead | complete |",
+        "| --- | --- | --- | --- | --- | --- | --- | --- |",
+    ]
+    for one in PROBLEMS:
+        found = list(of(rows, one.name, method).values())
+        if found:
+            s = summary(one, found)
+            nothing = statistics.median(row["empty"] for row in found)
+            lines.append(
+                f"| {one.name} | {one.kind}{', made' if one.is_made else ''} | {s['cpu']:.2f} | {s['median']:.1f} "
+                f"| {s['worst']:.1f} | {nothing:.0f} | {s['dead']} | {s['complete']} of {s['searches']} |"
+            )
+    return lines
+
+
+def methods(rows: Rows, names: Sequence[str]) -> list[str]:
+    """Medians of all methods, with how many of 20 are complete, and how many died."""
+    lines = ["| problem | " + " | ".join(names) + " |", "| --- " * (len(names) + 1) + "|"]
+    for one in PROBLEMS:
+        cells = []
+        for name in names:
+            found = list(of(rows, one.name, name).values())
+            if not found:
+                cells.append("")
+                continue
+            s = summary(one, found)
+            died = f", {s['dead']} dead" if s["dead"] else ""
+            cells.append(
+                f"{s['median']:.1f} / {s['worst']:.0f}, {100 * s['complete'] / s['searches']:.0f} %{died}"
+            )
+        if any(cells):
+            lines.append(f"| {one.name} | " + " | ".join(cells) + " |")
+    return lines
+
+
+def against(rows: Rows, names: Sequence[str], base_rows: Rows, base: str | None = None) -> list[str]:
+    """Each method over all problems, less `base`, or less itself in `base_rows`, by seed."""
+    lines = [
+        "| method | less | pairs | complete | gain in complete, 95 % | better on | worse on | CPU, times |",
+        "| --- | --- | --- | --- | --- | --- | --- | --- |",
+    ]
+    for name in names:
+        scores, complete, shares, better, worse, spent = [], [], [], [], [], []
+        for one in PROBLEMS:
+            found = pairs(of(rows, one.name, name), of(base_rows, one.name, base or name))
+            if not found:
+                continue
+            own = gains(one, found)
+            scores.append(own[0])
+            complete.append(own[1])
+            shares.append(statistics.fmean(one.is_complete(a["shares"]) for a, _ in found))
+            spent.append(sum(a["cpu"] for a, _ in found) / sum(b["cpu"] for _, b in found))
+            _, low, high = interval([own[0]])
+            better += [one.name] if low > 0.0 else []
+            worse += [one.name] if high < 0.0 else []
+        if not complete:
+            continue
+        mean, low, high = interval(complete)
+        lines.append(
+            f"| {name} | {base or 'before'} | {sum(map(len, scores))} | {100 * statistics.fmean(shares):.0f} % "
+            f"| {100 * mean:+.0f} % ({100 * low:+.0f} to {100 * high:+.0f}) | {len(better)} of {len(scores)} "
+            f"| {len(worse)} | {statistics.fmean(spent):.2f} |"
+        )
+    return lines
+
+
+def by_problem(rows: Rows, name: str, base_rows: Rows, base: str) -> list[str]:
+    """One method less another on each problem, by seed."""
+    lines = [
+        f"| problem | pairs | {name} less {base}: log score, 95 % | complete |",
+        "| --- | --- | --- | --- |",
+    ]
+    for one in PROBLEMS:
+        found = pairs(of(rows, one.name, name), of(base_rows, one.name, base))
+        if found:
+            scores, complete = gains(one, found)
+            mean, low, high = interval([scores])
+            lines.append(
+                f"| {one.name} | {len(found)} | {mean:+.1f} ({low:+.1f} to {high:+.1f}) "
+                f"| {sum(complete):+.0f} of {len(found)} |"
+            )
+    return lines
