@@ -9,9 +9,11 @@
 
 A user's search, `niwaki.grow(model, target)`, and other methods with as many CPU seconds: `searches/methods.py`. Two
 worker processes with one thread each: searches run with `threads=1`, and the libraries of matrices are limited by
-OMP_NUM_THREADS and OPENBLAS_NUM_THREADS. Each search is a line of out/searches/records.jsonl (OUT names another
-folder); what this version of the package has done before is not done again. Leaves tables.md and a picture of each problem in
-the folder, with the default's median and worst result beside the target (PICTURES=0: none).
+OMP_NUM_THREADS and OPENBLAS_NUM_THREADS.
+
+Each search is a line of out/searches/records.jsonl (OUT names another folder); what this version of the package has
+done before is not done again. Leaves tables.md and a picture of each problem in the folder, with the default's median
+and worst result beside the target (PICTURES=0: none).
 """
 
 import os

@@ -5,7 +5,8 @@ models     models that stand beside the gallery's
 targets    solids that are made from seeds, in named parts
 drawings   images that are made from seeds
 measures   how much of each part a scene has
-problems   the table of problems: model, target, and what is complete
+problems   the table of problems: model, target, parts
+complete   the least share of each part that makes a result complete, and why
 methods    the table of methods
 searching  one search, its CPU seconds, and how large a method must be to cost as much as another
 records    one line for each search, and which version of the code it was

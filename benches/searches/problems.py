@@ -1,8 +1,6 @@
-"""The problems: what a person asks for, and when that person would call the result complete.
+"""The problems: what a person asks for, with the parts by which completeness is judged (`complete`).
 
-A target is given (one of the package's own) or made from a seed. Searches see the whole; completeness is judged part by
-part, each with the least share of it that a result must have. These shares lie in the gap between results that have
-the part and results that lack it, where there is a gap, and each says why it is what it is.
+A target is given (one of the package's own) or made from a seed. Searches see the whole and know of no parts.
 """
 
 from __future__ import annotations
@@ -13,12 +11,13 @@ from typing import Any
 
 import niwaki as nw
 import numpy as np
+from experiments import experiment
 from niwaki.draw.scene import Scene
 from niwaki.gallery import entry, named_target
-from niwaki.targets.examples.lofts import solid
+from niwaki.targets.examples.lofts import block, solid
 from niwaki.targets.sketches import automatic_voxel
 
-from searches import measures, targets
+from searches import drawings, measures, models, targets
 from searches.measures import Points
 
 #: Whether points (n, 3) belong to a part of a given target, by the part's name.
@@ -57,10 +56,6 @@ class Problem:
     model : Model
     case : callable
         The case of a seed; given targets ignore the seed.
-    least : dict
-        The least share of a part, by the part's name or its last word; what is not named here need not be there.
-    why : str
-        Why the least shares are these.
     is_made : bool
         Whether the targets are made from seeds.
     """
@@ -69,41 +64,29 @@ class Problem:
     kind: str
     model: nw.Model[..., Any]
     case: Callable[[int], Case]
-    least: Mapping[str, float]
-    why: str
     is_made: bool = field(default=False, kw_only=True)
 
-    def is_complete(self, shares: Mapping[str, float]) -> bool:
-        """Whether the shares that a case's `measure` gives are enough; a dead search has none."""
-        asked = {name: self.least.get(name, self.least.get(name.split()[-1])) for name in shares}
-        return bool(shares) and all(
-            share >= asked[name] for name, share in shares.items() if asked[name] is not None
-        )
+
+def random_of(number: int, seed: int) -> np.random.Generator:
+    """The numbers of a seed, others for each kind."""
+    return np.random.default_rng([number, seed])
 
 
-def made(
-    make: Callable[[np.random.Generator], targets.Parts], number: int, voxel: float | None = None
-) -> Callable[[int], Case]:
-    """Cases of a kind of solid: seed k gives target k; kinds with different numbers draw different numbers."""
-
-    def case(seed: int) -> Case:
-        parts = make(np.random.default_rng([number, seed]))
-        return of_parts(make.__name__, parts)
-
-    return case
+def made(make: Callable[[np.random.Generator], targets.Parts], number: int) -> Callable[[int], Case]:
+    """Cases of a kind of solid."""
+    return lambda seed: of_parts(make.__name__, make(random_of(number, seed)))
 
 
-def of_parts(name: str, parts: targets.Parts, score: nw.Score | None = None) -> Case:
-    """A case of named meshes."""
+def of_parts(name: str, parts: targets.Parts, obstacle: nw.Target | None = None) -> Case:
+    """A case of named meshes, to fill around an obstacle."""
     target = solid(name, list(parts.values()))
     voxel = automatic_voxel(target)
-    points = {name: measures.inside(mesh, voxel) for name, mesh in parts.items()}
-    return Case(target, score, lambda scene: measures.covered(scene, points, voxel))
+    points = {part: measures.inside(mesh, voxel) for part, mesh in parts.items()}
+    score = None if obstacle is None else nw.floor() * nw.avoid(obstacle)
+    return Case(target, score, lambda scene: measures.covered(scene, points, voxel), obstacle)
 
 
-def given(
-    target_name: str, regions: Regions, score: Callable[[], nw.Score] | None = None
-) -> Callable[[int], Case]:
+def given(target_name: str, regions: Regions, avoid: str | None = None) -> Callable[[int], Case]:
     """The case of one of the package's own solids, whose parts are regions of it."""
 
     def case(seed: int) -> Case:
@@ -111,9 +94,67 @@ def given(
         voxel = automatic_voxel(target)
         everywhere = measures.cells_of(target, voxel)
         points = {name: everywhere[has(everywhere)] for name, has in regions.items()}
-        return Case(target, score and score(), lambda scene: measures.covered(scene, points, voxel))
+        obstacle = None if avoid is None else named_target(avoid)
+        score = None if obstacle is None else nw.floor() * nw.avoid(obstacle)
+        return Case(target, score, lambda scene: measures.covered(scene, points, voxel), obstacle)
 
     return case
+
+
+def sheath(seed: int) -> Case:
+    """A trunk through a tight sheath."""
+    parts, around = targets.sheathed(random_of(3, seed))
+    return of_parts("sheathed", parts, solid("sheath", [around]))
+
+
+def shelves(seed: int) -> Case:
+    """A cone with shelves across it."""
+    parts, across = targets.shelved(random_of(4, seed))
+    return of_parts("shelved", parts, solid("shelves", across))
+
+
+def of_view(score: nw.Score, parts: Mapping[str, measures.Mask]) -> Case:
+    """A case of an image."""
+    return Case(None, score, lambda scene: measures.agreeing(scene, score.views[0], parts))
+
+
+def skyline(seed: int) -> Case:
+    """A silhouette from far away, level with the ground."""
+    parts = drawings.skyline(random_of(9, seed))
+    half = 0.5 * drawings.HEIGHT
+    front = nw.Camera.orthographic((0.0, half, 60.0), (0.0, half, 0.0), height=drawings.HEIGHT)
+    return of_view(nw.match_image(np.any(list(parts.values()), axis=0), front), parts)
+
+
+def stroke(seed: int) -> Case:
+    """A curve as a shadow under a slanting sun, every pixel as important as another."""
+    parts = drawings.stroke(random_of(10, seed))
+    ground = nw.Receiver.floor(0.0, (-11.0, -11.0), (11.0, 11.0))
+    return of_view(nw.match_shadow(np.any(list(parts.values()), axis=0), (0.4, -1.0, 0.2), ground), parts)
+
+
+def face(seed: int) -> Case:
+    """The face of figure 5.7, whose profile weighs more than the rest."""
+    score = experiment("face-of-blocks").score()
+    rows = np.arange(score.views[0].image.shape[0])[:, None]
+    columns = np.ones((1, score.views[0].image.shape[1]), dtype=bool)
+    return of_view(score, {"upper half": (rows < 125) & columns, "lower half": (rows >= 125) & columns})
+
+
+def digits(seed: int) -> Case:
+    """The digits of figure 5.8."""
+    score = experiment("digits-of-pipes").score()
+    columns = np.arange(score.views[0].image.shape[1])[None, :]
+    rows = np.ones((score.views[0].image.shape[0], 1), dtype=bool)
+    return of_view(score, {"digit four": (columns < 120) & rows, "digit two": (columns > 135) & rows})
+
+
+def wall_and_tower(seed: int) -> Case:
+    """A wall with a tower at its left end."""
+    parts = {f"stone {i + 1}": block((i, 0.0, -0.5), (i + 1.0, 2.0, 0.5)) for i in range(8)} | {
+        "tower": block((-2.0, 0.0, -0.5), (0.0, 4.0, 0.5))
+    }
+    return of_parts("wall_and_tower", parts)
 
 
 def model(name: str) -> nw.Model[..., Any]:
@@ -123,24 +164,103 @@ def model(name: str) -> nw.Model[..., Any]:
     return found.model
 
 
+TREE, BUILDING = model("gnarly-tree"), model("building")
+
 PROBLEMS = (
     Problem(
         "forked stems",
         "forked volumes",
-        model("gnarly-tree"),
+        TREE,
         made(targets.forked_stem, 1),
-        {"arm": 0.5, "ball": 0.1},
-        "an arm without a branch is covered to a third at most, by the trunk at its foot, and its ball not at all; "
-        "with one, to six tenths and more",
         is_made=True,
     ),
     Problem(
         "leaning discs",
         "discs",
-        model("gnarly-tree"),
+        TREE,
         made(targets.leaning_disc, 2),
-        {"4": 0.1},
-        "a quarter with less than a tenth looks bare: one branch grazes it",
+        is_made=True,
+    ),
+    Problem(
+        "sheaths",
+        "tight shells",
+        TREE,
+        sheath,
+        is_made=True,
+    ),
+    Problem(
+        "shelves",
+        "obstacles",
+        TREE,
+        shelves,
+        is_made=True,
+    ),
+    Problem(
+        "ledges",
+        "obstacles",
+        TREE,
+        given(
+            "funnel",
+            {
+                "foot": lambda p: p[:, 1] < 8.0,
+                "front": lambda p: (p[:, 1] > 12.0) & (p[:, 0] > 0.0) & (p[:, 2] > 2.0),
+                "back": lambda p: (p[:, 1] > 12.0) & (p[:, 0] > 0.0) & (p[:, 2] < -2.0),
+            },
+            avoid="ledges",
+        ),
+    ),
+    Problem(
+        "bent tube",
+        "tall volumes",
+        TREE,
+        given(
+            "bent_tube",
+            {
+                "lower trunk": lambda p: p[:, 1] < 10.0,
+                "upper trunk": lambda p: (p[:, 1] > 10.0) & (p[:, 1] < 18.0),
+                "crown": lambda p: p[:, 1] > 18.5,
+            },
+        ),
+    ),
+    Problem(
+        "thin walls",
+        "thin walls",
+        models.walls,
+        made(targets.thin_walls, 5),
+        is_made=True,
+    ),
+    Problem(
+        "rows of towers",
+        "towers",
+        BUILDING,
+        made(targets.row_of_towers, 6),
+        is_made=True,
+    ),
+    Problem(
+        "crescent",
+        "towns",
+        BUILDING,
+        given(
+            "crescent",
+            {
+                "tower": lambda p: (np.abs(p[:, 0]) < 3.0) & (p[:, 2] < 2.0) & (p[:, 1] > 4.0),
+                "left wing": lambda p: p[:, 0] < -6.0,
+                "right wing": lambda p: p[:, 0] > 6.0,
+            },
+        ),
+    ),
+    Problem(
+        "two islands",
+        "far islands",
+        models.archipelago,
+        made(targets.two_islands, 7),
+        is_made=True,
+    ),
+    Problem(
+        "towns",
+        "towns",
+        model("downtown"),
+        made(targets.town, 8),
         is_made=True,
     ),
     Problem(
@@ -155,8 +275,58 @@ PROBLEMS = (
                 "pods": lambda p: np.abs(p[:, 0]) > 7.4,
             },
         ),
-        {"hull": 0.6, "wings": 0.4, "pods": 0.4},
-        "half of a part is there or all of it is missing",
+    ),
+    Problem(
+        "hulls",
+        "ships",
+        model("spaceship"),
+        made(targets.hull, 11),
+        is_made=True,
+    ),
+    Problem(
+        "coral fan",
+        "corals",
+        model("coral"),
+        given(
+            "fan",
+            {
+                "left third": lambda p: p[:, 0] < -2.0,
+                "middle third": lambda p: np.abs(p[:, 0]) < 2.0,
+                "right third": lambda p: p[:, 0] > 2.0,
+            },
+        ),
+    ),
+    Problem(
+        "wall and tower",
+        "decisions that block",
+        models.wall_and_tower,
+        wall_and_tower,
+    ),
+    Problem(
+        "skylines",
+        "silhouettes",
+        BUILDING,
+        skyline,
+        is_made=True,
+    ),
+    Problem(
+        "strokes",
+        "shadows",
+        model("toy-blocks"),
+        stroke,
+        is_made=True,
+    ),
+    Problem(
+        "face of blocks",
+        "shadows with weights",
+        model("toy-blocks"),
+        face,
+    ),
+    Problem(
+        "digits of pipes",
+        "shadows of nets",
+        model("pipes"),
+        digits,
     ),
 )
 

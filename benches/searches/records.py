@@ -20,7 +20,7 @@ from searches.methods import Method
 
 HERE = Path(__file__).parent
 #: The files here that decide no search by themselves: a record has its method's settings.
-OTHERS = ("methods.py", "records.py", "sheets.py", "table.py")
+OTHERS = ("complete.py", "methods.py", "records.py", "sheets.py", "table.py")
 
 
 @cache

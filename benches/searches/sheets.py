@@ -13,6 +13,7 @@ from pages import beside, stacked, together
 from PIL import Image
 
 from searches import table
+from searches.complete import is_complete
 from searches.methods import METHODS
 from searches.problems import Case, Problem
 from searches.searching import case_of, grown
@@ -29,7 +30,7 @@ def drawn(one: Problem, rows: table.Rows, folder: Path) -> Path:
         case = case_of(one.name, row["seed"])
         result = grown(one, case, METHODS[0], 0, row["seed"])
         scene = Scene([]) if result is None else result.best.scene
-        state = "complete" if one.is_complete(row["shares"]) else "not complete"
+        state = "complete" if is_complete(one.name, row["shares"]) else "not complete"
         shares = ", ".join(f"{name} {share:.2f}" for name, share in row["shares"].items())
         text = f"{one.name}, {rank}, seed {row['seed']}: {table.score(row):.1f}, {state}: {shares or 'dead'}"
         strips.append((text, strip(case, scene)))

@@ -1,7 +1,7 @@
 """The tables of the manual, and paired differences by seed with a bootstrap interval.
 
 A search that died counts with the score of the empty scene, which is what its user has. `complete` is the share of
-searches that a person would call complete: `Problem.is_complete`.
+searches that a person would call complete: `complete.is_complete`.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from searches.complete import is_complete
 from searches.problems import PROBLEMS, Problem
 
 Rows = Sequence[dict[str, Any]]
@@ -37,7 +38,7 @@ def summary(one: Problem, found: Rows) -> dict[str, Any]:
         "median": statistics.median(map(score, found)),
         "worst": min(map(score, found)),
         "dead": sum(row["score"] is None for row in found),
-        "complete": sum(one.is_complete(row["shares"]) for row in found),
+        "complete": sum(is_complete(one.name, row["shares"]) for row in found),
         "cpu": statistics.fmean(row["cpu"] for row in found),
     }
 
@@ -67,7 +68,9 @@ def gains(
 ) -> tuple[list[float], list[float]]:
     """Differences of pairs: log scores in nats, and complete or not (1, 0 or -1)."""
     scores = [score(a) - score(b) for a, b in found]
-    complete = [float(one.is_complete(a["shares"])) - one.is_complete(b["shares"]) for a, b in found]
+    complete = [
+        float(is_complete(one.name, a["shares"])) - is_complete(one.name, b["shares"]) for a, b in found
+    ]
     return scores, complete
 
 
@@ -124,7 +127,7 @@ def against(rows: Rows, names: Sequence[str], base_rows: Rows, base: str | None 
             own = gains(one, found)
             scores.append(own[0])
             complete.append(own[1])
-            shares.append(statistics.fmean(one.is_complete(a["shares"]) for a, _ in found))
+            shares.append(statistics.fmean(is_complete(one.name, a["shares"]) for a, _ in found))
             spent.append(sum(a["cpu"] for a, _ in found) / sum(b["cpu"] for _, b in found))
             _, low, high = interval([own[0]])
             better += [one.name] if low > 0.0 else []

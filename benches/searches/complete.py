@@ -1,0 +1,102 @@
+"""What a person would call complete: for each problem the least share that a result must have of each part.
+
+The key of a share is a word of the part's name; a part without such a word need not be there. Shares lie in the gap
+between results that have the part and results that lack it, as seen on the tuning seeds, where there is a gap.
+A table is made anew from the records when a number here changes: no search depends on it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+#: By problem: the shares, and why they are these.
+LEAST: dict[str, tuple[dict[str, float], str]] = {
+    "forked stems": (
+        {"arm": 0.5, "ball": 0.1},
+        "an arm without a branch is covered to a third at most, by the trunk at its foot, and its ball not at all; "
+        "with one, to six tenths and more",
+    ),
+    "leaning discs": (
+        {"disc": 0.1},
+        "a quarter with less than a tenth looks bare: one branch grazes it",
+    ),
+    "sheaths": (
+        {"trunk": 0.5, "crown": 0.1},
+        "a crown that a branch reaches through the sheath is covered by more than a tenth",
+    ),
+    "shelves": (
+        {"foot": 0.2, "quarter": 0.05},
+        "a quarter with less than a twentieth has at most the tip of a branch",
+    ),
+    "ledges": (
+        {"foot": 0.2, "front": 0.05, "back": 0.05},
+        "as for the shelves: both sides above the ledges have branches",
+    ),
+    "bent tube": (
+        {"trunk": 0.3, "crown": 0.2},
+        "a tree that ends early leaves the upper trunk to a tenth and the crown to nothing; thin trunks are trunks",
+    ),
+    "thin walls": (
+        {"wall": 0.3, "side": 0.3},
+        "a wall that leaves its place soon is covered by less than a third",
+    ),
+    "rows of towers": (
+        {"tower": 0.5},
+        "a tower that is half as high as it should be, or missing, is covered by less",
+    ),
+    "crescent": (
+        {"tower": 0.3, "wing": 0.4},
+        "a wing is covered to two thirds or not at all; the tower's region has corners that no tower fills",
+    ),
+    "two islands": (
+        {"east": 0.5, "west": 0.5},
+        "as for the rows; a search that founds one town has nothing of the other",
+    ),
+    "towns": (
+        {"block": 0.4},
+        "a block that got a green or a tower half as high is covered by less; greens are too low to count",
+    ),
+    "ship": (
+        {"hull": 0.6, "wings": 0.5, "pods": 0.2},
+        "wings that end before the pods leave them empty; one block of a wing there is a quarter of them",
+    ),
+    "hulls": (
+        {"hull": 0.6, "wing": 0.4, "pod": 0.15},
+        "as for the ship; pods are long, and one block of a wing is less of them",
+    ),
+    "coral fan": (
+        {"third": 0.1},
+        "arms are thin: a third that has several is covered by a tenth",
+    ),
+    "wall and tower": (
+        {"stone": 0.4, "tower": 0.8},
+        "stones are half as high as the target or higher; the tower is as wide as it may be, or nearly",
+    ),
+    "skylines": (
+        {"tower": 0.7, "all": 0.93},
+        "a tower that is missing has its lower half from others; at 7 % wrong pixels one storey is wrong",
+    ),
+    "strokes": (
+        {"half": 0.75, "all": 0.93},
+        "the stroke has few gaps in either half, and there are few blocks beside it",
+    ),
+    "face of blocks": (
+        {"half": 0.85, "all": 0.95},
+        "at 5 % wrong pixels the profile can be recognised",
+    ),
+    "digits of pipes": (
+        {"digit": 0.8, "all": 0.98},
+        "both digits can be read; at 2 % wrong pixels hardly a pipe lies beside them",
+    ),
+}
+
+
+def is_complete(problem: str, shares: Mapping[str, float]) -> bool:
+    """Whether the shares of a result's parts are enough; a search that died has none."""
+    least, _ = LEAST[problem]
+    return bool(shares) and all(
+        share >= asked
+        for name, share in shares.items()
+        for word, asked in least.items()
+        if word in name.split()
+    )
