@@ -25,8 +25,9 @@ from pathlib import Path
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from multiprocessing import get_context
+from typing import Any
 
 from searches import sheets, table
 from searches.methods import METHODS, Method
@@ -45,25 +46,39 @@ def measure(
     seeds: Sequence[int],
     workers: int = WORKERS,
 ) -> int:
-    """Do what is missing, and say how many searches that were."""
-    default = METHODS[0]
+    """Do what is missing, and say how many searches that were; with one worker, in this process."""
+    if workers == 1:
+        return measure_by(map, records, problems, methods, seeds)
     with get_context("spawn").Pool(workers) as pool:
-        alone = [one for one in problems if records.budget(one.name, default) is None]
-        for row in pool.imap_unordered(sized, [(one.name, default.name, 0.0) for one in alone]):
-            records.add(row)
-        unsized = [
-            (one.name, how.name, records.budget(one.name, default)["pilot_cpu"])
-            for one in problems
-            for how in methods
-            if records.budget(one.name, how) is None
-        ]
-        for done, row in enumerate(pool.imap_unordered(sized, unsized)):
-            records.add(row)
-            say(f"sizes {done + 1} of {len(unsized)}")
-        jobs = list(missing(records, problems, methods, seeds))
-        for done, row in enumerate(pool.imap_unordered(searched, jobs)):
-            records.add(row)
-            say(f"searches {done + 1} of {len(jobs)}: {row['problem']}, {row['method']}")
+        return measure_by(pool.imap_unordered, records, problems, methods, seeds)
+
+
+def measure_by(
+    each: Callable[..., Iterable[dict[str, Any]]],
+    records: Records,
+    problems: Sequence[Problem],
+    methods: Sequence[Method],
+    seeds: Sequence[int],
+) -> int:
+    """The same with a function that maps: first what the default costs, then sizes, then the searches."""
+    default = METHODS[0]
+
+    def budget(one: Problem) -> float:
+        return records.size(one.name, default)["pilot_cpu"]
+
+    def unsized(methods: Sequence[Method]) -> list[tuple[Problem, Method]]:
+        return [(one, how) for one in problems for how in methods if records.size(one.name, how) is None]
+
+    for row in each(sized, [(one.name, how.name, 0.0) for one, how in unsized([default])]):
+        records.add(row)
+    sizes = [(one.name, how.name, budget(one)) for one, how in unsized(methods)]
+    for done, row in enumerate(each(sized, sizes)):
+        records.add(row)
+        say(f"sizes {done + 1} of {len(sizes)}")
+    jobs = list(missing(records, problems, methods, seeds))
+    for done, row in enumerate(each(searched, jobs)):
+        records.add(row)
+        say(f"searches {done + 1} of {len(jobs)}: {row['problem']}, {row['method']}")
     return len(jobs)
 
 
@@ -75,7 +90,7 @@ def missing(
         for seed in seeds:
             for how in methods:
                 if not records.has(how, one.name, seed):
-                    yield one.name, how.name, records.budget(one.name, how)["size"], seed
+                    yield one.name, how.name, records.size(one.name, how)["size"], seed
 
 
 def say(text: str) -> None:

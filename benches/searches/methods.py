@@ -47,10 +47,10 @@ METHODS = (
     Method("resampling below 0.5", lambda n: {"particles": n, "ess": 0.5}, 300),
     Method("annealed by 0.5", lambda n: {"particles": n, "anneal": 0.5}, 100),
     Method("four populations", lambda n: {"particles": n, "populations": 4}, 75),
-    Method("100, then a chain", lambda n: {"particles": 100, "polish": mh(n, kernel=MOVES, keep=0)}, 3000),
+    Method("population and chain", lambda n: {"particles": 100, "polish": mh(n, kernel=MOVES, keep=0)}, 3000),
     Method("chain", lambda n: {"method": mh(n, kernel=MOVES, keep=0)}, 3000),
     Method(
-        "particle Gibbs, 50",
+        "particle Gibbs",
         lambda n: {"method": particle_gibbs(50, n, power=16.0)},
         4,
     ),

@@ -87,7 +87,7 @@ class Records:
             for row in self.searches()
         )
 
-    def budget(self, problem: str, one: Method) -> dict[str, Any] | None:
+    def size(self, problem: str, one: Method) -> dict[str, Any] | None:
         """The size that this version has found for a method on a problem, and the CPU seconds of the pilot."""
         for row in reversed(self.rows):
             known = (row["version"], row["problem"], row["method"]) == (version(), problem, one.name)
