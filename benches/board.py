@@ -4,6 +4,7 @@
     QUICK=1 make bench-searches                          # 5 seeds, about ten minutes
     PROBLEMS="ship,forked stems" METHODS=default,chain SEEDS=8 make bench-searches
     SET=held_out make bench-searches                     # the judgement, at the end: not while a search is changed
+    TIMES=4 make bench-searches                          # four times the CPU seconds; the default takes what it takes
     AGAINST=1a2b3c make bench-searches                   # beside what an older version left (hash or commit)
     PAIR="chain,default" make bench-searches             # two methods, problem by problem
 
@@ -44,13 +45,17 @@ def measure(
     problems: Sequence[Problem],
     methods: Sequence[Method],
     seeds: Sequence[int],
+    times: float = 1.0,
     workers: int = WORKERS,
 ) -> int:
-    """Do what is missing, and say how many searches that were; with one worker, in this process."""
+    """Do what is missing, with so many times the CPU seconds of the default; return how many searches that were.
+
+    One worker is this process.
+    """
     if workers == 1:
-        return measure_by(map, records, problems, methods, seeds)
+        return measure_by(map, records, problems, methods, seeds, times)
     with get_context("spawn").Pool(workers) as pool:
-        return measure_by(pool.imap_unordered, records, problems, methods, seeds)
+        return measure_by(pool.imap_unordered, records, problems, methods, seeds, times)
 
 
 def measure_by(
@@ -59,38 +64,43 @@ def measure_by(
     problems: Sequence[Problem],
     methods: Sequence[Method],
     seeds: Sequence[int],
+    times: float,
 ) -> int:
     """The same with a function that maps: first what the default costs, then sizes, then the searches."""
-    default = METHODS[0]
-
-    def budget(one: Problem) -> float:
-        return records.size(one.name, default)["pilot_cpu"]
-
-    def unsized(methods: Sequence[Method]) -> list[tuple[Problem, Method]]:
-        return [(one, how) for one in problems for how in methods if records.size(one.name, how) is None]
-
-    for row in each(sized, [(one.name, how.name, 0.0) for one, how in unsized([default])]):
-        records.add(row)
-    sizes = [(one.name, how.name, budget(one)) for one, how in unsized(methods)]
+    default, others = METHODS[0], [how for how in methods if how.size]
+    alone = [one for one in problems if others and records.size(one.name, default) is None]
+    for row in each(sized, [(one.name, default.name, 0.0) for one in alone]):
+        records.add(row | {"times": 1.0})
+    sizes = [
+        (one.name, how.name, times * records.size(one.name, default)["pilot_cpu"])
+        for one in problems
+        for how in others
+        if records.size(one.name, how, times) is None
+    ]
     for done, row in enumerate(each(sized, sizes)):
-        records.add(row)
+        records.add(row | {"times": times})
         say(f"sizes {done + 1} of {len(sizes)}")
-    jobs = list(missing(records, problems, methods, seeds))
+    jobs = list(missing(records, problems, methods, seeds, times))
     for done, row in enumerate(each(searched, jobs)):
-        records.add(row)
+        records.add(row | {"times": times})
         say(f"searches {done + 1} of {len(jobs)}: {row['problem']}, {row['method']}")
     return len(jobs)
 
 
 def missing(
-    records: Records, problems: Sequence[Problem], methods: Sequence[Method], seeds: Sequence[int]
+    records: Records,
+    problems: Sequence[Problem],
+    methods: Sequence[Method],
+    seeds: Sequence[int],
+    times: float,
 ) -> Iterator[tuple[str, str, int, int]]:
     """Searches to do: methods take turns on each seed, so that a busy machine is busy for all of them."""
     for one in problems:
         for seed in seeds:
             for how in methods:
-                if not records.has(how, one.name, seed):
-                    yield one.name, how.name, records.size(one.name, how)["size"], seed
+                if not records.has(how, one.name, seed, times):
+                    size = records.size(one.name, how, times)["size"] if how.size else 0
+                    yield one.name, how.name, size, seed
 
 
 def say(text: str) -> None:
@@ -117,12 +127,14 @@ def main() -> int:
     seeds = SETS[name][:count]
     folder = Path(os.environ.get("OUT") or "out/searches")
     records = Records(folder / "records.jsonl")
-    done = measure(records, problems, methods, seeds)
+    times = float(os.environ.get("TIMES") or 1.0)
+    done = measure(records, problems, methods, seeds, times)
     say("")
-    rows = [row for row in records.searches() if row["seed"] in seeds]
+    rows = [row for row in records.searches(times=times) if row["seed"] in seeds]
     names = [how.name for how in methods]
     parts = [
-        f"Version {version()}, commit {commit()}, {name} seeds, {len(seeds)} searches of each.",
+        f"Version {version()}, commit {commit()}, {name} seeds, {len(seeds)} searches of each, "
+        f"{times:g} times the default's CPU.",
         *table.defaults(rows),
         "",
         *table.methods(rows, names),
@@ -132,7 +144,7 @@ def main() -> int:
     if pair := [one.strip() for one in os.environ.get("PAIR", "").split(",") if one.strip()]:
         parts += ["", *table.by_problem(rows, pair[0], rows, pair[-1])]
     if before := os.environ.get("AGAINST"):
-        older = records.searches(before)
+        older = records.searches(before, times)
         parts += ["", *table.against(rows, names, older)]
         for one in names:
             parts += ["", *table.by_problem(rows, one, older, one)]

@@ -69,29 +69,38 @@ class Records:
             lines.write(json.dumps(kept) + "\n")
         return kept
 
-    def searches(self, of: str | None = None) -> list[dict[str, Any]]:
-        """The searches of a version: this one, or the newest whose hash or commit begins so."""
+    def searches(self, of: str | None = None, times: float = 1.0) -> list[dict[str, Any]]:
+        """The searches of a version, with so many times the default's CPU seconds.
+
+        Of this version, or the newest whose hash or commit begins with `of`.
+        """
         wanted = version()
         if of is not None:
             named = [row["version"] for row in self.rows if is_of(row, of)]
             if not named:
                 raise SystemExit(f"{self.path}: no record of {of}; there are {', '.join(self.versions())}")
             wanted = named[-1]
-        return [row for row in self.rows if row["version"] == wanted and "seed" in row]
+        return [
+            row for row in self.rows if (row["version"], row["times"]) == (wanted, times) and "seed" in row
+        ]
 
-    def has(self, one: Method, problem: str, seed: int) -> bool:
-        """Whether this version has searched with these settings."""
+    def has(self, one: Method, problem: str, seed: int, times: float = 1.0) -> bool:
+        """Whether this version has searched with these settings and CPU seconds."""
         return any(
             (row["problem"], row["method"], row["seed"]) == (problem, one.name, seed)
             and row["settings"] == one.text(row["size"])
-            for row in self.searches()
+            for row in self.searches(times=times)
         )
 
-    def size(self, problem: str, one: Method) -> dict[str, Any] | None:
+    def size(self, problem: str, one: Method, times: float = 1.0) -> dict[str, Any] | None:
         """The size that this version has found for a method on a problem, and the CPU seconds of the pilot."""
         for row in reversed(self.rows):
-            known = (row["version"], row["problem"], row["method"]) == (version(), problem, one.name)
-            if known and "seed" not in row and row["settings"] == one.text(row["size"]):
+            known = (row["version"], row["problem"], row["method"], row["times"])
+            if (
+                known == (version(), problem, one.name, times)
+                and "seed" not in row
+                and row["settings"] == one.text(row["size"])
+            ):
                 return row
         return None
 

@@ -63,6 +63,8 @@ def test_a_second_run_does_what_is_missing(records: Records, tmp_path: Path) -> 
     again.path.write_text(text[:-20])
     assert measured(Records(again.path)) == 1
     assert measured(Records(again.path), seeds=SETS["tuning"][:3]) == 4
+    # Nor are those of more CPU seconds; a default has no size, so it needs no pilot.
+    assert board.measure(Records(again.path), SMALL, TWO[:1], SEEDS, times=4.0, workers=1) == 4
     # Records of other settings, or of another version, are not those of this method.
     other = Method("four populations", lambda n: {"particles": n, "populations": 4, "ess": 0.5}, 75)
     assert not Records(again.path).has(other, "ship", SEEDS[0])
