@@ -2,6 +2,7 @@
 
     make bench-searches                                  # 20 seeds of each
     QUICK=1 make bench-searches                          # 5 seeds, about ten minutes
+    SEEDS=40 METHODS=default make bench-searches         # up to 40
     PROBLEMS="ship,forked stems" METHODS=default,chain SEEDS=8 make bench-searches
     SET=held_out make bench-searches                     # the judgement, at the end: not while a search is changed
     TIMES=4 make bench-searches                          # four times the CPU seconds; the default takes what it takes
@@ -35,7 +36,7 @@ from searches.methods import METHODS, Method
 from searches.problems import PROBLEMS, Problem
 from searches.records import Records, commit, version
 from searches.searching import searched, sized
-from searches.seeds import FULL, QUICK, SETS
+from searches.seeds import FULL, MOST, QUICK, SETS
 
 WORKERS = 2
 
@@ -124,6 +125,8 @@ def main() -> int:
     problems, methods = chosen(PROBLEMS, "PROBLEMS"), chosen(METHODS, "METHODS")
     count = int(os.environ.get("SEEDS") or (QUICK if os.environ.get("QUICK") else FULL))
     name = os.environ.get("SET") or "tuning"
+    if name not in SETS or not 0 < count <= MOST:
+        raise SystemExit(f"SET is one of {', '.join(SETS)}, SEEDS between 1 and {MOST}")
     seeds = SETS[name][:count]
     folder = Path(os.environ.get("OUT") or "out/searches")
     records = Records(folder / "records.jsonl")

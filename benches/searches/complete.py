@@ -56,6 +56,7 @@ LEAST: dict[str, tuple[dict[str, float], str]] = {
         {"block": 0.4},
         "a block that got a green or a tower half as high is covered by less; greens are too low to count",
     ),
+    "downtown": ({"block": 0.4}, "as for the towns; the park need not be there"),
     "ship": (
         {"hull": 0.6, "wings": 0.5, "pods": 0.2},
         "wings that end before the pods leave them empty; one block of a wing there is a quarter of them",
@@ -63,6 +64,14 @@ LEAST: dict[str, tuple[dict[str, float], str]] = {
     "hulls": (
         {"hull": 0.6, "wing": 0.4, "pod": 0.15},
         "as for the ship; pods are long, and one block of a wing is less of them",
+    ),
+    "dart": (
+        {"tail": 0.5, "nose": 0.5, "wings": 0.3},
+        "wings are thin and swept: the blocks of a good result cover half of them",
+    ),
+    "garden tree": (
+        {"cloud": 0.3, "crown": 0.3},
+        "a cloud is covered to a half or, but for its limb, not at all",
     ),
     "coral fan": (
         {"third": 0.1},

@@ -101,6 +101,16 @@ def given(target_name: str, regions: Regions, avoid: str | None = None) -> Calla
     return case
 
 
+def beside(x: float, z: float, half: float) -> Callable[[Points], Any]:
+    """The region within `half` of (x, z) along both axes."""
+    return lambda p: (np.abs(p[:, 0] - x) < half) & (np.abs(p[:, 2] - z) < half)
+
+
+def around(x: float, y: float, z: float, radius: float) -> Callable[[Points], Any]:
+    """The region within `radius` of a point."""
+    return lambda p: np.linalg.norm(p - (x, y, z), axis=1) < radius
+
+
 def sheath(seed: int) -> Case:
     """A trunk through a tight sheath."""
     parts, around = targets.sheathed(random_of(3, seed))
@@ -264,6 +274,20 @@ PROBLEMS = (
         is_made=True,
     ),
     Problem(
+        "downtown",
+        "towns",
+        model("downtown"),
+        given(
+            "downtown",
+            {
+                f"block {x} {z}": beside(9.3 * x, 9.3 * z, 4.2)
+                for x in (-1, 0, 1)
+                for z in (-1, 0, 1)
+                if (x, z) != (1, -1)
+            },
+        ),
+    ),
+    Problem(
         "ship",
         "ships",
         model("spaceship"),
@@ -282,6 +306,34 @@ PROBLEMS = (
         model("spaceship"),
         made(targets.hull, 11),
         is_made=True,
+    ),
+    Problem(
+        "dart",
+        "ships",
+        model("simple-ship"),
+        given(
+            "dart",
+            {
+                "tail": lambda p: (np.abs(p[:, 0]) < 0.9) & (p[:, 2] < 0.0),
+                "nose": lambda p: (np.abs(p[:, 0]) < 0.9) & (p[:, 2] > 1.0),
+                "wings": lambda p: np.abs(p[:, 0]) > 2.0,
+            },
+        ),
+    ),
+    Problem(
+        "garden tree",
+        "clouds on limbs",
+        model("niwaki-tree"),
+        given(
+            "niwaki",
+            {
+                "cloud one": around(6.7, 8.0, 1.4, 2.6),
+                "cloud two": around(-3.9, 10.2, 1.8, 2.5),
+                "cloud three": around(5.0, 13.5, -1.4, 2.2),
+                "cloud four": around(-5.2, 15.2, -1.4, 2.0),
+                "crown": around(-0.9, 18.2, -0.4, 2.6),
+            },
+        ),
     ),
     Problem(
         "coral fan",

@@ -17,6 +17,8 @@ from searches.problems import PROBLEMS, Problem
 
 Rows = Sequence[dict[str, Any]]
 
+#: A search whose score is so many nats below the median counts as lost.
+BEHIND = 15.0
 #: Draws of the bootstrap, and its seed.
 DRAWS, SEED = 10_000, 1
 
@@ -32,10 +34,12 @@ def of(rows: Rows, problem: str, method: str) -> dict[int, dict[str, Any]]:
 
 
 def summary(one: Problem, found: Rows) -> dict[str, Any]:
-    """Median, worst, dead, complete and mean CPU seconds of searches of a problem."""
+    """Median, worst, those far behind, dead, complete and mean CPU seconds of searches of a problem."""
+    median = statistics.median(map(score, found))
     return {
         "searches": len(found),
-        "median": statistics.median(map(score, found)),
+        "median": median,
+        "behind": sum(score(row) < median - BEHIND for row in found),
         "worst": min(map(score, found)),
         "dead": sum(row["score"] is None for row in found),
         "complete": sum(is_complete(one.name, row["shares"]) for row in found),
@@ -77,23 +81,24 @@ def gains(
 def defaults(rows: Rows, method: str = "default") -> list[str]:
     """One method on each problem, in full."""
     lines = [
-        "| problem | kind | CPU s | median | worst | empty scene | dead | complete |",
-        "| --- | --- | --- | --- | --- | --- | --- | --- |",
+        "| problem | kind | CPU s | median | worst | 15 behind | empty scene | dead | complete |",
+        "| --- | --- | --- | --- | --- | --- | --- | --- | --- |",
     ]
     for one in PROBLEMS:
         found = list(of(rows, one.name, method).values())
         if found:
             s = summary(one, found)
             nothing = statistics.median(row["empty"] for row in found)
+            complete = f"{s['complete']} of {s['searches']}"
             lines.append(
                 f"| {one.name} | {one.kind}{', made' if one.is_made else ''} | {s['cpu']:.2f} | {s['median']:.1f} "
-                f"| {s['worst']:.1f} | {nothing:.0f} | {s['dead']} | {s['complete']} of {s['searches']} |"
+                f"| {s['worst']:.1f} | {s['behind']} | {nothing:.0f} | {s['dead']} | {complete} |"
             )
     return lines
 
 
 def methods(rows: Rows, names: Sequence[str]) -> list[str]:
-    """Medians of all methods, with how many of 20 are complete, and how many died."""
+    """Medians of all methods, with the share that is complete, and how many died."""
     lines = ["| problem | " + " | ".join(names) + " |", "| --- " * (len(names) + 1) + "|"]
     for one in PROBLEMS:
         cells = []
@@ -115,32 +120,42 @@ def methods(rows: Rows, names: Sequence[str]) -> list[str]:
 def against(rows: Rows, names: Sequence[str], base_rows: Rows, base: str | None = None) -> list[str]:
     """Each method over all problems, less `base`, or less itself in `base_rows`, by seed."""
     lines = [
-        "| method | less | pairs | complete | gain in complete, 95 % | better on | worse on | CPU, times |",
-        "| --- | --- | --- | --- | --- | --- | --- | --- |",
+        "| method | less | pairs | complete | gain in complete | on made targets | better on | worse on | CPU, times |",
+        "| --- | --- | --- | --- | --- | --- | --- | --- | --- |",
     ]
     for name in names:
-        scores, complete, shares, better, worse, spent = [], [], [], [], [], []
-        for one in PROBLEMS:
-            found = pairs(of(rows, one.name, name), of(base_rows, one.name, base or name))
-            if not found:
-                continue
-            own = gains(one, found)
-            scores.append(own[0])
-            complete.append(own[1])
-            shares.append(statistics.fmean(is_complete(one.name, a["shares"]) for a, _ in found))
-            spent.append(sum(a["cpu"] for a, _ in found) / sum(b["cpu"] for _, b in found))
-            _, low, high = interval([own[0]])
-            better += [one.name] if low > 0.0 else []
-            worse += [one.name] if high < 0.0 else []
-        if not complete:
+        found = {
+            one: both
+            for one in PROBLEMS
+            if (both := pairs(of(rows, one.name, name), of(base_rows, one.name, base or name)))
+        }
+        if not found:
             continue
-        mean, low, high = interval(complete)
+        gained = {one: gains(one, both) for one, both in found.items()}
+        ends = [interval([scores])[1:] for scores, _ in gained.values()]
+        better, worse = sum(low > 0.0 for low, _ in ends), sum(high < 0.0 for _, high in ends)
+        share = statistics.fmean(
+            statistics.fmean(is_complete(one.name, a["shares"]) for a, _ in both)
+            for one, both in found.items()
+        )
+        spent = statistics.fmean(
+            sum(a["cpu"] for a, _ in both) / sum(b["cpu"] for _, b in both) for both in found.values()
+        )
+        all_of_them = percent([complete for _, complete in gained.values()])
+        of_made = percent([complete for one, (_, complete) in gained.items() if one.is_made])
         lines.append(
-            f"| {name} | {base or 'before'} | {sum(map(len, scores))} | {100 * statistics.fmean(shares):.0f} % "
-            f"| {100 * mean:+.0f} % ({100 * low:+.0f} to {100 * high:+.0f}) | {len(better)} of {len(scores)} "
-            f"| {len(worse)} | {statistics.fmean(spent):.2f} |"
+            f"| {name} | {base or 'before'} | {sum(map(len, found.values()))} | {100 * share:.0f} % | {all_of_them} "
+            f"| {of_made} | {better} of {len(found)} | {worse} | {spent:.2f} |"
         )
     return lines
+
+
+def percent(strata: Sequence[Sequence[float]]) -> str:
+    """A mean difference of shares with its interval, in percent; empty without any."""
+    if not strata:
+        return ""
+    mean, low, high = (100 * share for share in interval(strata))
+    return f"{mean:+.0f} % ({low:+.0f} to {high:+.0f})"
 
 
 def by_problem(rows: Rows, name: str, base_rows: Rows, base: str) -> list[str]:
