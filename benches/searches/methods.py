@@ -1,7 +1,7 @@
 """The methods: each is one line, the settings of `niwaki.grow` for a size that makes it cost as much as another.
 
 `default` has no size: it is what a user gets. Every other method is given the CPU seconds of the default, on the
-problem at hand, by its size: a number of particles, or of proposals.
+problem at hand, by its size: a number of particles, of proposals or of sweeps.
 """
 
 from __future__ import annotations

@@ -30,7 +30,7 @@ def drawn(one: Problem, rows: table.Rows, folder: Path) -> Path:
         case = case_of(one.name, row["seed"])
         result = grown(one, case, METHODS[0], 0, row["seed"])
         scene = Scene([]) if result is None else result.best.scene
-        state = "complete" if is_complete(one.name, row["shares"]) else "not complete"
+        state = "complete" if is_complete(row) else "not complete"
         shares = ", ".join(f"{name} {share:.2f}" for name, share in row["shares"].items())
         text = f"{one.name}, {rank}, seed {row['seed']}: {table.score(row):.1f}, {state}: {shares or 'dead'}"
         strips.append((text, strip(case, scene)))

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from searches.complete import is_complete
-from searches.problems import PROBLEMS, Problem
+from searches.problems import PROBLEMS
 
 Rows = Sequence[dict[str, Any]]
 
@@ -33,7 +33,7 @@ def of(rows: Rows, problem: str, method: str) -> dict[int, dict[str, Any]]:
     return {row["seed"]: row for row in rows if (row["problem"], row["method"]) == (problem, method)}
 
 
-def summary(one: Problem, found: Rows) -> dict[str, Any]:
+def summary(found: Rows) -> dict[str, Any]:
     """Median, worst, those far behind, dead, complete and mean CPU seconds of searches of a problem."""
     median = statistics.median(map(score, found))
     return {
@@ -42,7 +42,7 @@ def summary(one: Problem, found: Rows) -> dict[str, Any]:
         "behind": sum(score(row) < median - BEHIND for row in found),
         "worst": min(map(score, found)),
         "dead": sum(row["score"] is None for row in found),
-        "complete": sum(is_complete(one.name, row["shares"]) for row in found),
+        "complete": sum(is_complete(row) for row in found),
         "cpu": statistics.fmean(row["cpu"] for row in found),
     }
 
@@ -67,14 +67,10 @@ def pairs(
     return [(ours[seed], others[seed]) for seed in sorted(ours.keys() & others.keys())]
 
 
-def gains(
-    one: Problem, found: list[tuple[dict[str, Any], dict[str, Any]]]
-) -> tuple[list[float], list[float]]:
+def gains(found: list[tuple[dict[str, Any], dict[str, Any]]]) -> tuple[list[float], list[float]]:
     """Differences of pairs: log scores in nats, and complete or not (1, 0 or -1)."""
     scores = [score(a) - score(b) for a, b in found]
-    complete = [
-        float(is_complete(one.name, a["shares"])) - is_complete(one.name, b["shares"]) for a, b in found
-    ]
+    complete = [float(is_complete(a)) - is_complete(b) for a, b in found]
     return scores, complete
 
 
@@ -87,7 +83,7 @@ def defaults(rows: Rows, method: str = "default") -> list[str]:
     for one in PROBLEMS:
         found = list(of(rows, one.name, method).values())
         if found:
-            s = summary(one, found)
+            s = summary(found)
             nothing = statistics.median(row["empty"] for row in found)
             complete = f"{s['complete']} of {s['searches']}"
             lines.append(
@@ -107,7 +103,7 @@ def methods(rows: Rows, names: Sequence[str]) -> list[str]:
             if not found:
                 cells.append("")
                 continue
-            s = summary(one, found)
+            s = summary(found)
             died = f", {s['dead']} dead" if s["dead"] else ""
             cells.append(
                 f"{s['median']:.1f} / {s['worst']:.0f}, {100 * s['complete'] / s['searches']:.0f} %{died}"
@@ -131,13 +127,10 @@ def against(rows: Rows, names: Sequence[str], base_rows: Rows, base: str | None 
         }
         if not found:
             continue
-        gained = {one: gains(one, both) for one, both in found.items()}
+        gained = {one: gains(both) for one, both in found.items()}
         ends = [interval([scores])[1:] for scores, _ in gained.values()]
         better, worse = sum(low > 0.0 for low, _ in ends), sum(high < 0.0 for _, high in ends)
-        share = statistics.fmean(
-            statistics.fmean(is_complete(one.name, a["shares"]) for a, _ in both)
-            for one, both in found.items()
-        )
+        share = statistics.fmean(statistics.fmean(is_complete(a) for a, _ in both) for both in found.values())
         spent = statistics.fmean(
             sum(a["cpu"] for a, _ in both) / sum(b["cpu"] for _, b in both) for both in found.values()
         )
@@ -167,7 +160,7 @@ def by_problem(rows: Rows, name: str, base_rows: Rows, base: str) -> list[str]:
     for one in PROBLEMS:
         found = pairs(of(rows, one.name, name), of(base_rows, one.name, base))
         if found:
-            scores, complete = gains(one, found)
+            scores, complete = gains(found)
             mean, low, high = interval([scores])
             lines.append(
                 f"| {one.name} | {len(found)} | {mean:+.1f} ({low:+.1f} to {high:+.1f}) "

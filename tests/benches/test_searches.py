@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 from niwaki.draw.scene import Scene
 from searches import table
-from searches.complete import LEAST, is_complete
+from searches.complete import LEAST, has_enough, is_complete
 from searches.methods import METHODS, Method, method
 from searches.problems import PROBLEMS, Problem, problem
 from searches.records import Records, version
@@ -91,16 +91,17 @@ def test_a_forked_stem_is_complete_with_both_arms_only() -> None:
     parts = forked_stem(np.random.default_rng([1, SEEDS[0]]))
     case = case_of("forked stems", SEEDS[0])
     whole = case.measure(shape_of(parts))
-    assert is_complete("forked stems", whole)
+    assert has_enough("forked stems", whole)
     # Cells at the skin of the scene's grid and of the target's are not the same: at most an eighth of these parts.
     assert min(whole.values()) > 0.87
     for missing in ("one arm", "other arm", "one ball", "other ball"):
         shares = case.measure(shape_of(parts, missing))
-        assert not is_complete("forked stems", shares), missing
+        assert not has_enough("forked stems", shares), missing
         assert shares[missing] < 0.5 * whole[missing]
     assert case.measure(Scene([])) == dict.fromkeys(parts, 0.0)
-    assert not is_complete("forked stems", case.measure(Scene([])))
-    assert not is_complete("forked stems", {})
+    assert not has_enough("forked stems", case.measure(Scene([])))
+    row = {"problem": "forked stems", "shares": whole, "empty": -30.0}
+    assert [is_complete(row | {"score": score}) for score in (-20.0, -40.0, None)] == [True, False, False]
 
 
 def test_a_skyline_lacks_the_tower_that_is_not_built() -> None:
@@ -115,9 +116,9 @@ def test_a_skyline_lacks_the_tower_that_is_not_built() -> None:
             x = unit * (column + 0.5 - columns / 2)
             towers.append((x, nw._engine.Shape.box((x, high / 2, 0.0), (unit, high, unit))))
     whole = case.measure(Scene([("all", [shape for _, shape in towers])]))
-    assert is_complete("skylines", whole)
+    assert has_enough("skylines", whole)
     left = case.measure(Scene([("left", [shape for x, shape in towers if x < 0.0])]))
-    assert not is_complete("skylines", left)
+    assert not has_enough("skylines", left)
 
 
 @pytest.mark.parametrize("one", PROBLEMS, ids=lambda one: one.name)
@@ -127,7 +128,7 @@ def test_every_problem_has_a_target_and_parts_that_count(one: Problem) -> None:
     shares = case.measure(Scene([]))
     assert why
     assert all(any(word in name.split() for name in shares) for word in least)
-    assert not is_complete(one.name, shares)
+    assert not has_enough(one.name, shares)
     assert (case.target is None) == bool(case.score is not None and case.score.views)
 
 
@@ -153,7 +154,7 @@ def test_paired_differences_follow_the_seeds() -> None:
     rows = [row(k, "default", -10.0 + k, 1.0) for k in range(10)]
     rows += [row(k, "chain", -12.0 + k, 0.0) for k in range(9)] + [row(9, "chain", None, 0.0)]
     found = table.pairs(table.of(rows, "ship", "default"), table.of(rows, "ship", "chain"))
-    scores, complete = table.gains(problem("ship"), found)
+    scores, complete = table.gains(found)
     assert scores == [2.0] * 9 + [29.0]
     assert complete == [1.0] * 10
     mean, low, high = table.interval([scores])
@@ -161,7 +162,7 @@ def test_paired_differences_follow_the_seeds() -> None:
     # The one large difference is drawn 0 to 3 times (0.3 to 98 % of the draws), each worth 2.7.
     assert (low, high) == pytest.approx((2.0, 10.1))
     assert table.interval([[1.0] * 5, [0.0] * 5]) == (0.5, 0.5, 0.5)
-    s = table.summary(problem("ship"), [one for one in rows if one["method"] == "chain"])
+    s = table.summary([one for one in rows if one["method"] == "chain"])
     assert (s["median"], s["worst"], s["dead"], s["complete"]) == (-8.5, -30.0, 1, 0)
 
 
