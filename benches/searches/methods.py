@@ -12,9 +12,17 @@ from typing import Any
 
 from niwaki import kernels, mh, particle_gibbs
 
-#: What chains of this bench propose: one choice, from the prior or a small step; seldom all from some call on.
-MOVES = kernels.mixture(
-    kernels.prior(), kernels.drift(0.3), kernels.drift(0.05), kernels.regenerate(), weights=[4, 4, 2, 1]
+#: The power of the default's population.
+POWER = 16.0
+#: What chains of this bench propose: one choice, from the prior or a small step; seldom all from some call on. They are
+#: as sharp as the default's population.
+MOVES = kernels.anneal(
+    kernels.mixture(
+        kernels.prior(), kernels.drift(0.3), kernels.drift(0.05), kernels.regenerate(), weights=[4, 4, 2, 1]
+    ),
+    1,
+    POWER,
+    POWER,
 )
 
 
@@ -51,7 +59,7 @@ METHODS = (
     Method("chain", lambda n: {"method": mh(n, kernel=MOVES, keep=0)}, 3000),
     Method(
         "particle Gibbs",
-        lambda n: {"method": particle_gibbs(50, n, power=16.0)},
+        lambda n: {"method": particle_gibbs(50, n, power=POWER)},
         4,
     ),
 )

@@ -7,13 +7,13 @@ search with the same version, problem, method and seed is not done again.
 from __future__ import annotations
 
 import hashlib
-import json
 import subprocess
 from functools import cache
 from pathlib import Path
 from typing import Any
 
 import niwaki
+from lines import Lines
 from niwaki import _engine
 
 from searches.methods import Method
@@ -41,33 +41,12 @@ def commit() -> str:
     return found.stdout.strip()
 
 
-class Records:
-    """The lines of a file.
+class Records(Lines):
+    """The lines of a bench, with the version that each is of."""
 
-    Parameters
-    ----------
-    path
-        Created with its folder where it is missing.
-    """
-
-    def __init__(self, path: Path) -> None:
-        self.path = path
-        self.rows: list[dict[str, Any]] = []
-        path.parent.mkdir(parents=True, exist_ok=True)
-        text = path.read_text() if path.exists() else ""
-        # A line that was cut short by a stop is measured again.
-        whole = text[: text.rfind("\n") + 1]
-        if whole != text:
-            path.write_text(whole)
-        self.rows = [json.loads(line) for line in whole.splitlines()]
-
-    def add(self, row: dict[str, Any]) -> dict[str, Any]:
+    def add(self, row: dict[str, Any]) -> None:
         """Write a line of this version."""
-        kept = row | {"version": version(), "commit": commit()}
-        self.rows.append(kept)
-        with self.path.open("a") as lines:
-            lines.write(json.dumps(kept) + "\n")
-        return kept
+        super().add(row | {"version": version(), "commit": commit()})
 
     def searches(self, of: str | None = None, times: float = 1.0) -> list[dict[str, Any]]:
         """The searches of a version, with so many times the default's CPU seconds.

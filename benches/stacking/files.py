@@ -10,12 +10,12 @@ judged again.
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from lines import Lines
 
 
 @dataclass(frozen=True)
@@ -64,27 +64,11 @@ def chains(folder: Path, kind: str, sampler: str) -> list[Drawn]:
     return found
 
 
-class Verdicts:
+class Verdicts(Lines):
     """Lines of judged draws."""
 
     def __init__(self, folder: Path, kind: str, sampler: str) -> None:
-        self.path = folder / f"{kind}-{sampler}.jsonl"
-        self.rows: list[dict[str, Any]] = []
-        if self.path.exists():
-            text = self.path.read_text()
-            # A line that was cut short by a stop is judged again.
-            whole = text[: text.rfind("\n") + 1]
-            if whole != text:
-                self.path.write_text(whole)
-            self.rows = [json.loads(line) for line in whole.splitlines()]
-
-    def __iter__(self) -> Iterator[dict[str, Any]]:
-        return iter(self.rows)
+        super().__init__(folder / f"{kind}-{sampler}.jsonl")
 
     def has(self, chain: int, draw: int) -> bool:
         return any(row["chain"] == chain and row["draw"] == draw for row in self.rows)
-
-    def add(self, row: dict[str, Any]) -> None:
-        self.rows.append(row)
-        with self.path.open("a") as lines:
-            lines.write(json.dumps(row) + "\n")
