@@ -25,8 +25,9 @@ from searches.seeds import PILOT
 DEAD = ("everything-impossible", "no-start")
 #: A size whose cost is within this factor of the budget is scaled once more, not measured once more.
 NEAR = 1.5
-#: A size is scaled by so much at most: a method whose pilot searches died cost next to nothing.
-STEP = 30.0
+#: Most by which a size is made larger and smaller at once. Searches that died cost next to nothing, so that their sizes
+#: grow until one lives, which may cost a thousand times as much.
+LARGER, SMALLER = 3.0, 30.0
 
 Job = tuple[str, str, int, int]
 
@@ -111,4 +112,4 @@ def sized(job: tuple[str, str, float]) -> dict[str, Any]:
 
 def scaled(size: int, ratio: float) -> int:
     """A size times a ratio."""
-    return max(2, round(size * min(STEP, max(1.0 / STEP, ratio))))
+    return max(2, round(size * min(LARGER, max(1.0 / SMALLER, ratio))))
