@@ -72,8 +72,8 @@ LEAST: dict[str, tuple[dict[str, float], str]] = {
         "wings are thin and swept: the blocks of a good result cover half of them",
     ),
     "garden tree": (
-        {"cloud": 0.3, "crown": 0.3},
-        "a cloud is covered to a half or, but for its limb, not at all",
+        {"cloud": 0.2, "crown": 0.2},
+        "a cloud that is small, or beside its place, is a cloud and covers a fifth; one that is missing nothing",
     ),
     "coral fan": (
         {"third": 0.05},
