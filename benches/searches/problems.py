@@ -58,6 +58,8 @@ class Problem:
         The case of a seed; given targets ignore the seed.
     is_made : bool
         Whether the targets are made from seeds.
+    is_costly : bool
+        Whether a search that lives takes half a minute: the quick form leaves it out, unless it is named.
     """
 
     name: str
@@ -65,6 +67,7 @@ class Problem:
     model: nw.Model[..., Any]
     case: Callable[[int], Case]
     is_made: bool = field(default=False, kw_only=True)
+    is_costly: bool = field(default=False, kw_only=True)
 
 
 def random_of(number: int, seed: int) -> np.random.Generator:
@@ -218,6 +221,7 @@ PROBLEMS = (
             },
             avoid="ledges",
         ),
+        is_costly=True,
     ),
     Problem(
         "bent tube",
