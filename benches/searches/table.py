@@ -114,7 +114,11 @@ def methods(rows: Rows, names: Sequence[str]) -> list[str]:
 
 
 def against(rows: Rows, names: Sequence[str], base_rows: Rows, base: str | None = None) -> list[str]:
-    """Each method over all problems, less `base`, or less itself in `base_rows`, by seed."""
+    """Each method over all problems, less `base`, or less itself in `base_rows`, by seed.
+
+    Better and worse are problems where the interval of the difference of log scores excludes zero; of the ratios of CPU
+    seconds, one for each problem, the median is given.
+    """
     lines = [
         "| method | less | pairs | complete | gain in complete | on made targets | better on | worse on | CPU, times |",
         "| --- | --- | --- | --- | --- | --- | --- | --- | --- |",
@@ -131,7 +135,7 @@ def against(rows: Rows, names: Sequence[str], base_rows: Rows, base: str | None 
         ends = [interval([scores])[1:] for scores, _ in gained.values()]
         better, worse = sum(low > 0.0 for low, _ in ends), sum(high < 0.0 for _, high in ends)
         share = statistics.fmean(statistics.fmean(is_complete(a) for a, _ in both) for both in found.values())
-        spent = statistics.fmean(
+        spent = statistics.median(
             sum(a["cpu"] for a, _ in both) / sum(b["cpu"] for _, b in both) for both in found.values()
         )
         all_of_them = percent([complete for _, complete in gained.values()])
