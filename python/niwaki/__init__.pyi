@@ -20,6 +20,7 @@ from .methods import explore as explore
 from .methods import forward as forward
 from .methods import hmc as hmc
 from .methods import importance as importance
+from .methods import improve as improve
 from .methods import kernels as kernels
 from .methods import mh as mh
 from .methods import nuts as nuts

@@ -11,6 +11,7 @@
 //! * [`nested`]: inference inside a model;
 //! * [`particles`]: sequential Monte Carlo, in program order and in stochastic order;
 //! * [`chain`]: Metropolis-Hastings over kept runs, kernels as values;
+//! * [`improve`]: a search for the best, by all of these;
 //! * [`gradient`]: a task as a log density over its continuous choices, and chains that follow its slope;
 //! * [`hamiltonian`]: such chains over any log density of real coordinates.
 //!
@@ -24,6 +25,7 @@ pub mod forward;
 pub mod gradient;
 pub mod hamiltonian;
 pub mod importance;
+pub mod improve;
 pub mod log;
 pub mod method;
 pub mod nested;

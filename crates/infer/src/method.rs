@@ -10,6 +10,7 @@ use crate::forward::forward;
 use crate::hamiltonian::chains::Length;
 use crate::hamiltonian::{self, Shape};
 use crate::importance::importance;
+use crate::improve::{Improve, Improved};
 use crate::log::Entry;
 use crate::particles::{
     self, Ancestors, FinalChains, Moment, Progress, Rejuvenation, Resampling, Settings, particle_gibbs, pimh,
@@ -40,6 +41,7 @@ pub enum Method {
     Smc(Smc),
     ParticleGibbs(ParticleGibbs),
     Pimh(Pimh),
+    Improve(Improve),
     Mh(Mh),
     Hmc(Hmc),
     Nuts(Nuts),
@@ -202,6 +204,8 @@ pub enum Info {
     Populations(particles::Result),
     /// Of a chain of whole runs; its states are the runs.
     Chain(particles::Chain),
+    /// Of a search for the best.
+    Improved(Improved),
 }
 
 /// A callback that gets the progress of a search (done, ended, best log score) and returns whether to go on.
@@ -288,6 +292,10 @@ impl Method {
                 let settings = own.settings(given)?;
                 Ok(of_chain(pimh(task, &settings, own.sweeps, &mut progress)?))
             }
+            Method::Improve(own) => {
+                let (best, result) = own.search(task, seed, &mut progress)?;
+                Ok(bare(vec![best], result.interrupted, Info::Improved(result)))
+            }
             Method::Mh(_) | Method::Hmc(_) | Method::Nuts(_) => {
                 Err(bad("a method whose chains go on is started, not searched".into()).into())
             }
@@ -330,6 +338,7 @@ impl Method {
             Method::Mh(own) if own.thin.is_some() => refused("thin", "the samples of a chain are not kept"),
             Method::Mh(own) if own.keep.is_some() => refused("keep", "the samples of a chain are not kept"),
             Method::Hmc(_) => refused("hmc", "chains cannot start along a gradient"),
+            Method::Improve(_) => refused("improve", "a search for the best is no sample"),
             Method::Nuts(_) => refused("nuts", "chains cannot start along a gradient"),
             Method::Importance { proposal, .. } => proposed(proposal.as_ref(), &Given::default()).map(|_| ()),
             Method::Smc(own) => own.settings(&Given::default()).map(|_| ()),

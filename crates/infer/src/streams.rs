@@ -35,6 +35,8 @@ pub(crate) enum Reserved {
     RunAcceptance = u64::MAX - 11,
     /// Which of the weighted runs of an inference inside a model is returned.
     Pick = u64::MAX - 12,
+    /// A search for the best: which kind of step is next (the address is the round), and the seed of a further population.
+    Improve = u64::MAX - 13,
 }
 
 impl Reserved {

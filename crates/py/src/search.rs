@@ -314,6 +314,11 @@ impl PyTask {
                 dict.set_item("moved_running", pair(result.moved.running))?;
                 dict.set_item("moved_ended", pair(result.moved.ended))?;
             }
+            Info::Improved(result) => {
+                let rounds = result.rounds.iter().map(|round| (round.kind.name(), round.work, round.best));
+                dict.set_item("rounds", PyTuple::new(py, rounds)?)?;
+                dict.set_item("died", result.died)?;
+            }
             Info::Chain(result) => {
                 dict.set_item("tries", result.tries)?;
                 dict.set_item("moves", result.moves)?;

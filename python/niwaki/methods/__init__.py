@@ -4,6 +4,7 @@ direct      forward runs, enumeration, rejection, likelihood weighting
 particles   sequential Monte Carlo, and chains whose proposals are populations
 chains      Metropolis-Hastings
 gradients   Hamiltonian Monte Carlo
+improve     a search for the best run, by several of these
 kernels     Markov kernels, for chains
 method      the base class: a method as data
 checks      checks of settings
@@ -22,6 +23,7 @@ from niwaki.methods.direct import (
     rejection,
 )
 from niwaki.methods.gradients import METRICS, Hmc, Nuts, explore, hmc, nuts
+from niwaki.methods.improve import Improve, improve
 from niwaki.methods.method import Method
 from niwaki.methods.particles import (
     ORDERS,
@@ -45,6 +47,7 @@ __all__ = [
     "Forward",
     "Hmc",
     "Importance",
+    "Improve",
     "Method",
     "Mh",
     "Nuts",
@@ -58,6 +61,7 @@ __all__ = [
     "forward",
     "hmc",
     "importance",
+    "improve",
     "mh",
     "nuts",
     "particle_gibbs",

@@ -118,6 +118,34 @@ class SweepInfo(Info):
     died: int = 0
 
 
+class Round(NamedTuple):
+    """A round of `improve`: its kind of step, its work (particle-steps, proposals, shapes), the best log score after it."""
+
+    kind: str
+    work: int
+    best: float
+
+
+@dataclass(frozen=True)
+class ImproveInfo(Info):
+    """Of `improve`.
+
+    Attributes
+    ----------
+    rounds : tuple of Round
+        The first population that had a possible run, and then each round.
+    died : int
+        Populations before it in which every particle became impossible.
+    """
+
+    rounds: tuple[Round, ...] = ()
+    died: int = 0
+
+    def __post_init__(self) -> None:
+        """Name the rounds of the engine."""
+        object.__setattr__(self, "rounds", tuple(Round(*one) for one in self.rounds))
+
+
 #: The class of each method, by its name.
 INFOS: dict[str, type[Info]] = {
     "enumerate_all": EnumerationInfo,
@@ -125,4 +153,5 @@ INFOS: dict[str, type[Info]] = {
     "smc": PopulationInfo,
     "particle_gibbs": SweepInfo,
     "pimh": SweepInfo,
+    "improve": ImproveInfo,
 }

@@ -124,6 +124,8 @@ pub struct Chain<R: Rules = MetropolisHastings> {
     spreads: Vec<f64>,
     /// The number of proposals so far.
     visit: u64,
+    /// Particle-steps of parts that were grown again.
+    grown: u64,
     /// The decisions of the next proposal.
     ahead: Ahead,
     /// The last decision.
@@ -200,6 +202,7 @@ impl<R: Rules> Chain<R> {
             tables,
             ahead: Ahead::of(&streams, 0),
             visit: 0,
+            grown: 0,
             last: Decision::default(),
             undoing: false,
             barriers: None,
@@ -211,6 +214,12 @@ impl<R: Rules> Chain<R> {
     /// primitives, factors and observations together.
     pub(crate) fn restrict(&mut self, beta: f64, barriers: Option<usize>) {
         (self.beta, self.barriers) = (beta, barriers);
+    }
+
+    /// What it has done: proposals, particle-steps of parts that were grown again, and shapes that its state's proposals placed
+    /// or removed.
+    pub(crate) fn work(&self) -> u64 {
+        self.visit + self.grown + self.state.moved
     }
 
     /// How many proposals it has made.

@@ -136,6 +136,26 @@ pub(super) struct Round<'a> {
     pub number: u64,
 }
 
+/// The spreads of the sites' distributions in a few runs from the prior, by the sites' keys.
+///
+/// # Errors
+/// A fault of the program.
+pub(crate) fn spreads(task: &Task, seed: u64) -> Result<HashMap<u128, f64>, Failure> {
+    let mut spreads = HashMap::new();
+    for run in 0..FIRST_RUNS {
+        let key = Reserved::Spread.key(seed, run);
+        let mut answers = Fresh { spreads: Some(&mut spreads), ..Fresh::plain(key, &*task.hosts) };
+        let mut machine = task.machine();
+        // Of an invalid run, the sites up to its fault.
+        if let Err(met) = task.begin(&mut machine, &mut answers)
+            && met.fault.out_of_range.is_none()
+        {
+            return Err(met.into());
+        }
+    }
+    Ok(spreads)
+}
+
 impl Mover {
     pub fn of(task: &Task, settings: &Settings) -> Result<Option<Mover>, Failure> {
         let Some(rejuvenation) = &settings.rejuvenate else { return Ok(None) };
@@ -144,18 +164,7 @@ impl Mover {
         let mut plan = Plan::new(&rejuvenation.kernel)?;
         plan.leaves.iter_mut().try_for_each(|leaf| leaf.prepare(task))?;
         let choosy = (0..plan.leaves.len()).filter(|n| !plan.leaves[*n].selection.is_all()).collect();
-        let mut spreads = HashMap::new();
-        for run in 0..FIRST_RUNS {
-            let key = Reserved::Spread.key(settings.seed, run);
-            let mut answers = Fresh { spreads: Some(&mut spreads), ..Fresh::plain(key, &*task.hosts) };
-            let mut machine = task.machine();
-            // Of an invalid run, the sites up to its fault.
-            if let Err(met) = task.begin(&mut machine, &mut answers)
-                && met.fault.out_of_range.is_none()
-            {
-                return Err(met.into());
-            }
-        }
+        let spreads = spreads(task, settings.seed)?;
         Ok(Some(Mover { plan, spreads, numbers, choosy, rounds: 0 }))
     }
 

@@ -158,11 +158,12 @@ fn kernels(task: &Task) -> Vec<(&'static str, Kernel)> {
     ]
 }
 
-/// How exact draws of a program are told apart: by its value, where it returns one, else by the number and the sum of its
-/// choices.
+/// How draws of a program are told apart: by its value, where it returns one and there is no scene, else by the number and
+/// the sum of its choices.
 fn outcome(task: &Task, run: &Run) -> String {
-    if !matches!(run.value, Held::None) && task.sketches.is_empty() {
-        return repr(&run.value).expect("a value");
+    let value = repr(&run.value).expect("a value");
+    if value != "()" && task.sketches.is_empty() {
+        return value;
     }
     let number = |value: &Held| match value {
         Held::Bool(b) => f64::from(u8::from(*b)),
@@ -219,6 +220,7 @@ fn furthest(task: &Task, kernel: &Kernel, starts: u64, moves: u64, seed: u64) ->
         let end = outcome(task, &chain.now(&task.program));
         *shares.entry(end).or_default() += 1.0 / starts as f64;
     });
+    assert!(exact.len() > 2, "outcomes that are told apart");
     let (mut largest, mut rare): (f64, (f64, f64)) = (0.0, (0.0, 0.0));
     let z = |share: f64, p: f64| (share - p).abs() / (wider * p * (1.0 - p) / starts as f64).sqrt().max(1e-9);
     for (value, &p) in &exact {

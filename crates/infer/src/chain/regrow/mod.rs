@@ -138,11 +138,13 @@ impl ChainMove for Regrow {
         let turned = if is_turned { block.turned(machine, &mut rng)? } else { None };
         let mut set = block.conditional(machine, turned.as_ref(), seed(0))?;
         let held_result = set.grown[0].result();
+        chain.grown += set.steps;
         let weighing = Weighing { task, own, picked: &picked, block: &block, numbers: &numbers };
         chain.weigh_last(machine, &weighing, &mut set, None)?;
         let mut log_ratio = 0.0;
         if let Some(turned) = &turned {
             let mut other = block.free(machine, turned, seed(1))?;
+            chain.grown += other.steps;
             chain.weigh_last(machine, &weighing, &mut other, Some((&set.grown[0], held_result)))?;
             log_ratio = other.log_mean - set.log_mean;
             if accepts(log_ratio, &mut rng) {

@@ -71,6 +71,8 @@ pub(super) struct Set {
     pub weights: Normalised,
     /// Log of the estimate of the normalising constant, nats.
     pub log_mean: f64,
+    /// How often a particle ran to a barrier or to its end.
+    pub steps: u64,
 }
 
 /// Gives the choices of a part their values.
@@ -239,7 +241,9 @@ impl Block<'_> {
         let mut grown: Vec<Grown> = (0..self.particles as u64).map(one).collect();
         let (mut weights, mut log_mean, mut lineages, mut step) =
             (Normalised::default(), 0.0, self.particles as u64, 0);
+        let mut steps = 0;
         while grown.iter().any(|one| one.particle.is_running()) {
+            steps += grown.iter().filter(|one| one.particle.is_running()).count() as u64;
             for (index, one) in grown.iter_mut().enumerate() {
                 let held = held.filter(|_| index == 0);
                 self.advance(machine, one, turned, held, seed)?;
@@ -248,7 +252,7 @@ impl Block<'_> {
                 self.weigh(&mut one.particle);
             }
             if !weights.read(grown.iter().map(|one| one.particle.log_weight)) {
-                return Ok(Set { grown, weights, log_mean: f64::NEG_INFINITY });
+                return Ok(Set { grown, weights, log_mean: f64::NEG_INFINITY, steps });
             }
             let is_low = weights.effective < LOW * self.particles as f64;
             if is_low && grown.iter().any(|one| one.particle.is_running()) {
@@ -266,7 +270,7 @@ impl Block<'_> {
             }
             step += 1;
         }
-        Ok(Set { grown, weights, log_mean })
+        Ok(Set { grown, weights, log_mean, steps })
     }
 
     /// Runs a particle to its next barrier, or to its end.

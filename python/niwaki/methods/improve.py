@@ -1,0 +1,55 @@
+"""A search for the best run, by populations, parts that are grown again, and single choices that move."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from niwaki.errors.settings import bad, is_number, is_whole
+from niwaki.methods.checks import at_least_one
+from niwaki.methods.method import Method
+
+
+@dataclass(frozen=True)
+class Improve(Method):
+    """Search for one good run, with the effort where it gains: a search, which gives no evidence and no weights.
+
+    It begins with a population. Rounds follow, each with a fifth of that population's work: parts of the run are grown
+    again (`kernels.regrow`) by few or by many particles, single choices move, or another population starts. What gained
+    lately gets more of the rounds. It ends after `rounds`, after `seconds`, or when nothing has been gained for long.
+
+    Parameters
+    ----------
+    particles
+        Of a population. Where all particles of six populations die, with more and more particles, the search fails.
+    regrow
+        Particles that grow a part again, or five times as many; at least 2.
+    power
+        The power of the score: 1 follows the posterior, more sharpens the search.
+    rounds
+        Most rounds. Work is counted and not timed, so the same seed and number of rounds give the same bits.
+    seconds
+        Most seconds; `info.rounds` of the result says how many rounds there were. None for no limit.
+    """
+
+    NAME = "improve"
+    particles: int = 100
+    regrow: int = 20
+    power: float = 16.0
+    rounds: int = 10
+    seconds: float | None = None
+
+    def __post_init__(self) -> None:
+        """Check the settings."""
+        at_least_one("particles", self.particles)
+        if not is_whole(self.regrow) or self.regrow < 2:
+            raise bad("regrow", self.regrow, "a whole number of particles from 2 on", "20")
+        if not is_number(self.power) or not 0 < self.power < float("inf"):
+            raise bad("power", self.power, "a number above 0", "16")
+        at_least_one("rounds", self.rounds)
+        if self.seconds is not None and (not is_number(self.seconds) or not 0 < self.seconds < float("inf")):
+            raise bad("seconds", self.seconds, "a number of seconds above 0", "10")
+        self._set("power", float(self.power))
+        self._set("seconds", None if self.seconds is None else float(self.seconds))
+
+
+improve = Improve
