@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from niwaki import kernels, mh, particle_gibbs
+from niwaki import improve, kernels, mh, particle_gibbs
 
 #: The power of the default's population.
 POWER = 16.0
@@ -57,6 +57,7 @@ METHODS = (
     Method("four populations", lambda n: {"particles": n, "populations": 4}, 75),
     Method("population and chain", lambda n: {"particles": 100, "polish": mh(n, kernel=MOVES, keep=0)}, 3000),
     Method("chain", lambda n: {"method": mh(n, kernel=MOVES, keep=0)}, 3000),
+    Method("improve", lambda n: {"method": improve(rounds=n)}, 10),
     Method(
         "particle Gibbs",
         lambda n: {"method": particle_gibbs(50, n, power=POWER)},

@@ -236,16 +236,17 @@ impl Search<'_> {
         let Some(state) = self.state.take() else { return Ok(slice) };
         let mut chain: Chain = Chain::at(self.task, &settings, number, plan, state, &self.spreads)?;
         chain.restrict(self.own.power, None);
+        let before = chain.work();
         if !chain.state.trace.is_empty() {
             let steps = if kind == Kind::Move { 32 } else { 1 };
-            while chain.work() < slice {
+            while chain.work() < before + slice {
                 chain.advance(self.task, steps, &mut |_, _| true)?;
             }
         }
         if chain.best.score() > self.best.log_score {
             self.best = chain.best.get(&chain.state, self.task)?;
         }
-        let work = chain.work();
+        let work = chain.work() - before;
         self.state = Some(chain.state);
         Ok(work)
     }

@@ -28,7 +28,7 @@ def grown(seed: int = 4, **settings):
     """A ship, with few particles."""
     ship = entry("spaceship")
     assert ship is not None
-    own = {"particles": 30, "regrow": 6, "rounds": 8}
+    own = {"particles": 30, "regrow": 6, "rounds": 12}
     method = nw.improve(**own | {k: v for k, v in settings.items() if k in ("rounds", "seconds", "power")})
     rest = {k: v for k, v in settings.items() if k in ("threads", "progress")}
     return nw.grow(ship.model, ship.target(), voxel=0.5, seed=seed, method=method, **rest)
@@ -37,7 +37,7 @@ def grown(seed: int = 4, **settings):
 def test_the_best_never_falls_and_is_the_result() -> None:
     result = grown()
     rounds = result.info.rounds
-    assert [rounds[0].kind, len(rounds), len(result)] == ["population", 9, 1]
+    assert [rounds[0].kind, len(rounds), len(result)] == ["population", 13, 1]
     bests = [one.best for one in rounds]
     assert bests == sorted(bests)
     assert bests[-1] > bests[0] + 1.0

@@ -155,7 +155,7 @@ impl Block<'_> {
         /// Collects the choices with other values while the present run is followed.
         struct Turnable<'a> {
             block: &'a Block<'a>,
-            met: Vec<(u128, Value, Vec<(Value, f64)>)>,
+            met: Vec<(u128, Value, turn::Others)>,
         }
         impl Chooser for Turnable<'_> {
             fn choose(

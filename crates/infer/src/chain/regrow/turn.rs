@@ -12,9 +12,11 @@ use niwaki_vm::value::{Value, same};
 /// A longer list of values counts as whole numbers.
 const SHORT: i64 = 64;
 
-/// The other values of a choice, each with the log probability of turning to it, nats; none where there are no others, or
-/// the choice is continuous.
-pub(super) fn others(dist: &Dist, value: &Value) -> Result<Vec<(Value, f64)>, Fault> {
+/// Values, each with the log probability of turning to it, nats.
+pub(super) type Others = Vec<(Value, f64)>;
+
+/// The other values of a choice; none where there are no others, or the choice is continuous.
+pub(super) fn others(dist: &Dist, value: &Value) -> Result<Others, Fault> {
     let (listed, candidates): (bool, Vec<Value>) = match (dist.support().in_bounds(), value) {
         (_, Value::Bool(b)) => (true, vec![Value::Bool(!b)]),
         (Support::Integers { lo, hi: Some(hi) }, Value::Int(_)) if hi.saturating_sub(lo) < SHORT => {
@@ -39,7 +41,7 @@ pub(super) fn others(dist: &Dist, value: &Value) -> Result<Vec<(Value, f64)>, Fa
 }
 
 /// Draws one of them.
-pub(super) fn draw(mut others: Vec<(Value, f64)>, rng: &mut Stream) -> Option<Value> {
+pub(super) fn draw(mut others: Others, rng: &mut Stream) -> Option<Value> {
     let mut left = rng.uniform();
     let last = others.pop()?;
     let at = others.iter().position(|(_, log)| {
