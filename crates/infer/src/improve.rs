@@ -16,7 +16,7 @@ use crate::chain::state::State;
 use crate::chain::streams::below;
 use crate::chain::{Chain, Settings as ChainSettings};
 use crate::particles::rejuvenation::spreads;
-use crate::particles::{self, Progress, smc};
+use crate::particles::{self, Outcome, Progress, smc};
 use crate::replay::by_address;
 use crate::run::Run;
 use crate::streams::Reserved;
@@ -129,8 +129,8 @@ impl Improve {
         Ok(())
     }
 
-    /// Searches for the best run. `watch` is called after each round with the number of rounds and the best log score; when it returns false, the
-    /// search ends with its best so far.
+    /// Searches for the best run. `watch` is called with the number of rounds and the best log score; when it returns false, the search ends
+    /// with its best so far.
     ///
     /// # Errors
     /// Settings that make no sense, a fault of the program, or first populations that all died.
@@ -162,6 +162,11 @@ impl Improve {
         let mut rounds = vec![];
         let mut interrupted = first.interrupted;
         let work = first.steps;
+        if interrupted {
+            let best = most(first, |_| true).map(Run::from).ok_or_else(Failure::no_start)?;
+            rounds.push(Round { kind: Kind::Population, work, best: best.log_score });
+            return Ok((best, Improved { rounds, died, interrupted }));
+        }
         let (best, state) = best_of(task, first)?;
         rounds.push(Round { kind: Kind::Population, work, best: best.log_score });
         let spreads = spreads(task, seed)?;
@@ -172,15 +177,17 @@ impl Improve {
         while number < self.rounds && idle < PATIENCE.max(number / 2) && !interrupted && !is_late() {
             let which = pick(&gains, &mut Reserved::Improve.stream(seed, u128::from(number), 0));
             let before = search.best.log_score;
-            let work = search.round(Kind::ALL[which], number, slice)?;
+            let mut go_on = |best: f64| {
+                interrupted |= !watch(Progress { barriers: number as usize, ended: 1, best });
+                !interrupted
+            };
+            let work = search.round(Kind::ALL[which], number, slice, &mut go_on)?;
             number += 1;
             let gain = (search.best.log_score - before).max(0.0);
             idle = if gain < LEAST_GAIN { idle + 1 } else { 0 };
             let rate = gain * slice as f64 / work.max(1) as f64;
             gains[which] = Some(gains[which].map_or(rate, |old| FORGOTTEN * old + (1.0 - FORGOTTEN) * rate));
             rounds.push(Round { kind: Kind::ALL[which], work, best: search.best.log_score });
-            let progress = Progress { barriers: number as usize, ended: 1, best: search.best.log_score };
-            interrupted = !watch(progress);
         }
         Ok((search.best, Improved { rounds, died, interrupted }))
     }
@@ -213,12 +220,21 @@ impl Improve {
 }
 
 impl Search<'_> {
-    /// One round of about so much work; returns what it cost.
-    fn round(&mut self, kind: Kind, number: u64, slice: u64) -> Result<u64, Failure> {
+    /// One round of about so much work; returns what it cost. `go_on` is called with the best log score, and ends the round where
+    /// it returns false.
+    fn round(
+        &mut self,
+        kind: Kind,
+        number: u64,
+        slice: u64,
+        go_on: &mut dyn FnMut(f64) -> bool,
+    ) -> Result<u64, Failure> {
+        let so_far = self.best.log_score;
         if kind == Kind::Population {
             let settings = self.own.population(self.seed, self.populations, self.own.particles);
             self.populations += 1;
-            return match smc(self.task, &settings, &mut |_| true) {
+            return match smc(self.task, &settings, &mut |_| go_on(so_far)) {
+                Ok(result) if result.interrupted => Ok(result.steps),
                 Ok(result) => {
                     let work = result.steps;
                     let (best, state) = best_of(self.task, result)?;
@@ -239,7 +255,7 @@ impl Search<'_> {
         let before = chain.work();
         if !chain.state.trace.is_empty() {
             let steps = if kind == Kind::Move { 32 } else { 1 };
-            while chain.work() < before + slice {
+            while chain.work() < before + slice && go_on(so_far.max(chain.best.score())) {
                 chain.advance(self.task, steps, &mut |_, _| true)?;
             }
         }
@@ -272,12 +288,16 @@ fn pick(gains: &[Option<f64>], rng: &mut Stream) -> usize {
 
 /// The best run of a population, and a chain's state there.
 fn best_of(task: &Task, result: particles::Result) -> Result<(Run, State), Failure> {
-    let possible = result.particles.into_iter().filter(|one| one.has_ended && one.record.cause.is_none());
-    let best = possible.max_by(|a, b| a.record.log_score().total_cmp(&b.record.log_score()));
-    let mut best = best.ok_or_else(Failure::no_start)?;
+    let mut best = most(result, |one| one.has_ended).ok_or_else(Failure::no_start)?;
     let sketches = std::mem::take(&mut best.record.sketches);
     let state =
         State::of_run(task, &by_address(&best.record.log.entries()), sketches, best.record.primitives)?;
     let run = state.run(&task.program, 0);
     Ok((run, state))
+}
+
+/// The particle with the best score among those that are possible and pass.
+fn most(result: particles::Result, passes: impl Fn(&Outcome) -> bool) -> Option<Outcome> {
+    let possible = result.particles.into_iter().filter(|one| one.record.cause.is_none() && passes(one));
+    possible.max_by(|a, b| a.record.log_score().total_cmp(&b.record.log_score()))
 }

@@ -28,7 +28,7 @@ class Improve(Method):
     rounds
         Most rounds. Work is counted and not timed, so the same seed and number of rounds give the same bits.
     seconds
-        Most seconds; `info.rounds` of the result says how many rounds there were. None for no limit.
+        No round begins after so many seconds; `info.rounds` of the result says how many there were. None for no limit.
     """
 
     NAME = "improve"

@@ -116,8 +116,8 @@ class Kernel:
             return f"mixture({weights}, {', '.join(map(repr, self.parts))})"
         if self.name == "regrow":
             named = own["pick"] if isinstance(own["pick"], str) else None
-            shown = f"pick={named!r}" if named else f"parts={own['pick']['parts']!r}"
-            return f"regrow({own['particles']}, turn={own['turn']}, {shown})"
+            which = f"pick={named!r}" if named else f"parts={own['pick']['parts']!r}"
+            return f"regrow({own['particles']}, turn={own['turn']}, {which})"
         parts = [repr(one) for one in (*own.values(), *self.parts)]
         if self.function is not None:
             parts.append(getattr(self.function, "name", getattr(self.function, "__name__", "function")))

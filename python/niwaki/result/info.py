@@ -119,7 +119,7 @@ class SweepInfo(Info):
 
 
 class Round(NamedTuple):
-    """A round of `improve`: its kind of step, its work (particle-steps, proposals, shapes), the best log score after it."""
+    """A round of `improve`: its kind of step, its work (particle-steps, proposals, shapes), the best score then."""
 
     kind: str
     work: int

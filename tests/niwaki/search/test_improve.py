@@ -1,8 +1,7 @@
 """`improve` keeps its best, counts rounds and not time, repeats itself, and is refused where it makes no sense."""
 
-import pytest
-
 import niwaki as nw
+import pytest
 from niwaki import categorical, factor, flip, infer
 from niwaki.errors import NiwakiError
 from niwaki.gallery import entry

@@ -196,6 +196,7 @@ def test_every_method_and_sketch_goes_through_json():
         nw.rejection(4, -1),
         nw.importance(5),
         nw.forward(2),
+        nw.improve(rounds=3, seconds=2),
     ]
     assert {type(one).NAME for one in methods} == set(Method.KNOWN)
     for method in methods:
