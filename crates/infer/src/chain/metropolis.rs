@@ -127,11 +127,7 @@ impl<R: Rules> Chain<R> {
             }
             Change::Done => {}
         }
-        if let Err(failure) = self.state.update_sketches() {
-            self.state.restore_sketches();
-            self.state.trace.rollback(program);
-            return Err(failure);
-        }
+        self.show(program)?;
         let trace = &self.state.trace;
         let (totals, changed) = (trace.totals(), trace.change());
         let (fresh, stale) = trace.fresh_and_stale();
@@ -159,6 +155,18 @@ impl<R: Rules> Chain<R> {
         }
         self.last = Decision { same: false, accepted, log_ratio };
         Ok(self.last)
+    }
+
+    /// Shows the scene of the open transaction to the sketches.
+    ///
+    /// # Errors
+    /// A sketch scores NaN; the chain is back in its last state.
+    #[inline(always)]
+    pub(super) fn show(&mut self, program: &Program) -> Result<(), Failure> {
+        self.state.update_sketches().inspect_err(|_| {
+            self.state.restore_sketches();
+            self.state.trace.rollback(program);
+        })
     }
 
     /// Keeps the open transaction.

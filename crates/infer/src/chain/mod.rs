@@ -5,7 +5,7 @@
 //!   [`weights`]: which choice it changes;
 //! * `metropolis`: the algorithm, for one choice; [`accept`]: the acceptance ratio, in plain letters;
 //! * `proposal`: a new value for one choice: from the prior, [`drift`], [`neighbour`], `by_family`, by the [`user`]'s function;
-//! * [`block`], `regenerate`: proposals that change many choices;
+//! * [`block`], `regenerate`, [`regrow`]: proposals that change many choices;
 //! * [`trajectory`]: the continuous choices move together along their gradient;
 //! * [`counts`], [`best`], [`samples`]: what is reported afterwards;
 //! * [`ladder`]: parallel tempering; [`many`]: several searches in parallel;

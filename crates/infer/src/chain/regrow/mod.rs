@@ -141,6 +141,7 @@ impl ChainMove for Regrow {
         chain.grown += set.steps;
         let weighing = Weighing { task, own, picked: &picked, block: &block, numbers: &numbers };
         chain.weigh_last(machine, &weighing, &mut set, None)?;
+        debug_assert!(set.log_mean > f64::NEG_INFINITY, "the present values are possible");
         let mut log_ratio = 0.0;
         if let Some(turned) = &turned {
             let mut other = block.free(machine, turned, seed(1))?;
@@ -159,10 +160,13 @@ impl ChainMove for Regrow {
         if is_same || chain.undoing {
             return Ok(());
         }
-        let change = chain.replace(task, machine, &numbers, &values)?;
-        debug_assert_eq!(change, Change::Done, "a particle that was drawn is possible");
-        chain.state.update_sketches()?;
-        chain.keep(program, held);
+        if chain.replace(task, machine, &numbers, &values)? == Change::Done {
+            chain.show(program)?;
+            chain.keep(program, held);
+        } else {
+            debug_assert!(false, "a particle that was drawn is possible");
+            chain.state.trace.rollback(program);
+        }
         Ok(())
     }
 }
@@ -241,11 +245,7 @@ impl<R: Rules> Chain<R> {
             self.state.trace.rollback(program);
             return Ok(f64::NEG_INFINITY);
         }
-        if let Err(failure) = self.state.update_sketches() {
-            self.state.restore_sketches();
-            self.state.trace.rollback(program);
-            return Err(failure);
-        }
+        self.show(program)?;
         let trace = &self.state.trace;
         let changed = trace.change();
         // The choices of the rest are the same ones, and none was drawn.
