@@ -44,6 +44,7 @@ from niwaki import kernels
 from niwaki.errors import ModelError, NiwakiError
 from niwaki.lang import futures
 from niwaki.lang.plain import run_python
+from niwaki.methods import RESAMPLING
 from niwaki.methods.chains import STRATEGIES
 from test_chains import disagreement
 from test_engine import compared, differs, facts, load
@@ -63,7 +64,6 @@ FIRST_LIMIT, LIMIT = 5.0, 7.0
 POPULATIONS, STARTS, BATCHES, BATCH, TIMES = 150, 60, 40, 20, 16
 
 MOVES = kernels.mixture(kernels.prior(), kernels.neighbour(), kernels.regenerate(1), kernels.regrow(3))
-RESAMPLING = ("systematic", "residual", "stratified", "multinomial")
 
 
 def populations(count: int, seed: int) -> dict[str, nw.methods.Smc]:
@@ -71,7 +71,7 @@ def populations(count: int, seed: int) -> dict[str, nw.methods.Smc]:
     own: dict[str, Any] = {
         "particles": 2 + seed % 3,
         "populations": count,
-        "resampling": RESAMPLING[seed % 4],
+        "resampling": RESAMPLING[seed % len(RESAMPLING)],
     }
     moved = {**own, "rejuvenate": MOVES}
     return {
@@ -89,6 +89,7 @@ def gibbs(seed: int) -> dict[str, nw.methods.ParticleGibbs]:
     order = ("stochastic", "depth-first")[seed % 2]
     return {
         "particle Gibbs": nw.particle_gibbs(2 + seed % 3, 2),
+        "particle Gibbs by tempered weights": nw.particle_gibbs(5, 2, order, resampling="tempered"),
         "particle Gibbs that keeps ancestors": nw.particle_gibbs(3, 2, order, ancestors=False),
     }
 

@@ -384,8 +384,11 @@ impl ParticleGibbs {
         Ok(Settings {
             particles: self.particles,
             seed: given.seed,
-            // Its conditional form is simple: see `particle_gibbs`.
-            resampling: Resampling::Multinomial,
+            // What has a conditional form: see `particle_gibbs`.
+            resampling: match self.settings.resampling {
+                Resampling::Tempered => Resampling::Tempered,
+                _ => Resampling::Multinomial,
+            },
             proposal: proposed(self.proposal.as_ref(), given)?,
             ..self.settings.clone()
         })

@@ -17,7 +17,9 @@ from niwaki.methods.method import Method
 ORDERS = ("stochastic", "depth-first")
 WEIGHTS = ("ratio", "absolute")
 MOMENTS = ("resampled", "end")
-RESAMPLING = ("systematic", "residual", "stratified", "multinomial")
+RESAMPLING = ("systematic", "residual", "stratified", "multinomial", "tempered")
+#: Those with a form in which one particle is held.
+HELD_RESAMPLING = ("multinomial", "tempered")
 
 
 @dataclass(frozen=True)
@@ -39,7 +41,10 @@ class Smc(Method):
         The power to which scores are raised in the final law; 1 for the posterior. For a score that is a normal
         density of deviation sigma, it is as if sigma were divided by its root. Reported scores are those of power 1.
     resampling
-        "systematic", "residual", "stratified" or "multinomial".
+        "systematic", "residual", "stratified" or "multinomial": by weight. "tempered": by a power of the weight, at
+        most 1 and as high as half of the possible particles stay effective; copies carry the rest of the weight, so
+        evidence and final law are the same, and fewer particles that look bad for the moment are lost. Not with
+        absolute weights.
     ess
         Resample only when the effective sample size falls below this share of the particles; at every barrier when left
         out.
@@ -113,6 +118,9 @@ class Smc(Method):
         one_of("order", self.order, ORDERS)
         one_of("weights", self.weights, WEIGHTS)
         one_of("resampling", self.resampling, RESAMPLING)
+        if self.resampling == "tempered" and self.weights == "absolute":
+            expected = "another resampling together with absolute weights, which carry nothing on"
+            raise bad("resampling", self.resampling, expected, '"systematic", or `weights` to "ratio"')
         _check_power(self)
         if self.diverse is not None:
             at_least_one("diverse", self.diverse)
@@ -171,9 +179,12 @@ class ParticleGibbs(Method):
     Parameters
     ----------
     particles, order, power, ess
-        As for `smc`; at least 2 particles. Resampling is multinomial.
+        As for `smc`; at least 2 particles.
     sweeps
         How many; one sample each.
+    resampling
+        "multinomial", or "tempered": then independent draws too, by a power of the weight, as for `smc`. The others
+        of `smc` are not offered: beside a held run their draws are not independent.
     anneal
         The power at each barrier, as for `smc`.
     ancestors
@@ -187,6 +198,7 @@ class ParticleGibbs(Method):
     sweeps: int = 100
     order: str = "stochastic"
     power: float = 1.0
+    resampling: str = "multinomial"
     ess: float | None = None
     anneal: Sequence[float] | None = None
     ancestors: bool = True
@@ -197,6 +209,7 @@ class ParticleGibbs(Method):
         check_particles(self.particles, 2)
         at_least_one("sweeps", self.sweeps)
         one_of("order", self.order, ORDERS)
+        one_of("resampling", self.resampling, HELD_RESAMPLING)
         _check_power(self)
         self._set("anneal", _fixed(self.anneal))
         self._set("ancestors", bool(self.ancestors))

@@ -26,6 +26,7 @@ HONOURED = {
     "draws": nw.smc(60, rejuvenate=kernels.prior(), moves=2, draws=5, at="end"),
     "warmup": nw.mh(60, warmup=20),
     "kernel": nw.mh(60, kernel=kernels.cycle(kernels.neighbour(), kernels.prior())),
+    "resampling": nw.smc(60, resampling="tempered"),
     "particle_gibbs": nw.particle_gibbs(8, 8),
     "pimh": nw.pimh(20, 8),
     "importance": nw.importance(150),

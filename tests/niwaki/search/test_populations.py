@@ -68,11 +68,14 @@ def m():
         nw.smc(particles=4000, anneal=0.9),
         nw.particle_gibbs(particles=5, sweeps=6000),
         nw.pimh(particles=40, sweeps=6000),
+        nw.smc(particles=4000, anneal=[9.0, 7.0], resampling="tempered"),
+        nw.particle_gibbs(particles=5, sweeps=6000, anneal=[9.0, 7.0], resampling="tempered"),
+        nw.pimh(particles=40, sweeps=6000, anneal=[9.0, 7.0], resampling="tempered"),
     ],
     ids=repr,
 )
 def test_each_follows_the_exact_answer(method: Any) -> None:
-    """Fixed seed; 4.5 standard errors of 2500 independent draws: false alarm 7e-6 for each of 18 shares."""
+    """Fixed seed; 4.5 standard errors of 2500 independent draws: false alarm 7e-6 for each of 27 shares."""
     found = nw.run(COINS, method=method, seed=11)
     shares = found.distribution()
     for value, share in exact().items():
@@ -222,7 +225,9 @@ def test_messages_of_populations(golden: Any) -> None:
         "a share": lambda: nw.smc(anneal=1.5),
         "absolute": lambda: nw.smc(weights="absolute", anneal=0.5),
         "a chain that adapts": lambda: nw.pimh(anneal=0.5),
+        "absolute and tempered": lambda: nw.smc(weights="absolute", resampling="tempered"),
         "alone": lambda: nw.particle_gibbs(particles=1),
+        "evenly spread draws beside a held run": lambda: nw.particle_gibbs(resampling="systematic"),
         "sweeps": lambda: nw.particle_gibbs(sweeps=0),
         "a start that is impossible": lambda: nw.run(
             COINS, method=nw.particle_gibbs(), choices=nw.run(COINS, seed=NEITHER).best.choices, seed=1

@@ -27,7 +27,7 @@ pub(crate) struct Particle {
     pub was_ended: bool,
     /// The score that is already in its weight.
     pub weighed: Total,
-    /// Log weight since the last resampling.
+    /// Log weight since the last resampling, with what that one left of the weight before.
     pub log_weight: f64,
     /// Log of prior over proposal of the choices since the last barrier: not yet in its weight.
     pub pending: f64,
@@ -124,6 +124,7 @@ impl Particle {
         self.picks = parent.picks;
         self.was_ended = parent.was_ended;
         self.weighed.clone_from(&parent.weighed);
+        self.log_weight = parent.log_weight;
         self.pending = parent.pending;
         self.home = parent.home;
     }

@@ -18,7 +18,23 @@
 //! the run is followed, so it is that of the prefix after its ancestor was drawn.
 //!
 //! The weight above is zero where the prefix leads to other addresses, to other barriers or to another family at an
-//! address. Only multinomial resampling has this simple conditional form, so that is what it uses.
+//! address.
+//!
+//! Only independent draws have this simple conditional form, so resampling is multinomial whatever the setting is. With
+//! [`Resampling::Tempered`](super::Resampling::Tempered) it is multinomial by tempered weights, and all copies, the held run
+//! too, carry the rest of their weights. Why this is exact: with `r` the probabilities of the draws, `q` the densities of
+//! the choices and `g` the steps of the score, all particles of SMC together have the density `psi`, the weight at the end
+//! of the path of particle `k` is `w_k`, and the chain's target on all particles and `k` is their product:
+//!
+//! ```text
+//! psi = product of q and r over all particles,   w_k = product over the path of p g / (q N r),   target = psi w_k
+//! ```
+//!
+//! Along the path of `k` both `q` and `r` cancel, so the path follows the posterior; the other particles, given the path,
+//! follow what is left of `psi`: SMC with that path held. There `r` may depend on all weights, the held one too. For
+//! the same reason the ancestor of the held run is drawn by its whole weight `w_i`, carried parts
+//! included, and not by `r_i`: up to a barrier, `psi` without `q` and `r` of the path of `i` is in proportion to
+//! `psi w_i / (p g of that path)`.
 
 use super::advance::Particle;
 use super::many::Watch;
@@ -214,12 +230,13 @@ fn conditional(
             chain.tries += 1;
             chain.moves += usize::from(parent != held);
         }
-        let mut random = Reserved::Resampling.stream(settings.seed, population.barriers as u128, 0);
         let others = population.particles.len() - 1;
-        let mut copies = multinomial(&population.weights.relative, others, &mut random);
-        copies[parent] += 1;
+        population.resample_by(|weights, random| {
+            let mut copies = multinomial(weights, others, random);
+            copies[parent] += 1;
+            copies
+        });
         // The first copy keeps the index of its parent: it is the held run.
-        population.survive(&copies);
         held = parent;
     }
     population.finish();

@@ -8,8 +8,9 @@
 //! 2. *Weigh* (`weights`): `w *= (s(r_n) / s(r_{n-1}))^T`. One that has ended carries its last score. Of choices that a
 //!    proposal drew since the last barrier ([`Proposal`](crate::chooser::Proposal)) `p(x) / q(x)` counts too, which is not
 //!    raised to a power.
-//! 3. *Resample* ([`resampling`]): at every barrier, or when the effective sample size is low; weights are reset. Copies
-//!    (`copies`) are made when the particles run again, by the thread that ran their parent (`shared`).
+//! 3. *Resample* ([`resampling`]): at every barrier, or when the effective sample size is low; weights are reset, or keep
+//!    what the particles were not drawn by (`tempered`). Copies (`copies`) are made when the particles run again, by the
+//!    thread that ran their parent (`shared`).
 //! 4. *Rejuvenate*, where set ([`rejuvenation`]): each particle is moved by a Markov kernel that leaves `F_n` invariant (`moves`);
 //!    one that still runs is followed again from its start with other values (`partial_run`). In the end chains may start
 //!    from a few of the final set, and their states take its place (`final_chains`).
@@ -43,6 +44,7 @@ pub mod resampling;
 mod settings;
 mod shared;
 mod smc;
+mod tempered;
 pub(crate) mod weights;
 
 #[cfg(test)]

@@ -4,13 +4,15 @@
 use super::advance::Particle;
 use super::copies::{Copies, Indexed, copy};
 use super::rejuvenation::{MoveCounts, Mover};
+use super::resampling::Resampling;
 use super::settings::{Anneal, Order, Settings, Weights, When};
 use super::shared::share;
+use super::tempered::Tempered;
 use super::weights::{Normalised, conditional_share};
 use crate::record::{AllInvalid, Record};
 use crate::streams::Reserved;
 use crate::{Failure, Task};
-use niwaki_math::{StreamKey, Total};
+use niwaki_math::{Stream, StreamKey, Total};
 use niwaki_vm::machine::Limits;
 use std::collections::HashSet;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -250,22 +252,31 @@ impl<'a> Population<'a> {
         }
     }
 
-    /// Resamples, and resets the weights. Moves of the particles follow directly.
+    /// Resamples by the declared method. Moves of the particles follow directly.
     pub fn resample(&mut self) {
-        let mut random = Reserved::Resampling.stream(self.settings.seed, self.barriers as u128, 0);
-        let copies = self.settings.resampling.copies(&self.weights.relative, &mut random);
-        self.survive(&copies);
+        let method = self.settings.resampling;
+        self.resample_by(|weights, random| method.copies(weights, random));
     }
 
-    /// Particle `i` survives `copies[i]` times; weights are reset. The copies themselves wait for [`Population::settle`].
-    pub fn survive(&mut self, copies: &[usize]) {
-        self.log_normaliser += self.weights.log_mean;
+    /// Resamples: particle `i` survives as often as `draw` says, given the weights to draw by. Weights are reset, to what
+    /// tempering leaves of them. The copies themselves wait for [`Population::settle`].
+    pub fn resample_by(&mut self, draw: impl FnOnce(&[f64], &mut Stream) -> Vec<usize>) {
+        let mut random = Reserved::Resampling.stream(self.settings.seed, self.barriers as u128, 0);
+        let tempered = match self.settings.resampling {
+            Resampling::Tempered => Tempered::of(self.particles.iter().map(|p| p.log_weight)),
+            _ => None,
+        };
+        let weights = tempered.as_ref().map_or(&self.weights, |tempered| &tempered.weights);
+        let copies = draw(&weights.relative, &mut random);
+        let log_mean = self.weights.log_mean;
+        let carried = |log_weight| tempered.as_ref().map_or(0.0, |own| own.carried(log_weight, log_mean));
+        self.particles.iter_mut().for_each(|p| p.log_weight = carried(p.log_weight));
+        self.log_normaliser += log_mean;
         self.resampled += 1;
-        self.copies = Copies::plan(copies, &mut self.ancestor, &mut self.lineages);
+        self.copies = Copies::plan(&copies, &mut self.ancestor, &mut self.lineages);
         if self.parallel {
             self.copies.share_out(&mut self.particles, self.apart.len());
         }
-        self.particles.iter_mut().for_each(|p| p.log_weight = 0.0);
     }
 
     /// Weighs the final set by the declared power, and reads its weights; false when no particle is possible.

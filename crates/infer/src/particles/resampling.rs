@@ -1,5 +1,6 @@
-//! Resampling: how many copies each particle gets. All four are unbiased: the expected number of copies of
-//! particle `i` is `N w_i / sum w` (Douc and Cappe 2005).
+//! Resampling: how many copies each particle gets. All are unbiased: the expected number of copies of
+//! particle `i` is `N w_i / sum w` (Douc and Cappe 2005), where `w` are the weights to draw by: those of the particles, or
+//! for [`Resampling::Tempered`] a power of them.
 
 use niwaki_math::Stream;
 use serde::Deserialize;
@@ -17,20 +18,27 @@ pub enum Resampling {
     Stratified,
     /// `N` independent draws.
     Multinomial,
+    /// Systematic, by a power of the weights; the copies carry the rest of the weight (`tempered`).
+    Tempered,
 }
 
 impl Resampling {
     /// All of them.
-    pub const ALL: [Resampling; 4] =
-        [Resampling::Systematic, Resampling::Residual, Resampling::Stratified, Resampling::Multinomial];
+    pub const ALL: [Resampling; 5] = [
+        Resampling::Systematic,
+        Resampling::Residual,
+        Resampling::Stratified,
+        Resampling::Multinomial,
+        Resampling::Tempered,
+    ];
 
-    /// How many copies each particle gets; they add up to the number of particles. `weights` are not negative
-    /// and not all zero.
+    /// How many copies each particle gets; they add up to the number of particles. `weights`, by which they are drawn, are
+    /// not negative and not all zero.
     pub fn copies(self, weights: &[f64], random: &mut Stream) -> Vec<usize> {
         let n = weights.len();
         let total: f64 = weights.iter().sum();
         match self {
-            Resampling::Systematic => {
+            Resampling::Systematic | Resampling::Tempered => {
                 let u = random.uniform();
                 place(weights, total, |k| (k as f64 + u) / n as f64)
             }

@@ -107,8 +107,8 @@ impl Settings {
     /// Refuses settings that make no sense.
     ///
     /// # Errors
-    /// No particles, a power that is not positive, a threshold outside `[0, 1]`, a schedule of powers that
-    /// is empty or beside absolute weights.
+    /// No particles, a power that is not positive, a threshold outside `[0, 1]`, a schedule of powers that is
+    /// empty; beside absolute weights a schedule, a proposal, moves or tempered resampling.
     pub fn check(&self) -> Result<(), Fault> {
         if self.particles == 0 {
             return Err(
@@ -128,6 +128,13 @@ impl Settings {
         if self.proposal.is_some() && self.weights == Weights::Absolute {
             return Err(Fault::new("bad-setting", "absolute weights do not count what a proposal drew")
                 .with_help("use ratio weights, or no proposal"));
+        }
+        if self.resampling == Resampling::Tempered && self.weights == Weights::Absolute {
+            return Err(Fault::new(
+                "bad-setting",
+                "absolute weights carry nothing from one barrier to the next",
+            )
+            .with_help("use ratio weights, or another resampling than \"tempered\""));
         }
         if let Some(rejuvenation) = &self.rejuvenate {
             rejuvenation.check(self.weights)?;

@@ -26,6 +26,7 @@ mod proposed;
 mod rejuvenated;
 mod seeing;
 mod several;
+mod tempered;
 
 fn task(text: &str) -> Task {
     Task::new(Arc::new(compile(&parse(text).unwrap(), vec![]).unwrap()))
