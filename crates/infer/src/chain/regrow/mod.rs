@@ -30,7 +30,7 @@ use super::metropolis::Decision;
 use super::state::Fresh;
 use super::{Chain, Proposing};
 use crate::{Failure, Task};
-use niwaki_math::{RngCore, Stream, StreamKey, Total};
+use niwaki_math::{RngCore, StreamKey, Total};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Machine;
 use niwaki_vm::machine::kept::Change;
@@ -276,9 +276,4 @@ impl<R: Rules> Chain<R> {
         self.state.trace.rollback(program);
         Ok(if log.is_nan() { f64::NEG_INFINITY } else { log })
     }
-}
-
-/// A stream for the draws of a sweep.
-fn stream(seed: u64, which: u128) -> Stream {
-    Stream::new(seed, u64::MAX, which, 0)
 }

@@ -1,7 +1,7 @@
 //! SMC of a part, from its inputs to its result. Weights count the score of the scene, which has the rest of the run from the
 //! start, and the densities of choices that do not change.
 
-use super::{Turned, stream, turn};
+use super::{Turned, turn};
 use crate::chain::kernel::Selection;
 use crate::chooser::{Chooser, Chosen, Context, Prior};
 use crate::particles::advance::Particle;
@@ -9,6 +9,7 @@ use crate::particles::copies::pair;
 use crate::particles::resampling::{Resampling, multinomial};
 use crate::particles::weights::Normalised;
 use crate::record::{Record, log_density};
+use crate::streams::Reserved;
 use crate::{Failure, Task};
 use niwaki_geom::sketch::product::Sketches;
 use niwaki_math::{Dist, Stream, StreamKey};
@@ -256,7 +257,7 @@ impl Block<'_> {
             }
             let is_low = weights.effective < LOW * self.particles as f64;
             if is_low && grown.iter().any(|one| one.particle.is_running()) {
-                let mut random = stream(seed, step);
+                let mut random = Reserved::Resampling.stream(seed, step, 0);
                 let is_held = held.is_some();
                 let copies = if is_held {
                     let mut copies = multinomial(&weights.relative, self.particles - 1, &mut random);
