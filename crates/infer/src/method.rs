@@ -4,7 +4,6 @@
 
 use crate::chain::form::Form;
 use crate::chain::user::User;
-use crate::chooser::Proposal;
 use crate::enumeration::enumerate;
 use crate::forward::forward;
 use crate::hamiltonian::chains::Length;
@@ -16,6 +15,7 @@ use crate::particles::{
     self, Ancestors, FinalChains, Moment, Progress, Rejuvenation, Resampling, Settings, particle_gibbs, pimh,
     populations, within,
 };
+use crate::proposal::Proposal;
 use crate::rejection::rejection;
 use crate::run::Run;
 use crate::{Failure, Task, chain};

@@ -11,6 +11,7 @@ use crate::particles::{Outcome, Result, Settings, smc};
 use crate::replay::by_address;
 use crate::run::Run;
 use crate::streams::Reserved;
+use crate::weights::index;
 use crate::{Failure, Task};
 use niwaki_math::Stream;
 use niwaki_vm::fault::Fault;
@@ -206,17 +207,12 @@ fn pick(gains: &[Option<f64>], rng: &mut Stream) -> usize {
     if let Some(new) = gains.iter().position(Option::is_none) {
         return new;
     }
-    let total: f64 = gains.iter().flatten().sum();
-    let mut left = rng.uniform();
-    if total <= 0.0 || left < EVEN {
+    let gains: Vec<f64> = gains.iter().copied().flatten().collect();
+    let u = rng.uniform();
+    if gains.iter().all(|gain| *gain <= 0.0) || u < EVEN {
         return below(rng, gains.len() as u64) as usize;
     }
-    left = (left - EVEN) / (1.0 - EVEN) * total;
-    let at = gains.iter().flatten().position(|gain| {
-        left -= gain;
-        left < 0.0
-    });
-    at.unwrap_or(gains.len() - 1)
+    index(&gains, (u - EVEN) / (1.0 - EVEN))
 }
 
 /// The best run of a population, and a chain's state there.

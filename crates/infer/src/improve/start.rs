@@ -6,7 +6,8 @@
 //! are created. Rounds of the search then follow the declared power again.
 
 use super::Improve;
-use crate::particles::{Anneal, Order, Progress, Resampling, Result, Settings, smc};
+use crate::particles::{Anneal, Order, Progress, Result, Settings, smc};
+use crate::resampling::Resampling;
 use crate::{Failure, Task};
 
 /// A form of population.
