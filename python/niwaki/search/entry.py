@@ -125,9 +125,9 @@ def grow(
     target
         What to fill: a `Target`, or a file; may be left out where `score` has something to match.
     args, kwargs
-        The model's arguments. What `kwargs` has of `rounds`, `seconds` and `diverse` is for the usual search. With any
-        other setting of `smc` (particles, order, power, ...) the search is one population by those, with a `power` of 16
-        for ratio weights when left out.
+        The model's arguments. What `kwargs` has of `rounds`, `seconds` and `diverse` is for the usual search. With
+        any other setting of `smc` (particles, order, power, ...) the search is one population by those, with a `power`
+        of 16 for ratio weights when left out.
     score
         Further sketches, such as `floor(0) * match_image("skyline.png", "cam.json")`; they multiply
         `no_self_intersection(rule)` and, where there is a target, `match_volume(target, voxel, sigma)`.

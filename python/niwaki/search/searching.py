@@ -96,8 +96,8 @@ def _check_gain(search: Search, best: Sample) -> None:
     gain = search.task.gain(best._run)
     if gain < 0.0:
         warnings.warn(
-            f"the best result scores {-gain:.1f} nats less than an empty scene: give more `seconds` or `rounds`, or look "
-            "whether the model can reach its target at all (`niwaki.run(model).best.save('scene.png')`)",
+            f"the best result scores {-gain:.1f} nats less than an empty scene: give more `seconds` or `rounds`, or "
+            "look whether the model can reach its target at all (`niwaki.run(model).best.save('scene.png')`)",
             SearchWarning,
             stacklevel=5,
         )

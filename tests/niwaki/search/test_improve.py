@@ -1,5 +1,7 @@
-"""`improve` keeps its best, counts rounds and not time, repeats itself, and is refused where it makes no sense; where its
-populations die it tries others, and says so."""
+"""`improve` keeps its best, counts rounds and not time, repeats itself, and is refused where it makes no sense.
+
+Where its populations die it tries others, and says so.
+"""
 
 import niwaki as nw
 import pytest
