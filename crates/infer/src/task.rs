@@ -1,9 +1,11 @@
 //! The task of a search: a program with its arguments, and the sketches that score its scene.
 
+use crate::chain::select::{labels, no_choice};
 use niwaki_geom::sketch::SketchSpec;
 use niwaki_vm::code::Program;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::Answers;
+use niwaki_vm::machine::held::Held;
 use niwaki_vm::machine::invalid::Invalid;
 use niwaki_vm::machine::kept::{Change, Trace};
 use niwaki_vm::machine::stack::RunFault;
@@ -41,6 +43,8 @@ pub struct Task {
     pub args: Vec<Value>,
     /// The sketches that score its scene; log scores add.
     pub sketches: Vec<Arc<dyn SketchSpec>>,
+    /// Choices whose values are given, and observed.
+    pub held: Option<Arc<Held>>,
     /// Its host functions.
     pub hosts: Arc<dyn Hosts>,
     /// The limits of one run.
@@ -57,6 +61,7 @@ impl Task {
             model: None,
             args: vec![],
             sketches: vec![],
+            held: None,
             hosts: Arc::new(NoHosts),
             limits: Limits::default(),
             invalid: Arc::default(),
@@ -68,9 +73,19 @@ impl Task {
         Task { invalid: Arc::default(), ..self.clone() }
     }
 
+    /// The same task with choices held, given by their readable addresses.
+    ///
+    /// # Errors
+    /// An address that no run of the program can have, with those that are nearest.
+    pub fn holding(&self, choices: Vec<(String, Value)>) -> Result<Task, Fault> {
+        let held = Held::new(&self.program, choices);
+        let held = held.map_err(|path| no_choice(&path, &labels(&self.program)))?;
+        Ok(Task { held: (!held.is_empty()).then(|| Arc::new(held)), ..self.clone() })
+    }
+
     /// A machine for its program.
     pub fn machine(&self) -> Machine<'_> {
-        Machine::new(&self.program, self.limits)
+        Machine::new(&self.program, self.limits).holding(self.held.as_deref())
     }
 
     /// A run that has not begun.

@@ -97,6 +97,10 @@ impl<S: Scalar> Machine<'_, S> {
                         state.pause(future, node, $site.resumes_at(pc));
                         return Ok(Stop::Paused);
                     }
+                    Halt::PausedAfter => {
+                        state.pause(future, node, pc + 1);
+                        return Ok(Stop::Paused);
+                    }
                     Halt::Impossible => {
                         keep.count(executed);
                         self.here = Here { node, function: id, pc, scratch };

@@ -110,7 +110,7 @@ impl ChainMove for Regrow {
                 }
             }
             Piece::Emit(primitive) => gone.push(primitive),
-            Piece::Part(_) => {}
+            Piece::Part(_) | Piece::Held(_) => {}
         });
         let mut sketches = chain.state.sketches.fork();
         if !gone.is_empty() {

@@ -181,7 +181,7 @@ fn sizes(trace: &Trace, program: &Program, is_selected: &dyn Fn(usize) -> bool) 
         trace.pieces(program, parts[at].part, |piece| match piece {
             Piece::Choice(n) => own += u64::from(is_selected(n)),
             Piece::Part(part) => parts.push(Sized { part, size: 0, below: 0..0 }),
-            Piece::Emit(_) => {}
+            Piece::Emit(_) | Piece::Held(_) => {}
         });
         parts[at].size = own;
         parts[at].below = first..parts.len();
