@@ -315,9 +315,13 @@ impl PyTask {
                 dict.set_item("moved_ended", pair(result.moved.ended))?;
             }
             Info::Improved(result) => {
-                let rounds = result.rounds.iter().map(|round| (round.kind.name(), round.work, round.best));
+                let attempts = result.attempts.iter().map(|one| (one.form, one.particles, one.died_at));
+                dict.set_item("attempts", PyTuple::new(py, attempts)?)?;
+                let rounds = result.rounds.iter().map(|round| {
+                    (round.kind.name(), round.work, round.best, round.parts, round.time.as_secs_f64())
+                });
                 dict.set_item("rounds", PyTuple::new(py, rounds)?)?;
-                dict.set_item("died", result.died)?;
+                dict.set_item("searches", result.searches)?;
             }
             Info::Chain(result) => {
                 dict.set_item("tries", result.tries)?;

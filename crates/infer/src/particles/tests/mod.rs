@@ -6,11 +6,11 @@
 //! fixed seeds and compares with a z-score. A z beyond 5 happens once in 1.7 million runs of a correct program
 //! (normal approximation); with about 60 quantities looked at, a re-seeded suite fails once in 29,000 runs.
 
-use super::advance::Particle;
 use super::copies::{Copies, copy};
 use super::population::Population;
 use super::*;
 use crate::enumeration::enumerate;
+use crate::particle::Particle;
 use crate::task::Task;
 use niwaki_vm::core::parse::parse;
 use niwaki_vm::passes::compile;
