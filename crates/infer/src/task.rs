@@ -1,6 +1,5 @@
 //! The task of a search: a program with its arguments, and the sketches that score its scene.
 
-use crate::chain::select::{labels, no_choice};
 use niwaki_geom::sketch::SketchSpec;
 use niwaki_vm::code::Program;
 use niwaki_vm::fault::Fault;
@@ -71,16 +70,6 @@ impl Task {
     /// The same task, with no run counted yet.
     pub fn uncounted(&self) -> Task {
         Task { invalid: Arc::default(), ..self.clone() }
-    }
-
-    /// The same task with choices held, given by their readable addresses.
-    ///
-    /// # Errors
-    /// An address that no run of the program can have, with those that are nearest.
-    pub fn holding(&self, choices: Vec<(String, Value)>) -> Result<Task, Fault> {
-        let held = Held::new(&self.program, choices);
-        let held = held.map_err(|path| no_choice(&path, &labels(&self.program)))?;
-        Ok(Task { held: (!held.is_empty()).then(|| Arc::new(held)), ..self.clone() })
     }
 
     /// A machine for its program.

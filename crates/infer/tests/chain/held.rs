@@ -15,13 +15,13 @@ use niwaki_infer::chain::{Chain, Settings as ChainSettings};
 use niwaki_infer::chooser::{Chooser, Chosen, Context};
 use niwaki_infer::enumeration::enumerate;
 use niwaki_infer::forward::forward_by;
+use niwaki_infer::hold::hold;
 use niwaki_infer::importance::importance;
 use niwaki_infer::particles::rejuvenation::{Moment, Rejuvenation};
-use niwaki_infer::particles::{
-    Ancestors, Anneal, Order, Resampling, Settings, When, particle_gibbs, pimh, smc,
-};
+use niwaki_infer::particles::{Ancestors, Anneal, Order, Settings, When, particle_gibbs, pimh, smc};
 use niwaki_infer::rejection::rejection;
 use niwaki_infer::replay::{Missing, Source, by_address, replay};
+use niwaki_infer::resampling::Resampling;
 use niwaki_infer::run::Run;
 use niwaki_infer::{Failure, Task};
 use niwaki_math::log_sums::log_sum_exp;
@@ -139,7 +139,7 @@ fn enumeration_gives_the_law_given_what_is_held() {
         let runs = listed(&task);
         for held in locks(&runs, 40) {
             let exact = conditioned(&runs, &held);
-            let locked = task.holding(held.clone()).expect("a lock");
+            let locked = hold(&task, held.clone()).expect("a lock");
             let found = enumerate(&locked, 1_000_000, &mut |_| true).expect("possible runs");
             assert_eq!(found.outcomes.len(), exact.len(), "{name}: {held:?}");
             for (value, log) in found.outcomes {
@@ -186,7 +186,7 @@ fn locked() -> Vec<(String, Task, HashMap<String, f64>)> {
         let runs = listed(&task);
         for held in locks(&runs, 2) {
             let exact = conditioned(&runs, &held);
-            all.push((format!("{name}, {held:?}"), task.holding(held).expect("a lock"), exact));
+            all.push((format!("{name}, {held:?}"), hold(&task, held).expect("a lock"), exact));
         }
     }
     all
@@ -368,7 +368,7 @@ fn what_is_held_is_in_every_run_to_the_bit() {
     let long = paths.iter().find(|path| path.ends_with("long")).expect("a leg").replacen("[0]", "[1]", 1);
     let foot = long.replace("long", "foot");
     let held = vec![(long, Value::Real(0.9)), (foot, Value::Real(0.1 + 0.2))];
-    let locked = task.holding(held.clone()).expect("a lock");
+    let locked = hold(&task, held.clone()).expect("a lock");
     let has = |run: &Run| {
         let values = values(&locked, run);
         held.iter().all(|(path, value)| values.get(path).is_some_and(|own| same(own, value)))
@@ -389,13 +389,13 @@ fn what_is_held_is_in_every_run_to_the_bit() {
 #[test]
 fn what_cannot_be_held_is_named() {
     let task = task(CLOSURES);
-    let fault = task.holding(vec![("d".into(), Value::Bool(true))]).err().expect("no such choice");
+    let fault = hold(&task, vec![("d".into(), Value::Bool(true))]).err().expect("no such choice");
     assert_eq!(fault.code, "no-address");
     // `y` is of the function that `c` does not choose.
     let runs = listed(&task);
     let y =
         runs.iter().flat_map(|run| &run.0).find(|(path, _)| path.ends_with("/y")).expect("a choice").clone();
-    let none = task.holding(vec![("c".into(), Value::Bool(true)), y.clone()]).expect("addresses that exist");
+    let none = hold(&task, vec![("c".into(), Value::Bool(true)), y.clone()]).expect("addresses that exist");
     let named = |failure: Option<Failure>| {
         let text = failure.expect("a failure").to_string();
         assert!(text.contains(&format!("the held choice `{}`: the run did not make it", y.0)), "{text}");
@@ -405,7 +405,7 @@ fn what_cannot_be_held_is_named() {
     named(importance(&none, None, 50, 1, &mut |_| true).err());
     named(Chain::<MetropolisHastings>::start(&none, &ChainSettings::default(), 0, None).err());
     // A value outside of the support.
-    let odd = task.holding(vec![(y.0.replace("/y", "/x"), Value::Int(7))]).expect("addresses that exist");
+    let odd = hold(&task, vec![(y.0.replace("/y", "/x"), Value::Int(7))]).expect("addresses that exist");
     let text = enumerate(&odd, 10_000, &mut |_| true).err().expect("a failure").to_string();
     assert!(text.contains("outside of its support"), "{text}");
 }
