@@ -124,10 +124,9 @@ pub struct PyTask {
 
 #[pymethods]
 impl PyTask {
-    /// ``max_steps`` bounds one run, ``max_memory`` (bytes) a run or a whole population; ``lock`` has the values of held choices,
-    /// by readable address.
+    /// ``max_steps`` bounds one run, ``max_memory`` (bytes) a run or a whole population.
     #[new]
-    #[pyo3(signature = (program, args=Vec::new(), sketches=Vec::new(), max_steps=20_000_000, max_memory=1 << 30, lock=None))]
+    #[pyo3(signature = (program, args=Vec::new(), sketches=Vec::new(), max_steps=20_000_000, max_memory=1 << 30))]
     fn new(
         py: Python<'_>,
         program: Py<PyProgram>,
@@ -135,7 +134,6 @@ impl PyTask {
         sketches: Vec<PySketchSpec>,
         max_steps: u64,
         max_memory: usize,
-        lock: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<PyTask> {
         let own = program.get();
         let values: Vec<Value> = args.iter().map(|a| own.classes.value(a)).collect::<PyResult<_>>()?;
@@ -150,12 +148,17 @@ impl PyTask {
             limits,
             invalid: Arc::default(),
         };
-        let mut choices: Vec<(String, Value)> = Vec::new();
-        for (path, value) in lock.into_iter().flatten() {
-            choices.push((path.extract()?, own.classes.value(&value)?));
-        }
-        let task = hold(&task, choices).map_err(|fault| faults::setting(py, &fault))?;
         Ok(PyTask { task, model: program.clone_ref(py) })
+    }
+
+    /// The same task with choices held: ``lock`` has their values, by readable address.
+    fn holding(&self, py: Python<'_>, lock: &Bound<'_, PyDict>) -> PyResult<PyTask> {
+        let mut choices: Vec<(String, Value)> = Vec::new();
+        for (path, value) in lock {
+            choices.push((path.extract()?, self.model.get().classes.value(&value)?));
+        }
+        let task = hold(&self.task, choices).map_err(|fault| faults::setting(py, &fault))?;
+        Ok(PyTask { task, model: self.model.clone_ref(py) })
     }
 
     /// The same task, with no run counted yet.
