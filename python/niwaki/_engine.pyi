@@ -39,6 +39,8 @@ __all__ = [
     "fingerprint",
     "frame_camera",
     "log_density",
+    "matches",
+    "nearest",
     "parameter_names",
     "render",
     "support",

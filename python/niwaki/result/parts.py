@@ -1,7 +1,7 @@
 """The choices of a part of a run, to hold them in another search.
 
-A part is a call or an iteration of a loop: what is at and below its address. What decides that it exists is above it: the
-choices of the calls around it, and of the earlier iterations of the loops that it is in.
+A part is a call or an iteration of a loop: what is at and below its address. What decides that it exists is above it:
+the choices of the calls around it, and of the earlier iterations of the loops that it is in.
 """
 
 from __future__ import annotations

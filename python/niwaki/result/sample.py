@@ -16,7 +16,7 @@ from niwaki.result.gradient import LogDensity
 from niwaki.targets.target import Target
 
 if TYPE_CHECKING:
-    from niwaki.result.result import Result
+    from niwaki import Result
     from niwaki.search import Search
 
 
@@ -119,10 +119,10 @@ class Sample:
         Parameters
         ----------
         patterns
-            Patterns of addresses, as for `kernels.on`. One that matches a choice takes that choice. One that matches a part (a
-            call, an iteration of a loop, or a primitive of the scene, which stands for the call that emits it) takes all
-            choices at and below it, and those that decide that it exists: of the calls around it, and of the earlier
-            iterations of its loops. All choices, where there is no pattern.
+            Patterns of addresses, as for `kernels.on`. One that matches a choice takes that choice. One that matches a
+            part (a call, an iteration of a loop, or a primitive of the scene, which stands for the call that emits it)
+            takes all choices at and below it, and those that decide that it exists: of the calls around it, and of the
+            earlier iterations of its loops. All choices, where there is no pattern.
 
         Raises
         ------

@@ -21,7 +21,9 @@ def check_lock(lock: Any) -> None:
     """An error unless it is None, or values by address."""
     is_one = isinstance(lock, Mapping) and all(isinstance(address, str) for address in lock)
     if lock is not None and not is_one:
-        raise bad("lock", lock, "values of choices by address", '`{"width": 2.0}`, or `result.held("wing[1]")`')
+        raise bad(
+            "lock", lock, "values of choices by address", '`{"width": 2.0}`, or `result.held("wing[1]")`'
+        )
 
 
 def check_polish(method: Any) -> None:
