@@ -109,8 +109,8 @@ pub trait Answers<S: Scalar> {
         self.score(at, Factor::Held, log)
     }
 
-    /// The run has ended, and has not met a held choice, which has this readable address: it is impossible. A kept run is
-    /// reported as [`Change::Impossible`](super::kept::Change) instead.
+    /// The run cannot meet a held choice any more, which has this readable address: it is impossible. Where the run is to stop,
+    /// the next answer says so. A kept run is reported as [`Change::Impossible`](super::kept::Change) at its end instead.
     fn unmet(&mut self, _: &str) {}
 
     /// One primitive for the scene.

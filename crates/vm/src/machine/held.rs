@@ -3,6 +3,10 @@
 //! Where a run meets a held choice, its value is the given one, and its log density is a factor of the score. A run that
 //! ends without having met all of them is impossible: nothing may lose what is held. So the law of the runs is that of the
 //! program's, given that each held choice exists and has its value.
+//!
+//! A particle that has lost a held choice should not live on until its end, since what it lost may have been improbable, so
+//! that it weighs more than the others. Where an activation is left, all held choices below it must have been met; only those
+//! in futures that it created may come later.
 
 use super::address::{ROOT, iteration_key, join};
 use crate::code::{FunctionId, Program, Site, SiteKind};
@@ -17,6 +21,9 @@ pub struct Held<S: Scalar = f64> {
     choices: Vec<(String, Value<S>)>,
     /// Their numbers by address.
     numbers: HashMap<u128, u32>,
+    /// Those that are below an activation, by its path: all, and without those in futures below it.
+    below: HashMap<u128, Vec<u32>>,
+    at_once: HashMap<u128, Vec<u32>>,
 }
 
 impl Held {
@@ -25,15 +32,21 @@ impl Held {
     /// # Errors
     /// The first of them that no run of the program can have.
     pub fn new(program: &Program, choices: Vec<(String, Value)>) -> Result<Held, String> {
-        let mut numbers = HashMap::new();
+        let (mut numbers, mut below, mut at_once) = (HashMap::new(), HashMap::new(), HashMap::new());
         for (number, (path, _)) in (0..).zip(&choices) {
             let found = addresses(program, path);
             if found.is_empty() {
                 return Err(path.clone());
             }
-            numbers.extend(found.into_iter().map(|address| (address, number)));
+            for (path, is_at_once) in common(&found) {
+                below.entry(path).or_insert_with(Vec::new).push(number);
+                if is_at_once {
+                    at_once.entry(path).or_insert_with(Vec::new).push(number);
+                }
+            }
+            numbers.extend(found.into_iter().map(|found| (found.address, number)));
         }
-        Ok(Held { choices, numbers })
+        Ok(Held { choices, numbers, below, at_once })
     }
 }
 
@@ -55,6 +68,13 @@ impl<S: Scalar> Held<S> {
         Some((number, &self.choices[number as usize].1))
     }
 
+    /// The first of these choices that cannot be met any more when an activation with this path is left, where futures run at
+    /// once or not.
+    pub(crate) fn lost(&self, path: u128, unmet: &Numbers, depth_first: bool) -> Option<u32> {
+        let below = if depth_first { &self.below } else { &self.at_once };
+        below.get(&path)?.iter().copied().find(|number| unmet.contains(*number))
+    }
+
     /// The readable address of a held choice.
     pub fn name(&self, number: u32) -> &str {
         &self.choices[number as usize].0
@@ -63,7 +83,12 @@ impl<S: Scalar> Held<S> {
     /// The same choices, their values over other numbers.
     pub fn convert<T: Scalar>(&self, number: &impl Fn(S) -> T) -> Held<T> {
         let choices = self.choices.iter().map(|(path, value)| (path.clone(), value.convert(number)));
-        Held { choices: choices.collect(), numbers: self.numbers.clone() }
+        Held {
+            choices: choices.collect(),
+            numbers: self.numbers.clone(),
+            below: self.below.clone(),
+            at_once: self.at_once.clone(),
+        }
     }
 }
 
@@ -85,6 +110,11 @@ impl Numbers {
     /// All numbers below `count`.
     pub fn below(count: usize) -> Numbers {
         (0..count as u32).collect()
+    }
+
+    /// Whether a number is among them.
+    pub fn contains(&self, number: u32) -> bool {
+        self.0.get(number as usize / 64).is_some_and(|word| word >> (number % 64) & 1 != 0)
     }
 
     /// Removes a number.
@@ -115,19 +145,48 @@ impl FromIterator<u32> for Numbers {
     }
 }
 
-/// Where a readable address may go on: the hash of an activation's path, its function (`None` where a value was called, so
+/// An address that a choice may have, and the activations that it is in.
+struct Found {
+    address: u128,
+    inside: Vec<Inside>,
+}
+
+/// An activation: its path, and whether it may begin later than where it is called, as a future.
+#[derive(Clone, Copy)]
+struct Inside {
+    path: u128,
+    is_future: bool,
+}
+
+/// The activations that all of these addresses are in, each with whether it lasts until the choice is met: no future is
+/// between them.
+fn common(found: &[Found]) -> Vec<(u128, bool)> {
+    let Some((first, others)) = found.split_first() else { return vec![] };
+    let mut all = vec![];
+    let mut is_at_once = true;
+    for Inside { path, is_future } in first.inside.iter().rev() {
+        if others.iter().all(|other| other.inside.iter().any(|own| own.path == *path)) {
+            all.push((*path, is_at_once));
+        }
+        is_at_once &= !is_future;
+    }
+    all
+}
+
+/// Where a readable address may go on: the activations so far, the function of the last (`None` where a value was called, so
 /// that it may be any), and what is left of the text.
 struct Front<'a> {
-    path: u128,
+    inside: Vec<Inside>,
     function: Option<FunctionId>,
     rest: &'a str,
 }
 
 /// The addresses that choices with this readable address may have. There are several where different functions may be
 /// called at one place, or where a function gives one name to several choices.
-fn addresses(program: &Program, path: &str) -> Vec<u128> {
+fn addresses(program: &Program, path: &str) -> Vec<Found> {
     let mut found = Vec::new();
-    let mut fronts = vec![Front { path: ROOT, function: Some(program.entry), rest: path }];
+    let root = Inside { path: ROOT, is_future: true };
+    let mut fronts = vec![Front { inside: vec![root], function: Some(program.entry), rest: path }];
     while let Some(front) = fronts.pop() {
         let functions = match &front.function {
             Some(id) => std::slice::from_ref(program.function(*id)),
@@ -135,33 +194,42 @@ fn addresses(program: &Program, path: &str) -> Vec<u128> {
         };
         for site in functions.iter().flat_map(|f| &f.sites) {
             if matches!(site.kind, SiteKind::Sample(_)) && *site.label == *front.rest {
-                found.push(join(front.path, site.key));
+                let address = join(front.path(), site.key);
+                found.push(Found { address, inside: front.inside.clone() });
             }
             fronts.extend(below(site, &front));
         }
     }
-    found.sort_unstable();
-    found.dedup();
+    found.sort_unstable_by_key(|found| found.address);
+    found.dedup_by_key(|found| found.address);
     found
+}
+
+impl Front<'_> {
+    /// The path of the activation that was entered last.
+    fn path(&self) -> u128 {
+        self.inside.last().map_or(ROOT, |inside| inside.path)
+    }
 }
 
 /// Where the address goes on below a site, if its next component is that of the site.
 fn below<'a>(site: &Site, front: &Front<'a>) -> Option<Front<'a>> {
-    let path = join(front.path, site.key);
+    let path = join(front.path(), site.key);
     let after = |label: &str, text: &'a str| text.strip_prefix(label)?.strip_prefix('/');
-    match &site.kind {
+    let (more, function, rest) = match &site.kind {
         SiteKind::Call { function } | SiteKind::Future { function, .. } => {
-            Some(Front { path, function: Some(*function), rest: after(&site.label, front.rest)? })
+            (None, Some(*function), after(&site.label, front.rest)?)
         }
-        SiteKind::Apply | SiteKind::FutureApply { .. } => {
-            Some(Front { path, function: None, rest: after(&site.label, front.rest)? })
-        }
+        SiteKind::Apply | SiteKind::FutureApply { .. } => (None, None, after(&site.label, front.rest)?),
         SiteKind::Loop(l) => {
             let (name, behind) = site.label.split_once("[]")?;
             let (number, rest) = front.rest.strip_prefix(name)?.strip_prefix('[')?.split_once(']')?;
             let path = join(path, iteration_key(number.parse().ok()?));
-            Some(Front { path, function: Some(l.body), rest: after(behind, rest)? })
+            (Some(Inside { path, is_future: false }), Some(l.body), after(behind, rest)?)
         }
-        _ => None,
-    }
+        _ => return None,
+    };
+    let is_future = matches!(site.kind, SiteKind::Future { .. } | SiteKind::FutureApply { .. });
+    let own = [Inside { path, is_future }].into_iter().chain(more);
+    Some(Front { inside: front.inside.iter().copied().chain(own).collect(), function, rest })
 }

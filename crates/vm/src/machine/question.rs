@@ -179,6 +179,17 @@ impl<S: Scalar> Machine<'_, S> {
         }
     }
 
+    /// An activation is left: a held choice in it that was not met never will be.
+    #[inline(always)]
+    pub(super) fn leave<A: Answers<S>>(&self, state: &State<S>, answers: &mut A, node: NodeId) {
+        if let Some(held) = self.held
+            && let Some(number) =
+                held.lost(state.nodes[node.0 as usize].path, &state.unmet, state.depth_first)
+        {
+            answers.unmet(held.name(number));
+        }
+    }
+
     /// Reports a factor.
     #[inline(never)]
     pub(super) fn factor<A: Answers<S>>(
