@@ -16,8 +16,8 @@ mod rounds;
 mod start;
 
 pub use rounds::{Kind, Round};
-pub use start::Attempt;
 
+use crate::failure::Attempt;
 use crate::particles::distinct::Choices;
 use crate::particles::{Progress, Watch, side_by_side};
 use crate::run::Run;

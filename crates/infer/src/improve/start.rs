@@ -6,6 +6,7 @@
 //! are created. Rounds of the search then follow the declared power again.
 
 use super::Improve;
+use crate::failure::Attempt;
 use crate::particles::{Anneal, Order, Progress, Result, Settings, smc};
 use crate::resampling::Resampling;
 use crate::{Failure, Task};
@@ -41,17 +42,6 @@ const FORMS: [Form; 6] = [
     Form { name: "a hundredth of the power", times: 6, power: 0.01, ..USUAL },
     Form { name: "depth-first order", times: 6, power: 1.0 / 16.0, order: Order::DepthFirst, ..USUAL },
 ];
-
-/// A first population.
-#[derive(Clone, Debug)]
-pub struct Attempt {
-    /// Its form.
-    pub form: &'static str,
-    /// Its particles.
-    pub particles: usize,
-    /// The barrier at which its last particle died; `None` where it lived.
-    pub died_at: Option<usize>,
-}
 
 impl Improve {
     /// A population that lived; `attempts` receives each that was tried. `goes_on` is asked before another one is.
@@ -96,6 +86,10 @@ impl Improve {
                 break;
             }
         }
-        Err(first.unwrap_or_else(Failure::no_start))
+        let mut first = first.unwrap_or_else(Failure::no_start);
+        if let Failure::Impossible { attempts: tried, .. } = &mut first {
+            tried.clone_from(attempts);
+        }
+        Err(first)
     }
 }
