@@ -11,6 +11,7 @@ use super::regrown::PROGRAMS;
 use niwaki_infer::chain::accept::MetropolisHastings;
 use niwaki_infer::chain::agreement::compare;
 use niwaki_infer::chain::kernel::Kernel;
+use niwaki_infer::chain::regrow::{Afresh, afresh};
 use niwaki_infer::chain::{Chain, Settings as ChainSettings};
 use niwaki_infer::chooser::{Chooser, Chosen, Context};
 use niwaki_infer::enumeration::enumerate;
@@ -408,4 +409,51 @@ fn what_cannot_be_held_is_named() {
     let odd = hold(&task, vec![(y.0.replace("/y", "/x"), Value::Int(7))]).expect("addresses that exist");
     let text = enumerate(&odd, 10_000, &mut |_| true).err().expect("a failure").to_string();
     assert!(text.contains("outside of its support"), "{text}");
+}
+
+/// The law of the values given everything outside of a part: of runs that choose the same outside of it, and nothing else.
+fn given_the_rest(runs: &[Listed], choices: &[(String, Value)], part: &str) -> HashMap<String, f64> {
+    let is_outside = |(path, _): &&(String, Value)| !path.starts_with(&format!("{part}/"));
+    let outside: Vec<_> = choices.iter().filter(is_outside).cloned().collect();
+    let same_number = |run: &&Listed| run.0.iter().filter(is_outside).count() == outside.len();
+    conditioned(&runs.iter().filter(same_number).cloned().collect::<Vec<_>>(), &outside)
+}
+
+/// Shares of weighted particles vary as those of a third as many independent draws or less; some 150 are looked at.
+#[test]
+fn a_part_grown_afresh_follows_the_law_given_the_rest() {
+    const PARTICLES: usize = 3000;
+    let mut looked = 0;
+    for (name, text) in programs() {
+        let task = task(text);
+        let runs = listed(&task);
+        for number in 0..3 {
+            let (choices, ..) = &runs[(number * 7919 + 31) % runs.len()];
+            let paths: HashMap<String, Value> = choices.iter().cloned().collect();
+            let known = replay(&task, Source::Paths(&paths), Missing::Refuse).expect("a run").choices;
+            let known = known.into_iter().map(|choice| (choice.address, choice.value)).collect();
+            let mut parts: Vec<&str> = choices.iter().filter_map(|c| Some(c.0.rsplit_once('/')?.0)).collect();
+            parts.sort_unstable();
+            parts.dedup();
+            for part in parts.into_iter().take(4) {
+                let exact = given_the_rest(&runs, choices, part);
+                let with = Afresh { part, particles: PARTICLES, power: 1.0, seed: 9 };
+                // A name without a stroke is that of any call with this last component.
+                let Ok(found) = afresh(&task, &known, &with) else { continue };
+                let log_evidence = log_sum_exp(exact.values().copied());
+                let all = weighed(found.iter().map(|run| (&run.value, run.log_weight)));
+                let total: f64 = all.iter().map(|(_, weight)| weight).sum();
+                for (value, log) in &exact {
+                    let p = (log - log_evidence).exp();
+                    let own: f64 = all.iter().filter(|(v, _)| v == value).map(|(_, weight)| weight).sum();
+                    let error = (p * (1.0 - p) / (PARTICLES as f64 / 3.0)).sqrt().max(1e-9);
+                    let z = (own / total - p) / error;
+                    looked += usize::from(p < 1.0 - 1e-9);
+                    assert!(z.abs() < 6.0, "{name}, {part} of {choices:?}: {value} has z = {z}");
+                }
+                assert!(all.iter().all(|(value, _)| exact.contains_key(value)), "{name}, {part}");
+            }
+        }
+    }
+    assert!(looked > 50, "{looked} shares only");
 }
