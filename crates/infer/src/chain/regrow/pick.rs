@@ -190,7 +190,7 @@ pub(super) fn only(pattern: &str, trace: &Trace, program: &Program) -> Result<Pi
             let near = if near.is_empty() { "this run has no part with choices".into() } else { near };
             Err(Fault::new("no-part", format!("`{pattern}` matches no part")).about(pattern).with_help(near))
         }
-        [ref several @ ..] => {
+        ref several => {
             let mut names: Vec<String> = several.iter().map(|at| name(*at)).collect();
             names.sort();
             Err(Fault::new("many-parts", format!("`{pattern}` matches {} parts", names.len()))
