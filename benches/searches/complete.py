@@ -15,7 +15,7 @@ from typing import Any
 LEAST: dict[str, tuple[dict[str, float], str]] = {
     "forked stems": (
         {"ball": 0.1},
-        "a ball that no branch reaches is empty, and one that a branch reaches is covered by more than a tenth; a branch "
+        "a ball that no branch reaches is empty, one that a branch reaches is covered by more than a tenth; a branch "
         "may run beside its arm, so that the arm's share says less",
     ),
     "leaning discs": (
