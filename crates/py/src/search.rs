@@ -9,8 +9,11 @@ use crate::gradients::PyDensity;
 use crate::model::PyProgram;
 use crate::runs::{PyRun, PyTrace};
 use niwaki_infer::chain::counts::Count;
+use niwaki_infer::chain::glob;
+use niwaki_infer::chain::regrow::{Afresh, afresh};
 use niwaki_infer::chain::user::User;
 use niwaki_infer::gradient::live;
+use niwaki_infer::hold::hold;
 use niwaki_infer::improve::Round;
 use niwaki_infer::method::{self, Given, Info, Method};
 use niwaki_infer::nested::Inner;
@@ -141,12 +144,23 @@ impl PyTask {
             program: own.program.clone(),
             model: None,
             args: values,
+            held: None,
             sketches: sketches.into_iter().map(|s| s.0).collect(),
             hosts: own.hosts(limits),
             limits,
             invalid: Arc::default(),
         };
         Ok(PyTask { task, model: program.clone_ref(py) })
+    }
+
+    /// The same task with choices held: ``lock`` has their values, by readable address.
+    fn holding(&self, py: Python<'_>, lock: &Bound<'_, PyDict>) -> PyResult<PyTask> {
+        let mut choices: Vec<(String, Value)> = Vec::new();
+        for (path, value) in lock {
+            choices.push((path.extract()?, self.model.get().classes.value(&value)?));
+        }
+        let task = hold(&self.task, choices).map_err(|fault| faults::setting(py, &fault))?;
+        Ok(PyTask { task, model: self.model.clone_ref(py) })
     }
 
     /// The same task, with no run counted yet.
@@ -207,6 +221,27 @@ impl PyTask {
         let entry = Arc::new(Closure { function: program.entry.0, captures: vec![] });
         let value = self.at_once(py, || Ok(inferences.infer(&inner, &entry, &self.task.args, seed)?))?;
         self.object(py, &value)
+    }
+
+    /// Grows the one part of a run that a pattern matches again, by particles; everything else stays as it is. The runs that are
+    /// possible, with their weights.
+    #[pyo3(signature = (run, part, particles, power, seed, threads=None))]
+    #[expect(clippy::too_many_arguments, reason = "the settings of a search")]
+    fn regrow(
+        &self,
+        py: Python<'_>,
+        run: &PyRun,
+        part: &str,
+        particles: usize,
+        power: f64,
+        seed: u64,
+        threads: Option<usize>,
+    ) -> PyResult<Vec<PyRun>> {
+        let (task, known) = (&self.task, run.by_address());
+        let with = Afresh { part, particles, power, seed };
+        let (runs, _) = detached(py, &task.program, threads, None, |_| afresh(task, &known, &with))?;
+        let classes = &self.model.get().classes;
+        Ok(runs.into_iter().map(|run| PyRun::new(Arc::new(run), classes.clone())).collect())
     }
 
     /// The log density around a run.
@@ -358,6 +393,18 @@ fn check_inside(py: Python<'_>, method: &str) -> PyResult<()> {
     checked.map_err(|fault| faults::setting(py, &fault))
 }
 
+/// Whether a pattern matches a readable address.
+#[pyfunction]
+fn matches(pattern: &str, address: &str) -> bool {
+    glob::matches(pattern, address)
+}
+
+/// The three of these addresses that are nearest to a pattern.
+#[pyfunction]
+fn nearest(pattern: &str, addresses: Vec<String>) -> Vec<String> {
+    glob::nearest(pattern, &addresses)
+}
+
 /// A hash of the bits that this machine's elementary functions give, in hexadecimal: where it is equal, so are results.
 #[pyfunction]
 fn fingerprint() -> String {
@@ -368,5 +415,7 @@ fn fingerprint() -> String {
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(check_inside, module)?)?;
     module.add_function(wrap_pyfunction!(fingerprint, module)?)?;
+    module.add_function(wrap_pyfunction!(matches, module)?)?;
+    module.add_function(wrap_pyfunction!(nearest, module)?)?;
     module.add_class::<PyTask>()
 }
