@@ -234,7 +234,7 @@ def enumerate_support(family: str, params: Sequence[Any]) -> list[Any] | None: .
 def family_names() -> list[str]: ...
 def parameter_names(family: str) -> list[str]: ...
 
-_Watch = Callable[[int, int, float], object]
+_Watch = Callable[[int, int, float, Run | None], object]
 
 @final
 class Program:

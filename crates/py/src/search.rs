@@ -8,6 +8,7 @@ use crate::geometry::PySketchSpec;
 use crate::gradients::PyDensity;
 use crate::model::PyProgram;
 use crate::runs::{PyRun, PyTrace};
+use crate::values::Classes;
 use niwaki_infer::chain::counts::Count;
 use niwaki_infer::chain::glob;
 use niwaki_infer::chain::regrow::{Afresh, afresh};
@@ -19,6 +20,7 @@ use niwaki_infer::method::{self, Given, Info, Method};
 use niwaki_infer::nested::Inner;
 use niwaki_infer::record::Record;
 use niwaki_infer::replay::{Missing, Source, replay};
+use niwaki_infer::run::Shown;
 use niwaki_infer::{Failure, Task};
 use niwaki_vm::code::Program;
 use niwaki_vm::core::Name;
@@ -43,7 +45,12 @@ pub(crate) struct Watch {
     stop: AtomicBool,
     /// Done, ended, best log score.
     now: Mutex<(u64, usize, f64)>,
+    /// The best run so far, of a search that shows it.
+    pub(crate) shown: Shown,
 }
+
+/// The callback of a user, and the classes of the model.
+pub(crate) type Caller<'a> = (&'a Py<PyAny>, &'a Arc<Classes>);
 
 impl Watch {
     /// Stores the progress of the search; returns whether to go on.
@@ -52,13 +59,17 @@ impl Watch {
         !self.stop.load(Ordering::Relaxed)
     }
 
-    /// Checks for Ctrl-C and calls `callable(done, ended, best)`, on the thread of the Python caller, because only there
-    /// are signals handled.
-    fn tell(&self, callable: Option<&Py<PyAny>>) -> Result<(), PyErr> {
-        let now = *self.now.lock().unwrap_or_else(PoisonError::into_inner);
+    /// Checks for Ctrl-C and calls `callable(done, ended, best, run)`, on the thread of the Python caller, because only
+    /// there are signals handled. The run is the best so far, or `None` where the search does not show it.
+    fn tell(&self, caller: Option<Caller<'_>>) -> Result<(), PyErr> {
+        let (done, ended, best) = *self.now.lock().unwrap_or_else(PoisonError::into_inner);
+        let shown = self.shown.lock().unwrap_or_else(PoisonError::into_inner).clone();
         Python::attach(|py| {
             py.check_signals()?;
-            callable.map_or(Ok(()), |c| c.call1(py, now).map(|_| ()))
+            caller.map_or(Ok(()), |(callable, classes)| {
+                let run = shown.map(|run| PyRun::new(run, classes.clone()));
+                callable.call1(py, (done, ended, best, run)).map(|_| ())
+            })
         })
     }
 }
@@ -70,7 +81,7 @@ pub(crate) fn detached<T: Send>(
     py: Python<'_>,
     program: &Program,
     threads: Option<usize>,
-    callable: Option<&Py<PyAny>>,
+    caller: Option<Caller<'_>>,
     work: impl FnOnce(&Watch) -> Result<T, Failure> + Send,
 ) -> PyResult<(T, bool)> {
     let pool = match threads {
@@ -96,7 +107,7 @@ pub(crate) fn detached<T: Send>(
             });
             while let Err(RecvTimeoutError::Timeout) = wait.recv_timeout(PAUSE) {
                 if raised.is_none()
-                    && let Err(error) = watch.tell(callable)
+                    && let Err(error) = watch.tell(caller)
                 {
                     raised = Some(error);
                     watch.stop.store(true, Ordering::Relaxed);
@@ -107,7 +118,7 @@ pub(crate) fn detached<T: Send>(
     });
     // The callback gets the final progress, however short the search was.
     if raised.is_none() && done.is_ok() {
-        raised = watch.tell(callable).err();
+        raised = watch.tell(caller).err();
     }
     let pressed = raised.is_some();
     match raised {
@@ -190,16 +201,18 @@ impl PyTask {
     ) -> PyResult<(Vec<PyRun>, bool, Bound<'py, PyDict>)> {
         let method = self.read(py, method)?;
         let functions = self.proposals(py, &functions)?;
-        let classes = &self.model.get().classes;
+        let classes = self.model.get().classes.clone();
         let start = start.map(PyRun::entries);
-        let given = Given { seed, functions: &functions, start: start.as_deref() };
         let task = self.keeping(py, &functions)?;
-        let find = |watch: &mut method::Watch<'_>| method.search(&task, &given, watch);
+        let find = |shown: &Shown, watch: &mut method::Watch<'_>| {
+            let given = Given { seed, functions: &functions, start: start.as_deref(), shown: Some(shown) };
+            method.search(&task, &given, watch)
+        };
         let (result, pressed) = if let Method::Forward { n: 1 } = method {
-            (self.at_once(py, || find(&mut |_, _, _| true))?, false)
+            (self.at_once(py, || find(&Shown::default(), &mut |_, _, _| true))?, false)
         } else {
-            detached(py, &task.program, threads, watch.as_ref(), |watch| {
-                find(&mut |done, ended, best| watch.look(done, ended, best))
+            detached(py, &task.program, threads, watch.as_ref().map(|call| (call, &classes)), |watch| {
+                find(&watch.shown, &mut |done, ended, best| watch.look(done, ended, best))
             })?
         };
         let runs = result.runs.into_iter().map(|run| PyRun::new(Arc::new(run), classes.clone())).collect();

@@ -157,7 +157,7 @@ class Search:
     ) -> Result:
         """Go on from the best sample of a result of this search; see `Result.polish`."""
         seed = result.seed if seed is None else seed
-        return searching.polished(result, method, seed, threads, watcher(progress))
+        return searching.polished(result, method, seed, threads, watcher(progress, self))
 
     def regrown(
         self,

@@ -37,14 +37,14 @@ def carried_out(search: Search, threads: int | None, progress: Watch | None) -> 
     if search.choices is not None and not starts(search.method):
         return given(search)
     if search.runs == 1 and search.keep == "all" and search.polish is None:
-        return once(search, search.seed, threads, watcher(progress))
+        return once(search, search.seed, threads, watcher(progress, search))
     found: list[Sample] = []
     failed: list[InputError | ModelFault] = []
     invalid: Counter[str] = Counter()
     spent, interrupted = 0.0, False
     info = Info()
     for number in range(search.runs):
-        watch = watcher(progress, number, search.runs)
+        watch = watcher(progress, search, number, search.runs)
         try:
             one = once(search, (search.seed + number) % 2**64, threads, watch)
         except (InputError, ModelFault) as error:
