@@ -2,11 +2,13 @@
 
 A module of this folder is an entry of the gallery when it has MODEL (the model), and, where they make sense, TITLE (one
 line), TARGET (the name of a function of `niwaki.targets.examples`), VOXEL (the cell size that suits both) and PARTICLES
-(how many a good result takes).
+(how many a good result takes). A model that draws in the plane has DRAWS (the style of its pictures) and WINDOW (the part
+of the plane in which it draws), and DRAWING (the name of a drawing to follow) or SCORE (what it draws without one).
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from importlib import import_module
 from pkgutil import iter_modules
@@ -14,6 +16,7 @@ from typing import Any
 
 import niwaki as nw
 from niwaki import targets
+from niwaki.targets.sketches import Window
 
 #: Modules of this folder that hold no model; they are not imported to find that out.
 NOT_MODELS = ("data", "furnishings")
@@ -40,6 +43,14 @@ class Entry:
         The cell size that suits both.
     particles : int
         How many particles do it well.
+    draws : str or None
+        The style of its drawings; None for models in space.
+    window : tuple or None
+        The part of the plane in which it draws.
+    drawing_name : str or None
+        The drawing that it usually follows, from its arguments x, y and ahead on.
+    score : callable or None
+        Makes the score of a drawing that follows no other.
     """
 
     name: str
@@ -48,6 +59,10 @@ class Entry:
     target_name: str | None
     voxel: float | None
     particles: int
+    draws: str | None = None
+    window: Window | None = None
+    drawing_name: str | None = None
+    score: Callable[[], nw.Score] | None = None
 
     def target(self) -> nw.Target | None:
         """Make the usual target."""
@@ -84,5 +99,9 @@ def entry(name: str) -> Entry | None:
         getattr(module, "TARGET", None),
         getattr(module, "VOXEL", None),
         getattr(module, "PARTICLES", PARTICLES),
+        getattr(module, "DRAWS", None),
+        getattr(module, "WINDOW", None),
+        getattr(module, "DRAWING", None),
+        getattr(module, "SCORE", None),
     )
     return value

@@ -27,6 +27,9 @@ from niwaki.targets.target import Target
 #: The settings of `smc`, which `grow` takes by name.
 SETTINGS = {field.name: field.default for field in fields(Smc)}
 
+#: The power of a search for the best.
+POWER = 16.0
+
 
 def run(
     model: Model[..., Any] | Callable[..., Any],
@@ -121,10 +124,11 @@ def grow(
         What to fill: a `Target`, or a file; may be left out where `score` has something to match.
     args, kwargs
         The model's arguments. What `kwargs` has of the settings of `smc` (particles, order, power, diverse, ...)
-        is how to search, with a `power` of 16 for ratio weights when left out.
+        is how to search, with a `power` of 16 for ratio weights when left out (1 for drawings).
     score
         Further sketches, such as `floor(0) * match_image("skyline.png", "cam.json")`; they multiply
-        `no_self_intersection(rule)` and, where there is a target, `match_volume(target, voxel, sigma)`.
+        `no_self_intersection(rule)`, which is left out for drawings, and, where there is a target,
+        `match_volume(target, voxel, sigma)`.
     method
         Another search than `smc` with those settings.
     voxel, sigma
@@ -155,17 +159,20 @@ def grow(
             expected="no settings together with `method`, which has its own",
             suggestion=f"`method` left out, or the setting in `{method.NAME}(...)`",
         )
-    product = no_self_intersection(rule) * (Score() if score is None else score)
+    product = Score() if score is None else score
+    drawn = product.window is not None
+    if not drawn:
+        product = no_self_intersection(rule) * product
     if target is not None:
         aim = target if isinstance(target, Target) else Target.load(target)
         product *= match_volume(aim, voxel, sigma)
-    elif len(product.asks) == 1:
+    elif len(product.asks) == (0 if drawn else 1):
         raise InputError("no-target", name=model.name)
     search = Search(
         model,
         tuple(arguments(model, args, kwargs)),
         score=product,
-        method=sharpened(settings) if method is None else method,
+        method=sharpened(settings, 1.0 if drawn else POWER) if method is None else method,
         seed=fresh(seed),
         runs=runs,
         keep="best",
@@ -176,10 +183,10 @@ def grow(
     return search.run(threads=threads, progress=progress)
 
 
-def sharpened(settings: Mapping[str, Any]) -> Smc:
-    """The population of a search for the best: where `power` is left out, 16 with ratio weights."""
+def sharpened(settings: Mapping[str, Any], power: float = POWER) -> Smc:
+    """The population of a search for the best: where `power` is left out, that one with ratio weights."""
     given_power = settings.get("power")
-    usual = 16.0 if settings.get("weights", "ratio") == "ratio" else 1.0
+    usual = power if settings.get("weights", "ratio") == "ratio" else 1.0
     return Smc(**{**settings, "power": usual if given_power is None else given_power})
 
 

@@ -1,3 +1,4 @@
+from . import drawing as drawing
 from . import examples as examples
 from . import images as images
 from . import reading as reading
