@@ -37,6 +37,8 @@ class Mark:
         How soft its border is, scene units; soft marks are light that is added.
     opacity : float
         In [0, 1].
+    role : str
+        What it is of its part, where a part's marks lie on several layers; empty for the part itself.
     """
 
     address: str
@@ -44,6 +46,7 @@ class Mark:
     fill: Rgb
     blur: float = 0.0
     opacity: float = 1.0
+    role: str = ""
 
 
 @dataclass(frozen=True)
@@ -148,9 +151,9 @@ def _ink_oval(one: Oval, color: Rgb) -> list[tuple[float, Mark]]:
 def _vine_stroke(one: Stroke, curve: Curve, color: Rgb) -> list[tuple[float, Mark]]:
     light = curve.outline(wider=0.3, aside=0.17)
     return [
-        (0.0, Mark(one.address, curve.outline(more=0.07), mixed(color, (0.0, 0.0, 0.0), 0.45))),
+        (0.0, Mark(one.address, curve.outline(more=0.07), mixed(color, (0.0, 0.0, 0.0), 0.45), role="edge")),
         (0.1, Mark(one.address, curve.outline(), color)),
-        (0.2, Mark(one.address, light, mixed(color, (1.0, 0.86, 0.62), 0.34))),
+        (0.2, Mark(one.address, light, mixed(color, (1.0, 0.86, 0.62), 0.34), role="light")),
     ]
 
 
@@ -171,8 +174,8 @@ def _leaf(one: Oval, color: Rgb) -> list[tuple[float, Mark]]:
     rib = [(-one.along, 0.045), (0.82 * one.along, 0.008), (0.82 * one.along, -0.008), (-one.along, -0.045)]
     return [
         (0.0, Mark(one.address, _placed(one, border), color)),
-        (0.1, Mark(one.address, _placed(one, shade), mixed(color, (1.0, 1.0, 0.8), 0.16))),
-        (0.2, Mark(one.address, _placed(one, rib), dark)),
+        (0.0, Mark(one.address, _placed(one, shade), mixed(color, (1.0, 1.0, 0.8), 0.16))),
+        (0.0, Mark(one.address, _placed(one, rib), dark)),
     ]
 
 
@@ -186,24 +189,24 @@ def _flower(one: Oval, color: Rgb) -> list[tuple[float, Mark]]:
         center = one.center[0] + 0.6 * one.along * cos(angle), one.center[1] + 0.6 * one.along * sin(angle)
         outer = ring(center, 0.45 * one.along, 0.4 * one.along, angle)
         inner = ring(center, 0.36 * one.along, 0.31 * one.along, angle)
-        made.append((0.01 * petal, Mark(one.address, outer, mixed(color, (0.45, 0.04, 0.22), 0.4))))
-        made.append((0.01 * petal, Mark(one.address, inner, color)))
-    made.append((0.1, Mark(one.address, ring(one.center, 0.27 * one.along, 0.27 * one.along), (0.98, 0.80, 0.25))))
-    made.append((0.2, Mark(one.address, ring(one.center, 0.13 * one.along, 0.13 * one.along), (0.86, 0.55, 0.12))))
+        made.append((0.0, Mark(one.address, outer, mixed(color, (0.45, 0.04, 0.22), 0.4))))
+        made.append((0.0, Mark(one.address, inner, color)))
+    made.append((0.0, Mark(one.address, ring(one.center, 0.27 * one.along, 0.27 * one.along), (0.98, 0.80, 0.25))))
+    made.append((0.0, Mark(one.address, ring(one.center, 0.13 * one.along, 0.13 * one.along), (0.86, 0.55, 0.12))))
     return made
 
 
 def _bolt(one: Stroke, curve: Curve, color: Rgb) -> list[tuple[float, Mark]]:
     return [
-        (0.0, Mark(one.address, curve.outline(wider=2.4, more=0.5), color, 1.1, 0.34)),
-        (0.1, Mark(one.address, curve.outline(wider=1.2, more=0.15), mixed(color, (1.0, 1.0, 1.0), 0.3), 0.34, 0.6)),
+        (0.0, Mark(one.address, curve.outline(wider=2.4, more=0.5), color, 1.1, 0.34, "halo")),
+        (0.1, Mark(one.address, curve.outline(wider=1.2, more=0.15), mixed(color, (1.0, 1.0, 1.0), 0.3), 0.34, 0.6, "glow")),
         (0.2, Mark(one.address, curve.outline(wider=0.42), mixed(color, (1.0, 1.0, 1.0), 0.92))),
     ]
 
 
 def _glow(one: Oval, color: Rgb) -> list[tuple[float, Mark]]:
     corners = ring(one.center, one.along, one.across, one.angle)
-    return [(0.0, Mark(one.address, corners, color, 0.6, 0.5)), (0.2, Mark(one.address, corners, color))]
+    return [(0.0, Mark(one.address, corners, color, 0.6, 0.5, "glow")), (0.2, Mark(one.address, corners, color))]
 
 
 BOARD: Rgb = (0.05, 0.23, 0.16)
@@ -211,9 +214,9 @@ BOARD: Rgb = (0.05, 0.23, 0.16)
 
 def _trace(one: Stroke, curve: Curve, color: Rgb) -> list[tuple[float, Mark]]:
     return [
-        (0.0, Mark(one.address, curve.outline(wider=0.75, more=0.1), mixed(BOARD, (0.0, 0.0, 0.0), 0.4))),
+        (0.0, Mark(one.address, curve.outline(wider=0.75, more=0.1), mixed(BOARD, (0.0, 0.0, 0.0), 0.4), role="edge")),
         (0.1, Mark(one.address, curve.outline(wider=0.62), color)),
-        (0.2, Mark(one.address, curve.outline(wider=0.14, aside=0.14), mixed(color, (1.0, 1.0, 0.9), 0.4))),
+        (0.2, Mark(one.address, curve.outline(wider=0.14, aside=0.14), mixed(color, (1.0, 1.0, 0.9), 0.4), role="light")),
     ]
 
 
@@ -223,15 +226,15 @@ def _pad(one: Oval, color: Rgb) -> list[tuple[float, Mark]]:
     if one.is_disc:
         radii = ((0.86, dark), (0.78, tin), (0.36, dark))
         return [
-            (0.3 + 0.1 * k, Mark(one.address, ring(one.center, size * one.along, size * one.along), fill))
-            for k, (size, fill) in enumerate(radii)
+            (0.3, Mark(one.address, ring(one.center, size * one.along, size * one.along), fill))
+            for size, fill in radii
         ]
     made = []
-    for k, (size, fill) in enumerate(((0.60, dark), (0.5, tin))):
+    for size, fill in ((0.60, dark), (0.5, tin)):
         half = size * one.across
         reach = one.along - one.across + half
         ends = [_placed(one, [(sign * (reach - half), 0.0)])[0] for sign in (-1.0, 1.0)]
-        made.append((0.3 + 0.1 * k, Mark(one.address, Curve(ends, [2.0 * half] * 2, False).outline(), fill)))
+        made.append((0.3, Mark(one.address, Curve(ends, [2.0 * half] * 2, False).outline(), fill)))
     return made
 
 

@@ -18,8 +18,8 @@ from niwaki.errors import FileError
 def svg(scene: Scene, *, style: str = "ink", window: Window | None = None, margin: float = 0.04) -> str:
     """Write a scene of flat shapes as SVG.
 
-    A part is a group, or several where marks of other parts lie between its own. Soft marks are blurred by a
-    filter and added as light.
+    A part is a group, and its edge, its light and its glow, which lie on layers of their own, are further ones.
+    Soft marks are blurred by a filter and added as light.
 
     Parameters
     ----------
@@ -48,8 +48,8 @@ def svg(scene: Scene, *, style: str = "ink", window: Window | None = None, margi
         f' fill="{_hex(chosen.paper)}"/>'
     )
     used: dict[str, int] = {}
-    for address, group in groupby(drawn, key=lambda mark: mark.address):
-        name = identifier(address)
+    for (address, role), group in groupby(drawn, key=lambda mark: (mark.address, mark.role)):
+        name = identifier(address) + (f".{role}" if role else "")
         used[name] = used.get(name, 0) + 1
         number = f".{used[name]}" if used[name] > 1 else ""
         lines.append(f"  <g id={quoteattr(name + number)}><title>{escape(address)}</title>")
@@ -59,8 +59,10 @@ def svg(scene: Scene, *, style: str = "ink", window: Window | None = None, margi
 
 
 def identifier(address: str) -> str:
-    """A name that XML allows, as near to the address as it can be."""
-    name = re.sub(r"[^A-Za-z0-9_.\-]+", ".", address.replace("[", "-").replace("]", "")).strip(".")
+    """A name that XML allows, as near to the address as it can be: `branch/branch/emit#1` is `branch-x2.emit-1`."""
+    steps = [(step, len(list(same))) for step, same in groupby(address.split("/"))]
+    text = ".".join(step if count == 1 else f"{step}-x{count}" for step, count in steps)
+    name = re.sub(r"[^A-Za-z0-9_.\-]+", "-", text.replace("]", "")).strip("-")
     return name if name[:1].isalpha() or name[:1] == "_" else f"part.{name}"
 
 

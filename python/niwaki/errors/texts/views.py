@@ -62,6 +62,14 @@ VIEWS = (
         cure="a black letter on a white page",
     ),
     Message(
+        "unknown-drawing",
+        "there is no drawing `{name}`",
+        why="`niwaki.targets.drawings.names()` lists the drawings of the package",
+        help="did you mean `{near}`?",
+        example='targets.drawings.drawing("letters/e")',
+        cure='targets.drawings.drawing("letters/E")',
+    ),
+    Message(
         "weight-size",
         "the weight image `{name}` has another size than its image",
         why="it is {found}, the image {expected}",
