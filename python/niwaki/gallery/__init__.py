@@ -1,9 +1,10 @@
 """Models to look at and start from: one model, one file, one picture.
 
 A module of this folder is an entry of the gallery when it has MODEL (the model), and, where they make sense, TITLE (one
-line), TARGET (the name of a function of `niwaki.targets.examples`), VOXEL (the cell size that suits both) and PARTICLES
-(how many a good result takes). A model that draws in the plane has DRAWS (the style of its pictures) and WINDOW (the part
-of the plane in which it draws), and DRAWING (the name of a drawing to follow) or SCORE (what it draws without one).
+line), TARGET (the name of a function of `niwaki.targets.examples`), VOXEL (the cell size that suits both), PARTICLES
+(how many a good result takes) and RESAMPLING (the rule that suits it). A model that draws in the plane has DRAWS (the
+style of its pictures) and WINDOW (the part of the plane in which it draws), and DRAWING (the name of a drawing to follow)
+or SCORE (what it draws without one).
 """
 
 from __future__ import annotations
@@ -41,8 +42,8 @@ class Entry:
         The target that it is usually grown into.
     voxel : float or None
         The cell size that suits both.
-    particles : int
-        How many particles do it well.
+    usual : dict
+        Settings of `smc` that do it well: how many particles, and perhaps the rule of resampling.
     draws : str or None
         The style of its drawings; None for models in space.
     window : tuple or None
@@ -58,11 +59,16 @@ class Entry:
     model: nw.Model[..., Any]
     target_name: str | None
     voxel: float | None
-    particles: int
+    usual: dict[str, Any]
     draws: str | None = None
     window: Window | None = None
     drawing_name: str | None = None
     score: Callable[[], nw.Score] | None = None
+
+    @property
+    def particles(self) -> int:
+        """How many particles do it well."""
+        return int(self.usual["particles"])
 
     def target(self) -> nw.Target | None:
         """Make the usual target."""
@@ -91,6 +97,9 @@ def entry(name: str) -> Entry | None:
     module = import_module(f"{__name__}.{stem}")
     if not hasattr(module, "MODEL"):
         return None
+    usual = {"particles": getattr(module, "PARTICLES", PARTICLES)}
+    if hasattr(module, "RESAMPLING"):
+        usual["resampling"] = module.RESAMPLING
     title = getattr(module, "TITLE", (module.__doc__ or "").partition("\n")[0])
     value = Entry(
         stem.replace("_", "-"),
@@ -98,7 +107,7 @@ def entry(name: str) -> Entry | None:
         module.MODEL,
         getattr(module, "TARGET", None),
         getattr(module, "VOXEL", None),
-        getattr(module, "PARTICLES", PARTICLES),
+        usual,
         getattr(module, "DRAWS", None),
         getattr(module, "WINDOW", None),
         getattr(module, "DRAWING", None),

@@ -10,7 +10,7 @@ from niwaki import emit, flip, gaussian, model, stroke
 TITLE = "a chain of strokes, in the plane"
 DRAWS = "ink"
 WINDOW = ((-12.0, -2.0), (12.0, 22.0))
-DRAWING = "scribbles/12"
+DRAWING = "scribbles/042"
 PARTICLES = 300
 
 LENGTH, WIDTH = 2.0, 0.75

@@ -10,6 +10,7 @@ DRAWS = "lightning"
 WINDOW = ((-12.0, -2.0), (12.0, 22.0))
 DRAWING = "letters/E"
 PARTICLES = 600
+RESAMPLING = "tempered"
 
 LIGHT = (0.42, 0.50, 1.0)
 

@@ -13,8 +13,9 @@ from niwaki.words import choose
 TITLE = "vines with leaves and flowers, in the plane"
 DRAWS = "vines"
 WINDOW = ((-12.0, -2.0), (12.0, 22.0))
-DRAWING = "scribbles/12"
+DRAWING = "scribbles/026"
 PARTICLES = 600
+RESAMPLING = "tempered"
 
 WIDTH = 0.75
 THINNER = 0.975

@@ -95,7 +95,9 @@ def grow(
         start = dict(zip(("x", "y", "ahead"), drawing.place(chosen.page(found)), strict=True))
     if voxel is None and target is None and aim is not None and found.entry is not None:
         voxel = found.entry.voxel
-    usual = found.entry.particles if found.entry is not None else gallery.PARTICLES
+    usual = {"particles": gallery.PARTICLES} if found.entry is None else found.entry.usual
+    if score.window is not None:
+        usual = {**usual, "power": 1.0}
     with progress_line(found.reference) as progress:
         result = nw.grow(
             found.model,

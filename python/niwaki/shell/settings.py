@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import inspect
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import fields
 from typing import Annotated, Any, get_type_hints
 
@@ -116,7 +116,7 @@ def described(method: type[Method]) -> dict[str, str]:
     return found
 
 
-def method(name: str, given: dict[str, Any], usual: int) -> Method:
+def method(name: str, given: dict[str, Any], usual: Mapping[str, Any]) -> Method:
     """The method with the given settings.
 
     Parameters
@@ -126,7 +126,7 @@ def method(name: str, given: dict[str, Any], usual: int) -> Method:
     given
         Its settings; None for those that were not given.
     usual
-        The number of particles that suits the model.
+        Settings that suit the model; those that the method does not have are left out.
     """
     chosen = METHODS.get(name)
     if chosen is None:
@@ -154,8 +154,9 @@ def method(name: str, given: dict[str, Any], usual: int) -> Method:
                     reason="the given time decides the numbers of particles and populations",
                     cure=f"give only one of them; run.json contains the numbers for {options['seconds']:g} s",
                 )
-    options = {"particles": usual, **options}
-    return search.sharpened(options) if chosen is Smc else chosen(**{"power": 16.0, **options})
+    known = {field.name for field in fields(chosen)}
+    options = {key: value for key, value in usual.items() if key in known} | options
+    return search.sharpened(options) if chosen is Smc else chosen(**{"power": search.POWER, **options})
 
 
 def typed(given: dict[str, Any]) -> dict[str, Any]:

@@ -3,7 +3,7 @@
 ink         what the scene has: curves, ellipses
 vines       ellipses are leaves, discs are flowers
 lightning   strokes that glow on black
-circuit     straight traces; ellipses and discs are pads, on a board
+circuit     straight traces; ellipses and discs are pads; in the colours of a board
 """
 
 from __future__ import annotations
@@ -209,20 +209,22 @@ def _glow(one: Oval, color: Rgb) -> list[tuple[float, Mark]]:
     return [(0.0, Mark(one.address, corners, color, 0.6, 0.5, "glow")), (0.2, Mark(one.address, corners, color))]
 
 
-BOARD: Rgb = (0.05, 0.23, 0.16)
+BOARD: Rgb = (0.045, 0.20, 0.14)
+TRACE: Rgb = (0.30, 0.66, 0.42)
+TIN: Rgb = (0.86, 0.75, 0.42)
 
 
 def _trace(one: Stroke, curve: Curve, color: Rgb) -> list[tuple[float, Mark]]:
     return [
-        (0.0, Mark(one.address, curve.outline(wider=0.75, more=0.1), mixed(BOARD, (0.0, 0.0, 0.0), 0.4), role="edge")),
-        (0.1, Mark(one.address, curve.outline(wider=0.62), color)),
-        (0.2, Mark(one.address, curve.outline(wider=0.14, aside=0.14), mixed(color, (1.0, 1.0, 0.9), 0.4), role="light")),
+        (0.0, Mark(one.address, curve.outline(wider=0.9, more=0.1), mixed(BOARD, (0.0, 0.0, 0.0), 0.4), role="edge")),
+        (0.1, Mark(one.address, curve.outline(wider=0.8), TRACE)),
+        (0.2, Mark(one.address, curve.outline(wider=0.14, aside=0.14), mixed(TRACE, (1.0, 1.0, 0.9), 0.4), role="light")),
     ]
 
 
 def _pad(one: Oval, color: Rgb) -> list[tuple[float, Mark]]:
     """A disc is a pad with a hole; an ellipse an oblong pad, a bar with round ends."""
-    dark, tin = mixed(BOARD, (0.0, 0.0, 0.0), 0.5), mixed(color, (1.0, 1.0, 1.0), 0.25)
+    dark, tin = mixed(BOARD, (0.0, 0.0, 0.0), 0.5), TIN
     if one.is_disc:
         radii = ((0.86, dark), (0.78, tin), (0.36, dark))
         return [

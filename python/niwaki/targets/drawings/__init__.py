@@ -74,7 +74,8 @@ def drawing(name: str) -> Drawing:
     """The drawing of that name."""
     row = table().get(name)
     if row is None:
-        near = get_close_matches(name, table(), n=1, cutoff=0.3)
+        alike = [known for known in table() if known.lower() == name.lower()]
+        near = alike or get_close_matches(name, table(), n=1, cutoff=0.3)
         raise InputError("unknown-drawing", name=name, near=near[0] if near else "letters/E")
     down, across = divmod(row.cell, ACROSS)
     page = _page(name.partition("/")[0])
