@@ -2,9 +2,9 @@
 
     python -m drawings.make FONTS CLIPART          (in benches/; needs SciPy and resvg_py)
 
-FONTS holds lobster.otf, leckerli.ttf, pacifico.woff2, oleo.woff2, kaushan.otf and dejavu.ttf; CLIPART is the folder `svg`
-of Open Clip Art 0.18. The licences are in NOTICE. The table says of each drawing where a model starts, and whether it is
-for training or held out: what is held out is frozen, and a test knows its hash.
+FONTS holds lobster.otf, leckerli.ttf, pacifico.woff2, oleo.woff2, kaushan.otf and dejavu.ttf; CLIPART is the folder
+`svg` of Open Clip Art 0.18. The licences are in NOTICE. The table says of each drawing where a model starts, and
+whether it is for training or held out: what is held out is frozen, and a test knows its hash.
 """
 
 from __future__ import annotations
@@ -94,7 +94,10 @@ def font_glyphs(folder: Path) -> Page:
 
 def _named(font: str, shapes: Page) -> Page:
     stem = font.partition(".")[0]
-    return {f"{stem}-{one if one.isascii() and one.isalnum() else f'u{ord(one):04x}'}": ink for one, ink in shapes.items()}
+    return {
+        f"{stem}-{one if one.isascii() and one.isalnum() else f'u{ord(one):04x}'}": ink
+        for one, ink in shapes.items()
+    }
 
 
 def start_of(name: str, greys: NDArray[np.uint8]) -> tuple[float, float]:

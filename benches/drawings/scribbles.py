@@ -1,7 +1,7 @@
 """Scribbles: strokes of a brush, made by code, all starting at the same point near the lower border and going up.
 
-Each is the union of discs along smooth curves. Lengths are in shares of the image, y upwards. What is too small, too full
-or not in one piece is drawn again.
+Each is the union of discs along smooth curves. Lengths are in shares of the image, y upwards. What is too small, too
+full or not in one piece is drawn again.
 """
 
 from __future__ import annotations
@@ -79,7 +79,8 @@ def _spline(points: Curve, steps: int = 60) -> Curve:
         t = np.linspace(0.0, 1.0, steps, endpoint=False)[:, None]
         square, cube = t * t, t * t * t
         made.append(
-            0.5 * (2 * b + (c - a) * t + (2 * a - 5 * b + 4 * c - d) * square + (3 * b - a - 3 * c + d) * cube)
+            0.5
+            * (2 * b + (c - a) * t + (2 * a - 5 * b + 4 * c - d) * square + (3 * b - a - 3 * c + d) * cube)
         )
     return np.concatenate([*made, points[-1:]])
 

@@ -113,7 +113,11 @@ class Shape:
     ) -> Shape: ...
     @staticmethod
     def stroke(
-        start: _Triple, end: _Triple, width: float, end_width: float | None = None, color: _Triple | None = None
+        start: _Triple,
+        end: _Triple,
+        width: float,
+        end_width: float | None = None,
+        color: _Triple | None = None,
     ) -> Shape: ...
     @staticmethod
     def ellipse(
@@ -194,9 +198,7 @@ class Picture:
 
 @final
 class Drawing:
-    def __new__(
-        cls, greys: NDArray[np.uint8], low: Sequence[float], high: Sequence[float]
-    ) -> Drawing: ...
+    def __new__(cls, greys: NDArray[np.uint8], low: Sequence[float], high: Sequence[float]) -> Drawing: ...
     @property
     def size(self) -> tuple[int, int]: ...
     def mask(self, shapes: Sequence[Shape]) -> NDArray[np.bool_]: ...

@@ -7,7 +7,8 @@
 mod scenes;
 
 use niwaki_geom::{
-    Drawing, DrawingMatch, Look, Page, Primitive, Shape, Sketch, Texture, TextureMatch, Vec3, match_drawing, vec3,
+    Drawing, DrawingMatch, Look, Page, Primitive, Shape, Sketch, Texture, TextureMatch, Vec3, match_drawing,
+    vec3,
 };
 use scenes::{Dice, any_shape};
 use std::sync::Arc;
@@ -89,7 +90,9 @@ fn touched_pixels_are_those_with_a_point_inside() {
         let known = if k % 2 == 0 { stroke(&mut dice, 2.2) } else { ellipse(&mut dice, 2.2) };
         let touched = page.touched(&known.shape);
         let on: std::collections::HashSet<usize> = touched.rays().collect();
-        assert!(touched.words().windows(2).all(|w| w[0].0 < w[1].0) && touched.words().iter().all(|w| w.1 != 0));
+        assert!(
+            touched.words().windows(2).all(|w| w[0].0 < w[1].0) && touched.words().iter().all(|w| w.1 != 0)
+        );
         let [columns, rows] = page.size();
         let fine = [columns * FINE, rows * FINE];
         let corner = {
@@ -195,7 +198,11 @@ fn any_primitive(dice: &mut Dice) -> Primitive {
 }
 
 /// Random additions, removals and copies; after each the sketch is the one of its primitives in another order.
-fn history<T: Sketch + Clone + PartialEq>(dice: &mut Dice, start: &T, mut check: impl FnMut(&T, &[Primitive])) {
+fn history<T: Sketch + Clone + PartialEq>(
+    dice: &mut Dice,
+    start: &T,
+    mut check: impl FnMut(&T, &[Primitive]),
+) {
     let (mut sketch, mut held, mut copies) = (start.clone(), Vec::new(), Vec::new());
     for step in 0..60 {
         if step == 25 {
@@ -265,7 +272,10 @@ fn textures_score_by_the_formula_whatever_their_history() {
                 cover.words().iter().for_each(|(word, bits)| held_samples[*word as usize] |= bits);
             }
             let value = |x: i64, y: i64| match x >= 0 && y >= 0 && x < columns as i64 && y < rows as i64 {
-                true => 1.0 - f64::from(held_samples[page.sampled_word(x as usize, y as usize)].count_ones()) / 64.0,
+                true => {
+                    1.0 - f64::from(held_samples[page.sampled_word(x as usize, y as usize)].count_ones())
+                        / 64.0
+                }
                 false => 0.0,
             };
             let (mut fill, mut edge) = (0.0, 0.0);
@@ -303,9 +313,8 @@ fn reaching_out_of_the_window_costs_much() {
     greys[300] = 0;
     let drawing = Arc::new(Drawing::new(page, &greys).unwrap());
     let spec = match_drawing(drawing, 1e6).unwrap();
-    let line = |a: Vec3, b: Vec3| {
-        Primitive::new([Shape::stroke(a, b, (0.5, 0.5), &Look::default()).unwrap()])
-    };
+    let line =
+        |a: Vec3, b: Vec3| Primitive::new([Shape::stroke(a, b, (0.5, 0.5), &Look::default()).unwrap()]);
     let score = |primitives: &[Primitive]| {
         let mut sketch = spec.start();
         let empty = sketch.log_score();
@@ -319,7 +328,10 @@ fn reaching_out_of_the_window_costs_much() {
     // Both sides of one direction add before they are squared.
     let right = line(vec3(24.024, 1.0, 0.0), vec3(23.0, 1.0, 0.0));
     assert!((score(&[left, right]) + 4.0).abs() < 1e-6);
-    let disc = Primitive::new([Shape::ellipse(vec3(5.0, 11.0, 0.0), (2.024, 2.024), 0.3, &Look::default()).unwrap()]);
+    let disc =
+        Primitive::new(
+            [Shape::ellipse(vec3(5.0, 11.0, 0.0), (2.024, 2.024), 0.3, &Look::default()).unwrap()],
+        );
     assert!((score(&[disc]) + 1.0).abs() < 1e-6);
 }
 

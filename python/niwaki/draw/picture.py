@@ -115,7 +115,14 @@ def picture(
             window = (x - pad, y - pad), (right + pad, high + pad)
         clear = backdrop == "clear"
         return drawing(
-            scene, size=size, style=style, window=window, margin=margin / 2, under=under, clear=clear, like=like
+            scene,
+            size=size,
+            style=style,
+            window=window,
+            margin=margin / 2,
+            under=under,
+            clear=clear,
+            like=like,
         )
     meshes = surfaces(scene, like)
     ghost = None if target is None else _ghost(target)

@@ -3,8 +3,8 @@
 A module of this folder is an entry of the gallery when it has MODEL (the model), and, where they make sense, TITLE (one
 line), TARGET (the name of a function of `niwaki.targets.examples`), VOXEL (the cell size that suits both), PARTICLES
 (how many a good result takes) and RESAMPLING (the rule that suits it). A model that draws in the plane has DRAWS (the
-style of its pictures) and WINDOW (the part of the plane in which it draws), and DRAWING (the name of a drawing to follow)
-or SCORE (what it draws without one).
+style of its pictures) and WINDOW (the part of the plane in which it draws), and DRAWING (the name of a drawing to
+follow) or SCORE (what it draws without one).
 """
 
 from __future__ import annotations

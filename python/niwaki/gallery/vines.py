@@ -1,7 +1,7 @@
 """Vines that grow into a shape, with leaves and flowers (dissertation 6.5.2).
 
-A branch is a straight stroke, a little thinner and turned a little from the one before. Along it there may be a leaf, at
-its end a flower; then the vine ends, as a whole, or goes on in one branch or two. Left alone it ends after three
+A branch is a straight stroke, a little thinner and turned a little from the one before. Along it there may be a leaf,
+at its end a flower; then the vine ends, as a whole, or goes on in one branch or two. Left alone it ends after three
 strokes: all that is long comes from what the drawing asks for.
 """
 

@@ -47,7 +47,9 @@ ImageFile = Annotated[
 Window = Annotated[
     str | None,
     typer.Option(
-        "--window", metavar="X,Y,X,Y", help="Low and high corner of what a drawing shows; default: the model's."
+        "--window",
+        metavar="X,Y,X,Y",
+        help="Low and high corner of what a drawing shows; default: the model's.",
     ),
 ]
 Pixels = Annotated[
@@ -72,7 +74,9 @@ Voxel = Annotated[
 ]
 Sigma = Annotated[
     float | None,
-    typer.Option("--sigma", help="Strictness of the match; smaller is stricter; default: 0.02, drawings 0.014."),
+    typer.Option(
+        "--sigma", help="Strictness of the match; smaller is stricter; default: 0.02, drawings 0.014."
+    ),
 ]
 
 
@@ -172,14 +176,21 @@ class Controls:
     @property
     def is_drawing(self) -> bool:
         """Whether the image is a drawing in the plane, and not a silhouette seen by a camera."""
-        return self.match_image is not None and self.camera is None and (self.draws or self.window is not None)
+        return (
+            self.match_image is not None and self.camera is None and (self.draws or self.window is not None)
+        )
 
     def drawing(self, found: shell.references.ModelReference) -> targets.drawing.Drawing | None:
         """The drawing to follow: the one named; else the model's own."""
         if self.match_image is not None and self.is_drawing:
             return targets.drawings.find(self.match_image, self.pixels or PIXELS)
         entry = found.entry
-        if entry is None or entry.drawing_name is None or self.target is not None or self.match_image is not None:
+        if (
+            entry is None
+            or entry.drawing_name is None
+            or self.target is not None
+            or self.match_image is not None
+        ):
             return None
         return targets.drawings.find(entry.drawing_name)
 

@@ -74,7 +74,9 @@ class Files:
         if unknown or not chosen:
             raise _refused("--format", repr(formats), f"formats among {', '.join(FORMATS)}", "glb,stl")
         if style is None and set(DRAWINGS) & set(chosen):
-            raise _refused("--format", repr(formats), "no svg, which is for models that draw in the plane", "glb")
+            raise _refused(
+                "--format", repr(formats), "no svg, which is for models that draw in the plane", "glb"
+            )
         for flag, given, kinds in (
             ("--scale", scale, SOLIDS),
             ("--fuse", fuse, SOLIDS),

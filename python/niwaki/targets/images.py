@@ -1,8 +1,8 @@
 """Images to match: which pixels should be on, and how much each matters.
 
 A pixel of a silhouette is on when its red is above zero, so that the grey edge of a smoothed shape counts as on; pixels
-that are wholly transparent are off. A drawing is ink on paper instead: what is not white is ink. No image is flipped: the
-camera, or the reader of the page, should see it as it is.
+that are wholly transparent are off. A drawing is ink on paper instead: what is not white is ink. No image is flipped:
+the camera, or the reader of the page, should see it as it is.
 """
 
 from __future__ import annotations

@@ -292,8 +292,8 @@ def match_drawing(
 ) -> Score:
     """Scores a scene by how well it draws an image: dark ink on white paper.
 
-    The scene is seen from +z. Its similarity is 1 for the image and 0 for an empty page; contours count more than areas,
-    and what reaches out of the window costs much (dissertation 6.5.2).
+    The scene is seen from +z. Its similarity is 1 for the image and 0 for an empty page; contours count more than
+    areas, and what reaches out of the window costs much (dissertation 6.5.2).
 
     Parameters
     ----------
@@ -323,8 +323,8 @@ def fill_drawing(
 ) -> Score:
     """Scores a scene by how it fills a part of the plane: to a certain share, with as many edges as there can be.
 
-    The scene is seen from +z. With long straight strokes this makes circuits (dissertation 6.5.3); what reaches out of the
-    window costs much.
+    The scene is seen from +z. With long straight strokes this makes circuits (dissertation 6.5.3); what reaches out
+    of the window costs much.
 
     Parameters
     ----------

@@ -96,7 +96,7 @@ def view_sheet(
 def through_camera(
     scene: Scene, view: View, size: tuple[int, int], *, samples: int = 16, style: str = "ink"
 ) -> Image.Image:
-    """Draws the scene itself as a sketch sees it; over the shadow that it casts, and over the drawing that it follows."""
+    """Draws the scene itself as a sketch sees it, over the shadow that it casts or the drawing that it follows."""
     if view.camera is None:
         return drawing(scene, size=size, style=style, window=view.window, under=view.image).convert("RGB")
     under = colored([(view.mask(scene), SHADE)] if view.kind == "shadow" else [], size)

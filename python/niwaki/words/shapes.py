@@ -1,7 +1,8 @@
 """Shapes, the things that `emit` adds to a scene. Right-handed, y up, metres by default.
 
-A point is a 3-tuple, a list or a `vec`. Flat shapes lie on a plane parallel to z = 0, and are seen from +z. A colour is `(r, g, b)` in [0, 1]. A rotation is three rows of three numbers,
-as `rotation(axis, angle)` gives. In a plain-Python run a shape is the engine's own `Shape`.
+A point is a 3-tuple, a list or a `vec`. Flat shapes lie on a plane parallel to z = 0, and are seen from +z. A colour
+is `(r, g, b)` in [0, 1]. A rotation is three rows of three numbers, as `rotation(axis, angle)` gives. In a
+plain-Python run a shape is the engine's own `Shape`.
 """
 
 from __future__ import annotations

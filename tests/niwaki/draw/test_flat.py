@@ -1,4 +1,4 @@
-"""Claim: scenes of flat shapes are drawings: smooth where strokes continue, in the order of z, every part with a name."""
+"""Claim: scenes of flat shapes are drawings: smooth where strokes continue, in the order of z, each part named."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """Claim: populations and chains draw in the plane as they build in space: exact, and the same bits by each strategy.
 
-The evidence of a small program is compared with its enumeration. Under the null the mean of the estimates is off by more
-than 4 standard errors in 6e-5 of the cases, for each of the two scores.
+The evidence of a small program is compared with its enumeration. Under the null the mean of the estimates is off by
+more than 4 standard errors in 6e-5 of the cases, for each of the two scores.
 """
 
 from __future__ import annotations

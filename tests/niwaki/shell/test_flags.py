@@ -117,7 +117,9 @@ def test_a_drawing_is_followed_from_its_own_start(place: Path) -> None:
     svg = Path("out/best.svg").read_bytes()
     again = run("replay", "out/run.json", "-o", "again")
     assert again.exit_code == 0 and Path("again/best.svg").read_bytes() == svg
-    own = run("grow", "circuit", "-n", "10", "--seed", "1", "-o", "board", "--format", "svg,gif", "--size", "60x60")
+    own = run(
+        "grow", "circuit", "-n", "10", "--seed", "1", "-o", "board", "--format", "svg,gif", "--size", "60x60"
+    )
     assert own.exit_code == 0 and Path("board/growth.gif").is_file(), (own.output, own.exception)
 
 

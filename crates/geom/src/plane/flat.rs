@@ -61,7 +61,9 @@ pub(crate) fn check(solid: &Solid, placement: &Placement) -> Result<(), GeomErro
     let bad = |message: String| Err(GeomError::new("bad-shape", message));
     let up = Vec3::AXES[2];
     if (placement.rotation.apply(up) - up).norm() > 1e-6 {
-        return bad("a flat shape lies on a plane parallel to z = 0, its rotation turns it out of that".into());
+        return bad(
+            "a flat shape lies on a plane parallel to z = 0, its rotation turns it out of that".into()
+        );
     }
     match solid {
         Solid::Stroke { ends } if ends[0].center.z != ends[1].center.z => bad(format!(

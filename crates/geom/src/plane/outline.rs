@@ -35,11 +35,8 @@ impl Outline {
                 let axis = placement.rotation.columns[0];
                 let (p, q) = (4.0 / (long * long), 4.0 / (wide * wide));
                 let (cos, sin) = (axis.x, axis.y);
-                let form = [
-                    p * cos * cos + q * sin * sin,
-                    (p - q) * cos * sin,
-                    p * sin * sin + q * cos * cos,
-                ];
+                let form =
+                    [p * cos * cos + q * sin * sin, (p - q) * cos * sin, p * sin * sin + q * cos * cos];
                 let center = placement.translation;
                 each(Outline::Ellipse([center.x, center.y], form));
             }

@@ -141,7 +141,8 @@ impl Page {
                     // Sample k is at `low + (k + 1/2) wide`.
                     let place = |x: f64| ((x - self.low[0]) / wide - 0.5).ceil();
                     let last = (self.size[0] * SAMPLES) as f64;
-                    let samples = place(least).clamp(0.0, last) as usize..place(most).clamp(0.0, last) as usize;
+                    let samples =
+                        place(least).clamp(0.0, last) as usize..place(most).clamp(0.0, last) as usize;
                     let mut first = samples.start;
                     while first < samples.end {
                         let column = first / SAMPLES;

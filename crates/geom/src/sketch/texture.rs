@@ -130,8 +130,11 @@ impl TextureMatch {
         }
         let mut sum = 0;
         for middle in (1..=rows.len()).map(|row| row * wide) {
-            let (above, here, below) =
-                (&values[middle - wide..middle], &values[middle..middle + wide], &values[middle + wide..middle + 2 * wide]);
+            let (above, here, below) = (
+                &values[middle - wide..middle],
+                &values[middle..middle + wide],
+                &values[middle + wide..middle + 2 * wide],
+            );
             for x in 1..=columns.len() {
                 let side = |x: usize| above[x] + 2 * here[x] + below[x];
                 let line = |row: &[i32]| row[x - 1] + 2 * row[x] + row[x + 1];

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from itertools import groupby
 
 import numpy as np
@@ -95,19 +95,21 @@ def framing(
     return 0.5 * (x + right) - 0.5 * size[0] / scale, 0.5 * (y + high) + 0.5 * size[1] / scale, scale
 
 
-def _fill(page: Image.Image, group: Sequence[Mark], at: object) -> None:
+def _fill(page: Image.Image, group: Sequence[Mark], at: Callable[[Point], Point]) -> None:
     pen = ImageDraw.Draw(page)
     for mark in group:
-        pen.polygon([at(corner) for corner in mark.corners], fill=(*_bytes(mark.fill), 255))  # type: ignore[operator]
+        pen.polygon([at(corner) for corner in mark.corners], fill=(*_bytes(mark.fill), 255))
 
 
-def _shine(page: Image.Image, group: Sequence[Mark], at: object, blur: float) -> Image.Image:
+def _shine(
+    page: Image.Image, group: Sequence[Mark], at: Callable[[Point], Point], blur: float
+) -> Image.Image:
     """Adds light: as two lamps that shine on the same place never exceed white (the screen of photographers)."""
     light = Image.new("RGB", page.size)
     pen = ImageDraw.Draw(light)
     for mark in group:
         red, green, blue = (part * mark.opacity for part in mark.fill)
-        pen.polygon([at(corner) for corner in mark.corners], fill=_bytes((red, green, blue)))  # type: ignore[operator]
+        pen.polygon([at(corner) for corner in mark.corners], fill=_bytes((red, green, blue)))
     # A blurred image needs few pixels.
     few = max(1, int(blur // 4))
     small = light.resize((max(1, page.width // few), max(1, page.height // few)), Image.Resampling.BOX)

@@ -191,22 +191,39 @@ def _flower(one: Oval, color: Rgb) -> list[tuple[float, Mark]]:
         inner = ring(center, 0.36 * one.along, 0.31 * one.along, angle)
         made.append((0.0, Mark(one.address, outer, mixed(color, (0.45, 0.04, 0.22), 0.4))))
         made.append((0.0, Mark(one.address, inner, color)))
-    made.append((0.0, Mark(one.address, ring(one.center, 0.27 * one.along, 0.27 * one.along), (0.98, 0.80, 0.25))))
-    made.append((0.0, Mark(one.address, ring(one.center, 0.13 * one.along, 0.13 * one.along), (0.86, 0.55, 0.12))))
+    made.append(
+        (0.0, Mark(one.address, ring(one.center, 0.27 * one.along, 0.27 * one.along), (0.98, 0.80, 0.25)))
+    )
+    made.append(
+        (0.0, Mark(one.address, ring(one.center, 0.13 * one.along, 0.13 * one.along), (0.86, 0.55, 0.12)))
+    )
     return made
 
 
 def _bolt(one: Stroke, curve: Curve, color: Rgb) -> list[tuple[float, Mark]]:
     return [
         (0.0, Mark(one.address, curve.outline(wider=2.4, more=0.5), color, 1.1, 0.34, "halo")),
-        (0.1, Mark(one.address, curve.outline(wider=1.2, more=0.15), mixed(color, (1.0, 1.0, 1.0), 0.3), 0.34, 0.6, "glow")),
+        (
+            0.1,
+            Mark(
+                one.address,
+                curve.outline(wider=1.2, more=0.15),
+                mixed(color, (1.0, 1.0, 1.0), 0.3),
+                0.34,
+                0.6,
+                "glow",
+            ),
+        ),
         (0.2, Mark(one.address, curve.outline(wider=0.42), mixed(color, (1.0, 1.0, 1.0), 0.92))),
     ]
 
 
 def _glow(one: Oval, color: Rgb) -> list[tuple[float, Mark]]:
     corners = ring(one.center, one.along, one.across, one.angle)
-    return [(0.0, Mark(one.address, corners, color, 0.6, 0.5, "glow")), (0.2, Mark(one.address, corners, color))]
+    return [
+        (0.0, Mark(one.address, corners, color, 0.6, 0.5, "glow")),
+        (0.2, Mark(one.address, corners, color)),
+    ]
 
 
 BOARD: Rgb = (0.045, 0.20, 0.14)
@@ -216,9 +233,25 @@ TIN: Rgb = (0.86, 0.75, 0.42)
 
 def _trace(one: Stroke, curve: Curve, color: Rgb) -> list[tuple[float, Mark]]:
     return [
-        (0.0, Mark(one.address, curve.outline(wider=0.9, more=0.1), mixed(BOARD, (0.0, 0.0, 0.0), 0.4), role="edge")),
+        (
+            0.0,
+            Mark(
+                one.address,
+                curve.outline(wider=0.9, more=0.1),
+                mixed(BOARD, (0.0, 0.0, 0.0), 0.4),
+                role="edge",
+            ),
+        ),
         (0.1, Mark(one.address, curve.outline(wider=0.8), TRACE)),
-        (0.2, Mark(one.address, curve.outline(wider=0.14, aside=0.14), mixed(TRACE, (1.0, 1.0, 0.9), 0.4), role="light")),
+        (
+            0.2,
+            Mark(
+                one.address,
+                curve.outline(wider=0.14, aside=0.14),
+                mixed(TRACE, (1.0, 1.0, 0.9), 0.4),
+                role="light",
+            ),
+        ),
     ]
 
 

@@ -5,9 +5,9 @@ glyphs        letters, figures and signs of script fonts, in one piece without e
 letters       capitals and figures of a plain bold font
 silhouettes   animals and plants, from clip art in the public domain
 
-Each is 50 by 50 pixels. `table.csv` has a line for each: its cell on the collection's page, where a model starts (shares
-of the image from its lower left corner) and in which direction, and its use: "training", or "held-out" for what no guide
-is trained on. `benches/drawings/make.py` made them; NOTICE has the licences.
+Each is 50 by 50 pixels. `table.csv` has a line for each: its cell on the collection's page, where a model starts
+(shares of the image from its lower left corner) and in which direction, and its use: "training", or "held-out" for
+what no guide is trained on. `benches/drawings/make.py` made them; NOTICE has the licences.
 """
 
 from __future__ import annotations
