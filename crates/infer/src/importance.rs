@@ -3,8 +3,9 @@
 //!
 //! `w_i = s(x_i) p(x_i) / q(x_i)`, `p(value | score) ~ sum of w_i [value_i = value]`; the evidence is the mean weight.
 
-use crate::chooser::{Guided, Prior, Proposal};
+use crate::chooser::Prior;
 use crate::forward::forward_by;
+use crate::proposal::{Guided, Proposal};
 use crate::record::AllInvalid;
 use crate::run::Run;
 use crate::{Failure, Task};

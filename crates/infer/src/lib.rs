@@ -8,15 +8,18 @@
 //! * [`enumeration`], [`rejection`], [`importance`]: exact and direct answers, the oracles for the rest;
 //! * [`method`]: a search as data; [`run`]: a finished run;
 //! * `streams`: the random streams that belong to no run;
-//! * [`nested`]: inference inside a model;
+//! * `particle`, `weights`, [`resampling`]: a run that stops at barriers, what it weighs, and which of many survive;
+//! * [`chain`]: Metropolis-Hastings over kept runs, kernels as values; parts of a run grown again by particles;
+//! * [`proposal`]: a user's proposals for a run that begins;
 //! * [`particles`]: sequential Monte Carlo, in program order and in stochastic order;
-//! * [`chain`]: Metropolis-Hastings over kept runs, kernels as values;
+//! * [`nested`]: inference inside a model;
 //! * [`improve`]: a search for the best, by all of these;
 //! * [`gradient`]: a task as a log density over its continuous choices, and chains that follow its slope;
 //! * [`hamiltonian`]: such chains over any log density of real coordinates.
 //!
 //! Not here: opcodes, shapes, Python.
 
+pub mod blame;
 pub mod chain;
 pub mod chooser;
 pub mod enumeration;
@@ -29,13 +32,17 @@ pub mod improve;
 pub mod log;
 pub mod method;
 pub mod nested;
+mod particle;
 pub mod particles;
+pub mod proposal;
 pub mod record;
 pub mod rejection;
 pub mod replay;
+pub mod resampling;
 pub mod run;
 mod streams;
 pub mod task;
+mod weights;
 
 pub use failure::Failure;
 pub use task::Task;

@@ -4,7 +4,6 @@
 
 use crate::chain::form::Form;
 use crate::chain::user::User;
-use crate::chooser::Proposal;
 use crate::enumeration::enumerate;
 use crate::forward::forward;
 use crate::hamiltonian::chains::Length;
@@ -16,6 +15,7 @@ use crate::particles::{
     self, Ancestors, FinalChains, Moment, Progress, Rejuvenation, Resampling, Settings, particle_gibbs, pimh,
     populations, within,
 };
+use crate::proposal::Proposal;
 use crate::rejection::rejection;
 use crate::run::Run;
 use crate::{Failure, Task, chain};
@@ -293,8 +293,8 @@ impl Method {
                 Ok(of_chain(pimh(task, &settings, own.sweeps, &mut progress)?))
             }
             Method::Improve(own) => {
-                let (best, result) = own.search(task, seed, &mut progress)?;
-                Ok(bare(vec![best], result.interrupted, Info::Improved(result)))
+                let (runs, result) = own.search(task, seed, &mut progress)?;
+                Ok(bare(runs, result.interrupted, Info::Improved(result)))
             }
             Method::Mh(_) | Method::Hmc(_) | Method::Nuts(_) => {
                 Err(bad("a method whose chains go on is started, not searched".into()).into())

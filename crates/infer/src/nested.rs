@@ -10,10 +10,10 @@ use crate::Failure;
 use crate::chain;
 use crate::chain::many::Chains;
 use crate::method::{Given, Info, Method, Mh};
-use crate::particles::weights::Normalised;
 use crate::run::Run;
 use crate::streams::Reserved;
 use crate::task::{Hosts, Task};
+use crate::weights::Normalised;
 use niwaki_vm::code::{FunctionId, Program};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Limits;
@@ -119,7 +119,7 @@ impl Inner {
 }
 
 fn impossible() -> Failure {
-    Failure::Impossible { barrier: 0, causes: vec![] }
+    Failure::impossible(0, std::iter::empty())
 }
 
 /// Host functions and the inferences inside of a program.

@@ -19,7 +19,9 @@ from niwaki.shell.app import Folder, ModelName, app, ensure_folder, progress_lin
 
 @app.command()
 @settings.with_settings(
-    *settings.METHODS.values(), power="16, with absolute weights 1", particles="the model's own, or 300"
+    *settings.METHODS.values(),
+    power="16, with absolute weights 1",
+    particles="the model's own, or 300; of improve a third",
 )
 def grow(
     model: ModelName,
@@ -39,7 +41,7 @@ def grow(
     voxel: controls.Voxel = None,
     sigma: controls.Sigma = None,
     rule: Annotated[str, typer.Option(help="Which parts count as intersecting: solid or surface.")] = "solid",
-    method: settings.MethodName = "smc",
+    method: settings.MethodName = None,
     polish: settings.Polish = None,
     polish_kernel: settings.PolishKernel = None,
     runs: Annotated[int, typer.Option(help="How many results, with seeds SEED, SEED + 1, ...")] = 1,
@@ -95,16 +97,16 @@ def grow(
         start = dict(zip(("x", "y", "ahead"), drawing.place(chosen.page(found)), strict=True))
     if voxel is None and target is None and aim is not None and found.entry is not None:
         voxel = found.entry.voxel
-    usual = {"particles": gallery.PARTICLES} if found.entry is None else found.entry.usual
+    suits = {"particles": gallery.PARTICLES} if found.entry is None else found.entry.usual
     if score.window is not None:
-        usual = {**usual, "power": 1.0}
+        suits = {**suits, "power": 1.0}
     with progress_line(found.reference) as progress:
         result = nw.grow(
             found.model,
             aim,
             **start,
             score=score,
-            method=settings.method(method, given, usual),
+            method=settings.method(method, given, suits),
             polish=onward,
             seed=seed,
             threads=threads,
@@ -150,6 +152,8 @@ def _write(
 
 
 def _summary(result: nw.Result, folder: Path) -> None:
+    if isinstance(result.info, results.info.ImproveInfo) and len({sample.seed for sample in result}) == 1:
+        print(result.info)
     for sample in result:
         print(f"{results.caption(sample)}   {sample.primitives} primitives   {sample.seconds:.2f} s")
     print(f"best: seed {result.best.seed}, log score {result.best.log_score:.2f}; files in {folder}")

@@ -1,7 +1,7 @@
-//! Copies at a resampling: survivors keep their index, and their further copies replace the particles that got no copy.
-//! Copies are made when the particles run again, each by the thread that runs it.
+//! The copies of a resampling. They are made when the particles run again, each by the thread that runs it.
 
-use super::advance::Particle;
+use crate::particle::Particle;
+use crate::resampling::{further_copies, pair};
 use std::collections::VecDeque;
 
 /// At least this many copies of one parent are given to another thread in advance.
@@ -32,11 +32,7 @@ impl Copies {
     /// Particle `i` is to survive `counts[i]` times. `ancestor` becomes that of the survivors; `lineages` counts the
     /// lineages so far.
     pub fn plan(counts: &[usize], ancestor: &mut [usize], lineages: &mut u64) -> Copies {
-        let mut free = counts.iter().enumerate().filter(|(_, c)| **c == 0).map(|(index, _)| index);
-        let mut moves: Vec<(usize, usize)> = Vec::with_capacity(counts.len());
-        for (parent, &count) in counts.iter().enumerate() {
-            moves.extend((1..count).map_while(|_| free.next().map(|to| (parent, to))));
-        }
+        let moves: Vec<(usize, usize)> = further_copies(counts).collect();
         let lineage = *lineages;
         // Lineages are assigned in this order, whatever thread copies.
         *lineages += moves.len() as u64;
@@ -176,16 +172,5 @@ pub(super) fn copy(batch: &mut [Indexed<'_>], seed: u64) {
             None => parent = at,
             Some(lineage) => rest[0].particle.copy_from(before[parent].particle, lineage, seed),
         }
-    }
-}
-
-/// Two different particles.
-pub(crate) fn pair<P>(particles: &mut [P], a: usize, b: usize) -> [&mut P; 2] {
-    if a < b {
-        let (left, right) = particles.split_at_mut(b);
-        [&mut left[a], &mut right[0]]
-    } else {
-        let (left, right) = particles.split_at_mut(a);
-        [&mut right[0], &mut left[b]]
     }
 }

@@ -36,16 +36,16 @@
 //! included, and not by `r_i`: up to a barrier, `psi` without `q` and `r` of the path of `i` is in proportion to
 //! `psi w_i / (p g of that path)`.
 
-use super::advance::Particle;
 use super::many::Watch;
 use super::partial_run::{FollowSettings, PartialRun, Step};
 use super::population::Population;
-use super::resampling::multinomial;
 use super::settings::{Anneal, Order, Settings, Weights};
 use super::smc::{Outcome, Progress, outcome, run};
-use super::weights::Normalised;
 use crate::log::Entry;
+use crate::particle::Particle;
+use crate::resampling::conditional_multinomial;
 use crate::streams::Reserved;
+use crate::weights::Normalised;
 use crate::{Failure, Task};
 use niwaki_math::streams::RngCore;
 use niwaki_vm::fault::Fault;
@@ -230,12 +230,7 @@ fn conditional(
             chain.tries += 1;
             chain.moves += usize::from(parent != held);
         }
-        let others = population.particles.len() - 1;
-        population.resample_by(|weights, random| {
-            let mut copies = multinomial(weights, others, random);
-            copies[parent] += 1;
-            copies
-        });
+        population.resample_by(|weights, random| conditional_multinomial(weights, parent, random));
         // The first copy keeps the index of its parent: it is the held run.
         held = parent;
     }

@@ -3,14 +3,14 @@
 //! With `s(r_n)` the score of a run at its n-th barrier and `T` the power, particles target
 //! `F_n = p_n(x_n) s(r_n)^T` (dissertation 5.3, with `T = 1`). A step:
 //!
-//! 1. *Advance*: each particle that has not ended runs to its next barrier (`advance`). After each barrier
+//! 1. *Advance*: each particle that has not ended runs to its next barrier (`particle`). After each barrier
 //!    and whenever a future returns, the order policy picks the future that runs next.
 //! 2. *Weigh* (`weights`): `w *= (s(r_n) / s(r_{n-1}))^T`. One that has ended carries its last score. Of choices that a
-//!    proposal drew since the last barrier ([`Proposal`](crate::chooser::Proposal)) `p(x) / q(x)` counts too, which is not
-//!    raised to a power.
-//! 3. *Resample* ([`resampling`]): at every barrier, or when the effective sample size is low; weights are reset, or keep
-//!    what the particles were not drawn by (`tempered`). Copies (`copies`) are made when the particles run again, by the
-//!    thread that ran their parent (`shared`).
+//!    proposal drew since the last barrier ([`Proposal`](crate::proposal::Proposal)) `p(x) / q(x)` counts too, which is
+//!    not raised to a power.
+//! 3. *Resample* ([`resampling`](crate::resampling)): at every barrier, or when the effective sample size is low; weights
+//!    are reset, or keep what the particles were not drawn by (`tempered`). Copies (`copies`) are made when the particles
+//!    run again, by the thread that ran their parent (`shared`).
 //! 4. *Rejuvenate*, where set ([`rejuvenation`]): each particle is moved by a Markov kernel that leaves `F_n` invariant (`moves`);
 //!    one that still runs is followed again from its start with other values (`partial_run`). In the end chains may start
 //!    from a few of the final set, and their states take its place (`final_chains`).
@@ -29,8 +29,7 @@
 //! Random streams belong to a particle's lineage: at resampling the first copy keeps its parent's, every other
 //! copy gets a fresh one, and none is used again.
 
-pub(crate) mod advance;
-pub(crate) mod copies;
+mod copies;
 pub mod distinct;
 mod final_chains;
 mod gibbs;
@@ -40,21 +39,20 @@ mod partial_run;
 mod pimh;
 mod population;
 pub mod rejuvenation;
-pub mod resampling;
 mod settings;
 mod shared;
 mod smc;
 mod tempered;
-pub(crate) mod weights;
 
 #[cfg(test)]
 mod tests;
 
+pub use crate::resampling::Resampling;
 pub use final_chains::FinalChains;
 pub use gibbs::{Ancestors, Chain, particle_gibbs};
+pub(crate) use many::side_by_side;
 pub use many::{Watch, populations, within};
 pub use pimh::pimh;
 pub use rejuvenation::{Moment, MoveCounts, Rejuvenation};
-pub use resampling::Resampling;
 pub use settings::{Anneal, Order, Settings, Weights, When};
 pub use smc::{Outcome, Progress, Result, smc};

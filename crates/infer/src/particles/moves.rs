@@ -1,7 +1,6 @@
 //! Moves of one particle. A particle that still runs is moved by following its partial run again, one that has ended by a
 //! chain over its kept run.
 
-use super::advance::Particle;
 use super::partial_run::{Choice, Densities, FollowSettings, PartialRun};
 use super::rejuvenation::{Mover, Round};
 use super::settings::Order;
@@ -13,6 +12,7 @@ use crate::chain::proposal::Move;
 use crate::chain::state::State as ChainState;
 use crate::chain::streams::below;
 use crate::chain::{Chain, Settings as ChainSettings};
+use crate::particle::Particle;
 use crate::record::{Record, score_of};
 use crate::replay::by_address;
 use crate::streams::Reserved;

@@ -5,9 +5,10 @@
 //! barrier, and where each future is suspended at the end. Under one skeleton the order policy gives equal order choices
 //! equal probability (one over the number of futures that can run, pick by pick), so it cancels in a ratio.
 
-use super::advance::Particle;
-use crate::chooser::{Chooser, Chosen, Context, Known, Prior, Proposal, Refuse};
+use crate::chooser::{Chooser, Chosen, Context, Known, Prior, Refuse};
 use crate::log::{Entry, Log};
+use crate::particle::Particle;
+use crate::proposal::Proposal;
 use crate::record::check_factor;
 use crate::replay::by_address;
 use crate::{Failure, Task};

@@ -17,8 +17,8 @@ use super::gibbs::{Chain, check_chain, draw_index, sweep_seed};
 use super::many::Watch;
 use super::settings::Settings;
 use super::smc::{Outcome, run};
-use super::weights::Normalised;
 use crate::streams::Reserved;
+use crate::weights::Normalised;
 use crate::{Failure, Task};
 use niwaki_math::log_sums::log_mean_exp;
 

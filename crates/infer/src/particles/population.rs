@@ -1,19 +1,22 @@
 //! The population and its steps: advance, weigh, resample. [`smc`](super::smc()) takes them in turn; so does
 //! conditional SMC, with one particle held.
 
-use super::advance::Particle;
 use super::copies::{Copies, Indexed, copy};
 use super::rejuvenation::{MoveCounts, Mover};
-use super::resampling::Resampling;
 use super::settings::{Anneal, Order, Settings, Weights, When};
 use super::shared::share;
 use super::tempered::Tempered;
-use super::weights::{Normalised, conditional_share};
+use crate::blame::blame;
+use crate::chooser::Prior;
+use crate::particle::Particle;
+use crate::proposal::Guided;
 use crate::record::{AllInvalid, Record};
+use crate::resampling::Resampling;
 use crate::streams::Reserved;
+use crate::weights::{Normalised, conditional_share, log_step};
 use crate::{Failure, Task};
-use niwaki_math::{Stream, StreamKey, Total};
-use niwaki_vm::machine::Limits;
+use niwaki_math::Stream;
+use niwaki_vm::machine::{Limits, Machine};
 use std::collections::HashSet;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -83,16 +86,8 @@ impl<'a> Population<'a> {
         let empty_score = empty.score();
         let particles: Vec<Particle> = (0..n as u64)
             .map(|lineage| Particle {
-                state: first.clone(),
-                record: empty.fork(),
-                lineage,
-                stream: StreamKey::new(settings.seed, lineage, 0),
-                picks: 0,
-                was_ended: false,
-                weighed: empty_score.clone(),
-                log_weight: 0.0,
-                pending: 0.0,
                 home: lineage as usize % rayon::current_num_threads(),
+                ..Particle::start(first.clone(), empty.fork(), lineage, settings.seed)
             })
             .collect();
         let power = match &settings.anneal {
@@ -131,7 +126,7 @@ impl<'a> Population<'a> {
             self.copies.make(&mut self.particles, seed);
             let mut machine = task.machine();
             let mut others = self.particles.iter_mut().enumerate().filter(|(index, _)| Some(*index) != held);
-            return others.try_for_each(|(_, p)| p.advance(&mut machine, task, settings));
+            return others.try_for_each(|(_, p)| advance(p, &mut machine, task, settings));
         }
         // Of several faults, that of the first particle is reported, so that threads do not matter. Particles after
         // a failed one need not run: an endless model would use up its budget once for each.
@@ -151,7 +146,7 @@ impl<'a> Population<'a> {
                     if Some(index) == held || index > failed.load(Ordering::Relaxed) {
                         continue;
                     }
-                    if let Err(own) = particle.advance(&mut machine, task, settings)
+                    if let Err(own) = advance(particle, &mut machine, task, settings)
                         && failed.fetch_min(index, Ordering::Relaxed) > index
                     {
                         let mut first = fault.lock().unwrap_or_else(PoisonError::into_inner);
@@ -198,7 +193,7 @@ impl<'a> Population<'a> {
             best = best.max(score.value());
             ended += usize::from(p.state.has_ended());
             match self.settings.weights {
-                Weights::Ratio => p.log_weight += step(next, &score, self.power, &p.weighed),
+                Weights::Ratio => p.log_weight += log_step(next, &score, self.power, &p.weighed),
                 Weights::Absolute => p.log_weight = self.settings.power * score.value(),
             }
             p.weighed = score;
@@ -210,7 +205,7 @@ impl<'a> Population<'a> {
         }
         if !self.weights.read(self.logs.iter().copied()) {
             AllInvalid::check_all(self.particles.iter().map(|p| p.record.invalid.as_ref()))?;
-            return Err(impossible(&self.particles, self.barriers));
+            return Err(impossible(&self.task, &self.particles, self.barriers));
         }
         Ok(BarrierSummary { best, ended })
     }
@@ -229,7 +224,8 @@ impl<'a> Population<'a> {
     fn adapted(&self, share: f64) -> f64 {
         let keeps = |next: f64| {
             let old = self.particles.iter().map(|p| p.log_weight);
-            let steps = self.particles.iter().map(|p| step(next, &p.record.score(), self.power, &p.weighed));
+            let steps =
+                self.particles.iter().map(|p| log_step(next, &p.record.score(), self.power, &p.weighed));
             conditional_share(old, steps) >= share
         };
         let (mut low, mut high) = (self.power, self.settings.power);
@@ -304,27 +300,21 @@ impl<'a> Population<'a> {
     }
 }
 
-/// The log weight of a step to a score at a power. At zero it does not look at the score, unless the run is
-/// impossible.
-#[inline(always)]
-fn step(next: f64, score: &Total, power: f64, weighed: &Total) -> f64 {
-    let (now, before) = (score.near(), weighed.near());
-    // Equal powers by one product: the difference of scores is exact.
-    let log = if next == power { next * (now - before) } else { next * now - power * before };
-    if log.is_nan() { wide_step(next, score, power, weighed) } else { log }
-}
-
-/// The same, where a score is impossible or too large to be exact as an `f64`.
-#[cold]
-#[inline(never)]
-fn wide_step(next: f64, score: &Total, power: f64, weighed: &Total) -> f64 {
-    if score.is_impossible() {
-        f64::NEG_INFINITY
-    } else if next == power {
-        next * score.less(weighed).value()
-    } else {
-        next * score.value() - power * weighed.value()
-    }
+/// Runs a particle to its next barrier, or to its end: choices are drawn by the proposal, where there is one for them.
+fn advance(
+    particle: &mut Particle,
+    machine: &mut Machine<'_>,
+    task: &Task,
+    settings: &Settings,
+) -> Result<(), Failure> {
+    let (stream, otherwise) = (particle.stream, Prior(particle.stream));
+    match settings.proposal.as_deref() {
+        None => particle.advance(machine, task, settings.seed, otherwise)?,
+        Some(proposal) => {
+            particle.advance(machine, task, settings.seed, Guided { proposal, stream, otherwise })?
+        }
+    };
+    Ok(())
 }
 
 /// Divides the memory budget of the task among the particles.
@@ -333,7 +323,11 @@ fn share_memory(task: &Task, n: usize) -> Task {
     Task { limits: Limits { bytes, ..task.limits }, ..task.clone() }
 }
 
-fn impossible(particles: &[Particle], barrier: usize) -> Failure {
+fn impossible(task: &Task, particles: &[Particle], barrier: usize) -> Failure {
     let causes = particles.iter().map(|p| (p.record.cause.as_deref().unwrap_or("weights"), 1));
-    Failure::impossible(barrier, causes)
+    let mut failure = Failure::impossible(barrier, causes);
+    if let Failure::Impossible { blame: found, .. } = &mut failure {
+        *found = blame(task, particles.iter().map(|p| p.record.log.entries()));
+    }
+    failure
 }

@@ -13,7 +13,6 @@
 //! has, and not again until the end, when all are moved once without bound. For the same reason the evidence is unbiased
 //! for moves at fixed barriers, and consistent for moves after a resampling that is itself decided by the weights.
 
-use super::advance::Particle;
 use super::final_chains::FinalChains;
 use super::moves::{move_ended, move_running};
 use super::population::{BATCH, Population};
@@ -22,6 +21,7 @@ use crate::chain::counts::Count;
 use crate::chain::kernel::Kernel;
 use crate::chain::plan::Plan;
 use crate::chain::state::Fresh;
+use crate::particle::Particle;
 use crate::streams::Reserved;
 use crate::{Failure, Task};
 use niwaki_vm::fault::Fault;

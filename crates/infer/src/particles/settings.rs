@@ -1,8 +1,8 @@
 //! The settings of SMC.
 
-use super::Resampling;
 use super::rejuvenation::Rejuvenation;
-use crate::chooser::Proposal;
+use crate::proposal::Proposal;
+use crate::resampling::Resampling;
 use niwaki_vm::fault::Fault;
 use serde::{Deserialize, Deserializer};
 use std::sync::Arc;

@@ -1,9 +1,9 @@
 //! One population from its start to its end, and its result.
 
-use super::advance::Particle;
 use super::population::Population;
 use super::rejuvenation::MoveCounts;
 use super::settings::{Anneal, Settings, Weights};
+use crate::particle::Particle;
 use crate::record::Record;
 use crate::run::Run;
 use crate::{Failure, Task};

@@ -25,7 +25,7 @@
 //! under `W^(2 b)`. Impossible particles do not count. If they did, a constraint that kills most particles would need a `b`
 //! of zero, and the others would not be selected at all.
 
-use super::weights::Normalised;
+use crate::weights::Normalised;
 
 /// The effective sample size at the power, as a share of the possible particles.
 const SHARE: f64 = 0.5;

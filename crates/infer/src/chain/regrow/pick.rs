@@ -14,6 +14,7 @@
 
 use super::sweep::Seen;
 use crate::chain::glob::matches;
+use crate::weights::index;
 use niwaki_math::Stream;
 use niwaki_vm::code::Program;
 use niwaki_vm::machine::kept::Trace;
@@ -127,20 +128,15 @@ impl Pick {
                 let (mut at, mut levels) = (0, vec![Level { size: all, beside: 0.0 }]);
                 loop {
                     let Sized { part, size, below: inner } = &parts[at];
-                    let root = |i: usize| (parts[i].size as f64).sqrt();
-                    let sum: f64 = inner.clone().map(root).sum();
+                    let roots: Vec<f64> =
+                        parts[inner.clone()].iter().map(|one| (one.size as f64).sqrt()).collect();
+                    let sum: f64 = roots.iter().sum();
                     if u >= below(*size, all) || sum == 0.0 {
                         return Some(Picked { part: *part, size: *size, how: How::Size(levels) });
                     }
-                    let mut left = rng.uniform() * sum;
-                    for i in inner.clone().filter(|i| parts[*i].size > 0) {
-                        at = i;
-                        left -= root(i);
-                        if left < 0.0 {
-                            break;
-                        }
-                    }
-                    levels.push(Level { size: parts[at].size, beside: sum - root(at) });
+                    let which = index(&roots, rng.uniform());
+                    at = inner.start + which;
+                    levels.push(Level { size: parts[at].size, beside: sum - roots[which] });
                 }
             }
         }

@@ -4,15 +4,14 @@
 use super::{Turned, turn};
 use crate::chain::kernel::Selection;
 use crate::chooser::{Chooser, Chosen, Context, Prior};
-use crate::particles::advance::Particle;
-use crate::particles::copies::pair;
-use crate::particles::resampling::{Resampling, multinomial};
-use crate::particles::weights::Normalised;
+use crate::particle::Particle;
 use crate::record::{Record, log_density};
+use crate::resampling::{Resampling, conditional_multinomial, further_copies, pair};
 use crate::streams::Reserved;
+use crate::weights::{Normalised, log_step};
 use crate::{Failure, Task};
 use niwaki_geom::sketch::product::Sketches;
-use niwaki_math::{Dist, Stream, StreamKey};
+use niwaki_math::{Dist, Stream};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Machine;
 use niwaki_vm::machine::answers::At;
@@ -177,7 +176,7 @@ impl Block<'_> {
                 Chosen::given(value.clone(), dist).map(Some)
             }
         }
-        let mut one = self.particle(0, 0, Record::default());
+        let mut one = Particle::start(self.start.clone(), Record::default(), 0, 0);
         let mut all = Turnable { block: self, met: vec![] };
         while one.is_running() {
             one.run(machine, self.task, 0, &mut all)?;
@@ -188,22 +187,6 @@ impl Block<'_> {
         let at = ((rng.uniform() * all.met.len() as f64) as usize).min(all.met.len() - 1);
         let (address, old, others) = all.met.swap_remove(at);
         Ok(turn::draw(others, rng).map(|new| Turned { address, old, new }))
-    }
-
-    fn particle(&self, seed: u64, lineage: u64, record: Record) -> Particle {
-        let weighed = record.score();
-        Particle {
-            state: self.start.clone(),
-            record,
-            lineage,
-            stream: StreamKey::new(seed, lineage, 0),
-            picks: 0,
-            was_ended: false,
-            weighed,
-            log_weight: 0.0,
-            pending: 0.0,
-            home: 0,
-        }
     }
 
     /// Conditional SMC: the first particle holds the present values. A choice that will be turned keeps its value in all.
@@ -217,9 +200,14 @@ impl Block<'_> {
         self.sweep(machine, turned, Some(self.held), seed)
     }
 
-    /// SMC with a choice turned.
-    pub fn free(&self, machine: &mut Machine<'_>, turned: &Turned, seed: u64) -> Result<Set, Failure> {
-        self.sweep(machine, Some((turned.address, &turned.new, &turned.old)), None, seed)
+    /// SMC in which no particle holds the present values, with a choice turned or with all of them fresh.
+    pub fn free(
+        &self,
+        machine: &mut Machine<'_>,
+        turned: Option<&Turned>,
+        seed: u64,
+    ) -> Result<Set, Failure> {
+        self.sweep(machine, turned.map(|t| (t.address, &t.new, &t.old)), None, seed)
     }
 
     fn sweep(
@@ -235,7 +223,7 @@ impl Block<'_> {
             ..Record::default()
         };
         let one = |lineage| Grown {
-            particle: self.particle(seed, lineage, first.fork()),
+            particle: Particle::start(self.start.clone(), first.fork(), lineage, seed),
             seen: Seen::default(),
             barriers: 0,
         };
@@ -258,11 +246,8 @@ impl Block<'_> {
             let is_low = weights.effective < LOW * self.particles as f64;
             if is_low && grown.iter().any(|one| one.particle.is_running()) {
                 let mut random = Reserved::Resampling.stream(seed, step, 0);
-                let is_held = held.is_some();
-                let copies = if is_held {
-                    let mut copies = multinomial(&weights.relative, self.particles - 1, &mut random);
-                    copies[0] += 1;
-                    copies
+                let copies = if held.is_some() {
+                    conditional_multinomial(&weights.relative, 0, &mut random)
                 } else {
                     Resampling::Systematic.copies(&weights.relative, &mut random)
                 };
@@ -283,19 +268,9 @@ impl Block<'_> {
         held: Option<&HashMap<u128, Value>>,
         seed: u64,
     ) -> Result<(), Failure> {
-        while one.particle.is_running() {
-            let which = match one.particle.state.runnable().len() {
-                0 => return Err(Box::new(machine.waiting_cycle(&one.particle.state)).into()),
-                1 => 0,
-                n => one.particle.pick(n, seed),
-            };
-            let fresh = Prior(one.particle.stream);
-            let chooser = Grow { block: self, seen: &mut one.seen, held, turned, fresh };
-            if one.particle.run(machine, self.task, which, chooser)? {
-                one.barriers += 1;
-                break;
-            }
-        }
+        let fresh = Prior(one.particle.stream);
+        let chooser = Grow { block: self, seen: &mut one.seen, held, turned, fresh };
+        one.barriers += usize::from(one.particle.advance(machine, self.task, seed, chooser)?);
         Ok(())
     }
 
@@ -303,16 +278,22 @@ impl Block<'_> {
     fn weigh(&self, p: &mut Particle) {
         let score = p.record.score();
         p.log_weight += std::mem::take(&mut p.pending);
-        if score.is_impossible() {
-            p.log_weight = f64::NEG_INFINITY;
-        } else if self.beta != 0.0 {
-            p.log_weight += self.beta * score.less(&p.weighed).value();
-        }
+        p.log_weight += log_step(self.beta, &score, self.beta, &p.weighed);
         p.weighed = score;
     }
 }
 
 impl Set {
+    /// The choices of the particle with the highest score, of those with a run that can be drawn; `None` without any.
+    pub fn best(&self, block: &Block<'_>) -> Option<HashMap<u128, Value>> {
+        let possible = self.grown.iter().filter(|one| {
+            one.is_complete(block, one.seen.log_turn.is_some())
+                && !one.particle.record.score().is_impossible()
+        });
+        let score = |one: &&Grown| one.particle.record.log_score();
+        possible.max_by(|a, b| score(a).total_cmp(&score(b))).map(|one| one.values(block))
+    }
+
     /// Reads the last log weights; the estimate of the constant is then complete.
     pub fn close(&mut self, logs: &[f64]) {
         if self.log_mean > f64::NEG_INFINITY && self.weights.read(logs.iter().copied()) {
@@ -325,13 +306,10 @@ impl Set {
 
 /// Particle `i` survives `copies[i]` times; weights are reset.
 fn resample(grown: &mut [Grown], copies: &[usize], lineages: &mut u64, seed: u64) {
-    let mut free = (0..copies.len()).filter(|index| copies[*index] == 0);
-    for (parent, &count) in copies.iter().enumerate() {
-        for to in (1..count).map_while(|_| free.next()) {
-            let [from, copy] = pair(grown, parent, to);
-            copy.copy_from(from, *lineages, seed);
-            *lineages += 1;
-        }
+    for (parent, to) in further_copies(copies) {
+        let [from, copy] = pair(grown, parent, to);
+        copy.copy_from(from, *lineages, seed);
+        *lineages += 1;
     }
     grown.iter_mut().for_each(|one| one.particle.log_weight = 0.0);
 }

@@ -5,6 +5,7 @@
 
 use super::sweep::Seen;
 use crate::record::log_density;
+use crate::weights::index;
 use niwaki_math::{Dist, Stream, Support};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::value::{Value, same};
@@ -42,13 +43,11 @@ pub(super) fn others(dist: &Dist, value: &Value) -> Result<Others, Fault> {
 
 /// Draws one of them.
 pub(super) fn draw(mut others: Others, rng: &mut Stream) -> Option<Value> {
-    let mut left = rng.uniform();
-    let last = others.pop()?;
-    let at = others.iter().position(|(_, log)| {
-        left -= log.exp();
-        left < 0.0
-    });
-    Some(at.map_or(last.0, |at| others.swap_remove(at).0))
+    if others.is_empty() {
+        return None;
+    }
+    let shares: Vec<f64> = others.iter().map(|(_, log)| log.exp()).collect();
+    Some(others.swap_remove(index(&shares, rng.uniform())).0)
 }
 
 /// Log probability of the form of the move, in a particle's run: to grow a part with no choice turned, or to turn one, drawn

@@ -6,11 +6,11 @@
 //! fixed seeds and compares with a z-score. A z beyond 5 happens once in 1.7 million runs of a correct program
 //! (normal approximation); with about 60 quantities looked at, a re-seeded suite fails once in 29,000 runs.
 
-use super::advance::Particle;
 use super::copies::{Copies, copy};
 use super::population::Population;
 use super::*;
 use crate::enumeration::enumerate;
+use crate::particle::Particle;
 use crate::task::Task;
 use niwaki_vm::core::parse::parse;
 use niwaki_vm::passes::compile;
@@ -338,7 +338,8 @@ fn a_population_that_dies_says_where_and_why() {
         r#"(module (fn "m" (params) (do (factor 0.0)) (set $x (sample (dist bernoulli 0.5)))
            (do (condition (and $x (not $x)))) (return 1)) (entry "m"))"#,
     );
-    let Err(crate::Failure::Impossible { barrier, causes }) = smc(&task, &Settings::default(), &mut |_| true)
+    let Err(crate::Failure::Impossible { barrier, causes, .. }) =
+        smc(&task, &Settings::default(), &mut |_| true)
     else {
         panic!("some particle lived")
     };

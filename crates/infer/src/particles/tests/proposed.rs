@@ -9,8 +9,8 @@ use super::*;
 use crate::chain::kernel::{Kernel, Selection};
 use crate::chain::leaf::Proposer;
 use crate::chain::user::User;
-use crate::chooser::Proposal;
 use crate::importance::importance;
+use crate::proposal::Proposal;
 use niwaki_vm::core::Name;
 use niwaki_vm::passes::compile_keeping;
 

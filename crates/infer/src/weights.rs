@@ -1,6 +1,7 @@
-//! Log weights: normalising, means, effective sample size. Sums run in the order of the particles, so that they are
+//! Log weights: normalising, means, effective sample size, draws, the step from one score to the next. Sums run in the order of the particles, so that they are
 //! the same for any number of threads.
 
+use niwaki_math::Total;
 use niwaki_math::log_sums::log_sum_exp;
 
 /// Weights relative to the largest, with the log of their mean and the effective sample size.
@@ -35,15 +36,41 @@ impl Normalised {
 
     /// The particle index into whose share of the total `u`, between 0 and 1, falls.
     pub fn index(&self, u: f64) -> usize {
-        let mut left = u * self.relative.iter().sum::<f64>();
-        let last = self.relative.iter().rposition(|w| *w > 0.0).unwrap_or(0);
-        self.relative[..last]
-            .iter()
-            .position(|w| {
-                left -= w;
-                left < 0.0
-            })
-            .unwrap_or(last)
+        index(&self.relative, u)
+    }
+}
+
+/// The index into whose share of all weights `u`, between 0 and 1, falls.
+pub(crate) fn index(weights: &[f64], u: f64) -> usize {
+    let mut left = u * weights.iter().sum::<f64>();
+    let last = weights.iter().rposition(|w| *w > 0.0).unwrap_or(0);
+    let at = weights[..last].iter().position(|w| {
+        left -= w;
+        left < 0.0
+    });
+    at.unwrap_or(last)
+}
+
+/// The log weight, nats, of a step from the score weighed before at a power to a score at the next power. At zero it does not look at the score, unless the run is
+/// impossible.
+#[inline(always)]
+pub(crate) fn log_step(next: f64, score: &Total, power: f64, weighed: &Total) -> f64 {
+    let (now, before) = (score.near(), weighed.near());
+    // Equal powers by one product: the difference of scores is exact.
+    let log = if next == power { next * (now - before) } else { next * now - power * before };
+    if log.is_nan() { wide_log_step(next, score, power, weighed) } else { log }
+}
+
+/// The same, where a score is impossible or too large to be exact as an `f64`.
+#[cold]
+#[inline(never)]
+fn wide_log_step(next: f64, score: &Total, power: f64, weighed: &Total) -> f64 {
+    if score.is_impossible() {
+        f64::NEG_INFINITY
+    } else if next == power {
+        next * score.less(weighed).value()
+    } else {
+        next * score.value() - power * weighed.value()
     }
 }
 
@@ -52,7 +79,7 @@ impl Normalised {
 ///
 /// Weights that were not reset for long differ by thousands of nats, and the particle with the largest `W` need not be
 /// the one with the largest `u`: each of the three sums is relative to its own largest term.
-pub(super) fn conditional_share(
+pub(crate) fn conditional_share(
     old: impl Iterator<Item = f64> + Clone,
     step: impl Iterator<Item = f64> + Clone,
 ) -> f64 {

@@ -1,8 +1,7 @@
-//! One particle, and how it runs to its next barrier.
+//! One particle, and how it runs to its next barrier: of a population, or of a part that is grown again.
 
-use super::settings::Settings;
 use crate::Failure;
-use crate::chooser::{Chooser, Guided, Prior};
+use crate::chooser::Chooser;
 use crate::forward::Forward;
 use crate::record::Record;
 use crate::task::Task;
@@ -36,35 +35,48 @@ pub(crate) struct Particle {
 }
 
 impl Particle {
+    /// A particle that has not begun, of weight one: it has the score of its scene so far.
+    pub fn start(state: State, record: Record, lineage: u64, seed: u64) -> Particle {
+        Particle {
+            state,
+            weighed: record.score(),
+            record,
+            lineage,
+            stream: StreamKey::new(seed, lineage, 0),
+            picks: 0,
+            was_ended: false,
+            log_weight: 0.0,
+            pending: 0.0,
+            home: 0,
+        }
+    }
+
     /// Whether it still runs.
     pub fn is_running(&self) -> bool {
         !self.state.has_ended() && self.record.cause.is_none()
     }
 
-    /// Runs to the next barrier, or to the end.
+    /// Runs to the next barrier, or to the end; a chooser gives the new choices, and the seed picks the futures. Returns
+    /// whether it paused.
     pub fn advance(
         &mut self,
         machine: &mut Machine<'_>,
         task: &Task,
-        settings: &Settings,
-    ) -> Result<(), Failure> {
+        seed: u64,
+        mut chooser: impl Chooser,
+    ) -> Result<bool, Failure> {
         self.was_ended = self.state.has_ended();
-        let (stream, otherwise) = (self.stream, Prior(self.stream));
         while self.is_running() {
             let which = match self.state.runnable().len() {
                 0 => return Err(Box::new(machine.waiting_cycle(&self.state)).into()),
                 1 => 0,
-                n => self.pick(n, settings.seed),
+                n => self.pick(n, seed),
             };
-            let met = match settings.proposal.as_deref() {
-                None => self.run(machine, task, which, otherwise),
-                Some(proposal) => self.run(machine, task, which, Guided { proposal, stream, otherwise }),
-            };
-            if met? {
-                break;
+            if self.run(machine, task, which, &mut chooser)? {
+                return Ok(true);
             }
         }
-        Ok(())
+        Ok(false)
     }
 
     /// Runs the future at this place among the runnable ones; a chooser gives the new choices. Returns whether it paused.

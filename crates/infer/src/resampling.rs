@@ -1,6 +1,7 @@
 //! Resampling: how many copies each particle gets. All are unbiased: the expected number of copies of
 //! particle `i` is `N w_i / sum w` (Douc and Cappe 2005), where `w` are the weights to draw by: those of the particles, or
-//! for [`Resampling::Tempered`] a power of them.
+//! for [`Resampling::Tempered`] a power of them. Survivors keep their index, and their further copies replace those that got
+//! no copy.
 
 use niwaki_math::Stream;
 use serde::Deserialize;
@@ -79,7 +80,7 @@ fn place(weights: &[f64], total: f64, at: impl Fn(usize) -> f64) -> Vec<usize> {
 }
 
 /// How often each particle is drawn in `draws` independent draws by weight.
-pub(crate) fn multinomial(weights: &[f64], draws: usize, random: &mut Stream) -> Vec<usize> {
+fn multinomial(weights: &[f64], draws: usize, random: &mut Stream) -> Vec<usize> {
     let cumulative: Vec<f64> = weights
         .iter()
         .scan(0.0, |sum, w| {
@@ -95,6 +96,32 @@ pub(crate) fn multinomial(weights: &[f64], draws: usize, random: &mut Stream) ->
         copies[cumulative.partition_point(|c| *c < u).min(last)] += 1;
     }
     copies
+}
+
+/// The same where one particle survives for certain, and the others are drawn: conditional SMC (Andrieu, Doucet &
+/// Holenstein 2010, section 4.3).
+pub(crate) fn conditional_multinomial(weights: &[f64], kept: usize, random: &mut Stream) -> Vec<usize> {
+    let mut copies = multinomial(weights, weights.len() - 1, random);
+    copies[kept] += 1;
+    copies
+}
+
+/// Parent and index of each further copy, parents ascending.
+pub(crate) fn further_copies(copies: &[usize]) -> impl Iterator<Item = (usize, usize)> {
+    let mut free = copies.iter().enumerate().filter(|(_, c)| **c == 0).map(|(index, _)| index);
+    let parents = copies.iter().enumerate().flat_map(|(parent, &count)| (1..count).map(move |_| parent));
+    parents.map_while(move |parent| free.next().map(|to| (parent, to)))
+}
+
+/// Two different particles.
+pub(crate) fn pair<P>(particles: &mut [P], a: usize, b: usize) -> [&mut P; 2] {
+    if a < b {
+        let (left, right) = particles.split_at_mut(b);
+        [&mut left[a], &mut right[0]]
+    } else {
+        let (left, right) = particles.split_at_mut(a);
+        [&mut right[0], &mut left[b]]
+    }
 }
 
 #[cfg(test)]
