@@ -86,6 +86,12 @@ impl Drawing {
         &self.page
     }
 
+    /// Pixels of a word that are filled, in the words of [`Page::bit`].
+    #[inline]
+    pub fn filled(&self, word: usize) -> u64 {
+        self.filled[word]
+    }
+
     /// True where the picture is filled.
     pub fn is_filled(&self, column: usize, row: usize) -> bool {
         let (word, bit) = self.page.bit(column, row);

@@ -110,6 +110,17 @@ impl TextureMatch {
         filled * (1.0 - (self.edge() - 1.0).abs())
     }
 
+    /// Samples of a pixel that a shape holds, in the words of [`Page::sampled_word`].
+    #[inline]
+    pub fn any(&self, word: usize) -> u64 {
+        self.tiles.any(word)
+    }
+
+    /// What it is scored by.
+    pub fn texture(&self) -> &Texture {
+        &self.texture
+    }
+
     fn pixels(&self) -> f64 {
         let [columns, rows] = self.texture.page.size();
         (columns * rows) as f64
