@@ -25,8 +25,8 @@ struct Known {
 fn stroke(dice: &mut Dice, reach: f64) -> Known {
     let point = |dice: &mut Dice| [dice.uniform(-reach, reach), dice.uniform(-reach, reach)];
     let (a, b) = (point(dice), if dice.below(5) == 0 { [0.3, 0.2] } else { point(dice) });
-    let b = if dice.below(3) == 0 { [a[0] + 0.3 * b[0] / reach, a[1] + 0.3 * b[1] / reach] } else { b };
-    let b = match dice.below(6) {
+    let b = if dice.below(6) == 0 { [a[0] + 0.3 * b[0] / reach, a[1] + 0.3 * b[1] / reach] } else { b };
+    let b = match dice.below(9) {
         0 => [a[0], b[1]],
         1 => [b[0], a[1]],
         2 => a,
@@ -85,7 +85,7 @@ fn touched_pixels_are_those_with_a_point_inside() {
     const FINE: usize = 12;
     let mut dice = Dice::new(11);
     let mut border = 0;
-    for k in 0..16 {
+    for k in 0..32 {
         let page = any_page(&mut dice);
         let known = if k % 2 == 0 { stroke(&mut dice, 2.2) } else { ellipse(&mut dice, 2.2) };
         let touched = page.touched(&known.shape);

@@ -81,8 +81,8 @@ def test_draws_and_draws_again(one: Entry) -> None:
 
 
 def test_vines_follow_letters_as_the_dissertation_says() -> None:
-    """A median similarity of about 0.8 with 600 particles (6.5.2): of 24 glyphs above 0.6, and none is a stump."""
-    names = drawings.names("glyphs")[::8][:24]
+    """A median similarity of about 0.8 with 600 particles (6.5.2): of ten glyphs above 0.6, and none is a stump."""
+    names = drawings.names("glyphs")[::20]
     found = []
     for seed, name in enumerate(names):
         one = drawings.drawing(name)
