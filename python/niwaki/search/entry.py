@@ -40,6 +40,7 @@ def run(
     score: Score | None = None,
     seed: int | None = None,
     choices: Mapping[str, Any] | None = None,
+    lock: Mapping[str, Any] | None = None,
     max_steps: int = 20_000_000,
     max_memory: int = 1 << 30,
     threads: int | None = None,
@@ -66,6 +67,8 @@ def run(
         Values of choices by address, for one run with those: others are drawn from `seed` where it is given, and
         missing ones are an error where it is not. With `mh`, `hmc`, `nuts` and `particle_gibbs`, the chains start from
         them.
+    lock
+        Values of choices by address that every run has; see `Search`.
     max_steps
         Most calls and loop steps of one run.
     max_memory
@@ -90,6 +93,7 @@ def run(
         method=Forward() if method is None else method,
         seed=fresh(seed),
         choices=choices,
+        lock=lock,
         max_steps=max_steps,
         max_memory=max_memory,
     )
@@ -110,6 +114,7 @@ def grow(
     polish: Mh | None = None,
     runs: int = 1,
     seed: int | None = None,
+    lock: Mapping[str, Any] | None = None,
     max_steps: int = 20_000_000,
     max_memory: int = 1 << 30,
     threads: int | None = None,
@@ -118,7 +123,7 @@ def grow(
 ) -> Result:
     """Grow a model into a target, or to a high score of any kind: the best of a search, `runs` times.
 
-    The usual search is `improve`: it begins with a population of particles and spends as much work again, twice, on
+    The usual search is `improve`: it begins with a population of particles, and spends three times as much work on
     growing parts of the best run again. It is a search and no sample: for a posterior name a method.
 
     Parameters
@@ -146,7 +151,7 @@ def grow(
         (`Result.polish`).
     runs
         How many results, with seeds `seed`, `seed + 1`, ...
-    seed, max_steps, max_memory, threads, progress
+    seed, lock, max_steps, max_memory, threads, progress
         As for `run`.
 
     Returns
@@ -181,6 +186,7 @@ def grow(
         score=product,
         method=usual(settings, 1.0 if drawn else POWER) if method is None else method,
         seed=fresh(seed),
+        lock=lock,
         runs=runs,
         keep="best",
         polish=polish,
