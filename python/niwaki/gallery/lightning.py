@@ -8,7 +8,7 @@ from niwaki.gallery.vines import LENGTH, THINNER, THINNEST, WIDTH
 TITLE = "lightning, in the plane"
 DRAWS = "lightning"
 WINDOW = ((-12.0, -2.0), (12.0, 22.0))
-DRAWING = "letters/E"
+DRAWING = "letters/R"
 PARTICLES = 600
 RESAMPLING = "tempered"
 

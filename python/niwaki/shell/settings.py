@@ -132,7 +132,8 @@ def method(name: str | None, given: dict[str, Any], suits: Mapping[str, Any]) ->
     Parameters
     ----------
     name
-        One of `METHODS`; None for what `niwaki.grow` does with these settings.
+        One of `METHODS`; None for what `niwaki.grow` does with these settings, or one population where the model has a
+        rule of resampling and no setting is given.
     given
         Its settings; None for those that were not given.
     suits
@@ -140,7 +141,8 @@ def method(name: str | None, given: dict[str, Any], suits: Mapping[str, Any]) ->
     """
     options = typed(given)
     if name is None:
-        name = "improve" if set(options) <= {*search.OF_IMPROVE, "regrow"} else "smc"
+        one_population = "resampling" in suits and not options
+        name = "improve" if set(options) <= {*search.OF_IMPROVE, "regrow"} and not one_population else "smc"
     chosen = METHODS.get(name)
     if chosen is None:
         raise InputError(
