@@ -78,6 +78,7 @@ pub(super) struct Search<'a> {
     seed: u64,
     /// The work of a round.
     slice: u64,
+    /// Of the choices, for small steps; empty before the first round of moves.
     spreads: HashMap<u128, f64>,
     pub best: Run,
     /// Where chains go on; absent only while one runs, and after a search that was stopped at once.
@@ -108,7 +109,7 @@ impl<'a> Search<'a> {
             (best, Some(state))
         };
         let slice = (unit / PER_POPULATION).max(1);
-        let spreads = spreads(task, seed)?;
+        let spreads = HashMap::new();
         let (mut gains, mut spent) = ([None; Kind::ALL.len()], [0; Kind::ALL.len()]);
         // The first population has shown what populations gain.
         let population = Kind::ALL.len() - 1;
@@ -182,6 +183,9 @@ impl<'a> Search<'a> {
     ) -> std::result::Result<(u64, u64), Failure> {
         let settings = ChainSettings { seed: self.seed, thin: 0, ..ChainSettings::default() };
         let plan = Plan::new(&self.kernel(kind)?)?;
+        if kind == Kind::Move && self.spreads.is_empty() {
+            self.spreads = spreads(self.task, self.seed)?;
+        }
         let Some(state) = self.state.take() else { return Ok((self.slice, 0)) };
         let mut chain: Chain = Chain::at(self.task, &settings, number, plan, state, &self.spreads)?;
         chain.restrict(self.own.power, None);
