@@ -14,9 +14,9 @@ from typing import Any
 #: By problem: the shares, and why they are these.
 LEAST: dict[str, tuple[dict[str, float], str]] = {
     "forked stems": (
-        {"arm": 0.5, "ball": 0.1},
-        "an arm without a branch is covered to a third at most, by the trunk at its foot, and its ball not at all; "
-        "with one, to six tenths and more",
+        {"ball": 0.1},
+        "a ball that no branch reaches is empty, one that a branch reaches is covered by more than a tenth; a branch "
+        "may run beside its arm, so that the arm's share says less",
     ),
     "leaning discs": (
         {"disc": 0.1},

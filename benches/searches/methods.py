@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from niwaki import improve, kernels, mh, particle_gibbs
+from niwaki import kernels, mh, particle_gibbs
 
 #: The power of the default's population.
 POWER = 16.0
@@ -50,6 +50,7 @@ class Method:
 
 METHODS = (
     Method("default", lambda _: {}),
+    Method("one population", lambda n: {"particles": n}, 300),
     Method("absolute weights", lambda n: {"particles": n, "weights": "absolute"}, 300),
     Method("depth-first", lambda n: {"particles": n, "order": "depth-first"}, 300),
     Method("resampling below 0.5", lambda n: {"particles": n, "ess": 0.5}, 300),
@@ -57,7 +58,6 @@ METHODS = (
     Method("four populations", lambda n: {"particles": n, "populations": 4}, 75),
     Method("population and chain", lambda n: {"particles": 100, "polish": mh(n, kernel=MOVES, keep=0)}, 3000),
     Method("chain", lambda n: {"method": mh(n, kernel=MOVES, keep=0)}, 3000),
-    Method("improve", lambda n: {"method": improve(rounds=n)}, 10),
     Method(
         "particle Gibbs",
         lambda n: {"method": particle_gibbs(50, n, power=POWER)},

@@ -204,19 +204,25 @@ class BadParameter(ValueError):
     found: str
     expected: str
 
+#: Function, path, (line, column, end line, end column).
+_Place = tuple[str, str, tuple[int, int, int, int]]
+
 class EngineFault(RuntimeError):
     kind: Literal["run", "setting", "impossible", "no-start", "compile"]
     code: str
     message: str
     help: str | None
     subject: str | None
-    stack: list[tuple[str, str, tuple[int, int, int, int]]]
+    stack: list[_Place]
     omitted: int
     path: str
     invalid: bool
     barrier: int
     tries: int
     causes: list[tuple[str, int]]
+    blame: list[tuple[str, _Place, _Place | None, int]]
+    looked_at: int
+    attempts: list[tuple[str, int, int | None]]
 
 def log_density(family: str, params: Sequence[Any], x: Any) -> float: ...
 def draw(family: str, params: Sequence[Any], seed: int, n: int) -> list[Any]: ...
@@ -264,6 +270,7 @@ class Task:
     def infer(self, constant: object, seed: int) -> Any: ...
     def density(self, run: Run) -> Density: ...
     def trace(self, run: Run) -> Trace: ...
+    def gain(self, run: Run) -> float: ...
     def run_of_data(self, data: str) -> Run: ...
     def replay(self, choices: Mapping[str, Any], seed: int | None = None, partial: bool = False) -> Trace: ...
 

@@ -149,7 +149,7 @@ mod tests {
             (do (condition (lt $x 3))) (do (condition (lt $x 0))) (return $x)) (entry "m"))"#;
         let task = Task::new(Arc::new(compile(&parse(text).unwrap(), vec![]).unwrap()));
         let causes = |failure: Option<Failure>| match failure {
-            Some(Failure::Impossible { barrier: 0, causes }) => {
+            Some(Failure::Impossible { barrier: 0, causes, .. }) => {
                 causes.into_iter().map(|(_, n)| n).collect::<Vec<_>>()
             }
             other => panic!("{other:?}"),

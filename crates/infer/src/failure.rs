@@ -1,5 +1,6 @@
 //! Why a search gives no result.
 
+use crate::blame::Blame;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::stack::RunFault;
 use std::collections::HashMap;
@@ -17,6 +18,10 @@ pub enum Failure {
         barrier: usize,
         /// What made them impossible: constraint and count, most frequent first.
         causes: Vec<(String, usize)>,
+        /// Where parts that break a constraint are emitted, most frequent first, and of how many runs.
+        blame: (Vec<Blame>, usize),
+        /// The populations that were tried, of which this is the first.
+        attempts: Vec<Attempt>,
     },
     /// A chain has no state to start from.
     NoStart {
@@ -27,6 +32,17 @@ pub enum Failure {
     },
 }
 
+/// A population of a search for the best.
+#[derive(Clone, Debug)]
+pub struct Attempt {
+    /// Its form.
+    pub form: &'static str,
+    /// Its particles.
+    pub particles: usize,
+    /// The barrier at which its last particle died; `None` where it lived.
+    pub died_at: Option<usize>,
+}
+
 impl Failure {
     /// Every particle is impossible at this barrier (0: every run is); `causes` are constraints with counts.
     pub(crate) fn impossible<'a>(barrier: usize, causes: impl Iterator<Item = (&'a str, usize)>) -> Failure {
@@ -34,7 +50,7 @@ impl Failure {
         causes.for_each(|(cause, n)| *counts.entry(cause).or_insert(0) += n);
         let mut causes: Vec<(String, usize)> = counts.into_iter().map(|(c, n)| (c.to_string(), n)).collect();
         causes.sort_by(|a, b| b.1.cmp(&a.1).then_with(|| a.0.cmp(&b.0)));
-        Failure::Impossible { barrier, causes }
+        Failure::Impossible { barrier, causes, blame: (vec![], 0), attempts: vec![] }
     }
 
     /// A run that was given is impossible: nothing was tried.
@@ -61,10 +77,10 @@ impl std::fmt::Display for Failure {
         match self {
             Failure::Run(fault) => write!(f, "{fault}"),
             Failure::Setting(fault) => write!(f, "{}", fault.message),
-            Failure::Impossible { barrier: 0, causes } => {
+            Failure::Impossible { barrier: 0, causes, .. } => {
                 write!(f, "every run is impossible: {}", listed(causes))
             }
-            Failure::Impossible { barrier, causes } => {
+            Failure::Impossible { barrier, causes, .. } => {
                 write!(f, "every particle is impossible at barrier {barrier}: {}", listed(causes))
             }
             Failure::NoStart { tries: 0, .. } => write!(f, "the run to start from is impossible"),

@@ -19,6 +19,7 @@
 //!
 //! Not here: opcodes, shapes, Python.
 
+pub mod blame;
 pub mod chain;
 pub mod chooser;
 pub mod enumeration;

@@ -293,8 +293,8 @@ impl Method {
                 Ok(of_chain(pimh(task, &settings, own.sweeps, &mut progress)?))
             }
             Method::Improve(own) => {
-                let (best, result) = own.search(task, seed, &mut progress)?;
-                Ok(bare(vec![best], result.interrupted, Info::Improved(result)))
+                let (runs, result) = own.search(task, seed, &mut progress)?;
+                Ok(bare(runs, result.interrupted, Info::Improved(result)))
             }
             Method::Mh(_) | Method::Hmc(_) | Method::Nuts(_) => {
                 Err(bad("a method whose chains go on is started, not searched".into()).into())

@@ -119,7 +119,7 @@ impl Inner {
 }
 
 fn impossible() -> Failure {
-    Failure::Impossible { barrier: 0, causes: vec![] }
+    Failure::impossible(0, std::iter::empty())
 }
 
 /// Host functions and the inferences inside of a program.

@@ -15,6 +15,7 @@ use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Stop;
 use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
+use niwaki_vm::machine::stack::Call;
 use niwaki_vm::value::Value;
 use std::collections::HashMap;
 
@@ -42,10 +43,20 @@ pub struct Trace {
     pub sums: (Total, Total),
     /// Every choice, in depth-first order.
     pub choices: Vec<Choice>,
-    /// The primitives of the scene: readable address and shapes.
-    pub parts: Vec<(String, Vec<Shape>)>,
+    /// The primitives of the scene.
+    pub parts: Vec<Part>,
     /// The query table.
     pub queries: Vec<(Value, Value)>,
+}
+
+/// A primitive of the scene, with names.
+pub struct Part {
+    /// Its readable address.
+    pub path: String,
+    /// Its shapes.
+    pub shapes: Vec<Shape>,
+    /// Where it is emitted.
+    pub place: Call,
 }
 
 /// The source of the values of a replay.
@@ -133,7 +144,8 @@ impl Answers<f64> for Replay<'_> {
     }
 
     fn emit(&mut self, at: &At<'_, f64>, shapes: &[Shape]) -> Result<Answer<()>, Fault> {
-        self.trace.parts.push((at.path(), shapes.to_vec()));
+        let place = Call { function: at.function.name.clone(), file: at.function.file, span: at.site.span };
+        self.trace.parts.push(Part { path: at.path(), shapes: shapes.to_vec(), place });
         self.record.emit(shapes);
         Ok(Answer::Go(()))
     }

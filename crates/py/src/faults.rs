@@ -1,7 +1,7 @@
 //! Faults as data: one exception with all facts of the engine. Python draws the carets.
 //!
 //! `kind` is "run" (the model failed: message, help, stack), "setting" (a setting makes no sense), "impossible"
-//! (every particle is, or at barrier 0 every run: barrier and causes), "no-start" (every first state of a chain is: tries
+//! (every particle is, or at barrier 0 every run: barrier, causes, the parts to blame and the populations that were tried), "no-start" (every first state of a chain is: tries
 //! and causes) or "compile" (a defect of the text or a limit of the machine).
 
 use niwaki_infer::Failure;
@@ -18,7 +18,8 @@ pyo3::create_exception!(
     PyRuntimeError,
     "A fault as data.\n\n\
      Attributes: `kind`, `code`, `message`, `subject` (the address or pattern that it is about), `help`, and by kind: `stack` (function, path, (line, column, end line, \
-     end column)), `omitted`, `path`, `invalid` (a distribution's parameters were out of range); `barrier` or `tries`, `causes`."
+     end column)), `omitted`, `path`, `invalid` (a distribution's parameters were out of range); `barrier` or `tries`, `causes`; `blame` (constraint, place, other \
+     place or None, runs), `looked_at`, `attempts` (form, particles, barrier)."
 );
 
 /// The exception for why a search gave no result.
@@ -36,22 +37,30 @@ fn build(py: Python<'_>, failure: &Failure, program: &Program) -> PyResult<PyErr
         facts.set_item("help", py.None())?;
         facts.set_item("causes", causes.to_vec())
     };
+    let place = |call: &Call| {
+        let path = program.files.get(call.file as usize).map_or("", String::as_str);
+        let s = call.span;
+        (call.function.to_string(), path, (s.line, s.column, s.end_line, s.end_column))
+    };
     match failure {
         Failure::Run(run) => {
             about(&run.fault, "run")?;
-            let place = |call: &Call| {
-                let path = program.files.get(call.file as usize).map_or("", String::as_str);
-                let s = call.span;
-                (call.function.to_string(), path, (s.line, s.column, s.end_line, s.end_column))
-            };
             facts.set_item("stack", run.stack.iter().map(place).collect::<Vec<_>>())?;
             facts.set_item("omitted", run.omitted)?;
             facts.set_item("path", &run.path)?;
             facts.set_item("invalid", failure.is_impossible())?;
         }
         Failure::Setting(fault) => about(fault, "setting")?,
-        Failure::Impossible { barrier, causes } => {
+        Failure::Impossible { barrier, causes, blame: (blame, looked_at), attempts } => {
             facts.set_item("barrier", barrier)?;
+            let found = blame.iter().map(|one| {
+                let other = one.other.as_ref().map(place);
+                (one.constraint, place(&one.part), other, one.runs)
+            });
+            facts.set_item("blame", found.collect::<Vec<_>>())?;
+            facts.set_item("looked_at", looked_at)?;
+            let tried = attempts.iter().map(|one| (one.form, one.particles, one.died_at));
+            facts.set_item("attempts", tried.collect::<Vec<_>>())?;
             all_impossible("impossible", "everything-impossible", causes)?;
         }
         Failure::NoStart { tries, causes } => {

@@ -4,7 +4,7 @@ use crate::geometry::PyShape;
 use crate::values::Classes;
 use niwaki_infer::log::Entry;
 use niwaki_infer::particles::distinct::Choices;
-use niwaki_infer::replay::{self, Trace, by_address};
+use niwaki_infer::replay::{self, Part, Trace, by_address};
 use niwaki_infer::run::Run;
 use niwaki_vm::value::Value;
 use pyo3::exceptions::PyValueError;
@@ -165,7 +165,7 @@ impl PyTrace {
         }
         let choices = trace.choices.iter().map(|choice| PyChoice::of(py, choice, classes));
         let mut parts = Vec::with_capacity(trace.parts.len());
-        for (path, shapes) in trace.parts {
+        for Part { path, shapes, .. } in trace.parts {
             let shapes = shapes.into_iter().map(|s| Py::new(py, PyShape(s))).collect::<PyResult<_>>()?;
             parts.push((path, shapes));
         }

@@ -11,8 +11,10 @@ use crate::runs::{PyRun, PyTrace};
 use niwaki_infer::chain::counts::Count;
 use niwaki_infer::chain::user::User;
 use niwaki_infer::gradient::live;
+use niwaki_infer::improve::Round;
 use niwaki_infer::method::{self, Given, Info, Method};
 use niwaki_infer::nested::Inner;
+use niwaki_infer::record::Record;
 use niwaki_infer::replay::{Missing, Source, replay};
 use niwaki_infer::{Failure, Task};
 use niwaki_vm::code::Program;
@@ -224,6 +226,16 @@ impl PyTask {
         PyTrace::new(py, trace, &self.model.get().classes)
     }
 
+    /// By how much the scene of a run scores better than an empty one, nats; factors and observations left out.
+    fn gain(&self, py: Python<'_>, run: &PyRun) -> PyResult<f64> {
+        let missing = if run.went_to_its_end() { Missing::Refuse } else { Missing::Stop };
+        let unscored = Task { sketches: vec![], ..self.task.clone() };
+        let source = Source::Addresses(run.by_address());
+        let trace = self.at_once(py, || replay(&unscored, source, missing))?;
+        let empty = Record::start(&self.task.sketches).log_score();
+        Ok(run.scores().0 - trace.sums.1.value() - empty)
+    }
+
     /// The run of what ``Run.data`` gave, without what the model returned.
     fn run_of_data(&self, data: &str) -> PyResult<PyRun> {
         PyRun::of_data(data, self.model.get().classes.clone())
@@ -315,9 +327,13 @@ impl PyTask {
                 dict.set_item("moved_ended", pair(result.moved.ended))?;
             }
             Info::Improved(result) => {
-                let rounds = result.rounds.iter().map(|round| (round.kind.name(), round.work, round.best));
-                dict.set_item("rounds", PyTuple::new(py, rounds)?)?;
-                dict.set_item("died", result.died)?;
+                let attempts = result.attempts.iter().map(|one| (one.form, one.particles, one.died_at));
+                dict.set_item("attempts", PyTuple::new(py, attempts)?)?;
+                let rounds = result.rounds.iter();
+                let of = |round: &Round| (round.kind.name(), round.work, round.best, round.parts);
+                dict.set_item("rounds", PyTuple::new(py, rounds.clone().map(of))?)?;
+                dict.set_item("seconds", PyTuple::new(py, rounds.map(|round| round.time.as_secs_f64()))?)?;
+                dict.set_item("searches", result.searches)?;
             }
             Info::Chain(result) => {
                 dict.set_item("tries", result.tries)?;

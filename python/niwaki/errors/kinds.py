@@ -160,22 +160,31 @@ class InputError(NiwakiError):
     ----------
     code
         A code of the table of messages.
+    places
+        Up to two places in a model that explain it, each with a label.
     values
-        Values for the message's templates; `detail` is shown on a separate line.
+        Values for the message's templates; `detail`, `elsewhere` and `attempts` are shown on lines of their own.
     """
 
-    def __init__(self, code: str, **values: Any) -> None:
+    def __init__(self, code: str, places: Sequence[tuple[Span, str]] = (), **values: Any) -> None:
         super().__init__(code)
         self.code = code
+        self.places = tuple(places)
         self.values = values
 
     def render(self) -> str:
-        """The message; it has no place in a model."""
+        """The message, with its places if it has some."""
         message = MESSAGES.get(self.code, _UNKNOWN)
         lines = [f"error[{self.code}]: {fill(message.title, self.values)}"]
-        if self.values.get("detail"):
-            lines.append(f" = found: {self.values['detail']}")
-        return "\n".join([*lines, *notes(message, self.values)])
+        margin = " "
+        if self.places:
+            first, *others = self.places
+            lines += snippet(first, others[0] if others else None)
+            margin = lines[-1].removesuffix("|")
+        for name, label in (("detail", "found"), ("elsewhere", "elsewhere"), ("attempts", "tried")):
+            if self.values.get(name):
+                lines.append(f"{margin}= {label}: {self.values[name]}")
+        return "\n".join([*lines, *notes(message, self.values, margin=margin)])
 
 
 _UNKNOWN = Message("unknown", "the model failed")

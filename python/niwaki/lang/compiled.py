@@ -11,7 +11,9 @@ from typing import Any
 
 from niwaki import _engine
 from niwaki.errors import InputError, ModelFault
+from niwaki.errors.kinds import place
 from niwaki.errors.messages import MESSAGES
+from niwaki.errors.source import Span
 from niwaki.lang.core import Core
 from niwaki.lang.lower import lower
 from niwaki.lang.marks import Marked, P, T
@@ -158,9 +160,49 @@ def _error(fault: Any, name: str, replay: str, choices: Mapping[str, Any]) -> Ex
         if fault.barrier == 1 and all(cause == "avoid" for cause, _ in fault.causes):
             return InputError("obstacle-at-start", count=total)
         causes = ", ".join(f"{cause} ({count})" for cause, count in fault.causes)
-        place = f"barrier {fault.barrier}" if fault.barrier else "the end"
-        return InputError("everything-impossible", barrier=place, count=total, constraint=causes)
+        return InputError(
+            "everything-impossible",
+            _places(fault.blame, fault.looked_at),
+            barrier=f"barrier {fault.barrier}" if fault.barrier else "the end",
+            count=total,
+            constraint=causes,
+            elsewhere=_elsewhere(fault.blame),
+            attempts=_tried(fault.attempts),
+        )
     if fault.code not in MESSAGES or MESSAGES[fault.code].names - {"detail"}:
         # Its message is about a value that Python has checked, and has names that only Python knows.
         return InputError("setting-refused", detail=fault.message, cure=fault.help or "use another value")
     return InputError(fault.code, detail=fault.message)
+
+
+def _places(blame: list[Any], looked_at: int) -> list[tuple[Span, str]]:
+    """Where the parts are emitted that break a constraint most often; `looked_at` is the number of runs."""
+    if not blame:
+        return []
+    constraint, part, other, runs = blame[0]
+    often = f"{constraint} in {runs} of {looked_at} runs"
+    first, second = place(part[1], *part[2]), None if other is None else place(other[1], *other[2])
+    if second is None:
+        return [(first, f"breaks {often}")]
+    if second == first:
+        return [(first, f"two of these break {often}")]
+    return [(first, f"breaks {often}"), (second, "with this")]
+
+
+def _elsewhere(blame: list[Any]) -> str:
+    """Where other runs broke a constraint."""
+
+    def line(call: Any) -> str:
+        return f"`{call[0]}`, line {call[2][0]}"
+
+    return "; ".join(
+        f"{constraint} at {line(part)}{'' if other is None else f' with {line(other)}'} ({runs})"
+        for constraint, part, other, runs in blame[1:4]
+    )
+
+
+def _tried(attempts: list[tuple[str, int, int | None]]) -> str:
+    """The populations of a search that all died."""
+    return "; ".join(
+        f"{particles} particles ({form}), dead at barrier {barrier}" for form, particles, barrier in attempts
+    )

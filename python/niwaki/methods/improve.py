@@ -1,4 +1,4 @@
-"""A search for the best run, by populations, parts that are grown again, and single choices that move."""
+"""The usual search: populations, parts that are grown again, and single choices that move."""
 
 from __future__ import annotations
 
@@ -13,30 +13,41 @@ from niwaki.methods.method import Method
 class Improve(Method):
     """Search for one good run, with the effort where it gains: a search, which gives no evidence and no weights.
 
-    It begins with a population. Rounds follow, each with a fifth of that population's work: parts of the run are grown
-    again (`kernels.regrow`) by few or by many particles, single choices move, or another population starts. What gained
-    lately gets more of the rounds. It ends after `rounds`, after `seconds`, or when nothing has been gained for long.
+    It begins with a population. Rounds follow, each with a fifth of that population's work: parts of the best run are
+    grown again (as `kernels.regrow` does, but from fresh particles alone, whose best takes the part's place where it is
+    better) by few or by many particles, single choices move, or another population starts. What gained lately gets more
+    of the rounds. It ends after `rounds`, after `seconds`, or when nothing has been gained for long.
+
+    Where all particles of the first population die, others of other forms are tried, less greedy or larger ones;
+    `Result.info` names them.
 
     Parameters
     ----------
     particles
-        Of a population. Where all particles of six populations die, with more and more particles, the search fails.
+        Of a population.
     regrow
         Particles that grow a part again, or five times as many; at least 2.
     power
         The power of the score: 1 follows the posterior, more sharpens the search.
     rounds
-        Most rounds. Work is counted and not timed, so the same seed and number of rounds give the same bits.
+        Most rounds; 10, or without end where `seconds` is given, when left out. Work is counted and not timed, so the
+        same seed and number of rounds give the same bits.
     seconds
-        No round begins after so many seconds; `info.rounds` of the result says how many there were. None for no limit.
+        No round begins after so many seconds; the number of rounds in `Result.info` repeats the search. None for no
+        limit.
+    diverse
+        Give so many results that differ, best score first, from as many searches side by side with six tenths of the
+        particles: none shares more than half of its choices with another. Where fewer are found, fewer are given, with
+        a warning. Not with `seconds`.
     """
 
     NAME = "improve"
     particles: int = 100
     regrow: int = 20
     power: float = 16.0
-    rounds: int = 10
+    rounds: int | None = None
     seconds: float | None = None
+    diverse: int | None = None
 
     def __post_init__(self) -> None:
         """Check the settings."""
@@ -45,9 +56,13 @@ class Improve(Method):
             raise bad("regrow", self.regrow, "a whole number of particles from 2 on", "20")
         if not is_number(self.power) or not 0 < self.power < float("inf"):
             raise bad("power", self.power, "a number above 0", "16")
-        at_least_one("rounds", self.rounds)
+        for name in ("rounds", "diverse"):
+            if getattr(self, name) is not None:
+                at_least_one(name, getattr(self, name))
         if self.seconds is not None and (not is_number(self.seconds) or not 0 < self.seconds < float("inf")):
             raise bad("seconds", self.seconds, "a number of seconds above 0", "10")
+        if self.seconds is not None and self.diverse is not None:
+            raise bad("seconds", self.seconds, "None together with `diverse`", "`rounds`")
         self._set("power", float(self.power))
         self._set("seconds", None if self.seconds is None else float(self.seconds))
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 
@@ -118,32 +118,86 @@ class SweepInfo(Info):
     died: int = 0
 
 
+class Attempt(NamedTuple):
+    """A first population of `improve`: its form, its particles, and the barrier at which the last died, or None."""
+
+    form: str
+    particles: int
+    died_at: int | None = None
+
+
 class Round(NamedTuple):
-    """A round of `improve`: its kind of step, its work (particle-steps, proposals, shapes), the best score then."""
+    """A round of `improve`.
+
+    Attributes
+    ----------
+    kind : str
+        Its kind of step: "population", "regrow", "regrow more" or "move".
+    work : int
+        Particle-steps, proposals, and shapes that proposals placed or removed.
+    best : float
+        The best log score after it, nats.
+    parts : int
+        Parts that were grown again and kept.
+    """
 
     kind: str
     work: int
     best: float
+    parts: int
 
 
 @dataclass(frozen=True)
 class ImproveInfo(Info):
-    """Of `improve`.
+    """Of `improve`; of several results, that of the search with the best. Its text says what was done.
 
     Attributes
     ----------
+    attempts : tuple of Attempt
+        The populations that were tried until one lived.
     rounds : tuple of Round
-        The first population that had a possible run, and then each round.
-    died : int
-        Populations before it in which every particle became impossible.
+        That population, and then each round.
+    searches : int
+        Searches for results that differ.
+    seconds : tuple of float
+        When each round ended, from the beginning, by the clock. Two searches with other seconds alone are equal.
     """
 
+    attempts: tuple[Attempt, ...] = ()
     rounds: tuple[Round, ...] = ()
-    died: int = 0
+    searches: int = 1
+    seconds: tuple[float, ...] = field(default=(), compare=False)
 
     def __post_init__(self) -> None:
         """Name the rounds of the engine."""
+        object.__setattr__(self, "attempts", tuple(Attempt(*one) for one in self.attempts))
         object.__setattr__(self, "rounds", tuple(Round(*one) for one in self.rounds))
+
+    def __str__(self) -> str:
+        """What was done, with the seconds and the best log score then."""
+        said = []
+        for one in self.attempts:
+            form = "" if one is self.attempts[0] else f" ({one.form})"
+            how = "" if one.died_at is None else f", which died at barrier {one.died_at}"
+            said.append(f"population of {one.particles}{form}{how}")
+        if self.rounds:
+            said[-1] += self._at(0)
+        if len(self.rounds) > 1:
+            later = self.rounds[1:]
+            parts, moves, more = (
+                sum(one.parts for one in later),
+                any(one.kind == "move" for one in later),
+                sum(one.kind == "population" for one in later),
+            )
+            what = [f"{parts} part{'' if parts == 1 else 's'} grown again"]
+            what += [f"{more} more population{'' if more == 1 else 's'}"] * (more > 0)
+            what += ["single choices moved"] * moves
+            said.append(", ".join(what) + self._at(-1))
+        return "; ".join(said)
+
+    def _at(self, number: int) -> str:
+        """When a round ended, and with which score."""
+        return f", {self.seconds[number]:.1f} s: {self.rounds[number].best:.1f}"
 
 
 #: The class of each method, by its name.

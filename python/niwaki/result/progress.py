@@ -15,7 +15,7 @@ class Progress:
     run, runs : int
         Which of how many runs, from 0.
     done : int
-        Barriers of a population, runs of the other methods.
+        Barriers of a population, then rounds of `improve`; runs of the other methods.
     ended : int
         Particles that have ended.
     best : float

@@ -15,7 +15,7 @@ from niwaki import _engine
 from niwaki.errors import InputError
 from niwaki.lang.compiled import arguments, task, translated
 from niwaki.lang.models import Model, as_model
-from niwaki.methods import Forward, Method, Mh, Smc
+from niwaki.methods import Forward, Improve, Method, Mh, Smc
 from niwaki.result import Result
 from niwaki.result.progress import Watch
 from niwaki.search.checks import check_seed, fresh
@@ -24,8 +24,10 @@ from niwaki.search.searching import given, starts
 from niwaki.targets.sketches import Score, match_volume, no_self_intersection
 from niwaki.targets.target import Target
 
-#: The settings of `smc`, which `grow` takes by name.
-SETTINGS = {field.name: field.default for field in fields(Smc)}
+#: The settings of `improve`, the usual search, which `grow` takes by name.
+OF_IMPROVE = ("rounds", "seconds", "diverse")
+#: The settings of `smc`, which are one population instead.
+OF_SMC = tuple(field.name for field in fields(Smc))
 
 
 def run(
@@ -111,7 +113,10 @@ def grow(
     progress: Watch | None = None,
     **kwargs: Any,
 ) -> Result:
-    """Grow a model into a target, or to a high score of any kind: the best of a population, `runs` times.
+    """Grow a model into a target, or to a high score of any kind: the best of a search, `runs` times.
+
+    The usual search is `improve`: it begins with a population of particles and spends as much work again, twice, on
+    growing parts of the best run again. It is a search and no sample: for a posterior name a method.
 
     Parameters
     ----------
@@ -120,13 +125,14 @@ def grow(
     target
         What to fill: a `Target`, or a file; may be left out where `score` has something to match.
     args, kwargs
-        The model's arguments. What `kwargs` has of the settings of `smc` (particles, order, power, diverse, ...)
-        is how to search, with a `power` of 16 for ratio weights when left out.
+        The model's arguments. What `kwargs` has of `rounds`, `seconds` and `diverse` is for the usual search. With
+        any other setting of `smc` (particles, order, power, ...) the search is one population by those, with a `power`
+        of 16 for ratio weights when left out.
     score
         Further sketches, such as `floor(0) * match_image("skyline.png", "cam.json")`; they multiply
         `no_self_intersection(rule)` and, where there is a target, `match_volume(target, voxel, sigma)`.
     method
-        Another search than `smc` with those settings.
+        Another search than by those settings.
     voxel, sigma
         As for `match_volume`.
     rule
@@ -142,11 +148,12 @@ def grow(
     Returns
     -------
     Result
-        One sample for each run, the best of its population, or as many as are `diverse`; runs in which every particle
-        became impossible are left out with a warning, and are an error when there is no other.
+        One sample for each run, the best of its search, or as many as are `diverse`; runs in which every particle
+        became impossible are left out with a warning, and are an error when there is no other. A best that is worse
+        than the empty scene is a warning, too.
     """
     model = as_model(model)
-    settings = {name: kwargs.pop(name) for name in SETTINGS if name in kwargs}
+    settings = {name: kwargs.pop(name) for name in (*OF_IMPROVE, *OF_SMC) if name in kwargs}
     if method is not None and settings:
         raise InputError(
             "bad-setting",
@@ -165,7 +172,7 @@ def grow(
         model,
         tuple(arguments(model, args, kwargs)),
         score=product,
-        method=sharpened(settings) if method is None else method,
+        method=usual(settings) if method is None else method,
         seed=fresh(seed),
         runs=runs,
         keep="best",
@@ -176,11 +183,25 @@ def grow(
     return search.run(threads=threads, progress=progress)
 
 
-def sharpened(settings: Mapping[str, Any]) -> Smc:
-    """The population of a search for the best: where `power` is left out, 16 with ratio weights."""
+def usual(settings: Mapping[str, Any]) -> Method:
+    """The search for the best by settings of `improve`, or where there are others by one population.
+
+    Where its `power` is left out, it is 16 with ratio weights.
+    """
+    if set(settings) <= set(OF_IMPROVE):
+        return Improve(**settings)
+    if "rounds" in settings:
+        others = ", ".join(f"`{name}`" for name in settings if name not in OF_IMPROVE)
+        raise InputError(
+            "bad-setting",
+            name="rounds",
+            found=repr(settings["rounds"]),
+            expected=f"no {others} beside it, which {'is a setting' if ',' not in others else 'are settings'} of `smc`",
+            suggestion=f"`method=improve(...)`, which has {', '.join(f.name for f in fields(Improve))}",
+        )
     given_power = settings.get("power")
-    usual = 16.0 if settings.get("weights", "ratio") == "ratio" else 1.0
-    return Smc(**{**settings, "power": usual if given_power is None else given_power})
+    sharp = 16.0 if settings.get("weights", "ratio") == "ratio" else 1.0
+    return Smc(**{**settings, "power": sharp if given_power is None else given_power})
 
 
 def explain(

@@ -13,11 +13,11 @@ from niwaki.errors import InputError, ModelFault
 from niwaki.errors.settings import bad
 from niwaki.lang.compiled import translated
 from niwaki.lang.models import as_model
-from niwaki.methods import Hmc, Method, Mh, Nuts, ParticleGibbs, Smc
+from niwaki.methods import Hmc, Method, Mh, Nuts, ParticleGibbs
 from niwaki.result import Result, Sample
 from niwaki.result.chains import MhInfo, Running
 from niwaki.result.hmc import Drawn, HmcInfo
-from niwaki.result.info import INFOS, Info, PopulationInfo
+from niwaki.result.info import INFOS, ImproveInfo, Info, PopulationInfo
 from niwaki.result.progress import EngineWatch, Watch, watcher
 from niwaki.search.checks import check_polish, check_seed, check_threads
 
@@ -71,7 +71,7 @@ def carried_out(search: Search, threads: int | None, progress: Watch | None) -> 
             invalid.update(one.invalid)
             interrupted = one.interrupted
         spent += one.seconds
-        is_diverse = isinstance(search.method, Smc) and search.method.diverse is not None
+        is_diverse = getattr(search.method, "diverse", None) is not None
         found.extend(one.samples if is_diverse or search.keep == "all" else [one.best])
         if interrupted:
             break
@@ -83,10 +83,24 @@ def carried_out(search: Search, threads: int | None, progress: Watch | None) -> 
             SearchWarning,
             stacklevel=4,
         )
+    if search.score.asks and search.keep == "best":
+        _check_gain(search, max(found, key=lambda sample: sample.log_score))
     seconds = spent, sum(sample.cpu_seconds for sample in found)
     return Result(
         search, found, search.seed, info=info, interrupted=interrupted, invalid=invalid, seconds=seconds
     )
+
+
+def _check_gain(search: Search, best: Sample) -> None:
+    """Warn where the best scene is worse than an empty one."""
+    gain = search.task.gain(best._run)
+    if gain < 0.0:
+        warnings.warn(
+            f"the best result scores {-gain:.1f} nats less than an empty scene: give more `seconds` or `rounds`, or "
+            "look whether the model can reach its target at all (`niwaki.run(model).best.save('scene.png')`)",
+            SearchWarning,
+            stacklevel=5,
+        )
 
 
 def starts(method: Method) -> bool:
@@ -124,8 +138,8 @@ def once(search: Search, seed: int, threads: int | None, watch: EngineWatch) -> 
         )
     info = INFOS.get(search.method.NAME, Info)(**counters)
     diverse = getattr(search.method, "diverse", None)
-    if diverse is not None and isinstance(info, PopulationInfo):
-        runs = _different(runs, diverse, len(info.plan))
+    if diverse is not None:
+        runs = _different(runs, diverse, info)
     seconds = clock.read()
     samples = [Sample(run, search, seed, *seconds) for run in runs]
     invalid = counted.invalid()
@@ -149,15 +163,20 @@ class Clock:
         return time.perf_counter() - self._wall, time.process_time() - self._cpu
 
 
-def _different(runs: list[_engine.Run], wanted: int, populations: int) -> list[_engine.Run]:
+def _different(runs: list[_engine.Run], wanted: int, info: Info) -> list[_engine.Run]:
     """The best of those that differ; runs that did not end or are impossible are none."""
     ended = [one for one in runs if one.has_ended and one.cause is None]
     ranked = sorted(ended, key=lambda one: -one.log_score)
     chosen = [ranked[place] for place in _engine.different(ranked, wanted)]
     if len(chosen) < wanted:
+        if isinstance(info, PopulationInfo):
+            count, what, cure = len(info.plan), "population", "give more `populations`"
+        else:
+            count = info.searches if isinstance(info, ImproveInfo) else 1
+            what, cure = "search", "give another `seed`, or accept that the model has few"
+        plural = {"population": "populations", "search": "searches"}[what]
         warnings.warn(
-            f"{len(chosen)} of {wanted} results that differ are in {populations} "
-            f"population{'' if populations == 1 else 's'}; give more `populations`",
+            f"{len(chosen)} of {wanted} results that differ are in {count} {what if count == 1 else plural}; {cure}",
             SearchWarning,
             stacklevel=6,
         )

@@ -53,7 +53,7 @@ def progress_line(name: str) -> Iterator[Callable[[result.Progress], None]]:
         def show(now: result.Progress) -> None:
             best = f"{now.best:.2f}" if math.isfinite(now.best) else "-"
             status.update(
-                f"growing {name}: run {now.run + 1} of {now.runs}, barrier {now.done}, "
+                f"growing {name}: run {now.run + 1} of {now.runs}, step {now.done}, "
                 f"{now.ended} ended, best {best}   (Ctrl-C keeps the best so far)"
             )
 

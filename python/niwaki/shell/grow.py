@@ -18,7 +18,9 @@ from niwaki.shell.app import Folder, ModelName, app, ensure_folder, progress_lin
 
 @app.command()
 @settings.with_settings(
-    *settings.METHODS.values(), power="16, with absolute weights 1", particles="the model's own, or 300"
+    *settings.METHODS.values(),
+    power="16, with absolute weights 1",
+    particles="the model's own, or 300; of improve a third",
 )
 def grow(
     model: ModelName,
@@ -36,7 +38,7 @@ def grow(
     voxel: controls.Voxel = None,
     sigma: controls.Sigma = 0.02,
     rule: Annotated[str, typer.Option(help="Which parts count as intersecting: solid or surface.")] = "solid",
-    method: settings.MethodName = "smc",
+    method: settings.MethodName = None,
     polish: settings.Polish = None,
     polish_kernel: settings.PolishKernel = None,
     runs: Annotated[int, typer.Option(help="How many results, with seeds SEED, SEED + 1, ...")] = 1,
@@ -133,6 +135,8 @@ def _write(
 
 
 def _summary(result: nw.Result, folder: Path) -> None:
+    if isinstance(result.info, results.info.ImproveInfo) and len({sample.seed for sample in result}) == 1:
+        print(result.info)
     for sample in result:
         print(f"{results.caption(sample)}   {sample.primitives} primitives   {sample.seconds:.2f} s")
     print(f"best: seed {result.best.seed}, log score {result.best.log_score:.2f}; files in {folder}")

@@ -34,6 +34,7 @@ def written(result: Result, found: ModelReference) -> dict[str, Any]:
         "search": result.search.data(),
         "hash": result.search.hash,
         "plan": list(getattr(result.info, "plan", ())),
+        "rounds": max(len(getattr(result.info, "rounds", ())) - 1, 0),
         "interrupted": result.interrupted,
         "best": result.samples.index(result.best),
         "runs": [{**numbers(sample), **_names(sample)} for sample in result],

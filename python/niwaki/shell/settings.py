@@ -15,13 +15,23 @@ import typer
 
 from niwaki import kernels, search
 from niwaki.errors import InputError
-from niwaki.methods import Method, Mh, ParticleGibbs, Pimh, Smc
+from niwaki.methods import Improve, Method, Mh, ParticleGibbs, Pimh, Smc
 
 #: The methods of `niwaki grow`, by the name that is typed.
-METHODS: dict[str, type[Method]] = {"smc": Smc, "particle-gibbs": ParticleGibbs, "pimh": Pimh}
+METHODS: dict[str, type[Method]] = {
+    "improve": Improve,
+    "smc": Smc,
+    "particle-gibbs": ParticleGibbs,
+    "pimh": Pimh,
+}
 
 MethodName = Annotated[
-    str, typer.Option("--method", metavar="NAME", help=f"{', '.join(METHODS)}.", show_default=True)
+    str | None,
+    typer.Option(
+        "--method",
+        metavar="NAME",
+        help=f"{', '.join(METHODS)}. Default: improve, or smc where a setting is given that improve lacks, or -n.",
+    ),
 ]
 Polish = Annotated[
     int | None,
@@ -78,8 +88,8 @@ def _names(methods: tuple[type[Method], ...]) -> list[str]:
 def _option(name: str, methods: tuple[type[Method], ...], shown: str | None) -> inspect.Parameter:
     """The option of one setting; `shown` is the default in its help text."""
     owners = [method for method in methods if name in {field.name for field in fields(method)}]
-    kind = get_type_hints(owners[0])[name]
-    plain = [one for one in _PLAIN if kind in (one, one | None)]
+    kinds = [get_type_hints(owner)[name] for owner in owners]
+    plain = [one for one in _PLAIN if all(kind in (one, one | None) for kind in kinds)]
     typed = plain[0] if plain else str
     whose = (
         ""
@@ -116,18 +126,21 @@ def described(method: type[Method]) -> dict[str, str]:
     return found
 
 
-def method(name: str, given: dict[str, Any], usual: int) -> Method:
+def method(name: str | None, given: dict[str, Any], usual: int) -> Method:
     """The method with the given settings.
 
     Parameters
     ----------
     name
-        One of `METHODS`.
+        One of `METHODS`; None for what `niwaki.grow` does with these settings.
     given
         Its settings; None for those that were not given.
     usual
-        The number of particles that suits the model.
+        The number of particles of one population that suits the model.
     """
+    options = typed(given)
+    if name is None:
+        name = "improve" if set(options) <= {*search.OF_IMPROVE, "regrow"} else "smc"
     chosen = METHODS.get(name)
     if chosen is None:
         raise InputError(
@@ -137,14 +150,13 @@ def method(name: str, given: dict[str, Any], usual: int) -> Method:
             expected=f"one of {', '.join(METHODS)}",
             suggestion="smc",
         )
-    options = typed(given)
     for key in options:
         if key not in {field.name for field in fields(chosen)}:
             owners = [own for own, kind in METHODS.items() if key in {field.name for field in fields(kind)}]
             other = " or ".join(f"`--method {own}`" for own in owners)
             reason = f"`--method {name}` has no such setting"
             raise InputError("flag-alone", flag=f"--{key}", other=other, reason=reason)
-    if "seconds" in options:
+    if "seconds" in options and chosen is Smc:
         for key, flag in (("particles", "-n"), ("populations", "--populations")):
             if key in options:
                 raise InputError(
@@ -154,8 +166,10 @@ def method(name: str, given: dict[str, Any], usual: int) -> Method:
                     reason="the given time decides the numbers of particles and populations",
                     cure=f"give only one of them; run.json contains the numbers for {options['seconds']:g} s",
                 )
+    if chosen is Improve:
+        return Improve(**{"particles": max(usual // 3, 1), **options})
     options = {"particles": usual, **options}
-    return search.sharpened(options) if chosen is Smc else chosen(**{"power": 16.0, **options})
+    return search.usual(options) if chosen is Smc else chosen(**{"power": 16.0, **options})
 
 
 def typed(given: dict[str, Any]) -> dict[str, Any]:

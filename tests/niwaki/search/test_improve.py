@@ -1,10 +1,15 @@
-"""`improve` keeps its best, counts rounds and not time, repeats itself, and is refused where it makes no sense."""
+"""`improve` keeps its best, counts rounds and not time, repeats itself, and is refused where it makes no sense.
+
+Where its populations die it tries others, and says so.
+"""
 
 import niwaki as nw
 import pytest
-from niwaki import categorical, factor, flip, infer
+from niwaki import box, categorical, emit, factor, flip, future, infer, uniform
 from niwaki.errors import NiwakiError
 from niwaki.gallery import entry
+from niwaki.search import SearchWarning
+from niwaki.targets.examples.lofts import block, solid
 
 
 @nw.model
@@ -87,3 +92,91 @@ def test_settings_that_make_no_sense_are_refused(settings: dict[str, float]) -> 
 def test_it_is_refused_inside_a_model() -> None:
     with pytest.raises(NiwakiError, match="improve"):
         nw.run(within, seed=1)
+
+
+@nw.model
+def boxes(count: int, apart: float):
+    """Boxes in a row, of one size."""
+    for i in range(count):
+        emit(box((apart * i, 0.5, 0.0), (1.0, uniform(0.9, 1.1), 1.0)))
+
+
+@nw.model
+def garden_path():
+    """A wall of eight stones, and a tower that is better the wider it is, until the wall comes."""
+    future(wall)
+    future(tower)
+
+
+@nw.model
+def wall():
+    for i in range(8):
+        emit(box((7.5 - i, 0.5, 0.0), (0.96, uniform(0.9, 1.1), 1.0)))
+
+
+@nw.model
+def tower():
+    width = uniform(1.0, 8.0)
+    emit(box((0.5 * width - 2.0, 2.0, 0.0), (width, 4.0, 1.0)))
+
+
+def path_target() -> nw.Target:
+    return solid(
+        "path", [block((0.0, 0.0, -0.5), (8.0, 1.0, 0.5)), block((-2.0, 0.0, -0.5), (0.0, 4.0, 0.5))]
+    )
+
+
+def test_what_dies_as_usual_is_tried_in_other_forms_and_told() -> None:
+    with pytest.raises(nw.InputError, match="every run is impossible"):
+        nw.grow(garden_path, path_target(), particles=100, seed=1)
+    result = nw.grow(garden_path, path_target(), seed=1)
+    assert result.info.attempts[0].died_at is not None and result.info.attempts[-1].died_at is None
+    assert "which died at barrier" in str(result.info)
+    assert result.best.primitives == 9 and result.best.similarity > 0.8
+
+
+def test_a_dead_search_names_the_parts_and_what_was_tried() -> None:
+    with pytest.raises(nw.InputError) as found:
+        nw.grow(boxes, path_target(), 3, 0.5, seed=1)
+    text = str(found.value)
+    assert "two of these break no_self_intersection in 50 of 50 runs" in text
+    assert "emit(box((apart * i" in text and "^^^^" in text
+    assert len(found.value.values["attempts"].split(";")) == 6 and "depth-first" in text
+
+
+def test_two_places_are_blamed_where_two_parts_collide() -> None:
+    with pytest.raises(nw.InputError) as found:
+        nw.grow(garden_path, path_target(), particles=100, seed=1)
+    lines = str(found.value).splitlines()
+    first, second = (
+        next(k for k, line in enumerate(lines) if text in line) for text in ("7.5 - i", "0.5 * width")
+    )
+    marks = {lines[first + 1].strip("| ")[0], lines[second + 1].strip("| ")[0]}
+    assert marks == {"^", "-"} and "with this" in str(found.value)
+
+
+def test_a_result_that_is_worse_than_nothing_is_a_warning() -> None:
+    far = solid("far", [block((50.0, 0.0, 0.0), (52.0, 2.0, 2.0))])
+    with pytest.warns(SearchWarning, match="less than an empty scene"):
+        nw.grow(boxes, far, 1, 2.0, seed=1)
+
+
+def test_results_that_differ_are_the_ends_of_several_searches() -> None:
+    ship = entry("spaceship")
+    assert ship is not None
+    result = nw.grow(ship.model, ship.target(), voxel=0.5, seed=3, diverse=4, rounds=5)
+    assert len(result) == result.unique_models == 4 and result.info.searches >= 4
+    scores = [sample.log_score for sample in result]
+    assert scores == sorted(scores, reverse=True) and result.best.log_score == scores[0]
+    again = nw.grow(ship.model, ship.target(), voxel=0.5, seed=3, diverse=4, rounds=5, threads=1)
+    assert [sample.choices for sample in again] == [sample.choices for sample in result]
+
+
+def test_a_setting_of_a_population_makes_it_one() -> None:
+    def method(**settings) -> str:
+        return nw.grow(boxes, path_target(), 1, 2.0, seed=1, **settings).search.method.NAME
+
+    assert [method(), method(rounds=2), method(seconds=0.01)] == ["improve"] * 3
+    assert [method(particles=5), method(order="depth-first"), method(seconds=0.01, ess=0.5)] == ["smc"] * 3
+    with pytest.raises(nw.InputError, match="method=improve"):
+        method(rounds=2, particles=5)

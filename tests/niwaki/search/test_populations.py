@@ -181,7 +181,7 @@ def test_grow_gives_what_differs() -> None:
         warnings.simplefilter("error")
         found = nw.grow(ship.model, target, particles=60, diverse=3, **settings)
     assert len(found) == found.unique_models == 3
-    timed = nw.grow(ship.model, target, seconds=0.3, **settings)
+    timed = nw.grow(ship.model, target, seconds=0.3, weights="ratio", **settings)
     again = nw.grow(ship.model, target, particles=timed.info.plan, **settings)
     assert timed.best.log_score == again.best.log_score
 

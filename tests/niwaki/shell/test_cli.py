@@ -67,6 +67,7 @@ def test_grow_writes_and_replay_gives_the_same_bytes(tmp_path: Path) -> None:
     assert sorted(path.name for path in first.iterdir()) == ["best.glb", "run.json"]
 
 
+@pytest.mark.filterwarnings("ignore:the best result scores")  # the tower is wider than the pillar
 def test_pictures(tower: Path, tmp_path: Path) -> None:
     target = tmp_path / "pillar.obj"
     target.write_text(
@@ -105,6 +106,7 @@ def test_check_reports_and_refuses(tower: Path) -> None:
     assert "error[changes-a-value]" in bad.stderr and "^^^^^^^^^^^^" in bad.stderr
 
 
+@pytest.mark.filterwarnings("ignore:the best result scores")  # the tower is wider than the pillar
 def test_a_replay_needs_no_model_file_and_runs_none(tower: Path, tmp_path: Path) -> None:
     out, again = tmp_path / "out", tmp_path / "again"
     words = ["grow", f"{tower}:tower", "--target", str(pillar(tmp_path)), "-n", "5", "--no-picture"]

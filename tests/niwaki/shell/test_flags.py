@@ -159,7 +159,10 @@ def test_a_time_instead_of_particles(place: Path) -> None:
     words = ["grow", "garden.py:towers", "--seed", "1", "-o", "out", "--no-picture"]
     assert run(*words, *IMAGE, "--seconds", "0.3").exit_code == 0
     data = json.loads(Path("out/run.json").read_text())
-    assert data["search"]["method"]["seconds"] == 0.3 and len(data["plan"]) >= 1
+    assert data["search"]["method"]["seconds"] == 0.3 and data["rounds"] >= 1 and not data["plan"]
+    assert run(*words, *IMAGE, "--method", "smc", "--seconds", "0.3").exit_code == 0
+    data = json.loads(Path("out/run.json").read_text())
+    assert len(data["plan"]) >= 1 and data["rounds"] == 0
 
 
 @pytest.mark.filterwarnings("ignore::niwaki.draw.solid.PrintWarning")  # towers do not touch
@@ -251,6 +254,7 @@ def test_a_run_that_is_not_among_the_results(place: Path) -> None:
     assert "expected one of the 1 results of this search" in str(failed.exception)
 
 
+@pytest.mark.filterwarnings("ignore:the best result scores")  # a sail beside a wall
 def test_a_file_that_fails_leaves_the_others(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (place / "sail.py").write_text(
         "import numpy as np\nfrom niwaki import emit, mesh, model\n"

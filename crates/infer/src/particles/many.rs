@@ -84,13 +84,30 @@ pub fn populations(
     plan: &[usize],
     watch: &mut Watch<'_>,
 ) -> std::result::Result<Result, Failure> {
-    // Where there are fewer populations than threads: one by one, each on all threads.
+    let (results, stopped) = side_by_side(plan.len(), watch, |number, watch| {
+        let (particles, seed) = (plan[number], population_seed(settings.seed, number));
+        let own = Settings { particles, seed, ..settings.clone() };
+        run(task, &own, is_shared(plan.len()), watch)
+    });
+    combine(plan, results, stopped)
+}
+
+/// Whether so many searches share the threads: where there are fewer, they run one by one, each on all threads.
+fn is_shared(count: usize) -> bool {
     let threads = rayon::current_num_threads();
-    let alone = plan.len() < threads || threads == 1;
+    count >= threads && threads > 1
+}
+
+/// Independent searches, by number. `watch` is called regularly with the progress of one of them; when it returns false,
+/// they are told to stop. Also returns whether they were.
+pub(crate) fn side_by_side<T: Send>(
+    count: usize,
+    watch: &mut Watch<'_>,
+    one: impl Fn(usize, &mut dyn FnMut(Progress) -> bool) -> T + Sync,
+) -> (Vec<T>, bool) {
     let (watch, stopped) = (Mutex::new(watch), AtomicBool::new(false));
-    let one = |(number, &particles): (usize, &usize)| {
-        let own = Settings { particles, seed: population_seed(settings.seed, number), ..settings.clone() };
-        run(task, &own, !alone, &mut |progress| {
+    let own = |number| {
+        one(number, &mut |progress| {
             // A thread does not wait here while another one calls `watch`.
             if let Ok(mut watch) = watch.try_lock()
                 && !watch(progress)
@@ -100,13 +117,12 @@ pub fn populations(
             !stopped.load(Ordering::Relaxed)
         })
     };
-    let results: Vec<_> = if alone {
-        plan.iter().enumerate().map(one).collect()
+    let results = if is_shared(count) {
+        (0..count).into_par_iter().map(own).collect()
     } else {
-        plan.par_iter().enumerate().map(one).collect()
+        (0..count).map(own).collect()
     };
-    let stopped = stopped.load(Ordering::Relaxed);
-    combine(plan, results, stopped)
+    (results, stopped.into_inner())
 }
 
 /// Populations of one size, one after the other until `time` is over, by the rule in the module's documentation. The

@@ -50,6 +50,7 @@ mod tests;
 pub use crate::resampling::Resampling;
 pub use final_chains::FinalChains;
 pub use gibbs::{Ancestors, Chain, particle_gibbs};
+pub(crate) use many::side_by_side;
 pub use many::{Watch, populations, within};
 pub use pimh::pimh;
 pub use rejuvenation::{Moment, MoveCounts, Rejuvenation};

@@ -30,7 +30,7 @@ use super::metropolis::Decision;
 use super::state::Fresh;
 use super::{Chain, Proposing};
 use crate::{Failure, Task};
-use niwaki_math::{RngCore, StreamKey, Total};
+use niwaki_math::{RngCore, Stream, Total};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Machine;
 use niwaki_vm::machine::kept::Change;
@@ -51,6 +51,10 @@ pub struct Regrow {
     turn: f64,
     /// Which part is grown again.
     pick: Pick,
+    /// Whether the best of particles that all grow the part afresh is kept where it is better: a search, which leaves no
+    /// distribution invariant.
+    #[serde(default)]
+    best: bool,
     /// Which choices may change.
     #[serde(skip)]
     selection: Selection,
@@ -136,6 +140,11 @@ impl ChainMove for Regrow {
         };
         let is_turned = rng.uniform() < own.turn;
         let turned = if is_turned { block.turned(machine, &mut rng)? } else { None };
+        if own.best {
+            let set = block.free(machine, turned.as_ref(), seed(1))?;
+            chain.grown += set.steps;
+            return chain.keep_best(machine, &block, &set, &numbers, &mut rng);
+        }
         let mut set = block.conditional(machine, turned.as_ref(), seed(0))?;
         let held_result = set.grown[0].result();
         chain.grown += set.steps;
@@ -144,7 +153,7 @@ impl ChainMove for Regrow {
         debug_assert!(set.log_mean > f64::NEG_INFINITY, "the present values are possible");
         let mut log_ratio = 0.0;
         if let Some(turned) = &turned {
-            let mut other = block.free(machine, turned, seed(1))?;
+            let mut other = block.free(machine, Some(turned), seed(1))?;
             chain.grown += other.steps;
             chain.weigh_last(machine, &weighing, &mut other, Some((&set.grown[0], held_result)))?;
             log_ratio = other.log_mean - set.log_mean;
@@ -190,11 +199,47 @@ impl<R: Rules> Chain<R> {
         numbers: &[usize],
         values: &HashMap<u128, Value>,
     ) -> Result<Change, Failure> {
-        let mut answers = Fresh::of(StreamKey::new(0, 0, 0), Some(values), &*task.hosts);
+        let mut answers = Fresh::of(self.streams.fresh(self.visit), Some(values), &*task.hosts);
         match machine.redraw(&mut self.state.trace, numbers, self.settings.strategy, &mut answers) {
             Ok(change) => Ok(change),
             Err(met) => self.give_up(task, met),
         }
+    }
+
+    /// The best of particles that grew a part afresh takes its place, if the score is higher, or by chance with the
+    /// probability that the power of the score gives to a lower one.
+    fn keep_best(
+        &mut self,
+        machine: &mut Machine<'_>,
+        block: &Block<'_>,
+        set: &Set,
+        numbers: &[usize],
+        rng: &mut Stream,
+    ) -> Result<(), Failure> {
+        let (task, program) = (block.task, &*block.task.program);
+        let Some(values) = set.best(block) else { return Ok(()) };
+        let change = self.replace(task, machine, numbers, &values)?;
+        if change == Change::Impossible {
+            self.state.trace.rollback(program);
+            return Ok(());
+        }
+        self.show(program)?;
+        let mut gain = self.state.trace.change().log_factors.clone();
+        if let Some(sketches) = self.state.sketch_change() {
+            gain.add_total(&sketches);
+        }
+        let is_possible = !self.state.trace.change().is_impossible() && !gain.is_impossible();
+        let log_ratio = block.beta * gain.value();
+        let accepted = is_possible && accepts(log_ratio, rng);
+        self.last = Decision { same: false, accepted, log_ratio };
+        self.count_many(self.last);
+        if accepted {
+            self.keep(program, block.held.clone());
+        } else {
+            self.state.restore_sketches();
+            self.state.trace.rollback(program);
+        }
+        Ok(())
     }
 
     /// The last weights of a set: the probability of the pick, and what the rest of the run says to what a part returns.

@@ -200,9 +200,14 @@ impl Block<'_> {
         self.sweep(machine, turned, Some(self.held), seed)
     }
 
-    /// SMC with a choice turned.
-    pub fn free(&self, machine: &mut Machine<'_>, turned: &Turned, seed: u64) -> Result<Set, Failure> {
-        self.sweep(machine, Some((turned.address, &turned.new, &turned.old)), None, seed)
+    /// SMC in which no particle holds the present values, with a choice turned or with all of them fresh.
+    pub fn free(
+        &self,
+        machine: &mut Machine<'_>,
+        turned: Option<&Turned>,
+        seed: u64,
+    ) -> Result<Set, Failure> {
+        self.sweep(machine, turned.map(|t| (t.address, &t.new, &t.old)), None, seed)
     }
 
     fn sweep(
@@ -279,6 +284,16 @@ impl Block<'_> {
 }
 
 impl Set {
+    /// The choices of the particle with the highest score, of those with a run that can be drawn; `None` without any.
+    pub fn best(&self, block: &Block<'_>) -> Option<HashMap<u128, Value>> {
+        let possible = self.grown.iter().filter(|one| {
+            one.is_complete(block, one.seen.log_turn.is_some())
+                && !one.particle.record.score().is_impossible()
+        });
+        let score = |one: &&Grown| one.particle.record.log_score();
+        possible.max_by(|a, b| score(a).total_cmp(&score(b))).map(|one| one.values(block))
+    }
+
     /// Reads the last log weights; the estimate of the constant is then complete.
     pub fn close(&mut self, logs: &[f64]) {
         if self.log_mean > f64::NEG_INFINITY && self.weights.read(logs.iter().copied()) {

@@ -357,7 +357,8 @@ fn a_population_that_dies_says_where_and_why() {
         r#"(module (fn "m" (params) (do (factor 0.0)) (set $x (sample (dist bernoulli 0.5)))
            (do (condition (and $x (not $x)))) (return 1)) (entry "m"))"#,
     );
-    let Err(crate::Failure::Impossible { barrier, causes }) = smc(&task, &Settings::default(), &mut |_| true)
+    let Err(crate::Failure::Impossible { barrier, causes, .. }) =
+        smc(&task, &Settings::default(), &mut |_| true)
     else {
         panic!("some particle lived")
     };

@@ -61,7 +61,7 @@ fn a_chooser_sees_the_scene_so_far() {
             crate::replay::Missing::Refuse,
         );
         let parts: Vec<Primitive> =
-            trace.unwrap().parts.iter().map(|(_, shapes)| Primitive::new(shapes)).collect();
+            trace.unwrap().parts.iter().map(|part| Primitive::new(&part.shapes)).collect();
         let by_hand: Vec<_> = (0..3).map(|n| score(&parts[..n])).collect();
         assert!(by_hand[0] != by_hand[1] && by_hand[1] != by_hand[2], "{by_hand:?}");
         assert_eq!(seen, by_hand);

@@ -1,0 +1,232 @@
+//! The rounds of a search: each goes on from the best run by one kind of step, and the kinds share them by what they gained.
+
+use super::Improve;
+use crate::chain::kernel::Kernel;
+use crate::chain::plan::Plan;
+use crate::chain::state::State;
+use crate::chain::streams::below;
+use crate::chain::{Chain, Settings as ChainSettings};
+use crate::particles::rejuvenation::spreads;
+use crate::particles::{Outcome, Result, Settings, smc};
+use crate::replay::by_address;
+use crate::run::Run;
+use crate::streams::Reserved;
+use crate::weights::index;
+use crate::{Failure, Task};
+use niwaki_math::Stream;
+use niwaki_vm::fault::Fault;
+use serde_json::json;
+use std::collections::HashMap;
+use std::time::Duration;
+
+/// Rounds that together cost as much as the first population.
+const PER_POPULATION: u64 = 5;
+/// How much of what a kind of step gained is forgotten with each of its rounds.
+const FORGOTTEN: f64 = 0.5;
+/// The share of the rounds that is divided evenly.
+const EVEN: f64 = 0.25;
+/// How often a discrete choice of a part is turned when it is grown again.
+const TURN: f64 = 0.7;
+/// How many times as many particles grow a part again in rounds of "regrow more".
+const MORE: usize = 5;
+
+/// A kind of step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A population from the start.
+    Population,
+    /// Parts grown again by few particles.
+    Regrow,
+    /// Parts grown again by five times as many.
+    RegrowMore,
+    /// Single choices, and calls drawn anew.
+    Move,
+}
+
+impl Kind {
+    const ALL: [Kind; 4] = [Kind::Regrow, Kind::Move, Kind::RegrowMore, Kind::Population];
+
+    /// Its name in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Kind::Population => "population",
+            Kind::Regrow => "regrow",
+            Kind::RegrowMore => "regrow more",
+            Kind::Move => "move",
+        }
+    }
+}
+
+/// What one round did.
+#[derive(Clone, Copy, Debug)]
+pub struct Round {
+    /// Its kind of step.
+    pub kind: Kind,
+    /// Its work.
+    pub work: u64,
+    /// The parts that were grown again and kept.
+    pub parts: u64,
+    /// Best log score after it, nats.
+    pub best: f64,
+    /// Since the search began, by the clock.
+    pub time: Duration,
+}
+
+/// The search while it runs.
+pub(super) struct Search<'a> {
+    task: &'a Task,
+    own: &'a Improve,
+    seed: u64,
+    /// The work of a round.
+    slice: u64,
+    spreads: HashMap<u128, f64>,
+    pub best: Run,
+    /// Where chains go on; absent only while one runs, and after a search that was stopped at once.
+    state: Option<State>,
+    /// Populations so far.
+    populations: u64,
+    /// What the kinds gained lately, nats for the work of a round.
+    gains: [Option<f64>; Kind::ALL.len()],
+}
+
+impl<'a> Search<'a> {
+    /// A search from the best of a first population, which was the `populations`-th, and cost `unit` for the declared size.
+    pub fn begin(
+        own: &'a Improve,
+        task: &'a Task,
+        seed: u64,
+        unit: u64,
+        populations: u64,
+        first: Result,
+    ) -> std::result::Result<Search<'a>, Failure> {
+        let (best, state) = if first.interrupted {
+            let best = most(first, |_| true).map(Run::from).ok_or_else(Failure::no_start)?;
+            (best, None)
+        } else {
+            let (best, state) = best_of(task, first)?;
+            (best, Some(state))
+        };
+        let slice = (unit / PER_POPULATION).max(1);
+        let spreads = spreads(task, seed)?;
+        Ok(Search { task, own, seed, slice, spreads, best, state, populations, gains: Default::default() })
+    }
+
+    /// One round of about the same work as any; returns its kind, what it cost, and how many parts were grown again and kept. `go_on`
+    /// is called with the best log score, and ends the round where it returns false.
+    pub fn round(
+        &mut self,
+        number: u64,
+        go_on: &mut dyn FnMut(f64) -> bool,
+    ) -> std::result::Result<(Kind, u64, u64), Failure> {
+        let which = pick(&self.gains, &mut Reserved::Improve.stream(self.seed, u128::from(number), 0));
+        let (kind, before) = (Kind::ALL[which], self.best.log_score);
+        let (work, parts) = match kind {
+            Kind::Population => (self.population(go_on)?, 0),
+            _ => self.go_on(kind, number, go_on)?,
+        };
+        let rate = (self.best.log_score - before).max(0.0) * self.slice as f64 / work.max(1) as f64;
+        let mixed = |old: f64| FORGOTTEN * old + (1.0 - FORGOTTEN) * rate;
+        self.gains[which] = Some(self.gains[which].map_or(rate, mixed));
+        Ok((kind, work, parts))
+    }
+
+    /// Another population. Returns its work.
+    fn population(&mut self, go_on: &mut dyn FnMut(f64) -> bool) -> std::result::Result<u64, Failure> {
+        let (so_far, number) = (self.best.log_score, self.populations);
+        self.populations += 1;
+        let seed = self.own.population_seed(self.seed, number);
+        let (particles, power) = (self.own.particles, self.own.power);
+        let settings = Settings { particles, seed, power, ..Settings::default() };
+        match smc(self.task, &settings, &mut |_| go_on(so_far)) {
+            Ok(result) => {
+                let work = result.steps;
+                if !result.interrupted {
+                    let (best, state) = best_of(self.task, result)?;
+                    if best.log_score > so_far {
+                        (self.best, self.state) = (best, Some(state));
+                    }
+                }
+                Ok(work)
+            }
+            Err(failure) if failure.is_impossible() => Ok(self.slice),
+            Err(failure) => Err(failure),
+        }
+    }
+
+    /// Steps of a chain from the present run. Returns their work and how many parts were grown again and kept.
+    fn go_on(
+        &mut self,
+        kind: Kind,
+        number: u64,
+        go_on: &mut dyn FnMut(f64) -> bool,
+    ) -> std::result::Result<(u64, u64), Failure> {
+        let settings = ChainSettings { seed: self.seed, thin: 0, ..ChainSettings::default() };
+        let plan = Plan::new(&self.kernel(kind)?)?;
+        let Some(state) = self.state.take() else { return Ok((self.slice, 0)) };
+        let mut chain: Chain = Chain::at(self.task, &settings, number, plan, state, &self.spreads)?;
+        chain.restrict(self.own.power, None);
+        let (so_far, before) = (self.best.log_score, chain.work());
+        if !chain.state.trace.is_empty() {
+            let steps = if kind == Kind::Move { 32 } else { 1 };
+            while chain.work() < before + self.slice && go_on(so_far.max(chain.best.score())) {
+                chain.advance(self.task, steps, &mut |_, _| true)?;
+            }
+        }
+        if chain.best.score() > so_far {
+            self.best = chain.best.get(&chain.state, self.task)?;
+        }
+        let (work, parts) = (chain.work() - before, chain.counts.many.accepted);
+        self.state = Some(chain.state);
+        Ok((work, parts))
+    }
+
+    /// The kernel of a kind of step.
+    fn kernel(&self, kind: Kind) -> std::result::Result<Kernel, Fault> {
+        let leaf = |name, settings| {
+            Kernel::leaf(name, settings).map_err(|error| Fault::new("bad-kernel", error.to_string()))
+        };
+        let regrow = |particles| {
+            leaf("regrow", json!({"particles": particles, "turn": TURN, "pick": "size", "best": true}))
+        };
+        let drift = |step| leaf("drift", json!({"step": step, "target": 0.44}));
+        match kind {
+            Kind::Regrow => regrow(self.own.regrow),
+            Kind::RegrowMore => regrow(MORE * self.own.regrow),
+            _ => Ok(Kernel::Mixture(vec![
+                (4.0, Kernel::PRIOR),
+                (4.0, drift(0.3)?),
+                (2.0, drift(0.05)?),
+                (1.0, leaf("regenerate", json!({"levels": 0}))?),
+            ])),
+        }
+    }
+}
+
+/// Which kind of step is next: each once, and then by what they gained lately.
+fn pick(gains: &[Option<f64>], rng: &mut Stream) -> usize {
+    if let Some(new) = gains.iter().position(Option::is_none) {
+        return new;
+    }
+    let gains: Vec<f64> = gains.iter().copied().flatten().collect();
+    let u = rng.uniform();
+    if gains.iter().all(|gain| *gain <= 0.0) || u < EVEN {
+        return below(rng, gains.len() as u64) as usize;
+    }
+    index(&gains, (u - EVEN) / (1.0 - EVEN))
+}
+
+/// The best run of a population, and a chain's state there.
+fn best_of(task: &Task, result: Result) -> std::result::Result<(Run, State), Failure> {
+    let mut best = most(result, |one| one.has_ended).ok_or_else(Failure::no_start)?;
+    let sketches = std::mem::take(&mut best.record.sketches);
+    let state =
+        State::of_run(task, &by_address(&best.record.log.entries()), sketches, best.record.primitives)?;
+    let run = state.run(&task.program, 0);
+    Ok((run, state))
+}
+
+/// The particle with the best score among those that are possible and pass.
+fn most(result: Result, passes: impl Fn(&Outcome) -> bool) -> Option<Outcome> {
+    let possible = result.particles.into_iter().filter(|one| one.record.cause.is_none() && passes(one));
+    possible.max_by(|a, b| a.record.log_score().total_cmp(&b.record.log_score()))
+}
