@@ -115,7 +115,7 @@ def grow(
 ) -> Result:
     """Grow a model into a target, or to a high score of any kind: the best of a search, `runs` times.
 
-    The usual search is `improve`: it begins with a population of particles and spends as much work again, twice, on
+    The usual search is `improve`: it begins with a population of particles, and spends four times as much work on
     growing parts of the best run again. It is a search and no sample: for a posterior name a method.
 
     Parameters

@@ -30,7 +30,7 @@ use serde::Deserialize;
 use std::time::{Duration, Instant};
 
 /// Rounds where neither their number nor a time is given.
-const USUAL_ROUNDS: u64 = 10;
+const USUAL_ROUNDS: u64 = 20;
 /// A gain below this, nats, counts as none.
 const LEAST_GAIN: f64 = 0.01;
 /// Without a gain in so many rounds, or in half of all, a search ends.
