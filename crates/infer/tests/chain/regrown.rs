@@ -4,8 +4,8 @@
 //!
 //! Exact draws from the posterior (from the prior, accepted by their score, which is never above zero) make a few moves
 //! each; the results are independent exact draws again, whatever the kernel's mixing. Shares of each value are compared with
-//! enumeration: beyond 5 standard errors a share lies once in 1.7 million; some 1,100 are looked at, so a re-seeded suite
-//! fails once in 1,500 runs. The long form has a million starts, one move each.
+//! enumeration: beyond 5 standard errors a share lies once in 1.7 million; some 1,200 are looked at, so a re-seeded suite
+//! fails once in 1,400 runs. The long form has a million starts, one move each.
 
 use super::programs::{leaf, task};
 use niwaki_geom::{Aabb, no_overshoot, vec3};
@@ -145,6 +145,7 @@ fn kernels(task: &Task) -> Vec<(&'static str, Kernel)> {
         ("turned half the time, four particles", regrow(4, 0.5, json!("size"))),
         ("by choice", regrow(3, 0.5, json!("choice"))),
         ("named parts", regrow(3, 0.5, json!({"parts": ["**"]}))),
+        ("named parts, five particles", regrow(5, 0.0, json!({"parts": ["**"]}))),
         (
             "in a cycle with single choices",
             Kernel::Cycle(vec![
