@@ -10,6 +10,7 @@ use crate::scalar::Var;
 use niwaki_vm::code::Program;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Limits;
+use niwaki_vm::machine::held::Held;
 use niwaki_vm::machine::invalid::Invalid;
 use niwaki_vm::machine::stack::RunFault;
 use niwaki_vm::value::Value;
@@ -26,6 +27,8 @@ pub struct Model {
     pub program: Arc<Program<Var>>,
     /// The arguments of its entry function.
     pub args: Vec<Value<Var>>,
+    /// Choices whose values are given, and observed.
+    pub held: Option<Arc<Held<Var>>>,
     /// How much a run may use.
     pub limits: Limits,
     /// Its host functions.
@@ -55,6 +58,7 @@ impl Model {
         Run {
             program: &self.program,
             args: &self.args,
+            held: self.held.as_deref(),
             limits: self.limits,
             host: &*self.host,
             scope: &self.scope,

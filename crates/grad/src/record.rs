@@ -15,6 +15,7 @@ use niwaki_vm::builtins::{draw_to_value, value_to_draw};
 use niwaki_vm::code::Program;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
+use niwaki_vm::machine::held::Held;
 use niwaki_vm::machine::stack::RunFault;
 use niwaki_vm::machine::{Limits, Machine};
 use niwaki_vm::value::Value;
@@ -51,6 +52,8 @@ pub struct Run<'a> {
     pub program: &'a Program<Var>,
     /// The arguments of its entry function.
     pub args: &'a [Value<Var>],
+    /// Choices whose values are given, and observed: not those of the scope, which have coordinates.
+    pub held: Option<&'a Held<Var>>,
     /// The limits of the run.
     pub limits: Limits,
     /// Pure functions of the host, by the number of the constant that names them.
@@ -79,6 +82,8 @@ pub(crate) struct Recorder<'a> {
     pub(crate) start: Vec<f64>,
     structure: u128,
     emitted: usize,
+    /// A held choice that the run does not make.
+    unmet: Option<String>,
     /// Whether each term must have a finite gradient.
     strict: bool,
 }
@@ -96,6 +101,7 @@ impl<'a> Recorder<'a> {
             start: vec![],
             structure: 0,
             emitted: 0,
+            unmet: None,
             strict,
         }
     }
@@ -103,12 +109,18 @@ impl<'a> Recorder<'a> {
     /// Runs the program, and records on the sheet of this thread.
     fn finish(&mut self) -> Result<(), Box<RunFault>> {
         let run = self.run;
-        let mut machine = Machine::new(run.program, run.limits);
+        let mut machine = Machine::new(run.program, run.limits).holding(run.held);
         let bare = |fault| Box::new(RunFault { fault, stack: vec![], omitted: 0, path: String::new() });
         let mut state = machine.start(run.args, true).map_err(bare)?;
         state.remember_origins();
         self.power = run.scope.power.map(|power| self.coordinate(power));
-        machine.finish(&mut state, self)
+        machine.finish(&mut state, self)?;
+        if let Some(path) = self.unmet.take() {
+            return Err(bare(impossible(&format!(
+                "the held choice `{path}`, which this run does not make,"
+            ))));
+        }
+        Ok(())
     }
 
     /// Adds a term to the log density.
@@ -212,6 +224,7 @@ impl Answers<Var> for Recorder<'_> {
                 Factor::Observe => "this observation",
                 Factor::Factor => "this factor",
                 Factor::Condition => "this condition",
+                Factor::Held => "the value of this held choice",
             }));
         }
         self.add(self.power.map_or(log, |power| power * log))?;
@@ -221,6 +234,10 @@ impl Answers<Var> for Recorder<'_> {
     fn emit(&mut self, _: &At<'_, Var>, _: &[Shape]) -> Result<Answer<()>, Fault> {
         self.emitted += 1;
         Ok(Answer::Go(()))
+    }
+
+    fn unmet(&mut self, path: &str) {
+        self.unmet = Some(path.to_string());
     }
 
     fn query(&mut self, _: &At<'_, Var>, _: &Value<Var>, _: &Value<Var>) -> Result<(), Fault> {

@@ -61,7 +61,22 @@ impl<C: Chooser> Forward<'_, C> {
 
 /// The readable name of a factor.
 pub(crate) fn factor_name(at: &At<'_, f64>, factor: Factor) -> String {
-    named(factor, at.site.span.line)
+    match factor {
+        Factor::Held => held_name(&at.path(), at.site.span.line),
+        _ => named(factor, at.site.span.line),
+    }
+}
+
+/// The readable name of a held choice whose value is outside of its support.
+#[cold]
+pub(crate) fn held_name(path: &str, line: u32) -> String {
+    format!("the held choice `{path}` at line {line}: its value is outside of its support")
+}
+
+/// The readable name of a held choice that a run did not make.
+#[cold]
+pub(crate) fn unmet_name(path: &str) -> String {
+    format!("the held choice `{path}`: the run did not make it")
 }
 
 /// The readable name of a value outside of the support of its choice.
@@ -76,6 +91,7 @@ pub(crate) fn named(factor: Factor, line: u32) -> String {
         Factor::Observe => "observe",
         Factor::Factor => "factor",
         Factor::Condition => "condition",
+        Factor::Held => "a held choice",
     };
     format!("`{what}` at line {line}")
 }
@@ -108,6 +124,10 @@ impl<C: Chooser> Answers<f64> for Forward<'_, C> {
     fn emit(&mut self, _: &At<'_, f64>, shapes: &[Shape]) -> Result<Answer<()>, Fault> {
         self.record.emit(shapes);
         Ok(self.barrier())
+    }
+
+    fn unmet(&mut self, path: &str) {
+        self.record.factor(f64::NEG_INFINITY, || unmet_name(path));
     }
 
     fn query(&mut self, _: &At<'_, f64>, _: &Value, _: &Value) -> Result<(), Fault> {

@@ -10,6 +10,7 @@
 //! * `streams`: the random streams that belong to no run;
 //! * `particle`, `weights`, [`resampling`]: a run that stops at barriers, what it weighs, and which of many survive;
 //! * [`chain`]: Metropolis-Hastings over kept runs, kernels as values; parts of a run grown again by particles;
+//! * [`hold`]: a task with choices held;
 //! * [`proposal`]: a user's proposals for a run that begins;
 //! * [`particles`]: sequential Monte Carlo, in program order and in stochastic order;
 //! * [`nested`]: inference inside a model;
@@ -27,6 +28,7 @@ pub mod failure;
 pub mod forward;
 pub mod gradient;
 pub mod hamiltonian;
+pub mod hold;
 pub mod importance;
 pub mod improve;
 pub mod log;

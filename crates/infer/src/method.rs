@@ -17,7 +17,7 @@ use crate::particles::{
 };
 use crate::proposal::Proposal;
 use crate::rejection::rejection;
-use crate::run::Run;
+use crate::run::{Run, Shown};
 use crate::{Failure, Task, chain};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::kept::Strategy;
@@ -172,6 +172,8 @@ pub struct Given<'a> {
     pub functions: &'a [Arc<User>],
     /// The run that a chain of whole runs starts from.
     pub start: Option<&'a [Entry]>,
+    /// Where a search for the best shows its best run so far.
+    pub shown: Option<&'a Shown>,
 }
 
 /// The result of a search.
@@ -293,7 +295,7 @@ impl Method {
                 Ok(of_chain(pimh(task, &settings, own.sweeps, &mut progress)?))
             }
             Method::Improve(own) => {
-                let (runs, result) = own.search(task, seed, &mut progress)?;
+                let (runs, result) = own.search(task, seed, given.shown, &mut progress)?;
                 Ok(bare(runs, result.interrupted, Info::Improved(result)))
             }
             Method::Mh(_) | Method::Hmc(_) | Method::Nuts(_) => {

@@ -210,6 +210,7 @@ impl Inferences {
             model: Some(Arc::clone(model)),
             args: args.to_vec(),
             sketches: vec![],
+            held: None,
             hosts: Arc::new(Inferences { depth: self.depth + 1, known: Arc::default(), ..self.clone() }),
             limits: self.limits,
             invalid: Arc::default(),

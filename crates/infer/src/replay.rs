@@ -4,7 +4,7 @@
 
 use crate::Failure;
 use crate::chooser::{Chooser, Chosen, Context, Prior, Refuse};
-use crate::forward::factor_name;
+use crate::forward::{factor_name, unmet_name};
 use crate::log::Entry;
 use crate::record::{Record, check_factor};
 use crate::run::Run;
@@ -41,7 +41,7 @@ pub struct Trace {
     pub run: Run,
     /// The sums behind its scores, exact: of its choices, and of factors, observations and sketches.
     pub sums: (Total, Total),
-    /// Every choice, in depth-first order.
+    /// Every choice, in depth-first order; those that are held, too, which belong to the score.
     pub choices: Vec<Choice>,
     /// The primitives of the scene.
     pub parts: Vec<Part>,
@@ -141,6 +141,21 @@ impl Answers<f64> for Replay<'_> {
     fn score(&mut self, at: &At<'_, f64>, factor: Factor, log: f64) -> Result<Answer<()>, Fault> {
         self.record.factor(check_factor(log)?, || factor_name(at, factor));
         Ok(Answer::Go(()))
+    }
+
+    fn held(&mut self, at: &At<'_, f64>, dist: &Dist, value: &Value, log: f64) -> Result<Answer<()>, Fault> {
+        self.trace.choices.push(Choice {
+            path: at.path(),
+            address: at.address(),
+            family: dist.family().name(),
+            value: value.clone(),
+            log_density: log,
+        });
+        self.score(at, Factor::Held, log)
+    }
+
+    fn unmet(&mut self, path: &str) {
+        self.record.factor(f64::NEG_INFINITY, || unmet_name(path));
     }
 
     fn emit(&mut self, at: &At<'_, f64>, shapes: &[Shape]) -> Result<Answer<()>, Fault> {

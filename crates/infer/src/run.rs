@@ -5,7 +5,7 @@ use crate::record::Record;
 use niwaki_vm::machine::stack::RunFault;
 use niwaki_vm::value::Value;
 use serde::{Deserialize, Serialize};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// A finished run. Scores are in nats. Its serialised form lacks the value, which a replay gives again, and the fault.
 #[derive(Debug, Default, Serialize, Deserialize)]
@@ -39,7 +39,29 @@ pub struct Run {
     pub visit: u64,
 }
 
+/// The best run so far of a search that goes on, for those who watch it.
+pub type Shown = Mutex<Option<Arc<Run>>>;
+
 impl Run {
+    /// A copy; both share the choices.
+    pub fn copy(&mut self) -> Run {
+        Run {
+            log: self.log.fork(),
+            value: self.value.clone(),
+            cause: self.cause.clone(),
+            invalid: self.invalid.clone(),
+            ..*self
+        }
+    }
+
+    /// Shows it, if it is better than what is shown.
+    pub fn show(&mut self, shown: &Shown) {
+        let mut now = shown.lock().unwrap_or_else(PoisonError::into_inner);
+        if now.as_ref().is_none_or(|before| before.log_score < self.log_score) {
+            *now = Some(Arc::new(self.copy()));
+        }
+    }
+
     /// The run of a record; the sketches are dropped.
     pub fn of(record: Record, value: Value, log_weight: f64, has_ended: bool) -> Run {
         Run {

@@ -4,6 +4,7 @@ use niwaki_geom::sketch::SketchSpec;
 use niwaki_vm::code::Program;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::Answers;
+use niwaki_vm::machine::held::Held;
 use niwaki_vm::machine::invalid::Invalid;
 use niwaki_vm::machine::kept::{Change, Trace};
 use niwaki_vm::machine::stack::RunFault;
@@ -41,6 +42,8 @@ pub struct Task {
     pub args: Vec<Value>,
     /// The sketches that score its scene; log scores add.
     pub sketches: Vec<Arc<dyn SketchSpec>>,
+    /// Choices whose values are given, and observed.
+    pub held: Option<Arc<Held>>,
     /// Its host functions.
     pub hosts: Arc<dyn Hosts>,
     /// The limits of one run.
@@ -57,6 +60,7 @@ impl Task {
             model: None,
             args: vec![],
             sketches: vec![],
+            held: None,
             hosts: Arc::new(NoHosts),
             limits: Limits::default(),
             invalid: Arc::default(),
@@ -70,7 +74,7 @@ impl Task {
 
     /// A machine for its program.
     pub fn machine(&self) -> Machine<'_> {
-        Machine::new(&self.program, self.limits)
+        Machine::new(&self.program, self.limits).holding(self.held.as_deref())
     }
 
     /// A run that has not begun.

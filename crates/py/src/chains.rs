@@ -82,8 +82,10 @@ impl PyChains {
         threads: Option<usize>,
         watch: Option<Py<PyAny>>,
     ) -> PyResult<bool> {
-        let task = &self.task.get().task;
-        let (stopped, pressed) = detached(py, &task.program, threads, watch.as_ref(), |watch| {
+        let own = self.task.get();
+        let (task, classes) = (&own.task, &own.model.get().classes);
+        let caller = watch.as_ref().map(|callable| (callable, classes));
+        let (stopped, pressed) = detached(py, &task.program, threads, caller, |watch| {
             let mut chains = self.chains.lock().unwrap_or_else(PoisonError::into_inner);
             chains.advance(task, steps, &|done, best| watch.look(done, 0, best))
         })?;
@@ -227,7 +229,7 @@ fn settings(
     let Method::Mh(method) = task.read(py, method)? else {
         return Err(PyTypeError::new_err("this method is not Metropolis-Hastings"));
     };
-    let settings = method.settings(&Given { seed, functions: &functions, start: None });
+    let settings = method.settings(&Given { seed, functions: &functions, ..Given::default() });
     let settings = settings.map_err(|fault| faults::setting(py, &fault))?;
     Ok((method, settings, task.keeping(py, &functions)?))
 }

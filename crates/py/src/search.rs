@@ -8,14 +8,19 @@ use crate::geometry::PySketchSpec;
 use crate::gradients::PyDensity;
 use crate::model::PyProgram;
 use crate::runs::{PyRun, PyTrace};
+use crate::values::Classes;
 use niwaki_infer::chain::counts::Count;
+use niwaki_infer::chain::glob;
+use niwaki_infer::chain::regrow::{Afresh, afresh};
 use niwaki_infer::chain::user::User;
 use niwaki_infer::gradient::live;
+use niwaki_infer::hold::hold;
 use niwaki_infer::improve::Round;
 use niwaki_infer::method::{self, Given, Info, Method};
 use niwaki_infer::nested::Inner;
 use niwaki_infer::record::Record;
 use niwaki_infer::replay::{Missing, Source, replay};
+use niwaki_infer::run::Shown;
 use niwaki_infer::{Failure, Task};
 use niwaki_vm::code::Program;
 use niwaki_vm::core::Name;
@@ -40,7 +45,12 @@ pub(crate) struct Watch {
     stop: AtomicBool,
     /// Done, ended, best log score.
     now: Mutex<(u64, usize, f64)>,
+    /// The best run so far, of a search that shows it.
+    pub(crate) shown: Shown,
 }
+
+/// The callback of a user, and the classes of the model.
+pub(crate) type Caller<'a> = (&'a Py<PyAny>, &'a Arc<Classes>);
 
 impl Watch {
     /// Stores the progress of the search; returns whether to go on.
@@ -49,13 +59,17 @@ impl Watch {
         !self.stop.load(Ordering::Relaxed)
     }
 
-    /// Checks for Ctrl-C and calls `callable(done, ended, best)`, on the thread of the Python caller, because only there
-    /// are signals handled.
-    fn tell(&self, callable: Option<&Py<PyAny>>) -> Result<(), PyErr> {
-        let now = *self.now.lock().unwrap_or_else(PoisonError::into_inner);
+    /// Checks for Ctrl-C and calls `callable(done, ended, best, run)`, on the thread of the Python caller, because only
+    /// there are signals handled. The run is the best so far, or `None` where the search does not show it.
+    fn tell(&self, caller: Option<Caller<'_>>) -> Result<(), PyErr> {
+        let (done, ended, best) = *self.now.lock().unwrap_or_else(PoisonError::into_inner);
+        let shown = self.shown.lock().unwrap_or_else(PoisonError::into_inner).clone();
         Python::attach(|py| {
             py.check_signals()?;
-            callable.map_or(Ok(()), |c| c.call1(py, now).map(|_| ()))
+            caller.map_or(Ok(()), |(callable, classes)| {
+                let run = shown.map(|run| PyRun::new(run, classes.clone()));
+                callable.call1(py, (done, ended, best, run)).map(|_| ())
+            })
         })
     }
 }
@@ -67,7 +81,7 @@ pub(crate) fn detached<T: Send>(
     py: Python<'_>,
     program: &Program,
     threads: Option<usize>,
-    callable: Option<&Py<PyAny>>,
+    caller: Option<Caller<'_>>,
     work: impl FnOnce(&Watch) -> Result<T, Failure> + Send,
 ) -> PyResult<(T, bool)> {
     let pool = match threads {
@@ -93,7 +107,7 @@ pub(crate) fn detached<T: Send>(
             });
             while let Err(RecvTimeoutError::Timeout) = wait.recv_timeout(PAUSE) {
                 if raised.is_none()
-                    && let Err(error) = watch.tell(callable)
+                    && let Err(error) = watch.tell(caller)
                 {
                     raised = Some(error);
                     watch.stop.store(true, Ordering::Relaxed);
@@ -104,7 +118,7 @@ pub(crate) fn detached<T: Send>(
     });
     // The callback gets the final progress, however short the search was.
     if raised.is_none() && done.is_ok() {
-        raised = watch.tell(callable).err();
+        raised = watch.tell(caller).err();
     }
     let pressed = raised.is_some();
     match raised {
@@ -141,12 +155,23 @@ impl PyTask {
             program: own.program.clone(),
             model: None,
             args: values,
+            held: None,
             sketches: sketches.into_iter().map(|s| s.0).collect(),
             hosts: own.hosts(limits),
             limits,
             invalid: Arc::default(),
         };
         Ok(PyTask { task, model: program.clone_ref(py) })
+    }
+
+    /// The same task with choices held: ``lock`` has their values, by readable address.
+    fn holding(&self, py: Python<'_>, lock: &Bound<'_, PyDict>) -> PyResult<PyTask> {
+        let mut choices: Vec<(String, Value)> = Vec::new();
+        for (path, value) in lock {
+            choices.push((path.extract()?, self.model.get().classes.value(&value)?));
+        }
+        let task = hold(&self.task, choices).map_err(|fault| faults::setting(py, &fault))?;
+        Ok(PyTask { task, model: self.model.clone_ref(py) })
     }
 
     /// The same task, with no run counted yet.
@@ -176,16 +201,18 @@ impl PyTask {
     ) -> PyResult<(Vec<PyRun>, bool, Bound<'py, PyDict>)> {
         let method = self.read(py, method)?;
         let functions = self.proposals(py, &functions)?;
-        let classes = &self.model.get().classes;
+        let classes = self.model.get().classes.clone();
         let start = start.map(PyRun::entries);
-        let given = Given { seed, functions: &functions, start: start.as_deref() };
         let task = self.keeping(py, &functions)?;
-        let find = |watch: &mut method::Watch<'_>| method.search(&task, &given, watch);
+        let find = |shown: &Shown, watch: &mut method::Watch<'_>| {
+            let given = Given { seed, functions: &functions, start: start.as_deref(), shown: Some(shown) };
+            method.search(&task, &given, watch)
+        };
         let (result, pressed) = if let Method::Forward { n: 1 } = method {
-            (self.at_once(py, || find(&mut |_, _, _| true))?, false)
+            (self.at_once(py, || find(&Shown::default(), &mut |_, _, _| true))?, false)
         } else {
-            detached(py, &task.program, threads, watch.as_ref(), |watch| {
-                find(&mut |done, ended, best| watch.look(done, ended, best))
+            detached(py, &task.program, threads, watch.as_ref().map(|call| (call, &classes)), |watch| {
+                find(&watch.shown, &mut |done, ended, best| watch.look(done, ended, best))
             })?
         };
         let runs = result.runs.into_iter().map(|run| PyRun::new(Arc::new(run), classes.clone())).collect();
@@ -207,6 +234,27 @@ impl PyTask {
         let entry = Arc::new(Closure { function: program.entry.0, captures: vec![] });
         let value = self.at_once(py, || Ok(inferences.infer(&inner, &entry, &self.task.args, seed)?))?;
         self.object(py, &value)
+    }
+
+    /// Grows the one part of a run that a pattern matches again, by particles; everything else stays as it is. The runs that are
+    /// possible, with their weights.
+    #[pyo3(signature = (run, part, particles, power, seed, threads=None))]
+    #[expect(clippy::too_many_arguments, reason = "the settings of a search")]
+    fn regrow(
+        &self,
+        py: Python<'_>,
+        run: &PyRun,
+        part: &str,
+        particles: usize,
+        power: f64,
+        seed: u64,
+        threads: Option<usize>,
+    ) -> PyResult<Vec<PyRun>> {
+        let (task, known) = (&self.task, run.by_address());
+        let with = Afresh { part, particles, power, seed };
+        let (runs, _) = detached(py, &task.program, threads, None, |_| afresh(task, &known, &with))?;
+        let classes = &self.model.get().classes;
+        Ok(runs.into_iter().map(|run| PyRun::new(Arc::new(run), classes.clone())).collect())
     }
 
     /// The log density around a run.
@@ -358,6 +406,18 @@ fn check_inside(py: Python<'_>, method: &str) -> PyResult<()> {
     checked.map_err(|fault| faults::setting(py, &fault))
 }
 
+/// Whether a pattern matches a readable address.
+#[pyfunction]
+fn matches(pattern: &str, address: &str) -> bool {
+    glob::matches(pattern, address)
+}
+
+/// The three of these addresses that are nearest to a pattern.
+#[pyfunction]
+fn nearest(pattern: &str, addresses: Vec<String>) -> Vec<String> {
+    glob::nearest(pattern, &addresses)
+}
+
 /// A hash of the bits that this machine's elementary functions give, in hexadecimal: where it is equal, so are results.
 #[pyfunction]
 fn fingerprint() -> String {
@@ -368,5 +428,7 @@ fn fingerprint() -> String {
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(check_inside, module)?)?;
     module.add_function(wrap_pyfunction!(fingerprint, module)?)?;
+    module.add_function(wrap_pyfunction!(matches, module)?)?;
+    module.add_function(wrap_pyfunction!(nearest, module)?)?;
     module.add_class::<PyTask>()
 }

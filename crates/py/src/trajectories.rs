@@ -43,7 +43,8 @@ impl PyTrajectories {
             .ok_or_else(|| PyTypeError::new_err("this method does not follow the gradient"))?;
         let known = start.map(PyRun::by_address);
         let plan = Plan { settings: &settings, seed, chains, tries, known: known.as_ref() };
-        let (chains, pressed) = detached(py, &own.task.program, threads, watch.as_ref(), |watch| {
+        let caller = watch.as_ref().map(|callable| (callable, &own.model.get().classes));
+        let (chains, pressed) = detached(py, &own.task.program, threads, caller, |watch| {
             explore(&own.task, &plan, &|done| watch.look(done, 0, f64::NEG_INFINITY))
         })?;
         let interrupted = pressed || chains.iter().any(|chain| chain.draws.interrupted);

@@ -13,6 +13,7 @@ from niwaki import _engine
 from niwaki.errors import InputError, ModelFault
 from niwaki.errors.kinds import place
 from niwaki.errors.messages import MESSAGES
+from niwaki.errors.settings import bad
 from niwaki.errors.source import Span
 from niwaki.lang.core import Core
 from niwaki.lang.lower import lower
@@ -55,8 +56,9 @@ def task(
     sketches: Sequence[_engine.SketchSpec] = (),
     max_steps: int = 20_000_000,
     max_memory: int = 1 << 30,
+    lock: Mapping[str, Any] | None = None,
 ) -> _engine.Task:
-    """A model with its arguments and sketches, ready to be searched."""
+    """A model with its arguments and sketches, ready to be searched; `lock` has the values of held choices."""
     for name, found, least in (("max_steps", max_steps, 1), ("max_memory", max_memory, 1 << 20)):
         if not isinstance(found, int) or not least <= found < 2**63:
             raise InputError(
@@ -69,9 +71,17 @@ def task(
     program = model.program()
     given = arguments(model, args, kwargs or {})
     try:
-        return _engine.Task(program, given, list(sketches), max_steps, max_memory)
+        ready = _engine.Task(program, given, list(sketches), max_steps, max_memory)
     except (TypeError, OverflowError) as error:
         raise _bad_argument(model, program, given, error) from error
+    if not lock:
+        return ready
+    try:
+        with translated(model.name):
+            return ready.holding(dict(lock))
+    except (TypeError, OverflowError) as error:
+        expected = "numbers, truth values and lists of numbers, by address"
+        raise bad("lock", dict(lock), expected, '`result.held("wing[1]")`') from error
 
 
 def _bad_argument(
@@ -148,6 +158,8 @@ def _error(fault: Any, name: str, replay: str, choices: Mapping[str, Any]) -> Ex
         return InputError(fault.code)
     if fault.code == "no-address":
         return InputError("no-address", pattern=fault.subject, name=name, nearest=fault.help or "none")
+    if fault.code in ("no-part", "many-parts"):
+        return InputError(fault.code, pattern=fault.subject, name=name, parts=fault.help)
     if fault.kind == "no-start":
         if fault.tries == 0:
             given = "this one is not"

@@ -30,7 +30,7 @@ class Improve(Method):
     power
         The power of the score: 1 follows the posterior, more sharpens the search.
     rounds
-        Most rounds; 20, or without end where `seconds` is given, when left out. Work is counted and not timed, so the
+        Most rounds; 15, or without end where `seconds` is given, when left out. Work is counted and not timed, so the
         same seed and number of rounds give the same bits.
     seconds
         No round begins after so many seconds; the number of rounds in `Result.info` repeats the search. None for no
@@ -42,7 +42,7 @@ class Improve(Method):
     """
 
     NAME = "improve"
-    particles: int = 50
+    particles: int = 100
     regrow: int = 20
     power: float = 16.0
     rounds: int | None = None

@@ -3,7 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from niwaki import _engine
+from niwaki.result.sample import Sample
+
+if TYPE_CHECKING:
+    from niwaki.search.request import Search
 
 
 @dataclass(frozen=True)
@@ -20,6 +27,8 @@ class Progress:
         Particles that have ended.
     best : float
         Best log score of the population so far, nats.
+    sample : Sample or None
+        The best so far of `improve` after its first population; `sample.scene` is its scene.
     """
 
     run: int
@@ -27,18 +36,20 @@ class Progress:
     done: int
     ended: int
     best: float
+    sample: Sample | None = field(default=None, compare=False)
 
 
 Watch = Callable[[Progress], None]
-#: What the engine calls: done, ended, best log score.
-EngineWatch = Callable[[int, int, float], None]
+#: What the engine calls: done, ended, best log score, best run.
+EngineWatch = Callable[[int, int, float, _engine.Run | None], None]
 
 
-def watcher(progress: Watch | None, number: int = 0, runs: int = 1) -> EngineWatch:
+def watcher(progress: Watch | None, search: Search, number: int = 0, runs: int = 1) -> EngineWatch:
     """The function that the engine calls, around the user's `progress`."""
 
-    def watch(done: int, ended: int, best: float) -> None:
+    def watch(done: int, ended: int, best: float, run: _engine.Run | None) -> None:
         if progress is not None:
-            progress(Progress(number, runs, done, ended, best))
+            sample = None if run is None else Sample(run, search, (search.seed + number) % 2**64)
+            progress(Progress(number, runs, done, ended, best, sample))
 
     return watch

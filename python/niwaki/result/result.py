@@ -257,6 +257,22 @@ class Result(Sequence[Sample]):
         """
         return self.search.polished(self, method, seed=seed, threads=threads, progress=progress)
 
+    def held(self, *patterns: str) -> dict[str, Any]:
+        """Choices of the best sample with their values, to hold them in another search; see `Sample.held`."""
+        return self.best.held(*patterns)
+
+    def regrow(
+        self,
+        part: str,
+        particles: int = 200,
+        *,
+        power: float | None = None,
+        seed: int | None = None,
+        threads: int | None = None,
+    ) -> Result:
+        """Grow one part of the best sample again, in place; see `Sample.regrow`."""
+        return self.best.regrow(part, particles, power=power, seed=seed, threads=threads)
+
     @cached_property
     def unique_models(self) -> int:
         """Of how many samples no other shares more than half of its choices, as (address, value) pairs."""

@@ -11,10 +11,12 @@ from niwaki import _engine, draw
 from niwaki.draw.scene import Part, Scene
 from niwaki.errors import InputError
 from niwaki.lang.compiled import translated
+from niwaki.result import parts
 from niwaki.result.gradient import LogDensity
 from niwaki.targets.target import Target
 
 if TYPE_CHECKING:
+    from niwaki import Result
     from niwaki.search import Search
 
 
@@ -110,6 +112,64 @@ class Sample:
     def choices(self) -> dict[str, Any]:
         """Every choice by its readable address; give them to `run(choices=...)` to get the same run."""
         return {choice.path: choice.value for choice in self._trace.choices}
+
+    def held(self, *patterns: str) -> dict[str, Any]:
+        """Choices with their values, to hold them in another search by its `lock`.
+
+        Parameters
+        ----------
+        patterns
+            Patterns of addresses, as for `kernels.on`. One that matches a choice takes that choice. One that matches a
+            part (a call, an iteration of a loop, or a primitive of the scene, which stands for the call that emits it)
+            takes all choices at and below it, and those that decide that it exists: of the calls around it, and of the
+            earlier iterations of its loops. All choices, where there is no pattern.
+
+        Raises
+        ------
+        InputError
+            A pattern matches nothing; with the addresses that are nearest.
+        """
+        # What has one value only is computed, not chosen.
+        free = {one.path: one.value for one in self._trace.choices if one.family != "delta"}
+        scene = [address for address, _ in self._trace.parts]
+        taken = parts.chosen(patterns, free, scene, self.search.model.name) if patterns else set(free)
+        return {address: value for address, value in free.items() if address in taken}
+
+    def regrow(
+        self,
+        part: str,
+        particles: int = 200,
+        *,
+        power: float | None = None,
+        seed: int | None = None,
+        threads: int | None = None,
+    ) -> Result:
+        """Grow one part of this run again by particles, in place; everything outside of it stays as it is.
+
+        Parameters
+        ----------
+        part
+            A pattern that matches the address of one call or iteration: all choices at and below it are drawn again.
+        particles
+            How many.
+        power
+            The power of the score; that of the search when left out, 1 where it has none.
+        seed
+            Decides every random choice; that of this run when left out.
+        threads
+            How many to use; all of the machine's when left out.
+
+        Returns
+        -------
+        Result
+            The particles that are possible: whole runs, weighed by the law of the part given the rest.
+
+        Raises
+        ------
+        InputError
+            The pattern matches no part, or several; every particle is impossible.
+        """
+        return self.search.regrown(self, part, particles, power=power, seed=seed, threads=threads)
 
     @property
     def families(self) -> dict[str, str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import secrets
+from collections.abc import Mapping
 from typing import Any
 
 from niwaki.errors.settings import bad
@@ -14,6 +15,15 @@ def check_seed(seed: int) -> int:
     if not isinstance(seed, int) or isinstance(seed, bool) or not 0 <= seed < 2**64:
         raise bad("seed", seed, "a whole number from 0 to 2**64 - 1", "such a number, or leave it out")
     return seed
+
+
+def check_lock(lock: Any) -> None:
+    """An error unless it is None, or values by address."""
+    is_one = isinstance(lock, Mapping) and all(isinstance(address, str) for address in lock)
+    if lock is not None and not is_one:
+        raise bad(
+            "lock", lock, "values of choices by address", '`{"width": 2.0}`, or `result.held("wing[1]")`'
+        )
 
 
 def check_polish(method: Any) -> None:

@@ -37,6 +37,7 @@ def run(
     score: Score | None = None,
     seed: int | None = None,
     choices: Mapping[str, Any] | None = None,
+    lock: Mapping[str, Any] | None = None,
     max_steps: int = 20_000_000,
     max_memory: int = 1 << 30,
     threads: int | None = None,
@@ -63,6 +64,8 @@ def run(
         Values of choices by address, for one run with those: others are drawn from `seed` where it is given, and
         missing ones are an error where it is not. With `mh`, `hmc`, `nuts` and `particle_gibbs`, the chains start from
         them.
+    lock
+        Values of choices by address that every run has; see `Search`.
     max_steps
         Most calls and loop steps of one run.
     max_memory
@@ -87,6 +90,7 @@ def run(
         method=Forward() if method is None else method,
         seed=fresh(seed),
         choices=choices,
+        lock=lock,
         max_steps=max_steps,
         max_memory=max_memory,
     )
@@ -107,6 +111,7 @@ def grow(
     polish: Mh | None = None,
     runs: int = 1,
     seed: int | None = None,
+    lock: Mapping[str, Any] | None = None,
     max_steps: int = 20_000_000,
     max_memory: int = 1 << 30,
     threads: int | None = None,
@@ -115,7 +120,7 @@ def grow(
 ) -> Result:
     """Grow a model into a target, or to a high score of any kind: the best of a search, `runs` times.
 
-    The usual search is `improve`: it begins with a population of particles, and spends four times as much work on
+    The usual search is `improve`: it begins with a population of particles, and spends three times as much work on
     growing parts of the best run again. It is a search and no sample: for a posterior name a method.
 
     Parameters
@@ -142,7 +147,7 @@ def grow(
         (`Result.polish`).
     runs
         How many results, with seeds `seed`, `seed + 1`, ...
-    seed, max_steps, max_memory, threads, progress
+    seed, lock, max_steps, max_memory, threads, progress
         As for `run`.
 
     Returns
@@ -174,6 +179,7 @@ def grow(
         score=product,
         method=usual(settings) if method is None else method,
         seed=fresh(seed),
+        lock=lock,
         runs=runs,
         keep="best",
         polish=polish,

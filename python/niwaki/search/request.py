@@ -30,10 +30,10 @@ from niwaki.lang.compiled import arguments, task
 from niwaki.lang.core import Core
 from niwaki.lang.models import Model, as_model
 from niwaki.methods import Forward, Method, Mh
-from niwaki.result import Result
+from niwaki.result import Result, Sample
 from niwaki.result.progress import Watch, watcher
 from niwaki.search import searching
-from niwaki.search.checks import check_polish, check_seed, check_threads, fresh
+from niwaki.search.checks import check_lock, check_polish, check_seed, check_threads, fresh
 from niwaki.search.data import Reader, Writer, model_data, of_record_class, text_hash
 from niwaki.targets.sketches import Score
 
@@ -77,6 +77,8 @@ class Search:
         Decides every random choice, 0 to 2^64 - 1.
     choices
         Values of choices by address: where chains start, or for any other method the choices of the one run.
+    lock
+        Values of held choices by address: every run has them, and they count as observations do. See `Sample.held`.
     runs
         How many searches, with seeds `seed`, `seed + 1`, ...
     keep
@@ -95,6 +97,7 @@ class Search:
     method: Method = Forward()  # noqa: RUF009
     seed: int = 0
     choices: Mapping[str, Any] | None = None
+    lock: Mapping[str, Any] | None = None
     runs: int = 1
     keep: str = "all"
     polish: Mh | None = None
@@ -106,6 +109,7 @@ class Search:
         object.__setattr__(self, "model", as_model(self.model))
         object.__setattr__(self, "args", tuple(self.args))
         check_seed(self.seed)
+        check_lock(self.lock)
         for name, kind, suggestion in (
             ("method", Method, "`smc(particles=300)`"),
             ("score", Score, "`no_self_intersection() * match_volume(target)`"),
@@ -128,7 +132,7 @@ class Search:
     @cached_property
     def task(self) -> _engine.Task:
         """The model with its arguments and sketches, ready to be searched."""
-        return task(self.model, self.args, None, self.score.specs, self.max_steps, self.max_memory)
+        return task(self.model, self.args, None, self.score.specs, self.max_steps, self.max_memory, self.lock)
 
     def run(self, *, threads: int | None = None, progress: Watch | None = None) -> Result:
         """Carry it out.
@@ -153,7 +157,20 @@ class Search:
     ) -> Result:
         """Go on from the best sample of a result of this search; see `Result.polish`."""
         seed = result.seed if seed is None else seed
-        return searching.polished(result, method, seed, threads, watcher(progress))
+        return searching.polished(result, method, seed, threads, watcher(progress, self))
+
+    def regrown(
+        self,
+        sample: Sample,
+        part: str,
+        particles: int = 200,
+        *,
+        power: float | None = None,
+        seed: int | None = None,
+        threads: int | None = None,
+    ) -> Result:
+        """Grow one part of a sample of this search again; see `Sample.regrow`."""
+        return searching.regrown(self, sample, part, particles, power, seed, threads)
 
     def data(self, files: str = "named") -> dict[str, Any]:
         """The search as plain data.
@@ -174,6 +191,7 @@ class Search:
             "method": self.method.data(function),
             "seed": self.seed,
             "choices": None if self.choices is None else write(dict(self.choices)),
+            "lock": None if self.lock is None else write(dict(self.lock)),
             "runs": self.runs,
             "keep": self.keep,
             "polish": None if self.polish is None else self.polish.data(function),
@@ -220,6 +238,7 @@ class Search:
                 method=Method.of_data(data["method"], function),
                 seed=data["seed"],
                 choices=None if data["choices"] is None else read(data["choices"]),
+                lock=None if data["lock"] is None else read(data["lock"]),
                 runs=data["runs"],
                 keep=data["keep"],
                 polish=None if polish is None else Mh.of_data(polish, function),

@@ -13,7 +13,7 @@ from niwaki.errors import InputError, ModelFault
 from niwaki.errors.settings import bad
 from niwaki.lang.compiled import translated
 from niwaki.lang.models import as_model
-from niwaki.methods import Hmc, Method, Mh, Nuts, ParticleGibbs
+from niwaki.methods import Hmc, Method, Mh, Nuts, ParticleGibbs, at_least_one
 from niwaki.result import Result, Sample
 from niwaki.result.chains import MhInfo, Running
 from niwaki.result.hmc import Drawn, HmcInfo
@@ -37,14 +37,14 @@ def carried_out(search: Search, threads: int | None, progress: Watch | None) -> 
     if search.choices is not None and not starts(search.method):
         return given(search)
     if search.runs == 1 and search.keep == "all" and search.polish is None:
-        return once(search, search.seed, threads, watcher(progress))
+        return once(search, search.seed, threads, watcher(progress, search))
     found: list[Sample] = []
     failed: list[InputError | ModelFault] = []
     invalid: Counter[str] = Counter()
     spent, interrupted = 0.0, False
     info = Info()
     for number in range(search.runs):
-        watch = watcher(progress, number, search.runs)
+        watch = watcher(progress, search, number, search.runs)
         try:
             one = once(search, (search.seed + number) % 2**64, threads, watch)
         except (InputError, ModelFault) as error:
@@ -229,6 +229,33 @@ def trajectories(
     )
     info.warn(method)
     return result
+
+
+def regrown(
+    search: Search,
+    sample: Sample,
+    part: str,
+    particles: int,
+    power: float | None,
+    seed: int | None,
+    threads: int | None,
+) -> Result:
+    """One part of a sample grown again by particles, with everything outside of it as it is."""
+    if seed is None:
+        seed = search.seed if sample.seed is None else sample.seed
+    check_seed(seed)
+    check_threads(threads)
+    at_least_one("particles", particles)
+    if power is None:
+        power = getattr(search.method, "power", 1.0)
+    if not sample.has_ended:
+        expected = "a run that has ended"
+        raise bad("sample", sample, expected, "more time or particles")
+    clock, own = Clock(), replace(search, runs=1, keep="all", polish=None)
+    with translated(search.model.name, f"seed={seed}"):
+        runs = search.task.regrow(sample._run, part, particles, power, seed, threads)
+    seconds = clock.read()
+    return Result(own, [Sample(run, own, seed, *seconds) for run in runs], seed, seconds=seconds)
 
 
 def polished(result: Result, method: Mh, seed: int, threads: int | None, watch: EngineWatch) -> Result:

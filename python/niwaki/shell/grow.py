@@ -20,7 +20,7 @@ from niwaki.shell.app import Folder, ModelName, app, ensure_folder, progress_lin
 @settings.with_settings(
     *settings.METHODS.values(),
     power="16, with absolute weights 1",
-    particles="the model's own, or 300; of improve a sixth",
+    particles="the model's own, or 300; of improve a third",
 )
 def grow(
     model: ModelName,

@@ -167,7 +167,7 @@ def method(name: str | None, given: dict[str, Any], usual: int) -> Method:
                     cure=f"give only one of them; run.json contains the numbers for {options['seconds']:g} s",
                 )
     if chosen is Improve:
-        return Improve(**{"particles": max(usual // 6, 1), **options})
+        return Improve(**{"particles": max(usual // 3, 1), **options})
     options = {"particles": usual, **options}
     return search.usual(options) if chosen is Smc else chosen(**{"power": 16.0, **options})
 

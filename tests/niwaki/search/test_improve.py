@@ -180,3 +180,13 @@ def test_a_setting_of_a_population_makes_it_one() -> None:
     assert [method(particles=5), method(order="depth-first"), method(seconds=0.01, ess=0.5)] == ["smc"] * 3
     with pytest.raises(nw.InputError, match="method=improve"):
         method(rounds=2, particles=5)
+
+
+def test_progress_shows_the_best_so_far() -> None:
+    seen: list[nw.result.Progress] = []
+    result = grown(rounds=30, progress=seen.append)
+    shown = [now.sample for now in seen if now.sample is not None]
+    assert shown and all(sample.search is shown[0].search for sample in shown)
+    scores = [sample.log_score for sample in shown]
+    assert scores == sorted(scores) and scores[-1] <= result.best.log_score
+    assert len(shown[-1].scene) == shown[-1].primitives > 0

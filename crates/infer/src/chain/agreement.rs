@@ -36,6 +36,7 @@ pub fn dump(state: &State, program: &Program) -> String {
     trace.visit(program, |place, item| {
         let what = match item {
             Item::Choice(value, log) => format!("{value:?} {log:?}"),
+            Item::Held(value, log) => format!("held {value:?} {log:?}"),
             Item::Factor(log) => format!("{log:?}"),
             Item::Emit(primitive) => format!("{:?}", primitive.shapes()),
             Item::Query(key, value) => format!("{key:?} = {value:?}"),

@@ -127,7 +127,7 @@ impl State {
                 before: None,
             };
             let cause = if change == Change::Impossible {
-                Some(impossible(&state.trace, &task.program))
+                Some(impossible(&state.trace, task))
             } else {
                 state.sketches.expect_removals();
                 state.update_sketches()?;
@@ -161,7 +161,7 @@ impl State {
         let mut answers = Fresh::of(key, Some(known), &*task.hosts);
         let (mut trace, change) = task.begin(&mut task.machine(), &mut answers)?;
         if change == Change::Impossible {
-            let cause = impossible(&trace, &task.program);
+            let cause = impossible(&trace, task);
             return Err(Failure::NoStart { tries: 1, causes: vec![(cause, 1)] });
         }
         trace.commit(&task.program);
@@ -254,9 +254,9 @@ pub(super) fn choices<'a>(
 }
 
 /// What makes a run impossible: the factor or choice at which it stopped.
-fn impossible(trace: &Trace, program: &Program) -> String {
+fn impossible(trace: &Trace, task: &Task) -> String {
     let mut cause = None;
-    trace.visit(program, |place, item| {
+    trace.visit(&task.program, |place, item| {
         let line = place.site.span.line;
         match item {
             Item::Factor(f64::NEG_INFINITY) => {
@@ -267,11 +267,14 @@ fn impossible(trace: &Trace, program: &Program) -> String {
                 };
                 cause = Some(forward::named(factor, line));
             }
+            Item::Held(_, f64::NEG_INFINITY) => cause = Some(forward::held_name(&place.path(), line)),
             Item::Choice(_, f64::NEG_INFINITY) => {
                 cause = Some(format!("the choice `{}` at line {line}", place.path()));
             }
             _ => {}
         }
     });
-    cause.unwrap_or_else(|| "a factor".into())
+    let held = task.held.as_deref().zip(trace.unmet());
+    let unmet = || held.map(|(held, number)| forward::unmet_name(held.name(number)));
+    cause.or_else(unmet).unwrap_or_else(|| "a factor".into())
 }

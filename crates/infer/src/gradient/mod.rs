@@ -36,6 +36,7 @@ pub fn model(task: &Task) -> Result<Model, Failure> {
     Ok(Model {
         program: Arc::new(task.program.over()),
         args: task.args.iter().map(|arg| arg.convert(&Var::from_f64)).collect(),
+        held: task.held.as_ref().map(|held| Arc::new(held.convert(&Var::from_f64))),
         limits: task.limits,
         host: Arc::new(move |constant, args: &[Value]| hosts.call(constant, args)),
         scope: Scope::default(),

@@ -20,7 +20,7 @@ pub use rounds::{Kind, Round};
 use crate::failure::Attempt;
 use crate::particles::distinct::Choices;
 use crate::particles::{Progress, Watch, side_by_side};
-use crate::run::Run;
+use crate::run::{Run, Shown};
 use crate::streams::Reserved;
 use crate::{Failure, Task};
 use niwaki_math::RngCore;
@@ -30,7 +30,7 @@ use serde::Deserialize;
 use std::time::{Duration, Instant};
 
 /// Rounds where neither their number nor a time is given.
-const USUAL_ROUNDS: u64 = 20;
+const USUAL_ROUNDS: u64 = 15;
 /// A gain below this, nats, counts as none.
 const LEAST_GAIN: f64 = 0.01;
 /// Without a gain in so many rounds, or in half of all, a search ends.
@@ -86,8 +86,8 @@ impl Improve {
         Ok(())
     }
 
-    /// Searches for the best run, or for several that differ, best first. `watch` is called with the number of rounds and the best log score; when
-    /// it returns false, the search ends with its best so far.
+    /// Searches for the best run, or for several that differ, best first. `watch` is called with the number of rounds and the best log score, after the best run
+    /// is `shown`; when it returns false, the search ends with its best so far.
     ///
     /// # Errors
     /// Settings that make no sense, a fault of the program, or first populations that all died.
@@ -95,12 +95,13 @@ impl Improve {
         &self,
         task: &Task,
         seed: u64,
+        shown: Option<&Shown>,
         watch: &mut Watch<'_>,
     ) -> Result<(Vec<Run>, Improved), Failure> {
         self.check()?;
         match self.diverse {
-            None => self.one(task, seed, watch).map(|(best, info)| (vec![best], info)),
-            Some(wanted) => self.several(task, seed, wanted, watch),
+            None => self.one(task, seed, shown, watch).map(|(best, info)| (vec![best], info)),
+            Some(wanted) => self.several(task, seed, wanted, shown, watch),
         }
     }
 
@@ -110,6 +111,7 @@ impl Improve {
         task: &Task,
         seed: u64,
         wanted: usize,
+        shown: Option<&Shown>,
         watch: &mut Watch<'_>,
     ) -> Result<(Vec<Run>, Improved), Failure> {
         let particles = (SHARE * self.particles as f64).ceil() as usize;
@@ -119,7 +121,7 @@ impl Improve {
             let missing = wanted - chosen.len();
             let seeds = searches..searches + missing;
             let (results, is_stopped) = side_by_side(missing, watch, |number, watch| {
-                own.one(task, part_seed(seed, (seeds.start + number) as u64, 2), watch)
+                own.one(task, part_seed(seed, (seeds.start + number) as u64, 2), shown, watch)
             });
             searches = seeds.end;
             for result in results {
@@ -156,6 +158,7 @@ impl Improve {
         &self,
         task: &Task,
         seed: u64,
+        shown: Option<&Shown>,
         watch: &mut dyn FnMut(Progress) -> bool,
     ) -> Result<(Run, Improved), Failure> {
         let began = Instant::now();
@@ -174,6 +177,7 @@ impl Improve {
         let (mut number, mut idle) = (0, 0);
         while number < most && idle < PATIENCE.max(number / 2) && !info.interrupted && !is_late() {
             let before = search.best.log_score;
+            shown.inspect(|shown| search.best.show(shown));
             let mut go_on = |best: f64| {
                 info.interrupted |= !watch(Progress { barriers: number as usize, ended: 1, best });
                 !info.interrupted

@@ -4,7 +4,6 @@ use super::Improve;
 use crate::chain::kernel::Kernel;
 use crate::chain::plan::Plan;
 use crate::chain::state::State;
-use crate::chain::streams::below;
 use crate::chain::{Chain, Settings as ChainSettings};
 use crate::particles::rejuvenation::spreads;
 use crate::particles::{Outcome, Result, Settings, smc};
@@ -23,7 +22,7 @@ use std::time::Duration;
 const PER_POPULATION: u64 = 5;
 /// How much of what a kind of step gained is forgotten with each of its rounds.
 const FORGOTTEN: f64 = 0.5;
-/// The share of the rounds that is divided evenly.
+/// The share of the rounds that the kind gets which has worked least so far.
 const EVEN: f64 = 0.25;
 /// How often a discrete choice of a part is turned when it is grown again.
 const TURN: f64 = 0.7;
@@ -87,6 +86,8 @@ pub(super) struct Search<'a> {
     populations: u64,
     /// What the kinds gained lately, nats for the work of a round.
     gains: [Option<f64>; Kind::ALL.len()],
+    /// What they worked so far.
+    spent: [u64; Kind::ALL.len()],
 }
 
 impl<'a> Search<'a> {
@@ -108,7 +109,11 @@ impl<'a> Search<'a> {
         };
         let slice = (unit / PER_POPULATION).max(1);
         let spreads = spreads(task, seed)?;
-        Ok(Search { task, own, seed, slice, spreads, best, state, populations, gains: Default::default() })
+        let (mut gains, mut spent) = ([None; Kind::ALL.len()], [0; Kind::ALL.len()]);
+        // The first population has shown what populations gain.
+        let population = Kind::ALL.len() - 1;
+        (gains[population], spent[population]) = (Some(0.0), unit);
+        Ok(Search { task, own, seed, slice, spreads, best, state, populations, gains, spent })
     }
 
     /// One round of about the same work as any; returns its kind, what it cost, and how many parts were grown again and kept. `go_on`
@@ -118,7 +123,7 @@ impl<'a> Search<'a> {
         number: u64,
         go_on: &mut dyn FnMut(f64) -> bool,
     ) -> std::result::Result<(Kind, u64, u64), Failure> {
-        let which = pick(&self.gains, &mut Reserved::Improve.stream(self.seed, u128::from(number), 0));
+        let which = self.pick(&mut Reserved::Improve.stream(self.seed, u128::from(number), 0));
         let (kind, before) = (Kind::ALL[which], self.best.log_score);
         let (work, parts) = match kind {
             Kind::Population => (self.population(go_on)?, 0),
@@ -127,7 +132,22 @@ impl<'a> Search<'a> {
         let rate = (self.best.log_score - before).max(0.0) * self.slice as f64 / work.max(1) as f64;
         let mixed = |old: f64| FORGOTTEN * old + (1.0 - FORGOTTEN) * rate;
         self.gains[which] = Some(self.gains[which].map_or(rate, mixed));
+        self.spent[which] += work;
         Ok((kind, work, parts))
+    }
+
+    /// Which kind of step is next: each once, and then by what they gained lately.
+    fn pick(&self, rng: &mut Stream) -> usize {
+        if let Some(new) = self.gains.iter().position(Option::is_none) {
+            return new;
+        }
+        let gains: Vec<f64> = self.gains.iter().copied().flatten().collect();
+        let u = rng.uniform();
+        if gains.iter().all(|gain| *gain <= 0.0) || u < EVEN {
+            let least = (0..gains.len()).min_by_key(|which| self.spent[*which]);
+            return least.unwrap_or(0);
+        }
+        index(&gains, (u - EVEN) / (1.0 - EVEN))
     }
 
     /// Another population. Returns its work.
@@ -200,19 +220,6 @@ impl<'a> Search<'a> {
             ])),
         }
     }
-}
-
-/// Which kind of step is next: each once, and then by what they gained lately.
-fn pick(gains: &[Option<f64>], rng: &mut Stream) -> usize {
-    if let Some(new) = gains.iter().position(Option::is_none) {
-        return new;
-    }
-    let gains: Vec<f64> = gains.iter().copied().flatten().collect();
-    let u = rng.uniform();
-    if gains.iter().all(|gain| *gain <= 0.0) || u < EVEN {
-        return below(rng, gains.len() as u64) as usize;
-    }
-    index(&gains, (u - EVEN) / (1.0 - EVEN))
 }
 
 /// The best run of a population, and a chain's state there.

@@ -309,6 +309,10 @@ impl<C: Chooser> Answers<f64> for Recorder<'_, C> {
         Ok(self.barrier(at.address(), Some(shapes)))
     }
 
+    fn unmet(&mut self, _: &str) {
+        self.lost = true;
+    }
+
     fn query(&mut self, _: &At<'_, f64>, _: &Value, _: &Value) -> Result<(), Fault> {
         Ok(())
     }

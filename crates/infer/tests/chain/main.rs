@@ -3,6 +3,7 @@
 
 mod board;
 mod calibration;
+mod held;
 mod invalid;
 mod mixed;
 mod programs;

@@ -22,7 +22,7 @@ use serde_json::{Value, json};
 use std::borrow::Borrow;
 use std::collections::HashMap;
 
-const PROGRAMS: [(&str, &str); 11] = [
+pub const PROGRAMS: [(&str, &str); 11] = [
     (
         "strong scores on the way",
         r#"(module (fn "limb" (params $d) (set $a (sample (dist bernoulli 0.7))) (do (factor (cond $a -5.0 0.0)))

@@ -30,6 +30,8 @@ pub enum Factor {
     Factor,
     /// `condition`: zero or minus infinity.
     Condition,
+    /// A held choice: the log density of its distribution at the held value.
+    Held,
 }
 
 /// Where a question comes from.
@@ -97,6 +99,19 @@ pub trait Answers<S: Scalar> {
     /// # Errors
     /// As for [`Answers::choice`].
     fn score(&mut self, at: &At<'_, S>, factor: Factor, log: S) -> Result<Answer<()>, Fault>;
+
+    /// A held choice has its value, which scores this log density, nats.
+    ///
+    /// # Errors
+    /// As for [`Answers::choice`].
+    #[inline]
+    fn held(&mut self, at: &At<'_, S>, _: &Dist<S>, _: &Value<S>, log: S) -> Result<Answer<()>, Fault> {
+        self.score(at, Factor::Held, log)
+    }
+
+    /// The run cannot meet a held choice any more, which has this readable address: it is impossible. Where the run is to stop,
+    /// the next answer says so. A kept run is reported as [`Change::Impossible`](super::kept::Change) at its end instead.
+    fn unmet(&mut self, _: &str) {}
 
     /// One primitive for the scene.
     ///

@@ -1,5 +1,6 @@
 //! The state of a run that has not begun: the call of the program's entry function, or of any closure of the program.
 
+use super::held::{Held, Numbers};
 use super::state::{NodeId, State, Status};
 use super::{Machine, address};
 use crate::code::{FunctionId, Mode, Place};
@@ -47,7 +48,8 @@ impl<S: Scalar> Machine<'_, S> {
         };
         let inputs =
             args.iter().cloned().chain((args.len()..needed).map(default)).chain(captures.iter().cloned());
-        let mut state = State { depth_first, ..State::empty() };
+        let unmet = Numbers::below(self.held.map_or(0, Held::len));
+        let mut state = State { depth_first, unmet, ..State::empty() };
         let root = state.new_node(self.program, function, NodeId::NONE, 0, address::ROOT);
         let at = state.nodes[root.0 as usize].registers as usize;
         // A pure function has its inputs in scratch: it is given them when it runs.

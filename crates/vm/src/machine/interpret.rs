@@ -97,6 +97,10 @@ impl<S: Scalar> Machine<'_, S> {
                         state.pause(future, node, $site.resumes_at(pc));
                         return Ok(Stop::Paused);
                     }
+                    Halt::PausedAfter => {
+                        state.pause(future, node, pc + 1);
+                        return Ok(Stop::Paused);
+                    }
                     Halt::Impossible => {
                         keep.count(executed);
                         self.here = Here { node, function: id, pc, scratch };
@@ -351,6 +355,9 @@ impl<S: Scalar> Machine<'_, S> {
                         put!(call.to, value);
                         continue;
                     }
+                    if !K::KEEPS {
+                        self.leave(state, answers, node);
+                    }
                     let next = if K::KEEPS {
                         keep.give_back(self, state, node, value).place()
                     } else {
@@ -380,12 +387,14 @@ impl<S: Scalar> Machine<'_, S> {
                             }
                         }
                     }
+                    self.leave(state, answers, node);
                     if kind == exit::NEXT && check!(self.next_iteration(state, r!(), node, args)) {
                         step!();
                         pc = 0;
                         continue;
                     }
                     gather!(args);
+                    self.leave(state, answers, state.nodes[node.0 as usize].parent);
                     match self.end_loop(state, future, node, kind) {
                         Some((parent, next)) => enter!(parent, next),
                         None => return Ok(Stop::Returned),

@@ -3,7 +3,7 @@
 //! Its verbs are few: [`Machine::start`] a run, [`Machine::resume`] one of its futures, fork (a `clone` of the
 //! [`State`]). It never recurses on the host stack, draws no random numbers and does not know which algorithm uses it.
 //!
-//! * [`address`]: paths of sites as 128-bit hashes;
+//! * [`address`]: paths of sites as 128-bit hashes; [`held`]: choices whose values are given;
 //! * [`answers`]: the questions, and the trait of those who answer;
 //! * [`state`]: nodes, registers, futures; `begin`: those of a run that has not begun;
 //! * [`kept`]: traces: kept activations, and re-running what changed;
@@ -19,6 +19,7 @@ pub mod answers;
 mod begin;
 mod cache;
 mod construct;
+pub mod held;
 mod interpret;
 pub mod invalid;
 mod keep;
@@ -36,6 +37,7 @@ use crate::fault::Fault;
 use crate::value::Value;
 use answers::Answers;
 use cache::DistCache;
+use held::Held;
 use keep::Dropped;
 use niwaki_geom::Shape;
 use niwaki_math::{LastLog, Scalar};
@@ -94,6 +96,7 @@ struct Here {
 pub struct Machine<'p, S: Scalar = f64> {
     program: &'p Program<S>,
     limits: Limits,
+    held: Option<&'p Held<S>>,
     scratch: Vec<Value<S>>,
     pure: Vec<PureCall>,
     buffer: Vec<Value<S>>,
@@ -109,6 +112,7 @@ impl<'p, S: Scalar> Machine<'p, S> {
         Machine {
             program,
             limits,
+            held: None,
             scratch: Vec::new(),
             pure: Vec::new(),
             buffer: Vec::new(),
@@ -117,6 +121,11 @@ impl<'p, S: Scalar> Machine<'p, S> {
             logs: LastLog::default(),
             here: Here { node: NodeId::NONE, function: program.entry, pc: 0, scratch: 0 },
         }
+    }
+
+    /// The machine with choices held, where there are any.
+    pub fn holding(self, held: Option<&'p Held<S>>) -> Self {
+        Machine { held, ..self }
     }
 
     /// The program that it runs.
@@ -153,7 +162,15 @@ impl<'p, S: Scalar> Machine<'p, S> {
         };
         let pc = state.nodes[node.0 as usize].pc as usize;
         match self.interpret(state, &mut Dropped, future, (node, pc), answers) {
-            Ok(stop) => Ok(stop),
+            Ok(stop) => {
+                if let Some(held) = self.held
+                    && state.has_ended()
+                    && let Some(number) = state.unmet.first()
+                {
+                    answers.unmet(held.name(number));
+                }
+                Ok(stop)
+            }
             Err(fault) => Err(Box::new(self.report(state, fault))),
         }
     }

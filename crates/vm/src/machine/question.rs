@@ -4,6 +4,7 @@
 //! are no faster and slow down every other instruction.
 
 use super::Machine;
+use super::address::join;
 use super::answers::{Answer, Answers, At, Factor};
 use super::registers::Registers;
 use super::state::{NodeId, State};
@@ -52,6 +53,8 @@ pub(super) fn as_real<S: Scalar>(value: &Value<S>) -> Result<S, Fault> {
 pub(super) enum Halt {
     /// The answer was to pause.
     Paused,
+    /// The answer to a held choice was to pause. The run continues after it.
+    PausedAfter,
     /// The score is minus infinity.
     Impossible,
     /// The question is not valid, or was answered by a fault.
@@ -156,13 +159,34 @@ impl<S: Scalar> Machine<'_, S> {
         site: &Site,
     ) -> Result<(), Halt> {
         let (program, mut owned) = (self.program, None);
+        let held = self.held;
         let dist = self.dist(state, r, site, site.args, &mut owned)?;
+        if let Some(held) = held
+            && let Some((number, value)) = held.find(join(state.nodes[node.0 as usize].path, site.key))
+        {
+            let log = log_density(dist, value)?;
+            let answer = answers.held(&At { site, function: r.f, node, state, program }, dist, value, log)?;
+            state.unmet.remove(number);
+            state.registers[r.own + site.to.index()].store(value.clone());
+            return if answer == Answer::Pause { Err(Halt::PausedAfter) } else { Ok(()) };
+        }
         match answers.choice(&At { site, function: r.f, node, state, program }, dist)? {
             Answer::Go(value) => {
                 state.registers[r.own + site.to.index()].store(value);
                 Ok(())
             }
             Answer::Pause => Err(Halt::Paused),
+        }
+    }
+
+    /// An activation is left: a held choice in it that was not met never will be.
+    #[inline(always)]
+    pub(super) fn leave<A: Answers<S>>(&self, state: &State<S>, answers: &mut A, node: NodeId) {
+        if let Some(held) = self.held
+            && let Some(number) =
+                held.lost(state.nodes[node.0 as usize].path, &state.unmet, state.depth_first)
+        {
+            answers.unmet(held.name(number));
         }
     }
 

@@ -14,6 +14,7 @@
 //! iterations nothing is allocated.
 
 use super::address;
+use super::held::Numbers;
 use crate::code::{FunctionId, Mode, Program};
 use crate::value::Value;
 use niwaki_math::Scalar;
@@ -87,6 +88,8 @@ pub struct State<S: Scalar = f64> {
     /// Futures run where they are created.
     pub(crate) depth_first: bool,
     pub(crate) steps: u64,
+    /// Held choices that the run has not met.
+    pub(crate) unmet: Numbers,
     /// Readable paths of the activations that futures began with, where they are kept.
     pub(crate) origins: Option<HashMap<NodeId, String>>,
 }
@@ -108,6 +111,7 @@ impl<S: Scalar> Clone for State<S> {
         self.unreturned = source.unreturned;
         self.depth_first = source.depth_first;
         self.steps = source.steps;
+        self.unmet.clone_from(&source.unmet);
         self.origins.clone_from(&source.origins);
     }
 }
@@ -138,6 +142,7 @@ impl<S: Scalar> State<S> {
             unreturned: 0,
             depth_first: false,
             steps: 0,
+            unmet: Numbers::default(),
             origins: None,
         }
     }

@@ -163,6 +163,7 @@ impl<'p> Chain<'p> {
         self.trace.visit(self.program, |place, item| {
             let what = match item {
                 Item::Choice(value, log) => format!("{value:?} {log:?}"),
+                Item::Held(value, log) => format!("held {value:?} {log:?}"),
                 Item::Factor(log) => format!("{log:?}"),
                 Item::Emit(primitive) => format!("{:?}", primitive.aabb()),
                 Item::Query(key, value) => format!("{key:?} = {value:?}"),

@@ -190,4 +190,21 @@ INPUTS = (
         example="run_python(ship, choices={})",
         cure="run_python(ship, choices={}, seed=1)",
     ),
+    Message(
+        "no-part",
+        "`{pattern}` matches no part of `{name}`",
+        why="a part is a call or an iteration of a loop with choices; a pattern without `/` is compared with the last part of "
+        "an address, any other with the whole address",
+        help="the nearest are {parts}",
+        example='result.regrow("wnig[1]")',
+        cure='result.regrow("wing[1]")',
+    ),
+    Message(
+        "many-parts",
+        "`{pattern}` matches several parts of `{name}`",
+        why="one part is grown again in place, with all the others as they are",
+        help="name one of {parts}",
+        example='result.regrow("wing[*]")',
+        cure='result.regrow("wing[1]")',
+    ),
 )

@@ -7,6 +7,7 @@
 //!
 //! * `pick`: which part is grown again. The pick is an auxiliary variable: its probability, in each particle's run,
 //!   multiplies that particle's last weight.
+//! * [`afresh()`]: one named part grown again by particles of which none holds the present values;
 //! * `sweep`: SMC of a part; `turn`: other values of a discrete choice.
 //! * Where a part returns another value than before, the rest of the run is evaluated with it: the densities of the held
 //!   choices and the score change, and multiply the weight. A run that does not make exactly the choices of `R` beside
@@ -17,24 +18,28 @@
 //!   `min(1, Z' / Z)`, else one is drawn from the conditional particles: a step of particle marginal
 //!   Metropolis-Hastings after one of particle Gibbs.
 
+mod afresh;
 mod pick;
 mod sweep;
 mod turn;
 
+pub use afresh::{Afresh, afresh};
 pub use pick::Pick;
 
 use super::accept::{Rules, accepts};
 use super::kernel::Selection;
 use super::leaf::ChainMove;
 use super::metropolis::Decision;
-use super::state::Fresh;
+use super::state::{Fresh, State};
 use super::{Chain, Proposing};
 use crate::{Failure, Task};
+use niwaki_geom::sketch::product::Sketches;
 use niwaki_math::{RngCore, Stream, Total};
+use niwaki_vm::code::Program;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Machine;
 use niwaki_vm::machine::kept::Change;
-use niwaki_vm::machine::kept::part::Piece;
+use niwaki_vm::machine::kept::part::{Part, Piece};
 use niwaki_vm::value::{Value, same};
 use pick::Picked;
 use serde::Deserialize;
@@ -91,6 +96,50 @@ struct Turned {
     new: Value,
 }
 
+/// What a part chooses.
+struct Contents {
+    /// The choices that may change: address and value.
+    held: HashMap<u128, Value>,
+    /// The others.
+    rest: HashMap<u128, Value>,
+    /// The numbers of those that may change.
+    numbers: Vec<usize>,
+}
+
+impl Contents {
+    /// What a part of a run chooses, and the sketches of the scene without it; `None` where that scene alone is impossible, so
+    /// that no particle could start from it.
+    fn of(
+        state: &State,
+        program: &Program,
+        part: Part,
+        is_selected: &dyn Fn(usize) -> bool,
+    ) -> Option<(Contents, Sketches)> {
+        let trace = &state.trace;
+        let mut own = Contents { held: HashMap::new(), rest: HashMap::new(), numbers: vec![] };
+        let mut gone = vec![];
+        trace.all_pieces(program, part, |piece| match piece {
+            Piece::Choice(n) => {
+                let (address, value) = (trace.address(program, n), trace.choice(program, n).0.clone());
+                if is_selected(n) {
+                    own.numbers.push(n);
+                    own.held.insert(address, value);
+                } else {
+                    own.rest.insert(address, value);
+                }
+            }
+            Piece::Emit(primitive) => gone.push(primitive),
+            Piece::Part(_) | Piece::Held(_) => {}
+        });
+        let mut sketches = state.sketches.fork();
+        if !gone.is_empty() {
+            let kept = sketches.exchange(gone.iter().copied(), std::iter::empty());
+            debug_assert!(kept, "the sketches and the trace hold the same scene");
+        }
+        sketches.forbidden_by().is_none().then_some((own, sketches))
+    }
+}
+
 impl ChainMove for Regrow {
     fn apply<R: Rules>(&mut self, proposing: Proposing<'_, '_, R>) -> Result<(), Failure> {
         let Proposing { chain, task, machine, table, beta } = proposing;
@@ -102,29 +151,11 @@ impl ChainMove for Regrow {
         let Some(picked) = own.pick.draw(trace, program, &is_selected, &mut rng) else {
             return Ok(());
         };
-        let (mut held, mut rest, mut numbers, mut gone) = (HashMap::new(), HashMap::new(), vec![], vec![]);
-        trace.all_pieces(program, picked.part, |piece| match piece {
-            Piece::Choice(n) => {
-                let (address, value) = (trace.address(program, n), trace.choice(program, n).0.clone());
-                if is_selected(n) {
-                    numbers.push(n);
-                    held.insert(address, value);
-                } else {
-                    rest.insert(address, value);
-                }
-            }
-            Piece::Emit(primitive) => gone.push(primitive),
-            Piece::Part(_) => {}
-        });
-        let mut sketches = chain.state.sketches.fork();
-        if !gone.is_empty() {
-            let kept = sketches.exchange(gone.iter().copied(), std::iter::empty());
-            debug_assert!(kept, "the sketches and the trace hold the same scene");
-        }
-        if sketches.forbidden_by().is_some() {
-            // The rest alone is impossible: no particle could start from it.
+        let Some((Contents { held, rest, numbers }, sketches)) =
+            Contents::of(&chain.state, program, picked.part, &is_selected)
+        else {
             return Ok(());
-        }
+        };
         let moves = chain.streams.moves(visit);
         let seed = |which: u128| moves.at(which).next_u64();
         let block = Block {

@@ -13,10 +13,11 @@
 //! from the number of choices that it made.
 
 use super::sweep::Seen;
-use crate::chain::glob::matches;
+use crate::chain::glob::{matches, nearest};
 use crate::weights::index;
 use niwaki_math::Stream;
 use niwaki_vm::code::Program;
+use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::kept::Trace;
 use niwaki_vm::machine::kept::part::{Part, Piece};
 use serde::Deserialize;
@@ -104,19 +105,7 @@ impl Pick {
                 Some(Picked { part, size, how: How::Choice(all) })
             }
             Pick::Parts(patterns) => {
-                let mut matching = Vec::new();
-                let mut work = vec![0];
-                while let Some(at) = work.pop() {
-                    let sized = &parts[at];
-                    let name = trace.part_name(program, sized.part);
-                    // The iterations from one on have the name of the first, which is below them.
-                    let is_named = !sized.part.is_onward() && patterns.iter().any(|p| matches(p, &name));
-                    if is_named && sized.size > 0 {
-                        matching.push(at)
-                    } else {
-                        work.extend(sized.below.clone())
-                    }
-                }
+                let matching = named(&parts, trace, program, patterns);
                 if matching.is_empty() {
                     return None;
                 }
@@ -168,6 +157,49 @@ impl Picked {
     }
 }
 
+/// Those of the parts with a choice whose name one of the patterns matches, and no other above them.
+fn named(parts: &[Sized], trace: &Trace, program: &Program, patterns: &[String]) -> Vec<usize> {
+    let mut matching = Vec::new();
+    let mut work = vec![0];
+    while let Some(at) = work.pop() {
+        let sized = &parts[at];
+        let name = trace.part_name(program, sized.part);
+        // The iterations from one on have the name of the first, which is below them.
+        let is_named = !sized.part.is_onward() && patterns.iter().any(|p| matches(p, &name));
+        if is_named && sized.size > 0 { matching.push(at) } else { work.extend(sized.below.clone()) }
+    }
+    matching
+}
+
+/// The one part whose name a pattern matches.
+///
+/// # Errors
+/// No part, with those that are nearest, or several, with their names.
+pub(super) fn only(pattern: &str, trace: &Trace, program: &Program) -> Result<Picked, Fault> {
+    let parts = sizes(trace, program, &|_| true);
+    let name = |at: usize| trace.part_name(program, parts[at].part);
+    let quoted = |names: &[String]| names.iter().map(|n| format!("`{n}`")).collect::<Vec<_>>().join(", ");
+    match named(&parts, trace, program, &[pattern.into()])[..] {
+        [at] => Ok(Picked { part: parts[at].part, size: parts[at].size, how: How::Even }),
+        [] => {
+            let with_choices = |at: &usize| parts[*at].size > 0 && !parts[*at].part.is_onward();
+            let mut all: Vec<String> = (1..parts.len()).filter(with_choices).map(name).collect();
+            all.sort();
+            all.dedup();
+            let near = quoted(&nearest(pattern, &all));
+            let near = if near.is_empty() { "this run has no part with choices".into() } else { near };
+            Err(Fault::new("no-part", format!("`{pattern}` matches no part")).about(pattern).with_help(near))
+        }
+        ref several => {
+            let mut names: Vec<String> = several.iter().map(|at| name(*at)).collect();
+            names.sort();
+            Err(Fault::new("many-parts", format!("`{pattern}` matches {} parts", names.len()))
+                .about(pattern)
+                .with_help(quoted(&names)))
+        }
+    }
+}
+
 /// The parts of a trace with their sizes, each before those below it; those directly below one are neighbours.
 fn sizes(trace: &Trace, program: &Program, is_selected: &dyn Fn(usize) -> bool) -> Vec<Sized> {
     let mut parts = vec![Sized { part: Part::WHOLE, size: 0, below: 0..0 }];
@@ -177,7 +209,7 @@ fn sizes(trace: &Trace, program: &Program, is_selected: &dyn Fn(usize) -> bool) 
         trace.pieces(program, parts[at].part, |piece| match piece {
             Piece::Choice(n) => own += u64::from(is_selected(n)),
             Piece::Part(part) => parts.push(Sized { part, size: 0, below: 0..0 }),
-            Piece::Emit(_) => {}
+            Piece::Emit(_) | Piece::Held(_) => {}
         });
         parts[at].size = own;
         parts[at].below = first..parts.len();

@@ -1,6 +1,7 @@
 //! The first run of a trace.
 
 use super::super::address;
+use super::super::held::Held;
 use super::super::stack::RunFault;
 use super::super::{Answers, Machine, NodeId, State};
 use super::{Change, Kept, Strategy, Trace};
@@ -47,6 +48,8 @@ impl<'p, S: Scalar> Machine<'p, S> {
         let mut trace = Trace { state: State::empty(), kept: Kept::new(self.program) };
         let (state, kept) = (&mut trace.state, &mut trace.kept);
         state.depth_first = true;
+        kept.unmet = self.held.map_or(0, Held::len);
+        kept.met = vec![0; kept.unmet];
         kept.open();
         let root = kept.new_node(self.program, state, entry, NodeId::NONE, 0, address::ROOT);
         if self.program.function(entry).mode == Mode::Pure {
@@ -61,6 +64,7 @@ impl<'p, S: Scalar> Machine<'p, S> {
         }
         kept.prepare(Strategy::Rerun);
         let change = self.run_kept(&mut trace, root, 0, answers)?;
+        let change = trace.kept.with_all_held(change);
         Ok((trace, change))
     }
 }

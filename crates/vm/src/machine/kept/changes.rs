@@ -68,7 +68,7 @@ impl<S: Scalar> Trace<S> {
                 match &site.kind {
                     _ if !slot.is_filled() => {}
                     kind if kind.makes_activation() => work.push((NodeId(slot.held), level + 1)),
-                    SiteKind::Sample(_) => {
+                    SiteKind::Sample(_) if !slot.is_held() => {
                         let number = (slot.held & Slot::BORN == 0).then_some(slot.held as usize);
                         each(self.place_at(program, node, i as u16), number, level);
                     }
@@ -105,6 +105,6 @@ impl<S: Scalar> Machine<'_, S> {
             kept.write_slot(false, at, Slot { mark: Slot::FAMILY, ..kept.slots[at] });
             kept.mark_above(state, node);
         }
-        self.run_kept(trace, NodeId(0), 0, answers)
+        self.run_to_end(trace, answers)
     }
 }

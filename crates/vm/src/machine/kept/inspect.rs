@@ -12,6 +12,8 @@ use niwaki_math::Scalar;
 pub enum Item<'a, S: Scalar> {
     /// A choice: its value and log density, nats.
     Choice(&'a Value<S>, f64),
+    /// A held choice: its value and log density, nats.
+    Held(&'a Value<S>, f64),
     /// A factor or an observation, nats.
     Factor(f64),
     /// A primitive of the scene.
@@ -145,6 +147,9 @@ impl<S: Scalar> Trace<S> {
                         work.push((node, i + 1));
                         work.push((NodeId(slot.held), 0));
                         break;
+                    }
+                    SiteKind::Sample(_) if slot.is_held() => {
+                        each(place, Item::Held(value(site.to), slot.log));
                     }
                     SiteKind::Sample(_) => {
                         each(place, Item::Choice(value(site.to), slot.log));

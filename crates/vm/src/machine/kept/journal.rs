@@ -32,6 +32,8 @@ pub(crate) struct Journal<S: Scalar> {
     /// Lists of readers of cells that were created, and of those removed.
     pub cells: Vec<u32>,
     pub dead_cells: Vec<u32>,
+    /// Held choices that came into the trace (1) or left it (-1).
+    pub met: Vec<(u32, i32)>,
     /// Choices that were drawn again in place: address, and the value before.
     pub anew: Vec<(u128, Value<S>)>,
 }
@@ -70,6 +72,7 @@ impl<S: Scalar> Default for Journal<S> {
             moves: vec![],
             cells: vec![],
             dead_cells: vec![],
+            met: vec![],
             anew: vec![],
         }
     }
@@ -92,6 +95,7 @@ impl<S: Scalar> Journal<S> {
         self.moves.clear();
         self.cells.clear();
         self.dead_cells.clear();
+        self.met.clear();
         self.anew.clear();
     }
 }

@@ -184,6 +184,9 @@ pub(crate) struct Kept<S: Scalar> {
     pub free_readers: Vec<u32>,
     pub sites: Sites,
     pub result: Value<S>,
+    /// How often each held choice is in the trace, and how many of them are not.
+    pub met: Vec<i32>,
+    pub unmet: usize,
     /// Sums over the trace before the open transaction.
     pub totals: Totals,
     pub counters: Counters,
@@ -242,6 +245,8 @@ impl<S: Scalar> Kept<S> {
             free_readers: vec![],
             sites: Sites::new(program, Some(Adaptation::default())),
             result: Value::None,
+            met: vec![],
+            unmet: 0,
             totals: Totals::default(),
             counters: Counters::default(),
             steps: None,
@@ -354,6 +359,19 @@ impl<S: Scalar> Kept<S> {
             self.slots[at..at + f.sites.len()].fill(Slot::EMPTY);
         }
         state.release(program, id);
+    }
+
+    /// A held choice comes into the trace (1) or leaves it (-1).
+    fn count_held(&mut self, number: u32, change: i32) {
+        let met = &mut self.met[number as usize];
+        self.unmet -= usize::from(*met == 0);
+        *met += change;
+        self.unmet += usize::from(*met == 0);
+    }
+
+    /// The outcome of a run that came to its end with these choices: without all of the held ones it is impossible.
+    fn with_all_held(&self, change: Change) -> Change {
+        if change == Change::Done && self.unmet > 0 { Change::Impossible } else { change }
     }
 
     /// Whether the node is above a changed choice, in a run that starts at the root.
@@ -486,6 +504,11 @@ impl<S: Scalar> Trace<S> {
     /// The number of choices.
     pub fn len(&self) -> usize {
         self.kept.choices.len()
+    }
+
+    /// The first of the held choices that it does not have, with the open transaction.
+    pub fn unmet(&self) -> Option<u32> {
+        (0..).zip(&self.kept.met).find(|(_, met)| **met == 0).map(|(number, _)| number)
     }
 
     /// Whether it has no choice.

@@ -7,6 +7,7 @@
 //! needs nothing else. Its result is what it gives back: the value of a call, or how the iterations ended and what they
 //! carry.
 
+use super::super::held::Numbers;
 use super::super::state::{NodeId, State, Status};
 use super::Trace;
 use crate::code::{Mode, Program, SiteKind};
@@ -37,6 +38,8 @@ impl Part {
 pub enum Piece<'a> {
     /// A choice of its own activation, by number.
     Choice(usize),
+    /// A held choice of its own activation, by its number among those that are held.
+    Held(u32),
     /// A primitive that its own activation emitted.
     Emit(&'a Primitive),
     /// A part below.
@@ -59,6 +62,7 @@ impl<S: Scalar> Trace<S> {
             let slot = self.kept.slots[n.slots as usize + i];
             match &site.kind {
                 _ if !slot.is_filled() => {}
+                SiteKind::Sample(_) if slot.is_held() => each(Piece::Held(slot.held)),
                 SiteKind::Sample(_) => each(Piece::Choice(slot.held as usize)),
                 SiteKind::Emit => {
                     self.kept.emits[slot.held as usize].iter().for_each(|emit| each(Piece::Emit(emit)));
@@ -76,7 +80,7 @@ impl<S: Scalar> Trace<S> {
         }
     }
 
-    /// Visits the choices (by number) and the primitives of a part and of all below it, in no order.
+    /// Visits the choices (by number), the held ones and the primitives of a part and of all below it, in no order.
     pub fn all_pieces<'a>(&'a self, program: &Program<S>, part: Part, mut each: impl FnMut(Piece<'a>)) {
         let mut work = vec![part];
         while let Some(part) = work.pop() {
@@ -139,6 +143,21 @@ impl<S: Scalar> Trace<S> {
         }
         let future = state.new_future(Status::Runnable(first), false);
         state.runnable.push(future);
+        state.unmet = self.held_within(program, part);
         state
+    }
+
+    /// The held choices that this part alone has: a run of the part must meet them.
+    fn held_within(&self, program: &Program<S>, part: Part) -> Numbers {
+        let mut within = vec![0; self.kept.met.len()];
+        if !within.is_empty() {
+            self.all_pieces(program, part, |piece| {
+                if let Piece::Held(number) = piece {
+                    within[number as usize] += 1;
+                }
+            });
+        }
+        let all = (0..).zip(within.iter().zip(&self.kept.met));
+        all.filter(|(_, (inside, all))| **inside > 0 && inside == all).map(|(number, _)| number).collect()
     }
 }

@@ -1,6 +1,7 @@
 //! Choices, factors, emits and queries of kept activations, reached for the first time or again.
 
 use super::super::Machine;
+use super::super::address::join;
 use super::super::answers::{Answer, Answers, At};
 use super::super::question::{Halt, as_real};
 use super::super::registers::Registers;
@@ -181,7 +182,26 @@ impl<S: Scalar> Kept<S> {
             return Ok(false);
         }
         let mut owned = None;
+        let held = machine.held;
         let dist = machine.dist(state, r, site, site.args, &mut owned)?;
+        if let Some(held) = held
+            && (!slot.is_filled() || slot.is_held())
+            && let Some((number, value)) = held.find(join(state.nodes[node.0 as usize].path, site.key))
+        {
+            let log = check(log_density(dist, value)?.value(), "a log density")?;
+            let is_new = !slot.is_filled();
+            if is_new {
+                self.journal.met.push((number, 1));
+                self.count_held(number, 1);
+                self.change.factors += 1;
+                self.change.log_factors.add(log);
+                self.write_slot(self.quiet, at, Slot { held: number, mark: Slot::HELD, log });
+                self.write_to(state, self.quiet, place, value.clone());
+            } else if log.to_bits() != slot.log.to_bits() {
+                self.set_log(self.quiet, at, log, false);
+            }
+            return if log == f64::NEG_INFINITY { Err(Halt::Impossible) } else { Ok(is_new) };
+        }
         let family = dist.family() as u32;
         if slot.is_filled() && slot.mark & Slot::FAMILY == family && fits(dist, &state.registers[place]) {
             let log = check(log_density(dist, &state.registers[place])?.value(), "a log density")?;
@@ -306,6 +326,12 @@ impl<S: Scalar> Kept<S> {
         let slot = self.slots[at];
         self.leaves_its_activation();
         match kind {
+            SiteKind::Sample(_) if slot.is_held() => {
+                self.journal.met.push((slot.held, -1));
+                self.count_held(slot.held, -1);
+                self.change.factors -= 1;
+                self.change.log_factors.remove(slot.log);
+            }
             SiteKind::Sample(_) => {
                 debug_assert!(slot.held & Slot::BORN == 0, "a site is met once in a transaction");
                 self.stale.add(slot.log);

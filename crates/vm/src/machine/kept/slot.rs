@@ -3,6 +3,7 @@
 //! | site | `held` | `mark` | `log` |
 //! | --- | --- | --- | --- |
 //! | choice | its number among the choices (or among the births) | its family | log density, nats |
+//! | held choice | its number among the held ones | `HELD` | log density, nats |
 //! | factor, observation | 0 | | nats |
 //! | call, future | the callee's node | | |
 //! | loop | the loop's node | | |
@@ -40,9 +41,18 @@ impl Slot {
     /// Set in the `mark` of a choice that the open transaction changes.
     pub const CHANGED: u32 = 1 << 8;
 
+    /// The `mark` of a held choice; it has no family that is compared.
+    pub const HELD: u32 = 1 << 9 | Slot::FAMILY;
+
     /// Set in the `mark` of a read that the open transaction has given another element: the list of the old one still
     /// contains it.
     pub const MOVING: u32 = 1 << 31;
+
+    /// Of a choice, whether it is held.
+    #[inline(always)]
+    pub fn is_held(&self) -> bool {
+        self.mark & Slot::HELD == Slot::HELD
+    }
 
     /// Whether its site is on the path taken.
     #[inline(always)]

@@ -224,6 +224,9 @@ impl<S: Scalar> Trace<S> {
         while let Some(id) = kept.journal.cells.pop() {
             kept.free_readers.push(id);
         }
+        while let Some((number, change)) = kept.journal.met.pop() {
+            kept.count_held(number, -change);
+        }
         kept.clear_sums();
         if let Some(result) = kept.result_before.take() {
             kept.result = result;
@@ -295,12 +298,12 @@ impl<S: Scalar> Machine<'_, S> {
             let next = if strategy == Strategy::C3 { site.again } else { site.next } as usize;
             let change = self.run_kept(trace, node, next, answers);
             if trace.kept.woken.is_empty() {
-                return change;
+                return Ok(trace.kept.with_all_held(change?));
             }
             if let (Ok(Change::Done), false) = (&change, trace.kept.tangled)
                 && let Some(change) = self.take_up_readers(trace, answers)?
             {
-                return Ok(change);
+                return Ok(trace.kept.with_all_held(change));
             }
             // Repeated in program order: out of it, a fault or a score of minus infinity may not be real.
             trace.undo(program);
@@ -309,7 +312,7 @@ impl<S: Scalar> Machine<'_, S> {
             trace.kept.write_to(&mut trace.state, false, place, value);
         }
         trace.kept.mark_above(&trace.state, node);
-        self.run_kept(trace, NodeId(0), 0, answers)
+        self.run_to_end(trace, answers)
     }
 
     /// Changes many choices at once, and runs. It starts at the root: the changed choices are reached in program order,
@@ -343,7 +346,17 @@ impl<S: Scalar> Machine<'_, S> {
         if !any {
             return Ok(Change::Same);
         }
-        self.run_kept(trace, NodeId(0), 0, answers)
+        self.run_to_end(trace, answers)
+    }
+
+    /// Runs from the root to the end.
+    pub(super) fn run_to_end<A: Answers<S>>(
+        &mut self,
+        trace: &mut Trace<S>,
+        answers: &mut A,
+    ) -> Result<Change, Box<RunFault>> {
+        let change = self.run_kept(trace, NodeId(0), 0, answers)?;
+        Ok(trace.kept.with_all_held(change))
     }
 
     /// Continues from an instruction of a node.

@@ -1,0 +1,18 @@
+//! Tasks with choices held: see [`niwaki_vm::machine::held`].
+
+use crate::Task;
+use crate::chain::select::{labels, no_choice};
+use niwaki_vm::fault::Fault;
+use niwaki_vm::machine::held::Held;
+use niwaki_vm::value::Value;
+use std::sync::Arc;
+
+/// The task with choices held, given by their readable addresses, in place of those that it held before.
+///
+/// # Errors
+/// An address that no run of the program can have, with those that are nearest.
+pub fn hold(task: &Task, choices: Vec<(String, Value)>) -> Result<Task, Fault> {
+    let held = Held::new(&task.program, choices);
+    let held = held.map_err(|path| no_choice(&path, &labels(&task.program)))?;
+    Ok(Task { held: (!held.is_empty()).then(|| Arc::new(held)), ..task.clone() })
+}
