@@ -2,9 +2,9 @@
 
 Three models on our own targets and, where NIWAKI_REFERENCE_TARGETS names their folder, on the original's. At each
 number of particles ten searches by stochastic order, ten depth-first, both weighted by whole scores as in the original;
-ten Metropolis-Hastings chains for as many CPU seconds as the first took on average; and ten by the method we recommend:
-weights that are ratios, a temperature that rises, and a chain of as many proposals as particles from the best. One
-thread; sigma 0.02; the original's rule for intersections (`surface`).
+ten Metropolis-Hastings chains for as many CPU seconds as the first took on average; and ten of the usual search
+(`improve`) with as much counted work as so many particles. One thread; sigma 0.02; the original's rule for
+intersections (`surface`).
 
 The chains move by `kernels.original`: its proposals, its sharpening to sigma 0.005 and, on the tree, its selection
 weights by depth. Scores are reported at 0.02. They run on the models of the particles, by the strategy of this engine,
@@ -23,10 +23,9 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import niwaki as nw
-from experiments import RECOMMENDED
 from niwaki import kernels
 from niwaki.gallery import entry, named_target
-from niwaki.methods import Mh
+from niwaki.methods import Method
 
 SIGMA = 0.02
 #: The power of the score that makes it one of sigma 0.005; the calls that count as depth on a model, where they do.
@@ -60,13 +59,24 @@ PUBLISHED = {
         1000: (-5.77, 1.10, -8.86, -12.89),
     },
 }
-METHODS = {
-    "stochastic": {"weights": "absolute"},
-    "depth-first": {"weights": "absolute", "order": "depth-first"},
-    "recommended": RECOMMENDED,
+#: Rounds of the usual search that work as much as its first population; the fewest particles of that.
+ROUNDS, FEWEST = 5, 5
+
+
+def usual(particles: int) -> nw.improve:
+    """The usual search with the work of so many particles: a quarter of them, and rounds for the rest."""
+    first = max(particles // 4, FEWEST)
+    return nw.improve(particles=first, rounds=round(ROUNDS * (particles / first - 1.0)))
+
+
+#: The methods for a number of particles.
+METHODS: dict[str, Callable[[int], Method]] = {
+    "stochastic": lambda n: nw.smc(n, weights="absolute"),
+    "depth-first": lambda n: nw.smc(n, weights="absolute", order="depth-first"),
+    "usual search": usual,
 }
 CHAINS = "Metropolis-Hastings, same time"
-COLORS = {"stochastic": "#ca6702", "depth-first": "#5a9a8f", CHAINS: "#7a6c9c", "recommended": "#1b4965"}
+COLORS = {"stochastic": "#ca6702", "depth-first": "#5a9a8f", CHAINS: "#7a6c9c", "usual search": "#1b4965"}
 
 
 def draw(folder: Path, tell: Callable[[dict], None], quick: bool) -> None:
@@ -101,15 +111,14 @@ def measured(
     """One row for each number of particles and method: all best scores, and mean CPU seconds."""
     program, score = entry(model).model, score_of(target, voxel)
     # The first run compiles.
-    searched(program, score, 2, {}, 0)
+    searched(program, score, nw.smc(2), 0)
     for particles in sizes:
         budget = 0.0
         # Searches of the methods take turns, so that a busy machine is busy for all of them.
         found: dict[str, list[tuple[float | None, float]]] = {method: [] for method in METHODS}
         for seed in range(1, runs + 1):
-            for method, settings in METHODS.items():
-                more = onward(program, particles) if method == "recommended" else None
-                found[method].append(searched(program, score, particles, settings, seed, more))
+            for name, method in METHODS.items():
+                found[name].append(searched(program, score, method(particles), seed))
         budget = statistics.fmean(cpu for _, cpu in found["stochastic"])
         found[CHAINS] = [chained(program, score, moves(program), budget, seed) for seed in range(1, runs + 1)]
         for method, ends in found.items():
@@ -133,24 +142,15 @@ def moves(program: nw.Model) -> kernels.Kernel:
     return kernels.original(SHARPEN, NESTING.get(program.name))
 
 
-def onward(program: nw.Model, particles: int) -> Mh:
-    """The chain that we recommend behind a population."""
-    return nw.mh(particles, kernel=moves(program), keep=0)
-
-
-def searched(
-    program: nw.Model, score: nw.Score, particles: int, settings: dict, seed: int, more: Mh | None = None
-) -> tuple[float | None, float]:
-    """The best log score of one population, and of a chain behind it, nothing where it died; CPU seconds."""
+def searched(program: nw.Model, score: nw.Score, method: Method, seed: int) -> tuple[float | None, float]:
+    """The best log score of one search, nothing where it died; CPU seconds."""
     start = time.process_time()
     try:
-        found = nw.run(program, method=nw.smc(particles, **settings), score=score, seed=seed, threads=1)
+        found = nw.run(program, method=method, score=score, seed=seed, threads=1)
     except nw.InputError as error:
         if error.code != "everything-impossible":
             raise
         return None, time.process_time() - start
-    if more is not None:
-        found = found.polish(more, threads=1)
     return found.best.log_score, found.cpu_seconds
 
 

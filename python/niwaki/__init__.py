@@ -20,6 +20,7 @@ What a scene should be like:
 
     Target, match_volume                        a mesh, and the score for filling it
     Camera, match_image                         a point of view, and the score for a silhouette from there
+    match_drawing, fill_drawing                 scores of what a scene draws in the plane
     no_self_intersection                        score: parts must not overlap
 
 The results of a search:

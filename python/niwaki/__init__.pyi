@@ -38,7 +38,9 @@ from .search import run as run
 from .targets.camera import Camera as Camera
 from .targets.sketches import Score as Score
 from .targets.sketches import avoid as avoid
+from .targets.sketches import fill_drawing as fill_drawing
 from .targets.sketches import floor as floor
+from .targets.sketches import match_drawing as match_drawing
 from .targets.sketches import match_image as match_image
 from .targets.sketches import match_shadow as match_shadow
 from .targets.sketches import match_volume as match_volume
@@ -56,9 +58,11 @@ from .words import condition as condition
 from .words import cross as cross
 from .words import cylinder as cylinder
 from .words import dirichlet as dirichlet
+from .words import disc as disc
 from .words import discrete_uniform as discrete_uniform
 from .words import distance as distance
 from .words import dot as dot
+from .words import ellipse as ellipse
 from .words import emit as emit
 from .words import exponential as exponential
 from .words import factor as factor
@@ -88,6 +92,7 @@ from .words import segment as segment
 from .words import soft_at_least as soft_at_least
 from .words import soft_at_most as soft_at_most
 from .words import softeq as softeq
+from .words import stroke as stroke
 from .words import student_t as student_t
 from .words import truncated_gaussian as truncated_gaussian
 from .words import uniform as uniform

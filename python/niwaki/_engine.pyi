@@ -12,6 +12,7 @@ __all__ = [
     "Choice",
     "Coordinates",
     "Density",
+    "Drawing",
     "EngineFault",
     "Opaque",
     "Picture",
@@ -56,6 +57,7 @@ _Triple = Sequence[float]
 _Rows = Sequence[Sequence[float]]
 _Frame = tuple[_Triple, _Triple, _Triple, float]
 _Bark = tuple[_Triple, float, _Triple, float]
+_End = tuple[list[float], float]
 _Corner = tuple[float, float, float]
 _Lens = tuple[_Triple, _Triple, _Triple, bool, float, float]
 _Eye = tuple[_Corner, _Corner, _Corner, float]
@@ -111,6 +113,20 @@ class Shape:
         scale: float = 1.0,
         color: _Triple | None = None,
     ) -> Shape: ...
+    @staticmethod
+    def stroke(
+        start: _Triple,
+        end: _Triple,
+        width: float,
+        end_width: float | None = None,
+        color: _Triple | None = None,
+    ) -> Shape: ...
+    @staticmethod
+    def ellipse(
+        center: _Triple, length: float, width: float, angle: float = 0.0, color: _Triple | None = None
+    ) -> Shape: ...
+    @staticmethod
+    def disc(center: _Triple, radius: float, color: _Triple | None = None) -> Shape: ...
     def data(self) -> str: ...
     @staticmethod
     def of_data(data: str) -> Shape: ...
@@ -119,6 +135,7 @@ class Shape:
     @property
     def color(self) -> list[float] | None: ...
     def aabb(self) -> tuple[list[float], list[float]]: ...
+    def flat(self) -> tuple[_End, _End] | tuple[list[float], float, float, float] | None: ...
     def vertices(self) -> NDArray[np.float64]: ...
     def faces(self) -> NDArray[np.int64]: ...
     def __eq__(self, value: object, /) -> bool: ...
@@ -144,7 +161,11 @@ class Target:
 @final
 class SketchSpec:
     def __new__(
-        cls, form: str, target: Target | None = None, picture: Picture | None = None
+        cls,
+        form: str,
+        target: Target | None = None,
+        picture: Picture | None = None,
+        drawing: Drawing | None = None,
     ) -> SketchSpec: ...
     @property
     def name(self) -> str: ...
@@ -176,6 +197,13 @@ class Picture:
     def on_fraction(self) -> float: ...
     def mask(self, shapes: Sequence[Shape]) -> NDArray[np.bool_]: ...
     def seen(self) -> NDArray[np.bool_]: ...
+
+@final
+class Drawing:
+    def __new__(cls, greys: NDArray[np.uint8], low: Sequence[float], high: Sequence[float]) -> Drawing: ...
+    @property
+    def size(self) -> tuple[int, int]: ...
+    def mask(self, shapes: Sequence[Shape]) -> NDArray[np.bool_]: ...
 
 def render(
     meshes: Sequence[_Mesh],

@@ -54,7 +54,7 @@ def test_every_search_is_measured(drawn: Path) -> None:
     assert {row["method"] for row in compared} == {
         "stochastic",
         "depth-first",
-        "recommended",
+        "usual search",
         "Metropolis-Hastings, same time",
     }
     assert len(compared) == 3 * 4

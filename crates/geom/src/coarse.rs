@@ -12,7 +12,7 @@ use crate::topology::Topology;
 use crate::vector::{Vec3, vec3};
 use std::sync::Arc;
 
-/// The convex solid in the world; `None` for a box, a mesh, and for a solid without inside.
+/// The convex solid in the world; `None` for a box, a mesh, a flat solid, and for a solid without inside.
 pub(crate) fn convex(solid: &Solid, placement: &Placement) -> Option<Hull> {
     match solid {
         Solid::TaperedBox { size, taper } => {
@@ -32,7 +32,7 @@ pub(crate) fn convex(solid: &Solid, placement: &Placement) -> Option<Hull> {
             }
         }
         Solid::Segment(tube) => Hull::nearly(segment::corners(tube)?, segment::tube()),
-        Solid::Box { .. } | Solid::Mesh(_) => None,
+        Solid::Box { .. } | Solid::Mesh(_) | Solid::Stroke { .. } | Solid::Ellipse { .. } => None,
     }
 }
 

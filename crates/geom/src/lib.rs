@@ -3,6 +3,7 @@
 //! - [`bounds`]: boxes along the axes
 //! - [`mesh`], [`topology`], [`hull`], [`limb`], [`segment`], [`convex`]: surfaces and convex solids
 //! - [`shape`], [`words`], [`primitive`]: the shapes that a model emits
+//! - [`plane`]: flat shapes, and which pixels of a page they cover
 //! - [`voxel`]: which cells of a grid a shape fills
 //! - [`intersect`]: whether two shapes intersect
 //! - [`view`]: the rays of a picture, and which of them meet a shape
@@ -19,6 +20,7 @@ pub mod hull;
 pub mod intersect;
 pub mod limb;
 pub mod mesh;
+pub mod plane;
 pub mod primitive;
 pub mod render;
 pub mod segment;
@@ -36,6 +38,7 @@ pub use error::GeomError;
 pub use intersect::{Rule, intersects};
 pub use mesh::TriMesh;
 pub use niwaki_math::vector::{self, Mat3, Vec3, vec3};
+pub use plane::{Page, Round};
 pub use primitive::Primitive;
 pub use segment::{Bark, Frame, Tube};
 pub use shape::{Placement, Ring, Shape, Solid};

@@ -9,6 +9,7 @@ use crate::coarse::{convex, ring};
 use crate::convex::{Convex, Hull, is_aligned};
 use crate::error::GeomError;
 use crate::mesh::TriMesh;
+use crate::plane::flat::{self, Round};
 use crate::segment::{self, Tube};
 use crate::vector::{Mat3, Vec3, vec3};
 use serde::{Deserialize, Serialize};
@@ -89,6 +90,23 @@ pub enum Solid {
     Segment(Box<Tube>),
     /// Any closed mesh.
     Mesh(Arc<TriMesh>),
+    /// Flat: the convex hull of two circles on one plane parallel to z = 0, a straight stroke with round ends.
+    Stroke {
+        /// Start and end.
+        ends: Box<[Round; 2]>,
+    },
+    /// Flat: an ellipse on a plane parallel to z = 0.
+    Ellipse {
+        /// Full lengths along its own x and y.
+        size: [f64; 2],
+    },
+}
+
+impl Solid {
+    /// True for what lies on a plane parallel to z = 0; in space it is a thin plate.
+    pub fn is_flat(&self) -> bool {
+        matches!(self, Solid::Stroke { .. } | Solid::Ellipse { .. })
+    }
 }
 
 /// First turn, then move.
@@ -222,6 +240,10 @@ impl Shape {
                 }
                 (None, Aabb::around(convex.corners().iter().copied()))
             }
+            solid if solid.is_flat() => {
+                flat::check(solid, &placement)?;
+                (None, flat::aabb(solid, &placement).unwrap_or(Aabb::EMPTY))
+            }
             solid => {
                 let Some(hull) = convex(solid, &placement) else { return flat() };
                 let aabb = Aabb::around(Convex::Hull(&hull).corners().iter().copied());
@@ -258,12 +280,12 @@ impl Shape {
         self.0.color
     }
 
-    /// `box`, `tapered-box`, `cylinder`, `tapered-cylinder`, `limb`, `segment` or `mesh`.
+    /// `box`, `tapered-box`, `cylinder`, `tapered-cylinder`, `limb`, `segment`, `mesh`, `stroke` or `ellipse`.
     pub fn kind(&self) -> &'static str {
         kind(&self.0.solid)
     }
 
-    /// The smallest box around the coarse mesh, world space.
+    /// The smallest box around the coarse mesh, world space; of a flat shape, around the outline.
     #[inline]
     pub fn aabb(&self) -> &Aabb {
         &self.0.aabb
@@ -275,13 +297,13 @@ impl Shape {
         self.0.aligned
     }
 
-    /// True for all but a mesh.
+    /// True for all but a mesh and flat shapes, which are treated as the meshes of their plates.
     #[inline]
     pub fn is_convex(&self) -> bool {
-        !matches!(self.0.solid, Solid::Mesh(_))
+        !matches!(self.0.solid, Solid::Mesh(_)) && !self.0.solid.is_flat()
     }
 
-    /// The convex solid; `None` for a mesh. A segment's is a little larger than it: see [`Shape::pieces`].
+    /// The convex solid; `None` for a mesh and for a flat shape. A segment's is a little larger than it: see [`Shape::pieces`].
     #[inline]
     pub fn convex(&self) -> Option<Convex<'_>> {
         match (&self.0.hull, &self.0.solid) {
@@ -303,6 +325,9 @@ impl Shape {
         self.0.world.get_or_init(|| {
             let mesh = match (&self.0.solid, self.convex()) {
                 (Solid::Mesh(mesh), _) => Ok(mesh.map(|p| self.0.placement.apply(p))),
+                (solid, _) if solid.is_flat() => {
+                    flat::plate(solid, flat::COARSE).map(|mesh| mesh.map(|p| self.0.placement.apply(p)))
+                }
                 (_, Some(convex)) => {
                     TriMesh::new(convex.vertices().to_vec(), convex.topology().triangles.clone())
                 }
@@ -333,6 +358,8 @@ fn kind(solid: &Solid) -> &'static str {
         Solid::Limb { .. } => "limb",
         Solid::Segment(_) => "segment",
         Solid::Mesh(_) => "mesh",
+        Solid::Stroke { .. } => "stroke",
+        Solid::Ellipse { .. } => "ellipse",
     }
 }
 
@@ -394,5 +421,13 @@ fn check_solid(solid: &Solid) -> Result<(), GeomError> {
             })
         }
         Solid::Mesh(_) => Ok(()),
+        Solid::Stroke { ends } => ends.iter().try_for_each(|end| {
+            positive("radius", end.radius)?;
+            if end.center.is_finite() {
+                return Ok(());
+            }
+            bad(format!("an end of a stroke is {:?}, expected finite numbers", end.center.to_array()))
+        }),
+        Solid::Ellipse { size } => size.iter().try_for_each(|s| positive("size", *s)),
     }
 }

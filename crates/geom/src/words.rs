@@ -1,7 +1,8 @@
-//! The shape functions of a model: `box`, `cylinder`, `limb`, `segment` and `mesh`, with centres, axes and defaults.
+//! The shape functions of a model: `box`, `cylinder`, `limb`, `segment`, `stroke`, `ellipse` and `mesh`, with centres, axes and defaults.
 
 use crate::error::GeomError;
 use crate::mesh::TriMesh;
+use crate::plane::Round;
 use crate::segment::{Bark, Frame, Tube};
 use crate::shape::{CYLINDER_SIDES, LIMB_SIDES, Placement, Ring, Shape, Solid};
 use crate::vector::{Mat3, Vec3, vec3};
@@ -109,6 +110,29 @@ impl Shape {
     /// `bad-shape`, as for [`Shape::new`].
     pub fn segment(frames: [Frame; 3], onto: Option<Bark>, look: &Look) -> Result<Shape, GeomError> {
         Shape::placed(Solid::Segment(Box::new(Tube { frames, onto })), Vec3::ZERO, Mat3::IDENTITY, look)
+    }
+
+    /// Flat: a straight stroke with round ends, from one width to another; both ends have the same z.
+    ///
+    /// # Errors
+    /// `bad-shape`, as for [`Shape::new`].
+    pub fn stroke(start: Vec3, end: Vec3, widths: (f64, f64), look: &Look) -> Result<Shape, GeomError> {
+        let round = |center, width| Round { center, radius: 0.5 * width };
+        let solid = Solid::Stroke { ends: Box::new([round(start, widths.0), round(end, widths.1)]) };
+        Shape::new(solid, Placement::IDENTITY, look.bevel, look.color)
+    }
+
+    /// Flat: an ellipse of a length and a width, its length turned by `angle` (radians) from +x to +y.
+    ///
+    /// # Errors
+    /// `bad-shape`, as for [`Shape::new`].
+    pub fn ellipse(center: Vec3, size: (f64, f64), angle: f64, look: &Look) -> Result<Shape, GeomError> {
+        if !angle.is_finite() {
+            let message = format!("the angle of an ellipse is {angle}, expected a finite number");
+            return Err(GeomError::new("bad-shape", message));
+        }
+        let placement = Placement { rotation: Mat3::rotation(Vec3::AXES[2], angle), translation: center };
+        Shape::new(Solid::Ellipse { size: [size.0, size.1] }, placement, look.bevel, look.color)
     }
 
     /// A mesh, scaled about its own origin, turned and moved to `center`.

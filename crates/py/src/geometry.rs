@@ -4,8 +4,10 @@
 //! of messages has the text for each code.
 
 use crate::values::Classes;
-use crate::views::PyPicture;
-use niwaki_geom::{GeomError, Primitive, Shape, SketchForm, SketchSpec, Sketches, Target, TriMesh, Vec3};
+use crate::views::{PyDrawing, PyPicture};
+use niwaki_geom::{
+    GeomError, Primitive, Shape, SketchForm, SketchSpec, Sketches, Solid, Target, TriMesh, Vec3,
+};
 use niwaki_vm::builtins::{builtin, builtin_id, shapes};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::value::Value;
@@ -114,6 +116,13 @@ fn shape_from(
     }
 }
 
+/// What a drawing needs to know of a flat shape.
+#[derive(IntoPyObject)]
+enum Flat {
+    Stroke((Triple, f64), (Triple, f64)),
+    Ellipse(Triple, f64, f64, f64),
+}
+
 /// A placed solid with its look; never changes.
 #[pyclass(frozen, eq, name = "Shape", module = "niwaki._engine", from_py_object)]
 #[derive(Clone, PartialEq)]
@@ -133,7 +142,8 @@ impl PyShape {
         read.map(PyShape).map_err(|error| PyValueError::new_err(error.to_string()))
     }
 
-    /// ``box``, ``tapered-box``, ``cylinder``, ``tapered-cylinder``, ``limb``, ``segment`` or ``mesh``.
+    /// ``box``, ``tapered-box``, ``cylinder``, ``tapered-cylinder``, ``limb``, ``segment``, ``mesh``, ``stroke`` or
+    /// ``ellipse``.
     #[getter]
     fn kind(&self) -> &'static str {
         self.0.kind()
@@ -148,6 +158,24 @@ impl PyShape {
     /// Smallest and largest corner of the box around the coarse mesh, scene units.
     fn aabb(&self) -> (Triple, Triple) {
         (self.0.aabb().low.to_array(), self.0.aabb().high.to_array())
+    }
+
+    /// Of a ``stroke`` the middle and the radius of each end, of an ``ellipse`` its middle, its full lengths and the
+    /// angle of the first (radians); None for other kinds.
+    fn flat(&self) -> Option<Flat> {
+        match self.0.solid() {
+            Solid::Stroke { ends } => {
+                let [a, b] = [ends[0], ends[1]];
+                let at = |p: Vec3| self.0.placement().apply(p).to_array();
+                Some(Flat::Stroke((at(a.center), a.radius), (at(b.center), b.radius)))
+            }
+            Solid::Ellipse { size } => {
+                let placement = self.0.placement();
+                let axis = placement.rotation.columns[0];
+                Some(Flat::Ellipse(placement.translation.to_array(), size[0], size[1], axis.y.atan2(axis.x)))
+            }
+            _ => None,
+        }
     }
 
     /// Vertices of the coarse mesh, world space, (n, 3) float64.
@@ -240,18 +268,25 @@ pub struct PySketchSpec(pub Arc<dyn SketchSpec>);
 
 #[pymethods]
 impl PySketchSpec {
-    /// From its form, JSON, and the ``target`` or ``picture`` that it needs.
+    /// From its form, JSON, and the ``target``, ``picture`` or ``drawing`` that it needs.
     #[new]
-    #[pyo3(signature = (form, target=None, picture=None))]
+    #[pyo3(signature = (form, target=None, picture=None, drawing=None))]
     fn new(
         py: Python<'_>,
         form: &str,
         target: Option<&PyTarget>,
         picture: Option<&PyPicture>,
+        drawing: Option<&PyDrawing>,
     ) -> PyResult<PySketchSpec> {
         let form: Result<SketchForm, _> = serde_json::from_str(form);
         form.map_err(|error| GeomError::new("bad-setting", format!("no sketch can be read: {error}")))
-            .and_then(|form| form.spec(target.map(|own| own.0.clone()), picture.map(|own| own.0.clone())))
+            .and_then(|form| {
+                form.spec(
+                    target.map(|own| own.0.clone()),
+                    picture.map(|own| own.0.clone()),
+                    drawing.map(|own| own.0.clone()),
+                )
+            })
             .map(PySketchSpec)
             .map_err(|e| value_error(py, &e))
     }

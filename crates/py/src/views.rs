@@ -4,7 +4,7 @@
 
 use crate::geometry::{PyShape, mesh_from, value_error};
 use niwaki_geom::view::{Camera, Lens, Light, shadow_rays};
-use niwaki_geom::{GeomError, Picture, Primitive, Shape, TargetPicture, Vec3};
+use niwaki_geom::{Drawing, GeomError, Page, Picture, Primitive, Shape, TargetPicture, Vec3};
 use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray2, PyReadonlyArray2};
 use pyo3::prelude::*;
@@ -96,13 +96,53 @@ impl PyPicture {
 
 impl PyPicture {
     fn array<'py>(&self, py: Python<'py>, pixels: &[bool]) -> Bound<'py, PyArray2<bool>> {
-        let [columns, rows] = self.0.size();
-        Array2::from_shape_fn((rows, columns), |(row, column)| pixels[row * columns + column])
-            .into_pyarray(py)
+        array(py, self.0.size(), pixels)
+    }
+}
+
+fn array<'py>(py: Python<'py>, [columns, rows]: [usize; 2], pixels: &[bool]) -> Bound<'py, PyArray2<bool>> {
+    Array2::from_shape_fn((rows, columns), |(row, column)| pixels[row * columns + column]).into_pyarray(py)
+}
+
+/// A picture to draw, and the window of the plane that it shows.
+#[pyclass(frozen, name = "Drawing", module = "niwaki._engine")]
+pub struct PyDrawing(pub Arc<Drawing>);
+
+#[pymethods]
+impl PyDrawing {
+    /// ``greys`` (rows, columns) uint8, filled where they are not 255, and the corners ``low`` and ``high`` of the
+    /// window.
+    #[new]
+    fn new(
+        py: Python<'_>,
+        greys: PyReadonlyArray2<'_, u8>,
+        low: [f64; 2],
+        high: [f64; 2],
+    ) -> PyResult<PyDrawing> {
+        let greys = greys.as_array();
+        let values: Vec<u8> = greys.iter().copied().collect();
+        Page::new(low, high, [greys.ncols(), greys.nrows()])
+            .and_then(|page| Drawing::new(page, &values))
+            .map(|drawing| PyDrawing(Arc::new(drawing)))
+            .map_err(|e| value_error(py, &e))
+    }
+
+    /// Columns and rows.
+    #[getter]
+    fn size(&self) -> (usize, usize) {
+        self.0.page().size().into()
+    }
+
+    /// Which pixels a scene of ``shapes`` touches, (rows, columns) bool.
+    fn mask<'py>(&self, py: Python<'py>, shapes: Vec<PyShape>) -> Bound<'py, PyArray2<bool>> {
+        let shapes: Vec<Shape> = shapes.into_iter().map(|s| s.0).collect();
+        let mask = py.detach(|| self.0.mask(&[Primitive::new(shapes)]));
+        array(py, self.0.page().size(), &mask)
     }
 }
 
 /// Puts this part into the module.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add_class::<PyPicture>()
+    module.add_class::<PyPicture>()?;
+    module.add_class::<PyDrawing>()
 }

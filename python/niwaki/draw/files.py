@@ -4,6 +4,7 @@
 .obj, .ply   plain meshes with colours                                                        mesh_files.py
 .stl, .3mf   one watertight solid in millimetres, z up, for printing                          solid.py, print_files.py
 .gif, .apng  the scene growing, part by part                                                  animation.py
+.svg         a scene of flat shapes: a group with a readable id for each part                 flat/svg.py
 
 A file is written completely or not at all.
 """
@@ -12,8 +13,11 @@ from __future__ import annotations
 
 from os import PathLike
 from pathlib import Path
+from typing import Any
 
 from niwaki.draw.animation import growth
+from niwaki.draw.flat.marks import is_flat
+from niwaki.draw.flat.svg import svg
 from niwaki.draw.glb import glb
 from niwaki.draw.mesh_files import obj, ply
 from niwaki.draw.print_files import stl, threemf
@@ -25,13 +29,19 @@ from niwaki.errors.files import write_whole
 MESHES = (".glb", ".obj", ".ply")
 SOLIDS = (".stl", ".3mf")
 ANIMATIONS = (".gif", ".apng")
-FORMATS = (*MESHES, *SOLIDS, *ANIMATIONS)
+DRAWINGS = (".svg",)
+FORMATS = (*MESHES, *SOLIDS, *ANIMATIONS, *DRAWINGS)
 
 
 def export(
-    scene: Scene, path: str | PathLike[str], *, scale: float | None = None, fuse: float | None = None
+    scene: Scene,
+    path: str | PathLike[str],
+    *,
+    scale: float | None = None,
+    fuse: float | None = None,
+    **settings: Any,
 ) -> Path:
-    """Write a scene to a file whose name ends in .glb, .obj, .ply, .stl, .3mf, .gif or .apng.
+    """Write a scene to a file whose name ends in .glb, .obj, .ply, .stl, .3mf, .gif, .apng or .svg.
 
     Parameters
     ----------
@@ -44,6 +54,8 @@ def export(
     fuse
         For .stl and .3mf: how far each shape is swollen before joining, scene units; when left out enough for shapes
         that touch to hang together, and too little to see.
+    settings
+        For .svg: `style`, `window` and `margin`, as for a picture of flat shapes.
 
     Returns
     -------
@@ -61,8 +73,15 @@ def export(
         if number is not None and suffix not in SOLIDS:
             expected = f"left out: it is for {' and '.join(SOLIDS)}, and {suffix} keeps the scene as it is"
             raise FileError("setting", place, name=name, found=number, expected=expected)
+    if settings and suffix not in DRAWINGS:
+        name, found = next(iter(settings.items()))
+        raise FileError("setting", place, name=name, found=found, expected="left out: it is for .svg")
     if len(scene) == 0:
         raise FileError("scene-empty", place, verb="write")
+    if suffix in DRAWINGS:
+        if not is_flat(scene):
+            raise FileError("not-flat", place)
+        return write_whole(place, svg(scene, **settings).encode())
     if suffix in ANIMATIONS:
         return growth(scene, place)
     if suffix in SOLIDS:

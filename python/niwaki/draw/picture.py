@@ -1,7 +1,7 @@
 """A scene as a picture, its target as a ghost of tinted glass around it.
 
 Drawn by the engine's own ray caster: a soft sun, sky light, a floor that catches the shadow. The same scene
-gives the same pixels on any number of threads.
+gives the same pixels on any number of threads. A scene of flat shapes is a drawing instead: see `flat`.
 """
 
 from __future__ import annotations
@@ -12,9 +12,12 @@ from pathlib import Path
 from typing import Any, Literal, get_args
 
 import numpy as np
+from numpy.typing import NDArray
 from PIL import Image
 
 from niwaki import _engine
+from niwaki.draw.flat.drawing import Window, drawing
+from niwaki.draw.flat.marks import is_flat
 from niwaki.draw.palette import paints
 from niwaki.draw.scene import Scene, Volume
 from niwaki.errors import FileError
@@ -53,6 +56,9 @@ def picture(
     lift: float = 0.0,
     frame: Scene | None = None,
     like: Scene | None = None,
+    style: str = "ink",
+    window: Window | None = None,
+    under: NDArray[np.bool_] | None = None,
 ) -> Image.Image:
     """Draws a scene.
 
@@ -83,6 +89,8 @@ def picture(
     like
         Another scene whose framing, floor and palette to take, so that pictures of its states agree; this one may
         then be empty.
+    style, window, under
+        Of a scene of flat shapes, which is drawn as `niwaki.draw.flat.drawing.drawing` does unless a `camera` is given.
 
     Returns
     -------
@@ -99,8 +107,24 @@ def picture(
             raise FileError(
                 "setting", name=name, found=number, expected=f"a whole number from 1 to {LARGEST}"
             )
-    meshes = surfaces(scene, like)
     frame = like if frame is None else frame
+    if camera is None and target is None and is_flat(scene if like is None else like):
+        if window is None and frame is not None:
+            (x, y, _), (right, high, _) = frame.bounds.tolist()
+            pad = 0.5 * margin * max(right - x, high - y)
+            window = (x - pad, y - pad), (right + pad, high + pad)
+        clear = backdrop == "clear"
+        return drawing(
+            scene,
+            size=size,
+            style=style,
+            window=window,
+            margin=margin / 2,
+            under=under,
+            clear=clear,
+            like=like,
+        )
+    meshes = surfaces(scene, like)
     ghost = None if target is None else _ghost(target)
     if camera is None:
         seen = surfaces(frame) if frame is not None else meshes

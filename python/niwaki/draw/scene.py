@@ -126,10 +126,15 @@ class Scene:
         return draw.picture.save(self, path, target, **settings)
 
     def export(
-        self, path: str | PathLike[str], *, scale: float | None = None, fuse: float | None = None
+        self,
+        path: str | PathLike[str],
+        *,
+        scale: float | None = None,
+        fuse: float | None = None,
+        **settings: Any,
     ) -> Path:
-        """Write the scene as .glb, .obj, .ply, .stl, .3mf, .gif or .apng; see `niwaki.draw.files.export`."""
-        return draw.files.export(self, path, scale=scale, fuse=fuse)
+        """Write the scene as .glb, .obj, .ply, .stl, .3mf, .gif, .apng or .svg; see `niwaki.draw.files.export`."""
+        return draw.files.export(self, path, scale=scale, fuse=fuse, **settings)
 
     def animate(self, path: str | PathLike[str], target: Volume | None = None, **settings: Any) -> Path:
         """Write the scene growing part by part, as .gif or .apng; see `niwaki.draw.animation.growth`."""

@@ -1,12 +1,15 @@
 """Models to look at and start from: one model, one file, one picture.
 
 A module of this folder is an entry of the gallery when it has MODEL (the model), and, where they make sense, TITLE (one
-line), TARGET (the name of a function of `niwaki.targets.examples`), VOXEL (the cell size that suits both) and PARTICLES
-(how many a good result takes).
+line), TARGET (the name of a function of `niwaki.targets.examples`), VOXEL (the cell size that suits both), PARTICLES
+(how many a good result takes) and RESAMPLING (the rule that suits it). A model that draws in the plane has DRAWS (the
+style of its pictures) and WINDOW (the part of the plane in which it draws), and DRAWING (the name of a drawing to
+follow) or SCORE (what it draws without one).
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from importlib import import_module
 from pkgutil import iter_modules
@@ -14,6 +17,7 @@ from typing import Any
 
 import niwaki as nw
 from niwaki import targets
+from niwaki.targets.sketches import Window
 
 #: Modules of this folder that hold no model; they are not imported to find that out.
 NOT_MODELS = ("data", "furnishings")
@@ -38,8 +42,16 @@ class Entry:
         The target that it is usually grown into.
     voxel : float or None
         The cell size that suits both.
-    particles : int
-        How many particles do it well.
+    usual : dict
+        Settings of `smc` that do it well: how many particles, and perhaps the rule of resampling.
+    draws : str or None
+        The style of its drawings; None for models in space.
+    window : tuple or None
+        The part of the plane in which it draws.
+    drawing_name : str or None
+        The drawing that it usually follows, from its arguments x, y and ahead on.
+    score : callable or None
+        Makes the score of a drawing that follows no other.
     """
 
     name: str
@@ -47,7 +59,16 @@ class Entry:
     model: nw.Model[..., Any]
     target_name: str | None
     voxel: float | None
-    particles: int
+    usual: dict[str, Any]
+    draws: str | None = None
+    window: Window | None = None
+    drawing_name: str | None = None
+    score: Callable[[], nw.Score] | None = None
+
+    @property
+    def particles(self) -> int:
+        """How many particles do it well."""
+        return int(self.usual["particles"])
 
     def target(self) -> nw.Target | None:
         """Make the usual target."""
@@ -76,6 +97,9 @@ def entry(name: str) -> Entry | None:
     module = import_module(f"{__name__}.{stem}")
     if not hasattr(module, "MODEL"):
         return None
+    usual = {"particles": getattr(module, "PARTICLES", PARTICLES)}
+    if hasattr(module, "RESAMPLING"):
+        usual["resampling"] = module.RESAMPLING
     title = getattr(module, "TITLE", (module.__doc__ or "").partition("\n")[0])
     value = Entry(
         stem.replace("_", "-"),
@@ -83,6 +107,10 @@ def entry(name: str) -> Entry | None:
         module.MODEL,
         getattr(module, "TARGET", None),
         getattr(module, "VOXEL", None),
-        getattr(module, "PARTICLES", PARTICLES),
+        usual,
+        getattr(module, "DRAWS", None),
+        getattr(module, "WINDOW", None),
+        getattr(module, "DRAWING", None),
+        getattr(module, "SCORE", None),
     )
     return value

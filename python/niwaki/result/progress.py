@@ -10,7 +10,7 @@ from niwaki import _engine
 from niwaki.result.sample import Sample
 
 if TYPE_CHECKING:
-    from niwaki.search.request import Search
+    from niwaki.search import Search
 
 
 @dataclass(frozen=True)

@@ -337,6 +337,8 @@ class Result(Sequence[Sample]):
         """All samples side by side, best first, with their numbers."""
         ranked = sorted(self.samples, key=lambda sample: -sample.log_score)
         scenes = [sample.scene for sample in ranked]
+        if self.score.window is not None:
+            settings = {"window": self.score.window, **settings}
         return draw.sheet.sheet(scenes, [caption(sample) for sample in ranked], self.score.target, **settings)
 
     def _repr_png_(self) -> bytes | None:

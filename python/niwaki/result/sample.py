@@ -192,12 +192,24 @@ class Sample:
         return Scene(self._trace.parts)
 
     def export(
-        self, path: str | PathLike[str], *, scale: float | None = None, fuse: float | None = None
+        self,
+        path: str | PathLike[str],
+        *,
+        scale: float | None = None,
+        fuse: float | None = None,
+        style: str | None = None,
     ) -> Path:
-        """Write the scene as .glb, .obj, .ply, .stl, .3mf, .gif or .apng; see `niwaki.draw.files.export`."""
-        if Path(path).suffix.lower() in draw.animation.FORMATS and scale is None and fuse is None:
-            return self.animate(path)
-        return self.scene.export(path, scale=scale, fuse=fuse)
+        """Write the scene as .glb, .obj, .ply, .stl, .3mf, .gif, .apng or .svg; see `niwaki.draw.files.export`.
+
+        The `style` is for drawings, as .svg, .gif or .apng.
+        """
+        styled: dict[str, Any] = {} if style is None else {"style": style}
+        suffix = Path(path).suffix.lower()
+        if suffix in draw.animation.FORMATS and scale is None and fuse is None:
+            return self.animate(path, **styled)
+        if suffix in draw.files.DRAWINGS:
+            styled = self._shown(styled)
+        return self.scene.export(path, scale=scale, fuse=fuse, **styled)
 
     def animate(
         self, path: str | PathLike[str], target: Target | None | bool = True, **settings: Any
@@ -207,15 +219,20 @@ class Sample:
         Settings are those of `niwaki.draw.animation.growth`; the target is a ghost unless it is None.
         """
         parts = [Part(address, tuple(shapes)) for address, shapes in self._trace.parts]
-        return self.scene.animate(path, self._ghost(target), parts=parts, **settings)
+        return self.scene.animate(path, self._ghost(target), parts=parts, **self._shown(settings))
 
     def picture(self, target: Target | None | bool = True, **settings: Any) -> Any:
         """Draw the scene, with the target as a ghost; `target=None` leaves that out."""
-        return self.scene.picture(self._ghost(target), **settings)
+        return self.scene.picture(self._ghost(target), **self._shown(settings))
 
     def save(self, path: str | PathLike[str], target: Target | None | bool = True, **settings: Any) -> Path:
         """Draw the scene into an image file, with the target as a ghost; `target=None` leaves that out."""
-        return self.scene.save(path, self._ghost(target), **settings)
+        return self.scene.save(path, self._ghost(target), **self._shown(settings))
+
+    def _shown(self, settings: dict[str, Any]) -> dict[str, Any]:
+        """Settings of a picture: of a drawing the page is shown that the score looks at."""
+        window = self.search.score.window
+        return settings if window is None else {"window": window, **settings}
 
     def _ghost(self, target: Target | None | bool) -> Target | None:
         if isinstance(target, bool):

@@ -1,5 +1,6 @@
 from .checks import fresh as fresh
 from .entry import OF_IMPROVE as OF_IMPROVE
+from .entry import POWER as POWER
 from .entry import explain as explain
 from .entry import grow as grow
 from .entry import run as run

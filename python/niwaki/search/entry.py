@@ -29,6 +29,9 @@ OF_IMPROVE = ("rounds", "seconds", "diverse")
 #: The settings of `smc`, which are one population instead.
 OF_SMC = tuple(field.name for field in fields(Smc))
 
+#: The power of a search for the best.
+POWER = 16.0
+
 
 def run(
     model: Model[..., Any] | Callable[..., Any],
@@ -132,10 +135,11 @@ def grow(
     args, kwargs
         The model's arguments. What `kwargs` has of `rounds`, `seconds` and `diverse` is for the usual search. With
         any other setting of `smc` (particles, order, power, ...) the search is one population by those, with a `power`
-        of 16 for ratio weights when left out.
+        of 16 for ratio weights when left out (1 for drawings).
     score
         Further sketches, such as `floor(0) * match_image("skyline.png", "cam.json")`; they multiply
-        `no_self_intersection(rule)` and, where there is a target, `match_volume(target, voxel, sigma)`.
+        `no_self_intersection(rule)`, which is left out for drawings, and, where there is a target,
+        `match_volume(target, voxel, sigma)`.
     method
         Another search than by those settings.
     voxel, sigma
@@ -167,17 +171,20 @@ def grow(
             expected="no settings together with `method`, which has its own",
             suggestion=f"`method` left out, or the setting in `{method.NAME}(...)`",
         )
-    product = no_self_intersection(rule) * (Score() if score is None else score)
+    product = Score() if score is None else score
+    drawn = product.window is not None
+    if not drawn:
+        product = no_self_intersection(rule) * product
     if target is not None:
         aim = target if isinstance(target, Target) else Target.load(target)
         product *= match_volume(aim, voxel, sigma)
-    elif len(product.asks) == 1:
+    elif len(product.asks) == (0 if drawn else 1):
         raise InputError("no-target", name=model.name)
     search = Search(
         model,
         tuple(arguments(model, args, kwargs)),
         score=product,
-        method=usual(settings) if method is None else method,
+        method=usual(settings, 1.0 if drawn else POWER) if method is None else method,
         seed=fresh(seed),
         lock=lock,
         runs=runs,
@@ -189,10 +196,10 @@ def grow(
     return search.run(threads=threads, progress=progress)
 
 
-def usual(settings: Mapping[str, Any]) -> Method:
+def usual(settings: Mapping[str, Any], power: float = POWER) -> Method:
     """The search for the best by settings of `improve`, or where there are others by one population.
 
-    Where its `power` is left out, it is 16 with ratio weights.
+    Where its `power` is left out, it is that one with ratio weights.
     """
     if set(settings) <= set(OF_IMPROVE):
         return Improve(**settings)
@@ -206,7 +213,7 @@ def usual(settings: Mapping[str, Any]) -> Method:
             suggestion=f"`method=improve(...)`, which has {', '.join(f.name for f in fields(Improve))}",
         )
     given_power = settings.get("power")
-    sharp = 16.0 if settings.get("weights", "ratio") == "ratio" else 1.0
+    sharp = power if settings.get("weights", "ratio") == "ratio" else 1.0
     return Smc(**{**settings, "power": sharp if given_power is None else given_power})
 
 

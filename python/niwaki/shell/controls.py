@@ -2,6 +2,7 @@
 
     --target crown.obj --avoid wall.obj --floor 0
     --match-image skyline.png --camera cam.json
+    --match-image letter.png                        (models that draw in the plane)
     --match-shadow face.png --weight-image face_w.png --light -1,-0.3,0 --receiver floor.obj
 
 Flags that contradict one another, or need another flag, are refused before any file is read.
@@ -15,10 +16,14 @@ from typing import Annotated, Any
 import typer
 
 import niwaki as nw
-from niwaki import shell
+from niwaki import shell, targets
 from niwaki.errors import InputError
 
 Triple = tuple[float, float, float]
+Box = tuple[tuple[float, float], tuple[float, float]]
+
+#: The longer side of a drawing when it is compared (dissertation 6.5.2, as its code has it).
+PIXELS = 50
 
 
 def _file(flag: str, text: str) -> Any:
@@ -32,7 +37,25 @@ Within = Annotated[
     str | None,
     typer.Option("--within", metavar="X,Y,Z,X,Y,Z", help="Low and high corner of a box to stay in; soft."),
 ]
-ImageFile = Annotated[str | None, _file("--match-image", "A silhouette to match; needs --camera.")]
+ImageFile = Annotated[
+    str | None,
+    _file(
+        "--match-image",
+        "A silhouette to match, seen by --camera; for models that draw, ink on white paper, or a drawing's name.",
+    ),
+]
+Window = Annotated[
+    str | None,
+    typer.Option(
+        "--window",
+        metavar="X,Y,X,Y",
+        help="Low and high corner of what a drawing shows; default: the model's.",
+    ),
+]
+Pixels = Annotated[
+    int | None,
+    typer.Option("--pixels", help="Longer side of a drawing when it is compared; default: 50."),
+]
 ShadowFile = Annotated[str | None, _file("--match-shadow", "A shadow to cast; needs --light and --receiver.")]
 CameraFile = Annotated[
     str | None, _file("--camera", "The camera that sees the image or the shadow, a JSON file.")
@@ -49,7 +72,12 @@ Voxel = Annotated[
     float | None,
     typer.Option("--voxel", metavar="SIZE", help="Cell size; default: depends on the model or target."),
 ]
-Sigma = Annotated[float, typer.Option("--sigma", help="Strictness of the match; smaller is stricter.")]
+Sigma = Annotated[
+    float | None,
+    typer.Option(
+        "--sigma", help="Strictness of the match; smaller is stricter; default: 0.02, drawings 0.014."
+    ),
+]
 
 
 @dataclass(frozen=True)
@@ -67,6 +95,9 @@ class Controls:
     weight: float | None = None
     light: str | None = None
     receiver: str | None = None
+    window: str | None = None
+    pixels: int | None = None
+    draws: bool = False
 
     def __post_init__(self) -> None:
         if self.match_image is not None and self.match_shadow is not None:
@@ -82,10 +113,24 @@ class Controls:
         for flag, given, other, there, reason in (
             (
                 "--match-image",
-                image,
+                image and not self.is_drawing,
                 "`--camera`",
                 self.camera is not None,
-                "an image is seen by a camera",
+                "an image is seen by a camera; this model does not draw in a window of the plane",
+            ),
+            (
+                "--window",
+                self.window is not None,
+                "`--match-image`",
+                image,
+                "it is what the image shows of the plane",
+            ),
+            (
+                "--pixels",
+                self.pixels is not None,
+                "`--match-image`",
+                self.is_drawing,
+                "it is the size in which a drawing is compared",
             ),
             ("--match-shadow", shadow, "`--light`", self.light is not None, "a shadow needs a light"),
             (
@@ -128,28 +173,67 @@ class Controls:
             if given and not there:
                 raise InputError("flag-alone", flag=flag, other=other, reason=reason)
 
+    @property
+    def is_drawing(self) -> bool:
+        """Whether the image is a drawing in the plane, and not a silhouette seen by a camera."""
+        return (
+            self.match_image is not None and self.camera is None and (self.draws or self.window is not None)
+        )
+
+    def drawing(self, found: shell.references.ModelReference) -> targets.drawing.Drawing | None:
+        """The drawing to follow: the one named; else the model's own."""
+        if self.match_image is not None and self.is_drawing:
+            return targets.drawings.find(self.match_image, self.pixels or PIXELS)
+        entry = found.entry
+        if (
+            entry is None
+            or entry.drawing_name is None
+            or self.target is not None
+            or self.match_image is not None
+        ):
+            return None
+        return targets.drawings.find(entry.drawing_name)
+
+    def page(self, found: shell.references.ModelReference) -> Box:
+        """The part of the plane that a drawing shows."""
+        if self.window is not None:
+            x, y, right, high = numbers("--window", self.window, 4)
+            return (x, y), (right, high)
+        assert found.entry is not None and found.entry.window is not None
+        return found.entry.window
+
     def aim(self, found: shell.references.ModelReference) -> nw.Target | None:
         """The volume to fill: the one named; else the model's own, unless there is a picture to match."""
         if self.target is not None:
             return nw.Target.find(self.target)
         if self.match_image is not None or self.match_shadow is not None:
             return None
+        if found.entry is not None and found.entry.draws is not None:
+            return None
         if found.entry is None or found.entry.target_name is None:
             raise InputError("no-target", name=found.reference)
         return nw.Target.find(f"gallery:{found.entry.target_name}")
 
-    def score(self, voxel: float | None, sigma: float) -> nw.Score:
+    def score(
+        self, found: shell.references.ModelReference, voxel: float | None, sigma: float | None
+    ) -> nw.Score:
         """Everything but the volume; sketches that forbid scenes come first."""
         score = nw.Score()
+        strict = {} if sigma is None else {"sigma": sigma}
+        drawing = self.drawing(found)
+        if drawing is not None:
+            score *= drawing.score(self.page(found), **strict)
+        elif found.entry is not None and found.entry.score is not None and self.aim(found) is None:
+            score *= found.entry.score()
         if self.floor is not None:
             score *= nw.floor(self.floor)
         for obstacle in self.avoid:
             score *= nw.avoid(obstacle, voxel)
         weigh = {} if self.weight is None else {"weight": self.weight}
-        if self.match_image is not None:
+        if self.match_image is not None and not self.is_drawing:
             assert self.camera is not None
             score *= nw.match_image(
-                self.match_image, self.camera, weight_image=self.weight_image, sigma=sigma, **weigh
+                self.match_image, self.camera, weight_image=self.weight_image, **strict, **weigh
             )
         if self.match_shadow is not None:
             assert self.light is not None and self.receiver is not None
@@ -159,11 +243,11 @@ class Controls:
                 self.receiver,
                 self.camera,
                 weight_image=self.weight_image,
-                sigma=sigma,
+                **strict,
                 **weigh,
             )
         if self.within is not None:
-            score *= nw.overshoot(_box("--within", self.within), sigma)
+            score *= nw.overshoot(_box("--within", self.within), **strict)
         return score
 
 
@@ -174,7 +258,7 @@ def numbers(flag: str, text: str, count: int) -> tuple[float, ...]:
     except ValueError:
         found = ()
     if len(found) != count:
-        example = "-5,0,-5,5,10,5" if count == 6 else "-1,-0.3,0"
+        example = {6: "-5,0,-5,5,10,5", 4: "-12,-2,12,22"}.get(count, "-1,-0.3,0")
         raise InputError(
             "bad-setting",
             name=flag,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import json
 import sys
 from pathlib import Path
@@ -35,8 +36,10 @@ def grow(
     weight: controls.Weight = None,
     light: controls.Light = None,
     receiver: controls.ReceiverFile = None,
+    window: controls.Window = None,
+    pixels: controls.Pixels = None,
     voxel: controls.Voxel = None,
-    sigma: controls.Sigma = 0.02,
+    sigma: controls.Sigma = None,
     rule: Annotated[str, typer.Option(help="Which parts count as intersecting: solid or surface.")] = "solid",
     method: settings.MethodName = None,
     polish: settings.Polish = None,
@@ -48,7 +51,7 @@ def grow(
     ] = None,
     max_steps: Annotated[int, typer.Option(help="Most calls and loop steps of one run.")] = 20_000_000,
     output: Folder = None,
-    formats: writing.Formats = "glb",
+    formats: writing.Formats = None,
     scale: writing.Scale = None,
     fuse: writing.Fuse = None,
     frames: writing.Frames = None,
@@ -64,7 +67,9 @@ def grow(
     ] = True,
     **given: Any,
 ) -> None:
-    """Grow MODEL into its target; writes best.glb, best.png, sheet.png and run.json."""
+    """Grow MODEL into its target; writes best.glb (best.svg of a drawing), best.png, sheet.png and run.json."""
+    found = shell.references.find(model)
+    style = None if found.entry is None else found.entry.draws
     chosen = controls.Controls(
         target,
         tuple(avoid or ()),
@@ -77,27 +82,37 @@ def grow(
         weight,
         light,
         receiver,
+        window,
+        pixels,
+        style is not None,
     )
     onward = settings.polish(polish, polish_kernel)
-    files = writing.Files.of_flags(formats, scale, fuse, frames, size)
-    found = shell.references.find(model)
+    style = style or ("ink" if chosen.is_drawing else None)
+    files = writing.Files.of_flags(formats, scale, fuse, frames, size, style)
     aim = chosen.aim(found)
-    score = chosen.score(voxel, sigma)
+    score = chosen.score(found, voxel, sigma)
+    drawing = chosen.drawing(found)
+    start: dict[str, Any] = {}
+    if drawing is not None and set(inspect.signature(found.model.function).parameters) >= {"x", "y", "ahead"}:
+        start = dict(zip(("x", "y", "ahead"), drawing.place(chosen.page(found)), strict=True))
     if voxel is None and target is None and aim is not None and found.entry is not None:
         voxel = found.entry.voxel
-    usual = found.entry.particles if found.entry is not None else gallery.PARTICLES
+    suits = {"particles": gallery.PARTICLES} if found.entry is None else found.entry.usual
+    if score.window is not None:
+        suits = {**suits, "power": 1.0}
     with progress_line(found.reference) as progress:
         result = nw.grow(
             found.model,
             aim,
+            **start,
             score=score,
-            method=settings.method(method, given, usual),
+            method=settings.method(method, given, suits),
             polish=onward,
             seed=seed,
             threads=threads,
             progress=progress,
             voxel=voxel,
-            sigma=sigma,
+            sigma=0.02 if sigma is None else sigma,
             rule=rule,
             runs=runs,
             max_steps=max_steps,
@@ -127,10 +142,12 @@ def _write(
         print("warning: the best run emitted nothing, so there is no mesh and no picture", file=sys.stderr)
         return
     if picture:
-        best.save(folder / "best.png")
-        draw.picture.save_image(lambda: result.sheet(), folder / "sheet.png")
+        styled: dict[str, Any] = {} if files.style is None else {"style": files.style}
+        square: dict[str, Any] = {} if files.style is None else {"size": (800, 800)}
+        best.save(folder / "best.png", **styled, **square)
+        draw.picture.save_image(lambda: result.sheet(**styled), folder / "sheet.png")
         for view in result.score.views:
-            targets.views.save_view(folder / f"{view.kind}.png", best.scene, view)
+            targets.views.save_view(folder / f"{view.kind}.png", best.scene, view, **styled)
     files.write(best, folder)
 
 

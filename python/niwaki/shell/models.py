@@ -10,4 +10,4 @@ from niwaki.shell.app import app
 def models() -> None:
     """List the gallery: name, target, title."""
     for entry in entries():
-        print(f"{entry.name:<16} {entry.target_name or '-':<16} {entry.title}")
+        print(f"{entry.name:<16} {entry.target_name or entry.drawing_name or '-':<16} {entry.title}")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -19,7 +19,7 @@ def replay(
         int | None, typer.Option("--run", help="Which of its results, from 0; default: the best.")
     ] = None,
     output: Folder = None,
-    formats: writing.Formats = "glb",
+    formats: writing.Formats = None,
     scale: writing.Scale = None,
     fuse: writing.Fuse = None,
     frames: writing.Frames = None,
@@ -27,10 +27,12 @@ def replay(
     picture: Annotated[bool, typer.Option("--picture/--no-picture", help="Draw best.png.")] = True,
 ) -> None:
     """Write the best result of a search again, byte for byte, in any format."""
-    files = writing.Files.of_flags(formats, scale, fuse, frames, size)
-    sample = shell.run_files.replayed(shell.run_files.load(run), number)
+    data = shell.run_files.load(run)
+    sample = shell.run_files.replayed(data, number)
+    files = writing.Files.of_flags(formats, scale, fuse, frames, size, shell.run_files.style(data, sample))
     folder = ensure_folder(output or Path("out"))
     for place in files.write(sample, folder):
         print(place)
     if picture and sample.primitives:
-        print(sample.save(folder / "best.png"))
+        styled: dict[str, Any] = {} if files.style is None else {"style": files.style, "size": (800, 800)}
+        print(sample.save(folder / "best.png", **styled))

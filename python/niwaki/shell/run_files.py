@@ -13,7 +13,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from niwaki import _engine
+from niwaki import _engine, gallery
 from niwaki.errors import InputError
 from niwaki.errors.files import write_whole
 from niwaki.lang.compiled import translated
@@ -129,6 +129,14 @@ def replayed(data: dict[str, Any], number: int | None = None) -> Sample:
     with translated(search.model.name, choices=choices):
         trace = search.task.replay(choices, None, not run["ended"])
     return Sample.of_trace(trace, search)
+
+
+def style(data: dict[str, Any], sample: Sample) -> str | None:
+    """The style in which a search's drawings are drawn: its model's own; None for scenes in space."""
+    known = gallery.entry(str(data.get("model", "")))
+    if known is not None and known.draws is not None:
+        return known.draws
+    return "ink" if sample.search.score.window is not None else None
 
 
 def _searched(data: dict[str, Any]) -> Search:

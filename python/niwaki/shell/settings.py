@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import inspect
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import fields
 from typing import Annotated, Any, get_type_hints
 
@@ -126,21 +126,23 @@ def described(method: type[Method]) -> dict[str, str]:
     return found
 
 
-def method(name: str | None, given: dict[str, Any], usual: int) -> Method:
+def method(name: str | None, given: dict[str, Any], suits: Mapping[str, Any]) -> Method:
     """The method with the given settings.
 
     Parameters
     ----------
     name
-        One of `METHODS`; None for what `niwaki.grow` does with these settings.
+        One of `METHODS`; None for what `niwaki.grow` does with these settings, or one population where the model has a
+        rule of resampling and no setting is given.
     given
         Its settings; None for those that were not given.
-    usual
-        The number of particles of one population that suits the model.
+    suits
+        Settings of one population that suit the model; those that the method does not have are left out.
     """
     options = typed(given)
     if name is None:
-        name = "improve" if set(options) <= {*search.OF_IMPROVE, "regrow"} else "smc"
+        one_population = "resampling" in suits and not options
+        name = "improve" if set(options) <= {*search.OF_IMPROVE, "regrow"} and not one_population else "smc"
     chosen = METHODS.get(name)
     if chosen is None:
         raise InputError(
@@ -166,10 +168,12 @@ def method(name: str | None, given: dict[str, Any], usual: int) -> Method:
                     reason="the given time decides the numbers of particles and populations",
                     cure=f"give only one of them; run.json contains the numbers for {options['seconds']:g} s",
                 )
+    known = {field.name for field in fields(chosen)}
+    own = {key: value for key, value in suits.items() if key in known}
     if chosen is Improve:
-        return Improve(**{"particles": max(usual // 3, 1), **options})
-    options = {"particles": usual, **options}
-    return search.usual(options) if chosen is Smc else chosen(**{"power": 16.0, **options})
+        return Improve(**{**own, "particles": max(suits["particles"] // 3, 1), **options})
+    options = {**own, **options}
+    return search.usual(options) if chosen is Smc else chosen(**{"power": search.POWER, **options})
 
 
 def typed(given: dict[str, Any]) -> dict[str, Any]:

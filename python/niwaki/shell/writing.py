@@ -17,10 +17,16 @@ from niwaki import draw
 from niwaki.errors import InputError, NiwakiError
 
 MESHES, SOLIDS, ANIMATIONS = ("glb", "obj", "ply"), ("stl", "3mf"), ("gif", "apng")
-FORMATS = (*MESHES, *SOLIDS, *ANIMATIONS)
+DRAWINGS = ("svg",)
+FORMATS = (*MESHES, *SOLIDS, *ANIMATIONS, *DRAWINGS)
 
 Formats = Annotated[
-    str, typer.Option("--format", metavar="LIST", help=f"Which files, with commas: {', '.join(FORMATS)}.")
+    str | None,
+    typer.Option(
+        "--format",
+        metavar="LIST",
+        help=f"Which files, with commas: {', '.join(FORMATS)}; default: glb, for drawings svg.",
+    ),
 ]
 Scale = Annotated[
     float | None,
@@ -45,16 +51,32 @@ class Files:
     fuse: float | None = None
     frames: int | None = None
     size: tuple[int, int] | None = None
+    style: str | None = None
 
     @classmethod
     def of_flags(
-        cls, formats: str, scale: float | None, fuse: float | None, frames: int | None, size: str | None
+        cls,
+        formats: str | None,
+        scale: float | None,
+        fuse: float | None,
+        frames: int | None,
+        size: str | None,
+        style: str | None = None,
     ) -> Files:
-        """The files that the flags select; a setting of any other format is an error."""
+        """The files that the flags select; a setting of any other format is an error.
+
+        The `style` is that of a drawing; None for a scene in space.
+        """
+        if formats is None:
+            formats = "glb" if style is None else "svg"
         chosen = tuple(dict.fromkeys(part.strip().lower().lstrip(".") for part in formats.split(",")))
         unknown = [name for name in chosen if name not in FORMATS]
         if unknown or not chosen:
             raise _refused("--format", repr(formats), f"formats among {', '.join(FORMATS)}", "glb,stl")
+        if style is None and set(DRAWINGS) & set(chosen):
+            raise _refused(
+                "--format", repr(formats), "no svg, which is for models that draw in the plane", "glb"
+            )
         for flag, given, kinds in (
             ("--scale", scale, SOLIDS),
             ("--fuse", fuse, SOLIDS),
@@ -74,7 +96,7 @@ class Files:
             raise _refused("--frames", repr(frames), "a whole number from 1 to 10000", "48")
         if set(SOLIDS) & set(chosen):
             draw.solid.kernel()
-        return cls(chosen, scale, fuse, frames, _pixels(size))
+        return cls(chosen, scale, fuse, frames, _pixels(size), style)
 
     def write(self, sample: nw.Sample, folder: Path, target: nw.Target | None = None) -> list[Path]:
         """Write each file, moving ones with the target as a ghost.
@@ -93,12 +115,12 @@ class Files:
 
     def _written(self, sample: nw.Sample, folder: Path, name: str, target: nw.Target | None) -> Path:
         if name in ANIMATIONS:
-            settings = {"frames": self.frames, "size": self.size}
+            settings = {"frames": self.frames, "size": self.size, "style": self.style}
             given: dict[str, Any] = {key: value for key, value in settings.items() if value is not None}
             return sample.animate(folder / f"growth.{name}", target or sample.target, **given)
         if name in SOLIDS:
             return sample.export(folder / f"best.{name}", scale=self.scale, fuse=self.fuse)
-        return sample.export(folder / f"best.{name}")
+        return sample.export(folder / f"best.{name}", style=self.style if name in DRAWINGS else None)
 
 
 def _pixels(text: str | None) -> tuple[int, int] | None:

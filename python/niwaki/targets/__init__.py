@@ -3,6 +3,8 @@
 target     meshes: the volume to fill, and surfaces that shadows fall on
 reading    meshes from files
 memory     whether there is enough memory for a mesh
+drawing    drawings to grow into, with the point where a model starts
+drawings   drawings of our own, by name
 camera     the camera that sees an image
 images     which pixels of an image should be on
 sketches   scores of a scene, as values that multiply

@@ -1,3 +1,5 @@
+from . import drawing as drawing
+from . import drawings as drawings
 from . import examples as examples
 from . import images as images
 from . import reading as reading

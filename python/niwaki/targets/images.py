@@ -1,7 +1,8 @@
 """Images to match: which pixels should be on, and how much each matters.
 
-A pixel is on when its red is above zero, so that the grey edge of a smoothed shape counts as on; pixels that are
-wholly transparent are off. The image is not flipped: the camera should see it as it is.
+A pixel of a silhouette is on when its red is above zero, so that the grey edge of a smoothed shape counts as on; pixels
+that are wholly transparent are off. A drawing is ink on paper instead: what is not white is ink. No image is flipped:
+the camera, or the reader of the page, should see it as it is.
 """
 
 from __future__ import annotations
@@ -28,6 +29,9 @@ else:
 #: Formats that are read; the content decides, the name is for people.
 FORMATS = (".png", ".jpg", ".jpeg", ".webp", ".bmp", ".gif", ".tif", ".tiff")
 
+#: Greys from here on are paper: scans and photographs of white are not quite white.
+PAPER = 250
+
 #: Most pixels of an image to match.
 MOST_PIXELS = 1 << 24
 
@@ -50,6 +54,51 @@ def silhouette(image: Image) -> NDArray[np.bool_]:
             "image-one-color", name=name_of(image), size=_size(on), state="off" if lit == 0 else "on"
         )
     return np.ascontiguousarray(on)
+
+
+def ink(image: Image, pixels: int | None = None) -> NDArray[np.uint8]:
+    """Read a drawing: greys, (rows, columns) uint8, 255 where there is no ink.
+
+    Transparent pixels are paper, and so are greys from `PAPER` on. Of truth values the true ones are ink.
+
+    Parameters
+    ----------
+    image
+        A file, a Pillow image or an array.
+    pixels
+        Of the longer side: a larger image is made smaller. As it is when left out.
+
+    Raises
+    ------
+    FileError
+        The file is missing or cannot be read as an image.
+    InputError
+        `bad-image` for an array of another shape; `drawing-one-color` when there is no ink, or no paper.
+    """
+    values = _values(image)
+    if values.dtype == np.bool_:
+        grey = np.where(values, 0.0, 255.0)
+    else:
+        alpha = values[:, :, 3:] / 255.0 if values.ndim == 3 and values.shape[2] == 4 else 1.0
+        colors = values[:, :, :3] if values.ndim == 3 else values[:, :, None]
+        grey = (colors * alpha + 255.0 * (1.0 - alpha)).mean(axis=2)
+    page = Pil.fromarray(np.rint(grey.clip(0, 255)).astype(np.uint8))
+    longer = max(page.size)
+    if pixels is not None and longer > pixels:
+        columns, rows = (max(1, round(side * pixels / longer)) for side in page.size)
+        # Means of areas: other filters ring, and their ripples on the paper would be ink.
+        page = page.resize((columns, rows), Pil.Resampling.BOX)
+    greys = np.array(page)
+    greys[greys >= PAPER] = 255
+    filled = int((greys < 255).sum())
+    if filled in (0, greys.size):
+        raise InputError(
+            "drawing-one-color",
+            name=name_of(image),
+            size=_size(greys),
+            state="paper" if filled == 0 else "ink",
+        )
+    return np.ascontiguousarray(greys)
 
 
 def weights(image: Image, like: NDArray[Any]) -> NDArray[np.uint8]:

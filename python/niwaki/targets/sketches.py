@@ -12,7 +12,7 @@ import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from math import isfinite
+from math import isfinite, sqrt
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
@@ -34,6 +34,9 @@ if TYPE_CHECKING:
 
 RULES = ("solid", "surface")
 
+#: Low and high corner of a part of the plane, (x, y) each, scene units.
+Window = tuple[tuple[float, float], tuple[float, float]]
+
 #: The number of cells of a grid without a given size: a compromise of detail and cost.
 CELLS = 65_000
 
@@ -45,26 +48,31 @@ class View:
     Attributes
     ----------
     kind : str
-        "image" for a silhouette, "shadow" for the shadow on a receiver.
-    camera : Camera
-        From where the image is seen.
+        "image" for a silhouette, "shadow" for the shadow on a receiver, "drawing" for a drawing in the plane.
+    camera : Camera or None
+        From where the image is seen; None for a drawing.
     image : (rows, columns) bool
         Which pixels should be on.
     receiver : Receiver or None
         What the shadow falls on.
     light : tuple of float or None
         Direction in which the light travels.
+    window : tuple or None
+        Low and high corner of the part of the plane that a drawing shows.
     """
 
     kind: str
-    camera: Camera
+    camera: Camera | None
     image: NDArray[np.bool_]
-    picture: _engine.Picture
+    picture: _engine.Picture | _engine.Drawing
     receiver: Receiver | None = None
     light: tuple[float, float, float] | None = None
+    window: Window | None = None
 
     def check_sees(self, target: Target) -> None:
         """Refuse a target that is wholly behind the camera."""
+        if self.camera is None:
+            return
         forward = np.subtract(self.camera.look_at, self.camera.position)
         depth = (target.vertices - np.asarray(self.camera.position)) @ forward
         if depth.max() <= 0:
@@ -111,6 +119,14 @@ class Score:
     def specs(self) -> list[_engine.SketchSpec]:
         """The sketches' specifications in the engine."""
         return [sketch.spec for sketch in self.asks]
+
+    @property
+    def window(self) -> Window | None:
+        """The part of the plane that its drawings show, where it has one: scenes are then drawn, not built."""
+        found: list[Window] = [
+            one.given["window"] for one in self.asks if one.function in ("match_drawing", "fill_drawing")
+        ]
+        return found[0] if found else None
 
     def data(self, write: Callable[[Any], Any]) -> list[dict[str, Any]]:
         """The sketches as plain data; `write` writes what one is given."""
@@ -267,6 +283,69 @@ def match_shadow(
     return _score("match_shadow", given, {"sigma": sigma}, view=view)
 
 
+def match_drawing(
+    image: Image,
+    window: Sequence[Sequence[float]],
+    *,
+    pixels: int | None = None,
+    sigma: float = 0.02 / sqrt(2.0),
+) -> Score:
+    """Scores a scene by how well it draws an image: dark ink on white paper.
+
+    The scene is seen from +z. Its similarity is 1 for the image and 0 for an empty page; contours count more than
+    areas, and what reaches out of the window costs much (dissertation 6.5.2).
+
+    Parameters
+    ----------
+    image
+        A file, a Pillow image or an array of greys; what is not white is ink.
+    window
+        Low and high corner of the part of the plane that the image shows, (x, y) each.
+    pixels
+        Of the longer side: a larger image is made smaller first. As it is when left out.
+    sigma
+        Standard deviation of the similarity: smaller is stricter.
+    """
+    shown = check_window(window)
+    greys = targets.images.ink(image, None if pixels is None else check_count("pixels", pixels))
+    check_positive("sigma", sigma)
+    drawing = _engine.Drawing(greys, *shown)
+    given = {"image": greys, "window": shown, "pixels": None, "sigma": sigma}
+    view = View("drawing", None, greys < 255, drawing, window=shown)
+    return _score("match_drawing", given, {"sigma": sigma}, view=view)
+
+
+def fill_drawing(
+    window: Sequence[Sequence[float]],
+    size: Sequence[int] = (50, 50),
+    share: float = 0.5,
+    sigma: float = 0.01 / sqrt(2.0),
+) -> Score:
+    """Scores a scene by how it fills a part of the plane: to a certain share, with as many edges as there can be.
+
+    The scene is seen from +z. With long straight strokes this makes circuits (dissertation 6.5.3); what reaches out
+    of the window costs much.
+
+    Parameters
+    ----------
+    window
+        Low and high corner of the part of the plane, (x, y) each.
+    size
+        Columns and rows of pixels by which edges and fill are measured.
+    share
+        Of the pixels that should be touched, above 0 and at most 1.
+    sigma
+        Standard deviation of the score: smaller is stricter.
+    """
+    shown = check_window(window)
+    columns, rows = (check_count("size", number) for number in size)
+    check_positive("sigma", sigma)
+    if not is_number(share) or not 0.0 < share <= 1.0:
+        raise bad("share", share, "a number above 0, at most 1", "such a number")
+    given = {"window": shown, "size": (columns, rows), "share": float(share), "sigma": sigma}
+    return _score("fill_drawing", given, given)
+
+
 def avoid(obstacle: Target | Place, voxel: float | None = None) -> Score:
     """Forbids scenes that come near an obstacle: no cell may be filled by both.
 
@@ -332,7 +411,17 @@ def overshoot(
 #: The functions that make sketches, by name.
 SKETCHES: dict[str, Callable[..., Score]] = {
     make.__name__: make
-    for make in (no_self_intersection, match_volume, match_image, match_shadow, avoid, floor, overshoot)
+    for make in (
+        no_self_intersection,
+        match_volume,
+        match_image,
+        match_shadow,
+        match_drawing,
+        fill_drawing,
+        avoid,
+        floor,
+        overshoot,
+    )
 }
 
 
@@ -346,8 +435,10 @@ def _score(
     view: View | None = None,
 ) -> Score:
     """A score of one sketch, from the engine's settings of it; `target` is what the scene should fill."""
-    picture = None if view is None else view.picture
-    spec = _engine.SketchSpec(json.dumps({function: settings}), grid, picture)
+    seen = None if view is None else view.picture
+    picture = seen if isinstance(seen, _engine.Picture) else None
+    drawing = seen if isinstance(seen, _engine.Drawing) else None
+    spec = _engine.SketchSpec(json.dumps({function: settings}), grid, picture, drawing)
     return Score((SketchCall(function, given, spec),), target, () if view is None else (view,))
 
 
@@ -395,6 +486,30 @@ def check_positive(name: str, value: float) -> float:
     if not is_number(value) or not 0 < value < float("inf"):
         raise bad(name, value, "a finite number above 0", "a positive number")
     return float(value)
+
+
+def check_count(name: str, value: int) -> int:
+    """The number, when it is a whole number above zero."""
+    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < 1:
+        raise bad(name, value, "a whole number of pixels, 1 or more", "such a number, for instance 50")
+    return int(value)
+
+
+def check_window(window: Any) -> Window:
+    """Two corners of the plane, the first lower along x and y than the second."""
+    try:
+        (left, low), (right, high) = ((float(x), float(y)) for x, y in window)
+    except (TypeError, ValueError):
+        left = low = right = high = float("nan")
+    inside = all(map(isfinite, (left, low, right, high))) and left < right and low < high
+    if not inside:
+        raise bad(
+            "window",
+            window,
+            "a low corner (x, y) and a higher one",
+            "such corners, for instance ((-12, -2), (12, 22))",
+        )
+    return (left, low), (right, high)
 
 
 def check_finite(name: str, value: float) -> float:

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
+from niwaki.draw.flat.drawing import drawing
 from niwaki.draw.picture import Camera as Eye
 from niwaki.draw.picture import picture, save_image
 from niwaki.draw.scene import Scene
@@ -32,7 +33,13 @@ FLAT = 1.5
 
 
 def view_sheet(
-    scene: Scene, view: View, *, height: int = 360, samples: int = 16, captions: bool = True
+    scene: Scene,
+    view: View,
+    *,
+    height: int = 360,
+    samples: int = 16,
+    captions: bool = True,
+    style: str = "ink",
 ) -> Image.Image:
     """Draws a scene through the camera of an image or shadow sketch, beside the image to match.
 
@@ -48,6 +55,8 @@ def view_sheet(
         Rays for each pixel of the panel that shows the scene itself.
     captions
         Whether to write what each panel is.
+    style
+        Of a drawing.
 
     Returns
     -------
@@ -58,14 +67,18 @@ def view_sheet(
     rows, columns = wanted.shape
     size = (max(1, round(height * columns / rows)), height)
     similarity = float((wanted == drawn).mean())
+    made = {"image": "silhouette", "shadow": "shadow", "drawing": "touched"}[view.kind]
     panels = [
         (colored([(wanted, INK)], size), "wanted"),
-        (colored([(drawn, INK)], size), "silhouette" if view.kind == "image" else "shadow"),
+        (colored([(drawn, INK)], size), made),
         (
             colored([(wanted & drawn, INK), (wanted & ~drawn, MISSING), (drawn & ~wanted, SURPLUS)], size),
             f"difference: {100 * similarity:.1f} % of pixels agree",
         ),
-        (through_camera(scene, view, size, samples=samples), "from its camera"),
+        (
+            through_camera(scene, view, size, samples=samples, style=style),
+            "drawn" if view.kind == "drawing" else "from its camera",
+        ),
     ]
     gap = max(2, height // 90)
     letters = max(11, round(height / 24))
@@ -80,8 +93,12 @@ def view_sheet(
     return page
 
 
-def through_camera(scene: Scene, view: View, size: tuple[int, int], *, samples: int = 16) -> Image.Image:
-    """Draws the scene itself from the camera of a sketch; for a shadow, over the shadow that it casts."""
+def through_camera(
+    scene: Scene, view: View, size: tuple[int, int], *, samples: int = 16, style: str = "ink"
+) -> Image.Image:
+    """Draws the scene itself as a sketch sees it, over the shadow that it casts or the drawing that it follows."""
+    if view.camera is None:
+        return drawing(scene, size=size, style=style, window=view.window, under=view.image).convert("RGB")
     under = colored([(view.mask(scene), SHADE)] if view.kind == "shadow" else [], size)
     if len(scene) == 0:
         return under

@@ -3,7 +3,7 @@
 choices         `sample`, `flip`, `gaussian`, ...: draws
 distributions   `Gaussian`, `Uniform`, ...: distributions as values
 effects         `factor`, `condition`, `observe`, `query`, `emit`, `future`, `force`, `infer`
-shapes          `box`, `cylinder`, `limb`, `segment`, `mesh`
+shapes          `box`, `cylinder`, `limb`, `segment`, `mesh`; flat ones: `stroke`, `ellipse`, `disc`
 colors          `hsv`, `lab`, `to_hsv`, `to_lab`, `color_difference`
 polygons        `polygon_area`, `polygon_contains`, `polygon_distance`, `polygon_disc_area`, `polygon_inset`
 vectors         `vec`, `dot`, `cross`, `norm`, `normalize`, `distance`, `rotate`, `rotation`

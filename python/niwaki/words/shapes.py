@@ -1,7 +1,8 @@
 """Shapes, the things that `emit` adds to a scene. Right-handed, y up, metres by default.
 
-A point is a 3-tuple, a list or a `vec`. A colour is `(r, g, b)` in [0, 1]. A rotation is three rows of three numbers,
-as `rotation(axis, angle)` gives. In a plain-Python run a shape is the engine's own `Shape`.
+A point is a 3-tuple, a list or a `vec`. Flat shapes lie on a plane parallel to z = 0, and are seen from +z. A colour
+is `(r, g, b)` in [0, 1]. A rotation is three rows of three numbers, as `rotation(axis, angle)` gives. In a
+plain-Python run a shape is the engine's own `Shape`.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ import numpy as np
 from niwaki import _engine
 from niwaki.words.vectors import VecLike
 
-__all__ = ["Bark", "Frame", "box", "cylinder", "limb", "mesh", "segment"]
+__all__ = ["Bark", "Frame", "box", "cylinder", "disc", "ellipse", "limb", "mesh", "segment", "stroke"]
 
 Rotation = Sequence[Sequence[float]]
 Color = Sequence[float]
@@ -208,5 +209,62 @@ def mesh(
     return _make("mesh", vertices, faces, center, rotation, scale, color)
 
 
+def stroke(
+    start: VecLike,
+    end: VecLike,
+    width: float,
+    end_width: float | None = None,
+    color: Color | None = None,
+) -> Any:
+    """A straight stroke with round ends. Flat: z says only what lies in front of what.
+
+    Parameters
+    ----------
+    start, end
+        The middles of its ends, with the same z.
+    width
+        Width of the start, greater than 0.
+    end_width
+        Width of the end; `width` when left out.
+    color
+        `(r, g, b)` in [0, 1].
+    """
+    return _make("stroke", start, end, width, end_width, color)
+
+
+def ellipse(
+    center: VecLike, length: float, width: float, angle: float = 0.0, color: Color | None = None
+) -> Any:
+    """An ellipse. Flat: z says only what lies in front of what.
+
+    Parameters
+    ----------
+    center
+        Its middle.
+    length, width
+        Its full lengths, greater than 0.
+    angle
+        Of the length, radians from +x to +y.
+    color
+        `(r, g, b)` in [0, 1].
+    """
+    return _make("ellipse", center, length, width, angle, color)
+
+
+def disc(center: VecLike, radius: float, color: Color | None = None) -> Any:
+    """A disc. Flat: z says only what lies in front of what.
+
+    Parameters
+    ----------
+    center
+        Its middle.
+    radius
+        Greater than 0.
+    color
+        `(r, g, b)` in [0, 1].
+    """
+    return _make("disc", center, radius, color)
+
+
 #: The functions for shapes; the engine has one of the same name for each.
-SHAPES = (box, cylinder, limb, segment, mesh)
+SHAPES = (box, cylinder, limb, segment, mesh, stroke, ellipse, disc)

@@ -14,11 +14,13 @@ import niwaki as nw
 import numpy as np
 import pytest
 from niwaki.draw.scene import Scene
-from niwaki.gallery import Entry, entries, entry
+from niwaki.gallery import Entry, entries, entry, vines
 from niwaki.gallery.spaceship import spaceship
 from niwaki.shell.demo import demo
+from niwaki.targets import drawings
 
 GALLERY = [one for one in entries() if one.target_name is not None]
+DRAWERS = [one for one in entries() if one.draws is not None]
 FEW = 60
 
 
@@ -26,7 +28,7 @@ def named(one: Entry) -> str:
     return one.name
 
 
-@pytest.mark.parametrize("one", GALLERY, ids=named)
+@pytest.mark.parametrize("one", [*GALLERY, *DRAWERS], ids=named)
 def test_lowers_and_runs(one: Entry) -> None:
     assert one.title and "\n" not in one.title
     assert one.model.core().text.startswith("(module")
@@ -35,7 +37,7 @@ def test_lowers_and_runs(one: Entry) -> None:
     assert all(sample.has_ended and sample.primitives > 0 for sample in result)
 
 
-@pytest.mark.parametrize("one", GALLERY, ids=named)
+@pytest.mark.parametrize("one", [*GALLERY, *DRAWERS], ids=named)
 def test_plain_python_makes_the_same_scene(one: Entry) -> None:
     here = nw.run(one.model, seed=4).best
     plain = nw.run_python(one.model, choices=here.choices)
@@ -58,6 +60,38 @@ def test_grows_and_grows_again(one: Entry) -> None:
     for sample in first:
         assert sample.has_ended
         assert sample.log_score > nothing.log_score + 5.0
+
+
+@pytest.mark.parametrize("one", DRAWERS, ids=named)
+def test_draws_and_draws_again(one: Entry) -> None:
+    assert one.window is not None
+    if one.score is None:
+        assert one.drawing_name is not None
+        drawing = drawings.drawing(one.drawing_name)
+        score, start = drawing.score(one.window), drawing.place(one.window)
+    else:
+        score, start = one.score(), ()
+    first = nw.grow(one.model, None, *start, score=score, particles=100, runs=2, seed=1)
+    again = nw.grow(one.model, None, *start, score=score, particles=100, runs=2, seed=1, threads=1)
+    assert [(sample.log_score, sample.choices) for sample in first] == [
+        (sample.log_score, sample.choices) for sample in again
+    ]
+    empty_page = nw.grow(empty, None, score=score, particles=1, seed=1).best
+    assert first.best.log_score > empty_page.log_score + 100.0
+
+
+def test_vines_follow_letters_as_the_dissertation_says() -> None:
+    """A median similarity of about 0.8 with 600 particles (6.5.2): of ten glyphs above 0.6, and none is a stump."""
+    names = drawings.names("glyphs")[::20]
+    found = []
+    for seed, name in enumerate(names):
+        one = drawings.drawing(name)
+        start, score = one.place(vines.WINDOW), one.score(vines.WINDOW)
+        best = nw.grow(
+            vines.vines, None, *start, score=score, particles=600, resampling="tempered", seed=seed
+        ).best
+        found.append(best.similarity or 0.0)
+    assert np.median(found) > 0.6 and min(found) > 0.1
 
 
 def test_the_tree_fills_most_of_its_target() -> None:

@@ -50,6 +50,7 @@ def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     image.save(tmp_path / "skyline.png")
     image.resize((30, 20)).save(tmp_path / "small.png")
     Image.new("L", (60, 40), 255).save(tmp_path / "white.png")
+    Image.new("L", (60, 40), 0).save(tmp_path / "black.png")
     camera = {"kind": "orthographic", "position": [0, 3, 20], "look_at": [0, 3, 0], "height": 6.0}
     (tmp_path / "cam.json").write_text(json.dumps(camera))
     (tmp_path / "bent.json").write_text('{"kind": "fisheye", "position": [0, 0, 1], "look_at": [0, 0, 0]}')
@@ -99,6 +100,27 @@ def test_a_shadow_is_matched(place: Path) -> None:
     given = data["search"]["score"][-1]["given"]
     assert given["sigma"] == 0.01 and given["light"] == {"tuple": [-1.0, -1.0, 0.0]}
     assert Path("out/shadow.png").is_file()
+
+
+def test_a_drawing_is_followed_from_its_own_start(place: Path) -> None:
+    ink = Image.new("L", (300, 300), 255)
+    ImageDraw.Draw(ink).rectangle((130, 60, 170, 280), 0)
+    ink.save("trunk.png")
+    done = run("grow", "vines", "--match-image", "trunk.png", "-n", "40", "--seed", "1", "-o", "out")
+    assert done.exit_code == 0, (done.output, done.exception)
+    names = {path.name for path in Path("out").iterdir()}
+    assert names == {"best.svg", "best.png", "sheet.png", "drawing.png", "run.json"}
+    search = json.loads(Path("out/run.json").read_text())["search"]
+    (sketch,) = search["score"]
+    assert sketch["sketch"] == "match_drawing" and sketch["given"]["image"]["shape"] == [50, 50]
+    assert search["method"]["resampling"] == "tempered" and search["method"]["power"] == 1.0
+    svg = Path("out/best.svg").read_bytes()
+    again = run("replay", "out/run.json", "-o", "again")
+    assert again.exit_code == 0 and Path("again/best.svg").read_bytes() == svg
+    own = run(
+        "grow", "circuit", "-n", "10", "--seed", "1", "-o", "board", "--format", "svg,gif", "--size", "60x60"
+    )
+    assert own.exit_code == 0 and Path("board/growth.gif").is_file(), (own.output, own.exception)
 
 
 @pytest.mark.parametrize(
@@ -233,6 +255,11 @@ REFUSALS = {
     "a scale of zero": [*IMAGE, "--format", "stl", "--scale", "0"],
     "a size in centimetres": [*IMAGE, "--format", "gif", "--size", "10cm"],
     "frames of nothing moving": [*IMAGE, "--frames", "10"],
+    "a window of no drawing": ["--target", "wall.obj", "--window", "0,0,1,1"],
+    "a window without inside": ["--match-image", "skyline.png", "--window", "0,0,0,1"],
+    "pixels of a silhouette": [*IMAGE, "--pixels", "50"],
+    "a drawing that is black": ["--match-image", "black.png", "--window", "0,0,1,1"],
+    "a solid as a drawing": [*IMAGE, "--format", "svg"],
 }
 
 

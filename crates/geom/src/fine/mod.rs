@@ -16,6 +16,7 @@ mod limb;
 mod revolve;
 mod segment;
 
+use crate::plane::flat;
 use crate::shape::{Shape, Solid};
 use crate::vector::Vec3;
 
@@ -77,6 +78,8 @@ pub fn fine_mesh(shape: &Shape) -> FineMesh {
         Solid::Limb { rings, .. } => limb::domed(&rings[0], &rings[1]),
         Solid::Segment(tube) => segment::grown(&tube.frames, tube.onto.as_ref()),
         Solid::Mesh(mesh) => crease::creased(mesh, crease::SHARP),
+        flat @ (Solid::Stroke { .. } | Solid::Ellipse { .. }) => flat::plate(flat, flat::FINE)
+            .map_or_else(|_| FineMesh::default(), |mesh| crease::creased(&mesh, crease::SHARP)),
     };
     let placement = shape.placement();
     for p in &mut mesh.vertices {

@@ -31,8 +31,13 @@ impl Cover {
         })
     }
 
+    /// Words that come once each, ascending.
+    pub(crate) fn in_order(words: Vec<(u32, u64)>) -> Cover {
+        Cover(words)
+    }
+
     /// Words may have come several times and in any order.
-    fn settled(mut words: Vec<(u32, u64)>) -> Cover {
+    pub(crate) fn settled(mut words: Vec<(u32, u64)>) -> Cover {
         words.sort_unstable_by_key(|(word, _)| *word);
         words.dedup_by(|next, kept| {
             let same = next.0 == kept.0;

@@ -238,6 +238,9 @@ table! {
     "limb" 4 7 shapes::limb;
     "segment" 3 5 shapes::segment;
     "mesh" 2 6 shapes::mesh;
+    "stroke" 3 5 shapes::stroke;
+    "ellipse" 3 5 shapes::ellipse;
+    "disc" 2 3 shapes::disc;
 }
 
 /// `a < b` as a plain truth value, for ordering.

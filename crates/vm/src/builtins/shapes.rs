@@ -22,6 +22,9 @@ pub const WORDS: &[(&str, &[&str])] = &[
     ("limb", &["start", "end", "start_radius", "end_radius", "start_normal", "end_normal", "color"]),
     ("segment", &["start", "split", "end", "onto", "color"]),
     ("mesh", &["vertices", "faces", "center", "rotation", "scale", "color"]),
+    ("stroke", &["start", "end", "width", "end_width", "color"]),
+    ("ellipse", &["center", "length", "width", "angle", "color"]),
+    ("disc", &["center", "radius", "color"]),
 ];
 
 /// One word's arguments; those left out are `None`.
@@ -166,6 +169,28 @@ pub fn segment<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     shape(Shape::segment(frames, onto.transpose()?, &given.look(None, None, 4)?))
 }
 
+/// The word `stroke`.
+pub fn stroke<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
+    let given = Arguments { word: "stroke", args };
+    let width = given.number(2)?;
+    let widths = (width, given.number_or(3, width)?);
+    shape(Shape::stroke(given.point(0)?, given.point(1)?, widths, &given.look(None, None, 4)?))
+}
+
+/// The word `ellipse`.
+pub fn ellipse<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
+    let given = Arguments { word: "ellipse", args };
+    let (size, angle) = ((given.number(1)?, given.number(2)?), given.number_or(3, 0.0)?);
+    shape(Shape::ellipse(given.point(0)?, size, angle, &given.look(None, None, 4)?))
+}
+
+/// The word `disc`.
+pub fn disc<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
+    let given = Arguments { word: "disc", args };
+    let width = 2.0 * given.number(1)?;
+    shape(Shape::ellipse(given.point(0)?, (width, width), 0.0, &given.look(None, None, 2)?))
+}
+
 /// The word `mesh`.
 pub fn mesh<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let given = Arguments { word: "mesh", args };
@@ -288,6 +313,18 @@ mod tests {
         assert_eq!(code("segment", &[start.clone(), split, end, short]), "type-mismatch");
         let skew = V::tuple(vec![at(0.0, 1.0, 0.0), at(0.0, 1.0, 0.0), at(0.0, 1.0, 0.0), V::real(0.5)]);
         assert_eq!(code("segment", &[start.clone(), start, skew]), "bad-shape");
+    }
+
+    #[test]
+    fn flat_shapes_have_their_sizes() {
+        let line = shape_of("stroke", &[at(0.0, 0.0, 1.0), at(3.0, 0.0, 1.0), V::real(2.0), V::real(1.0)]);
+        assert_eq!((line.kind(), line.aabb().low.x, line.aabb().high.x), ("stroke", -1.0, 3.5));
+        let leaf = shape_of("ellipse", &[at(0.0, 0.0, 0.0), V::Int(4), V::Int(2)]);
+        assert_eq!((leaf.aabb().extent().x, leaf.aabb().extent().y), (4.0, 2.0));
+        let round = shape_of("disc", &[at(0.0, 0.0, 0.0), V::Int(2), at(1.0, 0.0, 0.0)]);
+        assert_eq!((round.aabb().extent().y, round.color()), (4.0, Some([1.0, 0.0, 0.0])));
+        assert_eq!(code("stroke", &[at(0.0, 0.0, 1.0), at(3.0, 0.0, 0.0), V::real(2.0)]), "bad-shape");
+        assert_eq!(code("disc", &[at(0.0, 0.0, 1.0), V::Int(0)]), "bad-shape");
     }
 
     #[test]

@@ -72,6 +72,14 @@ FILES = (
         cure="@model\ndef m():\n    emit(box((0, 0, 0), (1, 1, 1)))",
     ),
     Message(
+        "not-flat",
+        "this scene is not a drawing",
+        why="it has shapes that are not flat, and an SVG shows flat shapes only: strokes, ellipses and discs",
+        help="write it as .glb or another format for solids, or draw a picture of it",
+        example='sample.export("ship.svg")',
+        cure='sample.export("ship.glb")',
+    ),
+    Message(
         "file-unwritable",
         "this file cannot be written",
         why="{reason}",

@@ -54,6 +54,22 @@ VIEWS = (
         cure="a black page with a white skyline",
     ),
     Message(
+        "drawing-one-color",
+        "`{name}` is one colour only",
+        why="all of its {size} pixels are {state}: a drawing is dark ink on white or transparent paper",
+        help="draw in black on white; if it is white on black, invert the image",
+        example="a white letter on a black page",
+        cure="a black letter on a white page",
+    ),
+    Message(
+        "unknown-drawing",
+        "there is no drawing `{name}`",
+        why="`niwaki.targets.drawings.names()` lists the drawings of the package",
+        help="did you mean `{near}`?",
+        example='targets.drawings.drawing("letters/e")',
+        cure='targets.drawings.drawing("letters/E")',
+    ),
+    Message(
         "weight-size",
         "the weight image `{name}` has another size than its image",
         why="it is {found}, the image {expected}",

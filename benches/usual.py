@@ -1,11 +1,11 @@
-"""The recommended settings beside the original's weights, search by search: the models and the targets of figure 5.9.
+"""The usual search beside the original's weights, search by search: the models and the targets of figure 5.9.
 
-    .venv/bin/python benches/recommended.py [PARTICLES:SEARCHES ...]
+    .venv/bin/python benches/usual.py [PARTICLES:SEARCHES ...]
 
 Sigma 0.02, the original's rule for intersections (`surface`), seeds from 1000 on, the same for all methods, one thread.
 For each model and target, at each number of particles: mean, median and worst of the best log scores of the searches
 that ended, how many became impossible, the mean difference to the original's weights with its standard error (of the
-seeds that ended with both), and CPU milliseconds of one search. `without a chain` stops where the population ends.
+seeds that ended with both), and CPU milliseconds of one search.
 """
 
 import math
@@ -16,11 +16,11 @@ from pathlib import Path
 sys.path.append(str(Path(__file__).parent / "figures_sosmc"))
 
 import niwaki as nw
-from comparison import CASES, METHODS, meshes, onward, score_of, searched
+from comparison import CASES, METHODS, meshes, score_of, searched
 from niwaki.gallery import entry
 
 SEED = 1000
-ORIGINAL, OURS, ALONE = "stochastic", "recommended", "without a chain"
+ORIGINAL, OURS = "stochastic", "usual search"
 
 
 def main(*sizes: str) -> int:
@@ -33,7 +33,7 @@ def main(*sizes: str) -> int:
         for (model, voxel, _, _), target in zip(CASES, targets, strict=True):
             program, score = entry(model).model, score_of(target, voxel)
             # The first run compiles.
-            searched(program, score, 2, {}, 0)
+            searched(program, score, nw.smc(2), 0)
             for particles, searches in cases:
                 print_rows(f"{whose:<10}{model:<12}", program, score, particles, searches)
     return 0
@@ -41,20 +41,12 @@ def main(*sizes: str) -> int:
 
 def print_rows(head: str, program: nw.Model, score: nw.Score, particles: int, searches: int) -> None:
     """All methods at one number of particles."""
-    chain = onward(program, particles)
-    methods = {
-        ORIGINAL: (METHODS[ORIGINAL], None),
-        ALONE: (METHODS[OURS], None),
-        OURS: (METHODS[OURS], chain),
-    }
+    names = (ORIGINAL, OURS)
     rows = [
-        {
-            method: searched(program, score, particles, settings, seed, more)
-            for method, (settings, more) in methods.items()
-        }
+        {name: searched(program, score, METHODS[name](particles), seed) for name in names}
         for seed in range(SEED, SEED + searches)
     ]
-    for method in methods:
+    for method in names:
         ended = [row[method][0] for row in rows if row[method][0] is not None]
         less = [
             row[method][0] - row[ORIGINAL][0]

@@ -1,0 +1,269 @@
+//! Texture: does a drawing fill its window to a certain share, with lively edges?
+//!
+//! ```text
+//! log score = ln N(score; 1, sigma) + outside                    see `outside`
+//! score     = (1 - |edge - 1|) (1 - min(1, |fill - share| / share))
+//! fill      = share of the pixels that are touched
+//! edge      = mean magnitude of the Sobel gradient over all pixels
+//! ```
+//!
+//! Dissertation 6.5.3, eq. 6.4: with a share of one half and long straight strokes it makes circuits. As in the
+//! original's code the edge term is `1 - |edge - 1|` (its text has `edge`), and the gradient is not divided by its
+//! weights; the page is white, 1, and all is black outside of it, 0, so that an empty page has an edge of 0.31
+//! from its border alone. A pixel's value is the share of its 8 x 8 sample points that no shape holds; it is touched when
+//! one is held.
+//!
+//! The sketch keeps counts for each sample, the number of touched pixels and the sum of all magnitudes in steps of
+//! 2^-26: integers, the same in any order.
+
+use super::bag::Bag;
+use super::outside::Outside;
+use super::tiles::Tiles;
+use super::{Sketch, SketchSpec, check_sigma, log_normal, share};
+use crate::error::GeomError;
+use crate::plane::Page;
+use crate::primitive::Primitive;
+use crate::view::Cover;
+use std::sync::Arc;
+
+/// Samples of a pixel, and its value where nothing is drawn.
+const WHITE: i32 = 64;
+/// Steps of a magnitude in units of samples.
+const STEPS: f64 = (1 << 20) as f64;
+
+/// What a drawing should be like, on its page.
+#[derive(Clone, Debug)]
+pub struct Texture {
+    /// The window and its pixels.
+    pub page: Page,
+    /// The share of the pixels that should be touched, above 0 and at most 1.
+    pub share: f64,
+    /// Standard deviation of the score.
+    pub sigma: f64,
+}
+
+struct TextureSpec(TextureMatch);
+
+/// Scores a scene by how it fills a window.
+///
+/// # Errors
+/// `bad-setting` for a share outside of `(0, 1]`, and when `sigma` is not positive.
+pub fn fill_drawing(texture: Texture) -> Result<Arc<dyn SketchSpec>, GeomError> {
+    check_sigma(texture.sigma)?;
+    if !(texture.share > 0.0 && texture.share <= 1.0) {
+        let message = format!("the share is {}, expected a number above 0, at most 1", texture.share);
+        return Err(GeomError::new("bad-setting", message));
+    }
+    Ok(Arc::new(TextureSpec(TextureMatch::new(Arc::new(texture)))))
+}
+
+impl SketchSpec for TextureSpec {
+    fn name(&self) -> &'static str {
+        "fill_drawing"
+    }
+
+    fn start(&self) -> Box<dyn Sketch> {
+        Box::new(self.0.clone())
+    }
+}
+
+/// How many shapes hold each sample point.
+#[derive(Debug)]
+pub struct TextureMatch {
+    texture: Arc<Texture>,
+    tiles: Tiles,
+    touched: i64,
+    /// Sum of the magnitudes, in steps.
+    edges: i64,
+    outside: Outside,
+    /// With the samples that each primitive holds, shape by shape.
+    bag: Bag<Arc<[Cover]>>,
+}
+
+/// A rectangle of pixels: columns and rows.
+type Area = [std::ops::Range<usize>; 2];
+
+impl TextureMatch {
+    /// The empty page.
+    pub fn new(texture: Arc<Texture>) -> TextureMatch {
+        let [columns, rows] = texture.page.size();
+        let (tiles, outside) = (Tiles::new(texture.page.sampled_words()), Outside::default());
+        let mut empty = TextureMatch { texture, tiles, touched: 0, edges: 0, outside, bag: Bag::default() };
+        empty.edges = empty.steps(&[0..columns, 0..rows]);
+        empty
+    }
+
+    /// Share of the pixels that are touched.
+    pub fn fill(&self) -> f64 {
+        self.touched as f64 / self.pixels()
+    }
+
+    /// Mean magnitude of the gradient.
+    pub fn edge(&self) -> f64 {
+        self.edges as f64 / (STEPS * f64::from(WHITE) * self.pixels())
+    }
+
+    /// 1 at best.
+    pub fn score(&self) -> f64 {
+        let share = self.texture.share;
+        let filled = 1.0 - ((self.fill() - share).abs() / share).min(1.0);
+        filled * (1.0 - (self.edge() - 1.0).abs())
+    }
+
+    /// Samples of a pixel that a shape holds, in the words of [`Page::sampled_word`].
+    #[inline]
+    pub fn any(&self, word: usize) -> u64 {
+        self.tiles.any(word)
+    }
+
+    /// What it is scored by.
+    pub fn texture(&self) -> &Texture {
+        &self.texture
+    }
+
+    fn pixels(&self) -> f64 {
+        let [columns, rows] = self.texture.page.size();
+        (columns * rows) as f64
+    }
+
+    /// Sum of the magnitudes in an area, in steps.
+    fn steps(&self, [columns, rows]: &Area) -> i64 {
+        let page = &self.texture.page;
+        let [width, height] = page.size();
+        // The values of the area and of one pixel around it, row by row.
+        let wide = columns.len() + 2;
+        let mut values = vec![0; wide * (rows.len() + 2)];
+        for y in rows.start.max(1) - 1..(rows.end + 1).min(height) {
+            for x in columns.start.max(1) - 1..(columns.end + 1).min(width) {
+                let held = self.tiles.any(page.sampled_word(x, y)).count_ones() as i32;
+                values[(y + 1 - rows.start) * wide + x + 1 - columns.start] = WHITE - held;
+            }
+        }
+        let mut sum = 0;
+        for middle in (1..=rows.len()).map(|row| row * wide) {
+            let (above, here, below) = (
+                &values[middle - wide..middle],
+                &values[middle..middle + wide],
+                &values[middle + wide..middle + 2 * wide],
+            );
+            for x in 1..=columns.len() {
+                let side = |x: usize| above[x] + 2 * here[x] + below[x];
+                let line = |row: &[i32]| row[x - 1] + 2 * row[x] + row[x + 1];
+                let (across, down) = (side(x + 1) - side(x - 1), line(below) - line(above));
+                sum += (f64::from(across * across + down * down).sqrt() * STEPS).round() as i64;
+            }
+        }
+        sum
+    }
+
+    /// The pixels whose gradient can change with a shape: its box and one pixel around it.
+    fn area(&self, primitive: &Primitive) -> Area {
+        let page = &self.texture.page;
+        let (aabb, [columns, rows]) = (primitive.aabb(), page.size());
+        let ([left, _], [_, top]) = (page.low(), page.high());
+        let wide = (page.high()[0] - left) / columns as f64;
+        let tall = (top - page.low()[1]) / rows as f64;
+        let range = |least: f64, most: f64, count: usize| {
+            let end = (most.ceil() + 1.0).clamp(0.0, count as f64) as usize;
+            (least.floor() - 1.0).clamp(0.0, end as f64) as usize..end
+        };
+        [
+            range((aabb.low.x - left) / wide, (aabb.high.x - left) / wide, columns),
+            range((top - aabb.high.y) / tall, (top - aabb.low.y) / tall, rows),
+        ]
+    }
+
+    /// Changes the counts, and what follows from them around the primitive.
+    fn change(&mut self, primitive: &Primitive, change: impl FnOnce(&mut TextureMatch)) {
+        let area = self.area(primitive);
+        self.edges -= self.steps(&area);
+        change(self);
+        self.edges += self.steps(&area);
+    }
+}
+
+/// The samples that each shape holds.
+fn covers(primitive: &Primitive, page: &Page) -> Arc<[Cover]> {
+    primitive.shapes().iter().map(|shape| page.sampled(shape)).collect()
+}
+
+impl Clone for TextureMatch {
+    fn clone(&self) -> TextureMatch {
+        TextureMatch {
+            texture: self.texture.clone(),
+            tiles: self.tiles.clone(),
+            touched: self.touched,
+            edges: self.edges,
+            outside: self.outside.clone(),
+            bag: self.bag.clone(),
+        }
+    }
+
+    fn clone_from(&mut self, source: &TextureMatch) {
+        share(&mut self.texture, &source.texture);
+        self.tiles.clone_from(&source.tiles);
+        (self.touched, self.edges) = (source.touched, source.edges);
+        self.outside.clone_from(&source.outside);
+        self.bag.clone_from(&source.bag);
+    }
+}
+
+impl PartialEq for TextureMatch {
+    fn eq(&self, other: &TextureMatch) -> bool {
+        Arc::ptr_eq(&self.texture, &other.texture)
+            && (self.touched, self.edges) == (other.touched, other.edges)
+            && self.tiles == other.tiles
+            && self.outside == other.outside
+            && self.bag == other.bag
+    }
+}
+
+impl Sketch for TextureMatch {
+    fn name(&self) -> &'static str {
+        "fill_drawing"
+    }
+
+    fn add(&mut self, primitive: &Primitive) {
+        let covers = covers(primitive, &self.texture.page);
+        self.change(primitive, |own| {
+            for (shape, cover) in primitive.shapes().iter().zip(&*covers) {
+                let touched = &mut own.touched;
+                for (word, _) in cover.words() {
+                    *touched += i64::from(own.tiles.any(*word as usize) == 0);
+                }
+                own.tiles.add(cover, |_, _| {});
+                own.outside.add(shape, &own.texture.page);
+            }
+        });
+        self.bag.add(primitive, covers);
+    }
+
+    fn remove(&mut self, primitive: &Primitive) -> bool {
+        let Some(covers) = self.bag.remove(primitive, || covers(primitive, &self.texture.page)) else {
+            return false;
+        };
+        self.change(primitive, |own| {
+            for (shape, cover) in primitive.shapes().iter().zip(&*covers) {
+                own.tiles.remove(cover, |_, _| {});
+                for (word, _) in cover.words() {
+                    own.touched -= i64::from(own.tiles.any(*word as usize) == 0);
+                }
+                own.outside.remove(shape, &own.texture.page);
+            }
+        });
+        true
+    }
+
+    fn expect_removals(&mut self) {
+        self.bag.expect_removals();
+    }
+
+    fn log_score(&self) -> f64 {
+        log_normal(self.score(), 1.0, self.texture.sigma) + self.outside.log_score(&self.texture.page)
+    }
+
+    fn measures(&self) -> Vec<(&'static str, f64)> {
+        let [x, y] = self.outside.shares(&self.texture.page);
+        vec![("score", self.score()), ("fill", self.fill()), ("edge", self.edge()), ("outside", x + y)]
+    }
+}

@@ -1,0 +1,27 @@
+"""The traces of a circuit board: the vines, asked to fill half of a board with many edges (dissertation 6.5.3)."""
+
+from math import pi
+
+from niwaki import fill_drawing, gaussian, model
+from niwaki.gallery.vines import WIDTH, branch
+
+TITLE = "a circuit board, in the plane"
+DRAWS = "circuit"
+WINDOW = ((-12.0, -2.0), (12.0, 22.0))
+PARTICLES = 600
+
+
+@model
+def circuit():
+    """Grow from the middle of the lower border, first about upwards."""
+    start_angle = gaussian(pi / 2.0, pi / 6.0)
+    branch(0.0, 0.0, start_angle, WIDTH)
+
+
+def score():
+    """Half of the board, in 50 by 50 pixels."""
+    return fill_drawing(WINDOW, (50, 50), 0.5)
+
+
+MODEL = circuit
+SCORE = score
