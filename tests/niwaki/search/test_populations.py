@@ -76,7 +76,7 @@ def m():
 )
 def test_each_follows_the_exact_answer(method: Any) -> None:
     """Fixed seed; 4.5 standard errors of 2500 independent draws: false alarm 7e-6 for each of 27 shares."""
-    found = nw.run(COINS, method=method, seed=11)
+    found = nw.run(COINS, method=method, seed=11, threads=1)
     shares = found.distribution()
     for value, share in exact().items():
         assert abs(shares.get(value, 0.0) - share) < 4.5 * math.sqrt(share * (1 - share) / 2500)

@@ -178,7 +178,10 @@ pub fn furthest<R: Rules>(task: &Task, followed: &Task, settings: &Settings) -> 
         let value = repr(value).expect("a value");
         (value, (log - exact.log_evidence).exp())
     });
-    worst_of::<R>(task, &shares.collect::<Vec<_>>(), settings)
+    let shares: Vec<_> = shares.collect();
+    // On one thread: a step of a ladder is too short for more.
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a pool");
+    pool.install(|| worst_of::<R>(task, &shares, settings))
 }
 
 /// The same, of a task whose values have these probabilities.

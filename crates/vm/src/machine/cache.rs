@@ -16,12 +16,13 @@ type Entry<S> = (Family, Value<S>, Dist<S>);
 
 /// A small table of distributions.
 pub(super) struct DistCache<S: Scalar> {
+    /// Empty until the first one is looked up: many machines run for one barrier or one proposal only.
     entries: Vec<Option<Entry<S>>>,
 }
 
 impl<S: Scalar> Default for DistCache<S> {
     fn default() -> Self {
-        DistCache { entries: vec![None; ENTRIES] }
+        DistCache { entries: Vec::new() }
     }
 }
 
@@ -44,6 +45,9 @@ impl<S: Scalar> DistCache<S> {
     /// The value does not fit the family.
     #[inline]
     pub fn dist(&mut self, index: usize, family: Family, value: &Value<S>) -> Result<&Dist<S>, Fault> {
+        if self.entries.is_empty() {
+            self.entries.resize(ENTRIES, None);
+        }
         let entry = &mut self.entries[index];
         let is_it = match entry {
             Some((of, known, _)) => {

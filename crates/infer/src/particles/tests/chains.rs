@@ -7,45 +7,35 @@
 //! values are counted. A z beyond 5 happens once in 1.7 million; about 100 are looked at.
 
 use super::*;
+use crate::forward::forward;
+use crate::log::Entry;
 use crate::rejection::rejection;
 
 const SEEDS: u64 = 6000;
 
-/// An upper bound of the log scores of all programs.
-const BOUND: f64 = 2.5;
-
-fn last_values(task: &Task, settings: &Settings, ancestors: Ancestors) -> Vec<String> {
-    values_after(task, settings, ancestors, SEEDS, 3)
+/// Exact draws from the posterior, by rejection. Their bound is the best score of five thousand runs; a better one would be
+/// refused.
+pub(super) fn exact_draws(task: &Task, count: u64) -> Vec<Vec<Entry>> {
+    let scores = (0..5000).map(|stream| forward(task, 2, stream, false).unwrap().log_score);
+    let bound = scores.fold(f64::NEG_INFINITY, f64::max);
+    let found = rejection(task, count as usize, bound, u64::MAX, 1, &mut |_| true).unwrap();
+    found.runs.iter().map(|run| run.log.entries()).collect()
 }
 
+/// The values after `sweeps` sweeps of particle Gibbs from each start.
 pub(super) fn values_after(
     task: &Task,
+    starts: &[Vec<Entry>],
     settings: &Settings,
     ancestors: Ancestors,
-    seeds: u64,
     sweeps: usize,
 ) -> Vec<String> {
-    values_from(task, task, settings, ancestors, seeds, sweeps)
-}
-
-/// The same, of chains of `task` that start from exact draws of `exact`, a program with the same choices.
-fn values_from(
-    exact: &Task,
-    task: &Task,
-    settings: &Settings,
-    ancestors: Ancestors,
-    seeds: u64,
-    sweeps: usize,
-) -> Vec<String> {
-    (0..seeds)
-        .map(|seed| {
-            let exact = rejection(exact, 1, BOUND, 1_000_000, seed + 1_000_000, &mut |_| true).unwrap();
-            let from = exact.runs[0].log.entries();
-            let own = Settings { seed, ..settings.clone() };
-            let chain = particle_gibbs(task, &own, ancestors, sweeps, Some(&from), &mut |_| true).unwrap();
-            repr(&chain.states.last().unwrap().value).unwrap()
-        })
-        .collect()
+    let after = |(seed, start): (u64, &Vec<Entry>)| {
+        let own = Settings { seed, ..settings.clone() };
+        let chain = particle_gibbs(task, &own, ancestors, sweeps, Some(start), &mut |_| true).unwrap();
+        repr(&chain.states.last().unwrap().value).unwrap()
+    };
+    (0..).zip(starts).map(after).collect()
 }
 
 /// Z-scores of the counts of all outcomes.
@@ -72,10 +62,11 @@ pub(super) fn small(particles: usize, order: Order) -> Settings {
 #[test]
 fn particle_gibbs_keeps_the_posterior() {
     for (name, text) in PROGRAMS {
-        for order in [Order::DepthFirst, Order::Stochastic] {
+        let task = task(text);
+        let starts = exact_draws(&task, SEEDS);
+        for order in orders(text) {
             for ancestors in [Ancestors::Kept, Ancestors::Sampled] {
-                let task = task(text);
-                let scores = counted(&task, &last_values(&task, &small(4, order), ancestors));
+                let scores = counted(&task, &values_after(&task, &starts, &small(4, order), ancestors, 3));
                 assert!(worst(&scores) < LIMIT, "{name}, {order:?}, {ancestors:?}: {scores:?}");
             }
         }
@@ -91,7 +82,8 @@ fn it_keeps_it_when_resampling_is_adaptive_and_the_power_changes() {
             ..small(4, Order::Stochastic)
         };
         let task = task(text);
-        let scores = counted(&task, &last_values(&task, &own, Ancestors::Sampled));
+        let starts = exact_draws(&task, SEEDS);
+        let scores = counted(&task, &values_after(&task, &starts, &own, Ancestors::Sampled, 3));
         assert!(worst(&scores) < LIMIT, "{name}: {scores:?}");
     }
 }
@@ -101,7 +93,8 @@ fn it_keeps_it_when_resampling_is_adaptive_and_the_power_changes() {
 fn ancestors_count_the_order_of_what_follows() {
     let task = task(PROGRAMS[7].1);
     let own = small(3, Order::Stochastic);
-    let scores = counted(&task, &values_after(&task, &own, Ancestors::Sampled, 20_000, 4));
+    let scores =
+        counted(&task, &values_after(&task, &exact_draws(&task, 20_000), &own, Ancestors::Sampled, 4));
     assert!(worst(&scores) < LIMIT, "{scores:?}");
 }
 
@@ -267,13 +260,14 @@ fn ancestors_count_the_power_that_is_to_come() {
         )
     };
     let (plain, sharp) = (task(&text("1.0")), task(&text("2.5")));
+    let starts = exact_draws(&sharp, SEEDS);
     for ancestors in [Ancestors::Kept, Ancestors::Sampled] {
         let own = Settings {
             power: 2.5,
             anneal: Anneal::Schedule([0.0; 6].as_slice().into()),
             ..small(4, Order::Stochastic)
         };
-        let scores = counted(&sharp, &values_from(&sharp, &plain, &own, ancestors, SEEDS, 3));
+        let scores = counted(&sharp, &values_after(&plain, &starts, &own, ancestors, 3));
         assert!(worst(&scores) < LIMIT, "{ancestors:?}: {scores:?}");
     }
 }
@@ -287,7 +281,8 @@ fn ancestors_count_how_likely_the_rest_of_the_held_run_is() {
             (set $b (sample (dist bernoulli (cond $a 0.95 0.1)))) (do (factor (cond $b 0.4 -0.4)))
             (return (tuple $a $b))) (entry "m"))"#,
     );
-    let scores = counted(&task, &last_values(&task, &small(4, Order::DepthFirst), Ancestors::Sampled));
+    let (starts, own) = (exact_draws(&task, SEEDS), small(4, Order::DepthFirst));
+    let scores = counted(&task, &values_after(&task, &starts, &own, Ancestors::Sampled, 3));
     assert!(worst(&scores) < LIMIT, "{scores:?}");
 }
 

@@ -156,6 +156,19 @@ fn z_scores(task: &Task, settings: &Settings, seeds: std::ops::Range<u64>) -> Ve
 /// The same of any search that has a seed.
 fn z_scores_of(
     task: &Task,
+    search: &(dyn Fn(u64) -> std::result::Result<Result, crate::Failure> + Sync),
+    seeds: std::ops::Range<u64>,
+) -> Vec<(String, f64)> {
+    on_one_thread(|| z_scores_here(task, search, seeds))
+}
+
+/// For many small searches, which gain nothing from more threads; the same bits.
+fn on_one_thread<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap().install(work)
+}
+
+fn z_scores_here(
+    task: &Task,
     search: &dyn Fn(u64) -> std::result::Result<Result, crate::Failure>,
     seeds: std::ops::Range<u64>,
 ) -> Vec<(String, f64)> {
@@ -205,6 +218,12 @@ fn worst(scores: &[(String, f64)]) -> f64 {
     scores.iter().map(|s| s.1.abs()).fold(0.0, f64::max)
 }
 
+/// The orders of a program: without futures both are the same to the bit.
+fn orders(text: &str) -> impl Iterator<Item = Order> {
+    let first = text.contains("future").then_some(Order::DepthFirst);
+    first.into_iter().chain([Order::Stochastic])
+}
+
 fn settings(order: Order, resampling: Resampling) -> Settings {
     Settings { particles: 8, order, resampling, ..Settings::default() }
 }
@@ -213,7 +232,7 @@ fn settings(order: Order, resampling: Resampling) -> Settings {
 fn evidence_and_posterior_are_right_for_every_order_and_resampling() {
     for (name, text) in PROGRAMS {
         let task = task(text);
-        for order in [Order::DepthFirst, Order::Stochastic] {
+        for order in orders(text) {
             for resampling in Resampling::ALL {
                 let scores = z_scores(&task, &settings(order, resampling), 0..4000);
                 assert!(worst(&scores) < LIMIT, "{name}, {order:?}, {resampling:?}: {scores:?}");
@@ -243,7 +262,7 @@ fn fresh_seeds_agree_too() {
     println!("seeds from {first}");
     for (name, text) in PROGRAMS {
         let task = task(text);
-        for order in [Order::DepthFirst, Order::Stochastic] {
+        for order in orders(text) {
             for resampling in Resampling::ALL {
                 let scores = z_scores(&task, &settings(order, resampling), first..first + 40_000);
                 assert!(worst(&scores) < LIMIT, "{name}, {order:?}, {resampling:?}: {scores:?}");

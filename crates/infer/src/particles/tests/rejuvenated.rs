@@ -153,10 +153,11 @@ fn moves_of_partial_programs_leave_their_law_as_it_is() {
     let mut all = MoveCounts::default();
     for (name, text) in programs() {
         let task = task(text);
-        for (order, power) in [(Order::DepthFirst, 1.0), (Order::Stochastic, 1.7)] {
+        for order in orders(text) {
+            let power = if order == Order::Stochastic { 1.7 } else { 1.0 };
             for barriers in 1..=3 {
                 let settings = draws(every_kind(), order, power);
-                let (worst, states, moved) = moved_draws(&task, &settings, barriers);
+                let (worst, states, moved) = on_one_thread(|| moved_draws(&task, &settings, barriers));
                 all += moved;
                 assert!(worst < LIMIT, "{name}, {order:?}, barrier {barriers}: z {worst}, {states} states");
             }
@@ -173,11 +174,8 @@ fn moves_of_partial_programs_leave_their_law_as_it_is() {
 fn evidence_and_posterior_stay_right() {
     for (name, text) in programs() {
         let task = task(text);
-        for (order, at) in [
-            (Order::DepthFirst, Moment::Every(1)),
-            (Order::Stochastic, Moment::Every(1)),
-            (Order::Stochastic, Moment::End),
-        ] {
+        let forms = orders(text).map(|order| (order, Moment::Every(1)));
+        for (order, at) in forms.chain([(Order::Stochastic, Moment::End)]) {
             let settings = Settings {
                 rejuvenate: rejuvenation(every_kind(), 2, at),
                 ..settings(order, Resampling::Systematic)

@@ -9,10 +9,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 #[test]
 fn populations_of_any_size_are_one_right_answer() {
     for (name, text) in PROGRAMS {
-        let own = settings(Order::Stochastic, Resampling::Systematic);
-        let search =
-            |seed| populations(&task(text), &Settings { seed, ..own.clone() }, &[2, 9, 4], &mut |_| true);
-        let scores = z_scores_of(&task(text), &search, 0..2000);
+        let (task, own) = (task(text), settings(Order::Stochastic, Resampling::Systematic));
+        let search = |seed| populations(&task, &Settings { seed, ..own.clone() }, &[2, 9, 4], &mut |_| true);
+        let scores = z_scores_of(&task, &search, 0..2000);
         assert!(worst(&scores) < LIMIT, "{name}: {scores:?}");
     }
 }
@@ -76,20 +75,24 @@ const COSTLY: &str = r#"(module (fn "m" (params) (set $x (sample (dist bernoulli
     (do (factor (cond $x 6.0 0.0)))
     (if $x (then (for $i (range 8) (body (do (factor 0.0)))))) (return $x)) (entry "m"))"#;
 
-fn by_barriers(text: &str, settings: &Settings, seconds: u64) -> std::result::Result<Result, crate::Failure> {
+fn by_barriers(
+    task: &Task,
+    settings: &Settings,
+    seconds: u64,
+) -> std::result::Result<Result, crate::Failure> {
     let barriers = AtomicU64::new(0);
     let clock = || Duration::from_secs(barriers.load(Ordering::Relaxed));
     let mut watch = |_: Progress| {
         barriers.fetch_add(1, Ordering::Relaxed);
         true
     };
-    by_clock(&task(text), settings, Duration::from_secs(seconds), &clock, &mut watch)
+    by_clock(task, settings, Duration::from_secs(seconds), &clock, &mut watch)
 }
 
 fn timed_scores(seconds: u64) -> Vec<(String, f64)> {
-    let own = settings(Order::Stochastic, Resampling::Systematic);
-    let search = |seed| by_barriers(COSTLY, &Settings { seed, ..own.clone() }, seconds);
-    z_scores_of(&task(COSTLY), &search, 0..6000)
+    let (task, own) = (task(COSTLY), settings(Order::Stochastic, Resampling::Systematic));
+    let search = |seed| by_barriers(&task, &Settings { seed, ..own.clone() }, seconds);
+    z_scores_of(&task, &search, 0..6000)
 }
 
 /// Z-scores as in the parent module, over 6,000 searches each. In eight seconds one to three populations count, some of them
@@ -105,11 +108,11 @@ fn a_search_by_time_is_unbiased_though_runs_of_high_weight_cost_more() {
 #[test]
 fn a_search_by_time_is_repeated_by_its_plan() {
     let own = Settings { seed: 11, ..Settings::default() };
-    let text = PROGRAMS[5].1;
-    let timed = by_barriers(text, &own, 30).unwrap();
+    let task = task(PROGRAMS[5].1);
+    let timed = by_barriers(&task, &own, 30).unwrap();
     assert!(timed.plan.len() > 1 && timed.plan.iter().sum::<usize>() == timed.particles.len());
     assert!(timed.plan.iter().all(|size| *size == timed.plan[0]), "{:?}", timed.plan);
-    let again = populations(&task(text), &own, &timed.plan, &mut |_| true).unwrap();
+    let again = populations(&task, &own, &timed.plan, &mut |_| true).unwrap();
     assert_eq!(timed.log_evidence.unwrap().to_bits(), again.log_evidence.unwrap().to_bits());
     let weights = |r: &Result| r.particles.iter().map(|p| p.log_weight.to_bits()).collect::<Vec<_>>();
     assert_eq!(weights(&timed), weights(&again));
