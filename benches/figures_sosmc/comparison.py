@@ -64,9 +64,13 @@ ROUNDS, FEWEST = 5, 5
 
 
 def usual(particles: int) -> nw.improve:
-    """The usual search with the work of so many particles: a quarter of them, and rounds for the rest."""
+    """The usual search with the work of so many particles: a quarter of them, and rounds for the rest.
+
+    Fewer of them grow a part again, too: a fifth, as by default.
+    """
     first = max(particles // 4, FEWEST)
-    return nw.improve(particles=first, rounds=round(ROUNDS * (particles / first - 1.0)))
+    rounds = round(ROUNDS * (particles / first - 1.0))
+    return nw.improve(particles=first, regrow=max(first // 5, 2), rounds=rounds)
 
 
 #: The methods for a number of particles.
