@@ -7,7 +7,7 @@
 //! - [`picture`], over [`tiles`]: look like a picture, or cast a shadow like one
 //! - [`drawing`], [`texture`], over [`tiles`] and [`outside`]: draw a picture on a page, or fill the page with edges
 //! - [`intersection`]: parts must not run into each other
-//! - [`avoid`], [`floor`]: keep out of an obstacle, stay above a floor
+//! - [`avoid()`], [`floor()`]: keep out of an obstacle, stay above a floor
 //! - [`overshoot`]: stay inside of a box
 //! - [`bag`]: the primitives of a sketch
 //! - [`product`]: several sketches of one scene
