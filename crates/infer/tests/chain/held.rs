@@ -232,6 +232,32 @@ fn populations_give_the_law_given_what_is_held() {
     }
 }
 
+/// A call that hands a future on is left before the future begins, which is when the held choice in it may still come.
+#[test]
+fn a_future_may_begin_after_its_call_is_left() {
+    let text = r#"(module
+        (fn "late" (params) (set $x (sample (dist bernoulli 0.3))) (do (factor (cond $x 0.5 -0.5))) (return $x))
+        (fn "early" (params) (set $later (future "late")) (return $later))
+        (fn "m" (params) (set $later (call "early")) (set $y (sample (dist bernoulli 0.4)))
+          (do (factor (cond $y -0.3 0.2))) (set $x (force $later)) (return (add (cond $x 10 0) (cond $y 1 0))))
+        (entry "m"))"#;
+    let free = task(text);
+    let runs = listed(&free);
+    let held: Vec<_> = runs[0].0.iter().filter(|(path, _)| path.ends_with("/x")).cloned().collect();
+    assert_eq!(held.len(), 1);
+    let (exact, locked) = (conditioned(&runs, &held), hold(&free, held).expect("a lock"));
+    let mut estimates = vec![];
+    for seed in 0..1500 {
+        let settings = Settings { particles: 8, seed, ..Settings::default() };
+        let found = smc(&locked, &settings, &mut |_| true).expect("particles");
+        assert!(found.particles.iter().all(|one| one.record.cause.is_none()), "none has lost it");
+        let log_evidence = found.log_evidence.expect("an estimate");
+        estimates.push((log_evidence, weighed(found.particles.iter().map(|p| (&p.value, p.log_weight)))));
+    }
+    let z = worst(&exact, &estimates);
+    assert!(z < 6.0, "z = {z}");
+}
+
 #[test]
 fn direct_draws_give_the_law_given_what_is_held() {
     for (name, task, exact) in locked() {
@@ -417,6 +443,48 @@ fn given_the_rest(runs: &[Listed], choices: &[(String, Value)], part: &str) -> H
     let outside: Vec<_> = choices.iter().filter(is_outside).cloned().collect();
     let same_number = |run: &&Listed| run.0.iter().filter(is_outside).count() == outside.len();
     conditioned(&runs.iter().filter(same_number).cloned().collect::<Vec<_>>(), &outside)
+}
+
+/// A part whose shape is free, with a choice held that only one of its shapes has: no particle loses it. What the part
+/// returns tells its shapes apart or not.
+#[test]
+fn a_part_grown_afresh_keeps_what_is_held() {
+    const PARTICLES: usize = 3000;
+    for returned in ["$r", "0"] {
+        let text = r#"(module
+            (fn "leg" (params $p) (set $long (sample (dist bernoulli $p))) (set $r 0)
+              (if $long (then (set $foot (sample (dist categorical (list 0.2 0.3 0.5))))
+                (set $toe (sample (dist bernoulli 0.4))) (set $r (add 1 (add (mul 2 $foot) (cond $toe 10 0))))))
+              (do (factor (cond (gt $r 4) -0.7 0.1))) (return RETURNED))
+            (fn "m" (params) (set $a (call "leg" 0.5)) (set $b (call "leg" 0.3)) (return (add (mul 100 $a) $b)))
+            (entry "m"))"#;
+        let free = task(&text.replace("RETURNED", returned));
+        let runs = listed(&free);
+        let has_feet = |run: &&Listed| run.0.iter().filter(|(path, _)| path.ends_with("/foot")).count() == 2;
+        let (choices, ..) = runs.iter().find(has_feet).expect("a run with both feet");
+        let foot = choices.iter().find(|(path, _)| path.ends_with("/foot")).expect("a foot").clone();
+        let part = foot.0.rsplit_once('/').expect("a leg").0;
+        let paths: HashMap<String, Value> = choices.iter().cloned().collect();
+        let locked = hold(&free, vec![foot.clone()]).expect("a lock");
+        let known = replay(&locked, Source::Paths(&paths), Missing::Refuse).expect("a run").choices;
+        let known = known.into_iter().map(|choice| (choice.address, choice.value)).collect();
+        let with = Afresh { part, particles: PARTICLES, power: 1.0, seed: 9 };
+        let found = afresh(&locked, &known, &with).expect("runs with the foot");
+        assert!(found.iter().all(|run| equal(&values(&locked, run)[&foot.0], &foot.1)));
+        let has_foot = |run: &&Listed| run.0.iter().any(|(path, v)| *path == foot.0 && equal(v, &foot.1));
+        let with_foot: Vec<_> = runs.iter().filter(has_foot).cloned().collect();
+        let exact = given_the_rest(&with_foot, choices, part);
+        let all = weighed(found.iter().map(|run| (&run.value, run.log_weight)));
+        let total: f64 = all.iter().map(|(_, weight)| weight).sum();
+        assert!(all.iter().all(|(value, _)| exact.contains_key(value)));
+        let log_evidence = log_sum_exp(exact.values().copied());
+        for (value, log) in &exact {
+            let p = (log - log_evidence).exp();
+            let own: f64 = all.iter().filter(|(v, _)| v == value).map(|(_, weight)| weight).sum();
+            let error = (p * (1.0 - p) / (PARTICLES as f64 / 3.0)).sqrt().max(1e-9);
+            assert!(((own / total - p) / error).abs() < 6.0, "{value}: {} for {p}", own / total);
+        }
+    }
 }
 
 /// Shares of weighted particles vary as those of a third as many independent draws or less; some 150 are looked at.
