@@ -57,6 +57,13 @@ def test_random_order_follows_the_path_and_depth_first_does_not(program: Any, ta
     assert all(one is not None and one.best.log_score > 5.5 for one in found)
 
 
+def test_the_usual_search_tries_a_power_that_rises(program: Any, target: nw.Target) -> None:
+    for seed in SEEDS:
+        found = nw.grow(program, target, voxel=0.25, seed=seed)
+        assert found.best.log_score > 5.0
+        assert [one.died_at is None for one in found.info.attempts].count(True) == 1 < len(found.info.attempts)
+
+
 def test_judging_late_and_revising_help(program: Any, target: nw.Target) -> None:
     score = nw.no_self_intersection() * nw.match_volume(target, 0.25)
     late, revised = [], []
