@@ -9,7 +9,7 @@ use niwaki_vm::machine::stack::Call;
 use std::collections::BTreeMap;
 
 /// Most runs that are looked at.
-const RUNS: usize = 50;
+pub(crate) const RUNS: usize = 50;
 
 /// Where parts that break a constraint are emitted, and in how many runs.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,12 +26,11 @@ pub struct Blame {
 
 /// The parts of impossible runs that break a constraint, most frequent first, and how many runs were looked at. Runs that something
 /// else made impossible have none.
-pub(crate) fn blame(task: &Task, runs: impl Iterator<Item = Vec<Entry>>) -> (Vec<Blame>, usize) {
+pub(crate) fn blame(task: &Task, runs: Vec<Vec<Entry>>) -> (Vec<Blame>, usize) {
     let mut counts: BTreeMap<_, Blame> = BTreeMap::new();
-    let mut seen = 0;
-    for entries in runs.take(RUNS) {
-        seen += 1;
-        let unscored = Task { sketches: vec![], ..task.clone() };
+    let unscored = Task { sketches: vec![], ..task.clone() };
+    let seen = runs.len();
+    for entries in runs {
         let Ok(trace) = replay(&unscored, Source::Addresses(by_address(&entries)), Missing::Stop) else {
             continue;
         };

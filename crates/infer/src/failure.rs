@@ -1,6 +1,8 @@
 //! Why a search gives no result.
 
-use crate::blame::Blame;
+use crate::Task;
+use crate::blame::{Blame, blame};
+use crate::log::Entry;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::stack::RunFault;
 use std::collections::HashMap;
@@ -18,6 +20,8 @@ pub enum Failure {
         barrier: usize,
         /// What made them impossible: constraint and count, most frequent first.
         causes: Vec<(String, usize)>,
+        /// The choices of some of the runs, until `blame` is read from them.
+        dead: Vec<Vec<Entry>>,
         /// Where parts that break a constraint are emitted, most frequent first, and of how many runs.
         blame: (Vec<Blame>, usize),
         /// The populations that were tried, of which this is the first.
@@ -50,7 +54,16 @@ impl Failure {
         causes.for_each(|(cause, n)| *counts.entry(cause).or_insert(0) += n);
         let mut causes: Vec<(String, usize)> = counts.into_iter().map(|(c, n)| (c.to_string(), n)).collect();
         causes.sort_by(|a, b| b.1.cmp(&a.1).then_with(|| a.0.cmp(&b.0)));
-        Failure::Impossible { barrier, causes, blame: (vec![], 0), attempts: vec![] }
+        Failure::Impossible { barrier, causes, dead: vec![], blame: (vec![], 0), attempts: vec![] }
+    }
+
+    /// With the parts that break a constraint. They are looked for only in what a person reads: searches that go on after
+    /// a population has died do not need them.
+    pub(crate) fn explained(mut self, task: &Task) -> Failure {
+        if let Failure::Impossible { dead, blame: found, .. } = &mut self {
+            *found = blame(task, std::mem::take(dead));
+        }
+        self
     }
 
     /// A run that was given is impossible: nothing was tried.

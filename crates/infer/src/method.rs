@@ -241,6 +241,10 @@ impl Method {
     /// # Errors
     /// The failure of the method.
     pub fn search(&self, task: &Task, given: &Given<'_>, watch: &mut Watch<'_>) -> Result<Results, Failure> {
+        self.results(task, given, watch).map_err(|failure| failure.explained(task))
+    }
+
+    fn results(&self, task: &Task, given: &Given<'_>, watch: &mut Watch<'_>) -> Result<Results, Failure> {
         let seed = given.seed;
         let bare = |runs, interrupted, info| Results { runs, interrupted, info };
         let none = f64::NEG_INFINITY;

@@ -51,7 +51,7 @@ fn build(py: Python<'_>, failure: &Failure, program: &Program) -> PyResult<PyErr
             facts.set_item("invalid", failure.is_impossible())?;
         }
         Failure::Setting(fault) => about(fault, "setting")?,
-        Failure::Impossible { barrier, causes, blame: (blame, looked_at), attempts } => {
+        Failure::Impossible { barrier, causes, blame: (blame, looked_at), attempts, .. } => {
             facts.set_item("barrier", barrier)?;
             let found = blame.iter().map(|one| {
                 let other = one.other.as_ref().map(place);

@@ -19,7 +19,7 @@ use niwaki_infer::improve::Round;
 use niwaki_infer::method::{self, Given, Info, Method};
 use niwaki_infer::nested::Inner;
 use niwaki_infer::record::Record;
-use niwaki_infer::replay::{Missing, Source, replay};
+use niwaki_infer::replay::{Missing, Source, Trace, replay};
 use niwaki_infer::run::Shown;
 use niwaki_infer::{Failure, Task};
 use niwaki_vm::code::Program;
@@ -266,20 +266,14 @@ impl PyTask {
     /// Replays a run with its choices; a run that had not ended is replayed as far as its choices go. The scene is not scored
     /// again: the sketches' score is that of the run.
     fn trace(&self, py: Python<'_>, run: &PyRun) -> PyResult<PyTrace> {
-        let missing = if run.went_to_its_end() { Missing::Refuse } else { Missing::Stop };
-        let source = Source::Addresses(run.by_address());
-        let unscored = Task { sketches: vec![], ..self.task.clone() };
-        let mut trace = self.at_once(py, || replay(&unscored, source, missing))?;
+        let mut trace = self.unscored(py, run)?;
         (trace.run.log_score, trace.run.similarity) = run.scores();
         PyTrace::new(py, trace, &self.model.get().classes)
     }
 
     /// By how much the scene of a run scores better than an empty one, nats; factors and observations left out.
     fn gain(&self, py: Python<'_>, run: &PyRun) -> PyResult<f64> {
-        let missing = if run.went_to_its_end() { Missing::Refuse } else { Missing::Stop };
-        let unscored = Task { sketches: vec![], ..self.task.clone() };
-        let source = Source::Addresses(run.by_address());
-        let trace = self.at_once(py, || replay(&unscored, source, missing))?;
+        let trace = self.unscored(py, run)?;
         let empty = Record::start(&self.task.sketches).log_score();
         Ok(run.scores().0 - trace.sums.1.value() - empty)
     }
@@ -315,6 +309,14 @@ impl PyTask {
 }
 
 impl PyTask {
+    /// Replays a run with its choices, as far as it went, without its scene's score.
+    fn unscored(&self, py: Python<'_>, run: &PyRun) -> PyResult<Trace> {
+        let missing = if run.went_to_its_end() { Missing::Refuse } else { Missing::Stop };
+        let source = Source::Addresses(run.by_address());
+        let unscored = Task { sketches: vec![], ..self.task.clone() };
+        self.at_once(py, || replay(&unscored, source, missing))
+    }
+
     /// Runs a short function without the interpreter's lock.
     fn at_once<T: Send>(
         &self,

@@ -170,13 +170,14 @@ def _different(runs: list[_engine.Run], wanted: int, info: Info) -> list[_engine
     chosen = [ranked[place] for place in _engine.different(ranked, wanted)]
     if len(chosen) < wanted:
         if isinstance(info, PopulationInfo):
-            count, what, cure = len(info.plan), "population", "give more `populations`"
+            count, cure = len(info.plan), "give more `populations`"
+            where = f"{count} population{'' if count == 1 else 's'}"
         else:
             count = info.searches if isinstance(info, ImproveInfo) else 1
-            what, cure = "search", "give another `seed`, or accept that the model has few"
-        plural = {"population": "populations", "search": "searches"}[what]
+            cure = "give another `seed`, or accept that the model has few"
+            where = f"{count} search{'' if count == 1 else 'es'}"
         warnings.warn(
-            f"{len(chosen)} of {wanted} results that differ are in {count} {what if count == 1 else plural}; {cure}",
+            f"{len(chosen)} of {wanted} results that differ are in {where}; {cure}",
             SearchWarning,
             stacklevel=6,
         )

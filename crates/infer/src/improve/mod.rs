@@ -190,11 +190,11 @@ impl Improve {
         }
         Ok((search.best, info))
     }
+}
 
-    /// The seed of a population, by its number; of the first, the seed itself.
-    fn population_seed(&self, seed: u64, number: u64) -> u64 {
-        if number == 0 { seed } else { part_seed(seed, number, 1) }
-    }
+/// The seed of a population, by its number; of the first, the seed itself.
+fn population_seed(seed: u64, number: u64) -> u64 {
+    if number == 0 { seed } else { part_seed(seed, number, 1) }
 }
 
 /// A seed for a part of the search.

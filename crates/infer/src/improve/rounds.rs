@@ -1,6 +1,6 @@
 //! The rounds of a search: each goes on from the best run by one kind of step, and the kinds share them by what they gained.
 
-use super::Improve;
+use super::{Improve, population_seed};
 use crate::chain::kernel::Kernel;
 use crate::chain::plan::Plan;
 use crate::chain::state::State;
@@ -155,7 +155,7 @@ impl<'a> Search<'a> {
     fn population(&mut self, go_on: &mut dyn FnMut(f64) -> bool) -> std::result::Result<u64, Failure> {
         let (so_far, number) = (self.best.log_score, self.populations);
         self.populations += 1;
-        let seed = self.own.population_seed(self.seed, number);
+        let seed = population_seed(self.seed, number);
         let (particles, power) = (self.own.particles, self.own.power);
         let settings = Settings { particles, seed, power, ..Settings::default() };
         match smc(self.task, &settings, &mut |_| go_on(so_far)) {

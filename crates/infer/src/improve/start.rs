@@ -5,7 +5,7 @@
 //! each resampling, a power that rises from zero, a power that is low throughout, futures in the order in which they
 //! are created. Rounds of the search then follow the declared power again.
 
-use super::Improve;
+use super::{Improve, population_seed};
 use crate::failure::Attempt;
 use crate::particles::{Anneal, Order, Progress, Result, Settings, smc};
 use crate::resampling::Resampling;
@@ -64,7 +64,7 @@ impl Improve {
                 resampling: form.resampling,
                 anneal: form.anneal.clone(),
                 order: form.order,
-                seed: self.population_seed(seed, number as u64),
+                seed: population_seed(seed, number as u64),
                 ..Settings::default()
             };
             let attempt = |died_at| Attempt { form: form.name, particles: settings.particles, died_at };

@@ -6,7 +6,7 @@ use super::rejuvenation::{MoveCounts, Mover};
 use super::settings::{Anneal, Order, Settings, Weights, When};
 use super::shared::share;
 use super::tempered::Tempered;
-use crate::blame::blame;
+use crate::blame::RUNS;
 use crate::chooser::Prior;
 use crate::particle::Particle;
 use crate::proposal::Guided;
@@ -205,7 +205,7 @@ impl<'a> Population<'a> {
         }
         if !self.weights.read(self.logs.iter().copied()) {
             AllInvalid::check_all(self.particles.iter().map(|p| p.record.invalid.as_ref()))?;
-            return Err(impossible(&self.task, &self.particles, self.barriers));
+            return Err(impossible(&self.particles, self.barriers));
         }
         Ok(BarrierSummary { best, ended })
     }
@@ -323,11 +323,11 @@ fn share_memory(task: &Task, n: usize) -> Task {
     Task { limits: Limits { bytes, ..task.limits }, ..task.clone() }
 }
 
-fn impossible(task: &Task, particles: &[Particle], barrier: usize) -> Failure {
+fn impossible(particles: &[Particle], barrier: usize) -> Failure {
     let causes = particles.iter().map(|p| (p.record.cause.as_deref().unwrap_or("weights"), 1));
     let mut failure = Failure::impossible(barrier, causes);
-    if let Failure::Impossible { blame: found, .. } = &mut failure {
-        *found = blame(task, particles.iter().map(|p| p.record.log.entries()));
+    if let Failure::Impossible { dead, .. } = &mut failure {
+        *dead = particles.iter().take(RUNS).map(|p| p.record.log.entries()).collect();
     }
     failure
 }
