@@ -1,0 +1,88 @@
+//! What a window costs: a look around a place, and keeping what windows need while shapes are added.
+//!
+//! `cargo run --release -p niwaki-geom --example look`
+//!
+//! Input: walks of 40 strokes in a window of 24 by 24 for drawings. Prints microseconds for each look and for each stroke
+//! added to a copy. The windows are checked against those of sketches that do not expect windows.
+
+use niwaki_geom::{
+    Drawing, Look, Page, Place, Primitive, Shape, SketchSpec, Sketches, Texture, fill_drawing, match_drawing,
+    vec3,
+};
+use std::hint::black_box;
+use std::sync::Arc;
+use std::time::Instant;
+
+fn main() {
+    for side in [50, 100, 200] {
+        let page = Page::new([-12.0, -2.0], [12.0, 22.0], [side, side]).expect("a page");
+        let greys: Vec<u8> = (0..side * side).map(|p| if p / side % 3 == 0 { 0 } else { 255 }).collect();
+        let drawing = Drawing::new(page.clone(), &greys).expect("a drawing");
+        let spec = match_drawing(Arc::new(drawing), 0.014).expect("a sketch");
+        measure(&format!("match_drawing {side}"), &spec, &walks());
+        let texture = Texture { page, share: 0.5, sigma: 0.007 };
+        measure(&format!("fill_drawing {side}"), &fill_drawing(texture).expect("a sketch"), &walks());
+    }
+}
+
+/// Primitives, and a place at each.
+type Walk = Vec<(Primitive, Place)>;
+
+fn walks() -> Vec<Walk> {
+    let walk = |walk: u32| {
+        let (mut at, mut turn) = (vec3(0.0, 10.0, 0.0), f64::from(walk));
+        let step = |step: u32| {
+            turn += f64::from((walk * 31 + step * 17) % 13) / 6.0 - 1.0;
+            let (start, ahead) = (at, vec3(turn.cos(), turn.sin(), 0.0));
+            at = if (start + ahead * 2.0).norm() > 14.0 { vec3(0.0, 10.0, 0.0) } else { start + ahead * 2.0 };
+            let stroke = Shape::stroke(start, start + ahead * 2.0, (0.75, 0.75), &Look::default());
+            (Primitive::new([stroke.expect("a stroke")]), Place::new(at, ahead, None).expect("a place"))
+        };
+        (0..40).map(step).collect()
+    };
+    (0..200).map(walk).collect()
+}
+
+fn measure(name: &str, spec: &Arc<dyn SketchSpec>, walks: &[Walk]) {
+    let form = spec.window().expect("a window");
+    let mut added = [0.0; 2];
+    let (mut looked, mut seen, mut plain) = (0.0, Vec::new(), Vec::new());
+    let steps: usize = walks.iter().map(Vec::len).sum();
+    for _ in 0..3 {
+        for (expects, added) in added.iter_mut().enumerate() {
+            for walk in walks {
+                let mut particle = Sketches::start(std::slice::from_ref(spec));
+                if expects == 1 {
+                    particle.expect_windows();
+                }
+                for (primitive, place) in walk {
+                    let started = Instant::now();
+                    let mut next = particle.fork();
+                    next.add(primitive);
+                    *added += started.elapsed().as_secs_f64() * 1e6;
+                    particle = next;
+                    if expects == 1 {
+                        let started = Instant::now();
+                        for _ in 0..4 {
+                            seen.clear();
+                            particle.look([(0, black_box(&form))], black_box(place), &mut seen);
+                        }
+                        looked += started.elapsed().as_secs_f64() * 1e6 / 4.0;
+                        black_box(&seen);
+                    }
+                }
+                plain.clear();
+                particle.look([(0, &form)], &walk.last().expect("a step").1, &mut plain);
+                assert!(expects == 0 || plain == seen, "a look without preparation shows something else");
+            }
+        }
+    }
+    let per = |time: f64| time / (3 * steps) as f64;
+    println!(
+        "{name}: look {:.2} us ({} numbers); add {:.2} us, with windows {:.2} us",
+        per(looked),
+        form.values(),
+        per(added[0]),
+        per(added[1])
+    );
+}

@@ -1,0 +1,1 @@
+//! A page over the rays of a picture.
