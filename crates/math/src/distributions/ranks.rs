@@ -200,7 +200,8 @@ mod tests {
                 last = got;
                 let expected = normal_quantile(below);
                 if expected.abs() < 5.0 {
-                    let near = if large || matches!(d, Dist::Binomial { n: 3000, p: 0.4 }) { 0.02 } else { 1e-7 };
+                    let near =
+                        if large || matches!(d, Dist::Binomial { n: 3000, p: 0.4 }) { 0.02 } else { 1e-7 };
                     assert!((got - expected).abs() < near, "{d:?} at {k}: {got} for {expected}");
                 }
             }
