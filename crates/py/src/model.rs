@@ -9,7 +9,7 @@ use niwaki_vm::core::parse::parse;
 use niwaki_vm::core::{Module, Name};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Limits;
-use niwaki_vm::passes::{compile, compile_keeping};
+use niwaki_vm::passes::{Kept, compile, compile_keeping};
 use niwaki_vm::value::Value;
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
@@ -64,7 +64,7 @@ impl PyProgram {
 
     /// The program compiled so that these variables can be read at choices; otherwise it is the same.
     pub fn keeping(&self, py: Python<'_>, names: &[Name]) -> PyResult<Arc<Program>> {
-        let compiled = compile_keeping(&self.module, self.data.clone(), names);
+        let compiled = compile_keeping(&self.module, self.data.clone(), Kept::Names(names));
         compiled.map(Arc::new).map_err(|e| faults::uncompiled(py, e.to_string()))
     }
 

@@ -11,7 +11,7 @@ use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
 use niwaki_vm::machine::stack::RunFault;
 use niwaki_vm::machine::state::State;
 use niwaki_vm::machine::{Limits, Machine, Stop};
-use niwaki_vm::passes::compile;
+use niwaki_vm::passes::{Kept, compile, compile_keeping};
 use niwaki_vm::value::{Value, repr};
 
 /// Answers choices with 1, 2, 3, ... (or their least value), pauses at factors if set, and logs everything.
@@ -349,4 +349,116 @@ fn a_look_at_a_future_that_is_not_forced_is_a_fault() {
             assert_eq!(found, Err("future-not-forced"), "{leaf}: {look}");
         }
     }
+}
+
+/// At every choice: what is visible, and the x of the place that the program looks from.
+#[derive(Default)]
+struct Scopes {
+    count: i64,
+    seen: Vec<(String, String, Option<f64>)>,
+}
+
+impl Answers<f64> for Scopes {
+    fn choice(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Answer<Value>, Fault> {
+        let names: Vec<String> =
+            at.visible().map(|(name, _, value)| format!("{name}={}", repr(value).unwrap())).collect();
+        let look = at.look().map(|frame| match frame.field("center") {
+            Some(Value::Real(x)) => *x,
+            other => panic!("{other:?}"),
+        });
+        self.seen.push((at.site.label.to_string(), names.join(" "), look));
+        self.count += 1;
+        let values = dist.enumerate().expect("a finite choice");
+        Ok(Answer::Go(draw_to_value(values[self.count as usize % values.len()].clone())))
+    }
+    fn score(&mut self, _: &At<'_, f64>, _: Factor, _: f64) -> Result<Answer<()>, Fault> {
+        Ok(Answer::Go(()))
+    }
+    fn emit(&mut self, _: &At<'_, f64>, _: &[Shape]) -> Result<Answer<()>, Fault> {
+        Ok(Answer::Go(()))
+    }
+    fn query(&mut self, _: &At<'_, f64>, _: &Value, _: &Value) -> Result<(), Fault> {
+        Ok(())
+    }
+    fn host(&mut self, _: u16, args: &[Value]) -> Result<Value, Fault> {
+        Ok(args[0].clone())
+    }
+}
+
+/// What all choices of a program see.
+fn scopes(text: &str) -> Vec<(String, String, Option<f64>)> {
+    let program = compile_keeping(&parse(text).expect("core form"), vec![], Kept::All).expect("a program");
+    let (mut machine, mut scopes) = (Machine::new(&program, Limits::default()), Scopes::default());
+    let mut state = machine.start(&[], true).expect("a start");
+    machine.finish(&mut state, &mut scopes).expect("a run");
+    scopes.seen
+}
+
+#[test]
+fn choices_see_what_every_path_has_assigned_in_the_order_of_assignment() {
+    let seen = scopes(
+        r#"(module
+          (fn "part" (params $p $q) (captures $c)
+            (set $p%3 7) (set $p (add $p $c))
+            (set $u (sample (dist bernoulli 0.5)))
+            (return $u))
+          (fn "m" (params)
+            (set $a 1) (set $b (add $a 1)) (set $a 3)
+            (set $s (sample (dist bernoulli 0.5)))
+            (if $s (then (set $b 5) (set $only 6)) (else (set $t 8)))
+            (set $v (sample (dist bernoulli 0.5)))
+            (set $gone 0) (set $b 9)
+            (for $i (range 2) (body
+              (set $w (sample (dist bernoulli 0.5)))
+              (set $gone (add $i 10))
+              (for $j (range 1) (body (set $x (sample (dist bernoulli 0.5)))))))
+            (set $y (sample (dist bernoulli 0.5)))
+            (do (call "part" 1 2 $a))
+            (return none)) (entry "m"))"#,
+    );
+    let expected = [
+        ("s", "b=2 a=3"),
+        ("v", "a=3 s=True b=5"),
+        ("w", "a=3 s=True v=False b=9 gone=0 i=0"),
+        ("x", "a=3 s=True v=False b=9 i=0 w=True gone=10 j=0"),
+        ("w", "a=3 s=True v=False b=9 gone=10 i=1"),
+        ("x", "a=3 s=True v=False b=9 i=1 w=True gone=11 j=0"),
+        ("y", "a=3 s=True v=False b=9 gone=11"),
+        ("u", "c=3 q=2 p=4"),
+    ];
+    let found: Vec<(&str, &str)> = seen.iter().map(|(label, names, _)| (&**label, &**names)).collect();
+    assert_eq!(found, expected);
+}
+
+#[test]
+fn the_frame_that_was_assigned_last_is_looked_from() {
+    let seen = scopes(
+        r#"(module (class 0 "Frame" ("center" "forward" "up" "radius")) (class 1 "Other" ("center"))
+          (fn "m" (params)
+            (set $a (sample (dist bernoulli 0.5)))
+            (set $f (record 0 1.0 0.0 0.0 1.0)) (set $o (record 1 9.0))
+            (set $b (sample (dist bernoulli 0.5)))
+            (if $b (then (set $%look (record 0 2.0 0.0 0.0 1.0))))
+            (set $c (sample (dist bernoulli 0.5)))
+            (for $i (range 2) (body
+              (set $d (sample (dist bernoulli 0.5)))
+              (set $%look (record 0 (add $i 3.0) 0.0 0.0 1.0))))
+            (set $e (sample (dist bernoulli 0.5)))
+            (set $f (record 0 5.0 0.0 0.0 1.0))
+            (set $g (sample (dist bernoulli 0.5)))
+            (return none)) (entry "m"))"#,
+    );
+    let found: Vec<(&str, Option<f64>)> = seen.iter().map(|(label, _, look)| (&**label, *look)).collect();
+    let expected = [
+        ("a", None),
+        ("b", Some(1.0)),
+        // The arm that looks is not taken.
+        ("c", Some(1.0)),
+        ("d", Some(1.0)),
+        ("d", Some(3.0)),
+        ("e", Some(4.0)),
+        ("g", Some(5.0)),
+    ];
+    assert_eq!(found, expected);
+    assert!(seen.iter().all(|(_, names, _)| !names.contains("look") && !names.contains(" =")));
 }

@@ -379,6 +379,8 @@ pub struct Site {
     pub next: u32,
     /// Where a run continues when only its result has changed: a slice, or the instruction after it.
     pub again: u32,
+    /// Of a choice: its part of [`Function::scope`], first and end.
+    pub visible: (u32, u32),
 }
 
 impl Site {
@@ -443,7 +445,8 @@ pub struct Function<S: Scalar = f64> {
     pub sites: Vec<Site>,
     /// Readable names of the parameters.
     pub parameters: Vec<Name>,
-    /// Variables that can be read at choices, where the program was compiled to keep some.
+    /// Variables that can be read at choices, where the program was compiled to keep some: site by site, each site's
+    /// in the order in which they were last assigned.
     pub scope: Vec<Visible>,
 }
 
@@ -452,10 +455,12 @@ pub struct Function<S: Scalar = f64> {
 pub struct Visible {
     /// The choice.
     pub site: SiteId,
-    /// The variable's name in the model's source.
+    /// The variable's name in the model's source; empty for where the program looks from.
     pub name: Name,
     /// Where its value is: never in scratch.
     pub at: Operand,
+    /// Its value flows into an angle, or comes from one.
+    pub is_angle: bool,
 }
 
 /// A compiled program.

@@ -1,0 +1,130 @@
+//! The loss of a row, and its derivatives by all weights.
+
+use super::rows::Rows;
+use crate::net::{LANES, Layout, Net, Real, Scratch};
+
+/// Memory for the passes of one thread.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Work<T: Real> {
+    window: Vec<T>,
+    features: Vec<(u32, T)>,
+    sums: Vec<T>,
+    scratch: Scratch<T>,
+    outputs: Vec<f64>,
+    slopes: Vec<f64>,
+    back: [Vec<T>; 3],
+}
+
+/// Adds `scale` times `row` to `sums`.
+#[inline(always)]
+fn add_scaled<T: Real>(sums: &mut [T], row: &[T], scale: T) {
+    for (sum, x) in sums.iter_mut().zip(row) {
+        *sum += *x * scale;
+    }
+}
+
+/// The sum of products, in lanes that are added up at the end: one order on every machine.
+#[inline(always)]
+fn dot<T: Real>(a: &[T], b: &[T]) -> T {
+    let mut held = [T::ZERO; LANES];
+    for (a, b) in a.chunks_exact(LANES).zip(b.chunks_exact(LANES)) {
+        for lane in 0..LANES {
+            held[lane] += a[lane] * b[lane];
+        }
+    }
+    let [a, b, c, d, e, f, g, h] = held;
+    ((a + e) + (c + g)) + ((b + f) + (d + h))
+}
+
+/// Derivatives one layer back: of the inputs `hidden` (values of tanh) of `rows`, from those of its outputs; and the
+/// rows' own, added to `slope`.
+#[inline(always)]
+fn back_through<T: Real>(rows: &[T], slope: &mut [T], hidden: &[T], outputs: &[T], inputs: &mut [T]) {
+    let width = outputs.len();
+    let each = rows.chunks_exact(width).zip(slope.chunks_exact_mut(width));
+    for (((row, slope), h), input) in each.zip(hidden).zip(inputs) {
+        add_scaled(slope, outputs, *h);
+        *input = (T::ONE - *h * *h) * dot(row, outputs);
+    }
+}
+
+impl<T: Real> Work<T> {
+    /// The loss of a row, nats. `scaling` has mean and one over deviation of each number of a window, where the weights
+    /// are for standardised windows. With `slope`, derivatives are added there.
+    pub(super) fn loss(
+        &mut self,
+        net: &Net<T>,
+        scaling: Option<&[(T, T)]>,
+        rows: &Rows,
+        row: usize,
+        share: f64,
+        slope: Option<&mut [T]>,
+    ) -> f64 {
+        let Work { window, features, sums, scratch, outputs, slopes, back } = self;
+        let (layout, site) = (&net.layout, rows.site(row));
+        window.clear();
+        window.extend(rows.window(row).iter().map(|x| T::from_f64(f64::from(*x))));
+        if let Some(scaling) = scaling {
+            window.iter_mut().zip(scaling).for_each(|(x, (mean, scale))| *x = (*x - *mean) * *scale);
+        }
+        features.clear();
+        features.extend(rows.features(row).iter().map(|(k, x)| (*k, T::from_f64(f64::from(*x)))));
+        net.see(window, sums);
+        let answer = net.answer(sums, features, site, scratch);
+        outputs.clear();
+        outputs.extend(answer.iter().map(|x| x.to_f64()));
+        let Some(slope) = slope else {
+            return -rows.lesson(row).log_quotient(outputs, share, None);
+        };
+        slopes.clear();
+        slopes.resize(outputs.len(), 0.0);
+        let loss = -rows.lesson(row).log_quotient(outputs, share, Some(slopes));
+
+        let [last, second, first] = back;
+        let (head, constants, width) = layout.heads[site];
+        last.clear();
+        last.extend(slopes.iter().map(|x| T::from_f64(-x)));
+        last.resize(width, T::ZERO);
+        second.clear();
+        second.resize(layout.width[1], T::ZERO);
+        let block = head..constants;
+        back_through(&net.weights[block.clone()], &mut slope[block], &scratch.second, last, second);
+        add_scaled(&mut slope[constants..constants + width], last, T::ONE);
+
+        first.clear();
+        first.resize(layout.width[0], T::ZERO);
+        let block = layout.second..layout.second_constants;
+        back_through(&net.weights[block.clone()], &mut slope[block], &scratch.first, second, first);
+        let constants = layout.second_constants;
+        add_scaled(&mut slope[constants..constants + second.len()], second, T::ONE);
+
+        let width = layout.width[0];
+        for (row, x) in slope[layout.windows..layout.features].chunks_exact_mut(width).zip(&*window) {
+            add_scaled(row, first, *x);
+        }
+        for (k, x) in &*features {
+            let row = Layout::row(layout.features, *k as usize, width);
+            add_scaled(&mut slope[row], first, net.standardised(*k, *x));
+        }
+        add_scaled(&mut slope[Layout::row(layout.sites, site, width)], first, T::ONE);
+        add_scaled(&mut slope[layout.first..layout.first + width], first, T::ONE);
+        loss
+    }
+}
+
+/// The mean loss of all rows, nats per choice; not a number where one is not.
+pub fn loss<T: Real>(net: &Net<T>, rows: &Rows, share: f64) -> f64 {
+    let mut work = Work::default();
+    let sum: f64 = (0..rows.len()).map(|row| work.loss(net, None, rows, row, share, None)).sum();
+    sum / rows.len().max(1) as f64
+}
+
+/// The mean loss of all rows, and its derivative by each weight, in the order of the file's `weights`.
+pub fn loss_and_slope<T: Real>(net: &Net<T>, rows: &Rows, share: f64) -> (f64, Vec<T>) {
+    let mut work = Work::default();
+    let mut slope = vec![T::ZERO; net.weights.len()];
+    let sum: f64 = (0..rows.len()).map(|row| work.loss(net, None, rows, row, share, Some(&mut slope))).sum();
+    let one = T::from_f64(1.0 / rows.len().max(1) as f64);
+    slope.iter_mut().for_each(|x| *x *= one);
+    (sum / rows.len().max(1) as f64, slope)
+}
