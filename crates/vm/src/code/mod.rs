@@ -450,6 +450,14 @@ pub struct Function<S: Scalar = f64> {
     pub scope: Vec<Visible>,
 }
 
+impl<S: Scalar> Function<S> {
+    /// The variables with names that can be read at a site, in the order in which they were last assigned.
+    pub fn visible(&self, site: &Site) -> impl Iterator<Item = &Visible> {
+        let (from, to) = site.visible;
+        self.scope[from as usize..to as usize].iter().filter(|x| !x.name.is_empty())
+    }
+}
+
 /// A variable that can be read at a choice.
 #[derive(Clone, Debug)]
 pub struct Visible {

@@ -1,0 +1,120 @@
+"""A guide as a value: a small network that draws choices in place of the prior, and its file."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping
+from functools import cached_property
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+from niwaki import _engine
+from niwaki.errors.files import existing, write_whole
+
+
+class Guide:
+    """A trained guide (dissertation chapter 6).
+
+    It sees what is in scope at a choice, the parameters of the choice's prior, and the surroundings of the current place
+    in target and scene. It gives a distribution to draw from. Weights make up for the difference, so a search is right
+    with any guide, and needs fewer particles with a good one.
+
+    Parameters
+    ----------
+    data
+        The bytes of a guide's file.
+
+    See Also
+    --------
+    niwaki.train_guide : makes one.
+    """
+
+    def __init__(self, data: bytes) -> None:
+        self._engine = _engine.Guide(data)
+        self._data = data
+
+    @classmethod
+    def load(cls, path: str | PathLike[str]) -> Guide:
+        """The guide of a file.
+
+        Raises
+        ------
+        InputError
+            The file is no guide, or one of another version.
+        """
+        return cls(existing(path).read_bytes())
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write the guide to a file, whole or not at all (safetensors)."""
+        write_whole(Path(path), self.data)
+
+    @property
+    def data(self) -> bytes:
+        """The bytes of its file."""
+        return self._data
+
+    @cached_property
+    def hash(self) -> str:
+        """SHA-256 of its bytes, in hexadecimal."""
+        return hashlib.sha256(self._data).hexdigest()
+
+    @cached_property
+    def form(self) -> Mapping[str, Any]:
+        """What it looks at and what it draws, as plain data."""
+        form: dict[str, Any] = json.loads(self._engine.form())
+        return form
+
+    @property
+    def report(self) -> Mapping[str, Any]:
+        """What it was trained on, and its scores on what was held out."""
+        report: Mapping[str, Any] = self.form["report"]
+        return report
+
+    @property
+    def model(self) -> str:
+        """The name of the model that it was trained for."""
+        name: str = self.form["model"]
+        return name
+
+    def reported(self, report: Mapping[str, Any]) -> Guide:
+        """The same guide with another report."""
+        return Guide(self._engine.with_report(json.dumps(report)).data())
+
+    def __eq__(self, other: object) -> bool:
+        return self.data == other.data if isinstance(other, Guide) else NotImplemented
+
+    def __hash__(self) -> int:
+        return int(self.hash[:15], 16)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Guide, (self.data,)
+
+    def __repr__(self) -> str:
+        return f"<guide of {self.model}: {len(self.form['sites'])} choices, {self._engine.weights()} weights>"
+
+    def show(self) -> str:
+        """What each choice sees, as text."""
+        form, inputs = self.form, self._engine.inputs()
+        lines = [f"guide of {form['model']}: {self._engine.weights()} weights, share of the prior {form['share']}"]
+        for name, window in form["windows"]:
+            radii = ", ".join(f"{radius:.3g}" for radius in window["radii"])
+            lines.append(f"window of {name}: around the current place, radii {radii}")
+        for site in form["sites"]:
+            head, = site["head"].items() if isinstance(site["head"], dict) else ((site["head"], {}),)
+            settings = ", ".join(f"{value} {name}" for name, value in head[1].items())
+            lines.append(f"{site['function']}/{site['label']}: {site['family']}, {head[0]} ({settings}), {site['visits']} met")
+            seen: list[str] = []
+            for number in site["variables"]:
+                first = form["variables"][number]["first"]
+                following = [own["first"] for own in form["variables"] if own["first"] > first]
+                ends = [*following, *(own["parameters"][0] for own in form["sites"] if own["parameters"][0] > first)]
+                end = min(ends, default=len(inputs))
+                seen.extend(name.split(":", 1)[1] if ":" in name else name for name in inputs[first:end])
+            first, count = site["parameters"]
+            if count:
+                seen.append(f"{count} parameter{'s' * (count > 1)} of the prior")
+            lines.append("    sees " + (", ".join(seen) or "the window alone"))
+        lines.extend(f"{name}: drawn from its prior ({reason})" for name, reason in form["left"])
+        return "\n".join(lines)
