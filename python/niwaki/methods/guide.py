@@ -97,24 +97,46 @@ class Guide:
     def show(self) -> str:
         """What each choice sees, as text."""
         form, inputs = self.form, self._engine.inputs()
-        lines = [f"guide of {form['model']}: {self._engine.weights()} weights, share of the prior {form['share']}"]
+        weights, share = self._engine.weights(), form["share"]
+        lines = [f"guide of {form['model']}: {weights} weights, a share of {share} is the prior's"]
         for name, window in form["windows"]:
-            radii = ", ".join(f"{radius:.3g}" for radius in window["radii"])
-            lines.append(f"window of {name}: around the current place, radii {radii}")
+            points = window["points"]
+            reach = max(sum(x * x for x in point["at"]) ** 0.5 for point in points)
+            lines.append(f"window of {name}: {len(points)} points around the current place, up to {reach:.3g} units away")
         for site in form["sites"]:
-            head, = site["head"].items() if isinstance(site["head"], dict) else ((site["head"], {}),)
-            settings = ", ".join(f"{value} {name}" for name, value in head[1].items())
-            lines.append(f"{site['function']}/{site['label']}: {site['family']}, {head[0]} ({settings}), {site['visits']} met")
-            seen: list[str] = []
-            for number in site["variables"]:
-                first = form["variables"][number]["first"]
-                following = [own["first"] for own in form["variables"] if own["first"] > first]
-                ends = [*following, *(own["parameters"][0] for own in form["sites"] if own["parameters"][0] > first)]
-                end = min(ends, default=len(inputs))
-                seen.extend(name.split(":", 1)[1] if ":" in name else name for name in inputs[first:end])
-            first, count = site["parameters"]
-            if count:
-                seen.append(f"{count} parameter{'s' * (count > 1)} of the prior")
-            lines.append("    sees " + (", ".join(seen) or "the window alone"))
-        lines.extend(f"{name}: drawn from its prior ({reason})" for name, reason in form["left"])
+            lines.append(f"{site['function']}/{site['label']}: {_drawn(site)}, {site['visits']} in the traces")
+            variables = [form["variables"][number] for number in site["variables"]]
+            seen = [name for one in variables for name in _names(inputs, one["first"], one["kind"])]
+            lines.append(f"    sees {', '.join(seen) or 'no variable'}")
+        lines.extend(f"{name}: drawn from its prior, because {reason}" for name, reason in form["left"])
         return "\n".join(lines)
+
+
+def _drawn(site: Mapping[str, Any]) -> str:
+    """How a choice is drawn."""
+    ((kind, settings),) = site["head"].items()
+    if kind == "Finite":
+        return f"{site['family']}, one of {settings['values']} values"
+    what = "a mixture" if kind == "Normal" else "a mixture over whole numbers"
+    return f"{site['family']}, {what} of {settings['components']}"
+
+
+def _names(inputs: list[str], first: int, kind: Any) -> list[str]:
+    """Names of the inputs of a variable, without its function."""
+    return [name.split(":", 1)[-1] for name in inputs[first : first + _size(kind)]]
+
+
+def _size(kind: Any) -> int:
+    """How many inputs a variable of a kind has."""
+    if isinstance(kind, str):
+        return {"number": 1, "angle": 2}.get(kind, 0)
+    ((name, own),) = kind.items()
+    match name:
+        case "point":
+            return 2 * int(own["numbers"])
+        case "parts":
+            return sum(_size(part) for _, part in own)
+        case "list":
+            return 1 + _size(own)
+        case _:
+            return len(own)

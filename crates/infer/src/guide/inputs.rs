@@ -88,6 +88,8 @@ impl Kind {
             }
             Value::Record(own) => {
                 let parts = own.class.fields.iter().zip(&own.fields);
+                // The third direction of a frame says little beside the other two.
+                let parts = parts.filter(|(name, _)| !(own.class.is_frame() && *name == "up"));
                 Kind::Parts(parts.map(|(name, value)| (name.to_string(), Kind::of(value, false))).collect())
             }
             Value::Tuple(_) | Value::Vector(_) if let Some((at, numbers)) = point(value) => {
