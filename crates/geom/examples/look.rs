@@ -13,6 +13,9 @@ use std::hint::black_box;
 use std::sync::Arc;
 use std::time::Instant;
 
+/// Looks from the same place in a row.
+const REPEAT: u32 = 100;
+
 fn main() {
     for side in [50, 100, 200] {
         let page = Page::new([-12.0, -2.0], [12.0, 22.0], [side, side]).expect("a page");
@@ -63,11 +66,11 @@ fn measure(name: &str, spec: &Arc<dyn SketchSpec>, walks: &[Walk]) {
                     particle = next;
                     if expects == 1 {
                         let started = Instant::now();
-                        for _ in 0..4 {
+                        for _ in 0..REPEAT {
                             seen.clear();
                             particle.look([(0, black_box(&form))], black_box(place), &mut seen);
                         }
-                        looked += started.elapsed().as_secs_f64() * 1e6 / 4.0;
+                        looked += started.elapsed().as_secs_f64() * 1e6 / f64::from(REPEAT);
                         black_box(&seen);
                     }
                 }
