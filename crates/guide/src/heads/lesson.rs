@@ -94,7 +94,7 @@ impl Known<'_> {
 /// ```text
 /// q / p = (1 - s) (r + m) + s
 /// ```
-pub(super) fn of_real(bells: &Bells, place: Place, share: f64, mut slope: Option<&mut [f64]>) -> f64 {
+pub(super) fn of_real(bells: &Bells, place: Place, share: f64, slope: Option<&mut [f64]>) -> f64 {
     let floor = (1.0 - share) * bells.mass_outside(place.limits, 0.0, None) + share;
     // A coordinate that is not a number is not inside.
     let inside = place.z > place.limits.0 && place.z < place.limits.1;
@@ -102,7 +102,7 @@ pub(super) fn of_real(bells: &Bells, place: Place, share: f64, mut slope: Option
     let net = if density > 0.0 { (1.0 - share) * density * (-place.log_prior).exp() } else { 0.0 };
     let quotient = net + floor;
     let small = quotient < f64::INFINITY;
-    if let Some(slope) = slope.as_deref_mut() {
+    if let Some(slope) = slope {
         bells.density(place.z, if small { net / quotient } else { 1.0 }, Some(&mut *slope));
         bells.mass_outside(place.limits, (1.0 - share) / quotient, Some(slope));
     }
