@@ -2,16 +2,24 @@
 //!
 //! `cargo run --release -p niwaki-geom --example look`
 //!
-//! Input: walks of 40 strokes in a window of 24 by 24 for drawings. Prints microseconds for each look and for each stroke
+//! Input: walks of 40 strokes in a window of 24 by 24 for drawings, 200 forward ships for a block and for a picture. Prints microseconds for each look and for each stroke
 //! added to a copy. The windows are checked against those of sketches that do not expect windows.
 
+#[path = "../tests/scenes/mod.rs"]
+mod scenes;
+
+use niwaki_geom::view::{Camera, Lens};
 use niwaki_geom::{
-    Drawing, Look, Page, Place, Primitive, Shape, SketchSpec, Sketches, Texture, fill_drawing, match_drawing,
-    vec3,
+    Drawing, Look, Page, Picture, Place, Primitive, Shape, SketchSpec, Sketches, Target, TargetPicture, Texture,
+    Vec3, fill_drawing, match_drawing, match_image, match_volume, vec3,
 };
+use scenes::{Dice, ship::ship};
 use std::hint::black_box;
 use std::sync::Arc;
 use std::time::Instant;
+
+/// Looks from the same place in a row.
+const REPEAT: u32 = 4;
 
 fn main() {
     for side in [50, 100, 200] {
@@ -22,6 +30,23 @@ fn main() {
         measure(&format!("match_drawing {side}"), &spec, &walks());
         let texture = Texture { page, share: 0.5, sigma: 0.007 };
         measure(&format!("fill_drawing {side}"), &fill_drawing(texture).expect("a sketch"), &walks());
+    }
+    let block = Shape::cuboid(vec3(0.03, 0.36, -2.29), vec3(18.44, 3.24, 15.22), &Look::default());
+    let block = block.expect("a block");
+    for voxel in [0.25, 0.125, 0.0625] {
+        let target = Target::new(block.world_mesh().clone(), voxel).expect("a target");
+        let name = format!("match_volume {:?}", target.grid().dims());
+        measure(&name, &match_volume(Arc::new(target), 0.02).expect("a sketch"), &ships());
+    }
+    for side in [50, 200] {
+        let lens = Lens::Perspective { fov: 0.8, near: 0.1 };
+        let camera = Camera::new(vec3(5.0, 20.0, -30.0), Vec3::ZERO, vec3(0.0, 1.0, 0.0), lens);
+        let rays = camera.expect("a camera").rays([side; 2]);
+        let on = (0..side * side).map(|p| p / side % 3 == 0).collect();
+        let target = TargetPicture { size: [side; 2], on, greys: None, multiplier: 0.0 };
+        let picture = Picture::new(&target, rays).expect("a picture");
+        let spec = match_image(Arc::new(picture), 0.02).expect("a sketch");
+        measure(&format!("match_image {side}"), &spec, &ships());
     }
 }
 
@@ -41,6 +66,18 @@ fn walks() -> Vec<Walk> {
         (0..40).map(step).collect()
     };
     (0..200).map(walk).collect()
+}
+
+/// Forward ships of about 16 parts.
+fn ships() -> Vec<Walk> {
+    let mut dice = Dice::new(4);
+    let place = |part: &Primitive, dice: &mut Dice| {
+        Place::new(part.aabb().center(), dice.point(1.0), Some(dice.point(1.0))).expect("a place")
+    };
+    let with_places = |_: usize| {
+        ship(&mut dice).into_iter().map(|part| (part.clone(), place(&part, &mut dice))).collect()
+    };
+    (0..200).map(with_places).collect()
 }
 
 fn measure(name: &str, spec: &Arc<dyn SketchSpec>, walks: &[Walk]) {
@@ -63,11 +100,11 @@ fn measure(name: &str, spec: &Arc<dyn SketchSpec>, walks: &[Walk]) {
                     particle = next;
                     if expects == 1 {
                         let started = Instant::now();
-                        for _ in 0..4 {
+                        for _ in 0..REPEAT {
                             seen.clear();
                             particle.look([(0, black_box(&form))], black_box(place), &mut seen);
                         }
-                        looked += started.elapsed().as_secs_f64() * 1e6 / 4.0;
+                        looked += started.elapsed().as_secs_f64() * 1e6 / f64::from(REPEAT);
                         black_box(&seen);
                     }
                 }

@@ -8,16 +8,14 @@
 //! sum of a row = bits + (left - 1) first bit + (right - 1) last bit
 //! ```
 //!
-//! Both channels are counted at once, one in each half of a word. Nothing is kept beside the bits of the sketch, so
-//! nothing can become stale.
+//! Nothing is kept beside the bits of the sketch, so nothing can become stale.
 
-use super::{Place, WindowForm};
+use super::{Place, WindowForm, WindowPoint};
 use crate::plane::Page;
+use std::ops::Range;
 
-/// Most columns that are counted at once: one half of a word.
-const STRIP: usize = 32;
-/// The lowest bit of each half of a word.
-const LOWEST: u64 = 0x0000_0001_0000_0001;
+/// Most columns that are counted at once.
+const STRIP: usize = 64;
 
 /// A place on a page, in pixels from its upper left corner: to the right and down.
 pub(crate) struct Spot {
@@ -49,48 +47,53 @@ impl Spot {
 struct Cell {
     low: [f64; 2],
     high: [f64; 2],
+    /// Of the whole cell, with what is outside of the page.
+    area: f64,
 }
 
 impl Cell {
-    /// The part of it on a page, and its own area.
-    fn around(at: [f64; 2], sides: [f64; 2], size: [usize; 2]) -> (Cell, f64) {
-        let (mut low, mut high) = ([0.0; 2], [0.0; 2]);
-        for a in 0..2 {
-            let most = size[a] as f64;
-            low[a] = (at[a] - 0.5 * sides[a]).clamp(0.0, most);
-            high[a] = (at[a] + 0.5 * sides[a]).clamp(0.0, most);
+    #[inline(always)]
+    fn around(at: [f64; 2], sides: [f64; 2], size: [usize; 2]) -> Cell {
+        let within = |a: usize, x: f64| x.clamp(0.0, size[a] as f64);
+        Cell {
+            low: [0, 1].map(|a| within(a, at[a] - 0.5 * sides[a])),
+            high: [0, 1].map(|a| within(a, at[a] + 0.5 * sides[a])),
+            area: sides[0] * sides[1],
         }
-        (Cell { low, high }, sides[0] * sides[1])
     }
 
-    /// Its area.
-    fn area(&self) -> f64 {
+    /// Area of the part on the page.
+    #[inline(always)]
+    fn inside(&self) -> f64 {
         (self.high[0] - self.low[0]) * (self.high[1] - self.low[1])
     }
 
-    /// Area of the pixels of both channels in it; `words(column / 64, row)` gives their bits.
+    /// Area of the pixels of both channels in it. `most` is as many rows as a cell of this size has at most: all cells
+    /// of a ring take the same steps, which a processor foresees.
     #[inline(always)]
-    fn sums(&self, words: &impl Fn(usize, usize) -> [u64; 2]) -> [f64; 2] {
-        let ([left, top], [right, bottom]) = (self.low, self.high);
-        if !(left < right && top < bottom) {
-            return [0.0; 2];
-        }
-        let (mut first, end) = (left as usize, right.ceil() as usize);
-        let (first_row, end_row) = (top as usize, bottom.ceil() as usize);
+    fn sums(&self, bits: &Part, most: usize) -> [f64; 2] {
         let mut sums = [0.0; 2];
+        if self.inside() <= 0.0 {
+            return sums;
+        }
+        let ([left, top], [right, bottom]) = (self.low, self.high);
+        let (mut first, end) = (floor(left), ceil(right));
+        let (first_row, last_row) = (floor(top), ceil(bottom) - 1);
+        // What of the first and of the last row is not in the cell; the two may be one row.
+        let rows = [top - first_row as f64, (last_row + 1) as f64 - bottom];
         while first < end {
             let count = (end - first).min(STRIP);
-            // Of the first and the last column, what is not in the cell; both when they are one.
-            let missing = [(left - first as f64).max(0.0), ((first + count) as f64 - right).max(0.0)];
-            for row in first_row..end_row {
-                let height = (row as f64 + 1.0).min(bottom) - (row as f64).max(top);
-                let bits = strip(words, first, count, row);
-                let whole = counts(bits);
-                let (lowest, highest) = (bits & LOWEST, bits >> (count - 1) & LOWEST);
-                for (channel, sum) in sums.iter_mut().enumerate() {
-                    let of = |x: u64| (x >> (32 * channel) & 0xffff_ffff) as u32 as f64;
-                    *sum += height * (of(whole) - missing[0] * of(lowest) - missing[1] * of(highest));
-                }
+            let columns = [(left - first as f64).max(0.0), ((first + count) as f64 - right).max(0.0)];
+            let strip = bits.strip(first, count);
+            let (upper, lower) = (strip.counts(first_row), strip.counts(last_row));
+            let mut all = upper;
+            for row in first_row + 1..first_row + most {
+                let within = if row <= last_row { u64::MAX } else { 0 };
+                all.add(strip.row(row.min(last_row)).map(|bits| bits & within), count);
+            }
+            let [all, upper, lower] = [all, upper, lower].map(|counts| counts.less(columns));
+            for (channel, sum) in sums.iter_mut().enumerate() {
+                *sum += all[channel] - rows[0] * upper[channel] - rows[1] * lower[channel];
             }
             first += count;
         }
@@ -98,31 +101,118 @@ impl Cell {
     }
 }
 
-/// The bits of `count` columns from `first`, both channels beside each other.
-#[inline(always)]
-fn strip(words: &impl Fn(usize, usize) -> [u64; 2], first: usize, count: usize, row: usize) -> u64 {
-    let (word, shift) = (first / 64, first % 64);
-    let mut both = words(word, row).map(|bits| bits >> shift);
-    if shift + count > 64 {
-        let next = words(word + 1, row).map(|bits| bits << (64 - shift));
-        both = [both[0] | next[0], both[1] | next[1]];
+/// Numbers of bits of each channel: of all, and in the first and in the last column.
+#[derive(Clone, Copy, Default)]
+struct Counts {
+    all: [u32; 2],
+    first: [u32; 2],
+    last: [u32; 2],
+}
+
+impl Counts {
+    #[inline(always)]
+    fn add(&mut self, bits: [u64; 2], count: usize) {
+        for (channel, bits) in bits.into_iter().enumerate() {
+            self.all[channel] += bits.count_ones();
+            self.first[channel] += (bits & 1) as u32;
+            self.last[channel] += (bits >> (count - 1)) as u32;
+        }
     }
-    let mask = (1 << count) - 1;
-    both[0] & mask | (both[1] & mask) << 32
+
+    /// Without parts of the first and the last column.
+    #[inline(always)]
+    fn less(&self, [first, last]: [f64; 2]) -> [f64; 2] {
+        let lanes = |lanes: [u32; 2]| lanes.map(|lane| f64::from(lane as i32));
+        let (all, one, other) = (lanes(self.all), lanes(self.first), lanes(self.last));
+        [0, 1].map(|channel| all[channel] - first * one[channel] - last * other[channel])
+    }
 }
 
-/// Number of bits in each half of a word.
+/// The integer part of a number of pixels, which is not negative.
 #[inline(always)]
-fn counts(x: u64) -> u64 {
-    let x = x - (x >> 1 & 0x5555_5555_5555_5555);
-    let x = (x & 0x3333_3333_3333_3333) + (x >> 2 & 0x3333_3333_3333_3333);
-    let x = (x + (x >> 4)) & 0x0f0f_0f0f_0f0f_0f0f;
-    x.wrapping_mul(0x0101_0101) >> 24 & 0x0000_00ff_0000_00ff
+fn floor(x: f64) -> usize {
+    x as i32 as usize
 }
 
-/// Appends both channels of every point: shares of the cell that `words` has, and, in the second, `beyond` times the
-/// share that is outside of a page of `size` (columns, rows).
+/// The smallest integer that is not below it.
 #[inline(always)]
+fn ceil(x: f64) -> usize {
+    let floor = x as i32;
+    floor as usize + usize::from(f64::from(floor) < x)
+}
+
+/// The words of both channels in a part of a page.
+struct Part {
+    words: Vec<[u64; 2]>,
+    /// The first word of its rows and the first row.
+    first: [usize; 2],
+    /// Words in a row.
+    across: usize,
+}
+
+/// Some columns of it.
+struct Strip<'a> {
+    words: &'a [[u64; 2]],
+    across: usize,
+    first_row: usize,
+    columns: usize,
+    shift: usize,
+    mask: u64,
+    /// The columns lie in two words.
+    crosses: bool,
+}
+
+impl Part {
+    #[inline(always)]
+    fn new([columns, rows]: [Range<usize>; 2], words: impl Fn(usize, usize) -> [u64; 2]) -> Part {
+        let all = columns.start / 64..columns.end.div_ceil(64);
+        let mut part = Vec::with_capacity(all.len() * rows.len());
+        for row in rows.clone() {
+            for word in all.clone() {
+                part.push(words(word, row));
+            }
+        }
+        Part { words: part, first: [all.start, rows.start], across: all.len() }
+    }
+
+    #[inline(always)]
+    fn strip(&self, first: usize, count: usize) -> Strip<'_> {
+        let shift = first % 64;
+        Strip {
+            words: &self.words[first / 64 - self.first[0]..],
+            across: self.across,
+            first_row: self.first[1],
+            columns: count,
+            shift,
+            mask: u64::MAX >> (64 - count),
+            crosses: shift + count > 64,
+        }
+    }
+}
+
+impl Strip<'_> {
+    #[inline(always)]
+    fn counts(&self, row: usize) -> Counts {
+        let mut counts = Counts::default();
+        counts.add(self.row(row), self.columns);
+        counts
+    }
+
+    /// Its bits of a row, channel by channel.
+    #[inline(always)]
+    fn row(&self, row: usize) -> [u64; 2] {
+        let word = (row - self.first_row) * self.across;
+        let mut both = self.words[word].map(|bits| bits >> self.shift);
+        if self.crosses {
+            let next = self.words[word + 1].map(|bits| bits << (64 - self.shift));
+            both = [both[0] | next[0], both[1] | next[1]];
+        }
+        both.map(|bits| bits & self.mask)
+    }
+}
+
+/// Appends both channels of every point: shares of the cell that `words(column / 64, row)` has, and, in the second,
+/// `beyond` times the share that is outside of a page of `size` (columns, rows).
 pub(crate) fn look(
     form: &WindowForm,
     spot: &Spot,
@@ -131,12 +221,59 @@ pub(crate) fn look(
     words: impl Fn(usize, usize) -> [u64; 2],
     out: &mut Vec<f32>,
 ) {
-    out.reserve(form.values());
-    for point in &form.points {
+    #[cfg(target_arch = "x86_64")]
+    if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("bmi2") && is_x86_feature_detected!("popcnt") {
+        // SAFETY: the processor has all three.
+        #[expect(unsafe_code, reason = "instructions that count bits are not in every processor")]
+        unsafe {
+            look_counting(form, spot, size, beyond, words, out);
+        }
+        return;
+    }
+    look_anywhere(form, spot, size, beyond, words, out);
+}
+
+/// [`look_anywhere`] with instructions that count bits: the same numbers in half the time.
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,bmi2,popcnt")]
+fn look_counting(
+    form: &WindowForm,
+    spot: &Spot,
+    size: [usize; 2],
+    beyond: f64,
+    words: impl Fn(usize, usize) -> [u64; 2],
+    out: &mut Vec<f32>,
+) {
+    look_anywhere(form, spot, size, beyond, words, out);
+}
+
+#[inline(always)]
+fn look_anywhere(
+    form: &WindowForm,
+    spot: &Spot,
+    size: [usize; 2],
+    beyond: f64,
+    words: impl Fn(usize, usize) -> [u64; 2],
+    out: &mut Vec<f32>,
+) {
+    let cell = |point: &WindowPoint| {
         let [ahead, left, _] = point.at;
         let at = [0, 1].map(|a| spot.at[a] + ahead * spot.ahead[a] + left * spot.left[a]);
-        let (cell, area) = Cell::around(at, spot.unit.map(|unit| unit * point.cell), size);
-        let [first, second] = cell.sums(&words);
-        out.extend([(first / area) as f32, ((second + beyond * (area - cell.area())) / area) as f32]);
+        Cell::around(at, spot.unit.map(|unit| unit * point.cell), size)
+    };
+    let cells: Vec<Cell> = form.points.iter().map(cell).collect();
+    let range = |a: usize| {
+        let low = cells.iter().fold(f64::INFINITY, |low, cell| low.min(cell.low[a]));
+        let high = cells.iter().fold(0.0, |high: f64, cell| high.max(cell.high[a]));
+        floor(low)..ceil(high)
+    };
+    let part = Part::new([range(0), range(1)], words);
+    out.reserve(form.values());
+    for (cell, point) in cells.iter().zip(&form.points) {
+        let most = ceil((spot.unit[1] * point.cell).min(size[1] as f64)) + 1;
+        let [first, second] = cell.sums(&part, most);
+        let outside = beyond * (cell.area - cell.inside());
+        let share = 1.0 / cell.area;
+        out.extend([(first * share) as f32, ((second + outside) * share) as f32]);
     }
 }

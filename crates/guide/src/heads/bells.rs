@@ -2,6 +2,7 @@
 //!
 //! Of `n` components a network gives `3 n` outputs: logits of their weights, then means, then logs of deviations.
 
+use super::Number;
 use niwaki_math::special::normal_tail;
 
 /// `ln(2 pi) / 2`.
@@ -66,20 +67,22 @@ fn mass(a: f64, b: f64) -> f64 {
 
 impl Bells {
     /// From a network's outputs.
-    pub(super) fn new(outputs: &[f64]) -> Bells {
+    #[inline]
+    pub(super) fn new<N: Number>(outputs: &[N]) -> Bells {
         let count = (outputs.len() / 3).min(MOST);
         let (logits, rest) = outputs.split_at(count);
         let (means, log_sds) = rest.split_at(count);
-        let largest = logits.iter().fold(f64::NEG_INFINITY, |m, x| m.max(*x));
+        let largest = logits.iter().fold(f64::NEG_INFINITY, |m: f64, x| m.max((*x).into()));
         let (mut weight, mut mean, mut sharpness) = ([0.0; MOST], [0.0; MOST], [1.0; MOST]);
         let mut bends = [false; MOST];
         let mut sum = 0.0;
         for k in 0..count {
-            weight[k] = (logits[k] - largest).exp();
+            weight[k] = (logits[k].into() - largest).exp();
             sum += weight[k];
-            mean[k] = means[k];
-            let log_sd = log_sds[k].clamp(LOG_SD.0, LOG_SD.1);
-            bends[k] = log_sd == log_sds[k];
+            mean[k] = means[k].into();
+            let given = log_sds[k].into();
+            let log_sd = given.clamp(LOG_SD.0, LOG_SD.1);
+            bends[k] = log_sd == given;
             sharpness[k] = (-log_sd).exp();
         }
         weight[..count].iter_mut().for_each(|w| *w /= sum);

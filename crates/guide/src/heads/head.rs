@@ -1,9 +1,9 @@
 //! Which density a site has; drawing and scoring.
 
-use super::lesson::{Known, Lesson};
+use super::bells::{self, Bells};
+use super::classes::{self, Classes};
+use super::lesson::{Known, Lesson, of_count, of_real};
 use super::line::Line;
-use super::{bells, classes};
-use bells::Bells;
 use niwaki_math::{Dist, Draw, Stream};
 use serde::{Deserialize, Serialize};
 
@@ -39,24 +39,6 @@ pub struct Drawn {
     pub log_drawn: f64,
 }
 
-/// A network's outputs as `f64`, on the stack.
-struct Outputs {
-    numbers: [f64; classes::MOST],
-    count: usize,
-}
-
-impl Outputs {
-    fn new(outputs: &[f32], count: usize) -> Outputs {
-        let mut numbers = [0.0; classes::MOST];
-        numbers.iter_mut().zip(&outputs[..count]).for_each(|(to, from)| *to = f64::from(*from));
-        Outputs { numbers, count }
-    }
-
-    fn all(&self) -> &[f64] {
-        &self.numbers[..self.count]
-    }
-}
-
 /// The values of a finite distribution: how many, and the first of whole numbers.
 fn listed(dist: &Dist) -> Option<(usize, i64)> {
     let (count, first) = match dist {
@@ -70,13 +52,21 @@ fn listed(dist: &Dist) -> Option<(usize, i64)> {
     (count <= classes::MOST).then_some((count, first))
 }
 
-/// Logs of the prior's probabilities of a finite distribution's values.
-fn log_priors(dist: &Dist, (count, first): (usize, i64)) -> [f64; classes::MOST] {
-    let mut logs = [f64::NEG_INFINITY; classes::MOST];
-    for (log, k) in logs[..count].iter_mut().zip(first..) {
-        *log = dist.log_density_of_int(k);
-    }
+/// Writes logs of the prior's probabilities of a finite distribution's values.
+fn log_priors<'a>(
+    dist: &Dist,
+    (count, first): (usize, i64),
+    logs: &'a mut [f64; classes::MOST],
+) -> &'a [f64] {
+    let logs = &mut logs[..count];
+    logs.iter_mut().zip(first..).for_each(|(log, k)| *log = dist.log_density_of_int(k));
     logs
+}
+
+/// The piece of the line of a whole number.
+fn piece(dist: &Dist, k: i64) -> Option<(f64, f64)> {
+    let before = k.checked_sub(1).map_or(Some(f64::NEG_INFINITY), |k| dist.normal_score(k));
+    Some((before?, dist.normal_score(k)?))
 }
 
 impl Head {
@@ -140,11 +130,7 @@ impl Head {
     pub fn fits(&self, dist: &Dist) -> bool {
         match self {
             Head::Normal { .. } => Line::new(dist).is_some(),
-            // Whole numbers are known by their distance from the first: another count is another choice.
-            Head::Finite { values } => listed(dist).is_some_and(|(count, _)| match dist {
-                Dist::Categorical(_) => count <= *values,
-                _ => count == *values,
-            }),
+            Head::Finite { .. } => self.listed(dist).is_some(),
             Head::Count { .. } => dist.normal_score(0).is_some(),
         }
     }
@@ -156,46 +142,82 @@ impl Head {
     ///
     /// If there are fewer outputs than [`Head::outputs`].
     pub fn draw(&self, outputs: &[f32], dist: &Dist, share: f64, rng: &mut Stream) -> Drawn {
-        let outputs = Outputs::new(outputs, self.outputs());
-        let prior = |rng: &mut Stream| dist.sample(rng);
-        let value = match self {
-            _ if !self.fits(dist) => prior(rng),
-            Head::Finite { .. } => {
-                let Some((count, first)) = listed(dist) else {
-                    return self.scored(&outputs, dist, share, prior(rng));
-                };
-                let logs = log_priors(dist, (count, first));
-                let k = classes::choose(&outputs.all()[..count], &logs[..count], share, rng.uniform());
-                match dist {
-                    Dist::Bernoulli { .. } => Draw::Bool(k == 1),
-                    _ => Draw::Int(first + k as i64),
-                }
-            }
-            Head::Normal { .. } | Head::Count { .. } => {
-                if rng.uniform() < share {
-                    prior(rng)
-                } else {
-                    let (u, normal) = (rng.uniform(), rng.normal());
-                    let z = Bells::new(outputs.all()).number(u, normal);
-                    let value = if let Head::Normal { .. } = self {
-                        Line::new(dist).and_then(|line| line.value(z)).map(Draw::Real)
-                    } else {
-                        dist.at_normal_score(z).map(Draw::Int)
-                    };
-                    // Rounding can reach an end that the prior excludes.
-                    let possible = |x: &Draw| dist.log_density(x) > f64::NEG_INFINITY;
-                    value.filter(possible).unwrap_or_else(|| prior(rng))
-                }
-            }
+        let drawn = match self {
+            Head::Normal { .. } => self.draw_real(outputs, dist, share, rng),
+            Head::Finite { .. } => self.draw_listed(outputs, dist, share, rng),
+            Head::Count { .. } => self.draw_count(outputs, dist, share, rng),
         };
-        self.scored(&outputs, dist, share, value)
+        drawn.unwrap_or_else(|| {
+            let (value, log_prior) = dist.sample_and_score(rng);
+            Drawn { value, log_prior, log_drawn: log_prior }
+        })
     }
 
-    /// A value with its log densities.
-    fn scored(&self, outputs: &Outputs, dist: &Dist, share: f64, value: Draw) -> Drawn {
-        let log_prior = dist.log_density(&value);
-        let log_drawn = self.score(outputs, dist, share, &value, log_prior);
-        Drawn { value, log_prior, log_drawn }
+    /// A draw of a real number; `None` of another prior.
+    fn draw_real(&self, outputs: &[f32], dist: &Dist, share: f64, rng: &mut Stream) -> Option<Drawn> {
+        let line = Line::new(dist)?;
+        let bells = Bells::new(&outputs[..self.outputs()]);
+        let mut drawn = None;
+        if rng.uniform() >= share {
+            let (u, normal) = (rng.uniform(), rng.normal());
+            // Rounding can reach an end that the prior excludes.
+            drawn = line.value(bells.number(u, normal)).map(|x| (x, dist.log_density_of_real(x)));
+        }
+        let (x, log_prior) = match drawn {
+            Some(scored) if scored.1 > f64::NEG_INFINITY => scored,
+            _ => {
+                let (value, log_prior) = dist.sample_and_score(rng);
+                (value.as_real()?, log_prior)
+            }
+        };
+        let log_drawn = log_prior
+            + if log_prior == f64::NEG_INFINITY {
+                0.0
+            } else {
+                of_real(&bells, line.place(x, log_prior), share, None)
+            };
+        Some(Drawn { value: Draw::Real(x), log_prior, log_drawn })
+    }
+
+    /// A draw of one of finitely many values; `None` of another prior.
+    fn draw_listed(&self, outputs: &[f32], dist: &Dist, share: f64, rng: &mut Stream) -> Option<Drawn> {
+        let (count, first) = self.listed(dist)?;
+        let mut logs = [0.0; classes::MOST];
+        let logs = log_priors(dist, (count, first), &mut logs);
+        let classes = Classes::new(&outputs[..count], logs);
+        let k = classes.choose(share, rng.uniform());
+        let value = match dist {
+            Dist::Bernoulli { .. } => Draw::Bool(k == 1),
+            _ => Draw::Int(first + k as i64),
+        };
+        let log_prior = logs[k];
+        Some(Drawn { value, log_prior, log_drawn: log_prior + classes.log_quotient(k, share, None) })
+    }
+
+    /// A draw of a whole number; `None` of another prior.
+    fn draw_count(&self, outputs: &[f32], dist: &Dist, share: f64, rng: &mut Stream) -> Option<Drawn> {
+        dist.normal_score(0)?;
+        let bells = Bells::new(&outputs[..self.outputs()]);
+        let mut drawn = None;
+        if rng.uniform() >= share {
+            let (u, normal) = (rng.uniform(), rng.normal());
+            let k = dist.at_normal_score(bells.number(u, normal))?;
+            drawn = Some((k, dist.log_density_of_int(k)));
+        }
+        let (k, log_prior) = match drawn {
+            Some(scored) if scored.1 > f64::NEG_INFINITY => scored,
+            _ => {
+                let (value, log_prior) = dist.sample_and_score(rng);
+                (value.as_int()?, log_prior)
+            }
+        };
+        let log_drawn = log_prior
+            + if log_prior == f64::NEG_INFINITY {
+                0.0
+            } else {
+                of_count(&bells, piece(dist, k)?, log_prior, share, None)
+            };
+        Some(Drawn { value: Draw::Int(k), log_prior, log_drawn })
     }
 
     /// Log density of a value, nats, with respect to the measure of its prior; the same bits as [`Head::draw`] gives
@@ -205,22 +227,28 @@ impl Head {
     ///
     /// If there are fewer outputs than [`Head::outputs`].
     pub fn log_drawn(&self, outputs: &[f32], dist: &Dist, share: f64, value: &Draw) -> f64 {
-        let outputs = Outputs::new(outputs, self.outputs());
-        self.score(&outputs, dist, share, value, dist.log_density(value))
-    }
-
-    fn score(&self, outputs: &Outputs, dist: &Dist, share: f64, value: &Draw, log_prior: f64) -> f64 {
-        if log_prior == f64::NEG_INFINITY || !self.fits(dist) {
+        let log_prior = dist.log_density(value);
+        if log_prior == f64::NEG_INFINITY {
             return log_prior;
         }
         let mut logs = [0.0; classes::MOST];
         match self.known(dist, value, log_prior, &mut logs) {
-            Some(known) => log_prior + known.log_quotient(outputs.all(), share, None),
+            Some(known) => log_prior + known.log_quotient(&outputs[..self.outputs()], share, None),
             None => log_prior,
         }
     }
 
-    /// What the density needs of a value that the prior does not exclude.
+    /// The values of a finite distribution that it fits: how many, and the first.
+    fn listed(&self, dist: &Dist) -> Option<(usize, i64)> {
+        let Head::Finite { values } = self else { return None };
+        listed(dist).filter(|(count, _)| match dist {
+            Dist::Categorical(_) => count <= values,
+            // Whole numbers are known by their distance from the first: another count is another choice.
+            _ => count == values,
+        })
+    }
+
+    /// What the density needs of a value that the prior does not exclude; `None` where the head does not fit.
     fn known<'a>(
         &self,
         dist: &Dist,
@@ -231,16 +259,12 @@ impl Head {
         Some(match self {
             Head::Normal { .. } => Known::Normal(Line::new(dist)?.place(value.as_real()?, log_prior)),
             Head::Finite { .. } => {
-                let (count, first) = listed(dist)?;
-                *logs = log_priors(dist, (count, first));
+                let (count, first) = self.listed(dist)?;
+                let log_priors = log_priors(dist, (count, first), logs);
                 let value = usize::try_from(value.as_int()?.checked_sub(first)?).ok()?;
-                Known::Finite { value, log_priors: &logs[..count] }
+                Known::Finite { value, log_priors }
             }
-            Head::Count { .. } => {
-                let k = value.as_int()?;
-                let before = k.checked_sub(1).map_or(Some(f64::NEG_INFINITY), |k| dist.normal_score(k))?;
-                Known::Count { between: (before, dist.normal_score(k)?), log_prior }
-            }
+            Head::Count { .. } => Known::Count { between: piece(dist, value.as_int()?)?, log_prior },
         })
     }
 
@@ -248,7 +272,7 @@ impl Head {
     /// be learned there.
     pub fn lesson(&self, dist: &Dist, value: &Draw) -> Option<Lesson> {
         let log_prior = dist.log_density(value);
-        if !log_prior.is_finite() || !self.fits(dist) {
+        if !log_prior.is_finite() {
             return None;
         }
         let mut logs = [0.0; classes::MOST];

@@ -1,7 +1,8 @@
 //! What a density needs of a choice's prior and value, and the quotient of the guide's density to the prior's.
 
+use super::Number;
 use super::bells::Bells;
-use super::classes;
+use super::classes::Classes;
 use super::line::Place;
 use niwaki_math::log_sums::log_add_exp;
 
@@ -69,55 +70,57 @@ impl Known<'_> {
 
     /// `ln(q / p)`, nats, of the guide with this share of the prior. With `slope`, its derivatives by the outputs are
     /// added there.
-    ///
-    /// With the network's density over the prior's as `exp(r)`, and outside of a coordinate's limits the mass `m`
-    /// that is left to the prior:
-    ///
-    /// ```text
-    /// q / p = (1 - s) (exp(r) + m) + s
-    /// ```
-    pub(crate) fn log_quotient(&self, outputs: &[f64], share: f64, slope: Option<&mut [f64]>) -> f64 {
-        let log_net = (-share).ln_1p();
+    pub(crate) fn log_quotient<N: Number>(
+        &self,
+        outputs: &[N],
+        share: f64,
+        slope: Option<&mut [f64]>,
+    ) -> f64 {
         match *self {
-            Known::Normal(place) => {
-                let bells = Bells::new(outputs);
-                let left = bells.mass_outside(place.limits, 0.0, None);
-                let floor = (1.0 - share) * left + share;
-                let inside = place.z > place.limits.0 && place.z < place.limits.1;
-                if !inside {
-                    // Also a coordinate that is not a number.
-                    if let Some(slope) = slope {
-                        bells.mass_outside(place.limits, (1.0 - share) / floor, Some(slope));
-                    }
-                    return floor.ln();
-                }
-                let log = log_net + bells.density(place.z, 0.0, None).ln() - place.log_prior;
-                let quotient = log_add_exp(log, floor.ln());
-                if let Some(slope) = slope {
-                    bells.density(place.z, (log - quotient).exp(), Some(slope));
-                    bells.mass_outside(place.limits, (1.0 - share) * (-quotient).exp(), Some(slope));
-                }
-                quotient
-            }
+            Known::Normal(place) => of_real(&Bells::new(outputs), place, share, slope),
             Known::Finite { value, log_priors } => {
-                let outputs = &outputs[..log_priors.len()];
-                let log = log_net + classes::log_quotient(outputs, log_priors, value);
-                let quotient = log_add_exp(log, share.ln());
-                if let Some(slope) = slope {
-                    classes::add_slope(outputs, log_priors, value, (log - quotient).exp(), slope);
-                }
-                quotient
+                Classes::new(outputs, log_priors).log_quotient(value, share, slope)
             }
-            Known::Count { between: (a, b), log_prior } => {
-                let bells = Bells::new(outputs);
-                let mass = bells.mass(a, b, 0.0, None);
-                let quotient = log_add_exp(log_net + mass.ln() - log_prior, share.ln());
-                if let Some(slope) = slope {
-                    let scale = (log_net - log_prior - quotient).exp();
-                    bells.mass(a, b, scale, Some(slope));
-                }
-                quotient
+            Known::Count { between, log_prior } => {
+                of_count(&Bells::new(outputs), between, log_prior, share, slope)
             }
         }
     }
+}
+
+/// `ln(q / p)` of a real number. With the quotient `r` of the network's density of the coordinate to the prior's, and the
+/// mass `m` outside of the coordinate's limits, which is left to the prior:
+///
+/// ```text
+/// q / p = (1 - s) (r + m) + s
+/// ```
+pub(super) fn of_real(bells: &Bells, place: Place, share: f64, slope: Option<&mut [f64]>) -> f64 {
+    let floor = (1.0 - share) * bells.mass_outside(place.limits, 0.0, None) + share;
+    // A coordinate that is not a number is not inside.
+    let inside = place.z > place.limits.0 && place.z < place.limits.1;
+    let density = if inside { bells.density(place.z, 0.0, None) } else { 0.0 };
+    let net = if density > 0.0 { (1.0 - share) * density * (-place.log_prior).exp() } else { 0.0 };
+    let quotient = net + floor;
+    let small = quotient < f64::INFINITY;
+    if let Some(slope) = slope {
+        bells.density(place.z, if small { net / quotient } else { 1.0 }, Some(&mut *slope));
+        bells.mass_outside(place.limits, (1.0 - share) / quotient, Some(slope));
+    }
+    if small { quotient.ln() } else { (-share).ln_1p() + density.ln() - place.log_prior }
+}
+
+/// `ln(q / p)` of a whole number: `q = (1 - s) n + s p`, `n` being the mass between two numbers.
+pub(super) fn of_count(
+    bells: &Bells,
+    (a, b): (f64, f64),
+    log_prior: f64,
+    share: f64,
+    slope: Option<&mut [f64]>,
+) -> f64 {
+    let mass = bells.mass(a, b, 0.0, None);
+    let quotient = log_add_exp((-share).ln_1p() + mass.ln() - log_prior, share.ln());
+    if let Some(slope) = slope {
+        bells.mass(a, b, ((-share).ln_1p() - log_prior - quotient).exp(), Some(slope));
+    }
+    quotient
 }

@@ -16,8 +16,8 @@
 //!
 //! (The moments of logarithms are approximate, which changes the coordinate and not the density.)
 //!
-//! A coordinate holds between two limits, within 7.5 of zero: beyond, a uniform's last digits would decide. What lies outside is
-//! left to the prior.
+//! A coordinate holds between two limits, within 7.2 of zero: beyond, the last digits of a uniform would decide. What lies outside
+//! is left to the prior.
 
 use super::bells::HALF_LN_TAU;
 use niwaki_math::Dist;
@@ -25,7 +25,11 @@ use niwaki_math::special::{normal_quantile, normal_tail};
 use std::f64::consts::{LN_2, PI};
 
 /// Coordinates are within this distance of zero.
-const FARTHEST: f64 = 7.5;
+const FARTHEST: f64 = 7.2;
+/// The Gaussian's tail there.
+const FARTHEST_TAIL: f64 = 3e-13;
+/// Between bounds, limits are so many of the bounds' last digits away from them.
+const DIGITS: f64 = 1e3;
 /// Logits are within this distance of zero: there a number below one has three digits of its distance from one left.
 const FARTHEST_LOGIT: f64 = 29.0;
 /// Logarithms are within this distance of zero, so that numbers have all their digits.
@@ -131,9 +135,15 @@ impl<'d> Line<'d> {
                 let size = (stretch * (df * FARTHEST_LOG).sqrt()).min(FARTHEST);
                 (-size, size)
             }
-            Form::Straight { .. } | Form::Ranked | Form::Cut { .. } | Form::Slope { .. } => {
-                (-FARTHEST, FARTHEST)
-            }
+            Form::Ranked | Form::Cut { .. } | Form::Slope { .. } => match *self.dist {
+                Dist::Uniform { lo, hi } | Dist::TruncatedGaussian { lo, hi, .. } => {
+                    let tail = DIGITS * f64::EPSILON * lo.abs().max(hi.abs()) / (hi - lo);
+                    let size = if tail > FARTHEST_TAIL { -normal_quantile(tail.min(0.5)) } else { FARTHEST };
+                    (-size, size)
+                }
+                _ => (-FARTHEST, FARTHEST),
+            },
+            Form::Straight { .. } => (-FARTHEST, FARTHEST),
         }
     }
 

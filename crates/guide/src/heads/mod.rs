@@ -25,3 +25,9 @@ mod line;
 pub use head::{Drawn, Head};
 pub(crate) use lesson::Known;
 pub use lesson::Lesson;
+
+/// An output of a network: `f32` or `f64`.
+pub(crate) trait Number: Copy + Into<f64> {}
+
+impl Number for f32 {}
+impl Number for f64 {}

@@ -68,7 +68,7 @@ impl Rows {
             self.seen.extend_from_slice(window);
         }
         self.apart = false;
-        let window = if self.windows == 0 { 0 } else { self.seen.len() / self.windows - 1 };
+        let window = self.seen.len().checked_div(self.windows).map_or(0, |n| n - 1);
         let (at, numbers) = (self.features.len(), self.numbers.len());
         self.features.extend_from_slice(features);
         let kind = match lesson {

@@ -128,3 +128,84 @@ pub fn loss_and_slope<T: Real>(net: &Net<T>, rows: &Rows, share: f64) -> (f64, V
     slope.iter_mut().for_each(|x| *x *= one);
     (sum / rows.len().max(1) as f64, slope)
 }
+
+#[cfg(test)]
+mod tests {
+    //! Derivatives by weights are those of differences, and a folded network answers as the one that was trained.
+    use super::super::scaling;
+    use super::*;
+    use crate::heads::{Head, Lesson};
+    use crate::net::NetForm;
+    use niwaki_math::Stream;
+
+    /// A small network with heads of all kinds, and rows that reach all of its weights.
+    fn example() -> (Net<f64>, Rows) {
+        let heads =
+            vec![Head::Normal { components: 3 }, Head::Finite { values: 3 }, Head::Count { components: 2 }];
+        let form = NetForm { windows: 4, features: 3, hidden: [5, 9], heads };
+        let mut net: Net<f64> = Net::start(form.clone(), 8);
+        let mut stream = Stream::new(4, 0, 0, 0);
+        // Weights of heads begin at zero, where nothing reaches the other layers.
+        for (rows, constants, width) in net.layout.heads.clone() {
+            for row in net.weights[rows..constants].chunks_exact_mut(width) {
+                row[..4].iter_mut().for_each(|w| *w = 0.5 * stream.normal());
+            }
+        }
+        net.features = vec![(0.5, 2.0), (-1.0, 0.7), (0.0, 0.0)];
+        let mut rows = Rows::new(&form);
+        for k in 0..30 {
+            let mut number = || stream.normal() as f32;
+            let window = [number(), number(), number(), number()];
+            let some = [(0, number()), (1, number()), (2, number())];
+            let lesson = match k % 3 {
+                0 => Lesson::Normal { z: f64::from(number()), log_prior: -1.2, limits: (-2.0, 6.0) },
+                1 => Lesson::Finite { value: k % 2, log_priors: [-1.0, -0.9, -1.5].into() },
+                _ => Lesson::Count { between: (-0.3, f64::from(number()).abs()), log_prior: -1.0 },
+            };
+            rows.push(k % 3, &window, &some[k % 2..k % 4], &lesson);
+        }
+        (net, rows)
+    }
+
+    #[test]
+    fn derivatives_by_weights_are_those_of_differences() {
+        let (mut net, rows) = example();
+        let (_, slope) = loss_and_slope(&net, &rows, 0.1);
+        let mut reached = 0;
+        for (k, exact) in slope.iter().enumerate() {
+            let at = net.weights[k];
+            let mut moved = |step: f64| {
+                net.weights[k] = at + step;
+                loss(&net, &rows, 0.1)
+            };
+            let h = 1e-3;
+            let numeric = (8.0 * (moved(h) - moved(-h)) - (moved(2.0 * h) - moved(-2.0 * h))) / (12.0 * h);
+            moved(0.0);
+            // Padding is not reached, and must not move. What a pad would do to the loss does not matter.
+            if *exact != 0.0 {
+                reached += 1;
+                assert!((numeric - exact).abs() < 1e-6 * exact.abs().max(1e-3), "{k}: {numeric} {exact}");
+            }
+        }
+        // All but the row of the feature that never changed.
+        assert_eq!(reached, net.size() - 5);
+    }
+
+    #[test]
+    fn a_folded_network_answers_as_the_one_that_was_trained() {
+        let (net, rows) = example();
+        let windows: Vec<(f64, f64)> = scaling::of_windows(&rows, 4);
+        let mut work = Work::default();
+        let (mut folded, mut back) = (net.clone(), net.clone());
+        scaling::fold(&mut folded, &windows);
+        scaling::unfold(&mut back, &windows);
+        for row in 0..rows.len() {
+            let one = work.loss(&net, Some(&windows), &rows, row, 0.1, None);
+            let two = work.loss(&folded, None, &rows, row, 0.1, None);
+            assert!((one - two).abs() < 1e-12, "{one} {two}");
+            let three = work.loss(&back, Some(&windows), &rows, row, 0.1, None);
+            let four = work.loss(&net, None, &rows, row, 0.1, None);
+            assert!((three - four).abs() < 1e-12, "{three} {four}");
+        }
+    }
+}

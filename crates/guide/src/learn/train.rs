@@ -1,16 +1,10 @@
 //! Training: Adam (Kingma & Ba 2015, alg. 1), averaged weights, the best by rows held out.
 //!
-//! A step draws so many choices from all traces and moves the weights against the slope `g` of their mean loss:
-//!
-//! ```text
-//! m = .9 m + .1 g        v = .999 v + .001 g^2
-//! w = w - rate (m / (1 - .9^t)) / (sqrt(v / (1 - .999^t)) + 1e-8)
-//! a = d a + (1 - d) w    answers come from a / (1 - d^t)
-//! ```
-//!
-//! The averaged weights need no schedule of rates. The choices of a step are cut into chunks of fixed size whose slopes are
-//! added up in their order, so the same seed gives the same bits on any number of threads.
+//! A step draws so many choices from all traces and moves the weights against the slope of their mean loss ([`Adam`]). The
+//! choices are cut into chunks of fixed size whose slopes are added up in their order, so the same seed gives the same
+//! bits on any number of threads.
 
+use super::adam::Adam;
 use super::rows::Rows;
 use super::scaling;
 use super::slope::Work;
@@ -24,10 +18,6 @@ use std::fmt;
 const CHUNK: usize = 64;
 /// At most so many rows that are held out are looked at, evenly spread.
 const MOST_HELD_OUT: usize = 8192;
-/// Adam's decays of the mean slope and the mean square, and what keeps its quotient finite.
-const DECAYS: [f64; 2] = [0.9, 0.999];
-const LEAST: f64 = 1e-8;
-
 /// Settings of training.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Training {
@@ -79,12 +69,8 @@ pub struct State<T: Real = f32> {
     net: Net<T>,
     /// Mean and one over deviation of each number of a window.
     scaling: Vec<(T, T)>,
-    /// Mean slopes, and mean squares of slopes.
-    slopes: [Vec<T>; 2],
-    /// Averaged weights, not corrected for the start.
-    average: Vec<T>,
-    /// Steps done.
-    step: u64,
+    /// The optimiser.
+    adam: Adam<T>,
     /// The smallest loss on the rows held out, its step and its weights.
     best: (f64, u64, Vec<T>),
 }
@@ -144,14 +130,13 @@ impl<T: Real> State<T> {
         }
         net.fresh = false;
         scaling::set_features(&mut net, rows);
-        let zeros = vec![T::ZERO; net.weights.len()];
         let best = (f64::INFINITY, 0, net.weights.clone());
-        State { scaling, slopes: [zeros.clone(), zeros.clone()], average: zeros, step: 0, best, net }
+        State { scaling, adam: Adam::new(net.weights.len()), best, net }
     }
 
     /// Steps done.
     pub fn step(&self) -> u64 {
-        self.step
+        self.adam.step()
     }
 
     /// The network with these weights, for windows as they are.
@@ -163,11 +148,7 @@ impl<T: Real> State<T> {
 
     /// The averaged weights; before the first step, the start.
     fn averaged(&self, averaging: f64) -> Vec<T> {
-        if self.step == 0 {
-            return self.net.weights.clone();
-        }
-        let correction = T::from_f64(1.0 / (1.0 - averaging.powf(self.step as f64)));
-        self.average.iter().map(|x| *x * correction).collect()
+        if self.step() == 0 { self.net.weights.clone() } else { self.adam.averaged(averaging) }
     }
 
     /// The mean loss of the averaged weights on rows that are held out.
@@ -187,7 +168,7 @@ impl<T: Real> State<T> {
 
     /// The rows of the next step.
     fn batch(&self, rows: &Rows, with: &Training) -> Vec<usize> {
-        let mut stream = Stream::new(with.seed, 1, u128::from(self.step), 0);
+        let mut stream = Stream::new(with.seed, 1, u128::from(self.step()), 0);
         let row = |bits: u64| ((u128::from(bits) * rows.len() as u128) >> 64) as usize;
         (0..with.batch).map(|_| row(stream.next_u64())).collect()
     }
@@ -220,32 +201,8 @@ impl<T: Real> State<T> {
         if !(loss.is_finite() && sound) {
             return Err(self.cause(rows, with, &batch));
         }
-        self.step += 1;
-        self.adam(sum, with);
+        self.adam.advance(&mut self.net.weights, sum, 1.0 / with.batch as f64, with.rate, with.averaging);
         Ok(loss)
-    }
-
-    /// Moves the weights against a sum of slopes.
-    fn adam(&mut self, sum: &[T], with: &Training) {
-        let number = T::from_f64;
-        let one = number(1.0 / with.batch as f64);
-        let [keep_mean, keep_square] = DECAYS;
-        let t = self.step as f64;
-        let rate = number(with.rate / (1.0 - keep_mean.powf(t)));
-        let correction = number(1.0 / (1.0 - keep_square.powf(t)));
-        let (keep_mean, add_mean) = (number(keep_mean), number(1.0 - keep_mean));
-        let (keep_square, add_square) = (number(keep_square), number(1.0 - keep_square));
-        let (keep, add, least) = (number(with.averaging), number(1.0 - with.averaging), number(LEAST));
-        let [means, squares] = &mut self.slopes;
-        let moments = means.iter_mut().zip(squares.iter_mut());
-        let weights = self.net.weights.iter_mut().zip(&mut self.average);
-        for (((w, average), (mean, square)), g) in weights.zip(moments).zip(sum) {
-            let g = *g * one;
-            *mean = keep_mean * *mean + add_mean * g;
-            *square = keep_square * *square + add_square * g * g;
-            *w += -(rate * *mean) / ((*square * correction).sqrt() + least);
-            *average = keep * *average + add * *w;
-        }
     }
 
     /// The first choice of a step whose loss or slope is not finite: its site, and its loss.
@@ -296,20 +253,20 @@ pub fn resume<T: Real>(
     let chunk = || Chunk { work: Work::default(), slope: vec![T::ZERO; state.net.weights.len()], loss: 0.0 };
     let mut chunks: Vec<Chunk<T>> = (0..with.batch.div_ceil(CHUNK).max(1)).map(|_| chunk()).collect();
     let (mut sum, mut count) = (0.0, 0.0);
-    let last = if rows.is_empty() { state.step } else { with.steps };
+    let last = if rows.is_empty() { state.step() } else { with.steps };
     loop {
-        if state.step.is_multiple_of(with.every.max(1)) || state.step >= last {
+        if state.step().is_multiple_of(with.every.max(1)) || state.step() >= last {
             let seen = if held_out.is_empty() { None } else { Some(state.look(held_out, with)) };
             let held_out = seen.unwrap_or(sum / f64::max(count, 1.0));
             if held_out < state.best.0 || seen.is_none() {
-                state.best = (held_out, state.step, state.averaged(with.averaging));
+                state.best = (held_out, state.step(), state.averaged(with.averaging));
             }
             let loss = if count > 0.0 { sum / count } else { held_out };
             let best = (state.best.0, state.best.1);
-            let progress = Progress { step: state.step, steps: with.steps, loss, held_out, best };
+            let progress = Progress { step: state.step(), steps: with.steps, loss, held_out, best };
             history.push(progress);
             (sum, count) = (0.0, 0.0);
-            if !watch(progress) || state.step >= last {
+            if !watch(progress) || state.step() >= last {
                 break;
             }
         }
@@ -320,7 +277,7 @@ pub fn resume<T: Real>(
             }
             Err((site, loss)) => {
                 let net = Box::new(state.folded(state.best.2.clone()));
-                return Err(Box::new(Diverged { step: state.step + 1, site, loss, net }));
+                return Err(Box::new(Diverged { step: state.step() + 1, site, loss, net }));
             }
         }
     }
