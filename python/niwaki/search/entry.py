@@ -25,7 +25,7 @@ from niwaki.targets.sketches import Score, match_volume, no_self_intersection
 from niwaki.targets.target import Target
 
 #: The settings of `improve`, the usual search, which `grow` takes by name.
-OF_IMPROVE = ("rounds", "seconds", "diverse")
+OF_IMPROVE = ("rounds", "seconds", "diverse", "guide")
 #: The settings of `smc`, which are one population instead.
 OF_SMC = tuple(field.name for field in fields(Smc))
 
@@ -133,9 +133,9 @@ def grow(
     target
         What to fill: a `Target`, or a file; may be left out where `score` has something to match.
     args, kwargs
-        The model's arguments. What `kwargs` has of `rounds`, `seconds` and `diverse` is for the usual search. With
-        any other setting of `smc` (particles, order, power, ...) the search is one population by those, with a `power`
-        of 16 for ratio weights when left out (1 for drawings).
+        The model's arguments. What `kwargs` has of `rounds`, `seconds`, `diverse` and `guide` is for the usual
+        search. With any other setting of `smc` (particles, order, power, ...) the search is one population by those,
+        with a `power` of 16 for ratio weights when left out (1 for drawings).
     score
         Further sketches, such as `floor(0) * match_image("skyline.png", "cam.json")`; they multiply
         `no_self_intersection(rule)`, which is left out for drawings, and, where there is a target,

@@ -85,7 +85,8 @@ impl BoundGuide {
     pub fn new(guide: Arc<Guide>, task: &Task) -> Result<BoundGuide, Fault> {
         let form = &guide.form;
         let windows = members(task, &form.windows).map_err(|name| {
-            let message = format!("the guide of `{}` looks at `{name}`, which the score does not have", form.model);
+            let message =
+                format!("the guide of `{}` looks at `{name}`, which the score does not have", form.model);
             Fault::new("guide-score", message).with_help("search by the score that the guide was trained for")
         })?;
         let mut sites = HashMap::new();
@@ -117,7 +118,10 @@ impl BoundGuide {
             }
         }
         if sites.is_empty() && !form.sites.is_empty() {
-            return Err(bad(format!("the guide is for `{}`: none of its choices is in this model", form.model)));
+            return Err(bad(format!(
+                "the guide is for `{}`: none of its choices is in this model",
+                form.model
+            )));
         }
         Ok(BoundGuide { guide, sites, windows, lost })
     }
@@ -193,11 +197,7 @@ impl BoundGuide {
         let (net, form) = (&self.guide.net, &self.guide.form);
         let outputs = net.answer(&sight.sums, &sight.features, site, &mut sight.scratch);
         let drawn = form.sites[site].head.draw(outputs, dist, form.share, rng);
-        Chosen {
-            value: draw_to_value(drawn.value),
-            log_prior: drawn.log_prior,
-            log_drawn: drawn.log_drawn,
-        }
+        Chosen { value: draw_to_value(drawn.value), log_prior: drawn.log_prior, log_drawn: drawn.log_drawn }
     }
 
     /// The log density with which it draws a value there, nats.

@@ -31,7 +31,8 @@ fn draws(task: &Task, count: usize) -> Vec<Vec<Entry>> {
 fn moved(task: &Task, kernel: &Kernel, starts: &[Vec<Entry>], moves: u64) -> Vec<String> {
     let after = |(number, start): (u64, &Vec<Entry>)| {
         let settings = Settings { seed: 8, kernel: kernel.clone(), thin: 0, ..Settings::default() };
-        let mut chain: Chain = Chain::start(task, &settings, number, Some(&by_address(start))).expect("a chain");
+        let mut chain: Chain =
+            Chain::start(task, &settings, number, Some(&by_address(start))).expect("a chain");
         chain.advance(task, moves, &mut |_, _| true).expect("a run");
         repr(&chain.state.trace.result()).expect("a value")
     };

@@ -90,9 +90,8 @@ fn importance_sampling_weighs_what_a_guide_draws() {
     for (name, text) in PROGRAMS {
         let task = task(text);
         let found = importance(&task, Some(&by(&task, 1)), 12_000, 3, &mut |_| true).expect("runs");
-        let one = |run: &niwaki_infer::run::Run| {
-            (run.log_weight, vec![(repr(&run.value).expect("a value"), 0.0)])
-        };
+        let one =
+            |run: &niwaki_infer::run::Run| (run.log_weight, vec![(repr(&run.value).expect("a value"), 0.0)]);
         let far = Law::of(&task).wrong_estimates(found.runs.iter().map(one));
         assert!(far.is_empty(), "{name}: {far:?}");
     }
