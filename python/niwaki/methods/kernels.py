@@ -122,7 +122,9 @@ class Kernel:
             guide = "" if self.function is None else f", guide={self.function!r}"
             return f"regrow({own['particles']}, turn={own['turn']}, {which}{guide})"
         parts = [repr(one) for one in (*own.values(), *self.parts)]
-        if self.function is not None:
+        if isinstance(self.function, Guide):
+            parts.append(repr(self.function))
+        elif self.function is not None:
             parts.append(getattr(self.function, "name", getattr(self.function, "__name__", "function")))
         return f"{self.name}({', '.join(parts)})"
 
