@@ -1,7 +1,7 @@
 //! A guide for one program: what each of its sites sees, and how it draws.
 
+use super::Guide;
 use super::inputs::place;
-use super::{Guide, bad};
 use crate::Task;
 use crate::chooser::{Chosen, Context};
 use niwaki_geom::{Place, WindowForm, vec3};
@@ -84,7 +84,8 @@ impl BoundGuide {
     pub fn new(guide: Arc<Guide>, task: &Task) -> Result<BoundGuide, Fault> {
         let form = &guide.form;
         let windows = members(task, &form.windows).map_err(|name| {
-            let message = format!("the guide of `{}` looks at `{name}`, which the score does not have", form.model);
+            let message =
+                format!("the guide of `{}` looks at `{name}`, which the score does not have", form.model);
             Fault::new("guide-score", message).with_help("search by the score that the guide was trained for")
         })?;
         let mut sites = HashMap::new();
@@ -96,7 +97,10 @@ impl BoundGuide {
                 }
                 let key = format!("{:032x}", site.key);
                 let Some(number) = form.sites.iter().position(|own| own.key == key) else {
-                    lost.push(format!("`{}` of `{}` is drawn from its prior", site.label, function.name));
+                    let name = format!("{}/{}", function.name, site.label);
+                    if form.left.iter().all(|(left, _)| *left != name) {
+                        lost.push(format!("it does not know `{}` of `{}`", site.label, function.name));
+                    }
                     continue;
                 };
                 let own = &form.sites[number];
@@ -116,8 +120,17 @@ impl BoundGuide {
             }
         }
         if sites.is_empty() && !form.sites.is_empty() {
-            return Err(bad(format!("the guide is for `{}`: none of its choices is in this model", form.model)));
+            let message =
+                format!("it was trained for `{}`, and none of its choices is in this model", form.model);
+            return Err(Fault::new("guide-model", message)
+                .with_help("train a guide for this model: `niwaki.train_guide`"));
         }
+        let gone =
+            (0..form.sites.len()).filter(|number| sites.values().all(|own: &Site| own.number != *number));
+        lost.extend(gone.map(|number| {
+            let own = &form.sites[number];
+            format!("the model has no `{}` of `{}`", own.label, own.function)
+        }));
         Ok(BoundGuide { guide, sites, windows, lost })
     }
 
