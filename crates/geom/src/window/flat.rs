@@ -222,7 +222,10 @@ pub(crate) fn look(
     out: &mut Vec<f32>,
 ) {
     #[cfg(target_arch = "x86_64")]
-    if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("bmi2") && is_x86_feature_detected!("popcnt") {
+    if is_x86_feature_detected!("avx2")
+        && is_x86_feature_detected!("bmi2")
+        && is_x86_feature_detected!("popcnt")
+    {
         // SAFETY: the processor has all three.
         #[expect(unsafe_code, reason = "instructions that count bits are not in every processor")]
         unsafe {
