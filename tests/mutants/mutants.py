@@ -33,7 +33,7 @@ REPORT = ROOT / "out" / "mutants.md"
 SCRATCH = ROOT / "target" / "mutants"
 TREE = SCRATCH / "tree"
 
-CRATES = ["math", "geom", "vm", "grad", "infer"]
+CRATES = ["math", "geom", "vm", "grad", "guide", "infer"]
 # Builds that take seconds: incremental, in many units, without debugging information. Third-party crates are built
 # once, as for a release.
 OWN = ("codegen-units=64", "debug=false")

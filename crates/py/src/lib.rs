@@ -12,6 +12,7 @@ mod distributions;
 mod faults;
 mod geometry;
 mod gradients;
+mod guides;
 mod model;
 mod pictures;
 mod runs;
@@ -33,6 +34,7 @@ fn _engine(module: &Bound<'_, PyModule>) -> PyResult<()> {
     distributions::register(module)?;
     geometry::register(module)?;
     gradients::register(module)?;
+    guides::register(module)?;
     pictures::register(module)?;
     views::register(module)?;
     values::register(module)?;

@@ -30,7 +30,7 @@ fn stirling_error(k: f64) -> f64 {
 }
 
 /// `D(x, m) = x ln(x / m) + m - x` for positive `x` and `m`; never negative.
-fn deviance<S: Scalar>(x: f64, m: S) -> S {
+pub(super) fn deviance<S: Scalar>(x: f64, m: S) -> S {
     let c = S::from_f64;
     let v = (c(x) - m) / (c(x) + m);
     if v.abs() >= c(0.1) {

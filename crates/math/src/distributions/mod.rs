@@ -11,6 +11,7 @@
 //! | `coordinates` | real numbers with bounds as numbers without, and small moves there: [`Interval`] |
 //! | `whole` | bernoulli, discrete_uniform, geometric |
 //! | `counts` | numbers of events |
+//! | `ranks` | where a whole number stands in its distribution, as a normal score |
 //! | `weights` | categorical, and the table of weights that mixtures share |
 //! | `bell` | gaussian, and what becomes one by a logarithm |
 //! | `truncated` | truncated_gaussian |
@@ -39,6 +40,7 @@ mod family;
 mod fields;
 mod interval;
 mod mixture;
+mod ranks;
 mod support;
 mod tails;
 mod truncated;

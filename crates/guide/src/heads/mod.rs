@@ -1,0 +1,33 @@
+//! Outputs of a network as a density of a choice.
+//!
+//! | file | what it holds |
+//! | --- | --- |
+//! | `head` | [`Head`]: which density a site has; drawing and scoring |
+//! | `lesson` | [`Lesson`]: what a density needs of a choice's prior and value; the quotient of the two densities |
+//! | `line` | coordinates in which the priors of real numbers are alike |
+//! | `bells` | mixtures of Gaussians over such a coordinate |
+//! | `classes` | finitely many values |
+//!
+//! With the network's density `n`, the prior `p` and the share `s` of the prior, a choice is drawn from
+//!
+//! ```text
+//! q = (1 - s) n + s p
+//! ```
+//!
+//! Everything here is computed in `f64`, whatever the network computes in.
+
+mod bells;
+mod classes;
+mod head;
+mod lesson;
+mod line;
+
+pub use head::{Drawn, Head};
+pub(crate) use lesson::Known;
+pub use lesson::Lesson;
+
+/// An output of a network: `f32` or `f64`.
+pub(crate) trait Number: Copy + Into<f64> {}
+
+impl Number for f32 {}
+impl Number for f64 {}

@@ -1,0 +1,23 @@
+//! Rows from traces, and training on them.
+//!
+//! | file | what it holds |
+//! | --- | --- |
+//! | `rows` | [`Rows`]: what a guide would have seen at each choice of some traces, and what was chosen |
+//! | `slope` | the loss of a row, and its derivatives by all weights |
+//! | `scaling` | means and deviations of inputs: training sees standardised ones |
+//! | `adam` | [`Adam`]: the optimiser |
+//! | `train` | [`train`]: steps on choices of all traces; the best by rows held out |
+//!
+//! The loss of a choice is `-ln(q / p)`, nats: how much less likely the guide finds it than the prior does. The prior's
+//! share is in `q`.
+
+mod adam;
+mod rows;
+mod scaling;
+mod slope;
+mod train;
+
+pub use adam::Adam;
+pub use rows::Rows;
+pub use slope::{loss, loss_and_slope};
+pub use train::{Diverged, Progress, State, Trained, Training, resume, train};

@@ -1,0 +1,207 @@
+//! What a guide would have seen at each choice of some traces, and what was chosen.
+
+use crate::heads::{Known, Lesson};
+use crate::net::NetForm;
+
+/// Choices to learn from. A window that is the same as at the choice before is stored once.
+#[derive(Clone, Debug, Default)]
+pub struct Rows {
+    windows: usize,
+    features_of_form: usize,
+    sites_of_form: usize,
+    traces: usize,
+    rows: Vec<Row>,
+    /// All windows, one after the other.
+    seen: Vec<f32>,
+    features: Vec<(u32, f32)>,
+    numbers: Vec<f64>,
+    /// Whether the next window belongs to another trace.
+    apart: bool,
+}
+
+/// One choice: where its parts begin.
+#[derive(Clone, Copy, Debug)]
+struct Row {
+    site: u32,
+    window: u32,
+    features: (usize, u32),
+    numbers: usize,
+    kind: Kind,
+}
+
+/// Which lesson the numbers are.
+#[derive(Clone, Copy, Debug)]
+enum Kind {
+    Normal,
+    Finite { value: u32, values: u32 },
+    Count,
+}
+
+impl Rows {
+    /// No rows yet, for networks of this form.
+    pub fn new(form: &NetForm) -> Rows {
+        Rows {
+            windows: form.windows,
+            features_of_form: form.features,
+            sites_of_form: form.heads.len(),
+            ..Rows::default()
+        }
+    }
+
+    /// The choices of another trace begin.
+    pub fn trace(&mut self) {
+        self.traces += 1;
+        self.apart = true;
+    }
+
+    /// Adds a choice: its site, what its window shows, its features as (number, value as it is), and the lesson.
+    ///
+    /// # Panics
+    ///
+    /// If a number does not belong to the form.
+    pub fn push(&mut self, site: usize, window: &[f32], features: &[(u32, f32)], lesson: &Lesson) {
+        assert_eq!(window.len(), self.windows, "numbers of a window");
+        assert!(site < self.sites_of_form, "no site {site}");
+        assert!(features.iter().all(|(k, _)| (*k as usize) < self.features_of_form), "a feature's number");
+        let same = !self.apart && self.rows.last().is_some_and(|last| self.window_of(*last) == window);
+        if !same {
+            self.seen.extend_from_slice(window);
+        }
+        self.apart = false;
+        let window = self.seen.len().checked_div(self.windows).map_or(0, |n| n - 1);
+        let (at, numbers) = (self.features.len(), self.numbers.len());
+        self.features.extend_from_slice(features);
+        let kind = match lesson {
+            Lesson::Normal { z, log_prior, limits } => {
+                self.numbers.extend([*z, *log_prior, limits.0, limits.1]);
+                Kind::Normal
+            }
+            Lesson::Finite { value, log_priors } => {
+                self.numbers.extend_from_slice(log_priors);
+                Kind::Finite { value: *value as u32, values: log_priors.len() as u32 }
+            }
+            Lesson::Count { between, log_prior } => {
+                self.numbers.extend([between.0, between.1, *log_prior]);
+                Kind::Count
+            }
+        };
+        self.rows.push(Row {
+            site: site as u32,
+            window: window as u32,
+            features: (at, features.len() as u32),
+            numbers,
+            kind,
+        });
+    }
+
+    /// Adds the rows of other traces, of networks of the same form.
+    pub fn append(&mut self, other: &Rows) {
+        let windows = self.seen.len().checked_div(self.windows).unwrap_or(0) as u32;
+        let (features, numbers) = (self.features.len(), self.numbers.len());
+        self.rows.extend(other.rows.iter().map(|row| Row {
+            window: row.window + windows,
+            features: (row.features.0 + features, row.features.1),
+            numbers: row.numbers + numbers,
+            ..*row
+        }));
+        self.seen.extend_from_slice(&other.seen);
+        self.features.extend_from_slice(&other.features);
+        self.numbers.extend_from_slice(&other.numbers);
+        self.traces += other.traces;
+        self.apart = true;
+    }
+
+    /// How many choices there are.
+    pub fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.rows.is_empty()
+    }
+
+    /// How many traces began.
+    pub fn traces(&self) -> usize {
+        self.traces
+    }
+
+    /// Bytes of memory that the rows take.
+    pub fn bytes(&self) -> usize {
+        size_of_val(&*self.rows)
+            + size_of_val(&*self.seen)
+            + size_of_val(&*self.features)
+            + size_of_val(&*self.numbers)
+    }
+
+    /// Windows that are stored.
+    pub(crate) fn all_windows(&self) -> impl Iterator<Item = &[f32]> {
+        self.seen.chunks_exact(self.windows.max(1))
+    }
+
+    /// Features of all rows.
+    pub(crate) fn all_features(&self) -> &[(u32, f32)] {
+        &self.features
+    }
+
+    /// The site of a row.
+    pub(crate) fn site(&self, row: usize) -> usize {
+        self.rows[row].site as usize
+    }
+
+    /// The window of a row.
+    pub(crate) fn window(&self, row: usize) -> &[f32] {
+        self.window_of(self.rows[row])
+    }
+
+    fn window_of(&self, row: Row) -> &[f32] {
+        let start = row.window as usize * self.windows;
+        &self.seen[start..start + self.windows]
+    }
+
+    /// The features of a row.
+    pub(crate) fn features(&self, row: usize) -> &[(u32, f32)] {
+        let (start, count) = self.rows[row].features;
+        &self.features[start..start + count as usize]
+    }
+
+    /// The lesson of a row.
+    pub(crate) fn lesson(&self, row: usize) -> Known<'_> {
+        let Row { numbers, kind, .. } = self.rows[row];
+        let n = &self.numbers[numbers..];
+        match kind {
+            Kind::Normal => Known::normal(n[0], n[1], (n[2], n[3])),
+            Kind::Finite { value, values } => {
+                Known::Finite { value: value as usize, log_priors: &n[..values as usize] }
+            }
+            Kind::Count => Known::Count { between: (n[0], n[1]), log_prior: n[2] },
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! What is pushed comes back, and equal windows are stored once.
+    use super::*;
+    use crate::heads::Head;
+
+    #[test]
+    fn rows_come_back() {
+        let heads = vec![Head::Finite { values: 2 }, Head::Normal { components: 2 }];
+        let mut rows = Rows::new(&NetForm::new(2, 3, heads));
+        let coin = Lesson::Finite { value: 1, log_priors: [-0.5, -1.0].into() };
+        let bell = Lesson::Normal { z: 0.3, log_prior: -1.0, limits: (-7.5, 7.5) };
+        rows.trace();
+        rows.push(0, &[0.1, 0.2], &[(2, 5.0)], &coin);
+        rows.push(1, &[0.1, 0.2], &[], &bell);
+        rows.push(1, &[0.3, 0.2], &[(0, 1.0), (1, 2.0)], &bell);
+        rows.trace();
+        rows.push(0, &[0.3, 0.2], &[], &coin);
+        assert_eq!((rows.len(), rows.traces(), rows.all_windows().count()), (4, 2, 3));
+        assert_eq!(rows.window(1), [0.1, 0.2]);
+        assert_eq!(rows.window(3), [0.3, 0.2]);
+        assert_eq!((rows.site(2), rows.features(2)), (1, &[(0, 1.0), (1, 2.0)][..]));
+        assert!(matches!(rows.lesson(0), Known::Finite { value: 1, log_priors: [-0.5, -1.0] }));
+        assert!(matches!(rows.lesson(2), Known::Normal(place) if place.z == 0.3));
+    }
+}

@@ -1,0 +1,286 @@
+//! Training: Adam (Kingma & Ba 2015, alg. 1), averaged weights, the best by rows held out.
+//!
+//! A step draws so many choices from all traces and moves the weights against the slope of their mean loss ([`Adam`]). The
+//! choices are cut into chunks of fixed size whose slopes are added up in their order, so the same seed gives the same
+//! bits on any number of threads.
+
+use super::adam::Adam;
+use super::rows::Rows;
+use super::scaling;
+use super::slope::Work;
+use crate::net::{Net, Real};
+use niwaki_math::Stream;
+use niwaki_math::streams::RngCore;
+use rayon::prelude::*;
+use std::fmt;
+
+/// Choices of a step that one thread works through.
+const CHUNK: usize = 64;
+/// At most so many rows that are held out are looked at, evenly spread.
+const MOST_HELD_OUT: usize = 8192;
+/// Settings of training.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Training {
+    /// Adam's rate.
+    pub rate: f64,
+    /// Choices in a step.
+    pub batch: usize,
+    /// How much of the averaged weights is kept in a step.
+    pub averaging: f64,
+    /// Steps in all.
+    pub steps: u64,
+    /// Steps between looks at the rows that are held out.
+    pub every: u64,
+    /// The prior's share in the guide, above 0 and below 1.
+    pub share: f64,
+    /// Seed of the choices that steps draw.
+    pub seed: u64,
+}
+
+impl Training {
+    /// The usual settings for so many rows: three times over the rows, but at least 1,500 steps and at most 12,000, with
+    /// twenty looks.
+    pub fn new(seed: u64, rows: usize) -> Training {
+        let batch = 256;
+        let steps = (3 * rows as u64 / batch as u64).clamp(1_500, 12_000);
+        Training { rate: 2e-3, batch, averaging: 0.998, steps, every: steps.div_ceil(20), share: 0.02, seed }
+    }
+}
+
+/// How training goes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// Steps done.
+    pub step: u64,
+    /// Steps in all.
+    pub steps: u64,
+    /// Mean loss of the choices drawn since the last look, nats; of the start, as at the rows held out.
+    pub loss: f64,
+    /// Mean loss of the averaged weights on the rows that are held out, nats; `loss` again, if there are none.
+    pub held_out: f64,
+    /// The smallest of these so far, and its step.
+    pub best: (f64, u64),
+}
+
+/// Training that can go on: weights, and what the optimiser keeps.
+#[derive(Clone, Debug, PartialEq)]
+pub struct State<T: Real = f32> {
+    /// The network, with weights for standardised windows.
+    net: Net<T>,
+    /// Mean and one over deviation of each number of a window.
+    scaling: Vec<(T, T)>,
+    /// The optimiser.
+    adam: Adam<T>,
+    /// The smallest loss on the rows held out, its step and its weights.
+    best: (f64, u64, Vec<T>),
+}
+
+/// A trained network.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trained<T: Real = f32> {
+    /// The best network.
+    pub net: Net<T>,
+    /// Its loss on the rows that are held out, nats, and its step.
+    pub best: (f64, u64),
+    /// What every look saw.
+    pub history: Vec<Progress>,
+    /// To go on from the last step.
+    pub state: State<T>,
+}
+
+/// Training that met a loss or a slope that is not a finite number.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Diverged<T: Real = f32> {
+    /// The step.
+    pub step: u64,
+    /// The site of the first such choice; `None` where only the sum of many is not finite.
+    pub site: Option<usize>,
+    /// The choice's loss.
+    pub loss: f64,
+    /// The best network before.
+    pub net: Box<Net<T>>,
+}
+
+impl<T: Real> fmt::Display for Diverged<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let what = if self.loss.is_finite() { "a slope" } else { "the loss" };
+        write!(f, "in step {} {what} is not a finite number", self.step)?;
+        match self.site {
+            Some(site) => write!(f, ", at a choice of site {site} (loss {})", self.loss),
+            None => Ok(()),
+        }
+    }
+}
+
+impl<T: Real> std::error::Error for Diverged<T> {}
+
+/// A part of a step.
+struct Chunk<T: Real> {
+    work: Work<T>,
+    slope: Vec<T>,
+    loss: f64,
+}
+
+impl<T: Real> State<T> {
+    /// Before the first step. Inputs are standardised by the rows.
+    fn new(mut net: Net<T>, rows: &Rows) -> State<T> {
+        let scaling = scaling::of_windows(rows, net.form.windows);
+        if !net.fresh {
+            scaling::unfold(&mut net, &scaling);
+        }
+        net.fresh = false;
+        scaling::set_features(&mut net, rows);
+        let best = (f64::INFINITY, 0, net.weights.clone());
+        State { scaling, adam: Adam::new(net.weights.len()), best, net }
+    }
+
+    /// Steps done.
+    pub fn step(&self) -> u64 {
+        self.adam.step()
+    }
+
+    /// The network with these weights, for windows as they are.
+    fn folded(&self, weights: Vec<T>) -> Net<T> {
+        let mut net = Net { weights, ..self.net.clone() };
+        scaling::fold(&mut net, &self.scaling);
+        net
+    }
+
+    /// The averaged weights; before the first step, the start.
+    fn averaged(&self, averaging: f64) -> Vec<T> {
+        if self.step() == 0 { self.net.weights.clone() } else { self.adam.averaged(averaging) }
+    }
+
+    /// The mean loss of the averaged weights on rows that are held out.
+    fn look(&self, rows: &Rows, with: &Training) -> f64 {
+        let net = Net { weights: self.averaged(with.averaging), ..self.net.clone() };
+        let count = rows.len().min(MOST_HELD_OUT);
+        let sums: Vec<f64> = (0..count.div_ceil(CHUNK))
+            .into_par_iter()
+            .map_init(Work::default, |work, chunk| {
+                let some = chunk * CHUNK..((chunk + 1) * CHUNK).min(count);
+                let row = |k: usize| (k as u128 * rows.len() as u128 / count as u128) as usize;
+                some.map(|k| work.loss(&net, Some(&self.scaling), rows, row(k), with.share, None)).sum()
+            })
+            .collect();
+        sums.iter().sum::<f64>() / count as f64
+    }
+
+    /// The rows of the next step.
+    fn batch(&self, rows: &Rows, with: &Training) -> Vec<usize> {
+        let mut stream = Stream::new(with.seed, 1, u128::from(self.step()), 0);
+        let row = |bits: u64| ((u128::from(bits) * rows.len() as u128) >> 64) as usize;
+        (0..with.batch).map(|_| row(stream.next_u64())).collect()
+    }
+
+    /// One step; its mean loss, or the site and loss at which it is not finite.
+    fn advance(
+        &mut self,
+        rows: &Rows,
+        with: &Training,
+        chunks: &mut [Chunk<T>],
+    ) -> Result<f64, (Option<usize>, f64)> {
+        let batch = self.batch(rows, with);
+        let (net, scaling) = (&self.net, &self.scaling);
+        chunks.par_iter_mut().zip(batch.par_chunks(CHUNK)).for_each(|(chunk, some)| {
+            let Chunk { work, slope, loss } = chunk;
+            slope.fill(T::ZERO);
+            let add = |sum: f64, row: &usize| {
+                sum + work.loss(net, Some(scaling), rows, *row, with.share, Some(&mut *slope))
+            };
+            *loss = some.iter().fold(0.0, add);
+        });
+        let loss = chunks.iter().map(|c| c.loss).sum::<f64>() / with.batch as f64;
+        let (sum, rest) = chunks.split_at_mut(1);
+        let sum = &mut sum[0].slope;
+        for chunk in rest {
+            sum.iter_mut().zip(&chunk.slope).for_each(|(sum, x)| *sum += *x);
+        }
+        // Infinity and NaN times zero are NaN, and stay it in a sum.
+        let sound = sum.iter().fold(T::ZERO, |flag, x| flag + *x * T::ZERO) == T::ZERO;
+        if !(loss.is_finite() && sound) {
+            return Err(self.cause(rows, with, &batch));
+        }
+        self.adam.advance(&mut self.net.weights, sum, 1.0 / with.batch as f64, with.rate, with.averaging);
+        Ok(loss)
+    }
+
+    /// The first choice of a step whose loss or slope is not finite: its site, and its loss.
+    fn cause(&self, rows: &Rows, with: &Training, batch: &[usize]) -> (Option<usize>, f64) {
+        let mut work = Work::default();
+        for row in batch {
+            let mut slope = vec![T::ZERO; self.net.weights.len()];
+            let loss = work.loss(&self.net, Some(&self.scaling), rows, *row, with.share, Some(&mut slope));
+            if !loss.is_finite() || slope.iter().any(|x| !x.to_f64().is_finite()) {
+                return (Some(rows.site(*row)), loss);
+            }
+        }
+        (None, 0.0)
+    }
+}
+
+/// Trains a network. `watch` sees the progress at the start and at every look, and ends the training by `false`; the
+/// best network so far is the result. A network that was trained before goes on with its weights, standardised again by
+/// these rows.
+///
+/// # Panics
+///
+/// If the share of the prior is not between 0 and 1, or the rows are of another form than the network.
+pub fn train<T: Real>(
+    start: Net<T>,
+    rows: &Rows,
+    held_out: &Rows,
+    with: &Training,
+    watch: &mut dyn FnMut(Progress) -> bool,
+) -> Result<Trained<T>, Box<Diverged<T>>> {
+    resume(State::new(start, rows), rows, held_out, with, watch)
+}
+
+/// Goes on with training until `with.steps` steps are done in all.
+///
+/// # Panics
+///
+/// As [`train`].
+pub fn resume<T: Real>(
+    mut state: State<T>,
+    rows: &Rows,
+    held_out: &Rows,
+    with: &Training,
+    watch: &mut dyn FnMut(Progress) -> bool,
+) -> Result<Trained<T>, Box<Diverged<T>>> {
+    assert!(with.share > 0.0 && with.share < 1.0, "the prior's share is {}", with.share);
+    let mut history = Vec::new();
+    let chunk = || Chunk { work: Work::default(), slope: vec![T::ZERO; state.net.weights.len()], loss: 0.0 };
+    let mut chunks: Vec<Chunk<T>> = (0..with.batch.div_ceil(CHUNK).max(1)).map(|_| chunk()).collect();
+    let (mut sum, mut count) = (0.0, 0.0);
+    let last = if rows.is_empty() { state.step() } else { with.steps };
+    loop {
+        if state.step().is_multiple_of(with.every.max(1)) || state.step() >= last {
+            let seen = if held_out.is_empty() { None } else { Some(state.look(held_out, with)) };
+            let held_out = seen.unwrap_or(sum / f64::max(count, 1.0));
+            if held_out < state.best.0 || seen.is_none() {
+                state.best = (held_out, state.step(), state.averaged(with.averaging));
+            }
+            let loss = if count > 0.0 { sum / count } else { held_out };
+            let best = (state.best.0, state.best.1);
+            let progress = Progress { step: state.step(), steps: with.steps, loss, held_out, best };
+            history.push(progress);
+            (sum, count) = (0.0, 0.0);
+            if !watch(progress) || state.step() >= last {
+                break;
+            }
+        }
+        match state.advance(rows, with, &mut chunks) {
+            Ok(loss) => {
+                sum += loss;
+                count += 1.0;
+            }
+            Err((site, loss)) => {
+                let net = Box::new(state.folded(state.best.2.clone()));
+                return Err(Box::new(Diverged { step: state.step() + 1, site, loss, net }));
+            }
+        }
+    }
+    let net = state.folded(state.best.2.clone());
+    Ok(Trained { net, best: (state.best.0, state.best.1), history, state })
+}

@@ -1,0 +1,21 @@
+//! Guides: small networks that draw choices in place of the prior.
+//!
+//! A guide is a proposal. It sees windows of the scene and values that are live at a site, and gives a density for the
+//! choice there; the weight of a run is corrected by the prior's density over the guide's, so a bad guide costs time and
+//! never changes the answer. A share of the prior in every density bounds that quotient by one over the share.
+//!
+//! | part | what it holds |
+//! | --- | --- |
+//! | [`heads`] | outputs of a network as a density of a choice: drawing, scoring, gradients |
+//! | [`net`] | the network: its form, its weights, its answers, its file |
+//! | [`learn`] | rows from traces, and training on them |
+//!
+//! This crate does not know programs, scenes or traces: numbers and distributions in, numbers and draws out.
+
+pub mod heads;
+pub mod learn;
+pub mod net;
+
+pub use heads::{Drawn, Head, Lesson};
+pub use learn::{Diverged, Progress, Rows, State, Trained, Training, resume, train};
+pub use net::{BadFile, Net, NetForm, Real, Scratch, read, write};

@@ -1,0 +1,159 @@
+//! The bytes of a network, in the safetensors format.
+//!
+//! | entry | type and shape |
+//! | --- | --- |
+//! | `weights` | `f32`, all of them, rows padded to eight |
+//! | `features` | `f32`, (features, 2): mean, and one over the deviation |
+//! | metadata `niwaki` | JSON: the version of this format, the form, and the caller's text |
+//!
+//! The same network and text give the same bytes.
+
+use super::form::{Layout, NetForm};
+use super::pass::Net;
+use safetensors::tensor::{Dtype, SafeTensors, TensorView};
+use serde::{Deserialize, Serialize};
+use std::collections::HashMap;
+use std::fmt;
+
+/// The version of the format.
+const VERSION: u32 = 1;
+/// A file has at most so many weights: what a form claims is checked before memory is reserved for it.
+const LARGEST: usize = 1 << 28;
+
+/// What is wrong with the bytes of a network.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BadFile(String);
+
+impl fmt::Display for BadFile {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for BadFile {}
+
+/// The metadata.
+#[derive(Serialize, Deserialize)]
+struct About {
+    version: u32,
+    form: NetForm,
+    text: String,
+}
+
+/// A network and a text of the caller's as bytes.
+pub fn write(net: &Net, text: &str) -> Vec<u8> {
+    let about = About { version: VERSION, form: net.form.clone(), text: text.into() };
+    let bytes =
+        |numbers: &mut dyn Iterator<Item = f32>| numbers.flat_map(f32::to_le_bytes).collect::<Vec<u8>>();
+    let weights = bytes(&mut net.weights.iter().copied());
+    let features = bytes(&mut net.features.iter().flat_map(|(mean, scale)| [*mean, *scale]));
+    let view = |shape: Vec<usize>, data| TensorView::new(Dtype::F32, shape, data).expect("sizes agree");
+    let tensors = [
+        ("features", view(vec![net.features.len(), 2], &features)),
+        ("weights", view(vec![net.weights.len()], &weights)),
+    ];
+    let json = serde_json::to_string(&about).expect("plain data");
+    // One entry: several would be written in an order that changes.
+    let metadata = HashMap::from([("niwaki".to_owned(), json)]);
+    safetensors::serialize(tensors, Some(metadata)).expect("two small tensors")
+}
+
+/// The network and the text of some bytes.
+pub fn read(bytes: &[u8]) -> Result<(Net, String), BadFile> {
+    let bad = |what: String| BadFile(what);
+    let (_, header) = SafeTensors::read_metadata(bytes)
+        .map_err(|e| bad(format!("not a whole file of the safetensors format ({e})")))?;
+    let json = header.metadata().as_ref().and_then(|entries| entries.get("niwaki"));
+    let json =
+        json.ok_or_else(|| bad("a safetensors file, but not a guide: it has no entry `niwaki`".into()))?;
+    let version =
+        serde_json::from_str::<serde_json::Value>(json).ok().and_then(|v| v.get("version")?.as_u64());
+    if version != Some(VERSION.into()) {
+        let found = version.map_or("none".into(), |v| v.to_string());
+        return Err(bad(format!(
+            "written in version {found} of the format; this engine reads version {VERSION}"
+        )));
+    }
+    let About { form, text, .. } = serde_json::from_str(json)
+        .map_err(|e| bad(format!("the description of the network is damaged ({e})")))?;
+    let sizes = [form.windows, form.features, form.hidden[0], form.hidden[1], form.heads.len()];
+    if sizes.iter().any(|n| *n > 1 << 14)
+        || form.hidden.contains(&0)
+        || !form.heads.iter().all(|h| h.is_sound())
+    {
+        return Err(bad(format!(
+            "a network of sizes {sizes:?} (windows, features, hidden layers, sites) cannot be"
+        )));
+    }
+    let layout = Layout::new(&form);
+    if layout.len > LARGEST {
+        return Err(bad(format!("a network of {} weights is too large", layout.len)));
+    }
+    let tensors =
+        SafeTensors::deserialize(bytes).map_err(|e| bad(format!("the weights are damaged ({e})")))?;
+    let numbers = |name: &str, shape: &[usize]| {
+        let tensor = tensors.tensor(name).map_err(|_| bad(format!("there is no tensor `{name}`")))?;
+        if tensor.dtype() != Dtype::F32 || tensor.shape() != shape {
+            let (kind, found) = (tensor.dtype(), tensor.shape());
+            return Err(bad(format!(
+                "`{name}` is {kind:?} of shape {found:?}; its network needs F32 of {shape:?}"
+            )));
+        }
+        let numbers: Vec<f32> =
+            tensor.data().chunks_exact(4).map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect();
+        match numbers.iter().position(|x| !x.is_finite()) {
+            Some(k) => Err(bad(format!("number {k} of `{name}` is {}", numbers[k]))),
+            None => Ok(numbers),
+        }
+    };
+    let weights = numbers("weights", &[layout.len])?;
+    let features = numbers("features", &[form.features, 2])?.chunks_exact(2).map(|p| (p[0], p[1])).collect();
+    Ok((Net { form, layout, weights, features, fresh: false }, text))
+}
+
+#[cfg(test)]
+mod tests {
+    //! A network comes back from its bytes; damaged bytes give a message, never a panic.
+    use super::*;
+    use crate::heads::Head;
+
+    fn net() -> Net {
+        let heads = vec![Head::Normal { components: 4 }, Head::Finite { values: 3 }];
+        Net::start(NetForm { windows: 5, features: 2, hidden: [7, 6], heads }, 3)
+    }
+
+    #[test]
+    fn a_network_comes_back_with_its_text() {
+        let net = net();
+        let bytes = write(&net, "vines \"1\"");
+        assert_eq!(bytes, write(&net, "vines \"1\""));
+        let (back, text) = read(&bytes).unwrap();
+        assert_eq!((back.weights, back.features, back.form), (net.weights, net.features, net.form));
+        assert_eq!(text, "vines \"1\"");
+    }
+
+    #[test]
+    fn damaged_files_are_refused_with_a_reason() {
+        let whole = write(&net(), "");
+        let reason = |bytes: &[u8]| read(bytes).unwrap_err().to_string();
+        for cut in [0, 4, 9, 60, whole.len() - 1] {
+            assert!(reason(&whole[..cut]).starts_with("not a whole file"), "{cut}");
+        }
+        let replaced = |from: &str, to: &str| {
+            let text: String = whole.iter().map(|b| char::from(*b)).collect();
+            assert_eq!(from.len(), to.len());
+            reason(&text.replacen(from, to, 1).chars().map(|c| c as u8).collect::<Vec<u8>>())
+        };
+        assert_eq!(
+            replaced("\\\"version\\\":1", "\\\"version\\\":7"),
+            "written in version 7 of the format; this engine reads version 1"
+        );
+        assert!(replaced("niwaki", "biwaki").contains("it has no entry `niwaki`"));
+        assert!(replaced("windows\\\":5", "windows\\\":6").starts_with("`weights` is F32 of shape ["));
+        assert!(replaced("\\\"values\\\":3", "\\\"values\\\":0").contains("cannot be"));
+        let mut bytes = whole.clone();
+        let end = bytes.len();
+        bytes[end - 4..].copy_from_slice(&f32::NAN.to_le_bytes());
+        assert!(reason(&bytes).ends_with("is NaN"));
+    }
+}

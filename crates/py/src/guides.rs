@@ -1,0 +1,126 @@
+//! Guides for Python: files, and training on the traces of searches.
+
+use crate::faults;
+use crate::runs::PyRun;
+use crate::search::{PyTask, detached};
+use niwaki_guide::Progress;
+use niwaki_infer::guide::Guide;
+use niwaki_infer::guide::bound::BoundGuide;
+use niwaki_infer::guide::lessons::{Example, Making, train};
+use niwaki_infer::log::Entry;
+use niwaki_vm::fault::Fault;
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// A trained guide.
+#[pyclass(frozen, name = "Guide", module = "niwaki._engine")]
+pub struct PyGuide {
+    pub(crate) guide: Arc<Guide>,
+}
+
+#[pymethods]
+impl PyGuide {
+    /// The guide of the bytes of its file.
+    #[new]
+    fn new(py: Python<'_>, data: &[u8]) -> PyResult<PyGuide> {
+        let guide = Guide::of_bytes(data).map_err(|fault| faults::setting(py, &fault))?;
+        Ok(PyGuide { guide: Arc::new(guide) })
+    }
+
+    /// The bytes of its file.
+    fn data<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
+        PyBytes::new(py, &self.guide.bytes())
+    }
+
+    /// What it looks at and what it draws, as JSON.
+    fn form(&self) -> PyResult<String> {
+        serde_json::to_string(&self.guide.form)
+            .map_err(|error| pyo3::exceptions::PyValueError::new_err(error.to_string()))
+    }
+
+    /// Names of the inputs beside the windows.
+    fn inputs(&self) -> Vec<String> {
+        self.guide.form.names()
+    }
+
+    /// How many weights its network has.
+    fn weights(&self) -> usize {
+        self.guide.net.size()
+    }
+
+    /// The same guide with another report, a JSON object.
+    fn with_report(&self, py: Python<'_>, report: &str) -> PyResult<PyGuide> {
+        let report = serde_json::from_str(report)
+            .map_err(|error| faults::setting(py, &Fault::new("bad-guide", error.to_string())))?;
+        let mut form = self.guide.form.clone();
+        form.report = report;
+        Ok(PyGuide { guide: Arc::new(Guide { form, net: self.guide.net.clone() }) })
+    }
+
+    /// What the model of a task does not have of what it knows, as sentences; an error where nothing fits.
+    fn lost(&self, py: Python<'_>, task: &PyTask) -> PyResult<Vec<String>> {
+        let task = task.keeping_all(py)?;
+        let bound = BoundGuide::new(self.guide.clone(), &task).map_err(|fault| faults::setting(py, &fault))?;
+        Ok(bound.lost)
+    }
+}
+
+/// Traces to learn from.
+#[pyclass(frozen, name = "Lessons", module = "niwaki._engine")]
+pub struct PyLessons {
+    examples: Mutex<Vec<Example>>,
+}
+
+#[pymethods]
+impl PyLessons {
+    #[new]
+    fn new() -> PyLessons {
+        PyLessons { examples: Mutex::default() }
+    }
+
+    /// Adds a run of a task; one that is ``held_out`` judges.
+    fn add(&self, py: Python<'_>, task: &PyTask, run: &PyRun, held_out: bool) -> PyResult<()> {
+        let entries: Vec<Entry> = run.entries();
+        let example = Example { task: task.keeping_all(py)?, entries, held_out };
+        self.examples.lock().unwrap_or_else(PoisonError::into_inner).push(example);
+        Ok(())
+    }
+
+    /// Trains a guide, or goes on with one: the guide, and a dict of what happened. ``settings`` is JSON.
+    #[pyo3(signature = (task, settings, start=None, threads=None, watch=None))]
+    fn train<'py>(
+        &self,
+        py: Python<'py>,
+        task: &PyTask,
+        settings: &str,
+        start: Option<&PyGuide>,
+        threads: Option<usize>,
+        watch: Option<Py<PyAny>>,
+    ) -> PyResult<(PyGuide, Bound<'py, PyDict>)> {
+        let making: Making = serde_json::from_str(settings)
+            .map_err(|error| faults::setting(py, &Fault::new("bad-setting", error.to_string())))?;
+        let classes = &task.model.get().classes;
+        let caller = watch.as_ref().map(|call| (call, classes));
+        let start = start.map(|own| own.guide.clone());
+        let (result, pressed) = detached(py, &task.task.program, threads, caller, |watch| {
+            let examples = self.examples.lock().unwrap_or_else(PoisonError::into_inner);
+            let mut seen = |now: Progress| watch.look(now.step, 0, -now.held_out);
+            train(&examples, &making, start.as_deref(), &mut seen)
+        })?;
+        let told = PyDict::new(py);
+        let losses = result.history.iter().map(|now| (now.step, now.loss, now.held_out));
+        told.set_item("rows", result.rows)?;
+        told.set_item("bytes", result.bytes)?;
+        told.set_item("losses", losses.collect::<Vec<_>>())?;
+        told.set_item("diverged", result.diverged)?;
+        told.set_item("interrupted", pressed)?;
+        Ok((PyGuide { guide: Arc::new(result.guide) }, told))
+    }
+}
+
+/// Puts this part into the module.
+pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_class::<PyGuide>()?;
+    module.add_class::<PyLessons>()
+}
