@@ -5,6 +5,7 @@
 //! * `values`: Python's objects to the machine's values, and back; `faults`: faults as data;
 //! * `model`: compiled models; `search`: algorithms; `chains`: Markov chains;
 //!   `runs`: finished runs; `gradients`: log densities with their gradients; `trajectories`: chains that follow them;
+//!   `guides`: networks, for a comparison with other software;
 //! * `distributions`, `geometry`, `views`, `pictures`: parts of the lower crates.
 
 mod chains;
@@ -12,6 +13,7 @@ mod distributions;
 mod faults;
 mod geometry;
 mod gradients;
+mod guides;
 mod model;
 mod pictures;
 mod runs;
@@ -33,6 +35,7 @@ fn _engine(module: &Bound<'_, PyModule>) -> PyResult<()> {
     distributions::register(module)?;
     geometry::register(module)?;
     gradients::register(module)?;
+    guides::register(module)?;
     pictures::register(module)?;
     views::register(module)?;
     values::register(module)?;
