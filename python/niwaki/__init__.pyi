@@ -77,6 +77,7 @@ from .words import inverse_gamma as inverse_gamma
 from .words import laplace as laplace
 from .words import limb as limb
 from .words import log_normal as log_normal
+from .words import look as look
 from .words import mesh as mesh
 from .words import mixture as mixture
 from .words import multivariate_gaussian as multivariate_gaussian

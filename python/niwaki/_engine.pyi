@@ -293,7 +293,7 @@ class Task:
         method: str,
         seed: int,
         *,
-        functions: Sequence[Task] = ...,
+        attached: Sequence[Task | Guide] = ...,
         start: Run | None = None,
         threads: int | None = None,
         watch: _Watch | None = None,
@@ -323,7 +323,7 @@ def agreement(
     seed: int,
     steps: int,
     every: int = 20,
-    functions: Sequence[Task] = ...,
+    attached: Sequence[Task | Guide] = ...,
 ) -> tuple[str | None, int, int, int]: ...
 def matches(pattern: str, address: str) -> bool: ...
 def nearest(pattern: str, addresses: Sequence[str]) -> list[str]: ...
@@ -344,7 +344,7 @@ class Chains:
         method: str,
         seed: int,
         *,
-        functions: Sequence[Task] = ...,
+        attached: Sequence[Task | Guide] = ...,
         room: int = ...,
         start: Run | None = None,
         threads: int | None = None,

@@ -9,6 +9,7 @@
 //! - [`view`]: the rays of a picture, and which of them meet a shape
 //! - [`tree`]: a bag of boxes that copies share
 //! - [`sketch`]: running scores of the emitted shapes
+//! - [`window`]: what a sketch shows around a place
 //! - [`fine`], [`render`]: meshes with many sides, and pictures of them
 
 pub mod bounds;
@@ -30,6 +31,7 @@ pub mod topology;
 pub mod tree;
 pub mod view;
 pub mod voxel;
+pub mod window;
 pub mod words;
 
 pub use bounds::Aabb;
@@ -44,4 +46,5 @@ pub use segment::{Bark, Frame, Tube};
 pub use shape::{Placement, Ring, Shape, Solid};
 pub use sketch::*;
 pub use voxel::{Grid, Voxels};
+pub use window::{Place, WindowForm, WindowKind, WindowPoint};
 pub use words::Look;

@@ -127,6 +127,7 @@ const CASES: &[Case] = cases! {
     "normalize" vectors [0.3, 0.9, -2.0]; "distance" vectors [0.3, 0.9, -2.0, 1.0, 0.2, 0.4];
     "add" vectors [0.3, 0.9, -2.0, 1.0, 0.2, 0.4]; "rotation" turned [0.3, 0.9, -2.0, 0.8];
     "rotate" turned_about [0.3, 0.9, -2.0, 1.0, 0.2, 0.4, 0.8];
+    "look" vectors [0.3, 0.9, -2.0, 1.0, 0.2, 0.4]; "look" vectors [0.3, 0.9, -2.0, 1.0, 0.2, 0.4, 0.1, 2.0, 0.3];
     "softeq" reals [0.3, 0.5, 0.4]; "soft_at_least" reals [0.3, 0.5, 0.4]; "soft_at_least" reals [0.9, 0.5, 0.4];
     "soft_at_most" reals [0.3, 0.5, 0.4]; "soft_at_most" reals [0.9, 0.5, 0.4];
     "smooth_max" reals [0.3, 0.5, 0.4]; "smooth_min" reals [0.3, 0.5, 0.4]; "smooth_abs" reals [-0.3, 0.2];

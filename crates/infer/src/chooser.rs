@@ -7,8 +7,8 @@
 //! log p(x) - log q(x)        summed over the choices of a run
 //! ```
 //!
-//! [`Prior`] draws from `p` itself, [`Known`] uses given values, [`Guided`](crate::proposal::Guided) draws from a user's
-//! proposal; the last two pass other choices to another chooser. A chooser may look at the scene so far ([`Context`]).
+//! [`Prior`] draws from `p` itself, [`Known`] uses given values, [`ByProposal`](crate::proposal::ByProposal) draws from a
+//! user's proposal or a guide; the last two pass other choices to another chooser. A chooser may look at the scene so far ([`Context`]).
 
 use crate::record::log_density;
 use niwaki_geom::sketch::product::Sketches;
@@ -48,13 +48,15 @@ pub struct Context<'a> {
     /// The sketches of the scene so far. `None` for a task without sketches, and where they are not up to date at this
     /// choice (a run that is followed again, a Markov chain).
     pub sketches: Option<&'a Sketches>,
+    /// How many primitives the scene has.
+    pub primitives: usize,
 }
 
 impl Context<'_> {
     /// That of a choice without a scene.
     #[inline(always)]
     pub fn of(at: &At<'_, f64>) -> Self {
-        Context { address: at.address(), sketches: None }
+        Context { address: at.address(), sketches: None, primitives: 0 }
     }
 }
 

@@ -5,7 +5,8 @@
 
 use crate::chooser::Prior;
 use crate::forward::forward_by;
-use crate::proposal::{Guided, Proposal};
+use crate::guide::bound::Sight;
+use crate::proposal::{ByProposal, Proposal};
 use crate::record::AllInvalid;
 use crate::run::Run;
 use crate::{Failure, Task};
@@ -50,7 +51,10 @@ pub fn importance(
         let stream = StreamKey::new(seed, i, 0);
         match proposal {
             None => forward_by(task, Prior(stream), false),
-            Some(proposal) => forward_by(task, Guided { proposal, stream, otherwise: Prior(stream) }, false),
+            Some(proposal) => {
+                let sight = &mut Sight::default();
+                forward_by(task, ByProposal { proposal, stream, sight, otherwise: Prior(stream) }, false)
+            }
         }
     };
     let n = n as u64;

@@ -27,6 +27,7 @@ pub mod enumeration;
 pub mod failure;
 pub mod forward;
 pub mod gradient;
+pub mod guide;
 pub mod hamiltonian;
 pub mod hold;
 pub mod importance;

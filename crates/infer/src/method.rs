@@ -2,8 +2,7 @@
 //!
 //! The fields are those of Python's classes of the same names, which describe them.
 
-use crate::chain::form::Form;
-use crate::chain::user::User;
+use crate::chain::form::{Attached, Form};
 use crate::enumeration::enumerate;
 use crate::forward::forward;
 use crate::hamiltonian::chains::Length;
@@ -168,8 +167,8 @@ fn strategy<'de, D: serde::Deserializer<'de>>(from: D) -> Result<Strategy, D::Er
 pub struct Given<'a> {
     /// Decides every random number.
     pub seed: u64,
-    /// The users' proposals that the method's kernels name by number.
-    pub functions: &'a [Arc<User>],
+    /// The users' proposals and the guides that the method's kernels name by number.
+    pub attached: &'a [Attached],
     /// The run that a chain of whole runs starts from.
     pub start: Option<&'a [Entry]>,
     /// Where a search for the best shows its best run so far.
@@ -362,7 +361,7 @@ impl Smc {
         let rejuvenate = match &self.rejuvenate {
             None => None,
             Some(form) => Some(Rejuvenation {
-                kernel: form.kernel(given.functions)?,
+                kernel: form.kernel(given.attached)?,
                 moves: self.moves,
                 at: self.at,
                 final_chains: self.draws.map(|draws| FinalChains { chains: self.chains, draws }),
@@ -415,7 +414,7 @@ impl Mh {
     /// An unknown kernel.
     pub fn settings(&self, given: &Given<'_>) -> Result<chain::Settings, Fault> {
         let plain = chain::Settings::default();
-        let own = self.kernel.as_ref().map(|form| form.tempered(given.functions)).transpose()?;
+        let own = self.kernel.as_ref().map(|form| form.tempered(given.attached)).transpose()?;
         let settings = chain::Settings {
             seed: given.seed,
             strategy: self.strategy,
@@ -445,7 +444,7 @@ impl Mh {
 /// The proposal for the choices of new runs.
 fn proposed(form: Option<&Form>, given: &Given<'_>) -> Result<Option<Arc<Proposal>>, Fault> {
     let Some(form) = form else { return Ok(None) };
-    Ok(Some(Arc::new(Proposal::of(&form.kernel(given.functions)?)?)))
+    Ok(Some(Arc::new(Proposal::of(&form.kernel(given.attached)?)?)))
 }
 
 fn of_chain(mut chain: particles::Chain) -> Results {

@@ -1,4 +1,4 @@
-//! A user's proposals for the choices of a run that begins, as a chooser.
+//! Users' proposals and guides for the choices of a run that begins, as a chooser.
 
 use crate::chain::glob::{last, matches};
 use crate::chain::kernel::{Kernel, Selection};
@@ -6,6 +6,7 @@ use crate::chain::leaf::Proposer;
 use crate::chain::select::{labels, no_choice};
 use crate::chain::user::User;
 use crate::chooser::{Chooser, Chosen, Context};
+use crate::guide::bound::{BoundGuide, Sight};
 use crate::record::log_density;
 use niwaki_math::{Dist, StreamKey};
 use niwaki_vm::builtins::draw_to_value;
@@ -15,34 +16,42 @@ use niwaki_vm::machine::answers::At;
 use niwaki_vm::value::{Value, repr};
 use std::sync::Arc;
 
-/// From a user's proposal, at the choices that it is for; else another chooser.
-pub struct Guided<'a, C> {
+/// From a proposal, at the choices that it is for; else another chooser.
+pub struct ByProposal<'a, C> {
     /// The proposal.
     pub proposal: &'a Proposal,
     /// The stream of its random bits.
     pub stream: StreamKey,
+    /// What its guides have seen of this run since its last barrier.
+    pub sight: &'a mut Sight,
     /// The chooser of all other choices.
     pub otherwise: C,
 }
 
-impl<C: Chooser> Chooser for Guided<'_, C> {
+impl<C: Chooser> Chooser for ByProposal<'_, C> {
     fn choose(&mut self, at: &At<'_, f64>, dist: &Dist, seen: Context<'_>) -> Result<Option<Chosen>, Fault> {
-        let Some(own) = self.proposal.dist(at, dist)? else {
-            return self.otherwise.choose(at, dist, seen);
-        };
-        let (draw, log_drawn) = own.sample_and_score(&mut self.stream.at(seen.address));
-        Ok(Some(Chosen { log_drawn, ..Chosen::given(draw_to_value(draw), dist)? }))
+        match self.proposal.draw(at, dist, seen, self.sight, self.stream)? {
+            None => self.otherwise.choose(at, dist, seen),
+            chosen => Ok(chosen),
+        }
     }
 }
 
-/// A user's proposals for the choices of a run that begins: of those whose patterns match a choice's address the first.
+/// Who draws.
+#[derive(Clone, Debug)]
+enum Drawer {
+    User(Arc<User>),
+    Guide(Arc<BoundGuide>),
+}
+
+/// Proposals for the choices of a run that begins: of those whose patterns match a choice's address the first.
 #[derive(Clone, Debug)]
 pub struct Proposal {
-    parts: Vec<(Selection, Arc<User>)>,
+    parts: Vec<(Selection, Drawer)>,
 }
 
 impl Proposal {
-    /// The proposals of a kernel that consists of `proposal`, of `on` around it, and of `cycle` around those.
+    /// The proposals of a kernel that consists of `proposal` and `guided`, of `on` around them, and of `cycle` around those.
     ///
     /// # Errors
     /// Any other kernel; a function that needs the value before, which a new run does not have.
@@ -63,13 +72,19 @@ impl Proposal {
             )
             .with_help("name variables of the model instead, or nothing; `old` is for `mh`")),
             Kernel::Leaf(Proposer::Proposal(user)) => {
-                self.parts.push((selection.clone(), user.clone()));
+                self.parts.push((selection.clone(), Drawer::User(user.clone())));
+                Ok(())
+            }
+            Kernel::Leaf(Proposer::Guided(guide)) => {
+                self.parts.push((selection.clone(), Drawer::Guide(guide.clone())));
                 Ok(())
             }
             Kernel::On(own, inner) if own.is_by_pattern() => self.add(inner, &selection.and(own)),
             Kernel::Cycle(parts) => parts.iter().try_for_each(|part| self.add(part, selection)),
             _ => Err(Fault::new("bad-proposal", "a run that begins cannot be proposed by this kernel")
-                .with_help("use `proposal(function)`, `on(pattern, ...)` around it, or a `cycle` of those")),
+                .with_help(
+                    "use `guided(guide)`, `proposal(function)`, `on(pattern, ...)` around them, or a `cycle` of those",
+                )),
         }
     }
 
@@ -88,17 +103,60 @@ impl Proposal {
         Ok(())
     }
 
+    /// Whether it looks at the scene.
+    pub fn looks(&self) -> bool {
+        self.parts.iter().any(|(_, drawer)| matches!(drawer, Drawer::Guide(_)))
+    }
+
     /// Whether a pattern uses more of an address than its last component; futures must then remember their origin.
     pub fn needs_origins(&self) -> bool {
         self.parts.iter().any(|(selection, _)| selection.sites.iter().flatten().any(|p| is_deep(p)))
+    }
+
+    /// A value for a choice, with its densities; `None` where the prior draws.
+    ///
+    /// # Errors
+    /// A fault of the proposal.
+    pub fn draw(
+        &self,
+        at: &At<'_, f64>,
+        dist: &Dist,
+        seen: Context<'_>,
+        sight: &mut Sight,
+        stream: StreamKey,
+    ) -> Result<Option<Chosen>, Fault> {
+        match self.drawer(at, dist) {
+            None => Ok(None),
+            Some((number, Drawer::Guide(guide))) => {
+                Ok(guide.draw(at, dist, seen, sight, number, &mut stream.at(seen.address)))
+            }
+            Some((_, Drawer::User(user))) => {
+                let own = of_user(user, at, dist)?;
+                let (draw, log_drawn) = own.sample_and_score(&mut stream.at(seen.address));
+                Ok(Some(Chosen { log_drawn, ..Chosen::given(draw_to_value(draw), dist)? }))
+            }
+        }
     }
 
     /// The log density with which it draws that value at a choice, nats; `None` where the prior draws.
     ///
     /// # Errors
     /// A fault of the proposal; a value that it never draws.
-    pub fn log_drawn(&self, at: &At<'_, f64>, dist: &Dist, value: &Value) -> Result<Option<f64>, Fault> {
-        let Some(own) = self.dist(at, dist)? else { return Ok(None) };
+    pub fn log_drawn(
+        &self,
+        at: &At<'_, f64>,
+        dist: &Dist,
+        value: &Value,
+        seen: Context<'_>,
+        sight: &mut Sight,
+    ) -> Result<Option<f64>, Fault> {
+        let own = match self.drawer(at, dist) {
+            None => return Ok(None),
+            Some((number, Drawer::Guide(guide))) => {
+                return Ok(guide.log_drawn(at, dist, value, seen, sight, number));
+            }
+            Some((_, Drawer::User(user))) => of_user(user, at, dist)?,
+        };
         let log = log_density(&own, value)?;
         if log == f64::NEG_INFINITY {
             let message =
@@ -108,33 +166,36 @@ impl Proposal {
         Ok(Some(log))
     }
 
-    /// The distribution that it proposes for a choice; `None` where it has none, or there is only one value.
-    fn dist(&self, at: &At<'_, f64>, dist: &Dist) -> Result<Option<Arc<Dist>>, Fault> {
+    /// Who draws a choice, with its number; `None` where nobody does, or there is only one value.
+    fn drawer(&self, at: &At<'_, f64>, dist: &Dist) -> Option<(usize, &Drawer)> {
         if matches!(dist, Dist::Delta(_)) {
-            return Ok(None);
+            return None;
         }
-        let Some((_, user)) = self.parts.iter().find(|(selection, _)| takes(selection, at)) else {
-            return Ok(None);
-        };
-        let own = user.dist(at, None)?;
-        let (name, site, family) = (user.name(), at.path(), dist.family());
-        if !own.compares_with(dist) {
-            let message = format!(
-                "the proposal `{name}` draws from `{}` for the choice `{site}`, which draws from `{family}`: values of \
-                 another kind",
-                own.family()
-            );
-            return Err(Fault::new("proposal-kind", message)
-                .with_help("propose values of the kind that the choice's own distribution draws"));
-        }
-        if let Some(missing) = own.lacks(dist) {
-            let message = format!(
-                "the proposal `{name}` of the choice `{site}` never draws {missing}, which its `{family}` does"
-            );
-            return Err(Fault::new("proposal-support", message).with_help(WIDER));
-        }
-        Ok(Some(own))
+        let number = self.parts.iter().position(|(selection, _)| takes(selection, at))?;
+        Some((number, &self.parts[number].1))
     }
+}
+
+/// The distribution that a user's proposal gives for a choice.
+fn of_user(user: &User, at: &At<'_, f64>, dist: &Dist) -> Result<Arc<Dist>, Fault> {
+    let own = user.dist(at, None)?;
+    let (name, site, family) = (user.name(), at.path(), dist.family());
+    if !own.compares_with(dist) {
+        let message = format!(
+            "the proposal `{name}` draws from `{}` for the choice `{site}`, which draws from `{family}`: values of \
+                 another kind",
+            own.family()
+        );
+        return Err(Fault::new("proposal-kind", message)
+            .with_help("propose values of the kind that the choice's own distribution draws"));
+    }
+    if let Some(missing) = own.lacks(dist) {
+        let message = format!(
+            "the proposal `{name}` of the choice `{site}` never draws {missing}, which its `{family}` does"
+        );
+        return Err(Fault::new("proposal-support", message).with_help(WIDER));
+    }
+    Ok(own)
 }
 
 /// The help for a proposal that leaves values out.

@@ -47,23 +47,23 @@ pub struct PyChains {
 #[pymethods]
 impl PyChains {
     /// Chains in their first states, by the text of a method; ``start`` has values for their choices.
-    /// ``functions`` are the users' proposals that the kernel names by number; ``room`` is the most choices that the
+    /// ``attached`` are the users' proposals and guides that the kernel names by number; ``room`` is the most choices that the
     /// samples of one chain hold together.
     #[new]
-    #[pyo3(signature = (task, method, seed, *, functions=Vec::new(), room=1 << 22, start=None, threads=None))]
+    #[pyo3(signature = (task, method, seed, *, attached=Vec::new(), room=1 << 22, start=None, threads=None))]
     #[expect(clippy::too_many_arguments, reason = "the settings of chains")]
     fn new(
         py: Python<'_>,
         task: Py<PyTask>,
         method: &str,
         seed: u64,
-        functions: Vec<Py<PyTask>>,
+        attached: Vec<Bound<'_, PyAny>>,
         room: usize,
         start: Option<&PyRun>,
         threads: Option<usize>,
     ) -> PyResult<PyChains> {
         let own = task.get();
-        let (method, settings, kept) = settings(py, own, method, seed, &functions)?;
+        let (method, settings, kept) = settings(py, own, method, seed, &attached)?;
         let settings = Settings { room, ..settings };
         let known = start.map(PyRun::by_address);
         let (chains, _) = detached(py, &kept.program, threads, None, |_| {
@@ -223,21 +223,21 @@ fn settings(
     task: &PyTask,
     method: &str,
     seed: u64,
-    functions: &[Py<PyTask>],
+    attached: &[Bound<'_, PyAny>],
 ) -> PyResult<(Mh, Settings, Task)> {
-    let functions = task.proposals(py, functions)?;
+    let (kept, attached) = task.attach(py, attached)?;
     let Method::Mh(method) = task.read(py, method)? else {
         return Err(PyTypeError::new_err("this method is not Metropolis-Hastings"));
     };
-    let settings = method.settings(&Given { seed, functions: &functions, ..Given::default() });
+    let settings = method.settings(&Given { seed, attached: &attached, ..Given::default() });
     let settings = settings.map_err(|fault| faults::setting(py, &fault))?;
-    Ok((method, settings, task.keeping(py, &functions)?))
+    Ok((method, settings, kept))
 }
 
 /// Runs ``steps`` proposals under each of the four strategies and compares everything to the bit. Returns the first
 /// disagreement (or None), the proposals of each strategy, those accepted, and those with a fault.
 #[pyfunction]
-#[pyo3(signature = (task, method, seed, steps, every=20, functions=Vec::new()))]
+#[pyo3(signature = (task, method, seed, steps, every=20, attached=Vec::new()))]
 fn agreement(
     py: Python<'_>,
     task: &Bound<'_, PyTask>,
@@ -245,10 +245,10 @@ fn agreement(
     seed: u64,
     steps: u64,
     every: u64,
-    functions: Vec<Py<PyTask>>,
+    attached: Vec<Bound<'_, PyAny>>,
 ) -> PyResult<(Option<String>, u64, u64, u64)> {
     let own = task.get();
-    let (_, settings, kept) = settings(py, own, method, seed, &functions)?;
+    let (_, settings, kept) = settings(py, own, method, seed, &attached)?;
     let settings = Settings { thin: 0, ..settings };
     let ((difference, compared), _) =
         detached(py, &kept.program, None, None, |_| compare(&kept, &settings, steps, every.max(1)))?;

@@ -1,74 +1,127 @@
-//! Networks of guides, for a comparison with other software: their bytes, their loss with its slope, and steps of the
-//! optimiser, in `f64`.
+//! Guides for Python: files, and training on the traces of searches.
 
-use niwaki_guide::{Adam, Lesson, Net, NetForm, Rows, loss_and_slope, read, write};
-use numpy::{PyArray1, PyReadonlyArray1, PyReadonlyArray2};
-use pyo3::exceptions::PyValueError;
+use crate::faults;
+use crate::runs::PyRun;
+use crate::search::{PyTask, detached};
+use niwaki_guide::Progress;
+use niwaki_infer::guide::Guide;
+use niwaki_infer::guide::bound::BoundGuide;
+use niwaki_infer::guide::lessons::{Example, Making, train};
+use niwaki_infer::log::Entry;
+use niwaki_vm::fault::Fault;
 use pyo3::prelude::*;
-use pyo3::types::PyBytes;
-use serde::Deserialize;
-use std::fmt::Display;
+use pyo3::types::{PyBytes, PyDict};
+use std::sync::{Arc, Mutex, PoisonError};
 
-/// A choice, as JSON has it.
-#[derive(Deserialize)]
-struct Row {
-    site: usize,
-    window: Vec<f32>,
-    features: Vec<(u32, f32)>,
-    lesson: Lesson,
+/// A trained guide.
+#[pyclass(frozen, name = "Guide", module = "niwaki._engine")]
+pub struct PyGuide {
+    pub(crate) guide: Arc<Guide>,
 }
 
-fn refused(what: impl Display) -> PyErr {
-    PyValueError::new_err(what.to_string())
-}
-
-/// The bytes of a network before training; `form` is JSON.
-#[pyfunction]
-fn guide_net<'py>(py: Python<'py>, form: &str, seed: u64) -> PyResult<Bound<'py, PyBytes>> {
-    let form: NetForm = serde_json::from_str(form).map_err(refused)?;
-    Ok(PyBytes::new(py, &write(&Net::start(form, seed), "")))
-}
-
-/// The mean loss of some choices (a JSON list), nats, and its derivative by each weight, in the order of the bytes.
-#[pyfunction]
-fn guide_slope<'py>(
-    py: Python<'py>,
-    net: &[u8],
-    rows: &str,
-    share: f64,
-) -> PyResult<(f64, Bound<'py, PyArray1<f64>>)> {
-    let (net, _) = read(net).map_err(refused)?;
-    let given: Vec<Row> = serde_json::from_str(rows).map_err(refused)?;
-    let mut rows = Rows::new(net.form());
-    for row in given {
-        rows.push(row.site, &row.window, &row.features, &row.lesson);
+#[pymethods]
+impl PyGuide {
+    /// The guide of the bytes of its file.
+    #[new]
+    fn new(py: Python<'_>, data: &[u8]) -> PyResult<PyGuide> {
+        let guide = Guide::of_bytes(data).map_err(|fault| faults::setting(py, &fault))?;
+        Ok(PyGuide { guide: Arc::new(guide) })
     }
-    let (loss, slope) = loss_and_slope(&net.convert::<f64>(), &rows, share);
-    Ok((loss, PyArray1::from_vec(py, slope)))
-}
 
-/// The weights after a step of the optimiser for each row of slopes, and the averaged weights.
-#[pyfunction]
-#[expect(clippy::type_complexity, reason = "two arrays")]
-fn guide_steps<'py>(
-    py: Python<'py>,
-    weights: PyReadonlyArray1<'py, f64>,
-    slopes: PyReadonlyArray2<'py, f64>,
-    rate: f64,
-    averaging: f64,
-) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>)> {
-    let mut weights = weights.as_array().to_vec();
-    let mut adam = Adam::new(weights.len());
-    for slope in slopes.as_array().rows() {
-        adam.advance(&mut weights, &slope.to_vec(), 1.0, rate, averaging);
+    /// The bytes of its file.
+    fn data<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
+        PyBytes::new(py, &self.guide.bytes())
     }
-    let averaged = adam.averaged(averaging);
-    Ok((PyArray1::from_vec(py, weights), PyArray1::from_vec(py, averaged)))
+
+    /// What it looks at and what it draws, as JSON.
+    fn form(&self) -> PyResult<String> {
+        serde_json::to_string(&self.guide.form)
+            .map_err(|error| pyo3::exceptions::PyValueError::new_err(error.to_string()))
+    }
+
+    /// Names of the inputs beside the windows.
+    fn inputs(&self) -> Vec<String> {
+        self.guide.form.names()
+    }
+
+    /// How many weights its network has.
+    fn weights(&self) -> usize {
+        self.guide.net.size()
+    }
+
+    /// The same guide with another report, a JSON object.
+    fn with_report(&self, py: Python<'_>, report: &str) -> PyResult<PyGuide> {
+        let report = serde_json::from_str(report)
+            .map_err(|error| faults::setting(py, &Fault::new("bad-guide", error.to_string())))?;
+        let mut form = self.guide.form.clone();
+        form.report = report;
+        Ok(PyGuide { guide: Arc::new(Guide { form, net: self.guide.net.clone() }) })
+    }
+
+    /// What the model of a task does not have of what it knows, as sentences; an error where nothing fits.
+    fn lost(&self, py: Python<'_>, task: &PyTask) -> PyResult<Vec<String>> {
+        let task = task.keeping_all(py)?;
+        let bound =
+            BoundGuide::new(self.guide.clone(), &task).map_err(|fault| faults::setting(py, &fault))?;
+        Ok(bound.lost)
+    }
 }
 
+/// Traces to learn from.
+#[pyclass(frozen, name = "Lessons", module = "niwaki._engine")]
+pub struct PyLessons {
+    examples: Mutex<Vec<Example>>,
+}
+
+#[pymethods]
+impl PyLessons {
+    #[new]
+    fn new() -> PyLessons {
+        PyLessons { examples: Mutex::default() }
+    }
+
+    /// Adds a run of a task; one that is ``held_out`` judges.
+    fn add(&self, py: Python<'_>, task: &PyTask, run: &PyRun, held_out: bool) -> PyResult<()> {
+        let entries: Vec<Entry> = run.entries();
+        let example = Example { task: task.keeping_all(py)?, entries, held_out };
+        self.examples.lock().unwrap_or_else(PoisonError::into_inner).push(example);
+        Ok(())
+    }
+
+    /// Trains a guide, or goes on with one: the guide, and a dict of what happened. ``settings`` is JSON.
+    #[pyo3(signature = (task, settings, start=None, threads=None, watch=None))]
+    fn train<'py>(
+        &self,
+        py: Python<'py>,
+        task: &PyTask,
+        settings: &str,
+        start: Option<&PyGuide>,
+        threads: Option<usize>,
+        watch: Option<Py<PyAny>>,
+    ) -> PyResult<(PyGuide, Bound<'py, PyDict>)> {
+        let making: Making = serde_json::from_str(settings)
+            .map_err(|error| faults::setting(py, &Fault::new("bad-setting", error.to_string())))?;
+        let classes = &task.model.get().classes;
+        let caller = watch.as_ref().map(|call| (call, classes));
+        let start = start.map(|own| own.guide.clone());
+        let (result, pressed) = detached(py, &task.task.program, threads, caller, |watch| {
+            let examples = self.examples.lock().unwrap_or_else(PoisonError::into_inner);
+            let mut seen = |now: Progress| watch.look(now.step, 0, -now.held_out);
+            train(&examples, &making, start.as_deref(), &mut seen)
+        })?;
+        let told = PyDict::new(py);
+        let losses = result.history.iter().map(|now| (now.step, now.loss, now.held_out));
+        told.set_item("rows", result.rows)?;
+        told.set_item("bytes", result.bytes)?;
+        told.set_item("losses", losses.collect::<Vec<_>>())?;
+        told.set_item("diverged", result.diverged)?;
+        told.set_item("interrupted", pressed)?;
+        Ok((PyGuide { guide: Arc::new(result.guide) }, told))
+    }
+}
+
+/// Puts this part into the module.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add_function(wrap_pyfunction!(guide_net, module)?)?;
-    module.add_function(wrap_pyfunction!(guide_slope, module)?)?;
-    module.add_function(wrap_pyfunction!(guide_steps, module)?)?;
-    Ok(())
+    module.add_class::<PyGuide>()?;
+    module.add_class::<PyLessons>()
 }

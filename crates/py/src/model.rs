@@ -9,12 +9,12 @@ use niwaki_vm::core::parse::parse;
 use niwaki_vm::core::{Module, Name};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Limits;
-use niwaki_vm::passes::{compile, compile_keeping};
+use niwaki_vm::passes::{Kept, compile, compile_keeping};
 use niwaki_vm::value::Value;
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
 use std::collections::HashMap;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 use std::time::Instant;
 
 /// Python callables by the number of the constant that names them. Calling one takes the interpreter's lock.
@@ -54,6 +54,8 @@ pub struct PyProgram {
     /// What it was compiled from.
     module: Module,
     data: Vec<Value>,
+    /// The program that keeps all variables, once it was needed.
+    observed: OnceLock<Arc<Program>>,
 }
 
 impl PyProgram {
@@ -64,8 +66,18 @@ impl PyProgram {
 
     /// The program compiled so that these variables can be read at choices; otherwise it is the same.
     pub fn keeping(&self, py: Python<'_>, names: &[Name]) -> PyResult<Arc<Program>> {
-        let compiled = compile_keeping(&self.module, self.data.clone(), names);
+        let compiled = compile_keeping(&self.module, self.data.clone(), Kept::Names(names));
         compiled.map(Arc::new).map_err(|e| faults::uncompiled(py, e.to_string()))
+    }
+
+    /// The program compiled so that all variables can be read at choices, once.
+    pub fn keeping_all(&self, py: Python<'_>) -> PyResult<Arc<Program>> {
+        if let Some(known) = self.observed.get() {
+            return Ok(known.clone());
+        }
+        let compiled = compile_keeping(&self.module, self.data.clone(), Kept::All);
+        let program = compiled.map(Arc::new).map_err(|e| faults::uncompiled(py, e.to_string()))?;
+        Ok(self.observed.get_or_init(|| program).clone())
     }
 
     /// The inferences inside of the program.
@@ -115,6 +127,7 @@ impl PyProgram {
             seconds: start.elapsed().as_secs_f64(),
             module,
             data,
+            observed: OnceLock::new(),
         })
     }
 

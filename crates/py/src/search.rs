@@ -6,14 +6,17 @@
 use crate::faults;
 use crate::geometry::PySketchSpec;
 use crate::gradients::PyDensity;
+use crate::guides::PyGuide;
 use crate::model::PyProgram;
 use crate::runs::{PyRun, PyTrace};
 use crate::values::Classes;
 use niwaki_infer::chain::counts::Count;
+use niwaki_infer::chain::form::Attached;
 use niwaki_infer::chain::glob;
 use niwaki_infer::chain::regrow::{Afresh, afresh};
 use niwaki_infer::chain::user::User;
 use niwaki_infer::gradient::live;
+use niwaki_infer::guide::bound::BoundGuide;
 use niwaki_infer::hold::hold;
 use niwaki_infer::improve::Round;
 use niwaki_infer::method::{self, Given, Info, Method};
@@ -185,27 +188,26 @@ impl PyTask {
     }
 
     /// Searches by a method, given as its text: the finished runs, whether the search was interrupted, and a dict of
-    /// further results of the method. ``functions`` are the users' proposals that kernels name by number; ``start`` is the
+    /// further results of the method. ``attached`` are the users' proposals and guides that kernels name by number; ``start`` is the
     /// run that a chain of whole runs starts from.
-    #[pyo3(signature = (method, seed, *, functions=Vec::new(), start=None, threads=None, watch=None))]
+    #[pyo3(signature = (method, seed, *, attached=Vec::new(), start=None, threads=None, watch=None))]
     #[expect(clippy::too_many_arguments, reason = "the settings of a search")]
     fn search<'py>(
         &self,
         py: Python<'py>,
         method: &str,
         seed: u64,
-        functions: Vec<Py<PyTask>>,
+        attached: Vec<Bound<'py, PyAny>>,
         start: Option<&PyRun>,
         threads: Option<usize>,
         watch: Option<Py<PyAny>>,
     ) -> PyResult<(Vec<PyRun>, bool, Bound<'py, PyDict>)> {
         let method = self.read(py, method)?;
-        let functions = self.proposals(py, &functions)?;
+        let (task, attached) = self.attach(py, &attached)?;
         let classes = self.model.get().classes.clone();
         let start = start.map(PyRun::entries);
-        let task = self.keeping(py, &functions)?;
         let find = |shown: &Shown, watch: &mut method::Watch<'_>| {
-            let given = Given { seed, functions: &functions, start: start.as_deref(), shown: Some(shown) };
+            let given = Given { seed, attached: &attached, start: start.as_deref(), shown: Some(shown) };
             method.search(&task, &given, watch)
         };
         let (result, pressed) = if let Method::Forward { n: 1 } = method {
@@ -331,16 +333,50 @@ impl PyTask {
         Method::read(method).map_err(|fault| faults::setting(py, &fault))
     }
 
-    /// The users' proposals that are the entry functions of these tasks.
-    pub(crate) fn proposals(&self, py: Python<'_>, tasks: &[Py<PyTask>]) -> PyResult<Vec<Arc<User>>> {
-        let own = |task: &Py<PyTask>| User::new(task.get().task.clone()).map(Arc::new);
-        let users = tasks.iter().map(own).collect::<Result<_, _>>();
-        users.map_err(|fault| faults::setting(py, &fault))
+    /// The task with what kernels name by number: users' proposals, the entry functions of tasks, and guides. Its program
+    /// is compiled to keep the variables that these read.
+    pub(crate) fn attach(
+        &self,
+        py: Python<'_>,
+        given: &[Bound<'_, PyAny>],
+    ) -> PyResult<(Task, Vec<Attached>)> {
+        let mut attached = Vec::new();
+        let mut task = None;
+        for one in given {
+            if let Ok(guide) = one.cast::<PyGuide>() {
+                let kept = match task.take() {
+                    Some(task) => task,
+                    None => self.keeping_all(py)?,
+                };
+                let guide = BoundGuide::new(guide.get().guide.clone(), &kept);
+                attached.push(Attached::Guide(Arc::new(guide.map_err(|fault| faults::setting(py, &fault))?)));
+                task = Some(kept);
+            } else {
+                let function = User::new(one.cast::<PyTask>()?.get().task.clone());
+                attached.push(Attached::Function(Arc::new(
+                    function.map_err(|fault| faults::setting(py, &fault))?,
+                )));
+            }
+        }
+        let task = match task {
+            Some(task) => task,
+            None => self.keeping(py, &attached)?,
+        };
+        Ok((task, attached))
+    }
+
+    /// The task, its program compiled to keep all variables.
+    pub(crate) fn keeping_all(&self, py: Python<'_>) -> PyResult<Task> {
+        Ok(Task { program: self.model.get().keeping_all(py)?, ..self.task.clone() })
     }
 
     /// The task, its program compiled to keep the variables of these proposals.
-    pub(crate) fn keeping(&self, py: Python<'_>, functions: &[Arc<User>]) -> PyResult<Task> {
-        let mut names: Vec<Name> = functions.iter().flat_map(|own| own.variables().cloned()).collect();
+    fn keeping(&self, py: Python<'_>, attached: &[Attached]) -> PyResult<Task> {
+        let functions = attached.iter().filter_map(|one| match one {
+            Attached::Function(own) => Some(own),
+            Attached::Guide(_) => None,
+        });
+        let mut names: Vec<Name> = functions.flat_map(|own| own.variables().cloned()).collect();
         names.sort();
         names.dedup();
         if names.is_empty() {

@@ -4,15 +4,16 @@
 use niwaki_geom::Shape;
 use niwaki_math::{Dist, Draw};
 use niwaki_vm::builtins::draw_to_value;
-use niwaki_vm::code::Program;
+use niwaki_vm::code::{Function, Program, SiteKind};
 use niwaki_vm::core::parse::parse;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
 use niwaki_vm::machine::stack::RunFault;
 use niwaki_vm::machine::state::State;
 use niwaki_vm::machine::{Limits, Machine, Stop};
-use niwaki_vm::passes::compile;
+use niwaki_vm::passes::{Kept, compile, compile_keeping};
 use niwaki_vm::value::{Value, repr};
+use std::collections::BTreeSet;
 
 /// Answers choices with 1, 2, 3, ... (or their least value), pauses at factors if set, and logs everything.
 #[derive(Default)]
@@ -349,4 +350,188 @@ fn a_look_at_a_future_that_is_not_forced_is_a_fault() {
             assert_eq!(found, Err("future-not-forced"), "{leaf}: {look}");
         }
     }
+}
+
+/// At every choice: what is visible, and the x of the place that the program looks from.
+#[derive(Default)]
+struct Scopes {
+    count: i64,
+    seen: Vec<(String, String, Option<f64>)>,
+}
+
+impl Answers<f64> for Scopes {
+    fn choice(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Answer<Value>, Fault> {
+        let names: Vec<String> =
+            at.visible().map(|(name, _, value)| format!("{name}={}", repr(value).unwrap())).collect();
+        let look = at.look().map(|frame| match frame.field("center") {
+            Some(Value::Real(x)) => *x,
+            other => panic!("{other:?}"),
+        });
+        self.seen.push((at.site.label.to_string(), names.join(" "), look));
+        self.count += 1;
+        let values = dist.enumerate().expect("a finite choice");
+        Ok(Answer::Go(draw_to_value(values[self.count as usize % values.len()].clone())))
+    }
+    fn score(&mut self, _: &At<'_, f64>, _: Factor, _: f64) -> Result<Answer<()>, Fault> {
+        Ok(Answer::Go(()))
+    }
+    fn emit(&mut self, _: &At<'_, f64>, _: &[Shape]) -> Result<Answer<()>, Fault> {
+        Ok(Answer::Go(()))
+    }
+    fn query(&mut self, _: &At<'_, f64>, _: &Value, _: &Value) -> Result<(), Fault> {
+        Ok(())
+    }
+    fn host(&mut self, _: u16, args: &[Value]) -> Result<Value, Fault> {
+        Ok(args[0].clone())
+    }
+}
+
+/// What all choices of a program see.
+fn scopes(text: &str) -> Vec<(String, String, Option<f64>)> {
+    let program = compile_keeping(&parse(text).expect("core form"), vec![], Kept::All).expect("a program");
+    let (mut machine, mut scopes) = (Machine::new(&program, Limits::default()), Scopes::default());
+    let mut state = machine.start(&[], true).expect("a start");
+    machine.finish(&mut state, &mut scopes).expect("a run");
+    scopes.seen
+}
+
+#[test]
+fn choices_see_what_every_path_has_assigned_in_the_order_of_assignment() {
+    let seen = scopes(
+        r#"(module
+          (fn "part" (params $p $q) (captures $c)
+            (set $p%3 7) (set $p (add $p $c))
+            (set $u (sample (dist bernoulli 0.5)))
+            (return $u))
+          (fn "m" (params)
+            (set $a 1) (set $b (add $a 1)) (set $a 3)
+            (set $s (sample (dist bernoulli 0.5)))
+            (if $s (then (set $b 5) (set $only 6)) (else (set $t 8)))
+            (set $v (sample (dist bernoulli 0.5)))
+            (set $gone 0) (set $b 9)
+            (for $i (range 2) (body
+              (set $w (sample (dist bernoulli 0.5)))
+              (set $gone (add $i 10))
+              (for $j (range 1) (body (set $x (sample (dist bernoulli 0.5)))))))
+            (set $y (sample (dist bernoulli 0.5)))
+            (do (call "part" 1 2 $a))
+            (return none)) (entry "m"))"#,
+    );
+    let expected = [
+        ("s", "b=2 a=3"),
+        ("v", "a=3 s=True b=5"),
+        ("w", "a=3 s=True v=False b=9 gone=0 i=0"),
+        ("x", "a=3 s=True v=False b=9 i=0 w=True gone=10 j=0"),
+        ("w", "a=3 s=True v=False b=9 gone=10 i=1"),
+        ("x", "a=3 s=True v=False b=9 i=1 w=True gone=11 j=0"),
+        ("y", "a=3 s=True v=False b=9 gone=11"),
+        ("u", "c=3 q=2 p=4"),
+    ];
+    let found: Vec<(&str, &str)> = seen.iter().map(|(label, names, _)| (&**label, &**names)).collect();
+    assert_eq!(found, expected);
+}
+
+#[test]
+fn the_frame_that_was_assigned_last_is_looked_from() {
+    let seen = scopes(
+        r#"(module (class 0 "Frame" ("center" "forward" "up" "radius")) (class 1 "Other" ("center"))
+          (fn "m" (params)
+            (set $a (sample (dist bernoulli 0.5)))
+            (set $f (record 0 1.0 0.0 0.0 1.0)) (set $o (record 1 9.0))
+            (set $b (sample (dist bernoulli 0.5)))
+            (if $b (then (set $%look (record 0 2.0 0.0 0.0 1.0))))
+            (set $c (sample (dist bernoulli 0.5)))
+            (for $i (range 2) (body
+              (set $d (sample (dist bernoulli 0.5)))
+              (set $%look (record 0 (add $i 3.0) 0.0 0.0 1.0))))
+            (set $e (sample (dist bernoulli 0.5)))
+            (set $f (record 0 5.0 0.0 0.0 1.0))
+            (set $g (sample (dist bernoulli 0.5)))
+            (return none)) (entry "m"))"#,
+    );
+    let found: Vec<(&str, Option<f64>)> = seen.iter().map(|(label, _, look)| (&**label, *look)).collect();
+    let expected = [
+        ("a", None),
+        ("b", Some(1.0)),
+        // The arm that looks is not taken.
+        ("c", Some(1.0)),
+        ("d", Some(1.0)),
+        ("d", Some(3.0)),
+        ("e", Some(4.0)),
+        ("g", Some(5.0)),
+    ];
+    assert_eq!(found, expected);
+    assert!(seen.iter().all(|(_, names, _)| !names.contains("look") && !names.contains(" =")));
+}
+
+/// Of each function: the variables and choices that are angles, and those that are not.
+fn angles(text: &str) -> Vec<(String, String, String)> {
+    let program = compile_keeping(&parse(text).expect("core form"), vec![], Kept::All).expect("a program");
+    let sorted = |names: BTreeSet<String>| names.into_iter().collect::<Vec<_>>().join(" ");
+    let of = |f: &Function| {
+        let named = |is_angle: bool| {
+            let seen = f.scope.iter().filter(|x| x.is_angle == is_angle).map(|x| x.name.to_string());
+            let drawn = f.sites.iter().filter(|site| matches!(site.kind, SiteKind::Sample(_)));
+            let drawn = drawn.filter(|site| site.is_angle == is_angle).map(|site| format!("~{}", site.label));
+            sorted(seen.chain(drawn).collect())
+        };
+        (f.name.to_string(), named(true), named(false))
+    };
+    program.functions.iter().filter(|f| !f.sites.is_empty() && !f.scope.is_empty()).map(of).collect()
+}
+
+#[test]
+fn an_angle_is_what_flows_into_one_or_comes_from_one() {
+    // As the vines are written.
+    let vines = r#"(module
+      (fn "vines" (params $x $y $ahead)
+        (set $start_angle (sample #start_angle (dist gaussian (atan2 (index $ahead 1) (index $ahead 0)) 0.5)))
+        (set $later (sample #later (dist bernoulli 0.5)))
+        (do (call "branch" $x $y $start_angle 0.75))
+        (return none))
+      (fn "branch" (params $x $y $angle $width)
+        (set $angle (add $angle (sample #turn (dist gaussian 0.0 0.4))))
+        (set $width (mul 0.9 $width))
+        (set $end_x (add $x (mul 2.0 (cos $angle)))) (set $end_y (add $y (mul 2.0 (sin $angle))))
+        (do (emit (stroke (tuple $x $y 0.0) (tuple $end_x $end_y 0.0) $width)))
+        (set $side (cond (sample #side (dist bernoulli 0.5)) 1.0 -1.0))
+        (set $leaf_angle (add $angle (sample #leaf (dist gaussian (mul $side 0.8) 0.3))))
+        (do (emit (ellipse (tuple $end_x $end_y 0.0) 2.0 1.0 $leaf_angle)))
+        (if (sample #on (dist bernoulli 0.5)) (then (do (call "branch" $end_x $end_y $angle $width))))
+        (return none))
+      (entry "vines"))"#;
+    let row = |name: &str, yes: &str, no: &str| (name.to_string(), yes.to_string(), no.to_string());
+    assert_eq!(
+        angles(vines),
+        [
+            row("vines", "start_angle ~start_angle", "ahead x y ~later"),
+            row("branch", "angle leaf_angle ~leaf ~turn", "end_x end_y side width x y ~on ~side"),
+        ]
+    );
+    // Through a loop's values, a capture, a returned value, an argument of a pure function, and from one only.
+    let ways = r#"(module
+      (fn "turned" (params $t) (return (sub 3.0 $t)))
+      (fn "drawn" (params $m) (set $d (sample #d (dist uniform $m 2.0))) (set $n (sample #n (dist bernoulli 0.5)))
+        (return $d))
+      (fn "inner" (params) (captures $c $l) (set $k (sample #k (dist bernoulli 0.5)))
+        (return (mul $l (tan $c))))
+      (fn "m" (params $a $b $e $h)
+        (set $s $h) (set $o 0.0)
+        (for $i (range 3) (body
+          (set $s (add $s (sample #step (dist gaussian 0.0 1.0)))) (set $o (add $o $b))))
+        (do (emit (ellipse (tuple $o 0.0 0.0) 1.0 1.0 (neg (call "turned" $s)))))
+        (set $r (call "drawn" $a)) (set $x (sin $r))
+        (set $g (atan2 $x $o)) (set $p (radians $b)) (set $q (add $p 1.0))
+        (do (call "inner" $e $o))
+        (set $z (sample #z (dist bernoulli 0.5)))
+        (return (tuple $g $q))) (entry "m"))"#;
+    assert_eq!(
+        angles(ways),
+        [
+            row("drawn", "d m ~d", "~n"),
+            row("inner", "c", "l ~k"),
+            row("m", "a e g h p q r s", "b o x ~z"),
+            row("m/i#0", "a e h s ~step", "b i o"),
+        ]
+    );
 }

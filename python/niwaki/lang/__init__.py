@@ -8,8 +8,8 @@ vocabulary     built-ins, `math` and our words, as operations
 core           the core form: grammar and writer
 marks          functions that are marked for the language
 program, body  the state of one lowering, and of one function in it
-expressions, statements, comprehensions, arguments, callees, builtin_calls, inference, calls, refuse, lower
-               the lowering: one function for each kind of syntax
+expressions, statements, comprehensions, arguments, callees, builtin_calls, inference, looking, calls,
+refuse, lower  the lowering: one function for each kind of syntax
 instrument, densities, plain
                a model as ordinary Python
 compiled       a model with its program for the engine; tasks

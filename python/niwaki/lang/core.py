@@ -24,7 +24,8 @@ Grammar (each `(HEAD ...)` may carry a span atom right after its head, `@L:C-L:C
 
 Variables. `$name` is the user's variable. `$name%N` is one that the front end created (or a second variable of the same
 name); its readable name is the part before the `%`, and may be empty: `$%N`. Numbers are unique within one
-top-level function and the functions nested in it.
+top-level function and the functions nested in it. The statement `look(...)` assigns `$%look`: the frame from which the
+choices after it are seen.
 
 Functions. NAME is the qualified name: `ship`, nested `ship.wing`, a lambda `ship.lambda`, a second one of a name
 `ship.#2.lambda`; the part after the last dot is the function's own name.
@@ -65,6 +66,9 @@ class Form:
 
 
 Expr = Form | str
+
+#: The variable of a statement `look(...)`, see `niwaki.lang.looking`.
+LOOK = "$%look"
 
 TREES = frozenset({"fn", "if", "for", "while", "then", "else", "body", "module"})
 

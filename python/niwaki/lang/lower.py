@@ -10,7 +10,7 @@ import ast
 from types import FunctionType
 
 from niwaki.errors.source import head_span
-from niwaki.lang import calls, comprehensions  # noqa: F401  (they register themselves)
+from niwaki.lang import calls, comprehensions, looking  # noqa: F401  (they register themselves)
 from niwaki.lang.body import Body
 from niwaki.lang.callees import live_defaults
 from niwaki.lang.core import Core, Expr, Form, literal, write_tree

@@ -6,10 +6,11 @@ import ast
 from collections.abc import Callable, Sequence
 from typing import Any, TypeVar
 
+from niwaki import words
 from niwaki.lang import vocabulary
 from niwaki.lang.body import Block, Body
-from niwaki.lang.core import Expr, Form, literal
-from niwaki.lang.expressions import closure, expression, keep_defaults, variable
+from niwaki.lang.core import LOOK, Expr, Form, literal
+from niwaki.lang.expressions import closure, expression, keep_defaults, static, variable
 from niwaki.lang.refuse import refuse
 from niwaki.lang.scope import Scope, Variable
 
@@ -53,11 +54,13 @@ def pass_(body: Body, node: ast.Pass) -> None:
 
 @lowers(ast.Expr)
 def effect(body: Body, node: ast.Expr) -> None:
-    """An expression for its effect; a docstring is nothing."""
+    """An expression for its effect; a docstring is nothing. `look` lasts: it assigns a variable of its own."""
     if isinstance(node.value, ast.Constant):
         return
     value = expression(body, node.value)
-    if isinstance(value, Form):
+    if isinstance(node.value, ast.Call) and static(body, node.value.func) is words.look:
+        body.put(body.form("set", [LOOK, value], node))
+    elif isinstance(value, Form):
         body.put(body.form("do", [value], node))
 
 

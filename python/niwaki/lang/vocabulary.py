@@ -147,7 +147,7 @@ DRAWS: dict[Any, type[Distribution]] = {
 }
 
 ALL_WORDS: frozenset[Any] = frozenset(
-    {*WORDS, *EFFECTS, *DRAWS, *FAMILIES, words.choose, words.future, words.infer}
+    {*WORDS, *EFFECTS, *DRAWS, *FAMILIES, words.choose, words.future, words.infer, words.look}
 )
 
 METHODS: dict[str, tuple[int, int]] = {

@@ -5,6 +5,7 @@ particles   sequential Monte Carlo, and chains whose proposals are populations
 chains      Metropolis-Hastings
 gradients   Hamiltonian Monte Carlo
 improve     a search for the best run, by several of these
+guide       a network that draws choices in place of the prior
 kernels     Markov kernels, for chains
 method      the base class: a method as data
 checks      checks of settings
@@ -23,6 +24,7 @@ from niwaki.methods.direct import (
     rejection,
 )
 from niwaki.methods.gradients import METRICS, Hmc, Nuts, explore, hmc, nuts
+from niwaki.methods.guide import Guide
 from niwaki.methods.improve import Improve, improve
 from niwaki.methods.method import Method
 from niwaki.methods.particles import (
@@ -45,6 +47,7 @@ __all__ = [
     "WEIGHTS",
     "EnumerateAll",
     "Forward",
+    "Guide",
     "Hmc",
     "Importance",
     "Improve",

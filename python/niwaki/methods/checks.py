@@ -6,6 +6,8 @@ from typing import Any
 
 from niwaki.errors import InputError
 from niwaki.errors.settings import bad, is_whole
+from niwaki.methods import kernels
+from niwaki.methods.guide import Guide
 from niwaki.methods.kernels import Kernel
 
 
@@ -28,12 +30,22 @@ def proposal(kernel: Any) -> None:
         return
     usual = 'kernels.on("x", kernels.proposal(function))'
     if not isinstance(kernel, Kernel):
-        raise bad("proposal", kernel, "a kernel from `kernels.proposal`", usual)
+        raise bad("proposal", kernel, "a kernel from `kernels.proposal` or `kernels.guided`", usual)
     weighted = kernel.name == "on" and not kernel.settings["sites"]
-    if kernel.name not in ("proposal", "on", "cycle") or weighted:
-        raise bad("proposal", kernel, "`proposal`, `on` around it, or a `cycle` of those", usual)
+    if kernel.name not in ("proposal", "guided", "on", "cycle") or weighted:
+        expected = "`proposal` or `guided`, `on` around them, or a `cycle` of those"
+        raise bad("proposal", kernel, expected, usual)
     for part in kernel.parts:
         proposal(part)
+
+
+def guided(kernel: Kernel | None, guide: Guide | None) -> Kernel | None:
+    """The proposal that consists of a checked proposal and a guide for all other choices."""
+    proposal(kernel)
+    if guide is None:
+        return kernel
+    own = kernels.guided(guide)
+    return own if kernel is None else kernels.cycle(kernel, own)
 
 
 def one_of(name: str, value: str, known: tuple[str, ...]) -> None:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import InitVar, dataclass
 
 from niwaki.errors.settings import bad, is_number
 from niwaki.methods.checks import at_least_one, samples
-from niwaki.methods.checks import proposal as check_proposal
+from niwaki.methods.checks import guided as with_guide
+from niwaki.methods.guide import Guide
 from niwaki.methods.kernels import Kernel
 from niwaki.methods.method import Method
 
@@ -69,16 +70,19 @@ class Importance(Method):
         Who draws the choices that the prior does not: `kernels.on(pattern, kernels.proposal(function))`, or a `cycle`
         of several, of which the first whose pattern matches a choice holds. The weights correct for it, so the
         law and the evidence stay as they are.
+    guide
+        Draws all other choices that it knows; their weights are corrected, too.
     """
 
     NAME = "importance"
     n: int = 1000
     proposal: Kernel | None = None
+    guide: InitVar[Guide | None] = None
 
-    def __post_init__(self) -> None:
+    def __post_init__(self, guide: Guide | None) -> None:
         """Check the settings."""
         samples(self.n)
-        check_proposal(self.proposal)
+        self._set("proposal", with_guide(self.proposal, guide))
 
 
 @dataclass(frozen=True)

@@ -23,6 +23,7 @@ from typing import Any
 
 from niwaki.errors import InputError
 from niwaki.errors.settings import bad, is_number, is_whole
+from niwaki.methods.guide import Guide
 
 __all__ = [
     "Kernel",
@@ -30,6 +31,7 @@ __all__ = [
     "block",
     "cycle",
     "drift",
+    "guided",
     "hmc_step",
     "mixture",
     "neighbour",
@@ -63,7 +65,7 @@ class Kernel:
     function: Any = field(default=None, compare=False)
 
     def data(self, function: Callable[[Any], Any]) -> dict[str, Any]:
-        """The kernel as plain data; `function` writes a user's proposal."""
+        """The kernel as plain data; `function` writes a user's proposal or a guide."""
         found: dict[str, Any] = {"name": self.name}
         if self.settings:
             found["settings"] = dict(self.settings)
@@ -75,7 +77,7 @@ class Kernel:
 
     @classmethod
     def of_data(cls, data: Mapping[str, Any], function: Callable[[Any], Any]) -> Kernel:
-        """The kernel of its data; `function` reads a user's proposal."""
+        """The kernel of its data; `function` reads a user's proposal or a guide."""
         parts = tuple(cls.of_data(part, function) for part in data.get("parts", ()))
         own = function(data["function"]) if "function" in data else None
         return cls(data["name"], dict(data.get("settings", {})), parts, own)
@@ -281,6 +283,19 @@ def proposal(function: Callable[..., Any]) -> Kernel:
         values it proposes.
     """
     return Kernel("proposal", function=function)
+
+
+def guided(guide: Guide) -> Kernel:
+    """Choices drawn by a guide (dissertation chapter 6), for chains, particles and importance sampling alike.
+
+    Parameters
+    ----------
+    guide
+        From `niwaki.train_guide`, or a file (`Guide.load`). Choices that it does not know are drawn from their priors.
+    """
+    if not isinstance(guide, Guide):
+        raise bad("guide", guide, "a guide", '`niwaki.train_guide(...)` or `Guide.load("vines.guide")`')
+    return Kernel("guided", function=guide)
 
 
 def cycle(*kernels: Kernel) -> Kernel:

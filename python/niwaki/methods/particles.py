@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import InitVar, dataclass
 from typing import Any
 
 from niwaki.errors import InputError
 from niwaki.errors.settings import bad, is_number, is_whole
 from niwaki.methods.checks import at_least_one, one_of
+from niwaki.methods.checks import guided as with_guide
 from niwaki.methods.checks import particles as check_particles
-from niwaki.methods.checks import proposal as check_proposal
+from niwaki.methods.guide import Guide
 from niwaki.methods.kernels import Kernel
 from niwaki.methods.method import Method
 
@@ -64,8 +65,8 @@ class Smc(Method):
         populations of one size run one after the other. Those that are complete when this time is spent count, the one
         that still runs is dropped; where none is complete the first is finished, and takes longer. So the evidence is
         unbiased though costly populations are often the good ones. `Result.info.plan` lists their sizes.
-    proposal
-        A kernel that draws choices in place of the prior, as for `importance`. Not with absolute weights.
+    proposal, guide
+        What draws choices in place of the prior, as for `importance`. Not with absolute weights.
     rejuvenate
         A kernel of `niwaki.kernels` that moves each particle without changing the law that all follow, so that copies
         become different again (Gilks & Berzuini 2001). A particle that still runs keeps its skeleton: which parts,
@@ -99,8 +100,9 @@ class Smc(Method):
     at: int | str = 1
     draws: int | None = None
     chains: int = 1
+    guide: InitVar[Guide | None] = None
 
-    def __post_init__(self) -> None:
+    def __post_init__(self, guide: Guide | None) -> None:
         """Check the settings."""
         if self.seconds is not None:
             if not is_number(self.seconds) or not 0 < self.seconds < float("inf"):
@@ -128,7 +130,7 @@ class Smc(Method):
             at_least_one("populations", self.populations)
             if not isinstance(self.particles, int):
                 raise bad("populations", self.populations, "None together with a list of sizes", "None")
-        check_proposal(self.proposal)
+        self._set("proposal", with_guide(self.proposal, guide))
         if self.proposal is not None and self.weights == "absolute":
             expected = "None together with absolute weights, which ignore the density of a proposal"
             raise bad("proposal", self.proposal, expected, 'None, or `weights` to "ratio"')
@@ -189,8 +191,8 @@ class ParticleGibbs(Method):
         The power at each barrier, as for `smc`.
     ancestors
         Whether the past of the held run is drawn again at each resampling.
-    proposal
-        A kernel that draws choices in place of the prior, as for `importance`.
+    proposal, guide
+        What draws choices in place of the prior, as for `importance`.
     """
 
     NAME = "particle_gibbs"
@@ -203,8 +205,9 @@ class ParticleGibbs(Method):
     anneal: Sequence[float] | None = None
     ancestors: bool = True
     proposal: Kernel | None = None
+    guide: InitVar[Guide | None] = None
 
-    def __post_init__(self) -> None:
+    def __post_init__(self, guide: Guide | None) -> None:
         """Check the settings."""
         check_particles(self.particles, 2)
         at_least_one("sweeps", self.sweeps)
@@ -213,7 +216,7 @@ class ParticleGibbs(Method):
         _check_power(self)
         self._set("anneal", _fixed(self.anneal))
         self._set("ancestors", bool(self.ancestors))
-        check_proposal(self.proposal)
+        self._set("proposal", with_guide(self.proposal, guide))
 
 
 @dataclass(frozen=True)
@@ -232,8 +235,8 @@ class Pimh(Method):
         How many, after a first population; one sample each, from the first population in which a particle lived.
     anneal
         The power at each barrier, as for `smc`.
-    proposal
-        A kernel that draws choices in place of the prior, as for `importance`.
+    proposal, guide
+        What draws choices in place of the prior, as for `importance`.
     """
 
     NAME = "pimh"
@@ -245,8 +248,9 @@ class Pimh(Method):
     ess: float | None = None
     anneal: Sequence[float] | None = None
     proposal: Kernel | None = None
+    guide: InitVar[Guide | None] = None
 
-    def __post_init__(self) -> None:
+    def __post_init__(self, guide: Guide | None) -> None:
         """Check the settings."""
         check_particles(self.particles)
         at_least_one("sweeps", self.sweeps)
@@ -254,7 +258,7 @@ class Pimh(Method):
         one_of("resampling", self.resampling, RESAMPLING)
         _check_power(self)
         self._set("anneal", _fixed(self.anneal))
-        check_proposal(self.proposal)
+        self._set("proposal", with_guide(self.proposal, guide))
 
 
 smc, particle_gibbs, pimh = Smc, ParticleGibbs, Pimh

@@ -14,6 +14,7 @@ True
 
 from __future__ import annotations
 
+import base64
 import hashlib
 import json
 import re
@@ -29,7 +30,7 @@ from niwaki.errors.settings import bad
 from niwaki.lang.compiled import arguments, task
 from niwaki.lang.core import Core
 from niwaki.lang.models import Model, as_model
-from niwaki.methods import Forward, Method, Mh
+from niwaki.methods import Forward, Guide, Method, Mh
 from niwaki.result import Result, Sample
 from niwaki.result.progress import Watch, watcher
 from niwaki.search import searching
@@ -223,8 +224,8 @@ class Search:
         """
         read = Reader(tuple(trust))
 
-        def function(given: Any) -> Model[..., Any]:
-            return _stored(given, read)
+        def function(given: Any) -> Model[..., Any] | Guide:
+            return Guide(base64.b85decode(given["guide"])) if "guide" in given else _stored(given, read)
 
         try:
             if data["format"] != FORMAT:
@@ -319,9 +320,11 @@ def _stored(data: Mapping[str, Any], read: Reader) -> StoredModel:
 
 
 def _function_writer(write: Writer) -> Any:
-    """Writes a user's proposal: a model, or for the hash of a search the hash of one."""
+    """Writes a user's proposal or a guide; for the hash of a search the hash of one."""
 
     def function(given: Any) -> Any:
+        if isinstance(given, Guide):
+            return {"guide": given.hash if write.files == "hashed" else base64.b85encode(given.data).decode()}
         own = as_model(given)
         return model_hash(own) if write.files == "hashed" else model_data(own, write)
 

@@ -13,7 +13,7 @@ from niwaki.errors import InputError, ModelFault
 from niwaki.errors.settings import bad
 from niwaki.lang.compiled import translated
 from niwaki.lang.models import as_model
-from niwaki.methods import Hmc, Method, Mh, Nuts, ParticleGibbs, at_least_one
+from niwaki.methods import Guide, Hmc, Method, Mh, Nuts, ParticleGibbs, at_least_one
 from niwaki.result import Result, Sample
 from niwaki.result.chains import MhInfo, Running
 from niwaki.result.hmc import Drawn, HmcInfo
@@ -130,11 +130,11 @@ def once(search: Search, seed: int, threads: int | None, watch: EngineWatch) -> 
         return chains_of(search, search.method, seed, threads, watch, start)
     if isinstance(search.method, Hmc | Nuts):
         return trajectories(search, search.method, seed, threads, watch, start)
-    method, functions = _written(search.method)
+    method, attached = _written(search.method)
     counted, clock = search.task.uncounted(), Clock()
     with translated(search.model.name, f"seed={seed}"):
         runs, interrupted, counters = counted.search(
-            method, seed, functions=functions, start=start, threads=threads, watch=watch
+            method, seed, attached=attached, start=start, threads=threads, watch=watch
         )
     info = INFOS.get(search.method.NAME, Info)(**counters)
     diverse = getattr(search.method, "diverse", None)
@@ -146,10 +146,12 @@ def once(search: Search, seed: int, threads: int | None, watch: EngineWatch) -> 
     return Result(search, samples, seed, info=info, interrupted=interrupted, invalid=invalid, seconds=seconds)
 
 
-def _written(method: Method) -> tuple[str, list[_engine.Task]]:
-    """A method as the engine reads it, and the users' proposals that it names."""
-    text, functions = method.text()
-    return text, [_engine.Task(as_model(function).program()) for function in functions]
+def _written(method: Method) -> tuple[str, list[_engine.Task | _engine.Guide]]:
+    """A method as the engine reads it, and the users' proposals and guides that it names."""
+    text, attached = method.text()
+    return text, [
+        one._engine if isinstance(one, Guide) else _engine.Task(as_model(one).program()) for one in attached
+    ]
 
 
 class Clock:
@@ -194,10 +196,10 @@ def chains_of(
     spent: tuple[float, float] = (0.0, 0.0),
 ) -> Result:
     """Chains in their first states, and their first proposals; `spent` are the seconds of the search before."""
-    text, functions = _written(method)
+    text, attached = _written(method)
     counted = search.task.uncounted()
     with translated(search.model.name, f"seed={seed}"):
-        chains = _engine.Chains(counted, text, seed, functions=functions, start=start, threads=threads)
+        chains = _engine.Chains(counted, text, seed, attached=attached, start=start, threads=threads)
     running = Running(chains, counted, watch, threads)
     info = MhInfo(search=search, method=method, seed=seed, _running=running)
     return Result(search, [], seed, method=method, info=info, seconds=spent).more(method.steps)

@@ -6,17 +6,30 @@ effects         `factor`, `condition`, `observe`, `query`, `emit`, `future`, `fo
 shapes          `box`, `cylinder`, `limb`, `segment`, `mesh`; flat ones: `stroke`, `ellipse`, `disc`
 colors          `hsv`, `lab`, `to_hsv`, `to_lab`, `color_difference`
 polygons        `polygon_area`, `polygon_contains`, `polygon_distance`, `polygon_disc_area`, `polygon_inset`
+frames          `look`
 vectors         `vec`, `dot`, `cross`, `norm`, `normalize`, `distance`, `rotate`, `rotation`
 numbers         `clip`, `lerp`, `sign`
 soft            `softeq`, `soft_at_least`, `soft_at_most`, `smooth_max`, `smooth_min`, `smooth_abs`
 running         the run that a call belongs to
 """
 
-from niwaki.words import choices, colors, distributions, effects, numbers, polygons, shapes, soft, vectors
+from niwaki.words import (
+    choices,
+    colors,
+    distributions,
+    effects,
+    frames,
+    numbers,
+    polygons,
+    shapes,
+    soft,
+    vectors,
+)
 from niwaki.words.choices import *
 from niwaki.words.colors import *
 from niwaki.words.distributions import *
 from niwaki.words.effects import *
+from niwaki.words.frames import *
 from niwaki.words.numbers import *
 from niwaki.words.polygons import *
 from niwaki.words.shapes import *
@@ -28,6 +41,7 @@ __all__ += choices.__all__
 __all__ += colors.__all__
 __all__ += distributions.__all__
 __all__ += effects.__all__
+__all__ += frames.__all__
 __all__ += numbers.__all__
 __all__ += polygons.__all__
 __all__ += shapes.__all__

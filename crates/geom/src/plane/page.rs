@@ -63,6 +63,16 @@ impl Page {
         self.high
     }
 
+    /// Width and height of a pixel, world units.
+    pub fn pixel(&self) -> [f64; 2] {
+        self.pixel
+    }
+
+    /// The longer side of the window, world units.
+    pub fn side(&self) -> f64 {
+        (self.high[0] - self.low[0]).max(self.high[1] - self.low[1])
+    }
+
     /// Number of words of touched pixels.
     pub fn words(&self) -> usize {
         self.size[0].div_ceil(64) * self.size[1].div_ceil(GROUP) * GROUP
@@ -74,8 +84,9 @@ impl Page {
         (self.word(column / 64, row), column % 64)
     }
 
+    /// The word of the touched pixels `64 * across ..` of a row.
     #[inline]
-    fn word(&self, across: usize, row: usize) -> usize {
+    pub(crate) fn word(&self, across: usize, row: usize) -> usize {
         (row / GROUP * self.size[0].div_ceil(64) + across) * GROUP + row % GROUP
     }
 
@@ -89,6 +100,13 @@ impl Page {
     pub fn sampled_word(&self, column: usize, row: usize) -> usize {
         let group = row / SAMPLES * self.size[0].div_ceil(SAMPLES) + column / SAMPLES;
         group * GROUP + row % SAMPLES * SAMPLES + column % SAMPLES
+    }
+
+    /// The pixel (column, row) of a word of samples.
+    #[inline]
+    pub(crate) fn sampled_pixel(&self, word: usize) -> (usize, usize) {
+        let (group, inside, across) = (word / GROUP, word % GROUP, self.size[0].div_ceil(SAMPLES));
+        (group % across * SAMPLES + inside % SAMPLES, group / across * SAMPLES + inside / SAMPLES)
     }
 
     /// The height of the upper border of a row; of the page's lower border for the row after the last.

@@ -81,8 +81,9 @@ impl Brick {
     }
 
     /// Cells of a word that have a count.
+    #[inline]
     pub fn any(&self, word: usize) -> u64 {
-        self.planes().fold(0, |all, plane| all | plane[word])
+        self.higher.iter().fold(self.lowest[word], |all, plane| all | plane[word])
     }
 
     /// Count of one cell.

@@ -5,6 +5,7 @@
 
 use super::brick::{Brick, Plane};
 use crate::voxel::{CellBox, Voxels};
+use crate::window::solid::Sums;
 use std::sync::Arc;
 
 /// Cells along x, y and z in one brick; row (y, z) of it is word `8 * z + y`.
@@ -24,14 +25,30 @@ pub struct Change {
     pub inside: i64,
 }
 
+/// The counts of a brick, and what windows need of it once they are expected.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Cells {
+    pub counts: Brick,
+    /// Filled cells that the target wants, and the other filled cells, by boxes.
+    pub sums: Option<Box<Sums>>,
+}
+
+/// Cells that the target wants, and the others.
+#[inline]
+fn split(cells: u64, target: u64) -> [u64; 2] {
+    [cells & target, cells & !target]
+}
+
 /// Bricks of one layer of z. Copies share layers too, so that a change copies references to few bricks.
-type Layer = Arc<Vec<Option<Arc<Brick>>>>;
+type Layer = Arc<Vec<Option<Arc<Cells>>>>;
 
 /// A count for every cell of a grid. Cloning shares all bricks.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Counters {
     layers: Arc<Vec<Layer>>,
     across: [usize; 3],
+    /// Bricks keep sums.
+    windows: bool,
 }
 
 impl Counters {
@@ -39,25 +56,35 @@ impl Counters {
     pub fn new(dims: [usize; 3]) -> Counters {
         let across = bricks_of(dims);
         let layer: Layer = Arc::new(vec![None; across[0] * across[1]]);
-        Counters { layers: Arc::new(vec![layer; across[2]]), across }
+        Counters { layers: Arc::new(vec![layer; across[2]]), across, windows: false }
     }
 
     /// Adds one to every cell of `voxels`; `target` gives the wanted cells.
     pub fn add(&mut self, voxels: &Voxels, target: &[Plane]) -> Change {
         let (layers, size) = (Arc::make_mut(&mut self.layers), self.across[0] * self.across[1]);
+        let windows = self.windows;
         let mut change = Change::default();
         visit(&voxels.cells, self.across, |index, column, words| {
             let place = &mut Arc::make_mut(&mut layers[index / size])[index % size];
             let is_new = place.is_none();
-            let brick = Arc::make_mut(place.get_or_insert_with(Arc::default));
+            let cells = Arc::make_mut(place.get_or_insert_with(Arc::default));
+            if is_new && windows {
+                cells.sums = Some(Box::default());
+            }
+            let (brick, sums) = (&mut cells.counts, &mut cells.sums);
             for (word, y, z) in words {
                 let cells = voxels.word(column, y, z);
                 let new = brick.raise(word, cells);
                 change.filled += i64::from(new.count_ones());
                 change.inside += i64::from((new & target[index][word]).count_ones());
+                if let Some(sums) = sums {
+                    sums.add(word, split(new, target[index][word]));
+                }
             }
             if is_new && brick.is_empty() {
                 *place = None;
+            } else if let Some(sums) = sums {
+                sums.settle();
             }
         });
         change
@@ -69,22 +96,56 @@ impl Counters {
         let mut change = Change::default();
         visit(&voxels.cells, self.across, |index, column, words| {
             let place = &mut Arc::make_mut(&mut layers[index / size])[index % size];
-            let Some(brick) = place else { return };
-            let brick = Arc::make_mut(brick);
+            let Some(cells) = place else { return };
+            let cells = Arc::make_mut(cells);
+            let (brick, sums) = (&mut cells.counts, &mut cells.sums);
             for (word, y, z) in words {
                 let cells = voxels.word(column, y, z);
                 let gone = brick.lower(word, cells);
                 change.filled -= i64::from(gone.count_ones());
                 change.inside -= i64::from((gone & target[index][word]).count_ones());
+                if let Some(sums) = sums {
+                    sums.remove(word, split(gone, target[index][word]));
+                }
             }
             if brick.trim() {
                 *place = None;
+            } else if let Some(sums) = sums {
+                sums.settle();
             }
         });
         change
     }
 
-    fn bricks(&self) -> impl Iterator<Item = &Option<Arc<Brick>>> {
+    /// True once bricks keep what windows need.
+    pub(crate) fn expects_windows(&self) -> bool {
+        self.windows
+    }
+
+    /// From now on bricks keep what windows need.
+    pub(crate) fn expect_windows(&mut self, target: &[Plane]) {
+        if std::mem::replace(&mut self.windows, true) {
+            return;
+        }
+        let size = self.across[0] * self.across[1];
+        for (layer, target) in Arc::make_mut(&mut self.layers).iter_mut().zip(target.chunks(size)) {
+            for (place, target) in Arc::make_mut(layer).iter_mut().zip(target) {
+                if let Some(cells) = place {
+                    let cells = Arc::make_mut(cells);
+                    let sums = Sums::of(|word| split(cells.counts.any(word), target[word]));
+                    cells.sums = Some(Box::new(sums));
+                }
+            }
+        }
+    }
+
+    /// A brick by its place in its layer and its layer, where it has counts.
+    #[inline]
+    pub(crate) fn brick(&self, [place, layer]: [usize; 2]) -> Option<&Cells> {
+        self.layers[layer][place].as_deref()
+    }
+
+    fn bricks(&self) -> impl Iterator<Item = &Option<Arc<Cells>>> {
         self.layers.iter().flat_map(|layer| layer.iter())
     }
 
@@ -92,7 +153,7 @@ impl Counters {
     pub fn get(&self, cell: [usize; 3]) -> u32 {
         let [x, y, z] = cell;
         let brick = &self.layers[z / 8][y / 8 * self.across[0] + x / 64];
-        brick.as_ref().map_or(0, |brick| brick.get(z % 8 * 8 + y % 8, x % 64))
+        brick.as_ref().map_or(0, |brick| brick.counts.get(z % 8 * 8 + y % 8, x % 64))
     }
 
     /// Bricks that this and `other` share in memory.

@@ -29,6 +29,8 @@ use crate::error::GeomError;
 use crate::plane::Page;
 use crate::primitive::Primitive;
 use crate::view::Cover;
+use crate::window::flat::{self, Spot};
+use crate::window::{Place, WindowForm};
 use std::sync::Arc;
 
 /// The weight of an empty pixel in integers.
@@ -158,6 +160,10 @@ impl SketchSpec for DrawingSpec {
         "match_drawing"
     }
 
+    fn window(&self) -> Option<WindowForm> {
+        Some(WindowForm::flat(self.drawing.page.side()))
+    }
+
     fn start(&self) -> Box<dyn Sketch> {
         Box::new(DrawingMatch::new(self.drawing.clone(), self.sigma))
     }
@@ -275,6 +281,16 @@ impl Sketch for DrawingMatch {
 
     fn expect_removals(&mut self) {
         self.bag.expect_removals();
+    }
+
+    fn look(&self, form: &WindowForm, place: &Place, out: &mut Vec<f32>) {
+        let (drawing, page) = (&self.drawing, &self.drawing.page);
+        let words = |across: usize, row: usize| {
+            let word = page.word(across, row);
+            let (filled, any) = (drawing.filled[word], self.tiles.any(word));
+            [filled & !any, !filled & !any]
+        };
+        flat::look(form, &Spot::on(page, place), page.size(), 2.0, words, out);
     }
 
     fn log_score(&self) -> f64 {

@@ -45,6 +45,7 @@ use crate::intersect::Rule;
 use crate::plane::Page;
 use crate::primitive::Primitive;
 use crate::tree::{BoxTree, Boxed};
+use crate::window::{Place, WindowForm};
 use serde::Deserialize;
 use std::any::Any;
 use std::sync::Arc;
@@ -59,6 +60,14 @@ pub trait Sketch: Copied + Any + Send + Sync {
     fn remove(&mut self, primitive: &Primitive) -> bool;
     /// Prepares for removals: the data that they need is kept from now on, so that copies share it.
     fn expect_removals(&mut self) {}
+    /// Prepares for windows: the data that they need is kept from now on, so that copies share it.
+    fn expect_windows(&mut self) {}
+    /// Appends what `form`, one that fits its target, shows from `place`: exactly `form.values()` numbers. The answer is
+    /// the same with and without [`Sketch::expect_windows`]; with it, it is fast. A sketch that shows nothing appends
+    /// zeros.
+    fn look(&self, form: &WindowForm, _place: &Place, out: &mut Vec<f32>) {
+        out.resize(out.len() + form.values(), 0.0);
+    }
     /// Log of the score of the bag, nats; negative infinity when it is forbidden.
     fn log_score(&self) -> f64;
     /// Named numbers behind the score, for people.
@@ -69,6 +78,10 @@ pub trait Sketch: Copied + Any + Send + Sync {
 pub trait SketchSpec: Send + Sync {
     /// Name of its sketch.
     fn name(&self) -> &'static str;
+    /// The window that fits its target; `None` when it shows nothing.
+    fn window(&self) -> Option<WindowForm> {
+        None
+    }
     /// The sketch of the empty scene.
     fn start(&self) -> Box<dyn Sketch>;
 }

@@ -21,8 +21,11 @@ use crate::error::GeomError;
 use crate::primitive::Primitive;
 use crate::view::camera::check_size;
 use crate::view::{Cover, Rays};
+use crate::window::bits::Bits;
+use crate::window::plate::Plate;
+use crate::window::{Place, WindowForm};
 use std::ops::{Add, AddAssign, Sub, SubAssign};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// A number of pixels, and the sum of their greys in the weight image.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -85,6 +88,8 @@ pub struct Picture {
     all: Amount,
     /// Of those that should be on.
     wanted: Amount,
+    /// What windows look at, once one asks.
+    plate: OnceLock<Plate>,
 }
 
 impl Picture {
@@ -130,7 +135,8 @@ impl Picture {
             pixels.fold(Amount::default(), |sum, p| sum + Amount { pixels: 1, grey: grey(p) })
         };
         let (all, wanted) = (total(&|_| true), total(&|pixel| target.on[pixel]));
-        Ok(Picture { size, rays, on, greys, multiplier: target.multiplier, all, wanted })
+        let (multiplier, plate) = (target.multiplier, OnceLock::new());
+        Ok(Picture { size, rays, on, greys, multiplier, all, wanted, plate })
     }
 
     /// Columns and rows.
@@ -155,6 +161,11 @@ impl Picture {
             self.rays.meeting(shape).rays().for_each(|ray| mask[self.rays.pixels()[ray] as usize] = true);
         }
         mask
+    }
+
+    fn plate(&self) -> &Plate {
+        let on = |ray: usize| self.on[ray / 64] >> (ray % 64) & 1 == 1;
+        self.plate.get_or_init(|| Plate::new(&self.rays, self.size, on))
     }
 
     fn amount(&self, word: usize, rays: u64) -> Amount {
@@ -199,6 +210,11 @@ impl SketchSpec for PictureSpec {
         self.name
     }
 
+    fn window(&self) -> Option<WindowForm> {
+        let seen = !self.picture.rays.is_empty();
+        seen.then(|| WindowForm::flat(self.picture.plate().side()))
+    }
+
     fn start(&self) -> Box<dyn Sketch> {
         Box::new(PictureMatch::new(self.name, self.picture.clone(), self.sigma))
     }
@@ -214,6 +230,8 @@ pub struct PictureMatch {
     /// Pixels that are on, and those of them that should be.
     on: Amount,
     right: Amount,
+    /// Pixels of the plate that are on, once windows are expected.
+    shown: Option<Bits>,
     /// With the rays that meet each primitive, shape by shape.
     bag: Bag<Arc<[Cover]>>,
 }
@@ -223,7 +241,7 @@ impl PictureMatch {
     pub fn new(name: &'static str, picture: Arc<Picture>, sigma: f64) -> PictureMatch {
         let tiles = Tiles::new(picture.rays.words());
         let (on, right) = (Amount::default(), Amount::default());
-        PictureMatch { name, picture, sigma, tiles, on, right, bag: Bag::default() }
+        PictureMatch { name, picture, sigma, tiles, on, right, shown: None, bag: Bag::default() }
     }
 
     /// Pixels that are on.
@@ -245,6 +263,16 @@ impl PictureMatch {
     /// Counts of shapes for each ray.
     pub fn tiles(&self) -> &Tiles {
         &self.tiles
+    }
+
+    /// Pixels of the plate that are on.
+    fn on_plate(&self) -> Bits {
+        let plate = self.picture.plate();
+        let mut bits = plate.empty();
+        for word in 0..self.picture.rays.words() {
+            plate.flip(&mut bits, word, self.tiles.any(word));
+        }
+        bits
     }
 
     /// Which pixels are on, row by row.
@@ -272,6 +300,7 @@ impl Clone for PictureMatch {
             tiles: self.tiles.clone(),
             on: self.on,
             right: self.right,
+            shown: self.shown.clone(),
             bag: self.bag.clone(),
         }
     }
@@ -283,6 +312,7 @@ impl Clone for PictureMatch {
         self.tiles.clone_from(&source.tiles);
         self.on = source.on;
         self.right = source.right;
+        self.shown.clone_from(&source.shown);
         self.bag.clone_from(&source.bag);
     }
 }
@@ -305,7 +335,11 @@ impl Sketch for PictureMatch {
         let covers = covers(primitive, &self.picture.rays);
         for cover in &*covers {
             let (picture, on, right) = (&self.picture, &mut self.on, &mut self.right);
+            let shown = &mut self.shown;
             self.tiles.add(cover, |word, new| {
+                if let Some(shown) = shown {
+                    picture.plate().flip(shown, word, new);
+                }
                 *on += picture.amount(word, new);
                 *right += picture.amount(word, new & picture.on[word]);
             });
@@ -319,7 +353,11 @@ impl Sketch for PictureMatch {
         };
         for cover in &*covers {
             let (picture, on, right) = (&self.picture, &mut self.on, &mut self.right);
+            let shown = &mut self.shown;
             self.tiles.remove(cover, |word, gone| {
+                if let Some(shown) = shown {
+                    picture.plate().flip(shown, word, gone);
+                }
                 *on -= picture.amount(word, gone);
                 *right -= picture.amount(word, gone & picture.on[word]);
             });
@@ -329,6 +367,24 @@ impl Sketch for PictureMatch {
 
     fn expect_removals(&mut self) {
         self.bag.expect_removals();
+    }
+
+    fn expect_windows(&mut self) {
+        if self.shown.is_none() {
+            self.shown = Some(self.on_plate());
+        }
+    }
+
+    fn look(&self, form: &WindowForm, place: &Place, out: &mut Vec<f32>) {
+        let known;
+        let bits = match &self.shown {
+            Some(bits) => bits,
+            None => {
+                known = self.on_plate();
+                &known
+            }
+        };
+        self.picture.plate().look(self.picture.rays.projection(), form, place, bits, out);
     }
 
     fn log_score(&self) -> f64 {

@@ -6,6 +6,7 @@
 
 use super::{Sketch, SketchSpec};
 use crate::primitive::Primitive;
+use crate::window::{Place, WindowForm};
 use niwaki_math::{Total, grid};
 use std::sync::Arc;
 
@@ -134,6 +135,24 @@ impl Sketches {
     /// From now on primitives also go: what taking them out needs is kept, so that copies share it.
     pub fn expect_removals(&mut self) {
         self.members.iter_mut().for_each(|member| member.sketch.expect_removals());
+    }
+
+    /// From now on guides look at the scene: what windows need is kept, so that copies share it.
+    pub fn expect_windows(&mut self) {
+        self.members.iter_mut().for_each(|member| member.sketch.expect_windows());
+    }
+
+    /// Appends what each form shows of its sketch, given by number. A sketch after the first that forbids the scene shows
+    /// only what it has seen: look at scenes that are allowed.
+    pub fn look<'a>(
+        &self,
+        forms: impl IntoIterator<Item = (usize, &'a WindowForm)>,
+        place: &Place,
+        out: &mut Vec<f32>,
+    ) {
+        for (number, form) in forms {
+            self.members[number].sketch.look(form, place, out);
+        }
     }
 
     /// Name of the first sketch that forbids the scene.

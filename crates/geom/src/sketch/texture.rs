@@ -15,6 +15,9 @@
 //!
 //! The sketch keeps counts for each sample, the number of touched pixels and the sum of all magnitudes in steps of
 //! 2^-26: integers, the same in any order.
+//!
+//! There is no target, so a window shows other shares of its cells: of the pixels that are touched, and of what lies
+//! outside of the page, both 0 to 1.
 
 use super::bag::Bag;
 use super::outside::Outside;
@@ -24,6 +27,9 @@ use crate::error::GeomError;
 use crate::plane::Page;
 use crate::primitive::Primitive;
 use crate::view::Cover;
+use crate::window::bits::Bits;
+use crate::window::flat::{self, Spot};
+use crate::window::{Place, WindowForm};
 use std::sync::Arc;
 
 /// Samples of a pixel, and its value where nothing is drawn.
@@ -62,6 +68,10 @@ impl SketchSpec for TextureSpec {
         "fill_drawing"
     }
 
+    fn window(&self) -> Option<WindowForm> {
+        Some(WindowForm::flat(self.0.texture.page.side()))
+    }
+
     fn start(&self) -> Box<dyn Sketch> {
         Box::new(self.0.clone())
     }
@@ -76,6 +86,8 @@ pub struct TextureMatch {
     /// Sum of the magnitudes, in steps.
     edges: i64,
     outside: Outside,
+    /// Which pixels are touched, in the words of [`Page::bit`], once windows are expected.
+    shown: Option<Bits>,
     /// With the samples that each primitive holds, shape by shape.
     bag: Bag<Arc<[Cover]>>,
 }
@@ -88,7 +100,8 @@ impl TextureMatch {
     pub fn new(texture: Arc<Texture>) -> TextureMatch {
         let [columns, rows] = texture.page.size();
         let (tiles, outside) = (Tiles::new(texture.page.sampled_words()), Outside::default());
-        let mut empty = TextureMatch { texture, tiles, touched: 0, edges: 0, outside, bag: Bag::default() };
+        let (shown, bag) = (None, Bag::default());
+        let mut empty = TextureMatch { texture, tiles, touched: 0, edges: 0, outside, shown, bag };
         empty.edges = empty.steps(&[0..columns, 0..rows]);
         empty
     }
@@ -173,6 +186,29 @@ impl TextureMatch {
         ]
     }
 
+    /// Which pixels are touched.
+    fn touched_pixels(&self) -> Bits {
+        let page = &self.texture.page;
+        let mut bits = Bits::new(page.words());
+        for word in (0..page.sampled_words()).filter(|word| self.tiles.any(*word) != 0) {
+            let (column, row) = page.sampled_pixel(word);
+            let (word, bit) = page.bit(column, row);
+            bits.flip(word, 1 << bit);
+        }
+        bits
+    }
+
+    /// A pixel, by its word of samples, becomes touched or is no longer.
+    #[inline]
+    fn flip(&mut self, word: usize) {
+        if let Some(shown) = &mut self.shown {
+            let page = &self.texture.page;
+            let (column, row) = page.sampled_pixel(word);
+            let (word, bit) = page.bit(column, row);
+            shown.flip(word, 1 << bit);
+        }
+    }
+
     /// Changes the counts, and what follows from them around the primitive.
     fn change(&mut self, primitive: &Primitive, change: impl FnOnce(&mut TextureMatch)) {
         let area = self.area(primitive);
@@ -195,6 +231,7 @@ impl Clone for TextureMatch {
             touched: self.touched,
             edges: self.edges,
             outside: self.outside.clone(),
+            shown: self.shown.clone(),
             bag: self.bag.clone(),
         }
     }
@@ -204,6 +241,7 @@ impl Clone for TextureMatch {
         self.tiles.clone_from(&source.tiles);
         (self.touched, self.edges) = (source.touched, source.edges);
         self.outside.clone_from(&source.outside);
+        self.shown.clone_from(&source.shown);
         self.bag.clone_from(&source.bag);
     }
 }
@@ -227,9 +265,11 @@ impl Sketch for TextureMatch {
         let covers = covers(primitive, &self.texture.page);
         self.change(primitive, |own| {
             for (shape, cover) in primitive.shapes().iter().zip(&*covers) {
-                let touched = &mut own.touched;
                 for (word, _) in cover.words() {
-                    *touched += i64::from(own.tiles.any(*word as usize) == 0);
+                    if own.tiles.any(*word as usize) == 0 {
+                        own.touched += 1;
+                        own.flip(*word as usize);
+                    }
                 }
                 own.tiles.add(cover, |_, _| {});
                 own.outside.add(shape, &own.texture.page);
@@ -246,7 +286,10 @@ impl Sketch for TextureMatch {
             for (shape, cover) in primitive.shapes().iter().zip(&*covers) {
                 own.tiles.remove(cover, |_, _| {});
                 for (word, _) in cover.words() {
-                    own.touched -= i64::from(own.tiles.any(*word as usize) == 0);
+                    if own.tiles.any(*word as usize) == 0 {
+                        own.touched -= 1;
+                        own.flip(*word as usize);
+                    }
                 }
                 own.outside.remove(shape, &own.texture.page);
             }
@@ -256,6 +299,26 @@ impl Sketch for TextureMatch {
 
     fn expect_removals(&mut self) {
         self.bag.expect_removals();
+    }
+
+    fn expect_windows(&mut self) {
+        if self.shown.is_none() {
+            self.shown = Some(self.touched_pixels());
+        }
+    }
+
+    fn look(&self, form: &WindowForm, place: &Place, out: &mut Vec<f32>) {
+        let page = &self.texture.page;
+        let known;
+        let bits = match &self.shown {
+            Some(bits) => bits,
+            None => {
+                known = self.touched_pixels();
+                &known
+            }
+        };
+        let words = |across: usize, row: usize| [bits.word(page.word(across, row)), 0];
+        flat::look(form, &Spot::on(page, place), page.size(), 1.0, words, out);
     }
 
     fn log_score(&self) -> f64 {

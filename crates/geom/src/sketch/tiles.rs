@@ -51,6 +51,7 @@ impl Tiles {
     }
 
     /// Rays of a word that meet a shape.
+    #[inline]
     pub fn any(&self, word: usize) -> u64 {
         self.0[word / TILE].as_ref().map_or(0, |brick| brick.any(word % TILE))
     }

@@ -18,7 +18,9 @@ use crate::error::GeomError;
 use crate::mesh::TriMesh;
 use crate::primitive::Primitive;
 use crate::voxel::{Grid, Voxels};
-use std::sync::Arc;
+use crate::window::solid::{Sums, Volume, sums_of};
+use crate::window::{Place, WindowForm};
+use std::sync::{Arc, OnceLock};
 
 /// A mesh to match, voxelised once.
 #[derive(Debug)]
@@ -27,6 +29,8 @@ pub struct Target {
     grid: Grid,
     planes: Vec<Plane>,
     filled: usize,
+    /// What windows need, once one asks.
+    sums: OnceLock<Vec<Sums>>,
 }
 
 impl Target {
@@ -43,7 +47,7 @@ impl Target {
         if filled == 0 {
             return Err(empty());
         }
-        Ok(Target { mesh, grid, planes, filled })
+        Ok(Target { mesh, grid, planes, filled, sums: OnceLock::new() })
     }
 
     /// The mesh.
@@ -59,6 +63,18 @@ impl Target {
     /// Number of filled cells.
     pub fn filled(&self) -> usize {
         self.filled
+    }
+
+    /// The cells of a brick, by its place in its layer and its layer.
+    #[inline]
+    pub(crate) fn plane(&self, [place, layer]: [usize; 2]) -> &Plane {
+        let across = bricks_of(self.grid.dims());
+        &self.planes[layer * across[0] * across[1] + place]
+    }
+
+    /// Wanted and empty cells by boxes, brick by brick.
+    pub(crate) fn sums(&self) -> &[Sums] {
+        self.sums.get_or_init(|| sums_of(&self.planes, self.grid.dims()))
     }
 
     /// Number of cells that the target and `voxels`, of the same grid, both fill.
@@ -100,6 +116,11 @@ pub fn match_volume(target: Arc<Target>, sigma: f64) -> Result<Arc<dyn SketchSpe
 impl SketchSpec for VolumeSpec {
     fn name(&self) -> &'static str {
         "match_volume"
+    }
+
+    fn window(&self) -> Option<WindowForm> {
+        let [x, y, z] = self.target.grid.domain().extent().to_array();
+        Some(WindowForm::solid(x.max(y).max(z)))
     }
 
     fn start(&self) -> Box<dyn Sketch> {
@@ -222,6 +243,24 @@ impl Sketch for VolumeMatch {
 
     fn expect_removals(&mut self) {
         self.bag.expect_removals();
+    }
+
+    fn expect_windows(&mut self) {
+        self.counters.expect_windows(&self.target.planes);
+    }
+
+    fn look(&self, form: &WindowForm, place: &Place, out: &mut Vec<f32>) {
+        let known;
+        let counters = match self.counters.expects_windows() {
+            true => &self.counters,
+            false => {
+                let mut counters = self.counters.clone();
+                counters.expect_windows(&self.target.planes);
+                known = counters;
+                &known
+            }
+        };
+        Volume::new(&self.target, counters).look(form, place, out);
     }
 
     fn log_score(&self) -> f64 {

@@ -162,6 +162,11 @@ impl Rays {
         &self.projection
     }
 
+    /// They are a camera's, one for each pixel of a picture; those to a light begin at different depths.
+    pub(crate) fn are_of_camera(&self) -> bool {
+        self.near.is_some()
+    }
+
     /// Number of rays.
     pub fn len(&self) -> usize {
         self.pixels.len()

@@ -94,6 +94,23 @@ impl Rows {
         });
     }
 
+    /// Adds the rows of other traces, of networks of the same form.
+    pub fn append(&mut self, other: &Rows) {
+        let windows = self.seen.len().checked_div(self.windows).unwrap_or(0) as u32;
+        let (features, numbers) = (self.features.len(), self.numbers.len());
+        self.rows.extend(other.rows.iter().map(|row| Row {
+            window: row.window + windows,
+            features: (row.features.0 + features, row.features.1),
+            numbers: row.numbers + numbers,
+            ..*row
+        }));
+        self.seen.extend_from_slice(&other.seen);
+        self.features.extend_from_slice(&other.features);
+        self.numbers.extend_from_slice(&other.numbers);
+        self.traces += other.traces;
+        self.apart = true;
+    }
+
     /// How many choices there are.
     pub fn len(&self) -> usize {
         self.rows.len()

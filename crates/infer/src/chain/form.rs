@@ -7,11 +7,21 @@
 use super::kernel::{Kernel, Selection};
 use super::leaf::Proposer;
 use super::user::User;
+use crate::guide::bound::BoundGuide;
 use niwaki_vm::fault::Fault;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 use std::sync::Arc;
+
+/// What a kernel needs beside its data.
+#[derive(Clone, Debug)]
+pub enum Attached {
+    /// A user's proposal.
+    Function(Arc<User>),
+    /// A guide.
+    Guide(Arc<BoundGuide>),
+}
 
 /// A kernel as data.
 #[derive(Clone, Debug, Deserialize)]
@@ -22,7 +32,7 @@ pub struct Form {
     settings: Map<String, Value>,
     #[serde(default)]
     parts: Vec<Form>,
-    /// Of a user's proposal: its number among the functions that come with the form.
+    /// Of a user's proposal or a guide: its number among what is attached to the form.
     #[serde(default)]
     function: Option<usize>,
 }
@@ -39,37 +49,44 @@ impl Form {
     ///
     /// # Errors
     /// As for [`Form::kernel`].
-    pub(crate) fn tempered(&self, functions: &[Arc<User>]) -> Result<Tempered, Fault> {
+    pub(crate) fn tempered(&self, attached: &[Attached]) -> Result<Tempered, Fault> {
         if self.name != "tempering" {
-            return Ok(Tempered { kernel: self.kernel(functions)?, powers: vec![1.0], every: 100 });
+            return Ok(Tempered { kernel: self.kernel(attached)?, powers: vec![1.0], every: 100 });
         }
         let mut own = self.own();
         let (powers, every) = (own.take("powers")?, own.take("every")?);
-        let kernel = own.part(functions)?;
+        let kernel = own.part(attached)?;
         own.end(Tempered { kernel, powers, every })
     }
 
-    /// The kernel; `functions` are the users' proposals, by number.
+    /// The kernel; `attached` are users' proposals and guides, by number.
     ///
     /// # Errors
-    /// An unknown name, setting or function.
-    pub fn kernel(&self, functions: &[Arc<User>]) -> Result<Kernel, Fault> {
+    /// An unknown name or setting, or nothing attached where it is needed.
+    pub fn kernel(&self, attached: &[Attached]) -> Result<Kernel, Fault> {
         let mut own = self.own();
         let kernel = match self.name.as_str() {
             "proposal" => {
-                let function = self.function.and_then(|number| functions.get(number));
-                let function = function.cloned().ok_or_else(|| own.wrong("has no function here"))?;
-                Kernel::Leaf(Proposer::Proposal(function))
+                let Some(Attached::Function(function)) = self.attached(attached) else {
+                    return Err(own.wrong("has no function here"));
+                };
+                Kernel::Leaf(Proposer::Proposal(function.clone()))
             }
-            "cycle" => Kernel::Cycle(own.parts(functions)?),
+            "guided" => {
+                let Some(Attached::Guide(guide)) = self.attached(attached) else {
+                    return Err(own.wrong("has no guide here"));
+                };
+                Kernel::Leaf(Proposer::Guided(guide.clone()))
+            }
+            "cycle" => Kernel::Cycle(own.parts(attached)?),
             "mixture" => {
-                let (weights, parts) = (own.take::<Vec<f64>>("weights")?, own.parts(functions)?);
+                let (weights, parts) = (own.take::<Vec<f64>>("weights")?, own.parts(attached)?);
                 if weights.len() != parts.len() {
                     return Err(own.wrong("needs a weight for each part"));
                 }
                 Kernel::Mixture(weights.into_iter().zip(parts).collect())
             }
-            "repeat" => Kernel::Repeat(own.take("times")?, Box::new(own.part(functions)?)),
+            "repeat" => Kernel::Repeat(own.take("times")?, Box::new(own.part(attached)?)),
             "on" => {
                 let selection = Selection {
                     sites: own.take("sites")?,
@@ -77,13 +94,13 @@ impl Form {
                     weights: own.take("weights")?,
                     calls: own.take("calls")?,
                 };
-                Kernel::On(selection, Box::new(own.part(functions)?))
+                Kernel::On(selection, Box::new(own.part(attached)?))
             }
             "anneal" => Kernel::Anneal {
                 start: own.take("start")?,
                 end: own.take("end")?,
                 steps: own.take("steps")?,
-                kernel: Box::new(own.part(functions)?),
+                kernel: Box::new(own.part(attached)?),
             },
             "tempering" => return Err(own.wrong("can only be outermost")),
             name => {
@@ -92,6 +109,10 @@ impl Form {
             }
         };
         own.end(kernel)
+    }
+
+    fn attached<'a>(&self, attached: &'a [Attached]) -> Option<&'a Attached> {
+        self.function.and_then(|number| attached.get(number))
     }
 
     fn own(&self) -> Unread<'_> {
@@ -126,13 +147,13 @@ impl Unread<'_> {
         T::deserialize(value).map_err(|error| self.wrong(&format!("cannot have this `{name}`: {error}")))
     }
 
-    fn parts(&self, functions: &[Arc<User>]) -> Result<Vec<Kernel>, Fault> {
-        self.form.parts.iter().map(|part| part.kernel(functions)).collect()
+    fn parts(&self, attached: &[Attached]) -> Result<Vec<Kernel>, Fault> {
+        self.form.parts.iter().map(|part| part.kernel(attached)).collect()
     }
 
-    fn part(&self, functions: &[Arc<User>]) -> Result<Kernel, Fault> {
+    fn part(&self, attached: &[Attached]) -> Result<Kernel, Fault> {
         let [part] = &self.form.parts[..] else { return Err(self.wrong("has one part")) };
-        part.kernel(functions)
+        part.kernel(attached)
     }
 
     fn end<T>(self, kernel: T) -> Result<T, Fault> {

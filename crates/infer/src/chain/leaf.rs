@@ -13,6 +13,7 @@ use super::regenerate::Regenerate;
 use super::regrow::Regrow;
 use super::trajectory::{self, Trajectory};
 use super::user::{User, UserMove};
+use crate::guide::bound::BoundGuide;
 use crate::{Failure, Task};
 use serde::Deserialize;
 use std::sync::Arc;
@@ -44,6 +45,9 @@ pub enum Proposer {
     /// One choice, from a distribution that a model function computes from its value.
     #[serde(skip)]
     Proposal(Arc<User>),
+    /// One choice, from a guide.
+    #[serde(skip)]
+    Guided(Arc<BoundGuide>),
 }
 
 impl Proposer {
@@ -63,6 +67,7 @@ impl Proposer {
             Proposer::Regrow(own) => target.kept(&mut **own),
             Proposer::HmcStep(own) | Proposer::NutsStep(own) => target.kept(&mut **own),
             Proposer::Proposal(own) => target.single(&mut UserMove(own)),
+            Proposer::Guided(own) => target.kept(own),
         }
     }
 

@@ -23,6 +23,7 @@ pub mod drift;
 pub mod explain;
 pub mod form;
 pub mod glob;
+mod guided;
 pub mod kernel;
 pub mod ladder;
 pub mod leaf;

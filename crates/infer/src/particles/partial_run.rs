@@ -6,6 +6,7 @@
 //! equal probability (one over the number of futures that can run, pick by pick), so it cancels in a ratio.
 
 use crate::chooser::{Chooser, Chosen, Context, Known, Prior, Refuse};
+use crate::guide::bound::Sight;
 use crate::log::{Entry, Log};
 use crate::particle::Particle;
 use crate::proposal::Proposal;
@@ -360,6 +361,7 @@ struct Follow<'a> {
     steps: std::slice::Iter<'a, Step>,
     /// The proposal that would have drawn them, where their weights count.
     proposal: Option<&'a Proposal>,
+    sight: Sight,
     lost: bool,
 }
 
@@ -373,7 +375,9 @@ impl Chooser for Follow<'_> {
         };
         let mut chosen = Chosen::given(choice.value.clone(), dist)?;
         let proposal = self.proposal.filter(|_| chosen.log_prior > f64::NEG_INFINITY);
-        let drawn = proposal.map_or(Ok(None), |proposal| proposal.log_drawn(at, dist, &chosen.value))?;
+        let drawn = proposal.map_or(Ok(None), |proposal| {
+            proposal.log_drawn(at, dist, &chosen.value, seen, &mut self.sight)
+        })?;
         chosen.log_drawn = drawn.unwrap_or(chosen.log_prior);
         Ok(Some(chosen))
     }
@@ -391,7 +395,7 @@ impl Particle {
         last: bool,
         proposal: Option<&Proposal>,
     ) -> Result<Option<f64>, Failure> {
-        let mut follow = Follow { steps: segment.iter(), proposal, lost: false };
+        let mut follow = Follow { steps: segment.iter(), proposal, sight: Sight::default(), lost: false };
         let (mut log_order, mut paused) = (0.0, false);
         while self.is_running() && !paused {
             let Some(Step::Ran { path, .. }) = follow.steps.next() else { return Ok(None) };

@@ -8,8 +8,9 @@ use super::shared::share;
 use super::tempered::Tempered;
 use crate::blame::RUNS;
 use crate::chooser::Prior;
+use crate::guide::bound::Sight;
 use crate::particle::Particle;
-use crate::proposal::Guided;
+use crate::proposal::ByProposal;
 use crate::record::{AllInvalid, Record};
 use crate::resampling::Resampling;
 use crate::streams::Reserved;
@@ -83,6 +84,9 @@ impl<'a> Population<'a> {
             }
         }
         let mut empty = Record::start(&task.sketches);
+        if settings.proposal.as_ref().is_some_and(|proposal| proposal.looks()) {
+            empty.sketches.expect_windows();
+        }
         let empty_score = empty.score();
         let particles: Vec<Particle> = (0..n as u64)
             .map(|lineage| Particle {
@@ -124,9 +128,9 @@ impl<'a> Population<'a> {
         let (task, settings, seed) = (&self.task, self.settings, self.settings.seed);
         if !self.parallel {
             self.copies.make(&mut self.particles, seed);
-            let mut machine = task.machine();
+            let (mut machine, mut sight) = (task.machine(), Sight::default());
             let mut others = self.particles.iter_mut().enumerate().filter(|(index, _)| Some(*index) != held);
-            return others.try_for_each(|(_, p)| advance(p, &mut machine, task, settings));
+            return others.try_for_each(|(_, p)| advance(p, &mut machine, task, settings, &mut sight));
         }
         // Of several faults, that of the first particle is reported, so that threads do not matter. Particles after
         // a failed one need not run: an endless model would use up its budget once for each.
@@ -137,7 +141,7 @@ impl<'a> Population<'a> {
         let apart = &self.apart;
         share(batches, |thread| {
             let task = &apart[thread];
-            let mut machine = task.machine();
+            let (mut machine, mut sight) = (task.machine(), Sight::default());
             let (failed, fault) = (&failed, &fault);
             move |mut batch: Vec<Indexed<'_>>| {
                 copy(&mut batch, seed);
@@ -146,7 +150,7 @@ impl<'a> Population<'a> {
                     if Some(index) == held || index > failed.load(Ordering::Relaxed) {
                         continue;
                     }
-                    if let Err(own) = advance(particle, &mut machine, task, settings)
+                    if let Err(own) = advance(particle, &mut machine, task, settings, &mut sight)
                         && failed.fetch_min(index, Ordering::Relaxed) > index
                     {
                         let mut first = fault.lock().unwrap_or_else(PoisonError::into_inner);
@@ -306,12 +310,19 @@ fn advance(
     machine: &mut Machine<'_>,
     task: &Task,
     settings: &Settings,
+    sight: &mut Sight,
 ) -> Result<(), Failure> {
     let (stream, otherwise) = (particle.stream, Prior(particle.stream));
     match settings.proposal.as_deref() {
         None => particle.advance(machine, task, settings.seed, otherwise)?,
         Some(proposal) => {
-            particle.advance(machine, task, settings.seed, Guided { proposal, stream, otherwise })?
+            sight.forget();
+            particle.advance(
+                machine,
+                task,
+                settings.seed,
+                ByProposal { proposal, stream, sight, otherwise },
+            )?
         }
     };
     Ok(())

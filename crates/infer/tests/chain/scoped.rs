@@ -5,7 +5,7 @@
 //! The shares of values are judged as in `board`: z beyond 6 once in 8 million, about 60 of them.
 
 use super::board::{NoReverse, furthest};
-use super::programs::task;
+use super::programs::{PROGRAMS as OF_THE_MACHINE, task};
 use niwaki_infer::Task;
 use niwaki_infer::chain::accept::{MetropolisHastings, Rules};
 use niwaki_infer::chain::agreement::compare;
@@ -15,7 +15,7 @@ use niwaki_infer::chain::user::User;
 use niwaki_infer::chain::{Chain, Settings};
 use niwaki_vm::core::Name;
 use niwaki_vm::core::parse::parse;
-use niwaki_vm::passes::compile_keeping;
+use niwaki_vm::passes::{Kept, compile_keeping};
 use std::sync::Arc;
 
 /// What it is, the program, a pattern and the proposal for the choices that match it.
@@ -98,7 +98,8 @@ const PROGRAMS: [(&str, &str, &str, &str); 6] = [
 fn case(text: &str, pattern: &str, function: &str) -> (Task, Kernel) {
     let user = User::new(task(&format!(r#"(module (fn "q" {function}) (entry "q"))"#))).expect("a proposal");
     let names: Vec<Name> = user.variables().cloned().collect();
-    let program = compile_keeping(&parse(text).expect("core form"), vec![], &names).expect("a program");
+    let program =
+        compile_keeping(&parse(text).expect("core form"), vec![], Kept::Names(&names)).expect("a program");
     let on = Selection { sites: vec![vec![pattern.into()]], ..Selection::default() };
     let own = Kernel::On(on, Box::new(Kernel::Leaf(Proposer::Proposal(Arc::new(user)))));
     (Task::new(Arc::new(program)), Kernel::Cycle(vec![Kernel::PRIOR, own.clone(), own]))
@@ -135,16 +136,20 @@ fn four_strategies_agree_on_it() {
 
 #[test]
 fn to_keep_variables_changes_no_chain() {
+    let states = |task: &Task| {
+        let mut chain: Chain = Chain::start(task, &settings(Kernel::PRIOR), 0, None).expect("a first state");
+        let ended = chain.advance(task, 500, &mut |_, _| true).map_err(|failure| failure.to_string());
+        let totals = chain.state.trace.totals();
+        let score = chain.state.log_score();
+        (ended, totals.log_prior.value().to_bits(), score.to_bits(), chain.state.trace.result())
+    };
     for (name, text, pattern, function) in PROGRAMS {
         let (kept, _) = case(text, pattern, function);
-        let states = |task: &Task| {
-            let mut chain: Chain =
-                Chain::start(task, &settings(Kernel::PRIOR), 0, None).expect("a first state");
-            chain.advance(task, 500, &mut |_, _| true).expect("a run");
-            let totals = chain.state.trace.totals();
-            let score = chain.state.log_score();
-            (totals.log_prior.value().to_bits(), score.to_bits(), chain.state.trace.result())
-        };
         assert_eq!(states(&kept), states(&task(text)), "{name}");
+    }
+    for (name, text) in PROGRAMS.map(|program| (program.0, program.1)).iter().chain(OF_THE_MACHINE) {
+        let all = compile_keeping(&parse(text).expect("core form"), vec![], Kept::All).expect("a program");
+        let all = Task::new(Arc::new(all));
+        assert_eq!(states(&all), states(&task(text)), "{name}");
     }
 }

@@ -5,7 +5,7 @@
 //! - [`soft`]: soft constraints and smooth bends
 //! - [`sequences`]: making, ordering and folding sequences
 //! - [`strings`]: text, formatting and methods of built-in values
-//! - [`vectors`], [`shapes`]: points, directions, rotations, solids
+//! - [`vectors`], [`frames`], [`shapes`]: points, directions, rotations, places to look from, solids
 //! - [`colors`], [`polygons`]: colours and polygons of the plane
 //! - [`dist`]: distributions from values
 //!
@@ -15,6 +15,7 @@
 pub mod arithmetic;
 pub mod colors;
 pub mod dist;
+pub mod frames;
 pub mod mathematics;
 pub mod polygons;
 pub mod sequences;
@@ -220,6 +221,7 @@ table! {
     "distance" 2 2 vectors::distance;
     "rotation" 2 2 vectors::rotation;
     "rotate" 3 3 vectors::rotate;
+    "look" 2 3 frames::look;
 
     "hsv" 3 3 colors::hsv;
     "lab" 3 3 colors::lab;

@@ -67,17 +67,17 @@ pub fn cross<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     Ok(Value::vector(&[ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx]))
 }
 
-fn length<S: Scalar>(v: &Vector<S>) -> S {
-    v.components().iter().fold(S::from_f64(0.0), |sum, x| sum + *x * *x).sqrt()
+pub(super) fn length<S: Scalar>(v: &[S]) -> S {
+    v.iter().fold(S::from_f64(0.0), |sum, x| sum + *x * *x).sqrt()
 }
 
 /// The length of a vector.
 pub fn norm<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
-    Ok(Value::Real(length(&parts("norm", &args[0])?)))
+    Ok(Value::Real(length(parts("norm", &args[0])?.components())))
 }
 
 fn unit<S: Scalar>(name: &str, v: &Vector<S>) -> Result<Vector<S>, Fault> {
-    let length = length(v);
+    let length = length(v.components());
     if length.value() == 0.0 {
         return Err(Fault::division_by_zero(format!("`{name}`: a vector of length 0 has no direction")));
     }

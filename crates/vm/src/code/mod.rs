@@ -379,6 +379,10 @@ pub struct Site {
     pub next: u32,
     /// Where a run continues when only its result has changed: a slice, or the instruction after it.
     pub again: u32,
+    /// Its result is an angle, as [`Visible::is_angle`] is.
+    pub is_angle: bool,
+    /// Of a choice: its part of [`Function::scope`], first and end.
+    pub visible: (u32, u32),
 }
 
 impl Site {
@@ -443,8 +447,17 @@ pub struct Function<S: Scalar = f64> {
     pub sites: Vec<Site>,
     /// Readable names of the parameters.
     pub parameters: Vec<Name>,
-    /// Variables that can be read at choices, where the program was compiled to keep some.
+    /// Variables that can be read at choices, where the program was compiled to keep some: site by site, each site's
+    /// in the order in which they were last assigned.
     pub scope: Vec<Visible>,
+}
+
+impl<S: Scalar> Function<S> {
+    /// The variables with names that can be read at a site, in the order in which they were last assigned.
+    pub fn visible(&self, site: &Site) -> impl Iterator<Item = &Visible> {
+        let (from, to) = site.visible;
+        self.scope[from as usize..to as usize].iter().filter(|x| !x.name.is_empty())
+    }
 }
 
 /// A variable that can be read at a choice.
@@ -452,10 +465,12 @@ pub struct Function<S: Scalar = f64> {
 pub struct Visible {
     /// The choice.
     pub site: SiteId,
-    /// The variable's name in the model's source.
+    /// The variable's name in the model's source; empty for where the program looks from.
     pub name: Name,
     /// Where its value is: never in scratch.
     pub at: Operand,
+    /// Its value flows into an angle, or comes from one.
+    pub is_angle: bool,
 }
 
 /// A compiled program.

@@ -20,6 +20,9 @@ pub fn readable(name: &str) -> &str {
     name.split('%').next().unwrap_or(name)
 }
 
+/// The variable that a statement `look(...)` assigns: where the choices after it are seen from.
+pub const LOOK: &str = "%look";
+
 /// A place in a source file: 1-based lines and columns, the end exclusive. All zero when unknown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Span {

@@ -100,6 +100,15 @@ pub fn assigned(block: &[Stmt]) -> Names {
     names
 }
 
+/// These variables, by where a block assigns them last.
+pub fn in_order_of_assignment(block: &[Stmt], names: &[Name]) -> Vec<Name> {
+    let mut targets: Vec<&Name> = vec![];
+    each_stmt(block, &mut |s| targets.extend(s.targets()));
+    let mut names = names.to_vec();
+    names.sort_by_key(|x| targets.iter().rposition(|target| *target == x));
+    names
+}
+
 /// Whether a block contains a `return`.
 pub fn returns(block: &[Stmt]) -> bool {
     let mut returns = false;

@@ -8,7 +8,7 @@ use super::registers::Registers;
 use super::state::{NodeId, State};
 use crate::code::{Function, Mode, Program, Site, Visible};
 use crate::fault::Fault;
-use crate::value::Value;
+use crate::value::{Record, Value};
 use niwaki_geom::Shape;
 use niwaki_math::{Dist, Scalar};
 
@@ -72,17 +72,39 @@ impl<S: Scalar> At<'_, S> {
     /// The value of a variable in scope, by its name in the model's source, where the program was compiled to keep it
     /// ([`compile_keeping`](crate::passes::compile_keeping)).
     pub fn scope(&self, name: &str) -> Option<Value<S>> {
-        let is_it =
-            |x: &&Visible| *x.name == *name && self.function.sites[x.site.0 as usize].key == self.site.key;
-        let at = self.function.scope.iter().find(is_it)?.at;
+        self.visible().find(|(x, _, _)| *x == name).map(|(_, _, value)| value.clone())
+    }
+
+    /// The variables in scope that the program was compiled to keep, in the order in which they were last assigned:
+    /// the name, whether its value is an angle ([`Visible::is_angle`]), and the value. In a kept run a list may hold
+    /// [`Value::Cell`]s.
+    #[inline]
+    pub fn visible(&self) -> impl Iterator<Item = (&str, bool, &Value<S>)> {
+        self.kept().filter(|(x, _)| !x.name.is_empty()).map(|(x, value)| (&*x.name, x.is_angle, value))
+    }
+
+    /// Where the program looks from: the value of the variable in scope that was last assigned among those that hold a
+    /// frame ([`Class::is_frame`](crate::value::Class::is_frame)).
+    pub fn look(&self) -> Option<&Record<S>> {
+        self.kept().rev().find_map(|(_, value)| match value {
+            Value::Record(record) if record.class.is_frame() => Some(&**record),
+            _ => None,
+        })
+    }
+
+    /// What is kept for the site, with its values.
+    #[inline]
+    fn kept(&self) -> impl DoubleEndedIterator<Item = (&Visible, &Value<S>)> {
         let node = &self.state.nodes[self.node.0 as usize];
         let outer = match self.function.mode {
             Mode::Iteration => self.state.nodes[node.parent.0 as usize].registers as usize,
             _ => 0,
         };
-        let own = node.registers as usize;
+        let registers = Registers { f: self.function, own: node.registers as usize, outer, scratch: 0 };
+        let (from, to) = self.site.visible;
         // What is kept is never in scratch.
-        Some(Registers { f: self.function, own, outer, scratch: 0 }.get(self.state, &[], at).clone())
+        let visible = self.function.scope[from as usize..to as usize].iter();
+        visible.map(move |x| (x, registers.get(self.state, &[], x.at)))
     }
 }
 

@@ -1,6 +1,7 @@
 //! The builder of one function: registers, labels, constants and the environment from variables to operands.
 
 use super::liveness::LoopHeads;
+use super::scope::Keeping;
 use super::{CompileError, Unit, literal, place};
 use crate::code::{Args, Function, FunctionId, Mode, Op, Operand, Place, Site, Visible};
 use crate::core::{self, ExprKind, Literal, Name, Span};
@@ -11,11 +12,13 @@ use std::collections::HashMap;
 pub(crate) type Result<T> = std::result::Result<T, CompileError>;
 
 /// The value of a variable at a point of the program.
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy)]
 pub(crate) struct Binding {
     pub at: Operand,
     /// Some path leaves it unassigned.
     pub maybe_unset: bool,
+    /// When it was assigned last, in program order.
+    pub moment: u32,
 }
 
 pub(crate) type Environment = HashMap<Name, Binding>;
@@ -35,6 +38,7 @@ pub(crate) enum LoopContext {
 pub(crate) struct Builder<'u, 'm, S: Scalar> {
     pub unit: &'u mut Unit<'m, S>,
     pub heads: &'u LoopHeads,
+    pub keeping: &'u Keeping,
     pub name: Name,
     pub file: u32,
     pub mode: Mode,
@@ -55,15 +59,24 @@ pub(crate) struct Builder<'u, 'm, S: Scalar> {
     pub loops: Vec<LoopContext>,
     /// In an iteration: the carried variables, in order.
     pub carried: Vec<Name>,
+    /// The moment of the last assignment.
+    pub moment: u32,
     /// The variable that the current statement assigns.
     pub target: Option<Name>,
 }
 
 impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
-    pub fn new(unit: &'u mut Unit<'m, S>, heads: &'u LoopHeads, name: Name, file: u32, mode: Mode) -> Self {
+    pub fn new(
+        unit: &'u mut Unit<'m, S>,
+        (heads, keeping): (&'u LoopHeads, &'u Keeping),
+        name: Name,
+        file: u32,
+        mode: Mode,
+    ) -> Self {
         Builder {
             unit,
             heads,
+            keeping,
             name,
             file,
             mode,
@@ -83,19 +96,21 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
             env: HashMap::new(),
             loops: vec![],
             carried: vec![],
+            moment: 0,
             target: None,
         }
     }
 
     /// Lowers one function of the module.
     pub fn function(unit: &mut Unit<'m, S>, f: &'m core::Function, mode: Mode) -> Result<Function<S>> {
-        let heads = LoopHeads::of(&f.body);
-        let mut b = Builder::new(unit, &heads, f.name.clone(), f.file, mode);
+        let (heads, keeping) = (LoopHeads::of(&f.body), Keeping::of(f, unit.kept));
+        let mut b = Builder::new(unit, (&heads, &keeping), f.name.clone(), f.file, mode);
         b.span = f.span;
-        for x in f.params.iter().chain(&f.captures) {
-            let at = b.register()?;
-            b.env.insert(x.clone(), Binding { at, maybe_unset: false });
-        }
+        let inputs: Vec<(&Name, Operand)> =
+            f.params.iter().chain(&f.captures).map(|x| Ok((x, b.register()?))).collect::<Result<_>>()?;
+        // What is captured was assigned before the call.
+        let (params, captures) = inputs.split_at(f.params.len());
+        captures.iter().chain(params).for_each(|(x, at)| b.assign(x, *at));
         let defaults = f.defaults.iter().map(|e| b.default(f, e)).collect::<Result<Vec<_>>>()?;
         if b.block(&f.body)? {
             let none = b.literal(&Literal::None);
@@ -176,6 +191,17 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
     pub fn op(&mut self, op: Op) {
         self.code.push(op);
         self.spans.push(self.span);
+    }
+
+    /// Gives a variable a value.
+    pub fn assign(&mut self, x: &Name, at: Operand) {
+        self.assign_maybe(x, at, false);
+    }
+
+    /// Gives a variable a value that some paths may not have assigned.
+    pub fn assign_maybe(&mut self, x: &Name, at: Operand, maybe_unset: bool) {
+        self.moment += 1;
+        self.env.insert(x.clone(), Binding { at, maybe_unset, moment: self.moment });
     }
 
     /// A fresh register, virtual until [`place`] decides.

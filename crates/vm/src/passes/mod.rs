@@ -1,4 +1,4 @@
-//! Core form to bytecode, in six steps:
+//! Core form to bytecode, in seven steps:
 //!
 //! 1. [`effects`]: which functions can suspend (the others are pure);
 //! 2. [`collections`]: which lists hold references to their elements;
@@ -6,14 +6,17 @@
 //! 4. `emit`, `expressions`, `sites`, `statements`: one pass over each function; static single assignment with
 //!    merges written by each arm; loops that can suspend are *lifted* into functions of their own;
 //! 5. `place`: which registers are in the node and which are scratch, by liveness on bytecode;
-//! 6. `slices`: what one changed value can reach.
+//! 6. `slices`: what one changed value can reach;
+//! 7. `angles`: which values are angles, for those who read them at choices.
 
+mod angles;
 pub mod collections;
 pub mod effects;
 mod emit;
 mod expressions;
 pub mod liveness;
 pub(crate) mod place;
+mod scope;
 mod sites;
 mod slices;
 mod statements;
@@ -28,6 +31,8 @@ use emit::Builder;
 use niwaki_math::Scalar;
 use std::collections::HashMap;
 use std::sync::Arc;
+
+pub use scope::Kept;
 
 /// A model that cannot be compiled: a defect of the text or a limit of the machine.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -54,8 +59,8 @@ pub(crate) struct Unit<'m, S: Scalar> {
     pub collections: Collections,
     pub ids: HashMap<Name, FunctionId>,
     pub data: Vec<Value<S>>,
-    /// Readable names of the variables to keep at choices.
-    pub kept: &'m [Name],
+    /// The variables to keep for choices.
+    pub kept: Kept<'m>,
     /// Functions so far; the module's own come first, lifted loops after them.
     pub functions: Vec<Option<Function<S>>>,
 }
@@ -66,18 +71,19 @@ pub(crate) struct Unit<'m, S: Scalar> {
 /// Names that are not defined, wrong numbers of arguments to known functions, or a function too large for the
 /// machine (more than 16,384 registers).
 pub fn compile<S: Scalar>(module: &Module, data: Vec<Value<S>>) -> Result<Program<S>, CompileError> {
-    compile_keeping(module, data, &[])
+    compile_keeping(module, data, Kept::Names(&[]))
 }
 
-/// [`compile`], so that variables with these readable names can be read at every choice where they are in scope. What
-/// the program does is the same: addresses, and so random streams, do not depend on it.
+/// [`compile`], so that these variables can be read at every choice where every path has assigned them
+/// ([`At::visible`](crate::machine::answers::At::visible)). What the program does is the same: addresses, and so random
+/// streams, do not depend on it.
 ///
 /// # Errors
 /// As for [`compile`].
 pub fn compile_keeping<S: Scalar>(
     module: &Module,
     data: Vec<Value<S>>,
-    kept: &[Name],
+    kept: Kept<'_>,
 ) -> Result<Program<S>, CompileError> {
     let effects = Effects::of(module);
     let collections = Collections::of(module, &effects);
@@ -105,12 +111,13 @@ pub fn compile_keeping<S: Scalar>(
         .ids
         .get(&module.entry)
         .ok_or_else(|| CompileError(format!("the entry `{}` is not defined", module.entry)))?;
-    let program = Program {
+    let mut program = Program {
         files: module.files.clone(),
         classes: module.classes.iter().cloned().map(Arc::new).collect(),
         functions: unit.functions.into_iter().flatten().collect(),
         entry,
     };
+    angles::mark(&mut program);
     verify(&program).map_err(|e| CompileError(e.to_string()))?;
     Ok(program)
 }

@@ -5,9 +5,9 @@
 //! line changes no random number.
 
 use super::CompileError;
-use super::emit::{Builder, Result};
+use super::emit::{Binding, Builder, Result};
 use crate::code::{Args, Op, Operand, Place, Site, SiteId, SiteKind, Source, Visible};
-use crate::core::{Expr, ExprKind, Name, readable};
+use crate::core::{Expr, ExprKind, LOOK, Name, readable};
 use crate::machine::address;
 use niwaki_math::{Family, Scalar};
 
@@ -201,6 +201,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
         let key = self.occurrence(&format!("{}|{what}|{target}", self.name));
         let (given, named) = label;
         let repeated = self.occurrence(&format!("label {named}")).1;
+        let from = self.scope.len() as u32;
         if matches!(kind, SiteKind::Sample(_)) {
             self.keep_scope();
         }
@@ -220,24 +221,27 @@ impl<S: Scalar> Builder<'_, '_, S> {
             span: self.span,
             next: 0,
             again: 0,
+            is_angle: false,
+            visible: (from, self.scope.len() as u32),
         });
         self.op(Op::Site { site: crate::code::SiteId((self.sites.len() - 1) as u16) });
         Ok(to)
     }
 
-    /// Notes the places of the variables to keep at the next site. The front end numbers the variables of the
-    /// source before its own, so of several with one readable name the first is meant.
+    /// Notes the places of the variables to keep at the next site.
     fn keep_scope(&mut self) {
         let site = SiteId(self.sites.len() as u16);
-        let number = |name: &Name| name.split_once('%').map_or(0, |(_, n)| n.parse().unwrap_or(u32::MAX));
-        for name in self.unit.kept {
-            let named = self.env.iter().filter(|(x, _)| readable(x) == &**name);
-            if let Some((_, binding)) = named.min_by_key(|(x, _)| number(x))
-                && !binding.maybe_unset
-            {
-                self.scope.push(Visible { site, name: name.clone(), at: binding.at });
-            }
-        }
+        let is_set = |(x, binding): &(&Name, &Binding)| !binding.maybe_unset || ***x == *LOOK;
+        let mut set: Vec<(&Name, &Binding)> =
+            self.env.iter().filter(|(x, _)| self.keeping.has(x)).filter(is_set).collect();
+        set.sort_by_key(|(_, binding)| binding.moment);
+        let visible = |(x, binding): (&Name, &Binding)| Visible {
+            site,
+            name: Name::from(readable(x)),
+            at: binding.at,
+            is_angle: false,
+        };
+        self.scope.extend(set.into_iter().map(visible));
     }
 
     /// The text, and the number of equal ones before it in this function.

@@ -7,8 +7,8 @@
 use super::CompileError;
 use super::emit::{Binding, Builder, Environment, LoopContext, Result};
 use crate::code::{Function, FunctionId, Loop, Mode, Op, Operand, Place, SiteKind, exit};
-use crate::core::visit::{Names, assigned, returns};
-use crate::core::{Expr, Literal, Name, Stmt, StmtKind, readable};
+use crate::core::visit::{Names, assigned, in_order_of_assignment, returns};
+use crate::core::{Expr, LOOK, Literal, Name, Stmt, StmtKind};
 use niwaki_math::Scalar;
 
 impl<S: Scalar> Builder<'_, '_, S> {
@@ -90,10 +90,6 @@ impl<S: Scalar> Builder<'_, '_, S> {
         Ok(goes_on)
     }
 
-    fn assign(&mut self, x: &Name, at: Operand) {
-        self.env.insert(x.clone(), Binding { at, maybe_unset: false });
-    }
-
     fn return_value(&mut self, a: Operand) {
         if self.mode == Mode::Iteration {
             self.return_iteration(exit::RETURN, Some(a));
@@ -156,11 +152,8 @@ impl<S: Scalar> Builder<'_, '_, S> {
         let (mut moves_a, mut moves_b) = (Vec::new(), Vec::new());
         for x in names {
             let (p, q) = (a.get(&x).copied(), b.get(&x).copied());
-            if p == q {
-                self.env.extend(p.map(|p| (x, p)));
-                continue;
-            }
             let maybe_unset = p.is_none_or(|p| p.maybe_unset) || q.is_none_or(|q| q.maybe_unset);
+            let moment = p.into_iter().chain(q).map(|binding| binding.moment).max().unwrap_or(0);
             let at = match (p, q) {
                 (Some(p), Some(q)) if p.at == q.at => p.at,
                 _ => {
@@ -171,7 +164,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
                     to
                 }
             };
-            self.env.insert(x, Binding { at, maybe_unset });
+            self.env.insert(x, Binding { at, maybe_unset, moment });
         }
         for op in moves_b {
             self.op(op);
@@ -250,7 +243,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
             variables.push((x, to));
         }
         for ((x, at), maybe_unset) in variables.iter().zip(&unset_before) {
-            self.env.insert(x.clone(), Binding { at: *at, maybe_unset: *maybe_unset });
+            self.assign_maybe(x, *at, *maybe_unset);
         }
         let (head, end) = (self.label(), self.label());
         self.bind(head);
@@ -271,23 +264,33 @@ impl<S: Scalar> Builder<'_, '_, S> {
         self.bind(end);
         // After the loop its variables move on to registers of their own, so that those of the loop are scratch.
         self.env = before;
-        for ((x, from), maybe_unset) in variables.iter().zip(unset_before) {
+        let mut after = Vec::new();
+        for ((x, from), maybe_unset) in variables.into_iter().zip(unset_before) {
             let at = self.register()?;
-            self.op(Op::Move { to: at, from: *from });
-            self.env.insert(x.clone(), Binding { at, maybe_unset });
+            self.op(Op::Move { to: at, from });
+            after.push((x, at, maybe_unset));
         }
+        self.assign_all(body, &after);
         Ok(true)
     }
 
     /// Of the variables that a loop assigns, those that one iteration passes to the next, or to what follows.
     fn handed_on(&self, s: &Stmt, assigned: &Names) -> Vec<Name> {
         let live = self.heads.at(s);
-        assigned.iter().filter(|x| live.contains(*x) || self.is_kept(x)).cloned().collect()
+        // Choices cannot read what some path has left unassigned, but for the place to look from.
+        let is_set = |x: &Name| **x == *LOOK || self.env.get(x).is_some_and(|binding| !binding.maybe_unset);
+        let kept = |x: &Name| self.keeping.has(x) && is_set(x);
+        assigned.iter().filter(|x| live.contains(*x) || kept(x)).cloned().collect()
     }
 
-    /// Whether choices can read it.
-    fn is_kept(&self, x: &Name) -> bool {
-        self.unit.kept.iter().any(|name| **name == *readable(x))
+    /// Gives variables their values after a loop, in the order in which its body assigns them.
+    fn assign_all(&mut self, body: &[Stmt], values: &[(Name, Operand, bool)]) {
+        let names: Vec<Name> = values.iter().map(|value| value.0.clone()).collect();
+        for x in in_order_of_assignment(body, &names) {
+            for (_, at, maybe_unset) in values.iter().filter(|value| value.0 == x) {
+                self.assign_maybe(&x, *at, *maybe_unset);
+            }
+        }
     }
 
     fn loop_body(
@@ -328,7 +331,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
             s.expressions().into_iter().for_each(|e| e.reads(&mut reads))
         });
         // What is kept for choices in the body; a variable that the body assigns is the iteration's own.
-        let kept = self.env.keys().filter(|x| self.is_kept(x) && !set.contains(*x));
+        let kept = self.env.keys().filter(|x| self.keeping.has(x) && !set.contains(*x));
         reads.extend(kept.cloned());
         let captured: Vec<Name> =
             reads.into_iter().filter(|x| !carried.contains(x) && self.env.contains_key(x)).collect();
@@ -351,11 +354,10 @@ impl<S: Scalar> Builder<'_, '_, S> {
         });
         self.target = None;
         self.add_site(kind, &what, (&s.label, Name::from(format!("{label}[]"))), &[])?;
-        for (x, at) in carried.iter().zip(&out) {
-            // Whether the loop assigned it is known only at run time.
-            let maybe_unset = self.env.get(x).is_none_or(|b| b.maybe_unset);
-            self.env.insert(x.clone(), Binding { at: *at, maybe_unset });
-        }
+        // Whether the loop assigned it is known only at run time.
+        let unset = |x: &Name| self.env.get(x).is_none_or(|b| b.maybe_unset);
+        let after: Vec<_> = carried.into_iter().zip(out).map(|(x, at)| (x.clone(), at, unset(&x))).collect();
+        self.assign_all(body, &after);
         if let Some((how, value)) = exit {
             let on = self.label();
             let is_return = self.literal(&Literal::Int(exit::RETURN));
@@ -387,21 +389,21 @@ impl<S: Scalar> Builder<'_, '_, S> {
         let n = self.occurrences.entry(format!("iteration {label}")).or_insert(0);
         let name = Name::from(format!("{}/{label}#{n}", self.name));
         *n += 1;
-        let heads = self.heads;
-        let mut b = Builder::new(&mut *self.unit, heads, name, self.file, Mode::Iteration);
+        let analyses = (self.heads, self.keeping);
+        let mut b = Builder::new(&mut *self.unit, analyses, name, self.file, Mode::Iteration);
         b.span = s.span;
         b.carried = carried.to_vec();
         b.loops.push(LoopContext::Lifted);
         let element = if each.is_some() { Some(b.register()?) } else { None };
-        for x in carried {
-            let at = b.register()?;
-            let maybe_unset = self.env.get(x).is_none_or(|b| b.maybe_unset);
-            b.env.insert(x.clone(), Binding { at, maybe_unset });
-        }
         for (i, x) in captured.iter().enumerate() {
-            let at = Operand::new(Place::Outer, i + 1);
-            b.env.insert(x.clone(), Binding { at, maybe_unset: self.env[x].maybe_unset });
+            b.env.insert(x.clone(), Binding { at: Operand::new(Place::Outer, i + 1), ..self.env[x] });
         }
+        b.moment = self.moment;
+        let mut handed = Vec::new();
+        for x in carried {
+            handed.push((x.clone(), b.register()?, self.env.get(x).is_none_or(|b| b.maybe_unset)));
+        }
+        b.assign_all(body, &handed);
         if let (Some(x), Some(at)) = (each, element) {
             b.assign(x, at);
         }

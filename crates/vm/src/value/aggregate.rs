@@ -112,6 +112,13 @@ pub struct Class {
     pub kind: ClassKind,
 }
 
+impl Class {
+    /// Whether it is a frame: a place and its directions, as the word `look` gives.
+    pub fn is_frame(&self) -> bool {
+        self.name == "Frame" && self.fields == ["center", "forward", "up", "radius"]
+    }
+}
+
 /// An instance of a class.
 pub struct Record<S: Scalar = f64> {
     /// The class.

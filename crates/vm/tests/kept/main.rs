@@ -6,7 +6,9 @@ mod programs;
 
 use chain::{Chain, fresh_totals};
 use niwaki_vm::code::Op;
+use niwaki_vm::core::parse::parse;
 use niwaki_vm::machine::kept::{Changed, Proposed, Strategy};
+use niwaki_vm::passes::{Kept, compile_keeping};
 use niwaki_vm::value::Value;
 use programs::{PROGRAMS, compiled};
 
@@ -36,6 +38,33 @@ fn four_strategies_make_the_same_chain() {
             assert!(chains[0].accepted > 0, "{name}: nothing was ever accepted");
         }
     }
+}
+
+#[test]
+fn to_keep_all_variables_changes_nothing() {
+    let mut kept = 0;
+    for (name, text) in PROGRAMS {
+        let plain = compiled(text);
+        let keeping =
+            compile_keeping(&parse(text).expect("core form"), vec![], Kept::All).expect("a program");
+        kept += keeping.functions.iter().map(|f| f.scope.len()).sum::<usize>();
+        for seed in 0..3 {
+            let mut rerun = Chain::start(&plain, Strategy::Rerun, seed);
+            let start = |strategy: &Strategy| Chain::start(&keeping, *strategy, seed);
+            let mut chains: Vec<Chain> = STRATEGIES.iter().map(start).collect();
+            for step in 0..200 {
+                let outcome = rerun.step(step);
+                for (strategy, chain) in STRATEGIES.iter().zip(&mut chains) {
+                    assert_eq!(chain.step(step), outcome, "{name}, seed {seed}, step {step}, {strategy:?}");
+                }
+                if step % 40 == 0 {
+                    let dump = rerun.dump();
+                    chains.iter().for_each(|chain| assert_eq!(chain.dump(), dump, "{name}, seed {seed}"));
+                }
+            }
+        }
+    }
+    assert!(kept > 4 * PROGRAMS.len(), "{kept} variables");
 }
 
 #[test]

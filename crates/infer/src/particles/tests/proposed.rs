@@ -12,7 +12,7 @@ use crate::chain::user::User;
 use crate::importance::importance;
 use crate::proposal::Proposal;
 use niwaki_vm::core::Name;
-use niwaki_vm::passes::compile_keeping;
+use niwaki_vm::passes::{Kept, compile_keeping};
 
 /// Programs by number, and for each what is proposed: a pattern and a function of variables in scope.
 const GUIDED: [(usize, &[(&str, &str)]); 7] = [
@@ -67,7 +67,7 @@ fn guided(text: &str, parts: &[(&str, &str)]) -> (Task, Proposal) {
     };
     let parts: Vec<(Selection, Arc<User>)> = parts.iter().map(own).collect();
     let names: Vec<Name> = parts.iter().flat_map(|(_, user)| user.variables().cloned()).collect();
-    let program = compile_keeping(&parse(text).unwrap(), vec![], &names).unwrap();
+    let program = compile_keeping(&parse(text).unwrap(), vec![], Kept::Names(&names)).unwrap();
     let kernels =
         parts.into_iter().map(|(on, user)| Kernel::On(on, Box::new(Kernel::Leaf(Proposer::Proposal(user)))));
     (Task::new(Arc::new(program)), Proposal::of(&Kernel::Cycle(kernels.collect())).unwrap())

@@ -1,0 +1,29 @@
+//! One bit for each cell of a page, in tiles that copies share.
+
+use crate::sketch::brick::Plane;
+use std::sync::Arc;
+
+/// Words of bits. Cloning shares all tiles; changing one copies that tile only, and only when it is shared.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Bits(Arc<Vec<Arc<Plane>>>);
+
+impl Bits {
+    /// All zero, for as many words.
+    pub fn new(words: usize) -> Bits {
+        let empty = Arc::new([0; 64]);
+        Bits(Arc::new((0..words.div_ceil(64)).map(|_| empty.clone()).collect()))
+    }
+
+    /// A word.
+    #[inline]
+    pub fn word(&self, word: usize) -> u64 {
+        self.0[word / 64][word % 64]
+    }
+
+    /// Changes the bits of a word that are set in `bits`.
+    #[inline]
+    pub fn flip(&mut self, word: usize, bits: u64) {
+        let tile = &mut Arc::make_mut(&mut self.0)[word / 64];
+        Arc::make_mut(tile)[word % 64] ^= bits;
+    }
+}

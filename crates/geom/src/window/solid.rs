@@ -1,0 +1,282 @@
+//! Solid windows: shares of boxes of cells, read between boxes.
+//!
+//! The box of a point has 1, 2, 4, 8 or 16 cells along each side, the number nearest to the size that the form asks for.
+//! Boxes lie side by side from the grid's first corner, and a point between the middles of eight shows their shares by
+//! trilinear interpolation. Boxes of 1 and 2 are counted in the bits; for those of 4 and 8 each brick keeps [`Sums`],
+//! 16 is made of 8.
+
+use super::{Place, WindowForm};
+use crate::sketch::brick::Plane;
+use crate::sketch::counters::{Counters, bricks_of};
+use crate::sketch::volume::Target;
+use crate::vector::Vec3;
+
+/// The number of doublings of the largest box.
+const LARGEST: u32 = 4;
+/// Each second byte of a word.
+const BYTES: u64 = 0x00ff_00ff_00ff_00ff;
+
+/// How many bits of a brick are set in each box of 4 and of 8 cells, in two channels.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Sums {
+    /// By channel, by quarter of the brick (y / 4 + 2 (z / 4)), and by parity of the box along x: byte `k` counts
+    /// box `2 k + parity`, 64 at most.
+    fours: [[[u64; 2]; 4]; 2],
+    /// By channel and box along x.
+    eights: [[u16; 8]; 2],
+}
+
+impl Sums {
+    /// Of the 64 words of a brick.
+    pub fn of(words: impl Fn(usize) -> [u64; 2]) -> Sums {
+        let mut sums = Sums::default();
+        (0..64).for_each(|word| sums.add(word, words(word)));
+        sums.settle();
+        sums
+    }
+
+    /// Adds bits of a word; [`Sums::settle`] follows when all words are added.
+    #[inline]
+    pub fn add(&mut self, word: usize, bits: [u64; 2]) {
+        self.change(word, bits, |sum, n| *sum += n);
+    }
+
+    /// Takes bits of a word out again; [`Sums::settle`] follows.
+    #[inline]
+    pub fn remove(&mut self, word: usize, bits: [u64; 2]) {
+        self.change(word, bits, |sum, n| *sum -= n);
+    }
+
+    #[inline]
+    fn change(&mut self, word: usize, bits: [u64; 2], by: impl Fn(&mut u64, u64)) {
+        let quarter = word % 8 / 4 + word / 32 * 2;
+        for (sums, bits) in self.fours.iter_mut().zip(bits) {
+            // Number of bits in each four.
+            let twos = bits - (bits >> 1 & 0x5555_5555_5555_5555);
+            let fours = (twos & 0x3333_3333_3333_3333) + (twos >> 2 & 0x3333_3333_3333_3333);
+            by(&mut sums[quarter][0], fours & 0x0f0f_0f0f_0f0f_0f0f);
+            by(&mut sums[quarter][1], fours >> 4 & 0x0f0f_0f0f_0f0f_0f0f);
+        }
+    }
+
+    /// Makes the boxes of 8 the sums of those of 4.
+    #[inline]
+    pub fn settle(&mut self) {
+        for (fours, eights) in self.fours.iter().zip(&mut self.eights) {
+            let all = || fours.iter().flatten();
+            let even: u64 = all().map(|word| word & BYTES).sum();
+            let odd: u64 = all().map(|word| word >> 8 & BYTES).sum();
+            for k in 0..4 {
+                eights[2 * k] = (even >> (16 * k)) as u16;
+                eights[2 * k + 1] = (odd >> (16 * k)) as u16;
+            }
+        }
+    }
+
+    /// Of a box of 4 cells.
+    #[inline]
+    fn four(&self, [x, y, z]: [usize; 3]) -> [i32; 2] {
+        self.fours.each_ref().map(|fours| (fours[y + 2 * z][x % 2] >> (x / 2 * 8) & 0xff) as i32)
+    }
+
+    /// Of a box of 8 cells.
+    #[inline]
+    fn eight(&self, x: usize) -> [i32; 2] {
+        self.eights.each_ref().map(|eights| i32::from(eights[x & 7]))
+    }
+
+    /// Of the part in this brick of a box of 16 cells.
+    #[inline]
+    fn sixteen(&self, x: usize) -> [i32; 2] {
+        let ([a, b], [c, d]) = (self.eight(2 * x), self.eight(2 * x + 1));
+        [a + c, b + d]
+    }
+}
+
+/// A target and what a scene fills of it, with sums.
+pub(crate) struct Volume<'a> {
+    target: &'a Target,
+    filled: &'a Counters,
+    /// Of the target, brick by brick.
+    sums: &'a [Sums],
+    dims: [usize; 3],
+    across: [usize; 3],
+}
+
+impl<'a> Volume<'a> {
+    pub fn new(target: &'a Target, filled: &'a Counters) -> Volume<'a> {
+        let dims = target.grid().dims();
+        Volume { target, filled, sums: target.sums(), dims, across: bricks_of(dims) }
+    }
+
+    /// Appends both channels of every point.
+    pub fn look(&self, form: &WindowForm, place: &Place, out: &mut Vec<f32>) {
+        let (grid, left) = (self.target.grid(), place.left());
+        let cell = grid.cell();
+        let cell = (cell.x + cell.y + cell.z) / 3.0;
+        out.reserve(form.values());
+        for point in &form.points {
+            let [ahead, aside, above] = point.at.map(|length| length * place.scale);
+            let at = place.position + place.forward * ahead + left * aside + place.up * above;
+            let (mut level, mut border) = (0, cell * std::f64::consts::SQRT_2);
+            while level < LARGEST && point.cell * place.scale > border {
+                (level, border) = (level + 1, 2.0 * border);
+            }
+            out.extend(self.shares(grid.to_grid(at), level).map(|share| share as f32));
+        }
+    }
+
+    /// Both channels at a point, in grid coordinates, of boxes of `2^level` cells.
+    fn shares(&self, at: Vec3, level: u32) -> [f64; 2] {
+        let side = f64::from(1 << level);
+        let per_side = 1.0 / side;
+        let mut first = [0; 3];
+        let (mut weights, mut inside) = ([[0.0; 2]; 3], 1.0);
+        for a in 0..3 {
+            let most = self.dims[a] as f64;
+            // In boxes from the middle of the first; farther out all is outside.
+            let x = (at[a] * per_side - 0.5).clamp(-2.0, most + 1.0);
+            first[a] = (x + 2.0) as i32 - 2;
+            let floor = f64::from(first[a]);
+            weights[a] = [1.0 - (x - floor), x - floor];
+            let within = |k: f64| ((k + 1.0) * side).clamp(0.0, most) - (k * side).clamp(0.0, most);
+            inside *= weights[a][0] * within(floor) + weights[a][1] * within(floor + 1.0);
+        }
+        if inside == 0.0 {
+            return [0.0, 2.0];
+        }
+        let mut sums = [0.0; 2];
+        for (z, of_z) in weights[2].into_iter().enumerate() {
+            for (y, of_y) in weights[1].into_iter().enumerate() {
+                let (y, z) = (first[1] + y as i32, first[2] + z as i32);
+                let pair = self.pair(level, [first[0], y, z]);
+                for (channel, sum) in sums.iter_mut().enumerate() {
+                    let along = weights[0][0] * f64::from(pair[0][channel])
+                        + weights[0][1] * f64::from(pair[1][channel]);
+                    *sum += of_y * of_z * along;
+                }
+            }
+        }
+        let share = per_side * per_side * per_side;
+        [sums[0] * share, sums[1] * share + 2.0 * (1.0 - inside * share)]
+    }
+
+    /// Uncovered cells of a box, and of the next along x.
+    #[inline]
+    fn pair(&self, level: u32, [x, y, z]: [i32; 3]) -> [[i32; 2]; 2] {
+        match level {
+            0 => {
+                let bits = self.bits([x, y, z]);
+                [0, 1].map(|k| bits.map(|bits| (bits >> k & 1) as i32))
+            }
+            1 => {
+                let mut pair = [[0; 2]; 2];
+                for (dy, dz) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
+                    let bits = self.bits([2 * x, 2 * y + dy, 2 * z + dz]);
+                    for (k, counts) in pair.iter_mut().enumerate() {
+                        for (count, bits) in counts.iter_mut().zip(bits) {
+                            *count += ((bits >> (2 * k) & 1) + (bits >> (2 * k + 1) & 1)) as i32;
+                        }
+                    }
+                }
+                pair
+            }
+            2 => {
+                let inner = [(y & 1) as usize, (z & 1) as usize];
+                self.boxes([x, y >> 1, z >> 1], 4, |sums, x| sums.four([x, inner[0], inner[1]]))
+            }
+            3 => self.boxes([x, y, z], 3, Sums::eight),
+            _ => {
+                let mut pair = [[0; 2]; 2];
+                for (dy, dz) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
+                    let halves = self.boxes([x, 2 * y + dy, 2 * z + dz], 2, Sums::sixteen);
+                    for k in 0..2 {
+                        pair[k] = [pair[k][0] + halves[k][0], pair[k][1] + halves[k][1]];
+                    }
+                }
+                pair
+            }
+        }
+    }
+
+    /// Of the target, less what the scene fills, in the boxes `x` and `x + 1` of a row of bricks, of which each has
+    /// `2^shift` boxes; nothing outside.
+    #[inline(always)]
+    fn boxes(&self, [x, y, z]: [i32; 3], shift: u32, of: impl Fn(&Sums, usize) -> [i32; 2]) -> [[i32; 2]; 2] {
+        let first = self.sums([x >> shift, y, z]);
+        let second = if (x + 1) & !(-1 << shift) == 0 { self.sums([(x + 1) >> shift, y, z]) } else { first };
+        let uncovered = |sums: Option<(&Sums, Option<&Sums>)>, x: i32| {
+            let Some((target, filled)) = sums else { return [0; 2] };
+            let x = (x & !(-1 << shift)) as usize;
+            let ([wanted, empty], [right, wrong]) =
+                (of(target, x), filled.map_or([0; 2], |sums| of(sums, x)));
+            [wanted - right, empty - wrong]
+        };
+        [uncovered(first, x), uncovered(second, x + 1)]
+    }
+
+    /// Sums of a brick: of the target, and of what the scene fills where it fills something.
+    #[inline(always)]
+    fn sums(&self, brick: [i32; 3]) -> Option<(&Sums, Option<&Sums>)> {
+        let place = self.brick(brick)?;
+        let filled = self.filled.brick(place).and_then(|brick| brick.sums.as_deref());
+        Some((&self.sums[place[1] * self.across[0] * self.across[1] + place[0]], filled))
+    }
+
+    /// Place of a brick in its layer, and its layer.
+    #[inline]
+    fn brick(&self, brick: [i32; 3]) -> Option<[usize; 2]> {
+        let within = (0..3).all(|a| (brick[a] as u32 as usize) < self.across[a]);
+        let [x, y, z] = brick.map(|b| b as usize);
+        within.then(|| [y * self.across[0] + x, z])
+    }
+
+    /// Uncovered cells of both channels along x, from the lowest bit on: four at least.
+    #[inline]
+    fn bits(&self, [x, y, z]: [i32; 3]) -> [u64; 2] {
+        let (column, shift) = (x >> 6, x & 63);
+        let [a, b] = self.words(column, y, z).map(|word| word >> shift);
+        if shift <= 60 {
+            return [a, b];
+        }
+        let [c, d] = self.words(column + 1, y, z).map(|word| word << (64 - shift));
+        [a | c, b | d]
+    }
+
+    /// Uncovered cells `64 * column ..` of a row.
+    #[inline]
+    fn words(&self, column: i32, y: i32, z: i32) -> [u64; 2] {
+        let within = (y as u32 as usize) < self.dims[1] && (z as u32 as usize) < self.dims[2];
+        let Some(place) = self.brick([column, y >> 3, z >> 3]).filter(|_| within) else { return [0; 2] };
+        let word = ((z & 7) * 8 + (y & 7)) as usize;
+        let target = self.target.plane(place)[word];
+        let any = self.filled.brick(place).map_or(0, |brick| brick.counts.any(word));
+        [target & !any, self.domain(column as usize) & !target & !any]
+    }
+
+    /// Bits of a column of words that are cells of the grid.
+    #[inline]
+    fn domain(&self, column: usize) -> u64 {
+        domain(self.dims, column)
+    }
+}
+
+#[inline]
+fn domain(dims: [usize; 3], column: usize) -> u64 {
+    u64::MAX >> (64 - (dims[0] - 64 * column).min(64))
+}
+
+/// Wanted and empty cells of a target, brick by brick.
+pub(crate) fn sums_of(planes: &[Plane], dims: [usize; 3]) -> Vec<Sums> {
+    let across = bricks_of(dims);
+    let of = |(index, plane): (usize, &Plane)| {
+        let (column, y, z) =
+            (index % across[0], index / across[0] % across[1] * 8, index / (across[0] * across[1]) * 8);
+        Sums::of(|word| {
+            let within = y + word % 8 < dims[1] && z + word / 8 < dims[2];
+            let domain = if within { domain(dims, column) } else { 0 };
+            [plane[word], domain & !plane[word]]
+        })
+    };
+    planes.iter().enumerate().map(of).collect()
+}

@@ -1,0 +1,253 @@
+//! A guide for one program: what each of its sites sees, and how it draws.
+
+use super::inputs::place;
+use super::{Guide, bad};
+use crate::Task;
+use crate::chooser::{Chosen, Context};
+use niwaki_geom::{Place, WindowForm, vec3};
+use niwaki_guide::Scratch;
+use niwaki_math::{Dist, Stream};
+use niwaki_vm::builtins::{draw_to_value, value_to_draw};
+use niwaki_vm::code::SiteKind;
+use niwaki_vm::fault::Fault;
+use niwaki_vm::machine::answers::At;
+use niwaki_vm::value::Value;
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// A guide for one program.
+#[derive(Debug)]
+pub struct BoundGuide {
+    guide: Arc<Guide>,
+    sites: HashMap<u128, Site>,
+    windows: Vec<(usize, WindowForm)>,
+    /// What of the guide the program or its score does not have, for people.
+    pub lost: Vec<String>,
+}
+
+/// A site of the program that the guide draws.
+#[derive(Debug)]
+struct Site {
+    /// Its number in the guide.
+    number: usize,
+    /// For each variable that can be read at the site, in their order, its number in the guide.
+    variables: Vec<Option<u32>>,
+}
+
+/// What a guide has seen, kept while place and scene stay the same, and room for what it computes.
+#[derive(Debug, Default)]
+pub struct Sight {
+    /// Place and number of primitives of the sums, and the drawer that they are of.
+    seen: Option<(usize, Place, usize)>,
+    window: Vec<f32>,
+    sums: Vec<f32>,
+    features: Vec<(u32, f32)>,
+    scratch: Scratch,
+}
+
+impl Sight {
+    /// Forgets what was seen: another run follows.
+    pub fn forget(&mut self) {
+        self.seen = None;
+    }
+
+    /// The window that was seen last, and the inputs beside it.
+    pub fn inputs(&self) -> (&[f32], &[(u32, f32)]) {
+        (&self.window, &self.features)
+    }
+}
+
+/// Which member of a task's score shows each window: the next one of that name.
+pub(super) fn members(
+    task: &Task,
+    windows: &[(String, WindowForm)],
+) -> Result<Vec<(usize, WindowForm)>, String> {
+    let mut from = 0;
+    let mut found = Vec::new();
+    for (name, form) in windows {
+        let shows = |at: &usize| {
+            let sketch = &task.sketches[*at];
+            sketch.name() == name && sketch.window().is_some_and(|own| own.values() == form.values())
+        };
+        let Some(at) = (from..task.sketches.len()).find(shows) else { return Err(name.clone()) };
+        found.push((at, form.clone()));
+        from = at + 1;
+    }
+    Ok(found)
+}
+
+impl BoundGuide {
+    /// Binds a guide to the program and the score of a task.
+    ///
+    /// # Errors
+    /// A guide of which nothing matches, or which looks at sketches that the score does not have.
+    pub fn new(guide: Arc<Guide>, task: &Task) -> Result<BoundGuide, Fault> {
+        let form = &guide.form;
+        let windows = members(task, &form.windows).map_err(|name| {
+            let message =
+                format!("the guide of `{}` looks at `{name}`, which the score does not have", form.model);
+            Fault::new("guide-score", message).with_help("search by the score that the guide was trained for")
+        })?;
+        let mut sites = HashMap::new();
+        let mut lost = Vec::new();
+        for function in &task.program.functions {
+            for site in &function.sites {
+                if !matches!(site.kind, SiteKind::Sample(_)) {
+                    continue;
+                }
+                let key = format!("{:032x}", site.key);
+                let Some(number) = form.sites.iter().position(|own| own.key == key) else {
+                    lost.push(format!("`{}` of `{}` is drawn from its prior", site.label, function.name));
+                    continue;
+                };
+                let own = &form.sites[number];
+                let variable = |name: &str| {
+                    let mut all = own.variables.iter().copied();
+                    all.find(|v| form.variables[*v as usize].name == name)
+                };
+                let scope = function.visible(site);
+                let variables: Vec<Option<u32>> = scope.map(|seen| variable(&seen.name)).collect();
+                for v in &own.variables {
+                    if !variables.contains(&Some(*v)) {
+                        let name = &form.variables[*v as usize].name;
+                        lost.push(format!("`{}` of `{}` does not see `{name}`", site.label, function.name));
+                    }
+                }
+                sites.insert(site.key, Site { number, variables });
+            }
+        }
+        if sites.is_empty() && !form.sites.is_empty() {
+            return Err(bad(format!(
+                "the guide is for `{}`: none of its choices is in this model",
+                form.model
+            )));
+        }
+        Ok(BoundGuide { guide, sites, windows, lost })
+    }
+
+    /// The guide.
+    pub fn guide(&self) -> &Arc<Guide> {
+        &self.guide
+    }
+
+    /// Fills `sight` with what the guide sees at a choice; the number of the site in the guide, or `None` where it draws
+    /// nothing.
+    pub fn look(
+        &self,
+        at: &At<'_, f64>,
+        dist: &Dist,
+        seen: Context<'_>,
+        sight: &mut Sight,
+        owner: usize,
+    ) -> Option<usize> {
+        let site = self.sites.get(&at.site.key)?;
+        let form = &self.guide.form;
+        let own = &form.sites[site.number];
+        if !own.head.fits(dist) {
+            return None;
+        }
+        let here = place_of(at);
+        let now = (owner, here, seen.primitives);
+        if sight.seen != Some(now) {
+            sight.window.clear();
+            if let Some(sketches) = seen.sketches {
+                let windows = self.windows.iter().map(|(member, window)| (*member, window));
+                sketches.look(windows, &here, &mut sight.window);
+            }
+            sight.window.resize(form.window_values(), 0.0);
+            self.guide.net.see(&sight.window, &mut sight.sums);
+            sight.seen = Some(now);
+        }
+        sight.features.clear();
+        for (variable, (_, _, value)) in site.variables.iter().zip(at.visible()) {
+            if let Some(v) = variable {
+                let own = &form.variables[*v as usize];
+                own.kind.write(value, &here, own.first, &mut sight.features);
+            }
+        }
+        parameters(dist, own.parameters, &mut sight.features);
+        Some(site.number)
+    }
+
+    /// A value for a choice with its densities; `None` where the guide draws nothing.
+    pub fn draw(
+        &self,
+        at: &At<'_, f64>,
+        dist: &Dist,
+        seen: Context<'_>,
+        sight: &mut Sight,
+        owner: usize,
+        rng: &mut Stream,
+    ) -> Option<Chosen> {
+        let site = self.look(at, dist, seen, sight, owner)?;
+        let (net, form) = (&self.guide.net, &self.guide.form);
+        let outputs = net.answer(&sight.sums, &sight.features, site, &mut sight.scratch);
+        let drawn = form.sites[site].head.draw(outputs, dist, form.share, rng);
+        Some(Chosen {
+            value: draw_to_value(drawn.value),
+            log_prior: drawn.log_prior,
+            log_drawn: drawn.log_drawn,
+        })
+    }
+
+    /// The log density with which it draws a value, nats; `None` where it draws nothing.
+    pub fn log_drawn(
+        &self,
+        at: &At<'_, f64>,
+        dist: &Dist,
+        value: &Value,
+        seen: Context<'_>,
+        sight: &mut Sight,
+        owner: usize,
+    ) -> Option<f64> {
+        let draw = value_to_draw(value)?;
+        let site = self.look(at, dist, seen, sight, owner)?;
+        let (net, form) = (&self.guide.net, &self.guide.form);
+        let outputs = net.answer(&sight.sums, &sight.features, site, &mut sight.scratch);
+        Some(form.sites[site].head.log_drawn(outputs, dist, form.share, &draw))
+    }
+}
+
+/// Where a choice is: the frame that was assigned last in its scope, or else the origin.
+fn place_of(at: &At<'_, f64>) -> Place {
+    at.look().and_then(place).unwrap_or(Place {
+        position: vec3(0.0, 0.0, 0.0),
+        forward: vec3(0.0, 1.0, 0.0),
+        up: vec3(0.0, 0.0, 1.0),
+        scale: 1.0,
+    })
+}
+
+/// The most parameters of a prior that are inputs.
+pub(super) const PARAMETERS: usize = 4;
+
+/// Adds the prior's parameters, from input `first` on.
+fn parameters(dist: &Dist, (first, count): (u32, u32), to: &mut Vec<(u32, f32)>) {
+    let mut all = [0.0; PARAMETERS];
+    let n = of_prior(dist, &mut all).min(count as usize);
+    to.extend(all[..n].iter().enumerate().map(|(i, x)| (first + i as u32, *x as f32)));
+}
+
+/// The parameters of a prior that are inputs, and how many these are.
+pub(super) fn of_prior(dist: &Dist, to: &mut [f64; PARAMETERS]) -> usize {
+    let mut put = |all: &[f64]| {
+        to[..all.len()].copy_from_slice(all);
+        all.len()
+    };
+    match dist {
+        Dist::Bernoulli { p } | Dist::Geometric { p } => put(&[*p]),
+        Dist::DiscreteUniform { lo, hi } => put(&[*lo as f64, *hi as f64]),
+        Dist::Poisson { rate } | Dist::Exponential { rate } => put(&[*rate]),
+        Dist::Binomial { n, p } => put(&[*n as f64, *p]),
+        Dist::Uniform { lo, hi } => put(&[*lo, *hi]),
+        Dist::Gaussian { mean, sd } | Dist::LogNormal { mean, sd } => put(&[*mean, *sd]),
+        Dist::Gamma { shape, scale } | Dist::InverseGamma { shape, scale } => put(&[*shape, *scale]),
+        Dist::Beta { a, b } => put(&[*a, *b]),
+        Dist::Laplace { loc, scale } | Dist::Cauchy { loc, scale } => put(&[*loc, *scale]),
+        Dist::StudentT { df, loc, scale } => put(&[*df, *loc, *scale]),
+        Dist::VonMises { mean, concentration } => put(&[*mean, *concentration]),
+        Dist::TruncatedGaussian { mean, sd, lo, hi } => put(&[*mean, *sd, *lo, *hi]),
+        Dist::Categorical(_) | Dist::Dirichlet(_) | Dist::MultivariateGaussian(_) => 0,
+        Dist::Mixture(_) | Dist::Delta(_) => 0,
+    }
+}

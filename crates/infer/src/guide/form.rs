@@ -1,0 +1,107 @@
+//! A guide as plain data: what its file says beside the weights of the network.
+
+use super::inputs::Kind;
+use niwaki_geom::WindowForm;
+use niwaki_guide::Head;
+use serde::{Deserialize, Serialize};
+
+/// The version of the file's form.
+pub const FORMAT: u32 = 1;
+
+/// What a guide looks at, and which choices it draws.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct GuideForm {
+    /// The version of this form.
+    pub format: u32,
+    /// The version of the package that made it.
+    pub version: String,
+    /// The name of the model that it was made for.
+    pub model: String,
+    /// The share of the prior in each proposal.
+    pub share: f64,
+    /// Windows: the name of the sketch that shows one, in the order of the score, and its points.
+    pub windows: Vec<(String, WindowForm)>,
+    /// The variables that it reads.
+    pub variables: Vec<VariableForm>,
+    /// The choices that it draws, in the order of the network's heads.
+    pub sites: Vec<SiteForm>,
+    /// Choices that were met and are left to their priors, with the reason.
+    pub left: Vec<(String, String)>,
+    /// What it was made from and how well it did, for people.
+    pub report: serde_json::Map<String, serde_json::Value>,
+}
+
+/// A variable in scope at choices of its function.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct VariableForm {
+    /// The function's qualified name.
+    pub function: String,
+    /// The variable's name in the source.
+    pub name: String,
+    /// How its value becomes numbers.
+    pub kind: Kind,
+    /// The number of its first input.
+    pub first: u32,
+}
+
+/// A choice that a guide draws.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SiteForm {
+    /// The key of the site, hexadecimal.
+    pub key: String,
+    /// The function's qualified name.
+    pub function: String,
+    /// The choice's name in addresses.
+    pub label: String,
+    /// The family of its prior.
+    pub family: String,
+    /// What the network's outputs mean.
+    pub head: Head,
+    /// The variables that it sees, by number.
+    pub variables: Vec<u32>,
+    /// The number of the input of the prior's first parameter, and how many parameters there are.
+    pub parameters: (u32, u32),
+    /// How often it was met in the traces.
+    pub visits: u64,
+}
+
+impl GuideForm {
+    /// How many inputs there are beside the windows.
+    pub fn features(&self) -> usize {
+        let of_variables = self.variables.iter().map(|own| own.first as usize + own.kind.len());
+        let of_sites = self.sites.iter().map(|own| (own.parameters.0 + own.parameters.1) as usize);
+        of_variables.chain(of_sites).max().unwrap_or(0)
+    }
+
+    /// How many numbers the windows have.
+    pub fn window_values(&self) -> usize {
+        self.windows.iter().map(|(_, form)| form.values()).sum()
+    }
+
+    /// The guide reads nothing that is in scope, and no parameters of priors.
+    pub fn forget_scope(&mut self) {
+        self.variables.clear();
+        for site in &mut self.sites {
+            site.variables.clear();
+            site.parameters = (0, 0);
+        }
+    }
+
+    /// Names of the inputs beside the windows, by number.
+    pub fn names(&self) -> Vec<String> {
+        let mut names = vec![String::new(); self.features()];
+        let mut put = |first: u32, part: Vec<String>| {
+            part.into_iter().enumerate().for_each(|(i, name)| names[first as usize + i] = name);
+        };
+        for own in &self.variables {
+            let mut parts = Vec::new();
+            own.kind.names(&format!("{}:{}", own.function, own.name), &mut parts);
+            put(own.first, parts);
+        }
+        for own in &self.sites {
+            let name = |i| format!("{}/{}: parameter {} of the prior", own.function, own.label, i + 1);
+            put(own.parameters.0, (0..own.parameters.1).map(name).collect());
+        }
+        names
+    }
+}

@@ -1,0 +1,250 @@
+//! Traces as rows for a network, and training.
+//!
+//! A trace is followed again, in its own order, with its scene. At each choice the code that would draw it looks; what it
+//! sees and the value that the trace has are a row. So a guide is trained on the bits that it gets later.
+
+use super::bound::{BoundGuide, Sight};
+use super::form::GuideForm;
+use super::survey::Survey;
+use super::{Guide, bad};
+use crate::chooser::{Chooser, Chosen, Context, Refuse};
+use crate::log::Entry;
+use crate::particle::Particle;
+use crate::record::Record;
+use crate::replay::by_address;
+use crate::{Failure, Task};
+use niwaki_geom::WindowForm;
+use niwaki_guide::{Net, NetForm, Progress, Rows, Training, train as train_net};
+use niwaki_math::Dist;
+use niwaki_vm::builtins::value_to_draw;
+use niwaki_vm::fault::Fault;
+use niwaki_vm::machine::answers::At;
+use niwaki_vm::value::Value;
+use rayon::prelude::*;
+use serde::Deserialize;
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// A trace: a task and the choices of a run of it.
+pub struct Example {
+    /// The task, its program compiled to keep all variables.
+    pub task: Task,
+    /// The choices.
+    pub entries: Vec<Entry>,
+    /// Whether it judges, instead of being learned from.
+    pub held_out: bool,
+}
+
+/// What happens at a choice of a trace.
+type Each<'a> = dyn FnMut(&At<'_, f64>, &Dist, Context<'_>, &Value) -> Result<(), Fault> + 'a;
+
+/// Gives choices the values of a trace, and shows them.
+struct Shown<'a, 'e> {
+    values: &'a HashMap<u128, Value>,
+    each: &'a mut Each<'e>,
+}
+
+impl Chooser for Shown<'_, '_> {
+    fn choose(&mut self, at: &At<'_, f64>, dist: &Dist, seen: Context<'_>) -> Result<Option<Chosen>, Fault> {
+        let Some(value) = self.values.get(&seen.address) else {
+            return Refuse("give traces of the model that is trained").choose(at, dist, seen);
+        };
+        (self.each)(at, dist, seen, value)?;
+        Chosen::given(value.clone(), dist).map(Some)
+    }
+}
+
+/// Follows a trace in its order, with its scene; `each` gets its choices.
+pub(super) fn follow(example: &Example, each: &mut Each<'_>) -> Result<(), Failure> {
+    let Example { task, entries, .. } = example;
+    let values = by_address(entries);
+    let mut order = entries.iter().filter(|entry| entry.is_order()).map(Entry::address).peekable();
+    let depth_first = order.peek().is_none();
+    let mut machine = task.machine();
+    let start = task.start(&machine, depth_first)?;
+    let mut record = Record::start(&task.sketches);
+    record.sketches.expect_windows();
+    let mut one = Particle::start(start, record, 0, 0);
+    while one.is_running() {
+        let which = match one.state.runnable().len() {
+            0 => return Err(Box::new(machine.waiting_cycle(&one.state)).into()),
+            1 => 0,
+            _ => {
+                let path = order.next();
+                let known = one.state.runnable().iter().position(|own| Some(one.state.path_of(*own)) == path);
+                known.unwrap_or(0)
+            }
+        };
+        one.run(&mut machine, task, which, Shown { values: &values, each })?;
+    }
+    Ok(())
+}
+
+/// How a guide is made.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Making {
+    /// The model's name.
+    pub model: String,
+    /// Units of the hidden layers.
+    pub hidden: [usize; 2],
+    /// Gaussians of each mixture.
+    pub components: usize,
+    /// The share of the prior.
+    pub share: f64,
+    /// Whether it looks at the sketches' windows.
+    pub looks: bool,
+    /// Whether it reads what is in scope.
+    pub reads: bool,
+    /// Steps; `None` for `passes`.
+    pub steps: Option<u64>,
+    /// So many passes over the choices, but at least [`LEAST`] steps and at most [`MOST`].
+    pub passes: f64,
+    /// Adam's rate.
+    pub rate: f64,
+    /// Choices of a step.
+    pub batch: usize,
+    /// How much of the averaged weights is kept in a step.
+    pub averaging: f64,
+    /// Decides every random number.
+    pub seed: u64,
+}
+
+/// Fewest and most steps of a training that is given in passes.
+const LEAST: u64 = 1_500;
+const MOST: u64 = 12_000;
+/// Looks at what is held out.
+const LOOKS: u64 = 20;
+
+impl Making {
+    /// The training for so many choices.
+    fn training(&self, rows: usize) -> Training {
+        let steps = (self.passes * rows as f64 / self.batch as f64) as u64;
+        let steps = self.steps.unwrap_or(steps.clamp(LEAST, MOST));
+        Training {
+            rate: self.rate,
+            batch: self.batch,
+            averaging: self.averaging,
+            steps,
+            every: steps.div_ceil(LOOKS).max(1),
+            share: self.share,
+            seed: self.seed,
+        }
+    }
+}
+
+/// Windows of the sketches of a task that show one.
+fn windows(task: &Task) -> Vec<(String, WindowForm)> {
+    let own = task.sketches.iter();
+    own.filter_map(|sketch| sketch.window().map(|form| (sketch.name().to_string(), form))).collect()
+}
+
+/// The form of a guide for these traces.
+///
+/// # Errors
+/// No traces; a trace that cannot be followed; no choice that a guide can draw.
+pub fn survey(examples: &[Example], making: &Making) -> Result<GuideForm, Failure> {
+    let Some(first) = examples.first() else {
+        return Err(Fault::new("guide-traces", "there are no traces to learn from")
+            .with_help("give targets that the model can reach")
+            .into());
+    };
+    let mut survey = Survey::default();
+    for example in examples {
+        survey.add(example, making.components)?;
+    }
+    let windows = if making.looks { windows(&first.task) } else { vec![] };
+    let mut form = survey.form(&making.model, making.share, windows)?;
+    if !making.reads {
+        form.forget_scope();
+    }
+    Ok(form)
+}
+
+/// The rows of traces; in the order of the traces, on all threads.
+fn rows(examples: &[&Example], guide: &Arc<Guide>) -> Result<Rows, Failure> {
+    let one = |example: &&Example| -> Result<Rows, Failure> {
+        let bound = BoundGuide::new(guide.clone(), &example.task)?;
+        let (mut rows, mut sight) = (Rows::new(guide.net.form()), Sight::default());
+        rows.trace();
+        follow(example, &mut |at, dist, seen, value| {
+            let Some(site) = bound.look(at, dist, seen, &mut sight, 0) else { return Ok(()) };
+            let lesson =
+                value_to_draw(value).and_then(|draw| guide.form.sites[site].head.lesson(dist, &draw));
+            if let Some(lesson) = lesson {
+                let (window, features) = sight.inputs();
+                rows.push(site, window, features, &lesson);
+            }
+            Ok(())
+        })?;
+        Ok(rows)
+    };
+    let parts = examples.par_iter().map(one).collect::<Result<Vec<_>, Failure>>()?;
+    let mut all = Rows::new(guide.net.form());
+    parts.iter().for_each(|part| all.append(part));
+    Ok(all)
+}
+
+/// Trains a guide on traces, or goes on with the one that is given. `watch` returns false to stop with the best so far.
+///
+/// # Errors
+/// No traces; a trace that cannot be followed; a loss that is not a number.
+pub fn train(
+    examples: &[Example],
+    making: &Making,
+    start: Option<&Guide>,
+    watch: &mut dyn FnMut(Progress) -> bool,
+) -> Result<Taught, Failure> {
+    let form = match start {
+        Some(start) => start.form.clone(),
+        None => survey(examples, making)?,
+    };
+    let net = match start {
+        Some(start) => start.net.clone(),
+        None => {
+            let heads = form.sites.iter().map(|site| site.head).collect();
+            let own = NetForm {
+                hidden: making.hidden,
+                ..NetForm::new(form.window_values(), form.features(), heads)
+            };
+            Net::start(own, making.seed)
+        }
+    };
+    let blank = Arc::new(Guide { form, net });
+    let (judging, learning): (Vec<&Example>, Vec<&Example>) = examples.iter().partition(|one| one.held_out);
+    let learned = rows(&learning, &blank)?;
+    let held_out = rows(&judging, &blank)?;
+    let (mut form, net) = (blank.form.clone(), blank.net.clone());
+    let rows = learned.len();
+    let (net, history, diverged) = match train_net(net, &learned, &held_out, &making.training(rows), watch) {
+        Ok(trained) => (trained.net, trained.history, None),
+        // What was learned before is kept, and told.
+        Err(diverged) if diverged.step > 0 => {
+            let site = diverged.site.map(|site| form.sites[site].label.clone());
+            ((*diverged.net).clone(), vec![], Some((diverged.to_string(), site)))
+        }
+        Err(diverged) => return Err(bad(diverged.to_string()).into()),
+    };
+    form.share = making.share;
+    Ok(Taught {
+        guide: Guide { form, net },
+        rows,
+        bytes: learned.bytes() + held_out.bytes(),
+        history,
+        diverged,
+    })
+}
+
+/// What training gave.
+pub struct Taught {
+    /// The guide.
+    pub guide: Guide,
+    /// Choices that were learned from.
+    pub rows: usize,
+    /// Bytes of all rows.
+    pub bytes: usize,
+    /// What every look at the choices that are held out saw.
+    pub history: Vec<Progress>,
+    /// Why it ended early: a loss that is not a number, and the choice.
+    pub diverged: Option<(String, Option<String>)>,
+}

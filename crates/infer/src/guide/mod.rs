@@ -1,0 +1,69 @@
+//! Guides: small networks that draw choices in place of the prior (dissertation chapter 6).
+//!
+//! A guide replaces the parameters of a choice's distribution by the outputs of a network. It sees what is in scope at the
+//! choice ([`inputs`]), the parameters of the prior, and a window of each sketch that shows one, around the current place
+//! and in its direction ([`bound`]). It is a proposal: weights count prior over guide, so results stay right however
+//! bad it is.
+//!
+//! - [`form`]: a guide as plain data;
+//! - [`bound`]: a guide for one program, as a drawer of choices;
+//! - [`survey`]: what the traces of a model show, from which the form of its guide follows;
+//! - [`lessons`]: traces as rows, by the code that draws; training.
+//!
+//! The networks and their training are in `niwaki-guide`, the windows in `niwaki-geom`.
+
+pub mod bound;
+pub mod form;
+pub mod inputs;
+pub mod lessons;
+pub mod survey;
+
+use form::{FORMAT, GuideForm};
+use niwaki_guide::Net;
+use niwaki_vm::fault::Fault;
+
+/// A trained guide.
+#[derive(Debug)]
+pub struct Guide {
+    /// What it looks at, and what it draws.
+    pub form: GuideForm,
+    /// Its network.
+    pub net: Net,
+}
+
+fn bad(message: String) -> Fault {
+    Fault::new("bad-guide", message).with_help("train the guide again: `niwaki.train_guide`")
+}
+
+impl Guide {
+    /// The guide as the bytes of a safetensors file.
+    pub fn bytes(&self) -> Vec<u8> {
+        let meta = serde_json::to_string(&self.form).unwrap_or_default();
+        niwaki_guide::write(&self.net, &meta)
+    }
+
+    /// The guide of such bytes.
+    ///
+    /// # Errors
+    /// Bytes that are no guide, or one of a form that this version does not know.
+    pub fn of_bytes(bytes: &[u8]) -> Result<Guide, Fault> {
+        let (net, meta) =
+            niwaki_guide::read(bytes).map_err(|error| bad(format!("this is no guide: {error}")))?;
+        let data: serde_json::Value =
+            serde_json::from_str(&meta).map_err(|error| bad(format!("this is no guide: {error}")))?;
+        let format = data["format"].as_u64().unwrap_or(0);
+        if format != u64::from(FORMAT) {
+            let message = format!("the guide has format {format}, this version reads {FORMAT}");
+            return Err(bad(message));
+        }
+        let form: GuideForm =
+            serde_json::from_value(data).map_err(|error| bad(format!("the guide's description: {error}")))?;
+        let fits = form.features() == net.form().features
+            && form.window_values() == net.form().windows
+            && form.sites.iter().map(|own| &own.head).eq(&net.form().heads);
+        if !fits {
+            return Err(bad("the guide's description does not fit its network".into()));
+        }
+        Ok(Guide { form, net })
+    }
+}

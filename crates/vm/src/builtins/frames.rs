@@ -1,0 +1,81 @@
+//! Places to look from: the word `look`.
+//!
+//! A frame is a position and two unit directions at right angles. What lies in the plane is given by pairs: its z is 0.
+
+use super::vectors::{length, parts};
+use super::{Answer, unfit};
+use crate::fault::Fault;
+use crate::value::{Scalar, Value, Vector};
+
+/// Above this cosine a direction is too close to the y axis for that axis to be up.
+const STEEP: f64 = 0.9;
+
+/// Below this sine two directions lie along one line.
+const ALONG: f64 = 1e-9;
+
+fn triple<S: Scalar>(value: &Value<S>) -> Result<[S; 3], Fault> {
+    match parts("look", value).as_ref().map(Vector::components) {
+        Ok(&[x, y]) => Ok([x, y, S::from_f64(0.0)]),
+        Ok(&[x, y, z]) => Ok([x, y, z]),
+        _ => Err(unfit("look", "points and directions of 2 or 3 numbers", value)),
+    }
+}
+
+fn unit<S: Scalar>(v: [S; 3]) -> Result<[S; 3], Fault> {
+    let length = length(&v);
+    if length.value() == 0.0 {
+        return Err(Fault::bad_argument("`look`: a direction has the length 0"));
+    }
+    Ok(v.map(|x| x / length))
+}
+
+/// `look(position, forward, up)`: the position and the two directions of its frame, vectors of three.
+pub fn look<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
+    let center = triple(&args[0])?;
+    let forward = unit(triple(&args[1])?)?;
+    let flat = parts("look", &args[1])?.components().len() == 2;
+    let axis = |at: usize| [0, 1, 2].map(|k| S::from_f64(if k == at { 1.0 } else { 0.0 }));
+    let up = match args.get(2).filter(|up| !matches!(up, Value::None)) {
+        Some(up) => unit(triple(up)?)?,
+        None if flat || forward[1].abs() > S::from_f64(STEEP) => axis(2),
+        None => axis(1),
+    };
+    let along = up[0] * forward[0] + up[1] * forward[1] + up[2] * forward[2];
+    let across = [0, 1, 2].map(|k| up[k] - along * forward[k]);
+    if length(&across).value() < ALONG {
+        return Err(Fault::bad_argument("`look`: `up` lies along `forward`"));
+    }
+    let vector = |v: [S; 3]| Value::vector(&v);
+    Ok(Value::tuple(vec![vector(center), vector(forward), vector(unit(across)?)]))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::builtins::tests::{V, call, code, reals};
+
+    fn frame(args: &[V]) -> Vec<Vec<f64>> {
+        let Ok(V::Tuple(parts)) = call("look", args) else { panic!("no frame") };
+        let numbers = |part: &V| match part {
+            V::Vector(v) => v.components().to_vec(),
+            other => panic!("{other:?}"),
+        };
+        parts.items().iter().map(numbers).collect()
+    }
+
+    #[test]
+    fn up_is_chosen_and_made_perpendicular() {
+        let (plane, space) = (reals([1.0, 2.0]), reals([1.0, 2.0, 3.0]));
+        let flat = frame(&[plane.clone(), reals([0.0, 2.0])]);
+        assert_eq!(flat, [[1.0, 2.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
+        let level = frame(&[space.clone(), reals([3.0, 0.0, 0.0])]);
+        assert_eq!(level, [[1.0, 2.0, 3.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
+        let steep = frame(&[space.clone(), reals([0.0, -2.0, 0.0]), V::None]);
+        assert_eq!(steep, [[1.0, 2.0, 3.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]]);
+        let leaning = frame(&[space.clone(), reals([0.0, 0.0, 5.0]), reals([0.0, 7.0, 7.0])]);
+        assert!((leaning[2][1] - 1.0).abs() < 1e-15 && leaning[2][2].abs() < 1e-15, "{leaning:?}");
+        assert_eq!(code("look", &[plane.clone(), reals([0.0, 0.0])]), "bad-argument");
+        assert_eq!(code("look", &[space.clone(), plane.clone(), reals([2.0, 4.0, 0.0])]), "bad-argument");
+        assert_eq!(code("look", &[space, reals([1.0, 0.0, 0.0, 0.0])]), "type-mismatch");
+        assert_eq!(code("look", &[V::real(1.0), plane]), "type-mismatch");
+    }
+}

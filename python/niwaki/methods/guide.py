@@ -1,0 +1,142 @@
+"""A guide as a value: a small network that draws choices in place of the prior, and its file."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping
+from functools import cached_property
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+from niwaki import _engine
+from niwaki.errors.files import existing, write_whole
+
+
+class Guide:
+    """A trained guide (dissertation chapter 6).
+
+    It sees what is in scope at a choice, the parameters of the choice's prior, and the surroundings of the current place
+    in target and scene. It gives a distribution to draw from. Weights make up for the difference, so a search is right
+    with any guide, and needs fewer particles with a good one.
+
+    Parameters
+    ----------
+    data
+        The bytes of a guide's file.
+
+    See Also
+    --------
+    niwaki.train_guide : makes one.
+    """
+
+    def __init__(self, data: bytes) -> None:
+        self._engine = _engine.Guide(data)
+        self._data = data
+
+    @classmethod
+    def load(cls, path: str | PathLike[str]) -> Guide:
+        """The guide of a file.
+
+        Raises
+        ------
+        InputError
+            The file is no guide, or one of another version.
+        """
+        return cls(existing(path).read_bytes())
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write the guide to a file, whole or not at all (safetensors)."""
+        write_whole(Path(path), self.data)
+
+    @property
+    def data(self) -> bytes:
+        """The bytes of its file."""
+        return self._data
+
+    @cached_property
+    def hash(self) -> str:
+        """SHA-256 of its bytes, in hexadecimal."""
+        return hashlib.sha256(self._data).hexdigest()
+
+    @cached_property
+    def form(self) -> Mapping[str, Any]:
+        """What it looks at and what it draws, as plain data."""
+        form: dict[str, Any] = json.loads(self._engine.form())
+        return form
+
+    @property
+    def report(self) -> Mapping[str, Any]:
+        """What it was trained on, and its scores on what was held out."""
+        report: Mapping[str, Any] = self.form["report"]
+        return report
+
+    @property
+    def model(self) -> str:
+        """The name of the model that it was trained for."""
+        name: str = self.form["model"]
+        return name
+
+    def reported(self, report: Mapping[str, Any]) -> Guide:
+        """The same guide with another report."""
+        return Guide(self._engine.with_report(json.dumps(report)).data())
+
+    def __eq__(self, other: object) -> bool:
+        return self.data == other.data if isinstance(other, Guide) else NotImplemented
+
+    def __hash__(self) -> int:
+        return int(self.hash[:15], 16)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Guide, (self.data,)
+
+    def __repr__(self) -> str:
+        return f"<guide of {self.model}: {len(self.form['sites'])} choices, {self._engine.weights()} weights>"
+
+    def show(self) -> str:
+        """What each choice sees, as text."""
+        form, inputs = self.form, self._engine.inputs()
+        weights, share = self._engine.weights(), form["share"]
+        lines = [f"guide of {form['model']}: {weights} weights, a share of {share} is the prior's"]
+        for name, window in form["windows"]:
+            points = window["points"]
+            reach = max(sum(x * x for x in point["at"]) ** 0.5 for point in points)
+            lines.append(f"window of {name}: {len(points)} points around the current place, up to {reach:.3g} units away")
+        for site in form["sites"]:
+            lines.append(f"{site['function']}/{site['label']}: {_drawn(site)}, {site['visits']} in the traces")
+            variables = [form["variables"][number] for number in site["variables"]]
+            seen = [name for one in variables for name in _names(inputs, one["first"], one["kind"])]
+            lines.append(f"    sees {', '.join(seen) or 'no variable'}")
+        lines.extend(f"{name}: drawn from its prior, because {reason}" for name, reason in form["left"])
+        return "\n".join(lines)
+
+
+def _drawn(site: Mapping[str, Any]) -> str:
+    """How a choice is drawn."""
+    ((kind, settings),) = site["head"].items()
+    if kind == "Finite":
+        return f"{site['family']}, one of {settings['values']} values"
+    what = "a mixture" if kind == "Normal" else "a mixture over whole numbers"
+    return f"{site['family']}, {what} of {settings['components']}"
+
+
+def _names(inputs: list[str], first: int, kind: Any) -> list[str]:
+    """Names of the inputs of a variable, without its function."""
+    return [name.split(":", 1)[-1] for name in inputs[first : first + _size(kind)]]
+
+
+def _size(kind: Any) -> int:
+    """How many inputs a variable of a kind has."""
+    if isinstance(kind, str):
+        return {"number": 1, "angle": 2}.get(kind, 0)
+    ((name, own),) = kind.items()
+    match name:
+        case "point":
+            return 2 * int(own["numbers"])
+        case "parts":
+            return sum(_size(part) for _, part in own)
+        case "list":
+            return 1 + _size(own)
+        case _:
+            return len(own)
