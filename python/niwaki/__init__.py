@@ -40,6 +40,7 @@ Everything else:
     niwaki.gallery    models
     niwaki.errors     every error
     niwaki.stacks     structures of blocks that stand
+    niwaki.letters    words in vines or lightning
     niwaki.color      colours for drawings
 
 Every name is imported when it is first used; `__init__.pyi` lists them all.

@@ -17,13 +17,14 @@ from niwaki.shell import (
     explain,
     grow,
     guide,
+    letters,
     models,
     replay,
     sample,
 )  # each puts its command on the application
 from niwaki.shell.app import app
 
-__all__ = ["app", "check", "color", "explain", "grow", "guide", "main", "models", "replay", "sample"]
+__all__ = ["app", "check", "color", "explain", "grow", "guide", "letters", "main", "models", "replay", "sample"]
 
 
 def main() -> NoReturn:

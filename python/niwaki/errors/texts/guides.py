@@ -1,4 +1,4 @@
-"""Errors about guides: their files, their training, and searches with one; part of inputs."""
+"""Errors about guides: their files, their training, searches with one, and letters; part of inputs."""
 
 from __future__ import annotations
 
@@ -44,5 +44,21 @@ GUIDES = (
         help="give {cure}",
         example="niwaki guide train vines --targets empty/ --out vines.guide",
         cure="niwaki guide train vines --targets scribbles --out vines.guide",
+    ),
+    Message(
+        "letter-missing",
+        "the font has no `{name}`",
+        why="`{font}` has no shape for {code}",
+        help="leave it out, or give a font that has it: `--font FILE`",
+        example='niwaki letters "木" -o out',
+        cure='niwaki letters "木" --font NotoSansCJK.otf -o out',
+    ),
+    Message(
+        "letter-lost",
+        "nothing grew into `{name}`",
+        why="every particle of {tries} searches became impossible",
+        help="give more particles (`-n`) or more `--tries`, or another font",
+        example='niwaki letters "." -n 1 --tries 1',
+        cure='niwaki letters "."',
     ),
 )
