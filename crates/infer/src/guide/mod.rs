@@ -17,6 +17,8 @@ pub mod form;
 pub mod inputs;
 pub mod lessons;
 pub mod survey;
+#[cfg(test)]
+mod tests;
 
 use form::{FORMAT, GuideForm};
 use niwaki_guide::Net;

@@ -12,9 +12,9 @@ use serde_json::{Value, json};
 use std::sync::Arc;
 
 /// The share of the prior: large, so that no weight is so rare and so great that averages are not normal.
-const SHARE: f64 = 0.1;
+const SHARE: f64 = 0.25;
 /// Deviation of what is added to each weight.
-const SPREAD: f64 = 0.5;
+const SPREAD: f64 = 1.0;
 
 fn making() -> Making {
     let settings = json!({
@@ -29,7 +29,8 @@ fn shaken(mut bytes: Vec<u8>, seed: u64) -> Vec<u8> {
     let length = u64::from_le_bytes(bytes[..8].try_into().expect("eight")) as usize;
     let (head, data) = bytes.split_at_mut(8 + length);
     let header: Value = serde_json::from_slice(&head[8..]).expect("a header");
-    let place = |name: &str, which: usize| header[name]["data_offsets"][which].as_u64().expect("a place") as usize;
+    let place =
+        |name: &str, which: usize| header[name]["data_offsets"][which].as_u64().expect("a place") as usize;
     let mut stream = Stream::new(seed, 0, 0, 0);
     for weight in data[place("weights", 0)..place("weights", 1)].chunks_exact_mut(4) {
         let old = f32::from_le_bytes(weight.try_into().expect("four"));

@@ -115,11 +115,13 @@ impl Law {
             let total: f64 = values.iter().map(|(_, log)| log.exp()).sum();
             found[0].push(evidence);
             for (own, (name, _)) in found[1..].iter_mut().zip(&self.shares) {
-                let part: f64 = values.iter().filter(|(value, _)| value == name).map(|(_, log)| log.exp()).sum();
+                let part: f64 =
+                    values.iter().filter(|(value, _)| value == name).map(|(_, log)| log.exp()).sum();
                 own.push(if total > 0.0 { evidence * part / total } else { 0.0 });
             }
         }
-        let names = std::iter::once(("evidence", 1.0)).chain(self.shares.iter().map(|(n, p)| (n.as_str(), *p)));
+        let names =
+            std::iter::once(("evidence", 1.0)).chain(self.shares.iter().map(|(n, p)| (n.as_str(), *p)));
         let far = names.zip(found).filter_map(|((name, expected), found)| {
             let n = found.len() as f64;
             let mean = found.iter().sum::<f64>() / n;

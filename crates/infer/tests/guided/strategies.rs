@@ -16,7 +16,8 @@ mod of_the_machine;
 
 fn agree(name: &str, task: &Task) {
     let guided = || Kernel::guided(strong(task, 1));
-    let regrow = Kernel::leaf("regrow", json!({"particles": 4, "turn": 0.3, "pick": "size"})).expect("a kernel");
+    let regrow =
+        Kernel::leaf("regrow", json!({"particles": 4, "turn": 0.3, "pick": "size"})).expect("a kernel");
     let deep = Selection { depth: vec![1.0, 3.0, 0.5], ..Selection::default() };
     for (kind, kernel) in [
         ("guided", guided()),
@@ -25,7 +26,14 @@ fn agree(name: &str, task: &Task) {
         ("regrow", Kernel::Cycle(vec![guided(), regrow.drawn_by(by(task, 2))])),
     ] {
         for powers in [vec![1.0], vec![1.0, 0.3]] {
-            let settings = Settings { seed: 5, thin: 0, kernel: kernel.clone(), powers, every: 4, ..Settings::default() };
+            let settings = Settings {
+                seed: 5,
+                thin: 0,
+                kernel: kernel.clone(),
+                powers,
+                every: 4,
+                ..Settings::default()
+            };
             let (difference, compared) = compare(task, &settings, 150, 30).expect("a chain");
             assert!(difference.is_none(), "{name}, {kind}: {}", difference.unwrap_or_default());
             assert!(compared.accepted > 0, "{name}, {kind}: nothing was accepted");
