@@ -4,9 +4,10 @@ use super::Guide;
 use super::inputs::place;
 use crate::Task;
 use crate::chooser::{Chosen, Context};
+use niwaki_geom::sketch::product::Sketches;
 use niwaki_geom::{Place, WindowForm, vec3};
 use niwaki_guide::Scratch;
-use niwaki_math::{Dist, Stream};
+use niwaki_math::{Dist, Draw, Stream};
 use niwaki_vm::builtins::{draw_to_value, value_to_draw};
 use niwaki_vm::code::SiteKind;
 use niwaki_vm::fault::Fault;
@@ -139,6 +140,16 @@ impl BoundGuide {
         &self.guide
     }
 
+    /// Whether it looks at the scene.
+    pub fn looks(&self) -> bool {
+        !self.windows.is_empty()
+    }
+
+    /// Whether it draws the choices of a site, by key.
+    pub fn knows(&self, site: u128) -> bool {
+        self.sites.contains_key(&site)
+    }
+
     /// Fills `sight` with what the guide sees at a choice; the number of the site in the guide, or `None` where it draws
     /// nothing.
     pub fn look(
@@ -158,24 +169,55 @@ impl BoundGuide {
         let here = place_of(at);
         let now = (owner, here, seen.primitives);
         if sight.seen != Some(now) {
-            sight.window.clear();
-            if let Some(sketches) = seen.sketches {
-                let windows = self.windows.iter().map(|(member, window)| (*member, window));
-                sketches.look(windows, &here, &mut sight.window);
-            }
-            sight.window.resize(form.window_values(), 0.0);
-            self.guide.net.see(&sight.window, &mut sight.sums);
+            self.see(seen.sketches, &here, sight);
             sight.seen = Some(now);
         }
         sight.features.clear();
         for (variable, (_, _, value)) in site.variables.iter().zip(at.visible()) {
             if let Some(v) = variable {
                 let own = &form.variables[*v as usize];
-                own.kind.write(value, &here, own.first, &mut sight.features);
+                own.kind.write(value, &here, own.first, &|cell| at.element(cell), &mut sight.features);
             }
         }
         parameters(dist, own.parameters, &mut sight.features);
         Some(site.number)
+    }
+
+    /// Fills the windows of `sight` with what the sketches show around a place; with zeros where there are none.
+    fn see(&self, sketches: Option<&Sketches>, here: &Place, sight: &mut Sight) {
+        sight.window.clear();
+        if let Some(sketches) = sketches {
+            let windows = self.windows.iter().map(|(member, window)| (*member, window));
+            sketches.look(windows, here, &mut sight.window);
+        }
+        sight.window.resize(self.guide.form.window_values(), 0.0);
+        self.guide.net.see(&sight.window, &mut sight.sums);
+    }
+
+    /// Looks once more from the place of the last choice, at another scene; all other inputs stay as they are.
+    pub fn look_again(&self, sketches: Option<&Sketches>, sight: &mut Sight) {
+        if let Some((_, here, _)) = sight.seen.take() {
+            self.see(sketches, &here, sight);
+        }
+    }
+
+    /// A value for the choice that was looked at, which is the guide's `site`-th.
+    pub fn answer(&self, site: usize, dist: &Dist, sight: &mut Sight, rng: &mut Stream) -> Chosen {
+        let (net, form) = (&self.guide.net, &self.guide.form);
+        let outputs = net.answer(&sight.sums, &sight.features, site, &mut sight.scratch);
+        let drawn = form.sites[site].head.draw(outputs, dist, form.share, rng);
+        Chosen {
+            value: draw_to_value(drawn.value),
+            log_prior: drawn.log_prior,
+            log_drawn: drawn.log_drawn,
+        }
+    }
+
+    /// The log density with which it draws a value there, nats.
+    pub fn log_of(&self, site: usize, dist: &Dist, value: &Draw, sight: &mut Sight) -> f64 {
+        let (net, form) = (&self.guide.net, &self.guide.form);
+        let outputs = net.answer(&sight.sums, &sight.features, site, &mut sight.scratch);
+        form.sites[site].head.log_drawn(outputs, dist, form.share, value)
     }
 
     /// A value for a choice with its densities; `None` where the guide draws nothing.
@@ -189,14 +231,7 @@ impl BoundGuide {
         rng: &mut Stream,
     ) -> Option<Chosen> {
         let site = self.look(at, dist, seen, sight, owner)?;
-        let (net, form) = (&self.guide.net, &self.guide.form);
-        let outputs = net.answer(&sight.sums, &sight.features, site, &mut sight.scratch);
-        let drawn = form.sites[site].head.draw(outputs, dist, form.share, rng);
-        Some(Chosen {
-            value: draw_to_value(drawn.value),
-            log_prior: drawn.log_prior,
-            log_drawn: drawn.log_drawn,
-        })
+        Some(self.answer(site, dist, sight, rng))
     }
 
     /// The log density with which it draws a value, nats; `None` where it draws nothing.
@@ -211,9 +246,7 @@ impl BoundGuide {
     ) -> Option<f64> {
         let draw = value_to_draw(value)?;
         let site = self.look(at, dist, seen, sight, owner)?;
-        let (net, form) = (&self.guide.net, &self.guide.form);
-        let outputs = net.answer(&sight.sums, &sight.features, site, &mut sight.scratch);
-        Some(form.sites[site].head.log_drawn(outputs, dist, form.share, &draw))
+        Some(self.log_of(site, dist, &draw, sight))
     }
 }
 
