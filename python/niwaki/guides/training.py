@@ -209,7 +209,9 @@ def train_guide(
             now = Round(number, len(rounds), wanted=wanted)
             picks = [learned[i] for i in draw.integers(len(learned), size=wanted)]
             seeds = draw.integers(2**63, size=wanted)
-            jobs = [school.search(one, method, guide, int(own)) for one, own in zip(picks, seeds, strict=True)]
+            jobs = [
+                school.search(one, method, guide, int(own)) for one, own in zip(picks, seeds, strict=True)
+            ]
             lessons, now = _traces(jobs, school.workers, keep or _gains, now, progress)
             if now.traces < 2:
                 raise InputError("guide-traces", detail=f"{now.traces} of {wanted} searches gave a trace")
@@ -270,7 +272,8 @@ class _School:
 
 def with_guide(method: Method, guide: Guide) -> Method:
     """A method of particles, or importance sampling, whose choices a guide draws; another as it is."""
-    return replace(method, proposal=kernels.guided(guide)) if hasattr(method, "proposal") else method
+    own: Any = method
+    return replace(own, proposal=kernels.guided(guide)) if hasattr(method, "proposal") else method
 
 
 def _gains(sample: Sample) -> bool:
@@ -323,8 +326,12 @@ def _fit(
         step, label = told["diverged"]
         where = f"step {step}" + ("" if label is None else f", at the choice `{label}`")
         warnings.warn(
-            f"training met a number that is not finite in {where}: the best weights before are kept; give a lower `rate`",
+            f"training met a number that is not finite in {where}: the best weights before are kept; lower `rate`",
             SearchWarning,
             stacklevel=4,
         )
-    return Guide(engine.data()), replace(now, losses=[tuple(one) for one in told["losses"]]), told["interrupted"]
+    return (
+        Guide(engine.data()),
+        replace(now, losses=[tuple(one) for one in told["losses"]]),
+        told["interrupted"],
+    )

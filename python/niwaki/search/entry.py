@@ -29,7 +29,7 @@ OF_IMPROVE = ("rounds", "seconds", "diverse", "guide")
 #: The settings of `smc`, which are one population instead.
 OF_SMC = (*(field.name for field in fields(Smc)), "guide")
 
-#: One population with a guide: few particles do it, and tempered resampling keeps those alive that look bad for a moment.
+#: One population with a guide: few particles do it, and tempered resampling keeps those that look bad for a moment.
 GUIDED: dict[str, Any] = {"particles": 50, "resampling": "tempered"}
 
 #: The power of a search for the best.
