@@ -61,7 +61,8 @@ pub(super) fn follow(example: &Example, each: &mut Each<'_>) -> Result<(), Failu
     let mut order = entries.iter().filter(|entry| entry.is_order()).map(Entry::address).peekable();
     let depth_first = order.peek().is_none();
     let mut machine = task.machine();
-    let start = task.start(&machine, depth_first)?;
+    let mut start = task.start(&machine, depth_first)?;
+    start.note_parts();
     let mut record = Record::start(&task.sketches);
     record.sketches.expect_windows();
     let mut one = Particle::start(start, record, 0, 0);
@@ -169,7 +170,8 @@ fn rows(examples: &[&Example], guide: &Arc<Guide>) -> Result<Rows, Failure> {
         rows.trace();
         follow(example, &mut |at, dist, seen, value| {
             let Some(site) = bound.look(at, dist, seen, &mut sight, 0) else { return Ok(()) };
-            let lesson = value_to_draw(value).and_then(|draw| guide.form.sites[site].head.lesson(dist, &draw));
+            let lesson =
+                value_to_draw(value).and_then(|draw| guide.form.sites[site].head.lesson(dist, &draw));
             if let Some(lesson) = lesson {
                 let (window, features) = sight.inputs();
                 rows.push(site, window, features, &lesson);
@@ -202,7 +204,10 @@ pub fn train(
         Some(start) => start.net.clone(),
         None => {
             let heads = form.sites.iter().map(|site| site.head).collect();
-            let own = NetForm { hidden: making.hidden, ..NetForm::new(form.window_values(), form.features(), heads) };
+            let own = NetForm {
+                hidden: making.hidden,
+                ..NetForm::new(form.window_values(), form.features(), heads)
+            };
             Net::start(own, making.seed)
         }
     };
@@ -222,7 +227,13 @@ pub fn train(
         Err(diverged) => return Err(bad(diverged.to_string()).into()),
     };
     form.share = making.share;
-    Ok(Taught { guide: Guide { form, net }, rows, bytes: learned.bytes() + held_out.bytes(), history, diverged })
+    Ok(Taught {
+        guide: Guide { form, net },
+        rows,
+        bytes: learned.bytes() + held_out.bytes(),
+        history,
+        diverged,
+    })
 }
 
 /// What training gave.

@@ -1,6 +1,6 @@
 //! What the traces of a model show: which choices a guide can draw, and what it can see there.
 
-use super::bound::{PARAMETERS, of_prior};
+use super::bound::{OF_PART, PARAMETERS, of_prior};
 use super::form::{FORMAT, GuideForm, SiteForm, VariableForm};
 use super::inputs::Kind;
 use super::lessons::{Example, follow};
@@ -38,6 +38,8 @@ pub struct Survey {
     numbers: HashMap<u128, usize>,
     variables: Vec<Variable>,
     by_name: HashMap<(String, String), usize>,
+    /// Whether a choice without a frame in scope met a part.
+    parts: bool,
 }
 
 impl Survey {
@@ -69,6 +71,7 @@ impl Survey {
             self.sites.push((at.site.key, met));
             self.sites.len() - 1
         });
+        self.parts |= at.part().is_some() && at.look().is_none();
         let first = self.sites[number].1.visits == 0;
         for (name, is_angle, value) in at.visible() {
             let key = (at.function.name.to_string(), name.to_string());
@@ -103,7 +106,12 @@ impl Survey {
     ///
     /// # Errors
     /// Traces without a choice that a guide can draw.
-    pub fn form(self, model: &str, share: f64, windows: Vec<(String, WindowForm)>) -> Result<GuideForm, Fault> {
+    pub fn form(
+        self,
+        model: &str,
+        share: f64,
+        windows: Vec<(String, WindowForm)>,
+    ) -> Result<GuideForm, Fault> {
         let mut next = 0u32;
         let mut take = |count: usize| {
             let first = next;
@@ -120,6 +128,7 @@ impl Survey {
                 kind: own.kind,
             })
             .collect();
+        let part = self.parts.then(|| take(OF_PART.len()));
         let (mut sites, mut left) = (Vec::new(), Vec::new());
         for (key, met) in self.sites {
             let Some(head) = met.head else {
@@ -150,6 +159,7 @@ impl Survey {
             share,
             windows,
             variables,
+            part,
             sites,
             left,
             report: serde_json::Map::new(),
