@@ -11,6 +11,7 @@
 //! user's proposal or a guide; the last two pass other choices to another chooser. A chooser may look at the scene so far ([`Context`]).
 
 use crate::record::log_density;
+use niwaki_geom::Aabb;
 use niwaki_geom::sketch::product::Sketches;
 use niwaki_math::{Dist, StreamKey};
 use niwaki_vm::builtins::draw_to_value;
@@ -50,13 +51,15 @@ pub struct Context<'a> {
     pub sketches: Option<&'a Sketches>,
     /// How many primitives the scene has.
     pub primitives: usize,
+    /// The part that was emitted last on the call path, where the run itself does not note it (a Markov chain).
+    pub part: Option<Aabb>,
 }
 
 impl Context<'_> {
     /// That of a choice without a scene.
     #[inline(always)]
     pub fn of(at: &At<'_, f64>) -> Self {
-        Context { address: at.address(), sketches: None, primitives: 0 }
+        Context { address: at.address(), sketches: None, primitives: 0, part: None }
     }
 }
 

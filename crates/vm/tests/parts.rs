@@ -134,3 +134,17 @@ fn the_order_of_running_does_not_matter() {
 fn a_run_that_does_not_ask_knows_none() {
     assert!(run(false, false, |_| 0).parts.values().all(|(_, part)| part.is_none()));
 }
+
+#[test]
+fn a_kept_run_says_the_same() {
+    let program = compile(&parse(PROGRAM).expect("core form"), vec![]).expect("a program");
+    let mut machine = Machine::new(&program, Limits::default());
+    let (mut trace, _) = machine.begin(&[], &mut Noted::default()).expect("a run");
+    trace.commit(&program);
+    let parts = run(true, true, |_| 0).parts;
+    assert_eq!(trace.len(), parts.len());
+    for choice in 0..trace.len() {
+        let (label, part) = &parts[&trace.address(&program, choice)];
+        assert_eq!(trace.part(&program, choice), *part, "{label}");
+    }
+}

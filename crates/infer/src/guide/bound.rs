@@ -150,7 +150,7 @@ impl BoundGuide {
         if !own.head.fits(dist) {
             return None;
         }
-        let part = at.part();
+        let part = at.part().or(seen.part.as_ref());
         let here = place_of(at, part).unwrap_or(self.middle);
         let now = (owner, here, seen.primitives);
         if sight.seen != Some(now) {
