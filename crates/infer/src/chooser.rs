@@ -68,6 +68,11 @@ pub trait Chooser {
     /// Whether every value is drawn from the choice's own distribution, so that all weights are zero.
     const IS_PRIOR: bool = false;
 
+    /// Whether it looks at the scene, so that windows and the last parts must be kept.
+    fn looks(&self) -> bool {
+        false
+    }
+
     /// A value for the choice; `None` where the run is to pause before it.
     ///
     /// # Errors
@@ -86,6 +91,10 @@ pub trait Chooser {
 
 impl<C: Chooser> Chooser for &mut C {
     const IS_PRIOR: bool = C::IS_PRIOR;
+
+    fn looks(&self) -> bool {
+        (**self).looks()
+    }
 
     fn choose(&mut self, at: &At<'_, f64>, dist: &Dist, seen: Context<'_>) -> Result<Option<Chosen>, Fault> {
         (**self).choose(at, dist, seen)

@@ -156,6 +156,10 @@ pub fn forward_by(task: &Task, chooser: impl Chooser, complete: bool) -> Result<
     let mut machine = task.machine();
     let mut state = task.start(&machine, true)?;
     let mut record = Record::start(&task.sketches);
+    if chooser.looks() {
+        state.note_parts();
+        record.sketches.expect_windows();
+    }
     let hosts = &*task.hosts;
     let mut answers =
         Forward { record: &mut record, chooser, log_ratio: 0.0, hosts, barriers: false, complete };
