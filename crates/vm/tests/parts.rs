@@ -7,6 +7,7 @@ use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::core::parse::parse;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
+use niwaki_vm::machine::kept::part::{Part, Piece};
 use niwaki_vm::machine::state::State;
 use niwaki_vm::machine::{Limits, Machine, Stop};
 use niwaki_vm::passes::compile;
@@ -147,4 +148,33 @@ fn a_kept_run_says_the_same() {
         let (label, part) = &parts[&trace.address(&program, choice)];
         assert_eq!(trace.part(&program, choice), *part, "{label}");
     }
+}
+
+#[test]
+fn a_part_that_is_run_apart_says_the_same() {
+    let program = compile(&parse(PROGRAM).expect("core form"), vec![]).expect("a program");
+    let mut machine = Machine::new(&program, Limits::default());
+    let (mut trace, _) = machine.begin(&[], &mut Noted::default()).expect("a run");
+    trace.commit(&program);
+    let parts = run(true, true, |_| 0).parts;
+    let mut apart = vec![Part::WHOLE];
+    let mut seen = 0;
+    while let Some(part) = apart.pop() {
+        trace.pieces(&program, part, |piece| {
+            if let Piece::Part(below) = piece {
+                apart.push(below);
+            }
+        });
+        let mut state = trace.start_part(&program, part, false);
+        trace.note_parts(&program, part, &mut state);
+        let mut noted = Noted::default();
+        while let Some(next) = state.runnable().first().copied() {
+            machine.resume(&mut state, next, &mut noted).expect("a run");
+        }
+        for (address, own) in &noted.parts {
+            assert_eq!(parts[address], *own);
+            seen += 1;
+        }
+    }
+    assert!(seen > 2 * parts.len());
 }

@@ -1,12 +1,13 @@
 //! A guide for one program: what each of its sites sees, and how it draws.
 
+use super::Guide;
 use super::inputs::place;
-use super::{Guide, bad};
 use crate::Task;
 use crate::chooser::{Chosen, Context};
+use niwaki_geom::sketch::product::Sketches;
 use niwaki_geom::{Aabb, Place, Vec3, WindowForm, vec3};
 use niwaki_guide::Scratch;
-use niwaki_math::{Dist, Stream};
+use niwaki_math::{Dist, Draw, Stream};
 use niwaki_vm::builtins::{draw_to_value, value_to_draw};
 use niwaki_vm::code::SiteKind;
 use niwaki_vm::fault::Fault;
@@ -99,7 +100,10 @@ impl BoundGuide {
                 }
                 let key = format!("{:032x}", site.key);
                 let Some(number) = form.sites.iter().position(|own| own.key == key) else {
-                    lost.push(format!("`{}` of `{}` is drawn from its prior", site.label, function.name));
+                    let name = format!("{}/{}", function.name, site.label);
+                    if form.left.iter().all(|(left, _)| *left != name) {
+                        lost.push(format!("it does not know `{}` of `{}`", site.label, function.name));
+                    }
                     continue;
                 };
                 let own = &form.sites[number];
@@ -119,11 +123,17 @@ impl BoundGuide {
             }
         }
         if sites.is_empty() && !form.sites.is_empty() {
-            return Err(bad(format!(
-                "the guide is for `{}`: none of its choices is in this model",
-                form.model
-            )));
+            let message =
+                format!("it was trained for `{}`, and none of its choices is in this model", form.model);
+            return Err(Fault::new("guide-model", message)
+                .with_help("train a guide for this model: `niwaki.train_guide`"));
         }
+        let gone =
+            (0..form.sites.len()).filter(|number| sites.values().all(|own: &Site| own.number != *number));
+        lost.extend(gone.map(|number| {
+            let own = &form.sites[number];
+            format!("the model has no `{}` of `{}`", own.label, own.function)
+        }));
         let domain = windows.first().and_then(|(member, _)| task.sketches[*member].domain());
         let middle = along_axes(domain.map_or(vec3(0.0, 0.0, 0.0), |domain| domain.center()));
         Ok(BoundGuide { guide, sites, windows, middle, lost })
@@ -132,6 +142,16 @@ impl BoundGuide {
     /// The guide.
     pub fn guide(&self) -> &Arc<Guide> {
         &self.guide
+    }
+
+    /// Whether it looks at the scene.
+    pub fn looks(&self) -> bool {
+        !self.windows.is_empty()
+    }
+
+    /// Whether it draws the choices of a site, by key.
+    pub fn knows(&self, site: u128) -> bool {
+        self.sites.contains_key(&site)
     }
 
     /// Fills `sight` with what the guide sees at a choice; the number of the site in the guide, or `None` where it draws
@@ -154,20 +174,14 @@ impl BoundGuide {
         let here = place_of(at, part).unwrap_or(self.middle);
         let now = (owner, here, seen.primitives);
         if sight.seen != Some(now) {
-            sight.window.clear();
-            if let Some(sketches) = seen.sketches {
-                let windows = self.windows.iter().map(|(member, window)| (*member, window));
-                sketches.look(windows, &here, &mut sight.window);
-            }
-            sight.window.resize(form.window_values(), 0.0);
-            self.guide.net.see(&sight.window, &mut sight.sums);
+            self.see(seen.sketches, &here, sight);
             sight.seen = Some(now);
         }
         sight.features.clear();
         for (variable, (_, _, value)) in site.variables.iter().zip(at.visible()) {
             if let Some(v) = variable {
                 let own = &form.variables[*v as usize];
-                own.kind.write(value, &here, own.first, &mut sight.features);
+                own.kind.write(value, &here, own.first, &|cell| at.element(cell), &mut sight.features);
             }
         }
         if let (Some(first), Some(part)) = (form.part, part) {
@@ -176,6 +190,43 @@ impl BoundGuide {
         }
         parameters(dist, own.parameters, &mut sight.features);
         Some(site.number)
+    }
+
+    /// Fills the windows of `sight` with what the sketches show around a place; with zeros where there are none.
+    fn see(&self, sketches: Option<&Sketches>, here: &Place, sight: &mut Sight) {
+        sight.window.clear();
+        if let Some(sketches) = sketches {
+            let windows = self.windows.iter().map(|(member, window)| (*member, window));
+            sketches.look(windows, here, &mut sight.window);
+        }
+        sight.window.resize(self.guide.form.window_values(), 0.0);
+        self.guide.net.see(&sight.window, &mut sight.sums);
+    }
+
+    /// Looks once more from the place of the last choice, at another scene; all other inputs stay as they are.
+    pub fn look_again(&self, sketches: Option<&Sketches>, sight: &mut Sight) {
+        if let Some((_, here, _)) = sight.seen.take() {
+            self.see(sketches, &here, sight);
+        }
+    }
+
+    /// A value for the choice that was looked at, which is the guide's `site`-th.
+    pub fn answer(&self, site: usize, dist: &Dist, sight: &mut Sight, rng: &mut Stream) -> Chosen {
+        let (net, form) = (&self.guide.net, &self.guide.form);
+        let outputs = net.answer(&sight.sums, &sight.features, site, &mut sight.scratch);
+        let drawn = form.sites[site].head.draw(outputs, dist, form.share, rng);
+        Chosen {
+            value: draw_to_value(drawn.value),
+            log_prior: drawn.log_prior,
+            log_drawn: drawn.log_drawn,
+        }
+    }
+
+    /// The log density with which it draws a value there, nats.
+    pub fn log_of(&self, site: usize, dist: &Dist, value: &Draw, sight: &mut Sight) -> f64 {
+        let (net, form) = (&self.guide.net, &self.guide.form);
+        let outputs = net.answer(&sight.sums, &sight.features, site, &mut sight.scratch);
+        form.sites[site].head.log_drawn(outputs, dist, form.share, value)
     }
 
     /// A value for a choice with its densities; `None` where the guide draws nothing.
@@ -189,14 +240,7 @@ impl BoundGuide {
         rng: &mut Stream,
     ) -> Option<Chosen> {
         let site = self.look(at, dist, seen, sight, owner)?;
-        let (net, form) = (&self.guide.net, &self.guide.form);
-        let outputs = net.answer(&sight.sums, &sight.features, site, &mut sight.scratch);
-        let drawn = form.sites[site].head.draw(outputs, dist, form.share, rng);
-        Some(Chosen {
-            value: draw_to_value(drawn.value),
-            log_prior: drawn.log_prior,
-            log_drawn: drawn.log_drawn,
-        })
+        Some(self.answer(site, dist, sight, rng))
     }
 
     /// The log density with which it draws a value, nats; `None` where it draws nothing.
@@ -211,9 +255,7 @@ impl BoundGuide {
     ) -> Option<f64> {
         let draw = value_to_draw(value)?;
         let site = self.look(at, dist, seen, sight, owner)?;
-        let (net, form) = (&self.guide.net, &self.guide.form);
-        let outputs = net.answer(&sight.sums, &sight.features, site, &mut sight.scratch);
-        Some(form.sites[site].head.log_drawn(outputs, dist, form.share, &draw))
+        Some(self.log_of(site, dist, &draw, sight))
     }
 }
 

@@ -3,10 +3,10 @@
 //! A trace is followed again, in its own order, with its scene. At each choice the code that would draw it looks; what it
 //! sees and the value that the trace has are a row. So a guide is trained on the bits that it gets later.
 
+use super::Guide;
 use super::bound::{BoundGuide, Sight};
 use super::form::GuideForm;
 use super::survey::Survey;
-use super::{Guide, bad};
 use crate::chooser::{Chooser, Chosen, Context, Refuse};
 use crate::log::Entry;
 use crate::particle::Particle;
@@ -155,7 +155,7 @@ pub fn survey(examples: &[Example], making: &Making) -> Result<GuideForm, Failur
         survey.add(example, making.components)?;
     }
     let windows = if making.looks { windows(&first.task) } else { vec![] };
-    let mut form = survey.form(&making.model, making.share, windows)?;
+    let mut form = survey.form(&first.task.program, &making.model, making.share, windows)?;
     if !making.reads {
         form.forget_scope();
     }
@@ -189,7 +189,7 @@ fn rows(examples: &[&Example], guide: &Arc<Guide>) -> Result<Rows, Failure> {
 /// Trains a guide on traces, or goes on with the one that is given. `watch` returns false to stop with the best so far.
 ///
 /// # Errors
-/// No traces; a trace that cannot be followed; a loss that is not a number.
+/// No traces; a trace that cannot be followed.
 pub fn train(
     examples: &[Example],
     making: &Making,
@@ -217,14 +217,18 @@ pub fn train(
     let held_out = rows(&judging, &blank)?;
     let (mut form, net) = (blank.form.clone(), blank.net.clone());
     let rows = learned.len();
-    let (net, history, diverged) = match train_net(net, &learned, &held_out, &making.training(rows), watch) {
-        Ok(trained) => (trained.net, trained.history, None),
+    let mut history = Vec::new();
+    let mut seen = |now: Progress| {
+        history.push(now);
+        watch(now)
+    };
+    let (net, diverged) = match train_net(net, &learned, &held_out, &making.training(rows), &mut seen) {
+        Ok(trained) => (trained.net, None),
         // What was learned before is kept, and told.
-        Err(diverged) if diverged.step > 0 => {
+        Err(diverged) => {
             let site = diverged.site.map(|site| form.sites[site].label.clone());
-            ((*diverged.net).clone(), vec![], Some((diverged.to_string(), site)))
+            (*diverged.net, Some((diverged.step, site)))
         }
-        Err(diverged) => return Err(bad(diverged.to_string()).into()),
     };
     form.share = making.share;
     Ok(Taught {
@@ -246,6 +250,7 @@ pub struct Taught {
     pub bytes: usize,
     /// What every look at the choices that are held out saw.
     pub history: Vec<Progress>,
-    /// Why it ended early: a loss that is not a number, and the choice.
-    pub diverged: Option<(String, Option<String>)>,
+    /// Where it ended early, because of a loss or a slope that is not a finite number: the step, and the choice's label
+    /// where it was a single one.
+    pub diverged: Option<(u64, Option<String>)>,
 }

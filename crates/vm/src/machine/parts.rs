@@ -75,7 +75,7 @@ impl<S: Scalar> State<S> {
         None
     }
 
-    fn put_part(&mut self, node: NodeId, part: Aabb) {
+    pub(super) fn put_part(&mut self, node: NodeId, part: Aabb) {
         let (at, path) = (node.0 as usize, self.nodes[node.0 as usize].path);
         if self.parts.boxes.len() <= at {
             self.parts.boxes.resize(self.nodes.len(), (0, Aabb::EMPTY));

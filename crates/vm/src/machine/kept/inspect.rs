@@ -179,7 +179,16 @@ impl<S: Scalar> Trace<S> {
     /// [`At::part`](crate::machine::answers::At::part) says in a run that begins.
     pub fn part(&self, program: &Program<S>, choice: usize) -> Option<Aabb> {
         let at = self.kept.choices[choice];
-        let (mut node, mut before) = (at.node, at.site as usize);
+        self.part_before(program, at.node, at.site as usize)
+    }
+
+    /// The box of the part that was emitted last on the call path of a site.
+    pub(super) fn part_before(
+        &self,
+        program: &Program<S>,
+        mut node: NodeId,
+        mut before: usize,
+    ) -> Option<Aabb> {
         loop {
             if let Some(part) = self.last_part(program, node, before) {
                 return Some(part);
