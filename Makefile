@@ -6,6 +6,7 @@
 #   make lint     formatting, clippy, ruff, the order of imports, mypy and the stub of the engine, warnings as errors
 #   make bench    speed compared with WebPPL and a hand-written limit, on one thread (needs node and npm)
 #   make figures-sosmc  the figures and the table of chapter 5, into out/figures-sosmc (QUICK=1: a smoke run)
+#   make guides   train the guides that come with the package again, into python/niwaki/guides/shipped (two minutes)
 #   make figures-hmc  the figures and the tables of chapter 4, into out/figures-hmc (QUICK=1: a smoke run)
 #   make bench-c3 proposals of Markov chains compared with WebPPL and the limit, with figures (15 minutes; QUICK=1: two)
 #   make bench-hmc gradients and effective samples compared with JAX, NumPyro, nutpie and the limit (4 minutes; QUICK=1: one)
@@ -40,7 +41,7 @@ PYTHON_SOURCES := python tests benches docs/conf.py
 
 PARTS :=
 
-.PHONY: all demo test lint bench bench-c3 bench-hmc bench-searches figures-sosmc figures-hmc soak mutants docs format locks clean
+.PHONY: all demo guides test lint bench bench-c3 bench-hmc bench-searches figures-sosmc figures-hmc soak mutants docs format locks clean
 all: $(STAMPS)/engine
 
 # ---- set-up: one stamp for each thing that is made, older than what depends on it
@@ -85,6 +86,9 @@ bench: $(STAMPS)/engine $(STAMPS)/bench
 	$(PY) benches/reference.py
 	$(PY) benches/machine.py
 
+guides: $(STAMPS)/engine
+	$(PY) benches/shipped_guides.py $(ONLY)
+
 figures-sosmc: $(STAMPS)/engine $(STAMPS)/bench
 	$(PY) benches/figures_sosmc out/figures-sosmc $(PARTS)
 
@@ -123,7 +127,7 @@ format: $(STAMPS)/lint
 # uv writes locks that hold on Python 3.11 and later, with hashes and without the address of an index.
 locks: $(STAMPS)/venv
 	$(PIP) install uv
-	for extra in core build test lint docs bench bench-hmc; do \
+	for extra in core build test lint docs bench bench-hmc guides-oracle; do \
 	  $(VENV)/bin/uv pip compile pyproject.toml $$([ $$extra = core ] || echo --extra $$extra -c requirements/core.txt) \
 	    --upgrade --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-header --no-annotate \
 	    --quiet -o requirements/$$extra.txt; \

@@ -17,5 +17,5 @@ pub mod learn;
 pub mod net;
 
 pub use heads::{Drawn, Head, Lesson};
-pub use learn::{Diverged, Progress, Rows, State, Trained, Training, resume, train};
+pub use learn::{Adam, Diverged, Progress, Rows, State, Trained, Training, loss_and_slope, resume, train};
 pub use net::{BadFile, Net, NetForm, Real, Scratch, read, write};

@@ -61,7 +61,8 @@ impl PyGuide {
     /// What the model of a task does not have of what it knows, as sentences; an error where nothing fits.
     fn lost(&self, py: Python<'_>, task: &PyTask) -> PyResult<Vec<String>> {
         let task = task.keeping_all(py)?;
-        let bound = BoundGuide::new(self.guide.clone(), &task).map_err(|fault| faults::setting(py, &fault))?;
+        let bound =
+            BoundGuide::new(self.guide.clone(), &task).map_err(|fault| faults::setting(py, &fault))?;
         Ok(bound.lost)
     }
 }
@@ -105,7 +106,7 @@ impl PyLessons {
         let start = start.map(|own| own.guide.clone());
         let (result, pressed) = detached(py, &task.task.program, threads, caller, |watch| {
             let examples = self.examples.lock().unwrap_or_else(PoisonError::into_inner);
-            let mut seen = |now: Progress| watch.look(now.step, 0, -now.held_out);
+            let mut seen = |now: Progress| watch.look(now.step, now.steps as usize, -now.held_out);
             train(&examples, &making, start.as_deref(), &mut seen)
         })?;
         let told = PyDict::new(py);

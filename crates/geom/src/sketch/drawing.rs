@@ -25,6 +25,7 @@ use super::bag::Bag;
 use super::outside::Outside;
 use super::tiles::Tiles;
 use super::{Sketch, SketchSpec, check_sigma, log_normal, share};
+use crate::bounds::Aabb;
 use crate::error::GeomError;
 use crate::plane::Page;
 use crate::primitive::Primitive;
@@ -162,6 +163,10 @@ impl SketchSpec for DrawingSpec {
 
     fn window(&self) -> Option<WindowForm> {
         Some(WindowForm::flat(self.drawing.page.side()))
+    }
+
+    fn domain(&self) -> Option<Aabb> {
+        Some(self.drawing.page.domain())
     }
 
     fn start(&self) -> Box<dyn Sketch> {

@@ -23,6 +23,7 @@ use super::bag::Bag;
 use super::outside::Outside;
 use super::tiles::Tiles;
 use super::{Sketch, SketchSpec, check_sigma, log_normal, share};
+use crate::bounds::Aabb;
 use crate::error::GeomError;
 use crate::plane::Page;
 use crate::primitive::Primitive;
@@ -70,6 +71,10 @@ impl SketchSpec for TextureSpec {
 
     fn window(&self) -> Option<WindowForm> {
         Some(WindowForm::flat(self.0.texture.page.side()))
+    }
+
+    fn domain(&self) -> Option<Aabb> {
+        Some(self.0.texture.page.domain())
     }
 
     fn start(&self) -> Box<dyn Sketch> {

@@ -1,11 +1,11 @@
 //! A guide for one program: what each of its sites sees, and how it draws.
 
+use super::Guide;
 use super::inputs::place;
-use super::{Guide, bad};
 use crate::Task;
 use crate::chooser::{Chosen, Context};
 use niwaki_geom::sketch::product::Sketches;
-use niwaki_geom::{Place, WindowForm, vec3};
+use niwaki_geom::{Aabb, Place, Vec3, WindowForm, vec3};
 use niwaki_guide::Scratch;
 use niwaki_math::{Dist, Draw, Stream};
 use niwaki_vm::builtins::{draw_to_value, value_to_draw};
@@ -22,6 +22,8 @@ pub struct BoundGuide {
     guide: Arc<Guide>,
     sites: HashMap<u128, Site>,
     windows: Vec<(usize, WindowForm)>,
+    /// Where it looks from as long as nothing says where: the middle of what it looks at.
+    middle: Place,
     /// What of the guide the program or its score does not have, for people.
     pub lost: Vec<String>,
 }
@@ -98,7 +100,10 @@ impl BoundGuide {
                 }
                 let key = format!("{:032x}", site.key);
                 let Some(number) = form.sites.iter().position(|own| own.key == key) else {
-                    lost.push(format!("`{}` of `{}` is drawn from its prior", site.label, function.name));
+                    let name = format!("{}/{}", function.name, site.label);
+                    if form.left.iter().all(|(left, _)| *left != name) {
+                        lost.push(format!("it does not know `{}` of `{}`", site.label, function.name));
+                    }
                     continue;
                 };
                 let own = &form.sites[number];
@@ -118,12 +123,20 @@ impl BoundGuide {
             }
         }
         if sites.is_empty() && !form.sites.is_empty() {
-            return Err(bad(format!(
-                "the guide is for `{}`: none of its choices is in this model",
-                form.model
-            )));
+            let message =
+                format!("it was trained for `{}`, and none of its choices is in this model", form.model);
+            return Err(Fault::new("guide-model", message)
+                .with_help("train a guide for this model: `niwaki.train_guide`"));
         }
-        Ok(BoundGuide { guide, sites, windows, lost })
+        let gone =
+            (0..form.sites.len()).filter(|number| sites.values().all(|own: &Site| own.number != *number));
+        lost.extend(gone.map(|number| {
+            let own = &form.sites[number];
+            format!("the model has no `{}` of `{}`", own.label, own.function)
+        }));
+        let domain = windows.first().and_then(|(member, _)| task.sketches[*member].domain());
+        let middle = along_axes(domain.map_or(vec3(0.0, 0.0, 0.0), |domain| domain.center()));
+        Ok(BoundGuide { guide, sites, windows, middle, lost })
     }
 
     /// The guide.
@@ -157,7 +170,8 @@ impl BoundGuide {
         if !own.head.fits(dist) {
             return None;
         }
-        let here = place_of(at);
+        let part = at.part().or(seen.part.as_ref());
+        let here = place_of(at, part).unwrap_or(self.middle);
         let now = (owner, here, seen.primitives);
         if sight.seen != Some(now) {
             self.see(seen.sketches, &here, sight);
@@ -169,6 +183,10 @@ impl BoundGuide {
                 let own = &form.variables[*v as usize];
                 own.kind.write(value, &here, own.first, &|cell| at.element(cell), &mut sight.features);
             }
+        }
+        if let (Some(first), Some(part)) = (form.part, part) {
+            let numbers = of_part(part).into_iter().zip(first..);
+            sight.features.extend(numbers.map(|(x, number)| (number, x as f32)));
         }
         parameters(dist, own.parameters, &mut sight.features);
         Some(site.number)
@@ -237,14 +255,24 @@ impl BoundGuide {
     }
 }
 
-/// Where a choice is: the frame that was assigned last in its scope, or else the origin.
-fn place_of(at: &At<'_, f64>) -> Place {
-    at.look().and_then(place).unwrap_or(Place {
-        position: vec3(0.0, 0.0, 0.0),
-        forward: vec3(0.0, 1.0, 0.0),
-        up: vec3(0.0, 0.0, 1.0),
-        scale: 1.0,
-    })
+/// Where a choice is: the frame that was assigned last in its scope, or else the middle of the last part on its call path.
+fn place_of(at: &At<'_, f64>, part: Option<&Aabb>) -> Option<Place> {
+    at.look().and_then(place).or_else(|| part.map(|part| along_axes(part.center())))
+}
+
+/// A place that looks along +y, with +z up.
+fn along_axes(position: Vec3) -> Place {
+    Place { position, forward: vec3(0.0, 1.0, 0.0), up: vec3(0.0, 0.0, 1.0), scale: 1.0 }
+}
+
+/// The middle and the half sizes of a part.
+pub(super) const OF_PART: [&str; 6] =
+    ["middle.x", "middle.y", "middle.z", "half size x", "half size y", "half size z"];
+
+/// The numbers of a part, as [`OF_PART`] names them.
+fn of_part(part: &Aabb) -> [f64; 6] {
+    let (middle, half) = (part.center(), part.extent() * 0.5);
+    [middle.x, middle.y, middle.z, half.x, half.y, half.z]
 }
 
 /// The most parameters of a prior that are inputs.

@@ -3,10 +3,10 @@
 //! A trace is followed again, in its own order, with its scene. At each choice the code that would draw it looks; what it
 //! sees and the value that the trace has are a row. So a guide is trained on the bits that it gets later.
 
+use super::Guide;
 use super::bound::{BoundGuide, Sight};
 use super::form::GuideForm;
 use super::survey::Survey;
-use super::{Guide, bad};
 use crate::chooser::{Chooser, Chosen, Context, Refuse};
 use crate::log::Entry;
 use crate::particle::Particle;
@@ -61,7 +61,8 @@ pub(super) fn follow(example: &Example, each: &mut Each<'_>) -> Result<(), Failu
     let mut order = entries.iter().filter(|entry| entry.is_order()).map(Entry::address).peekable();
     let depth_first = order.peek().is_none();
     let mut machine = task.machine();
-    let start = task.start(&machine, depth_first)?;
+    let mut start = task.start(&machine, depth_first)?;
+    start.note_parts();
     let mut record = Record::start(&task.sketches);
     record.sketches.expect_windows();
     let mut one = Particle::start(start, record, 0, 0);
@@ -154,7 +155,7 @@ pub fn survey(examples: &[Example], making: &Making) -> Result<GuideForm, Failur
         survey.add(example, making.components)?;
     }
     let windows = if making.looks { windows(&first.task) } else { vec![] };
-    let mut form = survey.form(&making.model, making.share, windows)?;
+    let mut form = survey.form(&first.task.program, &making.model, making.share, windows)?;
     if !making.reads {
         form.forget_scope();
     }
@@ -169,7 +170,8 @@ fn rows(examples: &[&Example], guide: &Arc<Guide>) -> Result<Rows, Failure> {
         rows.trace();
         follow(example, &mut |at, dist, seen, value| {
             let Some(site) = bound.look(at, dist, seen, &mut sight, 0) else { return Ok(()) };
-            let lesson = value_to_draw(value).and_then(|draw| guide.form.sites[site].head.lesson(dist, &draw));
+            let lesson =
+                value_to_draw(value).and_then(|draw| guide.form.sites[site].head.lesson(dist, &draw));
             if let Some(lesson) = lesson {
                 let (window, features) = sight.inputs();
                 rows.push(site, window, features, &lesson);
@@ -187,7 +189,7 @@ fn rows(examples: &[&Example], guide: &Arc<Guide>) -> Result<Rows, Failure> {
 /// Trains a guide on traces, or goes on with the one that is given. `watch` returns false to stop with the best so far.
 ///
 /// # Errors
-/// No traces; a trace that cannot be followed; a loss that is not a number.
+/// No traces; a trace that cannot be followed.
 pub fn train(
     examples: &[Example],
     making: &Making,
@@ -202,7 +204,10 @@ pub fn train(
         Some(start) => start.net.clone(),
         None => {
             let heads = form.sites.iter().map(|site| site.head).collect();
-            let own = NetForm { hidden: making.hidden, ..NetForm::new(form.window_values(), form.features(), heads) };
+            let own = NetForm {
+                hidden: making.hidden,
+                ..NetForm::new(form.window_values(), form.features(), heads)
+            };
             Net::start(own, making.seed)
         }
     };
@@ -212,17 +217,27 @@ pub fn train(
     let held_out = rows(&judging, &blank)?;
     let (mut form, net) = (blank.form.clone(), blank.net.clone());
     let rows = learned.len();
-    let (net, history, diverged) = match train_net(net, &learned, &held_out, &making.training(rows), watch) {
-        Ok(trained) => (trained.net, trained.history, None),
+    let mut history = Vec::new();
+    let mut seen = |now: Progress| {
+        history.push(now);
+        watch(now)
+    };
+    let (net, diverged) = match train_net(net, &learned, &held_out, &making.training(rows), &mut seen) {
+        Ok(trained) => (trained.net, None),
         // What was learned before is kept, and told.
-        Err(diverged) if diverged.step > 0 => {
+        Err(diverged) => {
             let site = diverged.site.map(|site| form.sites[site].label.clone());
-            ((*diverged.net).clone(), vec![], Some((diverged.to_string(), site)))
+            (*diverged.net, Some((diverged.step, site)))
         }
-        Err(diverged) => return Err(bad(diverged.to_string()).into()),
     };
     form.share = making.share;
-    Ok(Taught { guide: Guide { form, net }, rows, bytes: learned.bytes() + held_out.bytes(), history, diverged })
+    Ok(Taught {
+        guide: Guide { form, net },
+        rows,
+        bytes: learned.bytes() + held_out.bytes(),
+        history,
+        diverged,
+    })
 }
 
 /// What training gave.
@@ -235,6 +250,7 @@ pub struct Taught {
     pub bytes: usize,
     /// What every look at the choices that are held out saw.
     pub history: Vec<Progress>,
-    /// Why it ended early: a loss that is not a number, and the choice.
-    pub diverged: Option<(String, Option<String>)>,
+    /// Where it ended early, because of a loss or a slope that is not a finite number: the step, and the choice's label
+    /// where it was a single one.
+    pub diverged: Option<(u64, Option<String>)>,
 }

@@ -1,6 +1,6 @@
 //! What the traces of a model show: which choices a guide can draw, and what it can see there.
 
-use super::bound::{PARAMETERS, of_prior};
+use super::bound::{OF_PART, PARAMETERS, of_prior};
 use super::form::{FORMAT, GuideForm, SiteForm, VariableForm};
 use super::inputs::Kind;
 use super::lessons::{Example, follow};
@@ -8,6 +8,7 @@ use crate::Failure;
 use niwaki_geom::WindowForm;
 use niwaki_guide::Head;
 use niwaki_math::Dist;
+use niwaki_vm::code::{Program, SiteKind};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;
 use std::collections::HashMap;
@@ -38,6 +39,8 @@ pub struct Survey {
     numbers: HashMap<u128, usize>,
     variables: Vec<Variable>,
     by_name: HashMap<(String, String), usize>,
+    /// Whether a choice without a frame in scope met a part.
+    parts: bool,
 }
 
 impl Survey {
@@ -69,6 +72,7 @@ impl Survey {
             self.sites.push((at.site.key, met));
             self.sites.len() - 1
         });
+        self.parts |= at.part().is_some() && at.look().is_none();
         let first = self.sites[number].1.visits == 0;
         for (name, is_angle, value) in at.visible() {
             let key = (at.function.name.to_string(), name.to_string());
@@ -99,11 +103,29 @@ impl Survey {
         met.head = met.head.and_then(|head| head.also(dist, components));
     }
 
-    /// The form of a guide for what was met.
+    /// Choices of a program that were not met, by function and label.
+    fn unmet(&self, program: &Program) -> Vec<String> {
+        let sites = program.functions.iter().flat_map(|own| own.sites.iter().map(move |site| (own, site)));
+        sites
+            .filter(|(_, site)| {
+                matches!(site.kind, SiteKind::Sample(_)) && !self.numbers.contains_key(&site.key)
+            })
+            .map(|(own, site)| format!("{}/{}", own.name, site.label))
+            .collect()
+    }
+
+    /// The form of a guide for what was met of a program.
     ///
     /// # Errors
     /// Traces without a choice that a guide can draw.
-    pub fn form(self, model: &str, share: f64, windows: Vec<(String, WindowForm)>) -> Result<GuideForm, Fault> {
+    pub fn form(
+        self,
+        program: &Program,
+        model: &str,
+        share: f64,
+        windows: Vec<(String, WindowForm)>,
+    ) -> Result<GuideForm, Fault> {
+        let unmet = self.unmet(program);
         let mut next = 0u32;
         let mut take = |count: usize| {
             let first = next;
@@ -120,7 +142,10 @@ impl Survey {
                 kind: own.kind,
             })
             .collect();
-        let (mut sites, mut left) = (Vec::new(), Vec::new());
+        let part = self.parts.then(|| take(OF_PART.len()));
+        let mut sites = Vec::new();
+        let mut left: Vec<(String, String)> =
+            unmet.into_iter().map(|name| (name, "no trace visited it".into())).collect();
         for (key, met) in self.sites {
             let Some(head) = met.head else {
                 let name = format!("{}/{}", met.function, met.label);
@@ -150,6 +175,7 @@ impl Survey {
             share,
             windows,
             variables,
+            part,
             sites,
             left,
             report: serde_json::Map::new(),

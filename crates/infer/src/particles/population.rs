@@ -8,8 +8,8 @@ use super::shared::share;
 use super::tempered::Tempered;
 use crate::blame::RUNS;
 use crate::chooser::Prior;
-use crate::particle::Particle;
 use crate::guide::bound::Sight;
+use crate::particle::Particle;
 use crate::proposal::ByProposal;
 use crate::record::{AllInvalid, Record};
 use crate::resampling::Resampling;
@@ -86,6 +86,7 @@ impl<'a> Population<'a> {
         let mut empty = Record::start(&task.sketches);
         if settings.proposal.as_ref().is_some_and(|proposal| proposal.looks()) {
             empty.sketches.expect_windows();
+            first.note_parts();
         }
         let empty_score = empty.score();
         let particles: Vec<Particle> = (0..n as u64)
@@ -317,7 +318,12 @@ fn advance(
         None => particle.advance(machine, task, settings.seed, otherwise)?,
         Some(proposal) => {
             sight.forget();
-            particle.advance(machine, task, settings.seed, ByProposal { proposal, stream, sight, otherwise })?
+            particle.advance(
+                machine,
+                task,
+                settings.seed,
+                ByProposal { proposal, stream, sight, otherwise },
+            )?
         }
     };
     Ok(())
