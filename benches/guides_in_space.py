@@ -1,14 +1,14 @@
 """Guides for models in space: trained, and compared with searches that cost the same.
 
-    python benches/guides_in_space.py train spaceship [FILE]      # the guide that comes with the package
-    python benches/guides_in_space.py compare                     # all guides of the folder: 20 seeds, six targets each
-    SEEDS=5 python benches/guides_in_space.py compare spaceship
+    python benches/guides_in_space.py train gnarly-tree [FILE]    # the guide that comes with the package
+    python benches/guides_in_space.py compare                     # those in space that do: 20 seeds, six targets each
+    SEEDS=5 python benches/guides_in_space.py compare FILE
 
 Scores are those that `niwaki.grow` gives: no self-intersection, and a volume to fill; searches have its power. Traces
 are the results of `niwaki.grow`'s usual search, then those of guided particles. `compare` runs 30 guided particles on
-targets that were not learned from, beside as many unguided ones as cost the same, and the usual search. CPU seconds are those of the process, on one thread; methods take turns on
-each seed. A search that dies counts with the score of the empty scene. Leaves `guides_in_space.json` in the folder
-of benches, and prints its tables.
+targets that were not learned from, beside as many unguided ones as cost the same, and the usual search. CPU seconds
+are those of the process, on one thread; methods take turns on each seed. A search that dies counts with the score of
+the empty scene. Leaves `guides_in_space.json` in the folder of benches, and prints its tables.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ from niwaki import guides
 from niwaki.guides.report import sentence
 from niwaki.methods import Guide, Method
 from niwaki.search import SearchWarning
-from space.targets import Kind, empty, kind, score
+from space.targets import KINDS, Kind, empty, kind, score
 
 SHIPPED = Path(guides.__file__).parent / "shipped"
 RECORD = Path(__file__).parent / "guides_in_space.json"
@@ -102,6 +102,11 @@ def train(name: str, seed: int = 1) -> Guide:
             print(f"  {now.traces} traces: {sentence(now.summary())}", flush=True) if now.is_judged else None
         ),
     )
+
+
+def home(name: str) -> Path:
+    """Where the package has the guide of a model."""
+    return SHIPPED / f"{name.replace('-', '_')}.guide"
 
 
 def searched(of: Kind, one: nw.Score, method: Method, seed: int) -> tuple[float, float]:
@@ -190,7 +195,7 @@ def main(arguments: list[str]) -> int:
         case ["train", name, *place]:
             start = time.process_time()
             guide = train(name)
-            path = Path(place[0]) if place else SHIPPED / f"{name.replace('-', '_')}.guide"
+            path = Path(place[0]) if place else home(name)
             path.parent.mkdir(exist_ok=True)
             guide.save(path)
             print(
@@ -198,7 +203,9 @@ def main(arguments: list[str]) -> int:
             )
         case ["compare", *places]:
             seeds = range(int(os.environ.get("SEEDS", "20")))
-            found = [Path(place) for place in places] or sorted(SHIPPED.glob("*.guide"))
+            found = [Path(place) for place in places] or [
+                home(one.name) for one in KINDS if home(one.name).is_file()
+            ]
             old = json.loads(RECORD.read_text()) if RECORD.is_file() else []
             for path in found:
                 guide = Guide.load(path)

@@ -101,7 +101,9 @@ impl<C: Chooser> Answers<f64> for Forward<'_, C> {
     fn choice(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Answer<Value>, Fault> {
         let sketches = Some(&self.record.sketches).filter(|sketches| !sketches.is_empty());
         let (address, primitives) = (at.address(), self.record.primitives);
-        let Some(chosen) = self.chooser.choose(at, dist, Context { address, sketches, primitives, part: None })? else {
+        let Some(chosen) =
+            self.chooser.choose(at, dist, Context { address, sketches, primitives, part: None })?
+        else {
             return Ok(Answer::Pause);
         };
         if !C::IS_PRIOR {

@@ -18,9 +18,9 @@ from niwaki.errors.files import existing, write_whole
 class Guide:
     """A trained guide (dissertation chapter 6).
 
-    It sees what is in scope at a choice, the parameters of the choice's prior, and the surroundings of the current place
-    in target and scene. It gives a distribution to draw from. Weights make up for the difference, so a search is right
-    with any guide, and needs fewer particles with a good one.
+    It sees what is in scope at a choice, the parameters of the choice's prior, and the surroundings of the current
+    place in target and scene. It gives a distribution to draw from. Weights make up for the difference, so a search is
+    right with any guide, and needs fewer particles with a good one.
 
     Parameters
     ----------
@@ -110,11 +110,17 @@ class Guide:
         for name, window in form["windows"]:
             points = window["points"]
             reach = max(sum(x * x for x in point["at"]) ** 0.5 for point in points)
-            lines.append(f"window of {name}: {len(points)} points around the current place, up to {reach:.3g} units away")
+            lines.append(
+                f"window of {name}: {len(points)} points around the current place, up to {reach:.3g} units away"
+            )
         if form.get("part") is not None:
-            lines.append("the current place is a frame in scope, or else the middle of the last part, whose box it reads")
+            lines.append(
+                "the current place is a frame in scope, or else the middle of the last part, whose box it reads"
+            )
         for site in form["sites"]:
-            lines.append(f"{site['function']}/{site['label']}: {_drawn(site)}, {site['visits']} in the traces")
+            lines.append(
+                f"{site['function']}/{site['label']}: {_drawn(site)}, {site['visits']} in the traces"
+            )
             variables = [form["variables"][number] for number in site["variables"]]
             seen = [name for one in variables for name in _names(inputs, one["first"], one["kind"])]
             lines.append(f"    sees {', '.join(seen) or 'no variable'}")

@@ -215,11 +215,7 @@ impl BoundGuide {
         let (net, form) = (&self.guide.net, &self.guide.form);
         let outputs = net.answer(&sight.sums, &sight.features, site, &mut sight.scratch);
         let drawn = form.sites[site].head.draw(outputs, dist, form.share, rng);
-        Chosen {
-            value: draw_to_value(drawn.value),
-            log_prior: drawn.log_prior,
-            log_drawn: drawn.log_drawn,
-        }
+        Chosen { value: draw_to_value(drawn.value), log_prior: drawn.log_prior, log_drawn: drawn.log_drawn }
     }
 
     /// The log density with which it draws a value there, nats.
