@@ -114,7 +114,9 @@ class Guide:
                 f"window of {name}: {len(points)} points around the current place, up to {reach:.3g} units away"
             )
         if form.get("part") is not None:
-            lines.append("the current place is a frame in scope, or else the middle of the last part, whose box it reads")
+            lines.append(
+                "the current place is a frame in scope, or else the middle of the last part, whose box it reads"
+            )
         for site in form["sites"]:
             lines.append(
                 f"{site['function']}/{site['label']}: {_drawn(site)}, {site['visits']} in the traces"
