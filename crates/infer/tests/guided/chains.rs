@@ -76,14 +76,14 @@ fn guided_regrowth_keeps_the_posterior() {
         let (law, starts) = (Law::of(&task), draws(&task, 4000));
         for (number, particles, turn) in [(1, 2, 0.0), (2, 4, 0.5)] {
             let kernel = regrow(particles, turn).drawn_by(by(&task, number, WILD));
-            let far = law.wrong_counts(&moved(&task, &kernel, &starts, 3));
+            let far = law.wrong_counts(&moved(&task, &kernel, &starts, 7));
             assert!(far.is_empty(), "{name}, {particles} particles: {far:?}");
         }
     }
 }
 
-fn settings(task: &Task, number: u64, particles: usize, order: Order) -> particles::Settings {
-    let proposal = Some(by(task, number, MILD));
+fn settings(task: &Task, number: u64, spread: f64, particles: usize, order: Order) -> particles::Settings {
+    let proposal = Some(by(task, number, spread));
     particles::Settings { particles, order, proposal, ..particles::Settings::default() }
 }
 
@@ -99,7 +99,7 @@ fn guided_sweeps_keep_the_posterior() {
                 (2, Ancestors::Sampled, Resampling::Multinomial),
                 (1, Ancestors::Sampled, Resampling::Tempered),
             ] {
-                let own = particles::Settings { resampling, ..settings(&task, number, 3, order) };
+                let own = particles::Settings { resampling, ..settings(&task, number, WILD, 3, order) };
                 let after = |(seed, start): (u64, &Vec<Entry>)| {
                     let own = particles::Settings { seed, ..own.clone() };
                     let chain = particle_gibbs(&task, &own, ancestors, 2, Some(start), &mut |_| true);
@@ -118,7 +118,7 @@ fn guided_sweeps_keep_the_posterior() {
 fn guided_populations_keep_the_posterior() {
     for (name, text) in PROGRAMS {
         let task = task(text);
-        let own = settings(&task, 1, 4, Order::Stochastic);
+        let own = settings(&task, 1, MILD, 4, Order::Stochastic);
         let last = |seed| match pimh(&task, &particles::Settings { seed, ..own.clone() }, 40, &mut |_| true) {
             Ok(chain) => Some(repr(&chain.states.last().expect("a state").value).expect("a value")),
             Err(failure) if failure.is_impossible() => None,
