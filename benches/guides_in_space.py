@@ -6,9 +6,10 @@
 
 Scores are those that `niwaki.grow` gives: no self-intersection, and a volume to fill; searches have its power. Traces
 are the results of `niwaki.grow`'s usual search, then those of guided particles. `compare` runs 30 guided particles on
-targets that were not learned from, beside as many unguided ones as cost the same, and the usual search, also with
-the guide. CPU seconds are those of the process, on one thread; methods take turns on each seed. A search that dies counts with the score of
-the empty scene. Leaves `guides_in_space.json` in the folder of benches, and prints its tables.
+targets that were not learned from, beside as many unguided ones as cost the same, and the usual search without and
+with the guide. CPU seconds are those of the process, on one thread; methods take turns on each seed. A search that
+dies counts with the score of the empty scene. Leaves `guides_in_space.json` in the folder of benches, and prints its
+tables.
 """
 
 from __future__ import annotations
