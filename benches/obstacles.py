@@ -17,20 +17,21 @@ from math import cos, hypot, sin
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-from PIL import Image
-
 import niwaki as nw
+import numpy as np
 from niwaki import condition, flip, gaussian, look, model
+from niwaki.draw.flat.drawing import drawing as draw_flat
 from niwaki.gallery.vines import BETWEEN, LENGTH, STEM, THINNER, THINNEST, WIDTH, WINDOW
 from niwaki.targets import drawings
 from niwaki.targets.drawing import Drawing
+from PIL import Image, ImageChops, ImageDraw
 
 #: Radius of a stone with what must stay free around it, and how far the first is from the start, units.
 STONE, APART = 1.4, 5.0
 STONES = 3
 SEEDS = range(5)
-GREY = (0.62, 0.60, 0.58)
+#: Pixels along a side of a picture.
+SIDE = 200
 
 
 def gap(stones, x, y):
@@ -93,7 +94,7 @@ def seeing_branch(x, y, angle, width, stones):
     """As `branch`, with the way to the nearest stone along the stroke and across it."""
     look((x, y), (cos(angle), sin(angle)))
     away = gap(stones, x, y)
-    near = (away[0] * cos(angle) + away[1] * sin(angle), away[1] * cos(angle) - away[0] * sin(angle))
+    near = (away[0] * cos(angle) + away[1] * sin(angle), away[1] * cos(angle) - away[0] * sin(angle))  # noqa: F841
     angle = angle + gaussian(0.0, 0.39269908169872414)
     width = THINNER * width
     end_x, end_y = x + LENGTH * cos(angle), y + LENGTH * sin(angle)
@@ -149,20 +150,23 @@ def trained(model_: Any, learned: list[Drawing], judged: list[Drawing]) -> nw.Gu
     )
 
 
-def measured(model_: Any, judged: list[Drawing], method: nw.methods.Smc) -> tuple[dict[str, float], list[nw.Sample]]:
-    """Similarities of the best of each search, those that lost every particle, the time, and the first seed's results."""
-    alike, first, lost = [], [], 0
+def measured(
+    model_: Any, judged: list[Drawing], method: nw.methods.Smc
+) -> tuple[dict[str, float], list[nw.Sample | None]]:
+    """Similarities of the best runs, searches that lost every particle, the time; and the results of the first seed."""
+    alike: list[float] = []
+    first: list[nw.Sample | None] = []
+    lost = 0
     cpu = time.process_time()
     for seed in SEEDS:
         for one in judged:
             search = nw.Search(model_, arguments(one), score=one.score(WINDOW), method=method, seed=seed)
+            best = None
             try:
                 best = search.run(threads=1).best
             except nw.InputError:
                 lost += 1
-                alike.append(0.0)
-                continue
-            alike.append(best.similarity or 0.0)
+            alike.append(0.0 if best is None else best.similarity or 0.0)
             if seed == SEEDS[0]:
                 first.append(best)
     count = len(SEEDS) * len(judged)
@@ -206,20 +210,33 @@ def main(folder: Path) -> None:
     ):
         method = nw.smc(particles, resampling="tempered", guide=guide)
         table[name], samples = measured(model_, judged, method)
-        pictures.append(samples[:6])
+        pictures.append(samples)
         print(name, {key: round(value, 3) for key, value in table[name].items()}, flush=True)
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "obstacles.json").write_text(json.dumps(table, indent=1) + "\n", encoding="utf-8")
-    side = 200
-    sheet = Image.new("RGB", (6 * side, len(pictures[5:]) * side), "white")
+    rows, columns = len(pictures[5:]), 6
+    sheet = Image.new("RGB", (columns * SIDE, rows * SIDE), "white")
     for row, samples in enumerate(pictures[5:]):
-        for column, sample in enumerate(samples):
-            place = folder / "cell.png"
-            sample.save(place, style="ink")
-            with Image.open(place) as cell:
-                sheet.paste(cell.convert("RGB").resize((side, side)), (column * side, row * side))
-    (folder / "cell.png").unlink()
+        for column, (sample, one) in enumerate(zip(samples[:columns], judged, strict=False)):
+            sheet.paste(cell(sample, one), (column * SIDE, row * SIDE))
     sheet.save(folder / "obstacles.png", optimize=True)
+
+
+def cell(sample: nw.Sample | None, one: Drawing) -> Image.Image:
+    """A drawing in grey, its stones, and what grew; a cross where every particle was lost."""
+    paper = np.where(one.greys[:, :, None] < 255, 225, 255).astype(np.uint8).repeat(3, axis=2)
+    page = Image.fromarray(paper).resize((SIDE, SIDE), Image.Resampling.NEAREST)
+    (left, low), (right, high) = WINDOW
+    unit = SIDE / (right - left)
+    brush = ImageDraw.Draw(page)
+    for x, y in stones_of(one):
+        middle = ((x - left) * unit, (high - y) * unit)
+        brush.circle(middle, STONE * unit, fill=(150, 120, 110))
+    if sample is None:
+        brush.text((8, 8), "lost", fill=(160, 30, 30))
+        return page
+    grown = draw_flat(sample.scene, size=(SIDE, SIDE), style="ink", window=WINDOW)
+    return ImageChops.multiply(page, grown.convert("RGB"))
 
 
 if __name__ == "__main__":
