@@ -6,9 +6,10 @@
 
 Scores are those that `niwaki.grow` gives: no self-intersection, and a volume to fill; searches have its power. Traces
 are the results of `niwaki.grow`'s usual search, then those of guided particles. `compare` runs 30 guided particles on
-targets that were not learned from, beside as many unguided ones as cost the same, and the usual search. CPU seconds
-are those of the process, on one thread; methods take turns on each seed. A search that dies counts with the score of
-the empty scene. Leaves `guides_in_space.json` in the folder of benches, and prints its tables.
+targets that were not learned from, beside as many unguided ones as cost the same, and the usual search without and
+with the guide. CPU seconds are those of the process, on one thread; methods take turns on each seed. A search that
+dies counts with the score of the empty scene. Leaves `guides_in_space.json` in the folder of benches, and prints its
+tables.
 """
 
 from __future__ import annotations
@@ -150,6 +151,7 @@ def compare(of: Kind, guide: Guide, seeds: Sequence[int]) -> Iterator[dict[str, 
             "30 guided": guided,
             "unguided": smc(same, of.name),
             "usual search": usual,
+            "usual search, guided": nw.improve(guide=guide),
         }
         rows: dict[str, list[tuple[float, float]]] = {name: [] for name in methods}
         for seed in seeds:

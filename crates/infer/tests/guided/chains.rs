@@ -7,7 +7,7 @@ use super::guides::{MILD, WILD, random};
 use super::law::Law;
 use super::on_one_thread;
 use super::populations::by;
-use super::programs::{PROGRAMS, task};
+use super::programs::{PROGRAMS, page, task};
 use niwaki_infer::Task;
 use niwaki_infer::chain::form::{Attached, Form};
 use niwaki_infer::chain::kernel::{Kernel, Selection};
@@ -79,6 +79,29 @@ fn guided_regrowth_keeps_the_posterior() {
             let far = law.wrong_counts(&moved(&task, &kernel, &starts, 7));
             assert!(far.is_empty(), "{name}, {particles} particles: {far:?}");
         }
+    }
+}
+
+/// The discs of the part are compared where the third disc is, which moves with what the part returns.
+#[test]
+fn regrowth_without_a_guide_keeps_the_posterior_of_parts_that_move_others() {
+    let text = r#"(module (fn "pick" (params)
+        (set $k (sample (dist categorical (list 0.3 0.25 0.25 0.2))))
+        (do (emit (disc (tuple (sub (mul 1.2 $k) 1.8) 1.6 0.0) 0.9)))
+        (set $b (sample (dist bernoulli 0.5)))
+        (do (emit (disc (tuple (cond $b 1.8 -1.8) -2.2 0.0) 0.7)))
+        (return $k))
+      (fn "m" (params)
+        (set $k (call "pick"))
+        (do (emit (disc (tuple (sub (mul 1.2 $k) 1.8) 0.2 0.0) 1.2)))
+        (return $k)) (entry "m"))"#;
+    let task = Task { sketches: vec![page(0.15)], ..task(text) };
+    let (law, starts) = (Law::of(&task), draws(&task, 12_000));
+    for particles in [2, 4, 8] {
+        let settings = json!({"particles": particles, "turn": 0.0, "pick": {"parts": ["pick"]}});
+        let kernel = Kernel::leaf("regrow", settings).expect("a kernel");
+        let far = law.wrong_counts(&moved(&task, &kernel, &starts, 6));
+        assert!(far.is_empty(), "{particles} particles: {far:?}");
     }
 }
 
