@@ -65,6 +65,15 @@ def m():
     emit(box(a, (1, 1, 1), rotation=r), cylinder(b, 0.5, 2, axis="x"), [limb((0,0,0),(0,1,0),0.2,0.1)])
     return a, b, c.x, dot(a, b), norm(c), normalize(c), distance(a, b), a == vec(1, 2, a.z), a.y, str(vec(1, 2)), r
 """,
+    "look": """
+def m():
+    x, a = gaussian(), uniform(0, 3)
+    look((x, 1), (math.cos(a), math.sin(a)))
+    u = flip(0.5)
+    look(position=vec(x, 1.0, 2), up=(0, 0, a + 1), forward=[2, x, -1])
+    f = look((0, 0, x), (0, 2.0 + a, 0.1)) if u else look((x, 0), vec(1, a))
+    return f, f.up, f[0].x, [look((n, n), (n + 1, x)).forward for n in range(2)]
+""",
     "segment": """
 def m():
     up, back = vec(0, 1, 0), vec(0, 0, -1)

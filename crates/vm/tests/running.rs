@@ -4,7 +4,7 @@
 use niwaki_geom::Shape;
 use niwaki_math::{Dist, Draw};
 use niwaki_vm::builtins::draw_to_value;
-use niwaki_vm::code::Program;
+use niwaki_vm::code::{Function, Program, SiteKind};
 use niwaki_vm::core::parse::parse;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
@@ -13,6 +13,7 @@ use niwaki_vm::machine::state::State;
 use niwaki_vm::machine::{Limits, Machine, Stop};
 use niwaki_vm::passes::{Kept, compile, compile_keeping};
 use niwaki_vm::value::{Value, repr};
+use std::collections::BTreeSet;
 
 /// Answers choices with 1, 2, 3, ... (or their least value), pauses at factors if set, and logs everything.
 #[derive(Default)]
@@ -461,4 +462,76 @@ fn the_frame_that_was_assigned_last_is_looked_from() {
     ];
     assert_eq!(found, expected);
     assert!(seen.iter().all(|(_, names, _)| !names.contains("look") && !names.contains(" =")));
+}
+
+/// Of each function: the variables and choices that are angles, and those that are not.
+fn angles(text: &str) -> Vec<(String, String, String)> {
+    let program = compile_keeping(&parse(text).expect("core form"), vec![], Kept::All).expect("a program");
+    let sorted = |names: BTreeSet<String>| names.into_iter().collect::<Vec<_>>().join(" ");
+    let of = |f: &Function| {
+        let named = |is_angle: bool| {
+            let seen = f.scope.iter().filter(|x| x.is_angle == is_angle).map(|x| x.name.to_string());
+            let drawn = f.sites.iter().filter(|site| matches!(site.kind, SiteKind::Sample(_)));
+            let drawn = drawn.filter(|site| site.is_angle == is_angle).map(|site| format!("~{}", site.label));
+            sorted(seen.chain(drawn).collect())
+        };
+        (f.name.to_string(), named(true), named(false))
+    };
+    program.functions.iter().filter(|f| !f.sites.is_empty() && !f.scope.is_empty()).map(of).collect()
+}
+
+#[test]
+fn an_angle_is_what_flows_into_one_or_comes_from_one() {
+    // As the vines are written.
+    let vines = r#"(module
+      (fn "vines" (params $x $y $ahead)
+        (set $start_angle (sample #start_angle (dist gaussian (atan2 (index $ahead 1) (index $ahead 0)) 0.5)))
+        (set $later (sample #later (dist bernoulli 0.5)))
+        (do (call "branch" $x $y $start_angle 0.75))
+        (return none))
+      (fn "branch" (params $x $y $angle $width)
+        (set $angle (add $angle (sample #turn (dist gaussian 0.0 0.4))))
+        (set $width (mul 0.9 $width))
+        (set $end_x (add $x (mul 2.0 (cos $angle)))) (set $end_y (add $y (mul 2.0 (sin $angle))))
+        (do (emit (stroke (tuple $x $y 0.0) (tuple $end_x $end_y 0.0) $width)))
+        (set $side (cond (sample #side (dist bernoulli 0.5)) 1.0 -1.0))
+        (set $leaf_angle (add $angle (sample #leaf (dist gaussian (mul $side 0.8) 0.3))))
+        (do (emit (ellipse (tuple $end_x $end_y 0.0) 2.0 1.0 $leaf_angle)))
+        (if (sample #on (dist bernoulli 0.5)) (then (do (call "branch" $end_x $end_y $angle $width))))
+        (return none))
+      (entry "vines"))"#;
+    let row = |name: &str, yes: &str, no: &str| (name.to_string(), yes.to_string(), no.to_string());
+    assert_eq!(
+        angles(vines),
+        [
+            row("vines", "start_angle ~start_angle", "ahead x y ~later"),
+            row("branch", "angle leaf_angle ~leaf ~turn", "end_x end_y side width x y ~on ~side"),
+        ]
+    );
+    // Through a loop's values, a capture, a returned value, an argument of a pure function, and from one only.
+    let ways = r#"(module
+      (fn "turned" (params $t) (return (sub 3.0 $t)))
+      (fn "drawn" (params $m) (set $d (sample #d (dist uniform $m 2.0))) (set $n (sample #n (dist bernoulli 0.5)))
+        (return $d))
+      (fn "inner" (params) (captures $c $l) (set $k (sample #k (dist bernoulli 0.5)))
+        (return (mul $l (tan $c))))
+      (fn "m" (params $a $b $e $h)
+        (set $s $h) (set $o 0.0)
+        (for $i (range 3) (body
+          (set $s (add $s (sample #step (dist gaussian 0.0 1.0)))) (set $o (add $o $b))))
+        (do (emit (ellipse (tuple $o 0.0 0.0) 1.0 1.0 (neg (call "turned" $s)))))
+        (set $r (call "drawn" $a)) (set $x (sin $r))
+        (set $g (atan2 $x $o)) (set $p (radians $b)) (set $q (add $p 1.0))
+        (do (call "inner" $e $o))
+        (set $z (sample #z (dist bernoulli 0.5)))
+        (return (tuple $g $q))) (entry "m"))"#;
+    assert_eq!(
+        angles(ways),
+        [
+            row("drawn", "d m ~d", "~n"),
+            row("inner", "c", "l ~k"),
+            row("m", "a e g h p q r s", "b o x ~z"),
+            row("m/i#0", "a e h s ~step", "b i o"),
+        ]
+    );
 }

@@ -5,7 +5,7 @@ The dissertation shows its text in a figure only; these numbers are ours.
 
 from math import atan2, cos, pi, sin
 
-from niwaki import emit, flip, gaussian, model, stroke
+from niwaki import emit, flip, gaussian, look, model, stroke
 
 TITLE = "a chain of strokes, in the plane"
 DRAWS = "ink"
@@ -26,9 +26,11 @@ def chain(x=0.0, y=0.0, ahead=(0.0, 1.0)):
 @model
 def link(x, y, angle):
     """One stroke, and perhaps another at its end."""
+    look((x, y), (cos(angle), sin(angle)))
     angle = angle + gaussian(0.0, pi / 8.0)
     end_x, end_y = x + LENGTH * cos(angle), y + LENGTH * sin(angle)
     emit(stroke((x, y, 0.0), (end_x, end_y, 0.0), WIDTH, color=INK))
+    look((end_x, end_y), (cos(angle), sin(angle)))
     if flip(0.5):
         link(end_x, end_y, angle)
 

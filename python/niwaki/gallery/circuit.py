@@ -2,7 +2,7 @@
 
 from math import pi
 
-from niwaki import fill_drawing, gaussian, model
+from niwaki import fill_drawing, gaussian, look, model
 from niwaki.gallery.vines import WIDTH, branch
 
 TITLE = "a circuit board, in the plane"
@@ -14,6 +14,7 @@ PARTICLES = 600
 @model
 def circuit():
     """Grow from the middle of the lower border, first about upwards."""
+    look((0.0, 0.0), (0.0, 1.0))
     start_angle = gaussian(pi / 2.0, pi / 6.0)
     branch(0.0, 0.0, start_angle, WIDTH)
 

@@ -2,7 +2,7 @@
 
 from math import atan2, cos, pi, sin
 
-from niwaki import emit, flip, gaussian, model, stroke
+from niwaki import emit, flip, gaussian, look, model, stroke
 from niwaki.gallery.vines import LENGTH, THINNER, THINNEST, WIDTH
 
 TITLE = "lightning, in the plane"
@@ -18,6 +18,7 @@ LIGHT = (0.42, 0.50, 1.0)
 @model
 def lightning(x=0.0, y=0.0, ahead=(0.0, 1.0)):
     """Strike from (x, y), first about in the direction `ahead`."""
+    look((x, y), ahead)
     start_angle = gaussian(atan2(ahead[1], ahead[0]), pi / 6.0)
     bolt(x, y, start_angle, WIDTH)
 
@@ -25,10 +26,12 @@ def lightning(x=0.0, y=0.0, ahead=(0.0, 1.0)):
 @model
 def bolt(x, y, angle, width):
     """One stroke and those that follow it; whether the lightning still goes on afterwards."""
+    look((x, y), (cos(angle), sin(angle)))
     angle = angle + gaussian(0.0, pi / 8.0)
     width = THINNER * width
     end_x, end_y = x + LENGTH * cos(angle), y + LENGTH * sin(angle)
     emit(stroke((x, y, 0.0), (end_x, end_y, 0.0), width, color=LIGHT))
+    look((end_x, end_y), (cos(angle), sin(angle)))
 
     terminate = flip(0.5)
     alive = not terminate

@@ -7,7 +7,7 @@ strokes: all that is long comes from what the drawing asks for.
 
 from math import atan2, cos, pi, sin
 
-from niwaki import disc, ellipse, emit, flip, gaussian, model, stroke
+from niwaki import disc, ellipse, emit, flip, gaussian, look, model, stroke
 from niwaki.words import choose
 
 TITLE = "vines with leaves and flowers, in the plane"
@@ -33,6 +33,7 @@ BEHIND, BETWEEN, IN_FRONT = -1.0, 0.0, 1.0
 @model
 def vines(x=0.0, y=0.0, ahead=(0.0, 1.0)):
     """Grow from (x, y), first about in the direction `ahead`."""
+    look((x, y), ahead)
     start_angle = gaussian(atan2(ahead[1], ahead[0]), pi / 6.0)
     branch(x, y, start_angle, WIDTH)
 
@@ -40,10 +41,12 @@ def vines(x=0.0, y=0.0, ahead=(0.0, 1.0)):
 @model
 def branch(x, y, angle, width):
     """One stroke and what grows on it and from it; whether the vine is still alive afterwards."""
+    look((x, y), (cos(angle), sin(angle)))
     angle = angle + gaussian(0.0, pi / 8.0)
     width = THINNER * width
     end_x, end_y = x + LENGTH * cos(angle), y + LENGTH * sin(angle)
     emit(stroke((x, y, BETWEEN), (end_x, end_y, BETWEEN), width, color=STEM))
+    look((end_x, end_y), (cos(angle), sin(angle)))
 
     leaf = choose(["none", "left", "right"])
     if leaf != "none":

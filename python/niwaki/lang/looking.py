@@ -12,7 +12,7 @@ from niwaki import words
 from niwaki.lang.arguments import bind
 from niwaki.lang.body import Body
 from niwaki.lang.builtin_calls import lowers
-from niwaki.lang.core import LOOK, Expr, Form
+from niwaki.lang.core import Expr, Form
 from niwaki.lang.vocabulary import parameters_of
 
 

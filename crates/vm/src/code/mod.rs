@@ -379,6 +379,8 @@ pub struct Site {
     pub next: u32,
     /// Where a run continues when only its result has changed: a slice, or the instruction after it.
     pub again: u32,
+    /// Its result is an angle, as [`Visible::is_angle`] is.
+    pub is_angle: bool,
     /// Of a choice: its part of [`Function::scope`], first and end.
     pub visible: (u32, u32),
 }

@@ -1,4 +1,4 @@
-//! Core form to bytecode, in six steps:
+//! Core form to bytecode, in seven steps:
 //!
 //! 1. [`effects`]: which functions can suspend (the others are pure);
 //! 2. [`collections`]: which lists hold references to their elements;
@@ -6,8 +6,10 @@
 //! 4. `emit`, `expressions`, `sites`, `statements`: one pass over each function; static single assignment with
 //!    merges written by each arm; loops that can suspend are *lifted* into functions of their own;
 //! 5. `place`: which registers are in the node and which are scratch, by liveness on bytecode;
-//! 6. `slices`: what one changed value can reach.
+//! 6. `slices`: what one changed value can reach;
+//! 7. `angles`: which values are angles, for those who read them at choices.
 
+mod angles;
 pub mod collections;
 pub mod effects;
 mod emit;
@@ -109,12 +111,13 @@ pub fn compile_keeping<S: Scalar>(
         .ids
         .get(&module.entry)
         .ok_or_else(|| CompileError(format!("the entry `{}` is not defined", module.entry)))?;
-    let program = Program {
+    let mut program = Program {
         files: module.files.clone(),
         classes: module.classes.iter().cloned().map(Arc::new).collect(),
         functions: unit.functions.into_iter().flatten().collect(),
         entry,
     };
+    angles::mark(&mut program);
     verify(&program).map_err(|e| CompileError(e.to_string()))?;
     Ok(program)
 }

@@ -221,6 +221,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
             span: self.span,
             next: 0,
             again: 0,
+            is_angle: false,
             visible: (from, self.scope.len() as u32),
         });
         self.op(Op::Site { site: crate::code::SiteId((self.sites.len() - 1) as u16) });
