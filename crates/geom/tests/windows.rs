@@ -5,9 +5,9 @@ mod scenes;
 
 use niwaki_geom::view::{Camera, Lens, Light, Rays, shadow_rays};
 use niwaki_geom::{
-    Drawing, Look, Page, Picture, Place, Primitive, Shape, Sketch, SketchSpec, Sketches, Target, TargetPicture,
-    Texture, TriMesh, Vec3, VolumeMatch, WindowForm, WindowKind, fill_drawing, match_drawing, match_image,
-    match_shadow, match_volume, vec3,
+    Drawing, Look, Page, Picture, Place, Primitive, Shape, Sketch, SketchSpec, Sketches, Target,
+    TargetPicture, Texture, TriMesh, Vec3, VolumeMatch, WindowForm, WindowKind, fill_drawing, match_drawing,
+    match_image, match_shadow, match_volume, vec3,
 };
 use scenes::{Dice, any_shape, torus};
 use std::sync::Arc;
@@ -250,8 +250,7 @@ fn volumes_show_what_loops_over_cells_count() {
     let mut dice = Dice::new(3);
     for voxel in [0.13, 0.05, 0.03] {
         let target = Arc::new(Target::new(torus(1.4, 0.5, 12, 8), voxel).unwrap());
-        let (grid, form) =
-            (target.grid(), match_volume(target.clone(), 0.02).unwrap().window().unwrap());
+        let (grid, form) = (target.grid(), match_volume(target.clone(), 0.02).unwrap().window().unwrap());
         assert_eq!((form.values(), form.kind), (114, WindowKind::Solid));
         let cell = (grid.cell().x + grid.cell().y + grid.cell().z) / 3.0;
         let mut sketch = VolumeMatch::new(target.clone(), 0.02);
@@ -379,7 +378,8 @@ fn windows_depend_on_the_scene_alone() {
         }
         if held.is_empty() || dice.below(5) < 3 {
             let primitive = any_primitive(&mut dice);
-            (first.add(&primitive), later.add(&primitive));
+            first.add(&primitive);
+            later.add(&primitive);
             held.push(primitive);
         } else {
             let gone = held.swap_remove(dice.below(held.len()));
@@ -427,9 +427,11 @@ fn another_resolution_shows_nearly_the_same() {
     let mut dice = Dice::new(6);
     let (mut sum, mut count) = (0.0, 0);
     for _ in 0..10 {
-        let stroke = Shape::stroke(vec3(-1.0, dice.uniform(-1.5, 1.5), 0.0), Vec3::ZERO, (0.3, 0.3), &Look::default());
+        let stroke =
+            Shape::stroke(vec3(-1.0, dice.uniform(-1.5, 1.5), 0.0), Vec3::ZERO, (0.3, 0.3), &Look::default());
         let stroke = Primitive::new([stroke.unwrap()]);
-        (coarse.add(&stroke), fine.add(&stroke));
+        coarse.add(&stroke);
+        fine.add(&stroke);
         let place = any_place(&mut dice, 1.5);
         let both = [look(&*coarse, &form, &place), look(&*fine, &form, &place)];
         sum += both[0].iter().zip(&both[1]).map(|(a, b)| (a - b).abs()).sum::<f32>();
@@ -445,7 +447,9 @@ fn places_and_forms_are_as_documented() {
     assert_eq!(place.left(), place.up.cross(place.forward));
     let place = Place::new(Vec3::ZERO, vec3(2.0, 0.0, 0.0), None).unwrap();
     assert_eq!((place.up, place.left()), (vec3(0.0, 1.0, 0.0), vec3(0.0, 0.0, -1.0)));
-    assert!(Place::new(Vec3::ZERO, vec3(0.0, 1.0, 0.0), None).unwrap().up.dot(vec3(0.0, 1.0, 0.0)).abs() < 1e-9);
+    assert!(
+        Place::new(Vec3::ZERO, vec3(0.0, 1.0, 0.0), None).unwrap().up.dot(vec3(0.0, 1.0, 0.0)).abs() < 1e-9
+    );
     assert_eq!(Place::new(Vec3::ZERO, Vec3::ZERO, None), None);
     assert_eq!(Place::new(vec3(f64::NAN, 0.0, 0.0), vec3(1.0, 0.0, 0.0), None), None);
     let form = WindowForm::flat(50.0);
@@ -454,5 +458,7 @@ fn places_and_forms_are_as_documented() {
         (x.hypot(y), form.points[first].cell)
     };
     assert_eq!([1, 7, 15, 23].map(|k| lengths(k).0.round()), [2.0, 4.0, 8.0, 15.0]);
-    assert!(WindowForm::solid(1.0).points[15..29].iter().all(|p| (Vec3::from(p.at).norm() - 0.08).abs() < 1e-12));
+    assert!(
+        WindowForm::solid(1.0).points[15..29].iter().all(|p| (Vec3::from(p.at).norm() - 0.08).abs() < 1e-12)
+    );
 }

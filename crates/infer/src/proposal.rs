@@ -178,24 +178,24 @@ impl Proposal {
 
 /// The distribution that a user's proposal gives for a choice.
 fn of_user(user: &User, at: &At<'_, f64>, dist: &Dist) -> Result<Arc<Dist>, Fault> {
-        let own = user.dist(at, None)?;
-        let (name, site, family) = (user.name(), at.path(), dist.family());
-        if !own.compares_with(dist) {
-            let message = format!(
-                "the proposal `{name}` draws from `{}` for the choice `{site}`, which draws from `{family}`: values of \
+    let own = user.dist(at, None)?;
+    let (name, site, family) = (user.name(), at.path(), dist.family());
+    if !own.compares_with(dist) {
+        let message = format!(
+            "the proposal `{name}` draws from `{}` for the choice `{site}`, which draws from `{family}`: values of \
                  another kind",
-                own.family()
-            );
-            return Err(Fault::new("proposal-kind", message)
-                .with_help("propose values of the kind that the choice's own distribution draws"));
-        }
-        if let Some(missing) = own.lacks(dist) {
-            let message = format!(
-                "the proposal `{name}` of the choice `{site}` never draws {missing}, which its `{family}` does"
-            );
-            return Err(Fault::new("proposal-support", message).with_help(WIDER));
-        }
-        Ok(own)
+            own.family()
+        );
+        return Err(Fault::new("proposal-kind", message)
+            .with_help("propose values of the kind that the choice's own distribution draws"));
+    }
+    if let Some(missing) = own.lacks(dist) {
+        let message = format!(
+            "the proposal `{name}` of the choice `{site}` never draws {missing}, which its `{family}` does"
+        );
+        return Err(Fault::new("proposal-support", message).with_help(WIDER));
+    }
+    Ok(own)
 }
 
 /// The help for a proposal that leaves values out.

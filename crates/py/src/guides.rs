@@ -61,7 +61,8 @@ impl PyGuide {
     /// What the model of a task does not have of what it knows, as sentences; an error where nothing fits.
     fn lost(&self, py: Python<'_>, task: &PyTask) -> PyResult<Vec<String>> {
         let task = task.keeping_all(py)?;
-        let bound = BoundGuide::new(self.guide.clone(), &task).map_err(|fault| faults::setting(py, &fault))?;
+        let bound =
+            BoundGuide::new(self.guide.clone(), &task).map_err(|fault| faults::setting(py, &fault))?;
         Ok(bound.lost)
     }
 }

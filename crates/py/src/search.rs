@@ -335,7 +335,11 @@ impl PyTask {
 
     /// The task with what kernels name by number: users' proposals, the entry functions of tasks, and guides. Its program
     /// is compiled to keep the variables that these read.
-    pub(crate) fn attach(&self, py: Python<'_>, given: &[Bound<'_, PyAny>]) -> PyResult<(Task, Vec<Attached>)> {
+    pub(crate) fn attach(
+        &self,
+        py: Python<'_>,
+        given: &[Bound<'_, PyAny>],
+    ) -> PyResult<(Task, Vec<Attached>)> {
         let mut attached = Vec::new();
         let mut task = None;
         for one in given {
@@ -349,7 +353,9 @@ impl PyTask {
                 task = Some(kept);
             } else {
                 let function = User::new(one.cast::<PyTask>()?.get().task.clone());
-                attached.push(Attached::Function(Arc::new(function.map_err(|fault| faults::setting(py, &fault))?)));
+                attached.push(Attached::Function(Arc::new(
+                    function.map_err(|fault| faults::setting(py, &fault))?,
+                )));
             }
         }
         let task = match task {

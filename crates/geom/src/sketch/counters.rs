@@ -33,13 +33,6 @@ pub(crate) struct Cells {
     pub sums: Option<Box<Sums>>,
 }
 
-impl Cells {
-    /// Its sums, from nothing.
-    pub fn count(&self, target: &Plane) -> Sums {
-        Sums::of(|word| split(self.counts.any(word), target[word]))
-    }
-}
-
 /// Cells that the target wants, and the others.
 #[inline]
 fn split(cells: u64, target: u64) -> [u64; 2] {
@@ -124,6 +117,11 @@ impl Counters {
         change
     }
 
+    /// True once bricks keep what windows need.
+    pub(crate) fn expects_windows(&self) -> bool {
+        self.windows
+    }
+
     /// From now on bricks keep what windows need.
     pub(crate) fn expect_windows(&mut self, target: &[Plane]) {
         if std::mem::replace(&mut self.windows, true) {
@@ -134,7 +132,8 @@ impl Counters {
             for (place, target) in Arc::make_mut(layer).iter_mut().zip(target) {
                 if let Some(cells) = place {
                     let cells = Arc::make_mut(cells);
-                    cells.sums = Some(Box::new(cells.count(target)));
+                    let sums = Sums::of(|word| split(cells.counts.any(word), target[word]));
+                    cells.sums = Some(Box::new(sums));
                 }
             }
         }

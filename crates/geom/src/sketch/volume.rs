@@ -250,7 +250,17 @@ impl Sketch for VolumeMatch {
     }
 
     fn look(&self, form: &WindowForm, place: &Place, out: &mut Vec<f32>) {
-        Volume::new(&self.target, &self.counters).look(form, place, out);
+        let known;
+        let counters = match self.counters.expects_windows() {
+            true => &self.counters,
+            false => {
+                let mut counters = self.counters.clone();
+                counters.expect_windows(&self.target.planes);
+                known = counters;
+                &known
+            }
+        };
+        Volume::new(&self.target, counters).look(form, place, out);
     }
 
     fn log_score(&self) -> f64 {

@@ -10,7 +10,8 @@ pub(crate) struct Bits(Arc<Vec<Arc<Plane>>>);
 impl Bits {
     /// All zero, for as many words.
     pub fn new(words: usize) -> Bits {
-        Bits(Arc::new(vec![Arc::new([0; 64]); words.div_ceil(64)]))
+        let empty = Arc::new([0; 64]);
+        Bits(Arc::new((0..words.div_ceil(64)).map(|_| empty.clone()).collect()))
     }
 
     /// A word.

@@ -221,41 +221,6 @@ pub(crate) fn look(
     words: impl Fn(usize, usize) -> [u64; 2],
     out: &mut Vec<f32>,
 ) {
-    #[cfg(target_arch = "x86_64")]
-    if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("bmi2") && is_x86_feature_detected!("popcnt") {
-        // SAFETY: the processor has all three.
-        #[expect(unsafe_code, reason = "instructions that count bits are not in every processor")]
-        unsafe {
-            look_counting(form, spot, size, beyond, words, out);
-        }
-        return;
-    }
-    look_anywhere(form, spot, size, beyond, words, out);
-}
-
-/// [`look_anywhere`] with instructions that count bits: the same numbers in half the time.
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,bmi2,popcnt")]
-fn look_counting(
-    form: &WindowForm,
-    spot: &Spot,
-    size: [usize; 2],
-    beyond: f64,
-    words: impl Fn(usize, usize) -> [u64; 2],
-    out: &mut Vec<f32>,
-) {
-    look_anywhere(form, spot, size, beyond, words, out);
-}
-
-#[inline(always)]
-fn look_anywhere(
-    form: &WindowForm,
-    spot: &Spot,
-    size: [usize; 2],
-    beyond: f64,
-    words: impl Fn(usize, usize) -> [u64; 2],
-    out: &mut Vec<f32>,
-) {
     let cell = |point: &WindowPoint| {
         let [ahead, left, _] = point.at;
         let at = [0, 1].map(|a| spot.at[a] + ahead * spot.ahead[a] + left * spot.left[a]);

@@ -18,8 +18,8 @@
 //! - [`plate`]: a page over the rays of a picture
 //! - [`solid`]: cells of a grid, from counts of 1, 2, 4, 8 and 16 cells
 //!
-//! The radii of a flat window are the ones that the dissertation's plants need with few inputs; they and the
-//! boxes are fixed and nothing is learned in them.
+//! Lengths are fixed shares of the target's larger side. On a page of 50 x 50 pixels the radii are 2, 4, 8 and 15 pixels,
+//! and cells have the spread of bilinear samples of boxes of 1, 1, 2 and 8 pixels.
 
 pub(crate) mod bits;
 pub(crate) mod flat;
@@ -61,7 +61,7 @@ pub struct Place {
     pub forward: Vec3,
     /// Unit, at a right angle to `forward`.
     pub up: Vec3,
-    /// Multiplies all lengths of a window: radii and cells.
+    /// Multiplies all lengths of a window: radii and cells. Above 0.
     pub scale: f64,
 }
 
@@ -124,8 +124,7 @@ pub struct WindowForm {
 
 impl WindowForm {
     /// The window of a page whose larger side is `side`: the middle and rings of 6, 8, 8 and 8 points, the first of each
-    /// straight ahead and the others in order to its left. On 50 x 50 pixels the radii are 2, 4, 8 and 15
-    /// pixels, and the cells have the spread of bilinear samples from boxes of 1, 1, 2 and 8.
+    /// straight ahead and the others in order to its left.
     pub fn flat(side: f64) -> WindowForm {
         let ring = |ring: &Ring| {
             let (count, radius, cell) = (ring.points, ring.radius * side, ring.cell * side);
@@ -145,7 +144,7 @@ impl WindowForm {
             let (count, radius, cell) = (ring.points, ring.radius * side, ring.cell * side);
             let at = move |k: usize| {
                 let at = if k < 6 {
-                    let sign = if k % 2 == 0 { radius } else { -radius };
+                    let sign = [radius, -radius][k % 2];
                     std::array::from_fn(|a| if a == k / 2 { sign } else { 0.0 })
                 } else {
                     let part = radius / 3.0_f64.sqrt();

@@ -98,7 +98,8 @@ impl Plate {
             let (column, row) = (pixel % columns, pixel / columns);
             for y in row.saturating_sub(1)..(row + 2).min(rows) {
                 for x in column.saturating_sub(1)..(column + 2).min(columns) {
-                    if own[y * columns + x] != NONE && nearer(self, own[y * columns + x], *best, column, row) {
+                    if own[y * columns + x] != NONE && nearer(self, own[y * columns + x], *best, column, row)
+                    {
                         *best = own[y * columns + x];
                     }
                 }

@@ -82,11 +82,18 @@ impl Sums {
     /// Of a box of 8 cells.
     #[inline]
     fn eight(&self, x: usize) -> [i32; 2] {
-        self.eights.each_ref().map(|eights| i32::from(eights[x]))
+        self.eights.each_ref().map(|eights| i32::from(eights[x & 7]))
+    }
+
+    /// Of the part in this brick of a box of 16 cells.
+    #[inline]
+    fn sixteen(&self, x: usize) -> [i32; 2] {
+        let ([a, b], [c, d]) = (self.eight(2 * x), self.eight(2 * x + 1));
+        [a + c, b + d]
     }
 }
 
-/// A target and what a scene fills of it.
+/// A target and what a scene fills of it, with sums.
 pub(crate) struct Volume<'a> {
     target: &'a Target,
     filled: &'a Counters,
@@ -122,16 +129,21 @@ impl<'a> Volume<'a> {
     /// Both channels at a point, in grid coordinates, of boxes of `2^level` cells.
     fn shares(&self, at: Vec3, level: u32) -> [f64; 2] {
         let side = f64::from(1 << level);
+        let per_side = 1.0 / side;
         let mut first = [0; 3];
         let (mut weights, mut inside) = ([[0.0; 2]; 3], 1.0);
         for a in 0..3 {
             let most = self.dims[a] as f64;
             // In boxes from the middle of the first; farther out all is outside.
-            let x = (at[a] / side - 0.5).clamp(-2.0, most + 1.0);
-            let floor = x.floor();
-            (first[a], weights[a]) = (floor as i32, [1.0 - (x - floor), x - floor]);
+            let x = (at[a] * per_side - 0.5).clamp(-2.0, most + 1.0);
+            first[a] = (x + 2.0) as i32 - 2;
+            let floor = f64::from(first[a]);
+            weights[a] = [1.0 - (x - floor), x - floor];
             let within = |k: f64| ((k + 1.0) * side).clamp(0.0, most) - (k * side).clamp(0.0, most);
             inside *= weights[a][0] * within(floor) + weights[a][1] * within(floor + 1.0);
+        }
+        if inside == 0.0 {
+            return [0.0, 2.0];
         }
         let mut sums = [0.0; 2];
         for (z, of_z) in weights[2].into_iter().enumerate() {
@@ -145,7 +157,7 @@ impl<'a> Volume<'a> {
                 }
             }
         }
-        let share = 1.0 / (side * side * side);
+        let share = per_side * per_side * per_side;
         [sums[0] * share, sums[1] * share + 2.0 * (1.0 - inside * share)]
     }
 
@@ -171,39 +183,44 @@ impl<'a> Volume<'a> {
             }
             2 => {
                 let inner = [(y & 1) as usize, (z & 1) as usize];
-                [x, x + 1].map(|x| {
-                    let of = |sums: &Sums| sums.four([(x & 15) as usize, inner[0], inner[1]]);
-                    self.boxes([x >> 4, y >> 1, z >> 1], of)
-                })
+                self.boxes([x, y >> 1, z >> 1], 4, |sums, x| sums.four([x, inner[0], inner[1]]))
             }
-            3 => [x, x + 1].map(|x| self.eight([x, y, z])),
-            _ => [x, x + 1].map(|x| {
-                let mut all = [0; 2];
-                for k in 0..8 {
-                    let [a, b] = self.eight([2 * x + (k & 1), 2 * y + (k >> 1 & 1), 2 * z + (k >> 2)]);
-                    all = [all[0] + a, all[1] + b];
+            3 => self.boxes([x, y, z], 3, Sums::eight),
+            _ => {
+                let mut pair = [[0; 2]; 2];
+                for (dy, dz) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
+                    let halves = self.boxes([x, 2 * y + dy, 2 * z + dz], 2, Sums::sixteen);
+                    for k in 0..2 {
+                        pair[k] = [pair[k][0] + halves[k][0], pair[k][1] + halves[k][1]];
+                    }
                 }
-                all
-            }),
+                pair
+            }
         }
     }
 
-    #[inline]
-    fn eight(&self, [x, y, z]: [i32; 3]) -> [i32; 2] {
-        self.boxes([x >> 3, y, z], |sums| sums.eight((x & 7) as usize))
+    /// Of the target, less what the scene fills, in the boxes `x` and `x + 1` of a row of bricks, of which each has
+    /// `2^shift` boxes; nothing outside.
+    #[inline(always)]
+    fn boxes(&self, [x, y, z]: [i32; 3], shift: u32, of: impl Fn(&Sums, usize) -> [i32; 2]) -> [[i32; 2]; 2] {
+        let first = self.sums([x >> shift, y, z]);
+        let second = if (x + 1) & !(-1 << shift) == 0 { self.sums([(x + 1) >> shift, y, z]) } else { first };
+        let uncovered = |sums: Option<(&Sums, Option<&Sums>)>, x: i32| {
+            let Some((target, filled)) = sums else { return [0; 2] };
+            let x = (x & !(-1 << shift)) as usize;
+            let ([wanted, empty], [right, wrong]) =
+                (of(target, x), filled.map_or([0; 2], |sums| of(sums, x)));
+            [wanted - right, empty - wrong]
+        };
+        [uncovered(first, x), uncovered(second, x + 1)]
     }
 
-    /// Of the target, less what the scene fills, in a brick; nothing outside.
-    #[inline]
-    fn boxes(&self, brick: [i32; 3], of: impl Fn(&Sums) -> [i32; 2]) -> [i32; 2] {
-        let Some(place) = self.brick(brick) else { return [0; 2] };
-        let [wanted, empty] = of(&self.sums[place[1] * self.across[0] * self.across[1] + place[0]]);
-        let Some(brick) = self.filled.brick(place) else { return [wanted, empty] };
-        let [right, wrong] = match &brick.sums {
-            Some(sums) => of(sums),
-            None => of(&brick.count(self.target.plane(place))),
-        };
-        [wanted - right, empty - wrong]
+    /// Sums of a brick: of the target, and of what the scene fills where it fills something.
+    #[inline(always)]
+    fn sums(&self, brick: [i32; 3]) -> Option<(&Sums, Option<&Sums>)> {
+        let place = self.brick(brick)?;
+        let filled = self.filled.brick(place).and_then(|brick| brick.sums.as_deref());
+        Some((&self.sums[place[1] * self.across[0] * self.across[1] + place[0]], filled))
     }
 
     /// Place of a brick in its layer, and its layer.

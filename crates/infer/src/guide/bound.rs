@@ -84,7 +84,8 @@ impl BoundGuide {
     pub fn new(guide: Arc<Guide>, task: &Task) -> Result<BoundGuide, Fault> {
         let form = &guide.form;
         let windows = members(task, &form.windows).map_err(|name| {
-            let message = format!("the guide of `{}` looks at `{name}`, which the score does not have", form.model);
+            let message =
+                format!("the guide of `{}` looks at `{name}`, which the score does not have", form.model);
             Fault::new("guide-score", message).with_help("search by the score that the guide was trained for")
         })?;
         let mut sites = HashMap::new();
@@ -116,7 +117,10 @@ impl BoundGuide {
             }
         }
         if sites.is_empty() && !form.sites.is_empty() {
-            return Err(bad(format!("the guide is for `{}`: none of its choices is in this model", form.model)));
+            return Err(bad(format!(
+                "the guide is for `{}`: none of its choices is in this model",
+                form.model
+            )));
         }
         Ok(BoundGuide { guide, sites, windows, lost })
     }

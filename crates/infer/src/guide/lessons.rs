@@ -169,7 +169,8 @@ fn rows(examples: &[&Example], guide: &Arc<Guide>) -> Result<Rows, Failure> {
         rows.trace();
         follow(example, &mut |at, dist, seen, value| {
             let Some(site) = bound.look(at, dist, seen, &mut sight, 0) else { return Ok(()) };
-            let lesson = value_to_draw(value).and_then(|draw| guide.form.sites[site].head.lesson(dist, &draw));
+            let lesson =
+                value_to_draw(value).and_then(|draw| guide.form.sites[site].head.lesson(dist, &draw));
             if let Some(lesson) = lesson {
                 let (window, features) = sight.inputs();
                 rows.push(site, window, features, &lesson);
@@ -202,7 +203,10 @@ pub fn train(
         Some(start) => start.net.clone(),
         None => {
             let heads = form.sites.iter().map(|site| site.head).collect();
-            let own = NetForm { hidden: making.hidden, ..NetForm::new(form.window_values(), form.features(), heads) };
+            let own = NetForm {
+                hidden: making.hidden,
+                ..NetForm::new(form.window_values(), form.features(), heads)
+            };
             Net::start(own, making.seed)
         }
     };
@@ -222,7 +226,13 @@ pub fn train(
         Err(diverged) => return Err(bad(diverged.to_string()).into()),
     };
     form.share = making.share;
-    Ok(Taught { guide: Guide { form, net }, rows, bytes: learned.bytes() + held_out.bytes(), history, diverged })
+    Ok(Taught {
+        guide: Guide { form, net },
+        rows,
+        bytes: learned.bytes() + held_out.bytes(),
+        history,
+        diverged,
+    })
 }
 
 /// What training gave.

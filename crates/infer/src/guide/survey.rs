@@ -103,7 +103,12 @@ impl Survey {
     ///
     /// # Errors
     /// Traces without a choice that a guide can draw.
-    pub fn form(self, model: &str, share: f64, windows: Vec<(String, WindowForm)>) -> Result<GuideForm, Fault> {
+    pub fn form(
+        self,
+        model: &str,
+        share: f64,
+        windows: Vec<(String, WindowForm)>,
+    ) -> Result<GuideForm, Fault> {
         let mut next = 0u32;
         let mut take = |count: usize| {
             let first = next;

@@ -375,7 +375,9 @@ impl Chooser for Follow<'_> {
         };
         let mut chosen = Chosen::given(choice.value.clone(), dist)?;
         let proposal = self.proposal.filter(|_| chosen.log_prior > f64::NEG_INFINITY);
-        let drawn = proposal.map_or(Ok(None), |proposal| proposal.log_drawn(at, dist, &chosen.value, seen, &mut self.sight))?;
+        let drawn = proposal.map_or(Ok(None), |proposal| {
+            proposal.log_drawn(at, dist, &chosen.value, seen, &mut self.sight)
+        })?;
         chosen.log_drawn = drawn.unwrap_or(chosen.log_prior);
         Ok(Some(chosen))
     }

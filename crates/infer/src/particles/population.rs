@@ -8,8 +8,8 @@ use super::shared::share;
 use super::tempered::Tempered;
 use crate::blame::RUNS;
 use crate::chooser::Prior;
-use crate::particle::Particle;
 use crate::guide::bound::Sight;
+use crate::particle::Particle;
 use crate::proposal::ByProposal;
 use crate::record::{AllInvalid, Record};
 use crate::resampling::Resampling;
@@ -317,7 +317,12 @@ fn advance(
         None => particle.advance(machine, task, settings.seed, otherwise)?,
         Some(proposal) => {
             sight.forget();
-            particle.advance(machine, task, settings.seed, ByProposal { proposal, stream, sight, otherwise })?
+            particle.advance(
+                machine,
+                task,
+                settings.seed,
+                ByProposal { proposal, stream, sight, otherwise },
+            )?
         }
     };
     Ok(())
