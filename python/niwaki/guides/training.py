@@ -38,36 +38,78 @@ class Training:
 
     Attributes
     ----------
+    architecture : "shared" or "dissertation"
+        One network for all choices, which sees windows in the direction of growth; or that of the dissertation (see
+        `Training.dissertation`).
     hidden : (int, int)
-        Units of the two hidden layers.
+        Units of the two hidden layers of the shared network.
     components : int
         Gaussians of each mixture.
     share : float
         Share of the prior in each proposal; the weight of a choice is at most 1 / share.
-    looks, reads : bool
-        Whether it sees the surroundings in the sketches, and what is in scope.
+    looks : bool, "target" or "scene"
+        Whether it sees the surroundings in the sketches; with the dissertation's network also one of the two images.
+    reads : bool or tuple of str
+        Whether it sees what is in scope, or the names of the variables that it sees.
     steps : int
-        Steps of Adam; None for so many that each choice is seen about `passes` times.
+        Steps of Adam; None for so many that each choice is seen about `passes` times (the dissertation's: 20,000).
     passes : float
         As many passes over the choices.
     rate : float
         Step size of Adam.
+    decays : (float, float)
+        Shares of Adam's means that stay at each step: of slopes, and of their squares.
     batch : int
-        Choices for each step.
+        Choices for each step; whole traces with the dissertation's network.
     averaging : float
-        Share of the mean of the weights that stays at each step.
+        Share of the mean of the weights that stays at each step; 0 for the last weights.
     """
 
+    architecture: str = "shared"
     hidden: tuple[int, int] = (38, 32)
     components: int = 4
     share: float = 0.02
-    looks: bool = True
-    reads: bool = True
+    looks: bool | str = True
+    reads: bool | tuple[str, ...] = True
     steps: int | None = None
     passes: float = 6.0
     rate: float = 2e-3
+    decays: tuple[float, float] = (0.9, 0.999)
     batch: int = 256
     averaging: float = 0.998
+
+    def __post_init__(self) -> None:
+        if self.architecture not in ("shared", "dissertation"):
+            raise bad("architecture", self.architecture, '"shared" or "dissertation"', '"shared"')
+        images = ("target", "scene") if self.architecture == "dissertation" else ()
+        if not isinstance(self.looks, bool) and self.looks not in images:
+            raise bad(
+                "looks", self.looks, "True or False, or one image with the dissertation's network", "True"
+            )
+        if not 0.0 < self.share < 1.0:
+            raise bad("share", self.share, "a number above 0 and below 1", "0.02")
+
+    @classmethod
+    def dissertation(cls, **changes: Any) -> Training:
+        """The dissertation's network and its recipe (6.4).
+
+        Each choice has a net of its own, with one hidden layer. It sees 3 by 3 windows of target and scene in four
+        resolutions, through filters that are learned too, its position and direction, and what `reads` names. Adam makes
+        20,000 steps of one whole trace each. The share of the prior is nearly nothing; the dissertation has none.
+
+        Parameters
+        ----------
+        changes
+            Attributes with other values: `looks` and `reads` make the dissertation's ablations.
+        """
+        recipe: dict[str, Any] = {
+            "share": 1e-6,
+            "rate": 0.01,
+            "decays": (0.75, 0.75),
+            "batch": 1,
+            "averaging": 0.0,
+        }
+        return cls(architecture="dissertation", **(recipe | changes))
 
 
 @dataclass(frozen=True)
@@ -210,7 +252,9 @@ def train_guide(
                 similarities=[one.similarity for one in found if one.similarity is not None],
             )
             told.append(now)
-            guide = guide.reported({"seed": seed, "training": asdict(training), "rounds": [asdict(r) for r in told]})
+            guide = guide.reported(
+                {"seed": seed, "training": asdict(training), "rounds": [asdict(r) for r in told]}
+            )
             if progress is not None:
                 progress(now)
     except KeyboardInterrupt:

@@ -102,9 +102,17 @@ class Guide:
         for name, window in form["windows"]:
             points = window["points"]
             reach = max(sum(x * x for x in point["at"]) ** 0.5 for point in points)
-            lines.append(f"window of {name}: {len(points)} points around the current place, up to {reach:.3g} units away")
+            lines.append(
+                f"window of {name}: {len(points)} points around the current place, up to {reach:.3g} units away"
+            )
+        if form.get("image"):
+            lines.append(
+                f"the page of {form['image']['sketch']}: windows of 3 by 3 in four resolutions, position, direction"
+            )
         for site in form["sites"]:
-            lines.append(f"{site['function']}/{site['label']}: {_drawn(site)}, {site['visits']} in the traces")
+            lines.append(
+                f"{site['function']}/{site['label']}: {_drawn(site)}, {site['visits']} in the traces"
+            )
             variables = [form["variables"][number] for number in site["variables"]]
             seen = [name for one in variables for name in _names(inputs, one["first"], one["kind"])]
             lines.append(f"    sees {', '.join(seen) or 'no variable'}")

@@ -1,11 +1,14 @@
 //! A guide for one program: what each of its sites sees, and how it draws.
 
+use super::form::GuideForm;
+use super::images::Images;
 use super::inputs::place;
-use super::{Guide, bad};
+use super::{Guide, Network, bad};
 use crate::Task;
 use crate::chooser::{Chosen, Context};
 use niwaki_geom::{Place, WindowForm, vec3};
-use niwaki_guide::Scratch;
+use niwaki_guide::filtered::View;
+use niwaki_guide::{Net, Scratch};
 use niwaki_math::{Dist, Stream};
 use niwaki_vm::builtins::{draw_to_value, value_to_draw};
 use niwaki_vm::code::SiteKind;
@@ -21,6 +24,8 @@ pub struct BoundGuide {
     guide: Arc<Guide>,
     sites: HashMap<u128, Site>,
     windows: Vec<(usize, WindowForm)>,
+    /// The page of a guide of the dissertation's architecture.
+    images: Option<Images>,
     /// What of the guide the program or its score does not have, for people.
     pub lost: Vec<String>,
 }
@@ -41,14 +46,21 @@ pub struct Sight {
     seen: Option<(usize, Place, usize)>,
     window: Vec<f32>,
     sums: Vec<f32>,
-    features: Vec<(u32, f32)>,
+    pub(super) features: Vec<(u32, f32)>,
     scratch: Scratch,
+    /// Whose scene `view` shows, and its number of primitives.
+    pub(super) pictured: Option<(usize, usize)>,
+    pub(super) bits: Vec<u64>,
+    pub(super) view: View,
+    /// The place, in shares of the page from its upper left corner.
+    pub(super) at: [f64; 2],
 }
 
 impl Sight {
     /// Forgets what was seen: another run follows.
     pub fn forget(&mut self) {
         self.seen = None;
+        self.pictured = None;
     }
 
     /// The window that was seen last, and the inputs beside it.
@@ -83,11 +95,13 @@ impl BoundGuide {
     /// A guide of which nothing matches, or which looks at sketches that the score does not have.
     pub fn new(guide: Arc<Guide>, task: &Task) -> Result<BoundGuide, Fault> {
         let form = &guide.form;
-        let windows = members(task, &form.windows).map_err(|name| {
-            let message =
-                format!("the guide of `{}` looks at `{name}`, which the score does not have", form.model);
-            Fault::new("guide-score", message).with_help("search by the score that the guide was trained for")
-        })?;
+        let windows = members(task, &form.windows).map_err(|name| lacking(form, &name))?;
+        let images = match (&guide.net, &form.image) {
+            (Network::Filtered(net), Some(image)) => {
+                Some(Images::new(image, net, task).ok_or_else(|| lacking(form, &image.sketch))?)
+            }
+            _ => None,
+        };
         let mut sites = HashMap::new();
         let mut lost = Vec::new();
         for function in &task.program.functions {
@@ -122,7 +136,12 @@ impl BoundGuide {
                 form.model
             )));
         }
-        Ok(BoundGuide { guide, sites, windows, lost })
+        Ok(BoundGuide { guide, sites, windows, images, lost })
+    }
+
+    /// The page of a guide of the dissertation's architecture.
+    pub(super) fn images(&self) -> Option<&Images> {
+        self.images.as_ref()
     }
 
     /// The guide.
@@ -147,18 +166,11 @@ impl BoundGuide {
             return None;
         }
         let here = place_of(at);
-        let now = (owner, here, seen.primitives);
-        if sight.seen != Some(now) {
-            sight.window.clear();
-            if let Some(sketches) = seen.sketches {
-                let windows = self.windows.iter().map(|(member, window)| (*member, window));
-                sketches.look(windows, &here, &mut sight.window);
-            }
-            sight.window.resize(form.window_values(), 0.0);
-            self.guide.net.see(&sight.window, &mut sight.sums);
-            sight.seen = Some(now);
+        match (&self.guide.net, &self.images) {
+            (Network::Filtered(net), Some(images)) => images.look(net, &here, seen, sight, owner),
+            (Network::Shared(net), _) => self.look_through_windows(net, here, seen, sight, owner),
+            (Network::Filtered(_), None) => return None,
         }
-        sight.features.clear();
         for (variable, (_, _, value)) in site.variables.iter().zip(at.visible()) {
             if let Some(v) = variable {
                 let own = &form.variables[*v as usize];
@@ -167,6 +179,40 @@ impl BoundGuide {
         }
         parameters(dist, own.parameters, &mut sight.features);
         Some(site.number)
+    }
+
+    /// Fills `sight` with what windows show.
+    fn look_through_windows(
+        &self,
+        net: &Net,
+        here: Place,
+        seen: Context<'_>,
+        sight: &mut Sight,
+        owner: usize,
+    ) {
+        let now = (owner, here, seen.primitives);
+        if sight.seen != Some(now) {
+            sight.window.clear();
+            if let Some(sketches) = seen.sketches {
+                let windows = self.windows.iter().map(|(member, window)| (*member, window));
+                sketches.look(windows, &here, &mut sight.window);
+            }
+            sight.window.resize(self.guide.form.window_values(), 0.0);
+            net.see(&sight.window, &mut sight.sums);
+            sight.seen = Some(now);
+        }
+        sight.features.clear();
+    }
+
+    /// Outputs for the head of a site that was looked at.
+    fn answer<'s>(&self, site: usize, dist: &Dist, sight: &'s mut Sight) -> &'s [f32] {
+        match (&self.guide.net, &self.images) {
+            (Network::Filtered(net), Some(images)) => {
+                net.answer(images.target(), sight.at, &sight.features, site, dist, &mut sight.view)
+            }
+            (Network::Shared(net), _) => net.answer(&sight.sums, &sight.features, site, &mut sight.scratch),
+            (Network::Filtered(_), None) => &[],
+        }
     }
 
     /// A value for a choice with its densities; `None` where the guide draws nothing.
@@ -180,8 +226,8 @@ impl BoundGuide {
         rng: &mut Stream,
     ) -> Option<Chosen> {
         let site = self.look(at, dist, seen, sight, owner)?;
-        let (net, form) = (&self.guide.net, &self.guide.form);
-        let outputs = net.answer(&sight.sums, &sight.features, site, &mut sight.scratch);
+        let form = &self.guide.form;
+        let outputs = self.answer(site, dist, sight);
         let drawn = form.sites[site].head.draw(outputs, dist, form.share, rng);
         Some(Chosen {
             value: draw_to_value(drawn.value),
@@ -202,10 +248,16 @@ impl BoundGuide {
     ) -> Option<f64> {
         let draw = value_to_draw(value)?;
         let site = self.look(at, dist, seen, sight, owner)?;
-        let (net, form) = (&self.guide.net, &self.guide.form);
-        let outputs = net.answer(&sight.sums, &sight.features, site, &mut sight.scratch);
+        let form = &self.guide.form;
+        let outputs = self.answer(site, dist, sight);
         Some(form.sites[site].head.log_drawn(outputs, dist, form.share, &draw))
     }
+}
+
+/// A guide that looks at what the score does not have.
+fn lacking(form: &GuideForm, name: &str) -> Fault {
+    let message = format!("the guide of `{}` looks at `{name}`, which the score does not have", form.model);
+    Fault::new("guide-score", message).with_help("search by the score that the guide was trained for")
 }
 
 /// Where a choice is: the frame that was assigned last in its scope, or else the origin.

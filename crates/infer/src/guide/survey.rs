@@ -154,6 +154,7 @@ impl Survey {
             model: model.to_string(),
             share,
             windows,
+            image: None,
             variables,
             sites,
             left,

@@ -1,0 +1,222 @@
+"""Figures 6.8 to 6.10: similarity against particles and time, components and traces."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from judging import judged, summary
+from niwaki.gallery import vines
+from niwaki.guides import Training
+from niwaki.methods import Guide
+from places import Places, Row
+from school import ABLATIONS, AVERAGED, PLACE, TRACES, ours, taught
+
+#: The original's medians (figure 6.8a, read from the author's plot).
+PUBLISHED = {
+    "full": (0.21, 0.35, 0.47, 0.54, 0.58, 0.62, 0.63, 0.64, 0.67, 0.685),
+    "target": (0.11, 0.23, 0.30, 0.36, 0.43, 0.45, 0.52, 0.59, 0.61, 0.61),
+    "local": (0.05, 0.16, 0.24, 0.26, 0.29, 0.33, 0.35, 0.43, 0.43, 0.43),
+    "constants": (0.02, 0.03, 0.05, 0.08, 0.10, 0.10, 0.12, 0.16, 0.16, 0.17),
+}
+#: The original's figure 6.10, likewise.
+PUBLISHED_TRACES = {12: 0.09, 25: 0.13, 50: 0.20, 100: 0.50, 200: 0.55, 400: 0.68}
+GUIDED = tuple(range(1, 11))
+UNGUIDED = (1, 11, 21, 31, 41, 51, 101, 201, 401, 601)
+COMPONENTS = (1, 2, 4)
+SIZES = (12, 25, 50, 100, 200, 400, 1000)
+SEEDS = (1, 2)
+
+NAMES = {
+    "full": "dissertation, full",
+    "averaged": "dissertation, averaged weights",
+    "target": "dissertation, place and target",
+    "local": "dissertation, place",
+    "constants": "dissertation, constants",
+    "ours": "ours, tempered resampling",
+    "unguided": "without a guide",
+    "unguided, tempered": "without a guide, tempered resampling",
+}
+COLORS = {
+    "full": "#1b4965",
+    "averaged": "#4d8fbf",
+    "target": "#5a9a8f",
+    "local": "#b08d3e",
+    "constants": "#9a9a96",
+    "ours": "#9b2226",
+    "unguided": "#ca6702",
+    "unguided, tempered": "#e8a44c",
+}
+
+
+def dissertation(places: Places) -> dict[str, Guide]:
+    """The dissertation's guides of figure 6.8, and one of the same training with averaged weights."""
+    wanted = {name: (TRACES, training, 1) for name, training in {**ABLATIONS, "averaged": AVERAGED}.items()}
+    return taught(places, vines, wanted)
+
+
+def particles(places: Places) -> None:
+    """Figure 6.8: against the number of particles, and against time."""
+    guides = dissertation(places)
+    rows: dict[str, list[list[Row]]] = {}
+
+    def add(name: str, guide: Guide | None, counts: Sequence[int], resampling: str) -> None:
+        rows[name] = [
+            [judged(places, vines, name, guide, n, resampling=resampling, seed=s) for s in seeds_of(places)]
+            for n in (counts[:3] if places.quick else counts)
+        ]
+
+    for name, guide in guides.items():
+        add(name, guide, GUIDED, "residual")
+    add("ours", ours(places, vines), GUIDED, "tempered")
+    add("unguided", None, UNGUIDED, "residual")
+    add("unguided, tempered", None, UNGUIDED[1:], "tempered")
+    figure, panels = plt.subplots(2, 2, figsize=(11, 8.6), layout="constrained")
+    for row, (measure, text) in enumerate((("median", "median similarity"), ("mean", "mean similarity"))):
+        for column, axis in enumerate(("particles", "ms")):
+            panel = panels[row, column]
+            for name, of_name in rows.items():
+                line(panel, name, of_name, axis, measure)
+            if (row, column) == (0, 0):
+                for name, medians in PUBLISHED.items():
+                    panel.plot(GUIDED, medians, ":", color=COLORS[name], linewidth=1.2)
+            panel.set(ylim=(-0.02, 0.9), ylabel=text)
+            panel.grid(alpha=0.3)
+            if axis == "particles":
+                panel.set(xlim=(0.5, 52), xlabel="particles", xscale="log", xticks=(1, 2, 5, 10, 20, 50))
+                panel.get_xaxis().set_major_formatter(matplotlib.ticker.ScalarFormatter())
+                panel.minorticks_off()
+            else:
+                panel.set(xscale="log", xlabel="CPU time of a search, ms")
+    panels[0, 0].plot([], [], ":", color="#444444", label="published (other drawings)")
+    panels[0, 0].legend(frameon=False, fontsize=8, loc="upper left")
+    saved(figure, places, "figure-6-8.png")
+
+
+def line(panel: Any, name: str, of_name: Sequence[Sequence[Row]], axis: str, measure: str) -> None:
+    """One method's line, with its band."""
+    ends = [summary(rows) for rows in of_name]
+    at = [
+        rows[0]["particles"] if axis == "particles" else end["ms"]
+        for rows, end in zip(of_name, ends, strict=True)
+    ]
+    middle, band = (np.array([end[key] for end in ends]) for key in (measure, "band"))
+    panel.plot(at, middle, "o-", color=COLORS[name], label=NAMES[name], markersize=3)
+    panel.fill_between(at, middle - band, middle + band, color=COLORS[name], alpha=0.12, linewidth=0)
+
+
+def mixtures(places: Places) -> None:
+    """Figure 6.9: mixtures of one, two and four components."""
+    wanted = {
+        f"full-{count}": (TRACES, Training.dissertation(reads=PLACE, components=count), 1)
+        for count in COMPONENTS[:-1]
+    }
+    # Four components are the full network of figure 6.8.
+    theirs = taught(places, vines, wanted) | {"full": dissertation(places)["full"]}
+    own = {f"ours-{count}": ours(places, vines, components=count) for count in COMPONENTS[:-1]}
+    own["ours"] = ours(places, vines)
+    figure, panels = plt.subplots(1, 2, figsize=(10, 4), layout="constrained", sharey=True)
+    kinds = (
+        ("the dissertation's network", theirs, "residual"),
+        ("ours, tempered resampling", own, "tempered"),
+    )
+    for panel, (title, guides, resampling) in zip(panels, kinds, strict=True):
+        for (name, guide), color, count in zip(
+            guides.items(), ("#9a9a96", "#5a9a8f", "#1b4965"), COMPONENTS, strict=True
+        ):
+            ends = [
+                summary(
+                    [
+                        judged(places, vines, name, guide, n, resampling=resampling, seed=s)
+                        for s in seeds_of(places)
+                    ]
+                )
+                for n in (GUIDED[:2] if places.quick else GUIDED)
+            ]
+            text = f"{count} component{'s' * (count > 1)}"
+            at = GUIDED[: len(ends)]
+            panel.plot(at, [end["median"] for end in ends], "o-", color=color, label=text, markersize=3)
+            panel.plot(at, [end["mean"] for end in ends], "--", color=color, linewidth=1)
+        panel.plot([], [], "--", color="#444444", linewidth=1, label="mean")
+        panel.set(title=title, xlabel="particles", ylim=(-0.02, 0.9))
+        panel.grid(alpha=0.3)
+    panels[0].set_ylabel("median similarity")
+    panels[0].legend(frameon=False, fontsize=8)
+    saved(figure, places, "figure-6-9.png")
+
+
+def traces(places: Places) -> None:
+    """Figure 6.10: the number of traces that a guide learned from."""
+    sizes = SIZES[:2] if places.quick else SIZES
+    theirs = taught(
+        places,
+        vines,
+        {f"full-of-{count}": (count, ABLATIONS["full"], 1) for count in sizes if count < TRACES},
+    )
+    if not places.quick:
+        theirs["full"] = dissertation(places)["full"]
+    own = taught(
+        places,
+        vines,
+        {
+            f"ours-of-{count}-{seed}": (count, Training(), seed)
+            for count in sizes
+            for seed in seeds_of(places)
+        },
+    )
+    figure, panel = plt.subplots(figsize=(6.5, 4.2), layout="constrained")
+    lines: Mapping[str, list[list[Row]]] = {
+        "full": [[one(places, name, guide, "residual")] for name, guide in theirs.items()],
+        "ours": [
+            [
+                one(places, f"ours-of-{count}-{seed}", own[f"ours-of-{count}-{seed}"], "tempered")
+                for seed in seeds_of(places)
+            ]
+            for count in sizes
+        ],
+    }
+    for name, rows in lines.items():
+        ends = [summary(group) for group in rows]
+        panel.plot(
+            sizes, [end["median"] for end in ends], "o-", color=COLORS[name], label=NAMES[name], markersize=4
+        )
+        panel.plot(sizes, [end["mean"] for end in ends], "--", color=COLORS[name], linewidth=1)
+    panel.plot([], [], "--", color="#444444", linewidth=1, label="mean")
+    panel.plot(
+        list(PUBLISHED_TRACES),
+        list(PUBLISHED_TRACES.values()),
+        ":",
+        color="#444444",
+        label="published (other drawings)",
+    )
+    panel.set(
+        xscale="log",
+        xlabel="traces",
+        ylabel="median similarity, 10 particles",
+        ylim=(-0.02, 0.9),
+        xticks=sizes,
+    )
+    panel.get_xaxis().set_major_formatter(matplotlib.ticker.ScalarFormatter())
+    panel.minorticks_off()
+    panel.grid(alpha=0.3)
+    panel.legend(frameon=False, fontsize=8, loc="lower right")
+    saved(figure, places, "figure-6-10.png")
+
+
+def one(places: Places, name: str, guide: Guide, resampling: str) -> Row:
+    """A guide at ten particles."""
+    return judged(places, vines, name, guide, 10, resampling=resampling)
+
+
+def seeds_of(places: Places) -> tuple[int, ...]:
+    """Seeds of searches."""
+    return SEEDS[:1] if places.quick else SEEDS
+
+
+def saved(figure: Any, places: Places, name: str) -> None:
+    """Write a figure."""
+    figure.savefig(places.pictures / name, dpi=90)
+    plt.close(figure)
