@@ -4,7 +4,7 @@
     QUICK=1 make figures-guides                      # a smoke run: few traces, few drawings
     make figures-guides PARTS="particles mixtures"   # some of the parts
 
-Parts, in order: `chain` (figures 6.1 to 6.3), `vines` (6.1, 6.6 and sheets of all held-out drawings), `lightning` (6.7),
+Parts, in order: `guides` (all that learn from the same traces), `chain` (figures 6.1 to 6.3), `vines` (6.1, 6.6 and sheets of all held-out drawings), `lightning` (6.7),
 `particles` (6.8), `mixtures` (6.9), `traces` (6.10), `seeds` (training seeds of ours beside the
 dissertation's network and the model without a guide), `tables` (docs/pictures/guides/measured.json, from all that was measured).
 
@@ -29,8 +29,10 @@ import seeds
 import tables
 import vines
 from places import Places
+from school import teach
 
 PARTS = {
+    "guides": teach,
     "chain": chain.draw,
     "vines": vines.draw,
     "lightning": lightning.draw,

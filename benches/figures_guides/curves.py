@@ -10,10 +10,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 from judging import judged, summary
 from niwaki.gallery import vines
-from niwaki.guides import Training
 from niwaki.methods import Guide
 from places import Places, Row
-from school import ABLATIONS, AVERAGED, PLACE, TRACES, ours, taught
+from school import ABLATIONS, COMPONENTS, SEEDS, SIZES, TRACES, ours, taught
 
 #: The original's medians (figure 6.8a, read from the author's plot).
 PUBLISHED = {
@@ -26,9 +25,6 @@ PUBLISHED = {
 PUBLISHED_TRACES = {12: 0.09, 25: 0.13, 50: 0.20, 100: 0.50, 200: 0.55, 400: 0.68}
 GUIDED = tuple(range(1, 11))
 UNGUIDED = (1, 11, 21, 31, 41, 51, 101, 201, 401, 601)
-COMPONENTS = (1, 2, 4)
-SIZES = (12, 25, 50, 100, 200, 400, 1000)
-SEEDS = (1, 2)
 
 NAMES = {
     "full": "dissertation, full",
@@ -54,8 +50,7 @@ COLORS = {
 
 def dissertation(places: Places) -> dict[str, Guide]:
     """The dissertation's guides of figure 6.8, and one of the same training with averaged weights."""
-    wanted = {name: (TRACES, training, 1) for name, training in {**ABLATIONS, "averaged": AVERAGED}.items()}
-    return taught(places, vines, wanted)
+    return {name: taught(places, name) for name in (*ABLATIONS, "averaged")}
 
 
 def particles(places: Places) -> None:
@@ -110,12 +105,10 @@ def line(panel: Any, name: str, of_name: Sequence[Sequence[Row]], axis: str, mea
 
 def mixtures(places: Places) -> None:
     """Figure 6.9: mixtures of one, two and four components."""
-    wanted = {
-        f"full-{count}": (TRACES, Training.dissertation(reads=PLACE, components=count), 1)
-        for count in COMPONENTS[:-1]
-    }
     # Four components are the full network of figure 6.8.
-    theirs = taught(places, vines, wanted) | {"full": dissertation(places)["full"]}
+    theirs = {
+        name: taught(places, name) for name in (*(f"full-{count}" for count in COMPONENTS[:-1]), "full")
+    }
     own = {f"ours-{count}": ours(places, vines, components=count) for count in COMPONENTS[:-1]}
     own["ours"] = ours(places, vines)
     figure, panels = plt.subplots(1, 2, figsize=(10, 4), layout="constrained", sharey=True)
@@ -151,30 +144,12 @@ def mixtures(places: Places) -> None:
 def traces(places: Places) -> None:
     """Figure 6.10: the number of traces that a guide learned from."""
     sizes = SIZES[:2] if places.quick else SIZES
-    theirs = taught(
-        places,
-        vines,
-        {f"full-of-{count}": (count, ABLATIONS["full"], 1) for count in sizes if count < TRACES},
-    )
-    if not places.quick:
-        theirs["full"] = dissertation(places)["full"]
-    own = taught(
-        places,
-        vines,
-        {
-            f"ours-of-{count}-{seed}": (count, Training(), seed)
-            for count in sizes
-            for seed in seeds_of(places)
-        },
-    )
+    theirs = [f"full-of-{count}" if count < TRACES else "full" for count in sizes]
     figure, panel = plt.subplots(figsize=(6.5, 4.2), layout="constrained")
     lines: Mapping[str, list[list[Row]]] = {
-        "full": [[one(places, name, guide, "residual")] for name, guide in theirs.items()],
+        "full": [[one(places, name, "residual")] for name in theirs],
         "ours": [
-            [
-                one(places, f"ours-of-{count}-{seed}", own[f"ours-of-{count}-{seed}"], "tempered")
-                for seed in seeds_of(places)
-            ]
+            [one(places, f"ours-of-{count}-{seed}", "tempered") for seed in seeds_of(places)]
             for count in sizes
         ],
     }
@@ -206,9 +181,9 @@ def traces(places: Places) -> None:
     saved(figure, places, "figure-6-10.png")
 
 
-def one(places: Places, name: str, guide: Guide, resampling: str) -> Row:
+def one(places: Places, name: str, resampling: str) -> Row:
     """A guide at ten particles."""
-    return judged(places, vines, name, guide, 10, resampling=resampling)
+    return judged(places, vines, name, taught(places, name), 10, resampling=resampling)
 
 
 def seeds_of(places: Places) -> tuple[int, ...]:

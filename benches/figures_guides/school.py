@@ -6,9 +6,9 @@ run, where it has ten primitives or more.
 
 import json
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from os import cpu_count
 from types import ModuleType
 from typing import Any
@@ -16,6 +16,7 @@ from typing import Any
 import niwaki as nw
 import numpy as np
 from niwaki import _engine
+from niwaki.gallery import vines
 from niwaki.guides import Training, train_guide
 from niwaki.methods import Guide
 from niwaki.result import Sample
@@ -24,13 +25,14 @@ from niwaki.targets import drawings
 from niwaki.targets.drawing import Drawing
 from places import Places
 
-#: Traces of the dissertation's guides here. Its figure 6.10 gains nothing from more.
-TRACES = 1000
+#: Traces of the dissertation's guides here. Its figure 6.10 gains little from more.
+TRACES = 600
 #: Fewest primitives of a trace.
 FEWEST = 10
 #: Which of the training scribbles judge a guide while it is trained.
 EVERY = 5
 
+#: What the dissertation's network reads beside position and direction.
 PLACE = ("width",)
 #: The dissertation's network with less and less to see (6.5.2).
 ABLATIONS = {
@@ -39,7 +41,10 @@ ABLATIONS = {
     "local": Training.dissertation(reads=PLACE, looks=False),
     "constants": Training.dissertation(reads=False, looks=False),
 }
-AVERAGED = Training.dissertation(reads=PLACE, averaging=0.998)
+#: Gaussians of each mixture; numbers of traces; seeds of training.
+COMPONENTS = (1, 2, 4)
+SIZES = (12, 25, 50, 100, 200, 400, TRACES)
+SEEDS = (1, 2)
 
 
 def scribbles() -> tuple[list[Drawing], list[Drawing]]:
@@ -91,28 +96,48 @@ def fitted(pairs: Sequence[tuple[Search, Sample]], training: Training, seed: int
     return Guide(engine.data())
 
 
-def taught(
-    places: Places, model: ModuleType, wanted: Mapping[str, tuple[int, Training, int]]
-) -> dict[str, Guide]:
-    """Guides by name, each from its number of traces by its training and its seed."""
-    missing = [name for name in wanted if not places.has(name)]
-    count = max((wanted[name][0] for name in missing), default=0)
-    pairs: list[Any] = []
-    if missing:
-        start = time.process_time()
-        pairs = traced(model, 20 if places.quick else count)
-        print(f"{len(pairs)} traces: {time.process_time() - start:.0f} s of CPU", flush=True)
-    guides = {}
-    for name, (traces, training, seed) in wanted.items():
-        if places.quick:
-            training = Training(**asdict(training) | {"steps": 50})
-        start = time.process_time()
-        guides[name] = places.guide(
-            name, lambda traces=traces, training=training, seed=seed: fitted(pairs[:traces], training, seed)
-        )
-        if name in missing:
-            print(f"{name}: {time.process_time() - start:.0f} s of CPU", flush=True)
-    return guides
+def wanted(places: Places) -> dict[str, tuple[int, Training, int]]:
+    """All guides from these traces: how many of them, the training, and its seed."""
+    found = {name: (TRACES, training, 1) for name, training in ABLATIONS.items()}
+    found["averaged"] = (TRACES, Training.dissertation(reads=PLACE, averaging=0.998), 1)
+    for count in COMPONENTS[:-1]:
+        found[f"full-{count}"] = (TRACES, Training.dissertation(reads=PLACE, components=count), 1)
+    for count in SIZES:
+        if count < TRACES:
+            found[f"full-of-{count}"] = (count, ABLATIONS["full"], 1)
+        found |= {f"ours-of-{count}-{seed}": (count, Training(), seed) for seed in SEEDS}
+    if places.quick:
+        found = {
+            name: (min(count, 20), replace(training, steps=50), seed)
+            for name, (count, training, seed) in found.items()
+        }
+    return found
+
+
+def teach(places: Places) -> None:
+    """Train all guides that are missing, from the same traces."""
+    missing = {name: how for name, how in wanted(places).items() if not places.has(name)}
+    if not missing:
+        return
+    start = time.process_time()
+    pairs = traced(vines, max(count for count, _, _ in missing.values()))
+    print(f"{len(pairs)} traces: {time.process_time() - start:.0f} s of CPU", flush=True)
+
+    def one(item: tuple[str, tuple[int, Training, int]]) -> None:
+        name, (count, training, seed) = item
+        start = time.thread_time()
+        places.guide(name, lambda: fitted(pairs[:count], training, seed))
+        print(f"{name}: {time.thread_time() - start:.0f} s of CPU", flush=True)
+
+    with ThreadPoolExecutor(cpu_count()) as pool:
+        list(pool.map(one, missing.items()))
+
+
+def taught(places: Places, name: str) -> Guide:
+    """A guide from these traces."""
+    if not places.has(name):
+        teach(places)
+    return places.guide(name, lambda: fitted([], Training()))
 
 
 def ours(places: Places, model: ModuleType, seed: int = 1, **settings: Any) -> Guide:
