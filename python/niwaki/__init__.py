@@ -14,6 +14,7 @@ Searching a model:
     smc                                         method: particles
     mh, hmc, nuts                               methods: Markov chains; those that follow the gradient
     kernels                                     the kernels of Markov chains
+    train_guide, Guide                          a network that has learnt which choices lead where
     Search                                      what `grow` and `run` run, as a value: JSON, a hash
 
 What a scene should be like:
@@ -33,11 +34,13 @@ Everything else:
     niwaki.words      what a model may use: distributions as values, colours, vectors, polygons, soft constraints
     niwaki.methods    all methods and their settings
     niwaki.targets    what a scene should match
+    niwaki.guides     training guides, and those that come with the package
     niwaki.result     results, diagnostics, gradients
     niwaki.draw       scenes as pictures and files
     niwaki.gallery    models
     niwaki.errors     every error
     niwaki.stacks     structures of blocks that stand
+    niwaki.letters    words in vines or lightning
     niwaki.color      colours for drawings
 
 Every name is imported when it is first used; `__init__.pyi` lists them all.

@@ -1,6 +1,8 @@
 from . import draw as draw
 from . import errors as errors
 from . import gallery as gallery
+from . import guides as guides
+from . import letters as letters
 from . import methods as methods
 from . import result as result
 from . import targets as targets
@@ -10,11 +12,13 @@ from .errors import InputError as InputError
 from .errors import ModelError as ModelError
 from .errors import ModelFault as ModelFault
 from .errors import NiwakiError as NiwakiError
+from .guides import train_guide as train_guide
 from .lang.marks import host as host
 from .lang.models import Model as Model
 from .lang.models import model as model
 from .lang.plain import run_python as run_python
 from .lang.residuals import residuals as residuals
+from .methods import Guide as Guide
 from .methods import enumerate_all as enumerate_all
 from .methods import explore as explore
 from .methods import forward as forward

@@ -168,6 +168,7 @@ const WITHOUT: &[&str] = &[
     "format",
     "fstr",
     "method",
+    "check_look",
 ];
 
 fn recorded(x: &[f64], f: impl FnOnce(&[Var]) -> Var) -> Density {

@@ -20,5 +20,5 @@ pub mod net;
 
 pub use filtered::{Filtered, FilteredForm, FilteredTraining, read_filtered, train_filtered, write_filtered};
 pub use heads::{Drawn, Head, Lesson};
-pub use learn::{Diverged, Progress, Rows, State, Trained, Training, resume, train};
+pub use learn::{Adam, Diverged, Progress, Rows, State, Trained, Training, loss_and_slope, resume, train};
 pub use net::{BadFile, Net, NetForm, Real, Scratch, read, write};

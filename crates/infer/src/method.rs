@@ -298,7 +298,8 @@ impl Method {
                 Ok(of_chain(pimh(task, &settings, own.sweeps, &mut progress)?))
             }
             Method::Improve(own) => {
-                let (runs, result) = own.search(task, seed, given.shown, &mut progress)?;
+                let proposal = proposed(own.proposal.as_ref(), given)?;
+                let (runs, result) = own.search(task, seed, proposal, given.shown, &mut progress)?;
                 Ok(bare(runs, result.interrupted, Info::Improved(result)))
             }
             Method::Mh(_) | Method::Hmc(_) | Method::Nuts(_) => {

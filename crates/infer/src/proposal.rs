@@ -37,6 +37,28 @@ impl<C: Chooser> Chooser for ByProposal<'_, C> {
     }
 }
 
+/// A value that is held, counted as if a proposal, or else the prior, had drawn it.
+///
+/// # Errors
+/// As for [`Proposal::log_drawn`].
+pub(crate) fn as_if_drawn(
+    proposal: Option<&Proposal>,
+    at: &At<'_, f64>,
+    dist: &Dist,
+    value: &Value,
+    seen: Context<'_>,
+    sight: &mut Sight,
+) -> Result<Chosen, Fault> {
+    let mut chosen = Chosen::given(value.clone(), dist)?;
+    let proposal = proposal.filter(|_| chosen.log_prior > f64::NEG_INFINITY);
+    let drawn = match proposal {
+        None => None,
+        Some(proposal) => proposal.log_drawn(at, dist, value, seen, sight)?,
+    };
+    chosen.log_drawn = drawn.unwrap_or(chosen.log_prior);
+    Ok(chosen)
+}
+
 /// Who draws.
 #[derive(Clone, Debug)]
 enum Drawer {
@@ -76,7 +98,7 @@ impl Proposal {
                 Ok(())
             }
             Kernel::Leaf(Proposer::Guided(guide)) => {
-                self.parts.push((selection.clone(), Drawer::Guide(guide.clone())));
+                self.parts.push((selection.clone(), Drawer::Guide(guide.guide.clone())));
                 Ok(())
             }
             Kernel::On(own, inner) if own.is_by_pattern() => self.add(inner, &selection.and(own)),

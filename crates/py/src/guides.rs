@@ -106,7 +106,7 @@ impl PyLessons {
         let start = start.map(|own| own.guide.clone());
         let (result, pressed) = detached(py, &task.task.program, threads, caller, |watch| {
             let examples = self.examples.lock().unwrap_or_else(PoisonError::into_inner);
-            let mut seen = |now: Progress| watch.look(now.step, 0, -now.held_out);
+            let mut seen = |now: Progress| watch.look(now.step, now.steps as usize, -now.held_out);
             train(&examples, &making, start.as_deref(), &mut seen)
         })?;
         let told = PyDict::new(py);

@@ -5,6 +5,7 @@
 //! * `values`: Python's objects to the machine's values, and back; `faults`: faults as data;
 //! * `model`: compiled models; `search`: algorithms; `chains`: Markov chains;
 //!   `runs`: finished runs; `gradients`: log densities with their gradients; `trajectories`: chains that follow them;
+//!   `networks`: networks of guides, for a comparison with other software;
 //! * `distributions`, `geometry`, `views`, `pictures`: parts of the lower crates.
 
 mod chains;
@@ -14,6 +15,7 @@ mod geometry;
 mod gradients;
 mod guides;
 mod model;
+mod networks;
 mod pictures;
 mod runs;
 mod search;
@@ -40,6 +42,7 @@ fn _engine(module: &Bound<'_, PyModule>) -> PyResult<()> {
     values::register(module)?;
     faults::register(module)?;
     model::register(module)?;
+    networks::register(module)?;
     runs::register(module)?;
     search::register(module)?;
     chains::register(module)?;

@@ -1,8 +1,13 @@
 """Guides: networks that have learnt, from the traces of searches, what leads where (dissertation chapter 6).
 
 training    traces from searches in rounds, and a guide from them
+traces      many searches side by side, each for its best run
+report      what a round of training did
+shipped     the guides that come with the package
 """
 
-from niwaki.guides.training import Training, train_guide
+from niwaki.guides.report import Round
+from niwaki.guides.shipped import shipped
+from niwaki.guides.training import EVERY, Training, train_guide
 
-__all__ = ["Training", "train_guide"]
+__all__ = ["EVERY", "Round", "Training", "shipped", "train_guide"]

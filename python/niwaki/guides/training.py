@@ -3,29 +3,38 @@
 from __future__ import annotations
 
 import json
+import warnings
 from collections.abc import Callable, Iterable, Sequence
-from concurrent.futures import ThreadPoolExecutor
-from dataclasses import asdict, dataclass, field, replace
+from contextlib import closing
+from dataclasses import asdict, dataclass, replace
+from math import inf
 from os import cpu_count
 from typing import Any
 
 import numpy as np
 
 from niwaki import _engine
-from niwaki.errors import InputError, ModelFault
-from niwaki.errors.settings import bad
+from niwaki.errors import InputError
+from niwaki.errors.settings import bad, is_number, is_whole
+from niwaki.guides.report import Round
+from niwaki.guides.traces import best_of
 from niwaki.lang.compiled import translated
 from niwaki.lang.models import Model, as_model
-from niwaki.methods import Guide, Method, kernels, smc
+from niwaki.methods import Guide, Method, at_least_one, kernels, smc
+from niwaki.methods.checks import one_of
 from niwaki.result import Sample
 from niwaki.search import Search
 from niwaki.search.checks import check_seed, check_threads, fresh
+from niwaki.search.searching import SearchWarning
 from niwaki.targets.sketches import Score
 
 #: Of the targets, one in so many judges where none is named.
 EVERY = 8
 
-#: The searches for traces: round by round, the last one for all later rounds. Those after the first are guided.
+#: Of the traces, the first tenth judges how well the others are learned.
+APART = 10
+
+#: The searches for traces: the first without a guide, the other wherever there is one.
 SEARCHES = (smc(600), smc(50, resampling="tempered"))
 
 #: The search that judges a guide.
@@ -52,7 +61,7 @@ class Training:
     reads : bool or tuple of str
         Whether it sees what is in scope, or the names of the variables that it sees.
     steps : int
-        Steps of Adam; None for so many that each choice is seen about `passes` times (the dissertation's: 20,000).
+        Steps of Adam; None for so many that each choice is seen about `passes` times.
     passes : float
         As many passes over the choices.
     rate : float
@@ -79,23 +88,37 @@ class Training:
     averaging: float = 0.998
 
     def __post_init__(self) -> None:
-        if self.architecture not in ("shared", "dissertation"):
-            raise bad("architecture", self.architecture, '"shared" or "dissertation"', '"shared"')
+        """Check the settings."""
+        one_of("architecture", self.architecture, ("shared", "dissertation"))
         images = ("target", "scene") if self.architecture == "dissertation" else ()
         if not isinstance(self.looks, bool) and self.looks not in images:
-            raise bad(
-                "looks", self.looks, "True or False, or one image with the dissertation's network", "True"
-            )
-        if not 0.0 < self.share < 1.0:
-            raise bad("share", self.share, "a number above 0 and below 1", "0.02")
+            expected = "True or False, or one image with the dissertation's network"
+            raise bad("looks", self.looks, expected, "True")
+        if len(self.hidden) != 2 or not all(is_whole(one) and one >= 1 for one in self.hidden):
+            raise bad("hidden", self.hidden, "two whole numbers above 0", "(38, 32)")
+        for name in ("components", "batch", "steps"):
+            if getattr(self, name) is not None:
+                at_least_one(name, getattr(self, name))
+        for name, low, high in (
+            ("share", 0.0, 1.0),
+            ("rate", 0.0, inf),
+            ("passes", 0.0, inf),
+            ("averaging", -1e-9, 1.0),
+        ):
+            value = getattr(self, name)
+            if not is_number(value) or not low < value < high:
+                expected = (
+                    "a number above 0" if high == inf else f"a number between {max(low, 0.0):g} and {high:g}"
+                )
+                raise bad(name, value, expected, str(type(self).__dataclass_fields__[name].default))
 
     @classmethod
     def dissertation(cls, **changes: Any) -> Training:
         """The dissertation's network and its recipe (6.4).
 
         Each choice has a net of its own, with one hidden layer. It sees 3 by 3 windows of target and scene in four
-        resolutions, through filters that are learned too, its position and direction, and what `reads` names. Adam makes
-        20,000 steps of one whole trace each. The share of the prior is nearly nothing; the dissertation has none.
+        resolutions, through filters that are learned too, its position and direction, and what `reads` names. Adam
+        makes 20,000 steps of one whole trace each. The share of the prior is nearly nothing; the dissertation has none.
 
         Parameters
         ----------
@@ -110,32 +133,6 @@ class Training:
             "averaging": 0.0,
         }
         return cls(architecture="dissertation", **(recipe | changes))
-
-
-@dataclass(frozen=True)
-class Round:
-    """What one round of training did; given to `progress` as it goes on.
-
-    Attributes
-    ----------
-    number : int
-        Which round, from 0.
-    traces, wanted : int
-        Traces so far, and how many there will be.
-    losses : list of (int, float, float)
-        Steps, mean loss of the choices learned from, and of those held out, nats for each choice.
-    scores : list of float
-        Log scores of the held-out targets, by a search with few particles.
-    similarities : list of float
-        Their similarities, where the score has one.
-    """
-
-    number: int
-    traces: int = 0
-    wanted: int = 0
-    losses: list[tuple[int, float, float]] = field(default_factory=list)
-    scores: list[float] = field(default_factory=list)
-    similarities: list[float] = field(default_factory=list)
 
 
 Progress = Callable[[Round], None]
@@ -161,8 +158,8 @@ def train_guide(
     """Train a guide for a model on targets of a kind.
 
     A round searches targets drawn at random; the best run of each is a trace to learn from. The first round searches
-    without a guide, each later one by the guide of the round before. Ctrl-C ends the training with the best guide so
-    far.
+    without a guide, each later one by the guide of the round before. Then the guide grows the held-out targets, and
+    the one that does it best is the result. Ctrl-C ends the training with the best guide so far.
 
     Parameters
     ----------
@@ -177,17 +174,18 @@ def train_guide(
     held_out
         Targets that are never learned from; each eighth of `targets` when left out.
     rounds
-        Traces of each round.
+        Searches of each round.
     searches
-        The method of each round, the last one for those after it; any method that gives samples.
+        The method without a guide, and those with a guide, the last one for all later rounds; any method that gives
+        samples.
     judge
         The method by which held-out targets are grown after each round.
     keep
-        Which samples are traces: those that score better than an empty scene when left out.
+        Which samples are traces: those that score better than an empty scene when left out. What fails is left out.
     training
         Settings of the network.
     start
-        A guide to go on with, for the first round's searches too.
+        A guide to go on with: it draws in the first round, and its weights are the first ones where it fits the model.
     seed
         Decides everything; fresh when left out.
     threads
@@ -204,6 +202,18 @@ def train_guide(
     ------
     InputError
         No targets, or none that the model reached.
+
+    Examples
+    --------
+    >>> import niwaki as nw
+    >>> from niwaki.gallery.vines import WINDOW, vines
+    >>> from niwaki.targets import drawings
+    >>> pictures = [drawings.drawing(name) for name in drawings.names("scribbles", "training")]
+    >>> guide = nw.train_guide(
+    ...     vines, pictures[:9], lambda one: one.score(WINDOW), lambda one: one.place(WINDOW), rounds=[8], seed=1
+    ... )
+    >>> guide.report["rounds"][0]["wanted"]
+    8
     """
     model, seed, training = as_model(model), fresh(seed), training or Training()
     check_seed(seed)
@@ -212,82 +222,121 @@ def train_guide(
     learned = [one for i, one in enumerate(everything) if i % EVERY] if held_out is None else everything
     if not learned:
         raise bad("targets", targets, "at least two targets", "drawings or meshes to grow into")
-    if not rounds:
-        raise bad("rounds", rounds, "the number of traces of each round", "(150, 400)")
-
-    def search(target: Any, method: Method, guide: Guide | None, number: int) -> Search:
-        own = method if guide is None else with_guide(method, guide)
-        given = () if args is None else tuple(args(target))
-        return Search(model, given, score=score(target), method=own, seed=number)
-
-    draw, guide, told = np.random.default_rng(seed), start, []
-    workers = check_threads(threads) or cpu_count() or 1
+    if not rounds or not all(is_whole(one) and one >= 2 for one in rounds):
+        raise bad("rounds", rounds, "the number of searches of each round, each at least 2", "(150, 400)")
+    if not searches:
+        raise bad("searches", searches, "at least one method", "`(smc(600), smc(50))`")
+    if start is not None and not isinstance(start, Guide):
+        raise bad("start", start, "a guide", '`Guide.load("vines.guide")`')
+    school = _School(model, score, args, judge, judged, check_threads(threads) or cpu_count() or 1)
+    draw, told = np.random.default_rng(seed), []
+    best, highest, guide = start, -inf, start
+    about = {
+        "seed": seed,
+        "targets": len(learned),
+        "held_out": len(judged),
+        "training": asdict(training) | {"hidden": list(training.hidden)},
+    }
+    pressed = False
     try:
+        if start is not None and judged:
+            told.append(replace(school.judged(start, Round(-1)), rounds=len(rounds)))
+            highest = float(np.mean(told[-1].scores)) if told[-1].scores else -inf
         for number, wanted in enumerate(rounds):
-            method = searches[min(number, len(searches) - 1)]
-            lessons, made = _engine.Lessons(), 0
-            now = Round(number, wanted=wanted)
-            picks = [*(learned[i] for i in draw.integers(len(learned), size=wanted))]
+            guided = number + (start is not None)
+            method = searches[min(guided, len(searches) - 1)]
+            now = Round(number, len(rounds), wanted=wanted)
+            picks = [learned[i] for i in draw.integers(len(learned), size=wanted)]
             seeds = draw.integers(2**63, size=wanted)
-            jobs = [search(one, method, guide, int(own)) for one, own in zip(picks, seeds, strict=True)]
-            apart = max(1, wanted // 10)
-            for job, sample in zip(jobs, best_of(jobs, workers), strict=True):
-                if sample is None or not (keep or _gains)(sample):
-                    continue
-                # The first traces judge how well the others were learned.
-                lessons.add(job.task, sample._run, made < apart)
-                made += 1
-                if progress is not None and made % 10 == 0:
-                    progress(replace(now, traces=made))
-            if made < 2:
-                raise InputError("guide-traces", name=model.name)
-            guide, losses = _fit(lessons, jobs[0], training, start if number == 0 else None, seed, threads)
-            tries = [search(one, judge, guide, i) for i, one in enumerate(judged)]
-            found = [sample for sample in best_of(tries, workers) if sample is not None]
-            now = replace(
-                now,
-                traces=made,
-                losses=losses,
-                scores=[one.log_score for one in found],
-                similarities=[one.similarity for one in found if one.similarity is not None],
-            )
+            jobs = [
+                school.search(one, method, guide, int(own)) for one, own in zip(picks, seeds, strict=True)
+            ]
+            lessons, now = _traces(jobs, school.workers, keep or _gains, now, progress)
+            if now.traces < 2:
+                raise InputError("guide-traces", detail=f"{now.traces} of {wanted} searches gave a trace")
+            first = start if number == 0 else None
+            guide, now, pressed = _fit(lessons, jobs[0], training, first, seed, threads, now, progress)
+            if pressed:
+                if best is None and now.losses[-1][0] > 0:
+                    told.append(now)
+                    best = guide
+                break
+            now = school.judged(guide, now)
             told.append(now)
-            guide = guide.reported(
-                {"seed": seed, "training": asdict(training), "rounds": [asdict(r) for r in told]}
-            )
+            mean = float(np.mean(now.scores)) if now.scores else inf
+            if best is None or mean >= highest:
+                best, highest = guide, mean
             if progress is not None:
                 progress(now)
     except KeyboardInterrupt:
-        if guide is None or not told:
-            raise
-    assert guide is not None
-    return guide
+        pressed = True
+    if best is None:
+        raise KeyboardInterrupt
+    if best is start and not told:
+        return best
+    return best.reported({**about, "rounds": [one.data() for one in told], "interrupted": pressed})
+
+
+@dataclass
+class _School:
+    """A model, and the scores of its targets, each made once."""
+
+    model: Model[..., Any]
+    score: Callable[[Any], Score]
+    args: Callable[[Any], Iterable[Any]] | None
+    judge: Method
+    held_out: Sequence[Any]
+    workers: int
+
+    def __post_init__(self) -> None:
+        self._known: dict[int, tuple[Any, Score, tuple[Any, ...]]] = {}
+
+    def search(self, target: Any, method: Method, guide: Guide | None, seed: int) -> Search:
+        """A search for a run that matches a target."""
+        if id(target) not in self._known:
+            given = () if self.args is None else tuple(self.args(target))
+            self._known[id(target)] = target, self.score(target), given
+        _, score, given = self._known[id(target)]
+        own = method if guide is None else with_guide(method, guide)
+        return Search(self.model, given, score=score, method=own, seed=seed)
+
+    def judged(self, guide: Guide, now: Round) -> Round:
+        """The round, with the scores of the held-out targets."""
+        tries = [self.search(one, self.judge, guide, i) for i, one in enumerate(self.held_out)]
+        with closing(best_of(tries, self.workers)) as samples:
+            found = [sample for sample in samples if sample is not None]
+        alike = [one.similarity for one in found if one.similarity is not None]
+        return replace(now, scores=[one.log_score for one in found], similarities=alike)
 
 
 def with_guide(method: Method, guide: Guide) -> Method:
-    """A method of particles, or importance sampling, whose choices a guide draws."""
-    if not hasattr(method, "proposal"):
-        return method
-    return replace(method, proposal=kernels.guided(guide))
-
-
-def best_of(searches: Sequence[Search], workers: int) -> Iterable[Sample | None]:
-    """The best sample of each search, in order; None where every particle became impossible."""
-
-    def one(search: Search) -> Sample | None:
-        try:
-            return max(search.run(threads=1), key=lambda s: s.log_score + s.log_prior)
-        except (InputError, ModelFault) as error:
-            if error.code != "everything-impossible":
-                raise
-            return None
-
-    with ThreadPoolExecutor(workers) as pool:
-        yield from pool.map(one, searches)
+    """A method of particles, or importance sampling, whose choices a guide draws; another as it is."""
+    return replace(method, proposal=kernels.guided(guide)) if hasattr(method, "proposal") else method
 
 
 def _gains(sample: Sample) -> bool:
     return sample.has_ended and sample.search.task.gain(sample._run) > 0.0
+
+
+def _traces(
+    jobs: Sequence[Search],
+    workers: int,
+    keep: Callable[[Sample], bool],
+    now: Round,
+    progress: Progress | None,
+) -> tuple[_engine.Lessons, Round]:
+    """The best runs of searches, those that are kept."""
+    lessons = _engine.Lessons()
+    with closing(best_of(jobs, workers)) as samples:
+        for job, sample in zip(jobs, samples, strict=True):
+            if sample is None or not keep(sample):
+                now = replace(now, failed=now.failed + 1)
+            else:
+                lessons.add(job.task, sample._run, now.traces < max(1, len(jobs) // APART))
+                now = replace(now, traces=now.traces + 1)
+            if progress is not None:
+                progress(now)
+    return lessons, now
 
 
 def _fit(
@@ -297,13 +346,30 @@ def _fit(
     start: Guide | None,
     seed: int,
     threads: int | None,
-) -> tuple[Guide, list[tuple[int, float, float]]]:
-    """Train a network on traces."""
-    settings = asdict(training) | {"model": search.model.name, "seed": seed % 2**32}
+    now: Round,
+    progress: Progress | None,
+) -> tuple[Guide, Round, bool]:
+    """Train a network on traces; and whether Ctrl-C ended it."""
+
+    def watch(step: int, steps: int, *_: Any) -> None:
+        if progress is not None and steps:
+            progress(replace(now, step=step, steps=steps))
+
+    # The weights of a guide that lacks choices of the model would have to be those of a smaller network.
+    first = None if start is None or start._engine.lost(search.task) else start._engine
+    settings = asdict(training) | {"model": search.model.name, "seed": seed}
     with translated(search.model.name, f"seed={seed}"):
-        engine, told = lessons.train(
-            search.task, json.dumps(settings), None if start is None else start._engine, threads
+        engine, told = lessons.train(search.task, json.dumps(settings), first, threads, watch)
+    if told["diverged"] is not None:
+        step, label = told["diverged"]
+        where = f"step {step}" + ("" if label is None else f", at the choice `{label}`")
+        warnings.warn(
+            f"training met a number that is not finite in {where}: the best weights before are kept; give a lower `rate`",
+            SearchWarning,
+            stacklevel=4,
         )
-    if told["interrupted"]:
-        raise KeyboardInterrupt
-    return Guide(engine.data()), told["losses"]
+    return (
+        Guide(engine.data()),
+        replace(now, losses=[tuple(one) for one in told["losses"]]),
+        told["interrupted"],
+    )

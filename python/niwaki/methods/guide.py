@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from niwaki import _engine
+from niwaki.errors import InputError
 from niwaki.errors.files import existing, write_whole
 
 
@@ -32,7 +33,10 @@ class Guide:
     """
 
     def __init__(self, data: bytes) -> None:
-        self._engine = _engine.Guide(data)
+        try:
+            self._engine = _engine.Guide(data)
+        except _engine.EngineFault as fault:
+            raise InputError("bad-guide", detail=fault.message) from None
         self._data = data
 
     @classmethod
@@ -42,9 +46,13 @@ class Guide:
         Raises
         ------
         InputError
-            The file is no guide, or one of another version.
+            The file is no guide, damaged, or of another format.
         """
-        return cls(existing(path).read_bytes())
+        data = existing(path).read_bytes()
+        try:
+            return cls(data)
+        except InputError as error:
+            raise InputError("bad-guide", detail=f"in `{path}`: {error.values['detail']}") from None
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write the guide to a file, whole or not at all (safetensors)."""

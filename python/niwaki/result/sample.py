@@ -186,6 +186,11 @@ class Sample:
         """The model's answers by key."""
         return dict(self._trace.queries)
 
+    @property
+    def parts(self) -> list[Part]:
+        """The primitives in the order in which a run adds them."""
+        return [Part(address, tuple(shapes)) for address, shapes in self._trace.parts]
+
     @cached_property
     def scene(self) -> Scene:
         """The primitives, by the addresses of their `emit`."""
@@ -218,8 +223,7 @@ class Sample:
 
         Settings are those of `niwaki.draw.animation.growth`; the target is a ghost unless it is None.
         """
-        parts = [Part(address, tuple(shapes)) for address, shapes in self._trace.parts]
-        return self.scene.animate(path, self._ghost(target), parts=parts, **self._shown(settings))
+        return self.scene.animate(path, self._ghost(target), parts=self.parts, **self._shown(settings))
 
     def picture(self, target: Target | None | bool = True, **settings: Any) -> Any:
         """Draw the scene, with the target as a ghost; `target=None` leaves that out."""

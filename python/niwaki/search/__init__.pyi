@@ -1,4 +1,5 @@
 from .checks import fresh as fresh
+from .entry import GUIDED as GUIDED
 from .entry import OF_IMPROVE as OF_IMPROVE
 from .entry import POWER as POWER
 from .entry import explain as explain

@@ -27,7 +27,10 @@ from niwaki.targets.target import Target
 #: The settings of `improve`, the usual search, which `grow` takes by name.
 OF_IMPROVE = ("rounds", "seconds", "diverse")
 #: The settings of `smc`, which are one population instead.
-OF_SMC = tuple(field.name for field in fields(Smc))
+OF_SMC = (*(field.name for field in fields(Smc)), "guide")
+
+#: One population with a guide: few particles do it, and tempered resampling keeps those alive that look bad for a moment.
+GUIDED: dict[str, Any] = {"particles": 50, "resampling": "tempered"}
 
 #: The power of a search for the best.
 POWER = 16.0
@@ -135,7 +138,8 @@ def grow(
     args, kwargs
         The model's arguments. What `kwargs` has of `rounds`, `seconds` and `diverse` is for the usual search. With
         any other setting of `smc` (particles, order, power, ...) the search is one population by those, with a `power`
-        of 16 for ratio weights when left out (1 for drawings).
+        of 16 for ratio weights when left out (1 for drawings); by a `guide`, with 50 particles and tempered resampling
+        when left out.
     score
         Further sketches, such as `floor(0) * match_image("skyline.png", "cam.json")`; they multiply
         `no_self_intersection(rule)`, which is left out for drawings, and, where there is a target,
@@ -163,6 +167,8 @@ def grow(
     """
     model = as_model(model)
     settings = {name: kwargs.pop(name) for name in (*OF_IMPROVE, *OF_SMC) if name in kwargs}
+    if settings.get("guide", True) is None:
+        del settings["guide"]
     if method is not None and settings:
         raise InputError(
             "bad-setting",
@@ -212,6 +218,8 @@ def usual(settings: Mapping[str, Any], power: float = POWER) -> Method:
             expected=f"no {others} beside it, which {'is a setting' if ',' not in others else 'are settings'} of `smc`",
             suggestion=f"`method=improve(...)`, which has {', '.join(f.name for f in fields(Improve))}",
         )
+    if "guide" in settings:
+        settings = {**GUIDED, **settings}
     given_power = settings.get("power")
     sharp = power if settings.get("weights", "ratio") == "ratio" else 1.0
     return Smc(**{**settings, "power": sharp if given_power is None else given_power})

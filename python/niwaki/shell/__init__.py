@@ -8,6 +8,8 @@ grow.py       `niwaki grow`: a search, written to a folder
 replay.py     `niwaki replay`: a result once more, in any format
 sample.py     `niwaki sample`: Markov chains, written to a folder
 explain.py    `niwaki explain`: what each strategy does for one proposal, as a picture
+guide.py      `niwaki guide`: trains a guide, shows what one sees
+letters.py    `niwaki letters`: a text in vines or lightning
 models.py     `niwaki models`: the gallery
 color.py      `niwaki color`: a drawing in colours that differ
 references.py a model by its name or its file

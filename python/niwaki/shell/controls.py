@@ -10,6 +10,7 @@ Flags that contradict one another, or need another flag, are refused before any 
 
 from __future__ import annotations
 
+import inspect
 from dataclasses import dataclass
 from typing import Annotated, Any
 
@@ -249,6 +250,11 @@ class Controls:
         if self.within is not None:
             score *= nw.overshoot(_box("--within", self.within), **strict)
         return score
+
+
+def follows(model: nw.Model[..., Any]) -> bool:
+    """Whether a model starts where a drawing does: its parameters are x, y and ahead."""
+    return set(inspect.signature(model.function).parameters) >= {"x", "y", "ahead"}
 
 
 def numbers(flag: str, text: str, count: int) -> tuple[float, ...]:

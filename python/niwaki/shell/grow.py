@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import inspect
 import json
 import sys
 from pathlib import Path
@@ -11,7 +10,7 @@ from typing import Annotated, Any
 import typer
 
 import niwaki as nw
-from niwaki import draw, gallery, shell, targets
+from niwaki import draw, gallery, search, shell, targets
 from niwaki import result as results
 from niwaki.shell import controls, settings, writing
 from niwaki.shell.app import Folder, ModelName, app, ensure_folder, progress_line
@@ -42,6 +41,7 @@ def grow(
     sigma: controls.Sigma = None,
     rule: Annotated[str, typer.Option(help="Which parts count as intersecting: solid or surface.")] = "solid",
     method: settings.MethodName = None,
+    guide: settings.GuideFile = None,
     polish: settings.Polish = None,
     polish_kernel: settings.PolishKernel = None,
     runs: Annotated[int, typer.Option(help="How many results, with seeds SEED, SEED + 1, ...")] = 1,
@@ -93,20 +93,23 @@ def grow(
     score = chosen.score(found, voxel, sigma)
     drawing = chosen.drawing(found)
     start: dict[str, Any] = {}
-    if drawing is not None and set(inspect.signature(found.model.function).parameters) >= {"x", "y", "ahead"}:
+    if drawing is not None and controls.follows(found.model):
         start = dict(zip(("x", "y", "ahead"), drawing.place(chosen.page(found)), strict=True))
     if voxel is None and target is None and aim is not None and found.entry is not None:
         voxel = found.entry.voxel
     suits = {"particles": gallery.PARTICLES} if found.entry is None else found.entry.usual
     if score.window is not None:
         suits = {**suits, "power": 1.0}
+    own = settings.guide(guide, found, [*_sketches(score), *(["match_volume"] if aim else [])], method, given)
+    if own is not None:
+        suits, method = {**suits, **search.GUIDED}, method or "smc"
     with progress_line(found.reference) as progress:
         result = nw.grow(
             found.model,
             aim,
             **start,
             score=score,
-            method=settings.method(method, given, suits),
+            method=settings.guided(settings.method(method, given, suits), own),
             polish=onward,
             seed=seed,
             threads=threads,
@@ -125,6 +128,11 @@ def grow(
         _summary(result, output or Path("out"))
     if result.interrupted:
         raise typer.Exit(130)
+
+
+def _sketches(score: nw.Score) -> list[str]:
+    """Names of the sketches of a score."""
+    return [spec.name for spec in score.specs]
 
 
 def _write(

@@ -16,13 +16,15 @@ from niwaki.shell import (
     color,
     explain,
     grow,
+    guide,
+    letters,
     models,
     replay,
     sample,
 )  # each puts its command on the application
 from niwaki.shell.app import app
 
-__all__ = ["app", "check", "color", "explain", "grow", "main", "models", "replay", "sample"]
+__all__ = ["app", "check", "color", "explain", "grow", "guide", "letters", "main", "models", "replay", "sample"]
 
 
 def main() -> NoReturn:

@@ -7,15 +7,16 @@ from __future__ import annotations
 
 import inspect
 import re
-from collections.abc import Callable, Mapping
-from dataclasses import fields
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import fields, replace
 from typing import Annotated, Any, get_type_hints
 
 import typer
 
-from niwaki import kernels, search
+from niwaki import guides, kernels, search
 from niwaki.errors import InputError
-from niwaki.methods import Improve, Method, Mh, ParticleGibbs, Pimh, Smc
+from niwaki.methods import Guide, Improve, Method, Mh, ParticleGibbs, Pimh, Smc
+from niwaki.shell.references import ModelReference
 
 #: The methods of `niwaki grow`, by the name that is typed.
 METHODS: dict[str, type[Method]] = {
@@ -45,6 +46,15 @@ PolishKernel = Annotated[
         "--polish-kernel",
         metavar="KERNEL",
         help='With --polish: the kernel of the chain; default: "prior()".',
+    ),
+]
+GuideFile = Annotated[
+    str | None,
+    typer.Option(
+        "--guide",
+        metavar="FILE|none",
+        help="A guide, which draws choices in place of the prior; default: the one that comes with the model, for "
+        "one population into a drawing.",
     ),
 ]
 
@@ -176,6 +186,53 @@ def method(name: str | None, given: dict[str, Any], suits: Mapping[str, Any]) ->
     return search.usual(options) if chosen is Smc else chosen(**{"power": search.POWER, **options})
 
 
+def guide(
+    file: str | None,
+    found: ModelReference,
+    sketches: Sequence[str],
+    name: str | None,
+    given: Mapping[str, Any],
+) -> Guide | None:
+    """The guide of a search: that of the file; else the one that comes with the model, where it suits; or None.
+
+    Parameters
+    ----------
+    file
+        A file, or "none".
+    found
+        The model.
+    sketches
+        Names of the sketches of the score.
+    name
+        The method that was asked for.
+    given
+        Settings of the method; None for those that were not given.
+    """
+    if file == "none":
+        return None
+    if file is not None:
+        return Guide.load(file)
+    own = guides.shipped(found.model)
+    asked = typed(given)
+    one_population = name == "smc" or (name is None and not set(asked) & {*search.OF_IMPROVE, "regrow"})
+    if own is None or not one_population or asked.get("weights") == "absolute":
+        return None
+    if not {window for window, _ in own.form["windows"]} <= set(sketches):
+        return None
+    typer.echo(f"the guide that comes with `{own.model}` draws the choices (--guide none: without)", err=True)
+    return own
+
+
+def guided(method: Method, guide: Guide | None) -> Method:
+    """The method, its choices drawn by a guide."""
+    if guide is None:
+        return method
+    if not isinstance(method, Smc | ParticleGibbs | Pimh):
+        reason = f"`--method {method.NAME}` draws no choices by a guide"
+        raise InputError("flag-alone", flag="--guide", other="`--method smc`", reason=reason)
+    return replace(method, guide=guide)
+
+
 def typed(given: dict[str, Any]) -> dict[str, Any]:
     """The settings that were typed, read."""
     return {name: _read(name, value) for name, value in given.items() if value is not None}
@@ -198,15 +255,15 @@ def _read(name: str, value: Any) -> Any:
     if name == "at":
         return int(value) if value.isdecimal() else value
     if name == "particles":
-        sizes = _numbers(name, value, int)
+        sizes = numbers(name, value, int)
         return sizes[0] if len(sizes) == 1 else sizes
     if name == "anneal":
-        powers = _numbers(name, value, float)
+        powers = numbers(name, value, float)
         return powers[0] if len(powers) == 1 else powers
     return value
 
 
-def _numbers(name: str, text: str, kind: Callable[[str], Any]) -> list[Any]:
+def numbers(name: str, text: str, kind: Callable[[str], Any]) -> list[Any]:
     """Numbers with commas between them."""
     try:
         return [kind(part) for part in text.split(",")]

@@ -99,7 +99,7 @@ def lowest(filled: NDArray[np.bool_], deep: float = DEEP) -> Point:
     rows, columns = filled.shape
     inside, radius = filled, deep * max(rows, columns)
     while radius >= 0.5:
-        found = _eroded(filled, radius)
+        found = eroded(filled, radius)
         if found.any():
             inside = found
             break
@@ -112,7 +112,7 @@ def lowest(filled: NDArray[np.bool_], deep: float = DEEP) -> Point:
     return (float(run[0] + run[-1]) / 2.0 + 0.5) / columns, 1.0 - (row + 0.5) / rows
 
 
-def _eroded(filled: NDArray[np.bool_], radius: float) -> NDArray[np.bool_]:
+def eroded(filled: NDArray[np.bool_], radius: float) -> NDArray[np.bool_]:
     """The pixels whose whole neighbourhood of that radius is filled."""
     reach = int(radius)
     rows, columns = filled.shape

@@ -5,9 +5,10 @@ use super::bells::Bells;
 use super::classes::Classes;
 use super::line::Place;
 use niwaki_math::log_sums::log_add_exp;
+use serde::{Deserialize, Serialize};
 
 /// What training needs of a choice: its prior and its value, without the distribution.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Lesson {
     /// A real number, by its coordinate.
     Normal {

@@ -4,10 +4,12 @@
 //! {"name": "on", "settings": {"sites": [["z"]]}, "parts": [{"name": "drift", "settings": {"step": 0.5, "target": 0.44}}]}
 //! ```
 
+use super::guided::Guided;
 use super::kernel::{Kernel, Selection};
 use super::leaf::Proposer;
 use super::user::User;
 use crate::guide::bound::BoundGuide;
+use crate::proposal::Proposal;
 use niwaki_vm::fault::Fault;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
@@ -76,7 +78,7 @@ impl Form {
                 let Some(Attached::Guide(guide)) = self.attached(attached) else {
                     return Err(own.wrong("has no guide here"));
                 };
-                Kernel::Leaf(Proposer::Guided(guide.clone()))
+                Kernel::guided(guide.clone())
             }
             "cycle" => Kernel::Cycle(own.parts(attached)?),
             "mixture" => {
@@ -105,7 +107,15 @@ impl Form {
             "tempering" => return Err(own.wrong("can only be outermost")),
             name => {
                 let settings = Value::Object(std::mem::take(&mut own.left));
-                Kernel::leaf(name, settings).map_err(|what| own.wrong(&format!("cannot be read: {what}")))?
+                let leaf = Kernel::leaf(name, settings);
+                let leaf = leaf.map_err(|what| own.wrong(&format!("cannot be read: {what}")))?;
+                match (self.function, self.attached(attached)) {
+                    (None, _) => leaf,
+                    (Some(_), Some(Attached::Guide(guide))) if name == "regrow" => {
+                        leaf.drawn_by(Arc::new(Proposal::of(&Kernel::guided(guide.clone()))?))
+                    }
+                    (Some(_), _) => return Err(own.wrong("has no guide here")),
+                }
             }
         };
         own.end(kernel)
@@ -121,6 +131,19 @@ impl Form {
 }
 
 impl Kernel {
+    /// The leaf of a guide.
+    pub fn guided(guide: Arc<BoundGuide>) -> Kernel {
+        Kernel::Leaf(Proposer::Guided(Box::new(Guided::new(guide))))
+    }
+
+    /// Regrowth whose values a proposal draws; any other kernel is as before.
+    pub fn drawn_by(mut self, proposal: Arc<Proposal>) -> Kernel {
+        if let Kernel::Leaf(Proposer::Regrow(own)) = &mut self {
+            own.draw_by(proposal);
+        }
+        self
+    }
+
     /// A leaf by its name and settings.
     ///
     /// # Errors

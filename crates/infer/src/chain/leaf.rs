@@ -6,6 +6,7 @@ use super::accept::Rules;
 use super::block::Block;
 use super::by_family::ByFamily;
 use super::drift::Drift;
+use super::guided::Guided;
 use super::kernel::Selection;
 use super::neighbour::Neighbour;
 use super::proposal::{FromPrior, Move};
@@ -13,7 +14,6 @@ use super::regenerate::Regenerate;
 use super::regrow::Regrow;
 use super::trajectory::{self, Trajectory};
 use super::user::{User, UserMove};
-use crate::guide::bound::BoundGuide;
 use crate::{Failure, Task};
 use serde::Deserialize;
 use std::sync::Arc;
@@ -45,9 +45,9 @@ pub enum Proposer {
     /// One choice, from a distribution that a model function computes from its value.
     #[serde(skip)]
     Proposal(Arc<User>),
-    /// One choice, from a guide.
+    /// One choice, from what a guide sees around it.
     #[serde(skip)]
-    Guided(Arc<BoundGuide>),
+    Guided(Box<Guided>),
 }
 
 impl Proposer {
@@ -67,7 +67,16 @@ impl Proposer {
             Proposer::Regrow(own) => target.kept(&mut **own),
             Proposer::HmcStep(own) | Proposer::NutsStep(own) => target.kept(&mut **own),
             Proposer::Proposal(own) => target.single(&mut UserMove(own)),
-            Proposer::Guided(own) => target.kept(own),
+            Proposer::Guided(own) => target.kept(&mut **own),
+        }
+    }
+
+    /// Whether it looks at the scene.
+    pub(crate) fn looks(&self) -> bool {
+        match self {
+            Proposer::Guided(own) => own.guide.looks(),
+            Proposer::Regrow(own) => own.looks(),
+            _ => false,
         }
     }
 

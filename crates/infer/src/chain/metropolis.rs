@@ -68,6 +68,7 @@ impl<R: Rules> Chain<R> {
         }
 
         let site = self.counts.number(self.state.trace.site_of(choice));
+        proposer.look(&self.state, &task.program, choice);
         let noting = self.best.is_noting();
         let mut proposal = MoveProposal { proposer, site, key: self.streams.moves(visit), noting, old: None };
         let mut answers = Fresh::plain(self.streams.fresh(visit), &*task.hosts);
@@ -82,6 +83,11 @@ impl<R: Rules> Chain<R> {
         }
 
         let (old, outside) = (proposal.old.take(), trace.left_support());
+        if change == Change::Done
+            && let Some(backward) = proposer.look_back(&self.state, &task.program, choice)
+        {
+            self.state.trace.set_backward(backward);
+        }
         let selection = |chain: &Self| {
             let trace = &chain.state.trace;
             let after =

@@ -4,7 +4,8 @@
 //! * [`kernel`]: kernels as values, and [`form`] as data; `plan`: which leaf is next; `leaf`: how it proposes; `select`, [`glob`],
 //!   [`weights`]: which choice it changes;
 //! * `metropolis`: the algorithm, for one choice; [`accept`]: the acceptance ratio, in plain letters;
-//! * `proposal`: a new value for one choice: from the prior, [`drift`], [`neighbour`], `by_family`, by the [`user`]'s function;
+//! * `proposal`: a new value for one choice: from the prior, [`drift`], [`neighbour`], `by_family`, by the [`user`]'s function,
+//!   by a guide ([`guided`]);
 //! * [`block`], `regenerate`, [`regrow`]: proposals that change many choices;
 //! * [`trajectory`]: the continuous choices move together along their gradient;
 //! * [`counts`], [`best`], [`samples`]: what is reported afterwards;
@@ -23,7 +24,7 @@ pub mod drift;
 pub mod explain;
 pub mod form;
 pub mod glob;
-mod guided;
+pub mod guided;
 pub mod kernel;
 pub mod ladder;
 pub mod leaf;
@@ -176,7 +177,7 @@ impl<R: Rules> Chain<R> {
         settings: &Settings,
         number: u64,
         mut plan: Plan,
-        state: State,
+        mut state: State,
         spreads: &HashMap<u128, f64>,
     ) -> Result<Chain<R>, Failure> {
         let (program, streams) = (&*task.program, Streams::new(settings.seed, number));
@@ -188,6 +189,9 @@ impl<R: Rules> Chain<R> {
                 leaf.table = Some(tables.len());
                 tables.push(Table::new(Box::new(leaf.selection.clone()), &state.trace, program));
             }
+        }
+        if plan.leaves.iter().any(|leaf| leaf.proposer.looks()) {
+            state.sketches.expect_windows();
         }
         let sites = program.functions.iter().flat_map(|f| &f.sites);
         Ok(Chain {

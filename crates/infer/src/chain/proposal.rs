@@ -1,8 +1,10 @@
 //! Proposals for one choice: a new value, and the log densities of proposing it and of proposing the old one from it.
 
 use super::metropolis::Decision;
+use super::state::State;
 use niwaki_math::{Dist, Stream, StreamKey, grid};
 use niwaki_vm::builtins::draw_to_value;
+use niwaki_vm::code::Program;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;
 use niwaki_vm::machine::kept::{Propose, Proposed};
@@ -12,6 +14,10 @@ use niwaki_vm::value::Value;
 pub(crate) trait Move {
     /// Whether it draws from the choice's own distribution, and gives the log density of what it drew.
     const FROM_PRIOR: bool = false;
+
+    /// Looks at the state of a chain before a choice of it, by number, is changed.
+    #[inline(always)]
+    fn look(&mut self, _: &State, _: &Program, _choice: usize) {}
 
     /// A new value for a choice at the site with this number; random bits come from `rng`.
     fn propose(
@@ -23,6 +29,13 @@ pub(crate) trait Move {
         log_density: f64,
         rng: &mut Stream,
     ) -> Result<Proposed<f64>, Fault>;
+
+    /// The log density of the way back, once the run with the new value is there and not kept yet; `None` where it is the
+    /// one that was proposed.
+    #[inline(always)]
+    fn look_back(&mut self, _: &State, _: &Program, _choice: usize) -> Option<f64> {
+        None
+    }
 
     /// Adapts to the decision on its proposal, while the chain warms up.
     #[inline(always)]

@@ -1,15 +1,16 @@
 //! A guide for one program: what each of its sites sees, and how it draws.
 
 use super::form::GuideForm;
-use super::images::Images;
+use super::images::{Images, of_place};
 use super::inputs::place;
-use super::{Guide, Network, bad};
+use super::{Guide, Network};
 use crate::Task;
 use crate::chooser::{Chosen, Context};
+use niwaki_geom::sketch::product::Sketches;
 use niwaki_geom::{Place, WindowForm, vec3};
+use niwaki_guide::Scratch;
 use niwaki_guide::filtered::View;
-use niwaki_guide::{Net, Scratch};
-use niwaki_math::{Dist, Stream};
+use niwaki_math::{Dist, Draw, Stream};
 use niwaki_vm::builtins::{draw_to_value, value_to_draw};
 use niwaki_vm::code::SiteKind;
 use niwaki_vm::fault::Fault;
@@ -48,8 +49,7 @@ pub struct Sight {
     sums: Vec<f32>,
     pub(super) features: Vec<(u32, f32)>,
     scratch: Scratch,
-    /// Whose scene `view` shows, and its number of primitives.
-    pub(super) pictured: Option<(usize, usize)>,
+    /// The image of the scene, and what the filters make of it.
     pub(super) bits: Vec<u64>,
     pub(super) view: View,
     /// The place, in shares of the page from its upper left corner.
@@ -60,7 +60,6 @@ impl Sight {
     /// Forgets what was seen: another run follows.
     pub fn forget(&mut self) {
         self.seen = None;
-        self.pictured = None;
     }
 
     /// The window that was seen last, and the inputs beside it.
@@ -111,7 +110,10 @@ impl BoundGuide {
                 }
                 let key = format!("{:032x}", site.key);
                 let Some(number) = form.sites.iter().position(|own| own.key == key) else {
-                    lost.push(format!("`{}` of `{}` is drawn from its prior", site.label, function.name));
+                    let name = format!("{}/{}", function.name, site.label);
+                    if form.left.iter().all(|(left, _)| *left != name) {
+                        lost.push(format!("it does not know `{}` of `{}`", site.label, function.name));
+                    }
                     continue;
                 };
                 let own = &form.sites[number];
@@ -131,11 +133,17 @@ impl BoundGuide {
             }
         }
         if sites.is_empty() && !form.sites.is_empty() {
-            return Err(bad(format!(
-                "the guide is for `{}`: none of its choices is in this model",
-                form.model
-            )));
+            let message =
+                format!("it was trained for `{}`, and none of its choices is in this model", form.model);
+            return Err(Fault::new("guide-model", message)
+                .with_help("train a guide for this model: `niwaki.train_guide`"));
         }
+        let gone =
+            (0..form.sites.len()).filter(|number| sites.values().all(|own: &Site| own.number != *number));
+        lost.extend(gone.map(|number| {
+            let own = &form.sites[number];
+            format!("the model has no `{}` of `{}`", own.label, own.function)
+        }));
         Ok(BoundGuide { guide, sites, windows, images, lost })
     }
 
@@ -147,6 +155,16 @@ impl BoundGuide {
     /// The guide.
     pub fn guide(&self) -> &Arc<Guide> {
         &self.guide
+    }
+
+    /// Whether it looks at the scene.
+    pub fn looks(&self) -> bool {
+        !self.windows.is_empty()
+    }
+
+    /// Whether it draws the choices of a site, by key.
+    pub fn knows(&self, site: u128) -> bool {
+        self.sites.contains_key(&site)
     }
 
     /// Fills `sight` with what the guide sees at a choice; the number of the site in the guide, or `None` where it draws
@@ -166,53 +184,78 @@ impl BoundGuide {
             return None;
         }
         let here = place_of(at);
-        match (&self.guide.net, &self.images) {
-            (Network::Filtered(net), Some(images)) => images.look(net, &here, seen, sight, owner),
-            (Network::Shared(net), _) => self.look_through_windows(net, here, seen, sight, owner),
-            (Network::Filtered(_), None) => return None,
+        let now = (owner, here, seen.primitives);
+        if sight.seen != Some(now) {
+            let same = sight.seen.is_some_and(|(who, _, count)| (who, count) == (owner, seen.primitives));
+            self.see(seen.sketches, &here, same, sight);
+            sight.seen = Some(now);
+        }
+        sight.features.clear();
+        if let (Network::Filtered(net), Some(_)) = (&self.guide.net, &self.images) {
+            sight.features.extend(of_place(net, sight.at, &here));
         }
         for (variable, (_, _, value)) in site.variables.iter().zip(at.visible()) {
             if let Some(v) = variable {
                 let own = &form.variables[*v as usize];
-                own.kind.write(value, &here, own.first, &mut sight.features);
+                own.kind.write(value, &here, own.first, &|cell| at.element(cell), &mut sight.features);
             }
         }
         parameters(dist, own.parameters, &mut sight.features);
         Some(site.number)
     }
 
-    /// Fills `sight` with what windows show.
-    fn look_through_windows(
-        &self,
-        net: &Net,
-        here: Place,
-        seen: Context<'_>,
-        sight: &mut Sight,
-        owner: usize,
-    ) {
-        let now = (owner, here, seen.primitives);
-        if sight.seen != Some(now) {
-            sight.window.clear();
-            if let Some(sketches) = seen.sketches {
-                let windows = self.windows.iter().map(|(member, window)| (*member, window));
-                sketches.look(windows, &here, &mut sight.window);
+    /// Fills `sight` with what the sketches show around a place; with zeros where there are none. An image is looked at
+    /// again unless it is the same.
+    fn see(&self, sketches: Option<&Sketches>, here: &Place, same: bool, sight: &mut Sight) {
+        match (&self.guide.net, &self.images) {
+            (Network::Shared(net), _) => {
+                sight.window.clear();
+                if let Some(sketches) = sketches {
+                    let windows = self.windows.iter().map(|(member, window)| (*member, window));
+                    sketches.look(windows, here, &mut sight.window);
+                }
+                sight.window.resize(self.guide.form.window_values(), 0.0);
+                net.see(&sight.window, &mut sight.sums);
             }
-            sight.window.resize(self.guide.form.window_values(), 0.0);
-            net.see(&sight.window, &mut sight.sums);
-            sight.seen = Some(now);
+            (Network::Filtered(net), Some(images)) => {
+                sight.at = images.at(here);
+                if !same {
+                    images.see(net, sketches, sight);
+                }
+            }
+            (Network::Filtered(_), None) => {}
         }
-        sight.features.clear();
     }
 
-    /// Outputs for the head of a site that was looked at.
-    fn answer<'s>(&self, site: usize, dist: &Dist, sight: &'s mut Sight) -> &'s [f32] {
+    /// Looks once more from the place of the last choice, at another scene; all other inputs stay as they are.
+    pub fn look_again(&self, sketches: Option<&Sketches>, sight: &mut Sight) {
+        if let Some((_, here, _)) = sight.seen.take() {
+            self.see(sketches, &here, false, sight);
+        }
+    }
+
+    /// Outputs for the head of the guide's `site`-th choice, which was looked at.
+    fn outputs<'s>(&self, site: usize, dist: &Dist, sight: &'s mut Sight) -> &'s [f32] {
         match (&self.guide.net, &self.images) {
+            (Network::Shared(net), _) => net.answer(&sight.sums, &sight.features, site, &mut sight.scratch),
             (Network::Filtered(net), Some(images)) => {
                 net.answer(images.target(), sight.at, &sight.features, site, dist, &mut sight.view)
             }
-            (Network::Shared(net), _) => net.answer(&sight.sums, &sight.features, site, &mut sight.scratch),
             (Network::Filtered(_), None) => &[],
         }
+    }
+
+    /// A value for the choice that was looked at, which is the guide's `site`-th.
+    pub fn answer(&self, site: usize, dist: &Dist, sight: &mut Sight, rng: &mut Stream) -> Chosen {
+        let form = &self.guide.form;
+        let drawn = form.sites[site].head.draw(self.outputs(site, dist, sight), dist, form.share, rng);
+        Chosen { value: draw_to_value(drawn.value), log_prior: drawn.log_prior, log_drawn: drawn.log_drawn }
+    }
+
+    /// The log density with which it draws a value there, nats.
+    pub fn log_of(&self, site: usize, dist: &Dist, value: &Draw, sight: &mut Sight) -> f64 {
+        let form = &self.guide.form;
+        form.sites[site].head.log_drawn(self.outputs(site, dist, sight), dist, form.share, value)
     }
 
     /// A value for a choice with its densities; `None` where the guide draws nothing.
@@ -226,14 +269,7 @@ impl BoundGuide {
         rng: &mut Stream,
     ) -> Option<Chosen> {
         let site = self.look(at, dist, seen, sight, owner)?;
-        let form = &self.guide.form;
-        let outputs = self.answer(site, dist, sight);
-        let drawn = form.sites[site].head.draw(outputs, dist, form.share, rng);
-        Some(Chosen {
-            value: draw_to_value(drawn.value),
-            log_prior: drawn.log_prior,
-            log_drawn: drawn.log_drawn,
-        })
+        Some(self.answer(site, dist, sight, rng))
     }
 
     /// The log density with which it draws a value, nats; `None` where it draws nothing.
@@ -248,9 +284,7 @@ impl BoundGuide {
     ) -> Option<f64> {
         let draw = value_to_draw(value)?;
         let site = self.look(at, dist, seen, sight, owner)?;
-        let form = &self.guide.form;
-        let outputs = self.answer(site, dist, sight);
-        Some(form.sites[site].head.log_drawn(outputs, dist, form.share, &draw))
+        Some(self.log_of(site, dist, &draw, sight))
     }
 }
 

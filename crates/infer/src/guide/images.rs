@@ -8,8 +8,8 @@ use super::bound::{BoundGuide, Sight};
 use super::form::{GuideForm, ImageForm};
 use super::lessons::{Example, Making, Taught, follow};
 use super::{Guide, Network, bad};
-use crate::chooser::Context;
 use crate::{Failure, Task};
+use niwaki_geom::sketch::product::Sketches;
 use niwaki_geom::{Page, Place};
 use niwaki_guide::filtered::{Choice, Levels, Trace};
 use niwaki_guide::heads::natural;
@@ -52,33 +52,28 @@ impl Images {
         &self.target
     }
 
-    /// Fills `sight` with what is seen at a choice.
-    pub(super) fn look(
-        &self,
-        net: &Filtered,
-        place: &Place,
-        seen: Context<'_>,
-        sight: &mut Sight,
-        owner: usize,
-    ) {
+    /// A place, in shares of the page from its upper left corner.
+    pub(super) fn at(&self, place: &Place) -> [f64; 2] {
         let ([left, low], [right, high]) = (self.page.low(), self.page.high());
-        let at = [(place.position.x - left) / (right - left), (high - place.position.y) / (high - low)];
-        sight.at = at;
-        if sight.pictured != Some((owner, seen.primitives)) {
-            sight.bits.clear();
-            if let Some(sketches) = seen.sketches {
-                sketches.image(self.member, &mut sight.bits);
-            }
-            sight.bits.resize(self.bits.len(), 0);
-            net.see_scene(self.page.size(), &sight.bits, &mut sight.view.scene);
-            sight.pictured = Some((owner, seen.primitives));
-        }
-        let first = (net.form().features as u32).saturating_sub(OF_PLACE);
-        let heading = place.forward.y.atan2(place.forward.x).rem_euclid(TAU);
-        let own = [at[0], at[1], heading].map(|x| x as f32);
-        sight.features.clear();
-        sight.features.extend((first..net.form().features as u32).zip(own));
+        [(place.position.x - left) / (right - left), (high - place.position.y) / (high - low)]
     }
+
+    /// Fills `sight` with the image of a scene; with an empty one where there are no sketches.
+    pub(super) fn see(&self, net: &Filtered, sketches: Option<&Sketches>, sight: &mut Sight) {
+        sight.bits.clear();
+        if let Some(sketches) = sketches {
+            sketches.image(self.member, &mut sight.bits);
+        }
+        sight.bits.resize(self.bits.len(), 0);
+        net.see_scene(self.page.size(), &sight.bits, &mut sight.view.scene);
+    }
+}
+
+/// The inputs of a place: x and y on the page, and the direction as an angle from 0 to a full turn.
+pub(super) fn of_place(net: &Filtered, at: [f64; 2], place: &Place) -> impl Iterator<Item = (u32, f32)> {
+    let count = net.form().features as u32;
+    let heading = place.forward.y.atan2(place.forward.x).rem_euclid(TAU);
+    (count.saturating_sub(OF_PLACE)..count).zip([at[0], at[1], heading].map(|x| x as f32))
 }
 
 /// What a new network of the dissertation's architecture reads, and the form of its guide.
@@ -179,10 +174,8 @@ pub(super) fn train(
     };
     let trained = train_filtered(net, &learned, &held_out, &with, watch);
     let form = GuideForm { share: making.share, ..blank.form.clone() };
-    let diverged = trained.diverged.map(|(step, site)| {
-        let text = format!("in step {step} a loss or a slope is not a finite number");
-        (text, site.map(|site| form.sites[site].label.clone()))
-    });
+    let label = |site: usize| form.sites[site].label.clone();
+    let diverged = trained.diverged.map(|(step, site)| (step, site.map(label)));
     let bytes = |trace: &Trace| {
         let words: usize = trace.images.iter().map(Vec::len).sum();
         8 * words

@@ -170,7 +170,15 @@ impl Kind {
     }
 
     /// Adds the numbers of a value, from input `first` on; none where it is of another kind.
-    pub fn write(&self, value: &Value, place: &Place, first: u32, to: &mut Vec<(u32, f32)>) {
+    /// `element` says what an element of a list is.
+    pub fn write<'v>(
+        &self,
+        value: &'v Value,
+        place: &Place,
+        first: u32,
+        element: &impl Fn(&'v Value) -> &'v Value,
+        to: &mut Vec<(u32, f32)>,
+    ) {
         let mut put = |i: u32, x: f64| {
             if x.is_finite() {
                 to.push((first + i, x.clamp(-LARGEST, LARGEST) as f32));
@@ -204,7 +212,7 @@ impl Kind {
                 let mut first = first;
                 for (name, kind) in parts {
                     if let Some(value) = own.field(name) {
-                        kind.write(value, place, first, to);
+                        kind.write(value, place, first, element, to);
                     }
                     first += kind.len() as u32;
                 }
@@ -212,14 +220,14 @@ impl Kind {
             (Kind::Parts(parts), Value::Tuple(own)) if own.items().len() == parts.len() => {
                 let mut first = first;
                 for ((_, kind), value) in parts.iter().zip(own.items()) {
-                    kind.write(value, place, first, to);
+                    kind.write(value, place, first, element, to);
                     first += kind.len() as u32;
                 }
             }
             (Kind::List(last), Value::List(own)) => {
                 put(0, own.len() as f64);
                 if let Some(value) = own.len().checked_sub(1).and_then(|at| own.get(at)) {
-                    last.write(value, place, first + 1, to);
+                    last.write(element(value), place, first + 1, element, to);
                 }
             }
             (Kind::Texts(all), Value::Str(text)) => {

@@ -6,7 +6,7 @@
 use super::bound::{BoundGuide, Sight};
 use super::form::GuideForm;
 use super::survey::Survey;
-use super::{Guide, Network, bad, images};
+use super::{Guide, Network, images};
 use crate::chooser::{Chooser, Chosen, Context, Refuse};
 use crate::log::Entry;
 use crate::particle::Particle;
@@ -87,6 +87,7 @@ pub struct Making {
     /// The model's name.
     pub model: String,
     /// Which network.
+    #[serde(default)]
     pub architecture: Architecture,
     /// Units of the hidden layers.
     pub hidden: [usize; 2],
@@ -104,7 +105,8 @@ pub struct Making {
     pub passes: f64,
     /// Adam's rate.
     pub rate: f64,
-    /// Adam's decays.
+    /// Adam's decays of mean and square.
+    #[serde(default = "usual_decays")]
     pub decays: [f64; 2],
     /// Choices of a step; of the dissertation's architecture, traces.
     pub batch: usize,
@@ -114,11 +116,17 @@ pub struct Making {
     pub seed: u64,
 }
 
+/// Adam's usual decays.
+fn usual_decays() -> [f64; 2] {
+    [0.9, 0.999]
+}
+
 /// A kind of network.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq)]
 #[serde(rename_all = "kebab-case")]
 pub enum Architecture {
     /// One net for all choices, which sees windows.
+    #[default]
     Shared,
     /// The dissertation's.
     Dissertation,
@@ -219,7 +227,7 @@ pub fn survey(examples: &[Example], making: &Making) -> Result<GuideForm, Failur
     let windowed =
         making.architecture == Architecture::Shared && making.looks.target() && making.looks.scene();
     let windows = if windowed { windows(&first.task) } else { vec![] };
-    let mut form = survey.form(&making.model, making.share, windows)?;
+    let mut form = survey.form(&first.task.program, &making.model, making.share, windows)?;
     match &making.reads {
         Reads::All(true) => {}
         Reads::All(false) => form.keep_only(&[]),
@@ -255,7 +263,7 @@ fn rows(examples: &[&Example], guide: &Arc<Guide>, form: &NetForm) -> Result<Row
 /// Trains a guide on traces, or goes on with the one that is given. `watch` returns false to stop with the best so far.
 ///
 /// # Errors
-/// No traces; a trace that cannot be followed; a loss that is not a number.
+/// No traces; a trace that cannot be followed.
 pub fn train(
     examples: &[Example],
     making: &Making,
@@ -290,14 +298,18 @@ pub fn train(
     let held_out = rows(&judging, &blank, net.form())?;
     let mut form = blank.form.clone();
     let rows = learned.len();
-    let (net, history, diverged) = match train_net(net, &learned, &held_out, &making.training(rows), watch) {
-        Ok(trained) => (trained.net, trained.history, None),
+    let mut history = Vec::new();
+    let mut seen = |now: Progress| {
+        history.push(now);
+        watch(now)
+    };
+    let (net, diverged) = match train_net(net, &learned, &held_out, &making.training(rows), &mut seen) {
+        Ok(trained) => (trained.net, None),
         // What was learned before is kept, and told.
-        Err(diverged) if diverged.step > 0 => {
+        Err(diverged) => {
             let site = diverged.site.map(|site| form.sites[site].label.clone());
-            ((*diverged.net).clone(), vec![], Some((diverged.to_string(), site)))
+            (*diverged.net, Some((diverged.step, site)))
         }
-        Err(diverged) => return Err(bad(diverged.to_string()).into()),
     };
     form.share = making.share;
     Ok(Taught {
@@ -319,6 +331,7 @@ pub struct Taught {
     pub bytes: usize,
     /// What every look at the choices that are held out saw.
     pub history: Vec<Progress>,
-    /// Why it ended early: a loss that is not a number, and the choice.
-    pub diverged: Option<(String, Option<String>)>,
+    /// Where it ended early, because of a loss or a slope that is not a finite number: the step, and the choice's label
+    /// where it was a single one.
+    pub diverged: Option<(u64, Option<String>)>,
 }

@@ -8,6 +8,7 @@ use crate::Failure;
 use niwaki_geom::WindowForm;
 use niwaki_guide::Head;
 use niwaki_math::Dist;
+use niwaki_vm::code::{Program, SiteKind};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;
 use std::collections::HashMap;
@@ -99,16 +100,29 @@ impl Survey {
         met.head = met.head.and_then(|head| head.also(dist, components));
     }
 
-    /// The form of a guide for what was met.
+    /// Choices of a program that were not met, by function and label.
+    fn unmet(&self, program: &Program) -> Vec<String> {
+        let sites = program.functions.iter().flat_map(|own| own.sites.iter().map(move |site| (own, site)));
+        sites
+            .filter(|(_, site)| {
+                matches!(site.kind, SiteKind::Sample(_)) && !self.numbers.contains_key(&site.key)
+            })
+            .map(|(own, site)| format!("{}/{}", own.name, site.label))
+            .collect()
+    }
+
+    /// The form of a guide for what was met of a program.
     ///
     /// # Errors
     /// Traces without a choice that a guide can draw.
     pub fn form(
         self,
+        program: &Program,
         model: &str,
         share: f64,
         windows: Vec<(String, WindowForm)>,
     ) -> Result<GuideForm, Fault> {
+        let unmet = self.unmet(program);
         let mut next = 0u32;
         let mut take = |count: usize| {
             let first = next;
@@ -125,7 +139,9 @@ impl Survey {
                 kind: own.kind,
             })
             .collect();
-        let (mut sites, mut left) = (Vec::new(), Vec::new());
+        let mut sites = Vec::new();
+        let mut left: Vec<(String, String)> =
+            unmet.into_iter().map(|name| (name, "no trace visited it".into())).collect();
         for (key, met) in self.sites {
             let Some(head) = met.head else {
                 let name = format!("{}/{}", met.function, met.label);

@@ -17,9 +17,11 @@ mod start;
 
 pub use rounds::{Kind, Round};
 
+use crate::chain::form::Form;
 use crate::failure::Attempt;
 use crate::particles::distinct::Choices;
 use crate::particles::{Progress, Watch, side_by_side};
+use crate::proposal::Proposal;
 use crate::run::{Run, Shown};
 use crate::streams::Reserved;
 use crate::{Failure, Task};
@@ -27,6 +29,7 @@ use niwaki_math::RngCore;
 use niwaki_vm::fault::Fault;
 use rounds::Search;
 use serde::Deserialize;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// Rounds where neither their number nor a time is given.
@@ -56,6 +59,11 @@ pub struct Improve {
     seconds: Option<f64>,
     /// How many results that differ.
     diverse: Option<usize>,
+    /// What draws choices in place of the prior, as data.
+    pub(crate) proposal: Option<Form>,
+    /// The same, for the search.
+    #[serde(skip)]
+    drawn_by: Option<Arc<Proposal>>,
 }
 
 /// How a search for the best went; of several, the one with the best run.
@@ -86,7 +94,8 @@ impl Improve {
         Ok(())
     }
 
-    /// Searches for the best run, or for several that differ, best first. `watch` is called with the number of rounds and the best log score, after the best run
+    /// Searches for the best run, or for several that differ, best first. Populations, and parts that are grown again,
+    /// draw their choices from the `proposal`, where there is one. `watch` is called with the number of rounds and the best log score, after the best run
     /// is `shown`; when it returns false, the search ends with its best so far.
     ///
     /// # Errors
@@ -95,13 +104,15 @@ impl Improve {
         &self,
         task: &Task,
         seed: u64,
+        proposal: Option<Arc<Proposal>>,
         shown: Option<&Shown>,
         watch: &mut Watch<'_>,
     ) -> Result<(Vec<Run>, Improved), Failure> {
         self.check()?;
-        match self.diverse {
-            None => self.one(task, seed, shown, watch).map(|(best, info)| (vec![best], info)),
-            Some(wanted) => self.several(task, seed, wanted, shown, watch),
+        let own = Improve { drawn_by: proposal, ..self.clone() };
+        match own.diverse {
+            None => own.one(task, seed, shown, watch).map(|(best, info)| (vec![best], info)),
+            Some(wanted) => own.several(task, seed, wanted, shown, watch),
         }
     }
 

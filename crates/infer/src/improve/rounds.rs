@@ -157,7 +157,8 @@ impl<'a> Search<'a> {
         self.populations += 1;
         let seed = population_seed(self.seed, number);
         let (particles, power) = (self.own.particles, self.own.power);
-        let settings = Settings { particles, seed, power, ..Settings::default() };
+        let proposal = self.own.drawn_by.clone();
+        let settings = Settings { particles, seed, power, proposal, ..Settings::default() };
         match smc(self.task, &settings, &mut |_| go_on(so_far)) {
             Ok(result) => {
                 let work = result.steps;
@@ -210,7 +211,12 @@ impl<'a> Search<'a> {
             Kernel::leaf(name, settings).map_err(|error| Fault::new("bad-kernel", error.to_string()))
         };
         let regrow = |particles| {
-            leaf("regrow", json!({"particles": particles, "turn": TURN, "pick": "size", "best": true}))
+            let settings = json!({"particles": particles, "turn": TURN, "pick": "size", "best": true});
+            let plain = leaf("regrow", settings)?;
+            Ok(match &self.own.drawn_by {
+                None => plain,
+                Some(proposal) => plain.drawn_by(proposal.clone()),
+            })
         };
         let drift = |step| leaf("drift", json!({"step": step, "target": 0.44}));
         match kind {

@@ -65,6 +65,7 @@ impl Improve {
                 anneal: form.anneal.clone(),
                 order: form.order,
                 seed: population_seed(seed, number as u64),
+                proposal: self.drawn_by.clone(),
                 ..Settings::default()
             };
             let attempt = |died_at| Attempt { form: form.name, particles: settings.particles, died_at };

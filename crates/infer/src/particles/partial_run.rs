@@ -9,7 +9,7 @@ use crate::chooser::{Chooser, Chosen, Context, Known, Prior, Refuse};
 use crate::guide::bound::Sight;
 use crate::log::{Entry, Log};
 use crate::particle::Particle;
-use crate::proposal::Proposal;
+use crate::proposal::{Proposal, as_if_drawn};
 use crate::record::check_factor;
 use crate::replay::by_address;
 use crate::{Failure, Task};
@@ -373,13 +373,7 @@ impl Chooser for Follow<'_> {
             self.lost = true;
             return Ok(None);
         };
-        let mut chosen = Chosen::given(choice.value.clone(), dist)?;
-        let proposal = self.proposal.filter(|_| chosen.log_prior > f64::NEG_INFINITY);
-        let drawn = proposal.map_or(Ok(None), |proposal| {
-            proposal.log_drawn(at, dist, &chosen.value, seen, &mut self.sight)
-        })?;
-        chosen.log_drawn = drawn.unwrap_or(chosen.log_prior);
-        Ok(Some(chosen))
+        as_if_drawn(self.proposal, at, dist, &choice.value, seen, &mut self.sight).map(Some)
     }
 }
 

@@ -13,10 +13,18 @@ const STEEP: f64 = 0.9;
 /// Below this sine two directions lie along one line.
 const ALONG: f64 = 1e-9;
 
-fn triple<S: Scalar>(value: &Value<S>) -> Result<[S; 3], Fault> {
+/// A point or direction, and whether it lies in the plane.
+#[inline]
+fn triple<S: Scalar>(value: &Value<S>) -> Result<([S; 3], bool), Fault> {
+    // The pairs of flat models, without a copy.
+    if let Value::Tuple(pair) = value
+        && let [Value::Real(x), Value::Real(y)] = pair.items()
+    {
+        return Ok(([*x, *y, S::from_f64(0.0)], true));
+    }
     match parts("look", value).as_ref().map(Vector::components) {
-        Ok(&[x, y]) => Ok([x, y, S::from_f64(0.0)]),
-        Ok(&[x, y, z]) => Ok([x, y, z]),
+        Ok(&[x, y]) => Ok(([x, y, S::from_f64(0.0)], true)),
+        Ok(&[x, y, z]) => Ok(([x, y, z], false)),
         _ => Err(unfit("look", "points and directions of 2 or 3 numbers", value)),
     }
 }
@@ -31,12 +39,22 @@ fn unit<S: Scalar>(v: [S; 3]) -> Result<[S; 3], Fault> {
 
 /// `look(position, forward, up)`: the position and the two directions of its frame, vectors of three.
 pub fn look<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
-    let center = triple(&args[0])?;
-    let forward = unit(triple(&args[1])?)?;
-    let flat = parts("look", &args[1])?.components().len() == 2;
+    let vectors = frame(args)?.map(|v| Value::vector(&v));
+    Ok(Value::tuple(vectors.into()))
+}
+
+/// The faults of [`look`], where nothing reads its frame.
+pub fn check<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
+    frame(args).map(|_| Value::None)
+}
+
+fn frame<S: Scalar>(args: &[Value<S>]) -> Result<[[S; 3]; 3], Fault> {
+    let (center, _) = triple(&args[0])?;
+    let (forward, flat) = triple(&args[1])?;
+    let forward = unit(forward)?;
     let axis = |at: usize| [0, 1, 2].map(|k| S::from_f64(if k == at { 1.0 } else { 0.0 }));
     let up = match args.get(2).filter(|up| !matches!(up, Value::None)) {
-        Some(up) => unit(triple(up)?)?,
+        Some(up) => unit(triple(up)?.0)?,
         None if flat || forward[1].abs() > S::from_f64(STEEP) => axis(2),
         None => axis(1),
     };
@@ -45,8 +63,7 @@ pub fn look<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     if length(&across).value() < ALONG {
         return Err(Fault::bad_argument("`look`: `up` lies along `forward`"));
     }
-    let vector = |v: [S; 3]| Value::vector(&v);
-    Ok(Value::tuple(vec![vector(center), vector(forward), vector(unit(across)?)]))
+    Ok([center, forward, unit(across)?])
 }
 
 #[cfg(test)]

@@ -222,6 +222,7 @@ table! {
     "rotation" 2 2 vectors::rotation;
     "rotate" 3 3 vectors::rotate;
     "look" 2 3 frames::look;
+    "check_look" 2 3 frames::check;
 
     "hsv" 3 3 colors::hsv;
     "lab" 3 3 colors::lab;

@@ -77,10 +77,19 @@ impl<S: Scalar> At<'_, S> {
 
     /// The variables in scope that the program was compiled to keep, in the order in which they were last assigned:
     /// the name, whether its value is an angle ([`Visible::is_angle`]), and the value. In a kept run a list may hold
-    /// [`Value::Cell`]s.
+    /// [`Value::Cell`]s ([`At::element`]).
     #[inline]
     pub fn visible(&self) -> impl Iterator<Item = (&str, bool, &Value<S>)> {
         self.kept().filter(|(x, _)| !x.name.is_empty()).map(|(x, value)| (&*x.name, x.is_angle, value))
+    }
+
+    /// What an element of a list is: in a kept run a list may hold cells, elsewhere it is the element itself.
+    #[inline]
+    pub fn element<'v>(&'v self, element: &'v Value<S>) -> &'v Value<S> {
+        match element {
+            Value::Cell(cell) => &self.state.registers[cell.register as usize],
+            other => other,
+        }
     }
 
     /// Where the program looks from: the value of the variable in scope that was last assigned among those that hold a

@@ -4,6 +4,7 @@
 //! are read again ([`SiteKind::is_read_again`]). Everything else is scratch.
 //! Instructions without effect are dropped, and futures whose handle is never read are marked.
 
+use crate::builtins::builtin_id;
 use crate::code::{Args, Function, Mode, Op, Operand, Place, SiteKind};
 use niwaki_math::Scalar;
 
@@ -197,9 +198,11 @@ pub(crate) fn place<S: Scalar>(f: &mut Function<S>, registers: usize) {
     rewrite(f, |o| if o.place() == Place::Node { map[o.index()] } else { o });
 }
 
-/// Removes moves into registers that are never read, and clearing of no sites. A jump to the next instruction costs a
+/// Removes moves into registers that are never read, and clearing of no sites; of a `look` that is never read its faults
+/// remain. A jump to the next instruction costs a
 /// step of the interpreter, so they are removed and the jumps adjusted.
 fn drop_dead<S: Scalar>(f: &mut Function<S>, registers: usize) {
+    let (look, check) = (builtin_id("look"), builtin_id("check_look"));
     loop {
         let after = live_after(f, registers);
         let dead = |at: usize, op: &Op| match op {
@@ -208,6 +211,14 @@ fn drop_dead<S: Scalar>(f: &mut Function<S>, registers: usize) {
             _ => false,
         };
         let keep: Vec<bool> = f.code.iter().enumerate().map(|(at, op)| !dead(at, op)).collect();
+        for (op, after) in f.code.iter_mut().zip(&after) {
+            if let Op::Builtin { to, id, .. } = op
+                && Some(*id) == look
+                && !after.has(*to)
+            {
+                *id = check.unwrap_or(*id);
+            }
+        }
         if keep.iter().all(|k| *k) {
             return;
         }

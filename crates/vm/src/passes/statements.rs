@@ -28,6 +28,10 @@ impl<S: Scalar> Builder<'_, '_, S> {
         }
         self.target = s.targets().first().map(|x| (*x).clone());
         let goes_on = match &s.kind {
+            // Where no choice reads it: the front end has put what can fail into a statement of its own.
+            StmtKind::Set(x, e) if **x == *LOOK && !self.keeping.has(x) && !self.unit.effects.in_expr(e) => {
+                true
+            }
             StmtKind::Set(x, e) => {
                 let at = self.expr(e)?;
                 self.assign(x, at);

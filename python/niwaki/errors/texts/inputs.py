@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from niwaki.errors.texts.guides import GUIDES
 from niwaki.errors.texts.message import Message
 from niwaki.errors.texts.views import VIEWS
 
 INPUTS = (
     *VIEWS,
+    *GUIDES,
     Message(
         "no-cell-filled",
         "no cell of the grid is filled by `{path}`",

@@ -56,6 +56,7 @@ pub fn afresh(task: &Task, known: &HashMap<u128, Value>, with: &Afresh<'_>) -> R
         turn: 0.0,
         pick: pick::Pick::default(),
         best: false,
+        proposal: None,
         selection: Selection::default(),
     };
     let block = |particles| super::Block {
@@ -66,6 +67,7 @@ pub fn afresh(task: &Task, known: &HashMap<u128, Value>, with: &Afresh<'_>) -> R
         held: &held,
         rest: &rest,
         selection: &selection,
+        proposal: None,
         beta: with.power,
         particles,
     };

@@ -8,6 +8,8 @@
 //! * `pick`: which part is grown again. The pick is an auxiliary variable: its probability, in each particle's run,
 //!   multiplies that particle's last weight.
 //! * [`afresh()`]: one named part grown again by particles of which none holds the present values;
+//! * Values come from their priors, or from a proposal: a user's or a guide. The weights count prior over proposal then,
+//!   also those of the particle that holds the present values.
 //! * `sweep`: SMC of a part; `turn`: other values of a discrete choice.
 //! * Where a part returns another value than before, the rest of the run is evaluated with it: the densities of the held
 //!   choices and the score change, and multiply the weight. A run that does not make exactly the choices of `R` beside
@@ -32,6 +34,7 @@ use super::leaf::ChainMove;
 use super::metropolis::Decision;
 use super::state::{Fresh, State};
 use super::{Chain, Proposing};
+use crate::proposal::Proposal;
 use crate::{Failure, Task};
 use niwaki_geom::sketch::product::Sketches;
 use niwaki_math::{RngCore, Stream, Total};
@@ -44,6 +47,7 @@ use niwaki_vm::value::{Value, same};
 use pick::Picked;
 use serde::Deserialize;
 use std::collections::HashMap;
+use std::sync::Arc;
 use sweep::{Block, Grown, Set};
 
 /// One regrowth.
@@ -60,12 +64,30 @@ pub struct Regrow {
     /// distribution invariant.
     #[serde(default)]
     best: bool,
+    /// What draws values in place of the prior.
+    #[serde(skip)]
+    proposal: Option<Arc<Proposal>>,
     /// Which choices may change.
     #[serde(skip)]
     selection: Selection,
 }
 
 impl Regrow {
+    /// From now on a proposal draws the values of the particles.
+    pub(crate) fn draw_by(&mut self, proposal: Arc<Proposal>) {
+        self.proposal = Some(proposal);
+    }
+
+    /// Whether it looks at the scene.
+    pub(crate) fn looks(&self) -> bool {
+        self.proposal.as_ref().is_some_and(|proposal| proposal.looks())
+    }
+
+    /// Whether the addresses of a part are to be readable from the root.
+    fn needs_paths(&self) -> bool {
+        !self.selection.is_all() || self.proposal.as_ref().is_some_and(|proposal| proposal.needs_origins())
+    }
+
     /// Takes the choices that may change.
     ///
     /// # Errors
@@ -160,12 +182,13 @@ impl ChainMove for Regrow {
         let seed = |which: u128| moves.at(which).next_u64();
         let block = Block {
             task,
-            start: trace.start_part(program, picked.part, !own.selection.is_all()),
+            start: trace.start_part(program, picked.part, own.needs_paths()),
             path: trace.part_path(picked.part),
             sketches,
             held: &held,
             rest: &rest,
             selection: &own.selection,
+            proposal: own.proposal.as_deref(),
             beta,
             particles: own.particles,
         };

@@ -4,14 +4,16 @@
 use super::{Turned, turn};
 use crate::chain::kernel::Selection;
 use crate::chooser::{Chooser, Chosen, Context, Prior};
+use crate::guide::bound::Sight;
 use crate::particle::Particle;
-use crate::record::{Record, log_density};
+use crate::proposal::{ByProposal, Proposal, as_if_drawn};
+use crate::record::Record;
 use crate::resampling::{Resampling, conditional_multinomial, further_copies, pair};
 use crate::streams::Reserved;
 use crate::weights::{Normalised, log_step};
 use crate::{Failure, Task};
 use niwaki_geom::sketch::product::Sketches;
-use niwaki_math::{Dist, Stream};
+use niwaki_math::{Dist, Stream, StreamKey};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Machine;
 use niwaki_vm::machine::answers::At;
@@ -37,6 +39,8 @@ pub(super) struct Block<'a> {
     pub rest: &'a HashMap<u128, Value>,
     /// Which choices may change.
     pub selection: &'a Selection,
+    /// What draws values in place of the prior.
+    pub proposal: Option<&'a Proposal>,
     /// The power of the score.
     pub beta: f64,
     pub particles: usize,
@@ -83,7 +87,10 @@ struct Grow<'a> {
     held: Option<&'a HashMap<u128, Value>>,
     /// The address of the turned choice, its value in this set and on the other side.
     turned: Option<(u128, &'a Value, &'a Value)>,
-    fresh: Prior,
+    /// The stream of new values.
+    stream: StreamKey,
+    /// What the proposal has seen of this particle's run since its last barrier.
+    sight: &'a mut Sight,
 }
 
 impl Chooser for Grow<'_> {
@@ -100,15 +107,19 @@ impl Chooser for Grow<'_> {
         let turned = self.turned.filter(|(which, ..)| *which == address);
         let chosen = match (turned, self.held.and_then(|held| held.get(&address))) {
             (Some((_, value, _)), _) => Chosen::given(value.clone(), dist)?,
-            // The present value, counted as drawn.
-            (None, Some(value)) => {
-                let log = log_density(dist, value)?;
-                Chosen { value: value.clone(), log_prior: log, log_drawn: log }
+            (None, Some(value)) => as_if_drawn(self.block.proposal, at, dist, value, seen, self.sight)?,
+            (None, None) => {
+                let mut fresh = Prior(self.stream);
+                let drawn = match self.block.proposal {
+                    None => fresh.choose(at, dist, seen)?,
+                    Some(proposal) => {
+                        let (stream, sight) = (self.stream, &mut *self.sight);
+                        ByProposal { proposal, stream, sight, otherwise: fresh }.choose(at, dist, seen)?
+                    }
+                };
+                let Some(chosen) = drawn else { return Ok(None) };
+                chosen
             }
-            (None, None) => match self.fresh.choose(at, dist, seen)? {
-                Some(chosen) => chosen,
-                None => return Ok(None),
-            },
         };
         self.seen.selected += 1;
         if at.activation() == self.block.path && chosen.log_prior > f64::NEG_INFINITY {
@@ -230,12 +241,13 @@ impl Block<'_> {
         let mut grown: Vec<Grown> = (0..self.particles as u64).map(one).collect();
         let (mut weights, mut log_mean, mut lineages, mut step) =
             (Normalised::default(), 0.0, self.particles as u64, 0);
-        let mut steps = 0;
+        let (mut steps, mut sight) = (0, Sight::default());
         while grown.iter().any(|one| one.particle.is_running()) {
             steps += grown.iter().filter(|one| one.particle.is_running()).count() as u64;
             for (index, one) in grown.iter_mut().enumerate() {
                 let held = held.filter(|_| index == 0);
-                self.advance(machine, one, turned, held, seed)?;
+                sight.forget();
+                self.advance(machine, one, turned, held, seed, &mut sight)?;
             }
             for one in &mut grown {
                 self.weigh(&mut one.particle);
@@ -267,9 +279,10 @@ impl Block<'_> {
         turned: Option<(u128, &Value, &Value)>,
         held: Option<&HashMap<u128, Value>>,
         seed: u64,
+        sight: &mut Sight,
     ) -> Result<(), Failure> {
-        let fresh = Prior(one.particle.stream);
-        let chooser = Grow { block: self, seen: &mut one.seen, held, turned, fresh };
+        let stream = one.particle.stream;
+        let chooser = Grow { block: self, seen: &mut one.seen, held, turned, stream, sight };
         one.barriers += usize::from(one.particle.advance(machine, self.task, seed, chooser)?);
         Ok(())
     }

@@ -13,7 +13,8 @@
 //! * `cells`: elements of collections, and their readers;
 //! * `transaction`: changing choices, keeping or undoing it; `changes`: what that did to the choices;
 //! * `ahead`: memory that the next proposal will need;
-//! * [`inspect`]: what a trace holds, in program order; [`part`]: parts of it that can be run apart.
+//! * [`inspect`]: what a trace holds, in program order; [`part`]: parts of it that can be run apart; `scene`: which
+//!   primitives belong to a part.
 //!
 //! Futures run where they are created, so every future has returned when its value is read.
 //!
@@ -30,6 +31,7 @@ mod journal;
 mod loops;
 pub mod part;
 mod questions;
+mod scene;
 mod slices;
 mod slot;
 mod transaction;

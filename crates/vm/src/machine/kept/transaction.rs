@@ -133,6 +133,14 @@ impl<S: Scalar> Trace<S> {
         self.kept.proposal()
     }
 
+    /// Replaces the log density of the reverse of the open transaction's one change, nats: where it is known only once the
+    /// new state is.
+    pub fn set_backward(&mut self, backward: f64) {
+        if let [change] = &mut self.kept.changed[..] {
+            change.2 = backward;
+        }
+    }
+
     /// Whether the value last proposed for a single choice lay outside the support of its distribution.
     pub fn left_support(&self) -> bool {
         self.kept.outside

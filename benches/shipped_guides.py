@@ -1,0 +1,70 @@
+"""Train the guides that come with the package: `make guides`, or `python benches/shipped_guides.py vines`.
+
+Targets are the drawings whose use is "training" and their mirror images; each eighth of them judges. None of the
+held-out drawings is looked at. The same seed gives the same bytes on this kind of machine, on any number of threads.
+The report is in each file: `niwaki guide show python/niwaki/guides/shipped/vines.guide`.
+"""
+
+from __future__ import annotations
+
+import resource
+import sys
+import time
+
+import niwaki as nw
+from niwaki import gallery, guides
+from niwaki.guides.report import sentence
+from niwaki.guides.shipped import FOLDER
+from niwaki.targets import drawings
+from niwaki.targets.drawing import Drawing
+from niwaki.targets.sketches import Window
+
+SEED = 1
+ROUNDS = (150, 400)
+
+#: A run with fewer shapes is a stump, and teaches to end early.
+LEAST = 10
+
+
+def flat(name: str) -> nw.Guide:
+    """A guide for a model of the gallery that follows drawings."""
+    entry = gallery.entry(name)
+    assert entry is not None and entry.window is not None
+    page: Window = entry.window
+    training = [drawings.drawing(one) for one in drawings.names("scribbles", "training")]
+    learned = [one for i, one in enumerate(training) if i % guides.EVERY]
+
+    def score(one: Drawing) -> nw.Score:
+        return one.score(page)
+
+    return nw.train_guide(
+        entry.model,
+        [*learned, *(one.mirrored() for one in learned)],
+        score,
+        lambda one: one.place(page),
+        held_out=training[:: guides.EVERY],
+        rounds=ROUNDS,
+        keep=lambda sample: sample.has_ended and sample.primitives >= LEAST,
+        seed=SEED,
+        progress=lambda now: print(f"  {now.traces} traces: {sentence(now.summary())}") if now.is_judged else None,
+    )
+
+
+RECIPES = {"vines": flat, "lightning": flat}
+
+
+def main(names: list[str]) -> None:
+    """Train and write guides."""
+    FOLDER.mkdir(exist_ok=True)
+    for name in names or RECIPES:
+        print(name)
+        began, cpu = time.perf_counter(), time.process_time()
+        guide = RECIPES[name](name)
+        guide.save(FOLDER / f"{name}.guide")
+        seconds, used = time.perf_counter() - began, time.process_time() - cpu
+        most = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+        print(f"  {len(guide.data) / 1000:.0f} kB in {seconds:.0f} s ({used:.0f} s of CPU), {most:.0f} MiB at most")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

@@ -1,0 +1,129 @@
+//! Chains: of whole runs that guided populations propose, and of single choices and parts that a guide draws.
+//!
+//! Exact draws from the posterior make a few moves each; the results are independent exact draws again, whatever the kernel's
+//! mixing.
+
+use super::guides::strong;
+use super::law::Law;
+use super::on_one_thread;
+use super::populations::by;
+use super::programs::{PROGRAMS, task};
+use niwaki_infer::Task;
+use niwaki_infer::chain::kernel::{Kernel, Selection};
+use niwaki_infer::chain::{Chain, Settings};
+use niwaki_infer::forward::forward;
+use niwaki_infer::log::Entry;
+use niwaki_infer::particles::{self, Ancestors, Order, Resampling, particle_gibbs, pimh};
+use niwaki_infer::rejection::rejection;
+use niwaki_infer::replay::by_address;
+use niwaki_vm::value::repr;
+use serde_json::json;
+
+/// Exact draws from the posterior.
+fn draws(task: &Task, count: usize) -> Vec<Vec<Entry>> {
+    let scores = (0..2000).map(|stream| forward(task, 2, stream, false).expect("a run").log_score);
+    let bound = scores.fold(f64::NEG_INFINITY, f64::max) + 0.5;
+    let found = rejection(task, count, bound, u64::MAX, 1, &mut |_| true).expect("draws");
+    found.runs.iter().map(|run| run.log.entries()).collect()
+}
+
+/// The values after so many moves from each of them.
+fn moved(task: &Task, kernel: &Kernel, starts: &[Vec<Entry>], moves: u64) -> Vec<String> {
+    let after = |(number, start): (u64, &Vec<Entry>)| {
+        let settings = Settings { seed: 8, kernel: kernel.clone(), thin: 0, ..Settings::default() };
+        let mut chain: Chain =
+            Chain::start(task, &settings, number, Some(&by_address(start))).expect("a chain");
+        chain.advance(task, moves, &mut |_, _| true).expect("a run");
+        repr(&chain.state.trace.result()).expect("a value")
+    };
+    (0..).zip(starts).map(after).collect()
+}
+
+fn regrow(particles: usize, turn: f64) -> Kernel {
+    Kernel::leaf("regrow", json!({"particles": particles, "turn": turn, "pick": "size"})).expect("a kernel")
+}
+
+fn on(pattern: &str, kernel: Kernel) -> Kernel {
+    Kernel::On(Selection { sites: vec![vec![pattern.into()]], ..Selection::default() }, Box::new(kernel))
+}
+
+#[test]
+fn guided_proposals_keep_the_posterior() {
+    for (name, text) in PROGRAMS {
+        let task = task(text);
+        let (law, starts) = (Law::of(&task), draws(&task, 6000));
+        let guided = |number| Kernel::guided(strong(&task, number));
+        let deep = Selection { depth: vec![1.0, 3.0, 0.5], ..Selection::default() };
+        for (kind, kernel, moves) in [
+            ("alone", guided(1), 5),
+            ("alone, another", guided(2), 2),
+            ("a mixture", Kernel::Mixture(vec![(2.0, guided(3)), (1.0, Kernel::PRIOR)]), 5),
+            ("a cycle", Kernel::Cycle(vec![guided(1), on("**", guided(4))]), 4),
+            ("weights by depth", Kernel::On(deep, Box::new(guided(2))), 5),
+        ] {
+            let far = law.wrong_counts(&moved(&task, &kernel, &starts, moves));
+            assert!(far.is_empty(), "{name}, {kind}: {far:?}");
+        }
+    }
+}
+
+#[test]
+fn guided_regrowth_keeps_the_posterior() {
+    for (name, text) in PROGRAMS {
+        let task = task(text);
+        let (law, starts) = (Law::of(&task), draws(&task, 4000));
+        for (number, particles, turn) in [(1, 2, 0.0), (2, 4, 0.5)] {
+            let kernel = regrow(particles, turn).drawn_by(by(&task, number));
+            let far = law.wrong_counts(&moved(&task, &kernel, &starts, 3));
+            assert!(far.is_empty(), "{name}, {particles} particles: {far:?}");
+        }
+    }
+}
+
+fn settings(task: &Task, number: u64, particles: usize, order: Order) -> particles::Settings {
+    let proposal = Some(by(task, number));
+    particles::Settings { particles, order, proposal, ..particles::Settings::default() }
+}
+
+#[test]
+fn guided_sweeps_keep_the_posterior() {
+    for (name, text) in PROGRAMS {
+        let task = task(text);
+        let (law, starts) = (Law::of(&task), draws(&task, 4000));
+        let futures = text.contains("future").then_some(Order::DepthFirst);
+        for order in futures.into_iter().chain([Order::Stochastic]) {
+            for (number, ancestors, resampling) in [
+                (1, Ancestors::Kept, Resampling::Multinomial),
+                (2, Ancestors::Sampled, Resampling::Multinomial),
+                (1, Ancestors::Sampled, Resampling::Tempered),
+            ] {
+                let own = particles::Settings { resampling, ..settings(&task, number, 3, order) };
+                let after = |(seed, start): (u64, &Vec<Entry>)| {
+                    let own = particles::Settings { seed, ..own.clone() };
+                    let chain = particle_gibbs(&task, &own, ancestors, 2, Some(start), &mut |_| true);
+                    repr(&chain.expect("a chain").states.last().expect("a state").value).expect("a value")
+                };
+                let values: Vec<String> = on_one_thread(|| (0..).zip(&starts).map(after).collect());
+                let far = law.wrong_counts(&values);
+                assert!(far.is_empty(), "{name}, {order:?}, {ancestors:?}: {far:?}");
+            }
+        }
+    }
+}
+
+/// Populations that are accepted by their estimates have no exact start: forty of them.
+#[test]
+fn guided_populations_keep_the_posterior() {
+    for (name, text) in PROGRAMS {
+        let task = task(text);
+        let own = settings(&task, 1, 4, Order::Stochastic);
+        let last = |seed| match pimh(&task, &particles::Settings { seed, ..own.clone() }, 40, &mut |_| true) {
+            Ok(chain) => Some(repr(&chain.states.last().expect("a state").value).expect("a value")),
+            Err(failure) if failure.is_impossible() => None,
+            Err(other) => panic!("{other}"),
+        };
+        let values: Vec<String> = on_one_thread(|| (0..600).filter_map(last).collect());
+        let far = Law::of(&task).wrong_counts(&values);
+        assert!(far.is_empty(), "{name}: {far:?}");
+    }
+}

@@ -1,0 +1,59 @@
+//! Which primitives of the scene belong to a part, by number: also while a transaction is open.
+
+use super::super::state::NodeId;
+use super::{ChoiceAt, Kept, Trace};
+use crate::code::{Mode, Program, SiteKind};
+use niwaki_geom::Primitive;
+use niwaki_math::Scalar;
+
+impl<S: Scalar> Trace<S> {
+    /// Numbers of the primitives that a choice can be said to lead to, in ascending order: those of its activation and of
+    /// all below it, without those that the activation itself emitted before the choice. Of an iteration of a loop, those
+    /// after it are below it, as in the recursion that the loop could be.
+    pub fn emits_below(&self, program: &Program<S>, choice: usize) -> Vec<u32> {
+        let ChoiceAt { node: own, site } = self.kept.choices[choice];
+        let mut numbers = Vec::new();
+        let mut work: Vec<NodeId> = self.iterations_after(program, own).to_vec();
+        work.push(own);
+        while let Some(node) = work.pop() {
+            let n = &self.state.nodes[node.0 as usize];
+            let f = program.function(n.function);
+            if f.mode == Mode::Loop {
+                work.extend(&self.kept.loops[n.slots as usize]);
+                continue;
+            }
+            for (i, at) in f.sites.iter().enumerate() {
+                let slot = self.kept.slots[Kept::slot_at(&self.state, node, i)];
+                match &at.kind {
+                    _ if !slot.is_filled() => {}
+                    SiteKind::Emit if node == own && i < site as usize => {}
+                    SiteKind::Emit => numbers.push(slot.held),
+                    kind if kind.makes_activation() => work.push(NodeId(slot.held)),
+                    _ => {}
+                }
+            }
+        }
+        numbers.sort_unstable();
+        numbers
+    }
+
+    /// The iterations of a loop after one of them; none of another activation.
+    fn iterations_after(&self, program: &Program<S>, node: NodeId) -> &[NodeId] {
+        let n = &self.state.nodes[node.0 as usize];
+        if program.function(n.function).mode != Mode::Iteration {
+            return &[];
+        }
+        let header = &self.state.nodes[n.parent.0 as usize];
+        self.kept.loops[header.slots as usize].get(n.iteration as usize + 1..).unwrap_or(&[])
+    }
+
+    /// The primitive with a number; `None` where there is none.
+    pub fn primitive(&self, number: u32) -> Option<&Primitive> {
+        self.kept.emits.get(number as usize)?.as_ref()
+    }
+
+    /// Numbers of the primitives that the open transaction removed from the scene, and of those that it added.
+    pub fn exchanged(&self) -> (&[u32], &[u32]) {
+        (&self.kept.journal.retracted, &self.kept.journal.emitted)
+    }
+}

@@ -1,0 +1,196 @@
+"""Characters of a font as drawings, and where they are on the page.
+
+Lengths are those of the plane in which the models draw; a capital is `CAPITAL` high. The font is Quicksand Bold (NOTICE):
+its strokes have one width, about that of the scribbles that the guides have learnt from.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cache
+from os import PathLike
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image, ImageDraw, ImageFont
+
+from niwaki.errors import FileError, InputError
+from niwaki.errors.files import existing
+from niwaki.letters.places import Place, places
+from niwaki.targets.images import PAPER
+
+FONT = Path(__file__).parent / "Quicksand-Bold.ttf"
+
+#: Height of a capital, and the side of a pixel, as of drawings of 50 pixels in 24 units.
+CAPITAL, PIXEL = 22.0, 0.48
+#: Empty pixels around a piece, and pixels that become one.
+EDGE, FINE = 4, 8
+#: Between letters beside the font's own distance, and between lines, as shares of a capital's height.
+TRACKING, LEADING = 0.08, 0.55
+#: Letters in a line, about; a longer text goes on in the next.
+ACROSS = 14
+#: A character that no font has.
+NONE = "\U000fffff"
+
+
+@dataclass(frozen=True, eq=False)
+class Piece:
+    """Ink of a character in one piece, such as the dot of an i.
+
+    Attributes
+    ----------
+    greys : (rows, columns) uint8
+        255 where there is no ink.
+    corner : (x, y)
+        The lower left corner of the image, from the character's place on the base line.
+    places : sequence of Place
+        From where it can be grown.
+    """
+
+    greys: NDArray[np.uint8]
+    corner: tuple[float, float]
+    places: Sequence[Place]
+
+
+@dataclass(frozen=True)
+class Letter:
+    """A character on the page: its pieces, and its place on the base line of its line of text."""
+
+    character: str
+    x: float
+    y: float
+    pieces: Sequence[Piece]
+
+
+class Font:
+    """A font in the size in which its capitals have the height `CAPITAL`.
+
+    Parameters
+    ----------
+    file
+        TrueType or OpenType.
+    """
+
+    def __init__(self, file: str | PathLike[str] = FONT) -> None:
+        self.name = Path(file).name
+        try:
+            trial = ImageFont.truetype(str(existing(file)), 1000)
+            left, top, right, low = trial.getbbox("H", anchor="ls")
+            self._face = ImageFont.truetype(
+                str(file), max(1, round(1000 * FINE * CAPITAL / PIXEL / max(low - top, 1.0)))
+            )
+        except OSError as error:
+            raise FileError("file-unreadable", file, suffix="a font", reason=str(error)) from error
+        self._missing = self._ink(NONE)
+
+    def pieces(self, character: str) -> list[Piece]:
+        """The pieces of a character; none of a space.
+
+        Raises
+        ------
+        InputError
+            The font has no such character.
+        """
+        if character.isspace():
+            return []
+        ink, corner = self._ink(character)
+        if ink.size == 0 or np.array_equal(ink, self._missing[0]):
+            code = f"U+{ord(character[0]):04X}"
+            raise InputError("letter-missing", name=character, code=code, font=self.name)
+        return [_piece(ink, part, corner) for part in _parts(ink < 255)]
+
+    def along(self, line: str) -> list[float]:
+        """The place of each character of a line, and of its end."""
+        scale = PIXEL / FINE
+        ends = [self._face.getlength(line[: k + 1]) - self._face.getlength(line[k]) for k in range(len(line))]
+        wide = TRACKING * CAPITAL
+        return [scale * end + wide * k for k, end in enumerate([*ends, self._face.getlength(line)])]
+
+    def _ink(self, character: str) -> tuple[NDArray[np.uint8], tuple[float, float]]:
+        """A character in greys with an empty border, and its lower left corner."""
+        left, top, right, low = (round(side) for side in self._face.getbbox(character, anchor="ls"))
+        if right <= left or low <= top:
+            return np.empty((0, 0), np.uint8), (0.0, 0.0)
+        edge = EDGE * FINE
+        columns, rows = (-(-(side + 2 * edge) // FINE) for side in (right - left, low - top))
+        page = Image.new("L", (columns * FINE, rows * FINE))
+        # The lowest row of pixels ends at the lower border of the ink.
+        above = rows * FINE - edge - low
+        ImageDraw.Draw(page).text((edge - left, above), character, fill=255, font=self._face, anchor="ls")
+        greys = 255 - np.asarray(page.resize((columns, rows), Image.Resampling.BOX))
+        greys[greys >= PAPER] = 255
+        scale = PIXEL / FINE
+        return np.ascontiguousarray(greys), (scale * (left - edge), scale * (-low - edge))
+
+
+def _piece(ink: NDArray[np.uint8], part: NDArray[np.bool_], corner: tuple[float, float]) -> Piece:
+    """A part of a character's ink, cropped."""
+    rows, columns = np.flatnonzero(part.any(axis=1)), np.flatnonzero(part.any(axis=0))
+    top, low = max(rows[0] - EDGE, 0), min(rows[-1] + 1 + EDGE, len(ink))
+    left, right = max(columns[0] - EDGE, 0), min(columns[-1] + 1 + EDGE, ink.shape[1])
+    greys = np.where(part, ink, np.uint8(255))[top:low, left:right]
+    at = corner[0] + PIXEL * float(left), corner[1] + PIXEL * float(len(ink) - low)
+    return Piece(np.ascontiguousarray(greys), at, places(greys < 255))
+
+
+def _parts(filled: NDArray[np.bool_]) -> list[NDArray[np.bool_]]:
+    """The pieces of a shape in which each pixel touches another by a side or a corner; the largest first."""
+    left, found = filled.copy(), []
+    while left.any():
+        part = np.zeros_like(left)
+        part[np.unravel_index(int(left.argmax()), left.shape)] = True
+        size = 0
+        while part.sum() > size:
+            size = int(part.sum())
+            part = _grown(part) & filled
+        found.append(part)
+        left &= ~part
+    return sorted(found, key=lambda one: -int(one.sum()))
+
+
+def _grown(part: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """With all neighbours."""
+    wide = np.pad(part, 1)
+    tall = wide[:-2] | wide[1:-1] | wide[2:]
+    return np.asarray(tall[:, :-2] | tall[:, 1:-1] | tall[:, 2:])
+
+
+@cache
+def font(file: str | PathLike[str] | None = None) -> Font:
+    """A font by its file; the package's own where none is given."""
+    return Font(FONT if file is None else file)
+
+
+def lines(text: str, across: int = ACROSS) -> list[str]:
+    """A text in lines of about so many letters, broken at spaces, of about the same length."""
+    found = []
+    for paragraph in text.strip().splitlines():
+        words = paragraph.split()
+        total = len(" ".join(words))
+        wanted = total / max(1, -(-total // across))
+        line = ""
+        for word in words:
+            longer = f"{line} {word}".strip()
+            if line and len(longer) > max(wanted + 0.5 * len(word), len(word)):
+                found.append(line)
+                line = word
+            else:
+                line = longer
+        found.append(line)
+    return [line for line in found if line]
+
+
+def page(text: str, face: Font) -> list[Letter]:
+    """The letters of a text on the page, each line in the middle."""
+    written: list[Letter] = []
+    for row, line in enumerate(lines(text)):
+        *places_, end = face.along(line)
+        end -= TRACKING * CAPITAL
+        y = -row * (1.0 + LEADING) * CAPITAL
+        for character, x in zip(line, places_, strict=True):
+            pieces = face.pieces(character)
+            if pieces:
+                written.append(Letter(character, x - 0.5 * end, y, pieces))
+    return written

@@ -1,0 +1,60 @@
+"""From where, and in which directions, a shape can be grown: points deep in its ink, and the directions in which ink goes on."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import cos, hypot, pi, sin
+
+import numpy as np
+from numpy.typing import NDArray
+
+from niwaki.targets.drawing import eroded, lowest
+
+#: How far inside of the ink a place is, and how far from another, pixels.
+DEEP, APART = 2.0, 6.0
+#: Most places, directions that are tried, most directions from a place, and pixels of ink that one needs.
+MOST, TURNS, FORKS, REACH = 6, 16, 3, 6
+
+
+@dataclass(frozen=True)
+class Place:
+    """A point in pixels from the lower left corner of the image, and a direction."""
+
+    x: float
+    y: float
+    ahead: tuple[float, float]
+
+
+def places(filled: NDArray[np.bool_]) -> list[Place]:
+    """Places of a shape, (rows, columns): its lowest point first, then each time the point farthest from the others."""
+    rows, columns = filled.shape
+    deep = eroded(filled, DEEP)
+    down, across = np.nonzero(deep if deep.any() else filled)
+    points = np.stack([across + 0.5, rows - down - 0.5], axis=1)
+    x, y = lowest(filled)
+    chosen = [(x * columns, y * rows)]
+    while len(chosen) < MOST:
+        away = np.min([np.hypot(*(points - one).T) for one in np.array(chosen)], axis=0)
+        if away.max() < APART:
+            break
+        chosen.append((float(points[away.argmax(), 0]), float(points[away.argmax(), 1])))
+    return [Place(x, y, ahead) for x, y in chosen for ahead in _ahead(filled, x, y)]
+
+
+def _ahead(filled: NDArray[np.bool_], x: float, y: float) -> list[tuple[float, float]]:
+    """Directions in which the ink goes on for longer than in those beside them; the longest first."""
+    rays = [(cos(2.0 * pi * k / TURNS), sin(2.0 * pi * k / TURNS)) for k in range(TURNS)]
+    reach = [_reach(filled, x, y, ray) for ray in rays]
+    best = [k for k in range(TURNS) if reach[k] >= max(reach[k - 1], reach[(k + 1) % TURNS], REACH)]
+    ranked = sorted(best or [int(np.argmax(reach))], key=lambda k: -reach[k])
+    return [rays[k] for k in ranked[:FORKS]]
+
+
+def _reach(filled: NDArray[np.bool_], x: float, y: float, ray: tuple[float, float]) -> int:
+    """Pixels of ink along a ray."""
+    rows, columns = filled.shape
+    for far in range(1, int(hypot(rows, columns))):
+        column, row = int(x + far * ray[0]), int(rows - (y + far * ray[1]))
+        if not (0 <= column < columns and 0 <= row < rows and filled[row, column]):
+            return far
+    return 0

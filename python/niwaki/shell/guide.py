@@ -1,0 +1,196 @@
+"""`niwaki guide`: train a guide for a model, and show what one sees."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from rich.console import Console
+
+import niwaki as nw
+from niwaki import guides, search, shell, targets
+from niwaki.errors import InputError
+from niwaki.guides.report import sentence
+from niwaki.methods import Guide
+from niwaki.shell import controls, settings
+from niwaki.shell.app import ModelName, app, ensure_folder
+
+group = typer.Typer(
+    help="Train guides, and show what they see.",
+    no_args_is_help=True,
+    rich_markup_mode=None,
+)
+app.add_typer(group, name="guide")
+
+
+@group.command()
+def train(
+    model: ModelName,
+    places: Annotated[
+        str,
+        typer.Option(
+            "--targets",
+            metavar="FOLDER|NAME",
+            help="A folder of drawings or of meshes; or a collection of our drawings, such as scribbles.",
+        ),
+    ],
+    output: Annotated[Path, typer.Option("-o", "--out", metavar="FILE", help="The guide's file.")],
+    rounds: Annotated[
+        str, typer.Option("--rounds", metavar="LIST", help="Searches of each round, with commas.")
+    ] = "150,400",
+    resume: Annotated[
+        str | None, typer.Option("--resume", metavar="FILE", help="A guide to go on with.")
+    ] = None,
+    mirror: Annotated[
+        bool, typer.Option("--mirror/--no-mirror", help="Learn from mirrored drawings, too.")
+    ] = True,
+    window: controls.Window = None,
+    pixels: controls.Pixels = None,
+    voxel: controls.Voxel = None,
+    seed: Annotated[int | None, typer.Option(help="Default: a new one, which the guide's report keeps.")] = None,
+    threads: Annotated[
+        int | None, typer.Option(help="Default: all cores. The guide does not depend on it.")
+    ] = None,
+) -> None:
+    """Train a guide for MODEL: rounds of searches, each of which learns from the best runs of the last."""
+    found = shell.references.find(model)
+    counts = settings.numbers("rounds", rounds, int)
+    seed = search.fresh(seed)
+    start = None if resume is None else Guide.load(resume)
+    goals = _goals(found, places, window, pixels, voxel, mirror)
+    ensure_folder(output.parent)
+    began = time.perf_counter()
+    with _shown(found.reference) as progress:
+        guide = nw.train_guide(
+            found.model,
+            goals.learned,
+            goals.score,
+            goals.args,
+            held_out=goals.held_out,
+            rounds=counts,
+            start=start,
+            seed=seed,
+            threads=threads,
+            progress=progress,
+        )
+    guide.save(output)
+    seconds = time.perf_counter() - began
+    print(f"{output}: {guide!r}, {len(guide.data) / 1000:.0f} kB, {seconds:.0f} s, seed {seed}")
+    if guide.report.get("interrupted"):
+        raise typer.Exit(130)
+
+
+@group.command()
+def show(file: Annotated[str, typer.Argument(metavar="FILE", help="A guide's file.")]) -> None:
+    """Print what each choice of a guide sees, and how well the guide did."""
+    guide = Guide.load(file)
+    print(guide.show())
+    for one in guide.report.get("rounds", ()):
+        print(_line(one["number"], one["traces"], one["summary"]))
+
+
+@dataclass(frozen=True)
+class _Goals:
+    """What to learn from, and what judges."""
+
+    learned: Sequence[Any]
+    held_out: Sequence[Any]
+    score: Callable[[Any], nw.Score]
+    args: Callable[[Any], tuple[Any, ...]] | None = None
+
+
+def _goals(
+    found: shell.references.ModelReference,
+    places: str,
+    window: str | None,
+    pixels: int | None,
+    voxel: float | None,
+    mirror: bool,
+) -> _Goals:
+    """The targets of a folder or a collection; each eighth judges."""
+    draws = window is not None or (found.entry is not None and found.entry.window is not None)
+    if draws:
+        page = controls.Controls(match_image=places, window=window, draws=True).page(found)
+        drawings = _drawings(places, pixels or controls.PIXELS)
+        learned = [one for i, one in enumerate(drawings) if i % guides.EVERY]
+        if mirror:
+            learned += [one.mirrored() for one in learned]
+        follows = controls.follows(found.model)
+        return _Goals(
+            learned,
+            drawings[:: guides.EVERY],
+            lambda one: one.score(page),
+            (lambda one: one.place(page)) if follows else None,
+        )
+    files = _files(places, targets.reading.FORMATS)
+    meshes = [nw.Target.load(file) for file in files]
+    size = voxel if voxel is not None or found.entry is None else found.entry.voxel
+    return _Goals(
+        [one for i, one in enumerate(meshes) if i % guides.EVERY],
+        meshes[:: guides.EVERY],
+        lambda one: nw.no_self_intersection() * nw.match_volume(one, size),
+    )
+
+
+def _drawings(places: str, pixels: int) -> list[targets.drawing.Drawing]:
+    """The drawings of a folder, or those of a collection that are for training."""
+    if places in targets.drawings.COLLECTIONS and not Path(places).exists():
+        names = targets.drawings.names(places, "training")
+        if not names:
+            known = {one.partition("/")[0] for one in targets.drawings.names(use="training")}
+            reason = f"all of `{places}` are held out, so that guides can be judged by them"
+            raise InputError(
+                "guide-targets", name=places, reason=reason, cure=f"`--targets {', '.join(sorted(known))}`"
+            )
+        return [targets.drawings.drawing(name) for name in names]
+    return [targets.drawing.Drawing.load(file, pixels) for file in _files(places, targets.images.FORMATS)]
+
+
+def _files(places: str, formats: Sequence[str]) -> list[Path]:
+    """The files of a folder that have one of these formats, by name; at least two."""
+    folder = Path(places)
+    known = ", ".join(formats)
+    if not folder.is_dir():
+        reason = f"there is no folder {folder.absolute()}"
+        raise InputError("guide-targets", name=places, reason=reason, cure=f"a folder of files {known}")
+    files = sorted(one for one in folder.iterdir() if one.suffix.lower() in formats)
+    if len(files) < 2:
+        reason = f"{len(files)} file{'' if len(files) == 1 else 's'} of the formats {known}"
+        raise InputError("guide-targets", name=places, reason=reason, cure="a folder of at least two targets")
+    return files
+
+
+def _line(number: int, traces: int, summary: dict[str, float]) -> str:
+    name = "the guide that was given" if number < 0 else f"round {number + 1}: {traces} traces"
+    return f"{name}; held out: {sentence(summary) or 'nothing'}"
+
+
+@contextmanager
+def _shown(name: str) -> Iterator[Callable[[guides.Round], None]]:
+    """A line for each round on stderr, and a line of progress where stderr is a terminal."""
+    console = Console(stderr=True)
+
+    def judged(now: guides.Round) -> None:
+        print(_line(now.number, now.traces, now.summary()), file=sys.stderr)
+
+    if not console.is_terminal:
+        yield lambda now: judged(now) if now.is_judged else None
+        return
+    with console.status(f"training {name}") as status:
+
+        def show(now: guides.Round) -> None:
+            if now.is_judged:
+                judged(now)
+                return
+            what = f"step {now.step} of {now.steps}" if now.steps else f"{now.traces} traces of {now.wanted}"
+            status.update(
+                f"training {name}: round {now.number + 1} of {now.rounds}, {what}   (Ctrl-C keeps the best so far)"
+            )
+
+        yield show

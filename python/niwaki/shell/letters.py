@@ -1,0 +1,71 @@
+"""`niwaki letters`: a text in vines or lightning, written to a folder."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+
+from niwaki import letters as writing
+from niwaki import search
+from niwaki.letters.word import PARTICLES, STYLES, TRIES
+from niwaki.methods import at_least_one
+from niwaki.shell.app import Folder, app, ensure_folder
+
+
+@app.command()
+def letters(
+    text: Annotated[str, typer.Argument(metavar="TEXT", help="What to write.")],
+    output: Folder = None,
+    style: Annotated[str, typer.Option("--style", help=f"{' or '.join(STYLES)}.")] = STYLES[0],
+    seed: Annotated[int | None, typer.Option(help="Default: a new one, which is printed.")] = None,
+    particles: Annotated[int, typer.Option("-n", "--particles", help="Of each search.")] = PARTICLES,
+    tries: Annotated[int, typer.Option("--tries", help="Searches for each letter; the best is kept.")] = TRIES,
+    font: Annotated[
+        str | None, typer.Option("--font", metavar="FILE", help="A TrueType or OpenType file.")
+    ] = None,
+    width: Annotated[int, typer.Option("--width", help="Pixels of the picture; the animation has half.")] = 1600,
+    moving: Annotated[bool, typer.Option("--gif/--no-gif", help="Write growth.gif.")] = True,
+    threads: Annotated[
+        int | None, typer.Option(help="Default: all cores. Results do not depend on it.")
+    ] = None,
+) -> None:
+    """Write TEXT in vines or lightning; writes word.png, word.svg and growth.gif."""
+    at_least_one("--width", width)
+    seed = search.fresh(seed)
+    start = time.perf_counter()
+    with _shown(text) as progress:
+        word = writing.write(
+            text,
+            style,
+            seed=seed,
+            particles=particles,
+            tries=tries,
+            font=font,
+            threads=threads,
+            progress=progress,
+        )
+    seconds = time.perf_counter() - start
+    folder = ensure_folder(output or Path("out"))
+    files = [word.save(folder / "word.png", width), word.save(folder / "word.svg")]
+    if moving:
+        files.append(word.animate(folder / "growth.gif", width=max(1, width // 2)))
+    print("  ".join(f"{one.letter.character} {one.similarity:.2f}" for one in word.letters))
+    names = ", ".join(file.name for file in files)
+    print(f"{len(word.letters)} letters in {seconds:.1f} s, seed {seed}; {names} in {folder}")
+
+
+@contextmanager
+def _shown(text: str) -> Iterator[Callable[[int, int], None]]:
+    """A line of progress on stderr; nothing where stderr is not a terminal."""
+    console = Console(stderr=True)
+    if not console.is_terminal:
+        yield lambda done, wanted: None
+        return
+    with console.status(f"writing {text}") as status:
+        yield lambda done, wanted: status.update(f"writing {text}: {done} of {wanted} searches")
