@@ -8,7 +8,7 @@ from school import ours
 
 TRAINED = (1, 2, 3, 4, 5)
 SEARCHED = (1, 2)
-#: The largest populations without a guide; a second seed where the first says little.
+#: The largest populations without a guide.
 MANY = 600
 
 

@@ -70,7 +70,7 @@ def estimates(one, method, seeds):
 def test_evidence_is_that_of_enumeration(guide, particles, resampling, seeds):
     one = drawing(3)
     args = one.place(WINDOW)[:2]
-    exact = np.exp(nw.run(dots, *args, score=score(one), method=nw.enumerate()).log_evidence)
+    exact = np.exp(nw.run(dots, *args, score=score(one), method=nw.enumerate_all()).log_evidence)
     found = estimates(one, nw.smc(particles, resampling=resampling, guide=guide), seeds)
     assert abs(found.mean() - exact) < 5.0 * found.std() / np.sqrt(seeds)
     # The guide is no prior: without its weights the estimate would be another.
