@@ -6,6 +6,7 @@
 #   make lint     formatting, clippy, ruff, the order of imports, mypy and the stub of the engine, warnings as errors
 #   make bench    speed compared with WebPPL and a hand-written limit, on one thread (needs node and npm)
 #   make figures-sosmc  the figures and the table of chapter 5, into out/figures-sosmc (QUICK=1: a smoke run)
+#   make guides   train the guides that come with the package again, into python/niwaki/guides/shipped (two minutes)
 #   make figures-hmc  the figures and the tables of chapter 4, into out/figures-hmc (QUICK=1: a smoke run)
 #   make figures-guides  the figures and the numbers of chapter 6, into docs/pictures/guides (QUICK=1: a smoke run)
 #   make bench-c3 proposals of Markov chains compared with WebPPL and the limit, with figures (15 minutes; QUICK=1: two)
@@ -41,7 +42,7 @@ PYTHON_SOURCES := python tests benches docs/conf.py
 
 PARTS :=
 
-.PHONY: all demo test lint bench bench-c3 bench-hmc bench-searches figures-sosmc figures-hmc figures-guides soak mutants docs format locks clean
+.PHONY: all demo guides test lint bench bench-c3 bench-hmc bench-searches figures-sosmc figures-hmc figures-guides soak mutants docs format locks clean
 all: $(STAMPS)/engine
 
 # ---- set-up: one stamp for each thing that is made, older than what depends on it
@@ -85,6 +86,9 @@ bench: $(STAMPS)/engine $(STAMPS)/bench
 	$(PY) benches/startup.py
 	$(PY) benches/reference.py
 	$(PY) benches/machine.py
+
+guides: $(STAMPS)/engine
+	$(PY) benches/shipped_guides.py $(ONLY)
 
 figures-sosmc: $(STAMPS)/engine $(STAMPS)/bench
 	$(PY) benches/figures_sosmc out/figures-sosmc $(PARTS)

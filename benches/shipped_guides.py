@@ -46,7 +46,9 @@ def flat(name: str) -> nw.Guide:
         rounds=ROUNDS,
         keep=lambda sample: sample.has_ended and sample.primitives >= LEAST,
         seed=SEED,
-        progress=lambda now: print(f"  {now.traces} traces: {sentence(now.summary())}") if now.is_judged else None,
+        progress=lambda now: (
+            print(f"  {now.traces} traces: {sentence(now.summary())}") if now.is_judged else None
+        ),
     )
 
 
@@ -63,7 +65,9 @@ def main(names: list[str]) -> None:
         guide.save(FOLDER / f"{name}.guide")
         seconds, used = time.perf_counter() - began, time.process_time() - cpu
         most = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
-        print(f"  {len(guide.data) / 1000:.0f} kB in {seconds:.0f} s ({used:.0f} s of CPU), {most:.0f} MiB at most")
+        print(
+            f"  {len(guide.data) / 1000:.0f} kB in {seconds:.0f} s ({used:.0f} s of CPU), {most:.0f} MiB at most"
+        )
 
 
 if __name__ == "__main__":

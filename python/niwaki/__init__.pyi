@@ -2,7 +2,6 @@ from . import draw as draw
 from . import errors as errors
 from . import gallery as gallery
 from . import guides as guides
-from . import letters as letters
 from . import methods as methods
 from . import result as result
 from . import targets as targets

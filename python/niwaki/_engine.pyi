@@ -14,6 +14,8 @@ __all__ = [
     "Density",
     "Drawing",
     "EngineFault",
+    "Guide",
+    "Lessons",
     "Opaque",
     "Picture",
     "Program",

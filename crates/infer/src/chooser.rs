@@ -11,6 +11,7 @@
 //! user's proposal or a guide; the last two pass other choices to another chooser. A chooser may look at the scene so far ([`Context`]).
 
 use crate::record::log_density;
+use niwaki_geom::Aabb;
 use niwaki_geom::sketch::product::Sketches;
 use niwaki_math::{Dist, StreamKey};
 use niwaki_vm::builtins::draw_to_value;
@@ -50,13 +51,15 @@ pub struct Context<'a> {
     pub sketches: Option<&'a Sketches>,
     /// How many primitives the scene has.
     pub primitives: usize,
+    /// The part that was emitted last on the call path, where the run itself does not note it (a Markov chain).
+    pub part: Option<Aabb>,
 }
 
 impl Context<'_> {
     /// That of a choice without a scene.
     #[inline(always)]
     pub fn of(at: &At<'_, f64>) -> Self {
-        Context { address: at.address(), sketches: None, primitives: 0 }
+        Context { address: at.address(), sketches: None, primitives: 0, part: None }
     }
 }
 
@@ -64,6 +67,11 @@ impl Context<'_> {
 pub trait Chooser {
     /// Whether every value is drawn from the choice's own distribution, so that all weights are zero.
     const IS_PRIOR: bool = false;
+
+    /// Whether it looks at the scene, so that windows and the last parts must be kept.
+    fn looks(&self) -> bool {
+        false
+    }
 
     /// A value for the choice; `None` where the run is to pause before it.
     ///
@@ -83,6 +91,10 @@ pub trait Chooser {
 
 impl<C: Chooser> Chooser for &mut C {
     const IS_PRIOR: bool = C::IS_PRIOR;
+
+    fn looks(&self) -> bool {
+        (**self).looks()
+    }
 
     fn choose(&mut self, at: &At<'_, f64>, dist: &Dist, seen: Context<'_>) -> Result<Option<Chosen>, Fault> {
         (**self).choose(at, dist, seen)

@@ -101,7 +101,9 @@ impl<C: Chooser> Answers<f64> for Forward<'_, C> {
     fn choice(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Answer<Value>, Fault> {
         let sketches = Some(&self.record.sketches).filter(|sketches| !sketches.is_empty());
         let (address, primitives) = (at.address(), self.record.primitives);
-        let Some(chosen) = self.chooser.choose(at, dist, Context { address, sketches, primitives })? else {
+        let Some(chosen) =
+            self.chooser.choose(at, dist, Context { address, sketches, primitives, part: None })?
+        else {
             return Ok(Answer::Pause);
         };
         if !C::IS_PRIOR {
@@ -156,6 +158,10 @@ pub fn forward_by(task: &Task, chooser: impl Chooser, complete: bool) -> Result<
     let mut machine = task.machine();
     let mut state = task.start(&machine, true)?;
     let mut record = Record::start(&task.sketches);
+    if chooser.looks() {
+        state.note_parts();
+        record.sketches.expect_windows();
+    }
     let hosts = &*task.hosts;
     let mut answers =
         Forward { record: &mut record, chooser, log_ratio: 0.0, hosts, barriers: false, complete };

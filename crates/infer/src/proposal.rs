@@ -29,6 +29,10 @@ pub struct ByProposal<'a, C> {
 }
 
 impl<C: Chooser> Chooser for ByProposal<'_, C> {
+    fn looks(&self) -> bool {
+        self.proposal.looks()
+    }
+
     fn choose(&mut self, at: &At<'_, f64>, dist: &Dist, seen: Context<'_>) -> Result<Option<Chosen>, Fault> {
         match self.proposal.draw(at, dist, seen, self.sight, self.stream)? {
             None => self.otherwise.choose(at, dist, seen),

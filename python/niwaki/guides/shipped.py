@@ -1,6 +1,6 @@
 """The guides that come with the package: one file each, named like the gallery's model that it is for.
 
-`python -m benches.guides` trains them again (`make guides`).
+`make guides` trains them again, by `benches/shipped_guides.py`.
 """
 
 from __future__ import annotations

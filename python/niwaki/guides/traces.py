@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from threading import Event
 from typing import Any
@@ -16,7 +16,7 @@ class _Stopped(Exception):
     """Ends a search from within its `progress`."""
 
 
-def best_of(searches: Sequence[Search], workers: int) -> Iterator[Sample | None]:
+def best_of(searches: Sequence[Search], workers: int) -> Generator[Sample | None]:
     """The best sample of each search, in order; None where every particle became impossible, or a run had a fault.
 
     The searches run on so many threads. Close the iterator (`contextlib.closing`) to end those that still run and to

@@ -311,7 +311,8 @@ class _School:
 
 def with_guide(method: Method, guide: Guide) -> Method:
     """A method of particles, or importance sampling, whose choices a guide draws; another as it is."""
-    return replace(method, proposal=kernels.guided(guide)) if hasattr(method, "proposal") else method
+    own: Any = method
+    return replace(own, proposal=kernels.guided(guide)) if hasattr(method, "proposal") else method
 
 
 def _gains(sample: Sample) -> bool:
@@ -364,7 +365,7 @@ def _fit(
         step, label = told["diverged"]
         where = f"step {step}" + ("" if label is None else f", at the choice `{label}`")
         warnings.warn(
-            f"training met a number that is not finite in {where}: the best weights before are kept; give a lower `rate`",
+            f"training met a number that is not finite in {where}: the best weights before are kept; lower `rate`",
             SearchWarning,
             stacklevel=4,
         )

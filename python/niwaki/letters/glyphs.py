@@ -1,14 +1,13 @@
 """Characters of a font as drawings, and where they are on the page.
 
-Lengths are those of the plane in which the models draw; a capital is `CAPITAL` high. The font is Quicksand Bold (NOTICE):
-its strokes have one width, about that of the scribbles that the guides have learnt from.
+Lengths are those of the plane in which the models draw; a capital is `CAPITAL` high. The font is Quicksand Bold
+(NOTICE): its strokes have one width, about that of the scribbles that the guides have learnt from.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache
 from os import PathLike
 from pathlib import Path
 
@@ -98,7 +97,7 @@ class Font:
         ink, corner = self._ink(character)
         if ink.size == 0 or np.array_equal(ink, self._missing[0]):
             code = f"U+{ord(character[0]):04X}"
-            raise InputError("letter-missing", name=character, code=code, font=self.name)
+            raise InputError("letter-missing", name=character, point=code, font=self.name)
         return [_piece(ink, part, corner) for part in _parts(ink < 255)]
 
     def along(self, line: str) -> list[float]:
@@ -155,12 +154,6 @@ def _grown(part: NDArray[np.bool_]) -> NDArray[np.bool_]:
     wide = np.pad(part, 1)
     tall = wide[:-2] | wide[1:-1] | wide[2:]
     return np.asarray(tall[:, :-2] | tall[:, 1:-1] | tall[:, 2:])
-
-
-@cache
-def font(file: str | PathLike[str] | None = None) -> Font:
-    """A font by its file; the package's own where none is given."""
-    return Font(FONT if file is None else file)
 
 
 def lines(text: str, across: int = ACROSS) -> list[str]:

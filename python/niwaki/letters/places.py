@@ -1,4 +1,4 @@
-"""From where, and in which directions, a shape can be grown: points deep in its ink, and the directions in which ink goes on."""
+"""Where a shape can be grown from: points deep in its ink, and the directions in which the ink goes on."""
 
 from __future__ import annotations
 

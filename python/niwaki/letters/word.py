@@ -86,7 +86,9 @@ class Word:
         """The parts of each letter on the page, in the order in which they grew."""
         return [
             [
-                Part(f"letter{number}/piece{k}/{part.address}", tuple(moved(one, shift) for one in part.shapes))
+                Part(
+                    f"letter{number}/piece{k}/{part.address}", tuple(moved(one, shift) for one in part.shapes)
+                )
                 for k, (piece, sample) in enumerate(zip(grown.letter.pieces, grown.samples, strict=True), 1)
                 for shift in [_shift(grown.letter, piece)]
                 for part in sample.parts
@@ -104,7 +106,7 @@ class Word:
             for x, y in [piece.corner]
         ]
         edge = PIXEL * glyphs.EDGE - MARGIN * glyphs.CAPITAL
-        left, low = (min(one[side] for one in ink) + edge for side in (0, 1))
+        left, low = min(x for x, _, _ in ink) + edge, min(y for _, y, _ in ink) + edge
         right = max(x + PIXEL * shape[1] for x, _, shape in ink) - edge
         high = max(y + PIXEL * shape[0] for _, y, shape in ink) - edge
         return (left, low), (right, high)
@@ -197,7 +199,7 @@ def write(
     guide = None if entry is None else guides.shipped(entry.model)
     if entry is None or guide is None:
         raise bad("style", style, f"one of {', '.join(STYLES)}", f'"{STYLES[0]}"')
-    written = glyphs.page(text, glyphs.font(font))
+    written = glyphs.page(text, glyphs.Font(font or glyphs.FONT))
     if not written:
         raise bad("text", text, "at least one character that is seen", '"NIWAKI"')
     pieces = [(letter, piece) for letter in written for piece in letter.pieces]
@@ -225,7 +227,9 @@ def _best(found: Sequence[nw.Sample | None], letter: Letter) -> nw.Sample:
     return max(alive, key=lambda one: one.log_score)
 
 
-def _search(model: nw.Model[..., Any], piece: Piece, method: nw.methods.Method, try_: int, seed: int) -> nw.Search:
+def _search(
+    model: nw.Model[..., Any], piece: Piece, method: nw.methods.Method, try_: int, seed: int
+) -> nw.Search:
     """A search for a piece in the middle of the model's plane."""
     rows, columns = piece.greys.shape
     left = -0.5 * columns * PIXEL

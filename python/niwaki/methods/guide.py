@@ -18,9 +18,9 @@ from niwaki.errors.files import existing, write_whole
 class Guide:
     """A trained guide (dissertation chapter 6).
 
-    It sees what is in scope at a choice, the parameters of the choice's prior, and the surroundings of the current place
-    in target and scene. It gives a distribution to draw from. Weights make up for the difference, so a search is right
-    with any guide, and needs fewer particles with a good one.
+    It sees what is in scope at a choice, the parameters of the choice's prior, and the surroundings of the current
+    place in target and scene. It gives a distribution to draw from. Weights make up for the difference, so a search is
+    right with any guide, and needs fewer particles with a good one.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ class Guide:
         try:
             self._engine = _engine.Guide(data)
         except _engine.EngineFault as fault:
-            raise InputError("bad-guide", detail=fault.message) from None
+            raise InputError("bad-guide", detail=fault.message.removeprefix("this is no guide: ")) from None
         self._data = data
 
     @classmethod
@@ -117,6 +117,8 @@ class Guide:
             lines.append(
                 f"the page of {form['image']['sketch']}: windows of 3 by 3 in four resolutions, position, direction"
             )
+        if form.get("part") is not None:
+            lines.append("the current place is a frame in scope, or else the middle of the last part, whose box it reads")
         for site in form["sites"]:
             lines.append(
                 f"{site['function']}/{site['label']}: {_drawn(site)}, {site['visits']} in the traces"

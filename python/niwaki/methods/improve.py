@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import InitVar, dataclass
 
 from niwaki.errors.settings import bad, is_number, is_whole
-from niwaki.methods.checks import at_least_one
+from niwaki.methods.checks import at_least_one, guided
+from niwaki.methods.guide import Guide
+from niwaki.methods.kernels import Kernel
 from niwaki.methods.method import Method
 
 
@@ -39,6 +41,9 @@ class Improve(Method):
         Give so many results that differ, best score first, from as many searches side by side with six tenths of the
         particles: none shares more than half of its choices with another. Where fewer are found, fewer are given, with
         a warning. Not with `seconds`.
+    proposal, guide
+        What draws the choices of populations, and of parts that are grown again, in place of the prior, as for
+        `importance`.
     """
 
     NAME = "improve"
@@ -48,8 +53,10 @@ class Improve(Method):
     rounds: int | None = None
     seconds: float | None = None
     diverse: int | None = None
+    proposal: Kernel | None = None
+    guide: InitVar[Guide | None] = None
 
-    def __post_init__(self) -> None:
+    def __post_init__(self, guide: Guide | None) -> None:
         """Check the settings."""
         at_least_one("particles", self.particles)
         if not is_whole(self.regrow) or self.regrow < 2:
@@ -63,6 +70,7 @@ class Improve(Method):
             raise bad("seconds", self.seconds, "a number of seconds above 0", "10")
         if self.seconds is not None and self.diverse is not None:
             raise bad("seconds", self.seconds, "None together with `diverse`", "`rounds`")
+        self._set("proposal", guided(self.proposal, guide))
         self._set("power", float(self.power))
         self._set("seconds", None if self.seconds is None else float(self.seconds))
 

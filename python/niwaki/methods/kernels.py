@@ -119,9 +119,12 @@ class Kernel:
         if self.name == "regrow":
             named = own["pick"] if isinstance(own["pick"], str) else None
             which = f"pick={named!r}" if named else f"parts={own['pick']['parts']!r}"
-            return f"regrow({own['particles']}, turn={own['turn']}, {which})"
+            guide = "" if self.function is None else f", guide={self.function!r}"
+            return f"regrow({own['particles']}, turn={own['turn']}, {which}{guide})"
         parts = [repr(one) for one in (*own.values(), *self.parts)]
-        if self.function is not None:
+        if isinstance(self.function, Guide):
+            parts.append(repr(self.function))
+        elif self.function is not None:
             parts.append(getattr(self.function, "name", getattr(self.function, "__name__", "function")))
         return f"{self.name}({', '.join(parts)})"
 
@@ -182,7 +185,12 @@ def regenerate(levels: int = 0) -> Kernel:
 
 
 def regrow(
-    particles: int = 60, *, turn: float = 0.5, pick: str = "size", parts: str | Sequence[str] | None = None
+    particles: int = 60,
+    *,
+    turn: float = 0.5,
+    pick: str = "size",
+    parts: str | Sequence[str] | None = None,
+    guide: Guide | None = None,
 ) -> Kernel:
     """A part of the run is grown again in place by particles, and everything else is held.
 
@@ -204,6 +212,8 @@ def regrow(
     parts
         Patterns over the addresses of calls and iterations, such as `"wing[1]"`: one of those that match is grown
         again, drawn evenly, instead of `pick`.
+    guide
+        Draws the new values in place of their priors; weights make up for it.
     """
     if not _number(turn) or not 0 <= turn <= 1:
         raise bad("turn", turn, "a share in [0, 1]", "0.5")
@@ -219,6 +229,7 @@ def regrow(
             "turn": float(turn),
             "pick": pick if named is None else {"parts": list(named)},
         },
+        function=None if guide is None else _guide(guide),
     )
 
 
@@ -288,14 +299,23 @@ def proposal(function: Callable[..., Any]) -> Kernel:
 def guided(guide: Guide) -> Kernel:
     """Choices drawn by a guide (dissertation chapter 6), for chains, particles and importance sampling alike.
 
+    In a chain it changes one choice. It sees the scene without the parts at and below the call of that choice, and with
+    what the call itself emitted before it; iterations of a loop after that of the choice are below it. A particle that
+    still runs is left unchanged by it, as a kernel of `rejuvenate`.
+
     Parameters
     ----------
     guide
         From `niwaki.train_guide`, or a file (`Guide.load`). Choices that it does not know are drawn from their priors.
     """
+    return Kernel("guided", function=_guide(guide))
+
+
+def _guide(guide: Guide) -> Guide:
+    """The guide, where it is one."""
     if not isinstance(guide, Guide):
         raise bad("guide", guide, "a guide", '`niwaki.train_guide(...)` or `Guide.load("vines.guide")`')
-    return Kernel("guided", function=guide)
+    return guide
 
 
 def cycle(*kernels: Kernel) -> Kernel:

@@ -25,11 +25,11 @@ from niwaki.targets.sketches import Score, match_volume, no_self_intersection
 from niwaki.targets.target import Target
 
 #: The settings of `improve`, the usual search, which `grow` takes by name.
-OF_IMPROVE = ("rounds", "seconds", "diverse")
+OF_IMPROVE = ("rounds", "seconds", "diverse", "guide")
 #: The settings of `smc`, which are one population instead.
 OF_SMC = (*(field.name for field in fields(Smc)), "guide")
 
-#: One population with a guide: few particles do it, and tempered resampling keeps those alive that look bad for a moment.
+#: One population with a guide: few particles do it, and tempered resampling keeps those that look bad for a moment.
 GUIDED: dict[str, Any] = {"particles": 50, "resampling": "tempered"}
 
 #: The power of a search for the best.
@@ -136,10 +136,10 @@ def grow(
     target
         What to fill: a `Target`, or a file; may be left out where `score` has something to match.
     args, kwargs
-        The model's arguments. What `kwargs` has of `rounds`, `seconds` and `diverse` is for the usual search. With
-        any other setting of `smc` (particles, order, power, ...) the search is one population by those, with a `power`
-        of 16 for ratio weights when left out (1 for drawings); by a `guide`, with 50 particles and tempered resampling
-        when left out.
+        The model's arguments. What `kwargs` has of `rounds`, `seconds`, `diverse` and `guide` is for the usual
+        search. With any other setting of `smc` (particles, order, power, ...) the search is one population by those,
+        with a `power` of 16 for ratio weights when left out (1 for drawings). With a `guide` and nothing of the usual
+        search it is one population, too: of 50 particles with tempered resampling, when left out.
     score
         Further sketches, such as `floor(0) * match_image("skyline.png", "cam.json")`; they multiply
         `no_self_intersection(rule)`, which is left out for drawings, and, where there is a target,
@@ -207,7 +207,7 @@ def usual(settings: Mapping[str, Any], power: float = POWER) -> Method:
 
     Where its `power` is left out, it is that one with ratio weights.
     """
-    if set(settings) <= set(OF_IMPROVE):
+    if set(settings) <= set(OF_IMPROVE) and set(settings) != {"guide"}:
         return Improve(**settings)
     if "rounds" in settings:
         others = ", ".join(f"`{name}`" for name in settings if name not in OF_IMPROVE)

@@ -6,6 +6,7 @@ import time
 import warnings
 from collections import Counter
 from dataclasses import replace
+from math import exp
 from typing import TYPE_CHECKING
 
 from niwaki import _engine
@@ -25,8 +26,15 @@ if TYPE_CHECKING:
     from niwaki.search.request import Search
 
 
+#: So many of the things that a guide has lost are named.
+SHOWN = 6
+
+#: Of so many samples or more, fewer effective ones than this are a collapse of their weights.
+MANY, COLLAPSED = 20, 2.0
+
+
 class SearchWarning(UserWarning):
-    """A search gave a result, but fewer samples than its settings require."""
+    """A search gave a result, but one that is worth less than its settings promise."""
 
 
 def carried_out(search: Search, threads: int | None, progress: Watch | None) -> Result:
@@ -36,8 +44,14 @@ def carried_out(search: Search, threads: int | None, progress: Watch | None) -> 
     """
     if search.choices is not None and not starts(search.method):
         return given(search)
+    guides = [one for one in search.method.text()[1] if isinstance(one, Guide)]
+    for guide in guides:
+        _check_guide(search, guide)
     if search.runs == 1 and search.keep == "all" and search.polish is None:
-        return once(search, search.seed, threads, watcher(progress, search))
+        result = once(search, search.seed, threads, watcher(progress, search))
+        if guides:
+            _check_weights(result)
+        return result
     found: list[Sample] = []
     failed: list[InputError | ModelFault] = []
     invalid: Counter[str] = Counter()
@@ -89,6 +103,40 @@ def carried_out(search: Search, threads: int | None, progress: Watch | None) -> 
     return Result(
         search, found, search.seed, info=info, interrupted=interrupted, invalid=invalid, seconds=seconds
     )
+
+
+def _check_guide(search: Search, guide: Guide) -> None:
+    """Warn where a guide is of another version of the model."""
+    with translated(search.model.name):
+        lost = guide._engine.lost(search.task)
+    if lost:
+        shown = "; ".join([*lost[:SHOWN], *([f"and {len(lost) - SHOWN} more"] if len(lost) > SHOWN else [])])
+        warnings.warn(
+            f"the guide of `{guide.model}` was trained for another version of the model, and only what matches is "
+            f"used: {shown}",
+            SearchWarning,
+            stacklevel=5,
+        )
+
+
+def _check_weights(result: Result) -> None:
+    """Warn where one of many samples has all the weight.
+
+    Each choice's weight is bounded, their product is not. Resampling brings the weights back, so this happens where a
+    method does not resample, or does so seldom.
+    """
+    if len(result) < MANY or result.interrupted:
+        return
+    logs = [sample.log_weight for sample in result]
+    shares = [exp(one - max(logs)) for one in logs]
+    effective = sum(shares) ** 2 / sum(share**2 for share in shares)
+    if effective < COLLAPSED:
+        warnings.warn(
+            f"{effective:.1f} of {len(result)} samples are effective: what a guide drew weighs too unevenly. Resample "
+            '(`smc` with `resampling="tempered"` and without `ess`), or train the guide with a larger `share`',
+            SearchWarning,
+            stacklevel=5,
+        )
 
 
 def _check_gain(search: Search, best: Sample) -> None:

@@ -53,7 +53,9 @@ def train(
     window: controls.Window = None,
     pixels: controls.Pixels = None,
     voxel: controls.Voxel = None,
-    seed: Annotated[int | None, typer.Option(help="Default: a new one, which the guide's report keeps.")] = None,
+    seed: Annotated[
+        int | None, typer.Option(help="Default: a new one, which the guide's report keeps.")
+    ] = None,
     threads: Annotated[
         int | None, typer.Option(help="Default: all cores. The guide does not depend on it.")
     ] = None,

@@ -25,11 +25,15 @@ def letters(
     style: Annotated[str, typer.Option("--style", help=f"{' or '.join(STYLES)}.")] = STYLES[0],
     seed: Annotated[int | None, typer.Option(help="Default: a new one, which is printed.")] = None,
     particles: Annotated[int, typer.Option("-n", "--particles", help="Of each search.")] = PARTICLES,
-    tries: Annotated[int, typer.Option("--tries", help="Searches for each letter; the best is kept.")] = TRIES,
+    tries: Annotated[
+        int, typer.Option("--tries", help="Searches for each letter; the best is kept.")
+    ] = TRIES,
     font: Annotated[
         str | None, typer.Option("--font", metavar="FILE", help="A TrueType or OpenType file.")
     ] = None,
-    width: Annotated[int, typer.Option("--width", help="Pixels of the picture; the animation has half.")] = 1600,
+    width: Annotated[
+        int, typer.Option("--width", help="Pixels of the picture; the animation has half.")
+    ] = 1600,
     moving: Annotated[bool, typer.Option("--gif/--no-gif", help="Write growth.gif.")] = True,
     threads: Annotated[
         int | None, typer.Option(help="Default: all cores. Results do not depend on it.")

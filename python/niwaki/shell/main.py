@@ -24,7 +24,19 @@ from niwaki.shell import (
 )  # each puts its command on the application
 from niwaki.shell.app import app
 
-__all__ = ["app", "check", "color", "explain", "grow", "guide", "letters", "main", "models", "replay", "sample"]
+__all__ = [
+    "app",
+    "check",
+    "color",
+    "explain",
+    "grow",
+    "guide",
+    "letters",
+    "main",
+    "models",
+    "replay",
+    "sample",
+]
 
 
 def main() -> NoReturn:

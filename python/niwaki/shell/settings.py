@@ -191,7 +191,7 @@ def guide(
     found: ModelReference,
     sketches: Sequence[str],
     name: str | None,
-    given: Mapping[str, Any],
+    given: dict[str, Any],
 ) -> Guide | None:
     """The guide of a search: that of the file; else the one that comes with the model, where it suits; or None.
 

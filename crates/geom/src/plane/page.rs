@@ -11,8 +11,10 @@
 //! for touched, 8 x 8 pixels for sampled.
 
 use super::outline::Outline;
+use crate::bounds::Aabb;
 use crate::error::GeomError;
 use crate::shape::Shape;
+use crate::vector::vec3;
 use crate::view::Cover;
 use crate::view::camera::check_size;
 
@@ -66,6 +68,12 @@ impl Page {
     /// Width and height of a pixel, world units.
     pub fn pixel(&self) -> [f64; 2] {
         self.pixel
+    }
+
+    /// The window in space, where z is 0.
+    pub fn domain(&self) -> Aabb {
+        let at = |[x, y]: [f64; 2]| vec3(x, y, 0.0);
+        Aabb { low: at(self.low), high: at(self.high) }
     }
 
     /// The longer side of the window, world units.

@@ -25,6 +25,7 @@ use super::bag::Bag;
 use super::outside::Outside;
 use super::tiles::Tiles;
 use super::{Sketch, SketchSpec, check_sigma, log_normal, share};
+use crate::bounds::Aabb;
 use crate::error::GeomError;
 use crate::plane::Page;
 use crate::primitive::Primitive;
@@ -168,6 +169,10 @@ impl SketchSpec for DrawingSpec {
         let mut bits = Vec::new();
         self.drawing.page.image(|word| self.drawing.filled(word), &mut bits);
         Some((self.drawing.page.clone(), bits))
+    }
+
+    fn domain(&self) -> Option<Aabb> {
+        Some(self.drawing.page.domain())
     }
 
     fn start(&self) -> Box<dyn Sketch> {

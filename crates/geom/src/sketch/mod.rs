@@ -90,6 +90,10 @@ pub trait SketchSpec: Send + Sync {
     fn image(&self) -> Option<(Page, Vec<u64>)> {
         None
     }
+    /// The box around what its target covers, world space; `None` when it has no target in the world.
+    fn domain(&self) -> Option<Aabb> {
+        None
+    }
     /// The sketch of the empty scene.
     fn start(&self) -> Box<dyn Sketch>;
 }

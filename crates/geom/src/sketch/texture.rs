@@ -23,6 +23,7 @@ use super::bag::Bag;
 use super::outside::Outside;
 use super::tiles::Tiles;
 use super::{Sketch, SketchSpec, check_sigma, log_normal, share};
+use crate::bounds::Aabb;
 use crate::error::GeomError;
 use crate::plane::Page;
 use crate::primitive::Primitive;
@@ -78,6 +79,10 @@ impl SketchSpec for TextureSpec {
         let mut bits = Vec::new();
         page.image(|_| 0, &mut bits);
         Some((page.clone(), bits))
+    }
+
+    fn domain(&self) -> Option<Aabb> {
+        Some(self.0.texture.page.domain())
     }
 
     fn start(&self) -> Box<dyn Sketch> {

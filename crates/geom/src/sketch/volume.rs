@@ -14,6 +14,7 @@ use super::brick::Plane;
 use super::counters::{Counters, bricks_of, planes_of, visit};
 use super::overshoot::overshoot;
 use super::{Sketch, SketchSpec, log_normal, share};
+use crate::bounds::Aabb;
 use crate::error::GeomError;
 use crate::mesh::TriMesh;
 use crate::primitive::Primitive;
@@ -121,6 +122,10 @@ impl SketchSpec for VolumeSpec {
     fn window(&self) -> Option<WindowForm> {
         let [x, y, z] = self.target.grid.domain().extent().to_array();
         Some(WindowForm::solid(x.max(y).max(z)))
+    }
+
+    fn domain(&self) -> Option<Aabb> {
+        Some(*self.target.grid.domain())
     }
 
     fn start(&self) -> Box<dyn Sketch> {

@@ -3,7 +3,7 @@
 //! A run that begins sees only what was made before. A chain's run is complete, so what a guide sees of it has to be
 //! said. For a choice `c` of an activation `A`:
 //!
-//! - of the program, what is in scope at `c`, and the parameters of its prior;
+//! - of the program, what is in scope at `c`, the parameters of its prior, and the last part on the call path of `c`;
 //! - of the scene, all but the parts at and below `A`, and what `A` itself emitted before `c`. Iterations of a loop after
 //!   that of `A` are below it, as in the recursion that the loop could be.
 //!
@@ -28,8 +28,8 @@ use super::state::State;
 use crate::Failure;
 use crate::chooser::Context;
 use crate::guide::bound::{BoundGuide, Sight};
-use niwaki_geom::Primitive;
 use niwaki_geom::sketch::product::Sketches;
+use niwaki_geom::{Aabb, Primitive};
 use niwaki_math::{Dist, Draw, Stream, grid};
 use niwaki_vm::builtins::{draw_to_value, value_to_draw};
 use niwaki_vm::code::Program;
@@ -47,6 +47,8 @@ pub struct Guided {
     sight: Sight,
     /// What it sees of the scene, where it looks.
     scene: Option<Scene>,
+    /// The last part on the choice's call path.
+    part: Option<Aabb>,
     /// The site in the guide, the prior and the value before, where the guide drew.
     drew: Option<(usize, Dist, Draw)>,
 }
@@ -54,7 +56,7 @@ pub struct Guided {
 impl Guided {
     /// A guide that has not proposed.
     pub fn new(guide: Arc<BoundGuide>) -> Guided {
-        Guided { guide, sight: Sight::default(), scene: None, drew: None }
+        Guided { guide, sight: Sight::default(), scene: None, part: None, drew: None }
     }
 }
 
@@ -123,6 +125,7 @@ impl Move for Guided {
         let key = program.function(function).sites[site as usize].key;
         let looks = self.guide.looks() && self.guide.knows(key);
         self.scene = looks.then(|| Scene::of(state, program, choice));
+        self.part = state.trace.part(program, choice);
     }
 
     fn propose(
@@ -135,7 +138,7 @@ impl Move for Guided {
         rng: &mut Stream,
     ) -> Result<Proposed<f64>, Fault> {
         let sketches = self.scene.as_ref().and_then(Scene::seen);
-        let seen = Context { address: at.address(), sketches, primitives: 0 };
+        let seen = Context { address: at.address(), sketches, primitives: 0, part: self.part };
         let old = value_to_draw(old).filter(|_| !matches!(dist, Dist::Delta(_)));
         let site = old.as_ref().and_then(|_| self.guide.look(at, dist, seen, &mut self.sight, 0));
         self.drew = None;

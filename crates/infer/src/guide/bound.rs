@@ -7,7 +7,7 @@ use super::{Guide, Network};
 use crate::Task;
 use crate::chooser::{Chosen, Context};
 use niwaki_geom::sketch::product::Sketches;
-use niwaki_geom::{Place, WindowForm, vec3};
+use niwaki_geom::{Aabb, Place, Vec3, WindowForm, vec3};
 use niwaki_guide::Scratch;
 use niwaki_guide::filtered::View;
 use niwaki_math::{Dist, Draw, Stream};
@@ -27,6 +27,8 @@ pub struct BoundGuide {
     windows: Vec<(usize, WindowForm)>,
     /// The page of a guide of the dissertation's architecture.
     images: Option<Images>,
+    /// Where it looks from as long as nothing says where: the middle of what it looks at.
+    middle: Place,
     /// What of the guide the program or its score does not have, for people.
     pub lost: Vec<String>,
 }
@@ -144,7 +146,9 @@ impl BoundGuide {
             let own = &form.sites[number];
             format!("the model has no `{}` of `{}`", own.label, own.function)
         }));
-        Ok(BoundGuide { guide, sites, windows, images, lost })
+        let domain = windows.first().and_then(|(member, _)| task.sketches[*member].domain());
+        let middle = along_axes(domain.map_or(vec3(0.0, 0.0, 0.0), |domain| domain.center()));
+        Ok(BoundGuide { guide, sites, windows, images, middle, lost })
     }
 
     /// The page of a guide of the dissertation's architecture.
@@ -159,7 +163,7 @@ impl BoundGuide {
 
     /// Whether it looks at the scene.
     pub fn looks(&self) -> bool {
-        !self.windows.is_empty()
+        !self.windows.is_empty() || self.images.is_some()
     }
 
     /// Whether it draws the choices of a site, by key.
@@ -183,7 +187,8 @@ impl BoundGuide {
         if !own.head.fits(dist) {
             return None;
         }
-        let here = place_of(at);
+        let part = at.part().or(seen.part.as_ref());
+        let here = place_of(at, part).unwrap_or(self.middle);
         let now = (owner, here, seen.primitives);
         if sight.seen != Some(now) {
             let same = sight.seen.is_some_and(|(who, _, count)| (who, count) == (owner, seen.primitives));
@@ -199,6 +204,10 @@ impl BoundGuide {
                 let own = &form.variables[*v as usize];
                 own.kind.write(value, &here, own.first, &|cell| at.element(cell), &mut sight.features);
             }
+        }
+        if let (Some(first), Some(part)) = (form.part, part) {
+            let numbers = of_part(part).into_iter().zip(first..);
+            sight.features.extend(numbers.map(|(x, number)| (number, x as f32)));
         }
         parameters(dist, own.parameters, &mut sight.features);
         Some(site.number)
@@ -294,14 +303,24 @@ fn lacking(form: &GuideForm, name: &str) -> Fault {
     Fault::new("guide-score", message).with_help("search by the score that the guide was trained for")
 }
 
-/// Where a choice is: the frame that was assigned last in its scope, or else the origin.
-fn place_of(at: &At<'_, f64>) -> Place {
-    at.look().and_then(place).unwrap_or(Place {
-        position: vec3(0.0, 0.0, 0.0),
-        forward: vec3(0.0, 1.0, 0.0),
-        up: vec3(0.0, 0.0, 1.0),
-        scale: 1.0,
-    })
+/// Where a choice is: the frame that was assigned last in its scope, or else the middle of the last part on its call path.
+fn place_of(at: &At<'_, f64>, part: Option<&Aabb>) -> Option<Place> {
+    at.look().and_then(place).or_else(|| part.map(|part| along_axes(part.center())))
+}
+
+/// A place that looks along +y, with +z up.
+fn along_axes(position: Vec3) -> Place {
+    Place { position, forward: vec3(0.0, 1.0, 0.0), up: vec3(0.0, 0.0, 1.0), scale: 1.0 }
+}
+
+/// The middle and the half sizes of a part.
+pub(super) const OF_PART: [&str; 6] =
+    ["middle.x", "middle.y", "middle.z", "half size x", "half size y", "half size z"];
+
+/// The numbers of a part, as [`OF_PART`] names them.
+fn of_part(part: &Aabb) -> [f64; 6] {
+    let (middle, half) = (part.center(), part.extent() * 0.5);
+    [middle.x, middle.y, middle.z, half.x, half.y, half.z]
 }
 
 /// The most parameters of a prior that are inputs.

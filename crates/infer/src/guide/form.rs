@@ -1,5 +1,6 @@
 //! A guide as plain data: what its file says beside the weights of the network.
 
+use super::bound::OF_PART;
 use super::inputs::Kind;
 use niwaki_geom::WindowForm;
 use niwaki_guide::Head;
@@ -26,6 +27,9 @@ pub struct GuideForm {
     pub image: Option<ImageForm>,
     /// The variables that it reads.
     pub variables: Vec<VariableForm>,
+    /// The number of the first input of the last part on the call path; `None` where it does not read it.
+    #[serde(default)]
+    pub part: Option<u32>,
     /// The choices that it draws, in the order of the network's heads.
     pub sites: Vec<SiteForm>,
     /// Choices that were met and are left to their priors, with the reason.
@@ -80,7 +84,8 @@ impl GuideForm {
     pub fn features(&self) -> usize {
         let of_variables = self.variables.iter().map(|own| own.first as usize + own.kind.len());
         let of_sites = self.sites.iter().map(|own| (own.parameters.0 + own.parameters.1) as usize);
-        of_variables.chain(of_sites).max().unwrap_or(0)
+        let of_part = self.part.map(|first| first as usize + OF_PART.len());
+        of_variables.chain(of_sites).chain(of_part).max().unwrap_or(0)
     }
 
     /// How many numbers the windows have.
@@ -88,7 +93,7 @@ impl GuideForm {
         self.windows.iter().map(|(_, form)| form.values()).sum()
     }
 
-    /// The guide reads only the variables of these names, and no parameters of priors.
+    /// The guide reads only the variables of these names, not the last part, and no parameters of priors.
     pub fn keep_only(&mut self, names: &[String]) {
         let kept = |v: &VariableForm| names.contains(&v.name);
         let (mut numbers, mut next, mut first) = (Vec::new(), 0, 0);
@@ -100,6 +105,7 @@ impl GuideForm {
             }
         }
         self.variables.retain(kept);
+        self.part = None;
         for site in &mut self.sites {
             site.variables = site.variables.iter().filter_map(|v| numbers[*v as usize]).collect();
             site.parameters = (0, 0);
@@ -116,6 +122,9 @@ impl GuideForm {
             let mut parts = Vec::new();
             own.kind.names(&format!("{}:{}", own.function, own.name), &mut parts);
             put(own.first, parts);
+        }
+        if let Some(first) = self.part {
+            put(first, OF_PART.iter().map(|name| format!("the last part: {name}")).collect());
         }
         for own in &self.sites {
             let name = |i| format!("{}/{}: parameter {} of the prior", own.function, own.label, i + 1);

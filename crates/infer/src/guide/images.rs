@@ -88,6 +88,7 @@ pub(super) fn network(form: &mut GuideForm, making: &Making, task: &Task) -> Res
             )
     })?;
     form.image = Some(ImageForm { sketch: shown.name().to_string() });
+    form.part = None;
     for site in &mut form.sites {
         site.parameters = (0, 0);
     }

@@ -61,7 +61,8 @@ pub(super) fn follow(example: &Example, each: &mut Each<'_>) -> Result<(), Failu
     let mut order = entries.iter().filter(|entry| entry.is_order()).map(Entry::address).peekable();
     let depth_first = order.peek().is_none();
     let mut machine = task.machine();
-    let start = task.start(&machine, depth_first)?;
+    let mut start = task.start(&machine, depth_first)?;
+    start.note_parts();
     let mut record = Record::start(&task.sketches);
     record.sketches.expect_windows();
     let mut one = Particle::start(start, record, 0, 0);

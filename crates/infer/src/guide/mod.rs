@@ -19,6 +19,8 @@ mod images;
 pub mod inputs;
 pub mod lessons;
 pub mod survey;
+#[cfg(test)]
+mod tests;
 
 use form::{FORMAT, GuideForm};
 use niwaki_guide::{Filtered, Net};

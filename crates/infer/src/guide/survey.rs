@@ -1,6 +1,6 @@
 //! What the traces of a model show: which choices a guide can draw, and what it can see there.
 
-use super::bound::{PARAMETERS, of_prior};
+use super::bound::{OF_PART, PARAMETERS, of_prior};
 use super::form::{FORMAT, GuideForm, SiteForm, VariableForm};
 use super::inputs::Kind;
 use super::lessons::{Example, follow};
@@ -39,6 +39,8 @@ pub struct Survey {
     numbers: HashMap<u128, usize>,
     variables: Vec<Variable>,
     by_name: HashMap<(String, String), usize>,
+    /// Whether a choice without a frame in scope met a part.
+    parts: bool,
 }
 
 impl Survey {
@@ -70,6 +72,7 @@ impl Survey {
             self.sites.push((at.site.key, met));
             self.sites.len() - 1
         });
+        self.parts |= at.part().is_some() && at.look().is_none();
         let first = self.sites[number].1.visits == 0;
         for (name, is_angle, value) in at.visible() {
             let key = (at.function.name.to_string(), name.to_string());
@@ -139,6 +142,7 @@ impl Survey {
                 kind: own.kind,
             })
             .collect();
+        let part = self.parts.then(|| take(OF_PART.len()));
         let mut sites = Vec::new();
         let mut left: Vec<(String, String)> =
             unmet.into_iter().map(|name| (name, "no trace visited it".into())).collect();
@@ -172,6 +176,7 @@ impl Survey {
             windows,
             image: None,
             variables,
+            part,
             sites,
             left,
             report: serde_json::Map::new(),

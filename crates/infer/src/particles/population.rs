@@ -86,6 +86,7 @@ impl<'a> Population<'a> {
         let mut empty = Record::start(&task.sketches);
         if settings.proposal.as_ref().is_some_and(|proposal| proposal.looks()) {
             empty.sketches.expect_windows();
+            first.note_parts();
         }
         let empty_score = empty.score();
         let particles: Vec<Particle> = (0..n as u64)

@@ -9,10 +9,12 @@ use super::on_one_thread;
 use super::populations::by;
 use super::programs::{PROGRAMS, task};
 use niwaki_infer::Task;
+use niwaki_infer::chain::form::{Attached, Form};
 use niwaki_infer::chain::kernel::{Kernel, Selection};
 use niwaki_infer::chain::{Chain, Settings};
 use niwaki_infer::forward::forward;
 use niwaki_infer::log::Entry;
+use niwaki_infer::method::{Given, Method};
 use niwaki_infer::particles::{self, Ancestors, Order, Resampling, particle_gibbs, pimh};
 use niwaki_infer::rejection::rejection;
 use niwaki_infer::replay::by_address;
@@ -126,4 +128,45 @@ fn guided_populations_keep_the_posterior() {
         let far = Law::of(&task).wrong_counts(&values);
         assert!(far.is_empty(), "{name}: {far:?}");
     }
+}
+
+/// As data a kernel names its guide by number.
+#[test]
+fn a_kernel_as_data_names_its_guide() {
+    let task = task(PROGRAMS[0].1);
+    let attached = [Attached::Guide(strong(&task, 1))];
+    let form = |text: &str| serde_json::from_str::<Form>(text).expect("a form");
+    let plain = r#"{"name": "regrow", "settings": {"particles": 3, "turn": 0.5, "pick": "size"}}"#;
+    let kernels = [
+        form(r#"{"name": "guided", "function": 0}"#).kernel(&attached),
+        form(&plain.replace("\"regrow\"", "\"regrow\", \"function\": 0")).kernel(&attached),
+        form(plain).kernel(&attached),
+    ];
+    let starts = draws(&task, 40);
+    let values = kernels.map(|kernel| moved(&task, &kernel.expect("a kernel"), &starts, 3));
+    assert!(values[0] != values[1] && values[1] != values[2], "guides draw");
+    for text in [r#"{"name": "guided", "function": 1}"#, r#"{"name": "prior", "function": 0}"#] {
+        assert_eq!(form(text).kernel(&attached).expect_err("no guide there").code, "bad-kernel");
+    }
+}
+
+/// A search for the best draws its populations and its parts by a guide, and finds the best run there is.
+#[test]
+fn a_guided_search_finds_the_best() {
+    let task = task(PROGRAMS[0].1);
+    let scores = (0..3000).map(|stream| forward(&task, 2, stream, false).expect("a run").log_score);
+    let best = scores.fold(f64::NEG_INFINITY, f64::max);
+    let attached = [Attached::Guide(strong(&task, 1))];
+    let search = |proposal: &str| {
+        let text = format!(
+            r#"{{"method": "improve", "particles": 8, "regrow": 3, "power": 16.0, "rounds": 30, "seconds": null,
+                "diverse": null, "proposal": {proposal}}}"#
+        );
+        let given = Given { seed: 4, attached: &attached, ..Given::default() };
+        let found = Method::read(&text).expect("a method").search(&task, &given, &mut |_, _, _| true);
+        found.expect("a search").runs.swap_remove(0)
+    };
+    let guided = search(r#"{"name": "guided", "function": 0}"#);
+    assert!(guided.log_score >= best, "{} of {best}", guided.log_score);
+    assert_eq!(search(r#"{"name": "guided", "function": 0}"#).log_prior, guided.log_prior);
 }

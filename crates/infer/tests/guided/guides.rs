@@ -12,9 +12,9 @@ use serde_json::{Value, json};
 use std::sync::Arc;
 
 /// The share of the prior: large, so that no weight is so rare and so great that averages are not normal.
-const SHARE: f64 = 0.1;
+const SHARE: f64 = 0.25;
 /// Deviation of what is added to each weight.
-const SPREAD: f64 = 0.5;
+const SPREAD: f64 = 1.0;
 
 fn making() -> Making {
     let settings = json!({

@@ -85,6 +85,22 @@ fn nor_do_they_beside_other_settings() {
     }
 }
 
+/// The same seed gives the same bits on any number of threads: a particle is drawn by what it sees, whoever ran before it.
+#[test]
+fn threads_change_nothing() {
+    for (name, text) in PROGRAMS {
+        let task = task(text);
+        let own = Settings { particles: 100, seed: 3, proposal: Some(by(&task, 1)), ..Settings::default() };
+        let run = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+            pool.install(|| {
+                smc(&task, &own, &mut |_| true).expect("a run").log_evidence.expect("an estimate").to_bits()
+            })
+        };
+        assert_eq!([run(1), run(1)], [run(2), run(5)], "{name}");
+    }
+}
+
 #[test]
 fn importance_sampling_weighs_what_a_guide_draws() {
     for (name, text) in PROGRAMS {

@@ -7,7 +7,7 @@ use niwaki_vm::passes::{Kept, compile_keeping};
 use std::sync::Arc;
 
 /// Each with a name. Those that emit are scored by how well they draw [`page`].
-pub const PROGRAMS: [(&str, &str); 5] = [
+pub const PROGRAMS: [(&str, &str); 6] = [
     (
         "strokes by recursion, and a disc that moves with what they return",
         r#"(module
@@ -67,6 +67,16 @@ pub const PROGRAMS: [(&str, &str); 5] = [
               (do (factor (cond (eq $k 1) 0.5 -0.4)))))
             (set $b (sample (dist bernoulli (cond (gt $s 2) 0.8 0.3)))) (do (factor (cond $b 0.0 -0.7)))
             (return (tuple $n $s $b))) (entry "m"))"#,
+    ),
+    (
+        "calls that decide about the scene outside of them",
+        r#"(module (fn "pick" (params) (return (sample (dist categorical (list 0.3 0.25 0.25 0.2)))))
+          (fn "m" (params)
+            (set $k (call "pick"))
+            (do (emit (disc (tuple (sub (mul 1.2 $k) 1.8) 0.8 0.0) 1.1)))
+            (set $j (call "pick"))
+            (do (emit (disc (tuple (sub (mul 1.2 $j) 1.8) -1.0 0.0) 1.1)))
+            (return (tuple $k $j))) (entry "m"))"#,
     ),
 ];
 

@@ -9,7 +9,7 @@ use super::state::{NodeId, State};
 use crate::code::{Function, Mode, Program, Site, Visible};
 use crate::fault::Fault;
 use crate::value::{Record, Value};
-use niwaki_geom::Shape;
+use niwaki_geom::{Aabb, Shape};
 use niwaki_math::{Dist, Scalar};
 
 /// An answer: continue, or pause.
@@ -99,6 +99,15 @@ impl<S: Scalar> At<'_, S> {
             Value::Record(record) if record.class.is_frame() => Some(&**record),
             _ => None,
         })
+    }
+
+    /// The box of the part that was emitted last on the call path: by the activation itself (the iterations of its loops
+    /// count as its own), or else by its caller before the call. A future has what its creator had then; a call that
+    /// has returned leaves nothing. `None` where there is none, and in a run that does not note parts
+    /// ([`State::note_parts`]).
+    #[inline]
+    pub fn part(&self) -> Option<&Aabb> {
+        self.state.part(self.node)
     }
 
     /// What is kept for the site, with its values.

@@ -6,6 +6,7 @@
 //! * [`address`]: paths of sites as 128-bit hashes; [`held`]: choices whose values are given;
 //! * [`answers`]: the questions, and the trait of those who answer;
 //! * [`state`]: nodes, registers, futures; `begin`: those of a run that has not begun;
+//! * `parts`: what activations emitted last, for guides;
 //! * [`kept`]: traces: kept activations, and re-running what changed;
 //! * `interpret`: the loop over instructions; `registers`: from operands to values;
 //! * `cache`: a cache of distributions by their parameters;
@@ -26,6 +27,7 @@ mod keep;
 pub mod kept;
 mod loops;
 mod operate;
+mod parts;
 mod question;
 mod registers;
 pub mod stack;

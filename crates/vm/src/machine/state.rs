@@ -15,6 +15,7 @@
 
 use super::address;
 use super::held::Numbers;
+use super::parts::Parts;
 use crate::code::{FunctionId, Mode, Program};
 use crate::value::Value;
 use niwaki_math::Scalar;
@@ -92,6 +93,8 @@ pub struct State<S: Scalar = f64> {
     pub(crate) unmet: Numbers,
     /// Readable paths of the activations that futures began with, where they are kept.
     pub(crate) origins: Option<HashMap<NodeId, String>>,
+    /// What activations emitted last, where it is noted.
+    pub(crate) parts: Parts,
 }
 
 impl<S: Scalar> Clone for State<S> {
@@ -113,12 +116,13 @@ impl<S: Scalar> Clone for State<S> {
         self.steps = source.steps;
         self.unmet.clone_from(&source.unmet);
         self.origins.clone_from(&source.origins);
+        self.parts.clone_from(&source.parts);
     }
 }
 
 /// `clone_from` for short slices: an inlined loop without calls.
 #[inline(always)]
-fn copy<T: Clone>(to: &mut Vec<T>, from: &[T]) {
+pub(super) fn copy<T: Clone>(to: &mut Vec<T>, from: &[T]) {
     if to.len() != from.len() {
         to.truncate(from.len());
         to.extend_from_slice(&from[to.len()..]);
@@ -144,6 +148,7 @@ impl<S: Scalar> State<S> {
             steps: 0,
             unmet: Numbers::default(),
             origins: None,
+            parts: Parts::default(),
         }
     }
 

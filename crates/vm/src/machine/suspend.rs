@@ -67,6 +67,7 @@ impl<S: Scalar> Machine<'_, S> {
             }
             SiteKind::Emit => {
                 self.collect_shapes(state, r, site)?;
+                state.note_part(program, node, &self.shapes);
                 match answers.emit(&at!(), &self.shapes)? {
                     Answer::Go(()) => Ok(After::Next),
                     Answer::Pause => {
@@ -254,6 +255,7 @@ impl<S: Scalar> Machine<'_, S> {
                 if above.is_empty() { site.label.to_string() } else { format!("{above}/{}", site.label) };
             state.origins.as_mut().map(|origins| origins.insert(created, origin));
         }
+        state.inherit_part(node, created);
         let id = state.new_future(Status::Runnable(created), detached);
         state.nodes[created.0 as usize].site = id.0;
         state.runnable.push(id);

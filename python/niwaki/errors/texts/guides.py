@@ -16,7 +16,7 @@ GUIDES = (
     Message(
         "guide-model",
         "the guide is for another model",
-        why="a guide knows the choices of its model by the function and the line of source in which they are made",
+        why="a guide knows the choices of its model by their functions and by the names that their values get",
         help="train a guide for this model with `niwaki.train_guide`, or search without one",
         example='run(coral, smc(20, guide=Guide.load("vines.guide")))',
         cure='run(vines, smc(20, guide=Guide.load("vines.guide")), score=drawing)',
@@ -48,7 +48,7 @@ GUIDES = (
     Message(
         "letter-missing",
         "the font has no `{name}`",
-        why="`{font}` has no shape for {code}",
+        why="`{font}` has no shape for {point}",
         help="leave it out, or give a font that has it: `--font FILE`",
         example='niwaki letters "木" -o out',
         cure='niwaki letters "木" --font NotoSansCJK.otf -o out',

@@ -180,9 +180,13 @@ impl ChainMove for Regrow {
         };
         let moves = chain.streams.moves(visit);
         let seed = |which: u128| moves.at(which).next_u64();
+        let mut start = trace.start_part(program, picked.part, own.needs_paths());
+        if own.looks() {
+            trace.note_parts(program, picked.part, &mut start);
+        }
         let block = Block {
             task,
-            start: trace.start_part(program, picked.part, own.needs_paths()),
+            start,
             path: trace.part_path(picked.part),
             sketches,
             held: &held,

@@ -5,7 +5,7 @@ use super::super::state::NodeId;
 use super::{Kept, Trace};
 use crate::code::{Function, Mode, Program, Site, SiteKind};
 use crate::value::Value;
-use niwaki_geom::Primitive;
+use niwaki_geom::{Aabb, Primitive};
 use niwaki_math::Scalar;
 
 /// One thing that a trace holds.
@@ -173,6 +173,65 @@ impl<S: Scalar> Trace<S> {
                 }
             }
         }
+    }
+
+    /// The box of the part that was emitted last on the call path of a choice, before it in program order: what
+    /// [`At::part`](crate::machine::answers::At::part) says in a run that begins.
+    pub fn part(&self, program: &Program<S>, choice: usize) -> Option<Aabb> {
+        let at = self.kept.choices[choice];
+        self.part_before(program, at.node, at.site as usize)
+    }
+
+    /// The box of the part that was emitted last on the call path of a site.
+    pub(super) fn part_before(
+        &self,
+        program: &Program<S>,
+        mut node: NodeId,
+        mut before: usize,
+    ) -> Option<Aabb> {
+        loop {
+            if let Some(part) = self.last_part(program, node, before) {
+                return Some(part);
+            }
+            let n = &self.state.nodes[node.0 as usize];
+            if n.parent == NodeId::NONE {
+                return None;
+            }
+            let parent = &self.state.nodes[n.parent.0 as usize];
+            if program.function(parent.function).mode == Mode::Loop {
+                // An iteration: those before it, then what is before the loop.
+                let children = &self.kept.loops[parent.slots as usize];
+                let earlier = children.iter().position(|child| *child == node).map_or(&[][..], |i| &children[..i]);
+                let part = earlier.iter().rev().find_map(|child| self.last_part(program, *child, usize::MAX));
+                if part.is_some() || parent.parent == NodeId::NONE {
+                    return part;
+                }
+                (node, before) = (parent.parent, parent.site as usize);
+            } else {
+                (node, before) = (n.parent, n.site as usize);
+            }
+        }
+    }
+
+    /// The box of the part that an activation, with its loops, emitted last at its first sites.
+    fn last_part(&self, program: &Program<S>, node: NodeId, sites: usize) -> Option<Aabb> {
+        let n = &self.state.nodes[node.0 as usize];
+        let all = program.function(n.function).sites.iter().enumerate().take(sites);
+        all.rev().find_map(|(i, site)| {
+            let slot = self.kept.slots[n.slots as usize + i];
+            match &site.kind {
+                SiteKind::Emit if slot.is_filled() => {
+                    let primitive = self.kept.emits[slot.held as usize].as_ref()?;
+                    primitive.shapes().last().map(|shape| *shape.aabb())
+                }
+                SiteKind::Loop(_) if slot.is_filled() => {
+                    let header = &self.state.nodes[slot.held as usize];
+                    let children = self.kept.loops[header.slots as usize].iter().rev();
+                    children.into_iter().find_map(|child| self.last_part(program, *child, usize::MAX))
+                }
+                _ => None,
+            }
+        })
     }
 
     /// The address of a choice.

@@ -147,6 +147,15 @@ impl<S: Scalar> Trace<S> {
         state
     }
 
+    /// A run of a part that has not begun notes what activations emit last, and begins with what this trace has before it.
+    pub fn note_parts(&self, program: &Program<S>, part: Part, start: &mut State<S>) {
+        start.note_parts();
+        if let Some(before) = self.part_before(program, part.node, 0) {
+            // The first node is that of the loop, where it is an iteration.
+            start.put_part(NodeId(0), before);
+        }
+    }
+
     /// The held choices that this part alone has: a run of the part must meet them.
     fn held_within(&self, program: &Program<S>, part: Part) -> Numbers {
         let mut within = vec![0; self.kept.met.len()];

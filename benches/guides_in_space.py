@@ -1,0 +1,185 @@
+"""Guides for models in space: trained, and compared with searches that cost the same.
+
+    python benches/guides_in_space.py train spaceship [FILE]      # the guide that comes with the package
+    python benches/guides_in_space.py compare                     # all guides of the folder: 20 seeds, six targets each
+    SEEDS=5 python benches/guides_in_space.py compare spaceship
+
+Scores are those that `niwaki.grow` gives: no self-intersection, and a volume to fill; searches have its power. Traces
+are the results of `niwaki.grow`'s usual search, then those of guided particles. `compare` runs 30 guided particles on
+targets that were not learned from, beside as many unguided ones as cost the same, the usual search, and as many guided
+particles as cost what the usual search does. CPU seconds are those of the process, on one thread; methods take turns on
+each seed. A search that dies counts with the score of the empty scene. Leaves `guides_in_space.json` in the folder
+of benches, and prints its tables.
+"""
+
+from __future__ import annotations
+
+import os
+
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+os.environ.setdefault("OMP_NUM_THREADS", "1")
+
+import json
+import sys
+import time
+import warnings
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import niwaki as nw
+import numpy as np
+from niwaki import guides
+from niwaki.methods import Guide, Method
+from niwaki.search import SearchWarning
+from space.targets import Kind, empty, kind, score
+
+SHIPPED = Path(guides.__file__).parent / "shipped"
+RECORD = Path(__file__).parent / "guides_in_space.json"
+
+#: The power of `niwaki.grow`'s searches.
+POWER = 16.0
+PARTICLES = 30
+#: Traces of each round, by model, and the searches for them.
+ROUNDS = {"spaceship": (2000, 2000), "gnarly-tree": (300, 400, 600)}
+SEARCHES = (nw.improve(), nw.smc(100, power=POWER))
+#: One target in so many is held out while a guide is trained.
+EVERY = 10
+#: Seeds of the runs that find out how many particles cost the same.
+PILOTS = range(1000, 1006)
+
+
+def smc(particles: int, guide: Guide | None = None) -> Method:
+    """A population as sharp as that of `niwaki.grow`."""
+    return nw.smc(particles, power=POWER, guide=guide)
+
+
+def train(name: str, seed: int = 1) -> Guide:
+    """Train the guide of a model."""
+    of = kind(name)
+    targets = [score(target) for target in of.learned()]
+    return guides.train_guide(
+        of.model,
+        [one for i, one in enumerate(targets) if i % EVERY],
+        lambda one: one,
+        held_out=targets[::EVERY],
+        rounds=ROUNDS[name],
+        searches=SEARCHES,
+        judge=smc(PARTICLES),
+        keep=lambda sample: sample.has_ended,
+        seed=seed,
+    )
+
+
+def searched(of: Kind, one: nw.Score, method: Method, seed: int) -> tuple[float, float]:
+    """The best log score of a search, and its CPU seconds."""
+    start = time.process_time()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", SearchWarning)
+        try:
+            best = nw.run(of.model, score=one, method=method, seed=seed, threads=1).best.log_score
+        except nw.InputError as error:
+            if error.code != "everything-impossible":
+                raise
+            best = -np.inf
+    return max(best, empty(one)) if best == -np.inf else best, time.process_time() - start
+
+
+def cost(of: Kind, one: nw.Score, method: Method) -> float:
+    """Mean CPU seconds of the pilot runs."""
+    return float(np.mean([searched(of, one, method, seed)[1] for seed in PILOTS]))
+
+
+def as_costly(of: Kind, one: nw.Score, budget: float, guide: Guide | None) -> int:
+    """How many particles cost so many CPU seconds."""
+    particles = 60
+    for _ in range(3):
+        spent = cost(of, one, smc(particles, guide))
+        particles = max(2, round(particles * min(8.0, max(0.125, budget / spent))))
+    return particles
+
+
+def compare(of: Kind, guide: Guide, seeds: Sequence[int]) -> list[dict[str, Any]]:
+    """One record for each target."""
+    records = []
+    for target in of.tried_on():
+        one = score(target)
+        guided, usual = smc(PARTICLES, guide), nw.improve()
+        for method in (guided, usual):
+            searched(of, one, method, 0)  # compiled and voxelised now
+        same = as_costly(of, one, cost(of, one, guided), None)
+        many = as_costly(of, one, cost(of, one, usual), guide)
+        methods = {
+            f"{PARTICLES} guided": guided,
+            "unguided": smc(same),
+            "usual search": usual,
+            "guided, as costly": smc(many, guide),
+        }
+        rows: dict[str, list[tuple[float, float]]] = {name: [] for name in methods}
+        for seed in seeds:
+            for name, method in methods.items():
+                rows[name].append(searched(of, one, method, seed))
+        columns = {
+            name: {"scores": [round(s, 3) for s, _ in row], "cpu": float(f"{np.mean([c for _, c in row]):.3g}")}
+            for name, row in rows.items()
+        }
+        sizes = {"unguided": same, "guided, as costly": many}
+        records.append(
+            {"model": of.name, "target": target.name, "empty": round(empty(one), 2), "particles": sizes, "methods": columns}
+        )
+        print(table(records[-1:]).splitlines()[-1], flush=True)
+    return records
+
+
+def table(records: Sequence[Mapping[str, Any]]) -> str:
+    """Mean / median / worst log score and CPU milliseconds of each method, target by target, and over all."""
+    names = list(records[0]["methods"])
+    lines = ["| target | " + " | ".join(names) + " |", "| --- |" + " --- |" * len(names)]
+
+    def cell(scores: Sequence[float], cpu: float) -> str:
+        s = np.array(scores)
+        return f"{s.mean():.1f} / {np.median(s):.1f} / {s.min():.1f}, {1000 * cpu:.0f} ms"
+
+    for one in records:
+        cells = [cell(one["methods"][name]["scores"], one["methods"][name]["cpu"]) for name in names]
+        lines.append(f"| {one['target']} | " + " | ".join(cells) + " |")
+    together = []
+    for name in names:
+        scores = [s for one in records for s in one["methods"][name]["scores"]]
+        together.append(cell(scores, float(np.mean([one["methods"][name]["cpu"] for one in records]))))
+    return "\n".join([*lines, "| all | " + " | ".join(together) + " |"] if len(records) > 1 else lines)
+
+
+def main(arguments: list[str]) -> int:
+    """Train a guide, or compare those that there are."""
+    match arguments:
+        case ["train", name, *place]:
+            start = time.process_time()
+            guide = train(name)
+            path = Path(place[0]) if place else SHIPPED / f"{name.replace('-', '_')}.guide"
+            path.parent.mkdir(exist_ok=True)
+            guide.save(path)
+            print(f"{guide}, {len(guide.data) / 1000:.0f} kB, {time.process_time() - start:.0f} s of CPU: {path}")
+            for done in guide.report["rounds"]:
+                scores = np.array(done["scores"])
+                print(f"round {done['number'] + 1}: {done['traces']} traces, losses {done['losses'][-1][1:]},")
+                print(f"  held out: mean {scores.mean():.2f}, median {np.median(scores):.2f}")
+        case ["compare", *places]:
+            seeds = range(int(os.environ.get("SEEDS", "20")))
+            found = [Path(place) for place in places] or sorted(SHIPPED.glob("*.guide"))
+            old = json.loads(RECORD.read_text()) if RECORD.is_file() else []
+            for path in found:
+                guide = Guide.load(path)
+                name = guide.model.replace("_", "-")
+                records = compare(kind(name), guide, seeds)
+                old = [one for one in old if one["model"] != name] + records
+                RECORD.write_text(json.dumps(old, indent=1) + "\n")
+                print(table(records))
+        case _:
+            print(__doc__)
+            return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,85 @@
+//! The part that each activation emitted last, as a box: where a guide looks from in a model that does not say it.
+//!
+//! A part is the last shape of an `emit`, so that of a pair of wings it is one wing. Boxes are noted by node, beside the
+//! nodes and only in runs that ask for them, so that other runs neither copy nor write anything. A box belongs to the
+//! activation whose path it has: a node that is used again has another path.
+
+use super::state::{NodeId, State, copy};
+use crate::code::{Mode, Program};
+use niwaki_geom::{Aabb, Shape};
+use niwaki_math::Scalar;
+
+/// What activations emitted last.
+#[derive(Debug, Default)]
+pub(crate) struct Parts {
+    noted: bool,
+    /// By node: the path of the activation that emitted it, and its box.
+    boxes: Vec<(u128, Aabb)>,
+}
+
+impl Parts {
+    /// Becomes a copy, in place.
+    #[inline]
+    pub fn clone_from(&mut self, source: &Parts) {
+        self.noted = source.noted;
+        if self.noted {
+            copy(&mut self.boxes, &source.boxes);
+        }
+    }
+}
+
+impl<S: Scalar> State<S> {
+    /// From now on the run notes the part that each activation emitted last.
+    pub fn note_parts(&mut self) {
+        self.parts.noted = true;
+    }
+
+    /// Notes the last of these shapes, which a node emits, for the activation of its function.
+    #[inline]
+    pub(super) fn note_part(&mut self, program: &Program<S>, node: NodeId, shapes: &[Shape]) {
+        if self.parts.noted
+            && let Some(shape) = shapes.last()
+        {
+            let mut own = node;
+            loop {
+                let n = &self.nodes[own.0 as usize];
+                let in_loop = matches!(program.function(n.function).mode, Mode::Iteration | Mode::Loop);
+                if !in_loop || n.parent == NodeId::NONE {
+                    break;
+                }
+                own = n.parent;
+            }
+            self.put_part(own, *shape.aabb());
+        }
+    }
+
+    /// A future begins with the part that its creator sees.
+    #[inline]
+    pub(super) fn inherit_part(&mut self, creator: NodeId, created: NodeId) {
+        if let Some(part) = self.part(creator).copied() {
+            self.put_part(created, part);
+        }
+    }
+
+    /// The part that was emitted last on the call path of a node.
+    #[inline]
+    pub(super) fn part(&self, node: NodeId) -> Option<&Aabb> {
+        let mut at = node;
+        while self.parts.noted && at != NodeId::NONE {
+            let n = &self.nodes[at.0 as usize];
+            match self.parts.boxes.get(at.0 as usize) {
+                Some((path, part)) if *path == n.path && !part.is_empty() => return Some(part),
+                _ => at = n.parent,
+            }
+        }
+        None
+    }
+
+    pub(super) fn put_part(&mut self, node: NodeId, part: Aabb) {
+        let (at, path) = (node.0 as usize, self.nodes[node.0 as usize].path);
+        if self.parts.boxes.len() <= at {
+            self.parts.boxes.resize(self.nodes.len(), (0, Aabb::EMPTY));
+        }
+        self.parts.boxes[at] = (path, part);
+    }
+}

@@ -1,0 +1,175 @@
+"""Claim: a guide comes back from its file and from a search's JSON; what is none, or does not fit, gives a message."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import niwaki as nw
+import numpy as np
+import pytest
+from niwaki import gallery, guides
+from niwaki.errors import InputError
+from niwaki.gallery.vines import WINDOW, vines
+from niwaki.guides.shipped import FOLDER, names
+from niwaki.methods import Guide, importance, smc
+from niwaki.search import Search, SearchWarning
+from niwaki.targets import drawings
+from specification import load
+
+GOLDEN = Path(__file__).parents[2] / "golden"
+
+MODEL = """
+from niwaki import emit, flip, gaussian, look, model, stroke
+
+@model
+def m():
+    side = flip(0.5)
+    tall = gaussian(1.0, 0.1)
+    emit(stroke((0, 0, 0), (1 if side else -1, tall, 0), 0.7, 0.4))
+"""
+
+
+def path(*changes: tuple[str, str]) -> nw.Model[..., Any]:
+    """The model, with parts of its text replaced."""
+    text = MODEL
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new)
+    return load(text, f"path{len(changes)}.py")
+
+
+def score() -> nw.Score:
+    greys = np.full((12, 12), 255, dtype=np.uint8)
+    greys[4:9, 2:8] = 0
+    return nw.match_drawing(greys, ((-2.0, -1.0), (2.0, 3.0)), sigma=0.5)
+
+
+@pytest.fixture(scope="module")
+def guide() -> Guide:
+    return guides.train_guide(
+        path(),
+        [0, 1],
+        lambda _: score(),
+        rounds=(10,),
+        searches=(smc(10),),
+        keep=lambda sample: True,
+        training=guides.Training(steps=20, hidden=(8, 8)),
+        seed=1,
+    )
+
+
+def test_a_guide_comes_back_from_its_file(guide: Guide, tmp_path: Path) -> None:
+    guide.save(tmp_path / "path.guide")
+    again = Guide.load(tmp_path / "path.guide")
+    assert again == guide and again.hash == guide.hash and again.report == guide.report
+
+
+def test_a_search_with_a_guide_as_json(guide: Guide) -> None:
+    search = Search(path(), score=score(), method=smc(8, guide=guide), seed=5)
+    again = Search.of_json(search.json())
+    assert again.hash == search.hash
+    assert [one.choices for one in again.run()] == [one.choices for one in search.run()]
+    assert Search(path(), score=score(), method=smc(8), seed=5).hash != search.hash
+    other = smc(8, guide=guide.reported({"other": 1}))
+    assert Search(path(), score=score(), method=other, seed=5).hash != search.hash
+
+
+def test_the_guides_of_the_package_fit_and_are_small() -> None:
+    assert names() == ["lightning", "vines"]
+    for name in names():
+        entry = gallery.entry(name)
+        assert entry is not None and entry.window is not None
+        own = guides.shipped(entry.model)
+        assert own is not None and (FOLDER / f"{name}.guide").stat().st_size < 300_000
+        page = drawings.drawing("letters/E")
+        task = Search(entry.model, page.place(entry.window), score=page.score(entry.window)).task
+        assert own._engine.lost(task) == []
+        assert own.report["rounds"][-1]["summary"]["stumps"] == 0.0
+    assert guides.shipped(path()) is None and guides.shipped(gallery.entry("coral").model) is None  # type: ignore[union-attr]
+
+
+def test_few_guided_particles_do_what_many_others_do_not() -> None:
+    """Six drawings that are for training: ten particles with the guide, and fifty without."""
+
+    def mean(**settings: Any) -> float:
+        found = []
+        for name in drawings.names("scribbles", "training")[:48:8]:
+            one = drawings.drawing(name)
+            result = nw.grow(vines, None, *one.place(WINDOW), score=one.score(WINDOW), seed=1, **settings)
+            found.append(result.best.similarity)
+        return float(np.mean(found))
+
+    assert mean(guide=guides.shipped(vines), particles=10) > 0.75 > 0.65 > mean(particles=50)
+
+
+def test_a_changed_model_keeps_what_matches_with_one_warning(guide: Guide) -> None:
+    # The path has a choice less, one more, and a value of another name.
+    changed = path(("side = flip(0.5)", "left = flip(0.5)"), ("1 if side", "1 if left"))
+    with pytest.warns(SearchWarning) as found:
+        nw.run(changed, score=score(), method=smc(30, guide=guide), seed=1)
+    assert len(found) == 1
+    text = str(found[0].message)
+    for part in (
+        "the guide of `m`",
+        "does not know `left`",
+        "has no `side`",
+        "`tall` of `m` does not see `side`",
+    ):
+        assert part in text, text
+
+
+def test_weights_that_collapse_are_told() -> None:
+    page, own = drawings.drawing("scribbles/008"), guides.shipped(vines)
+    search = Search(
+        vines, page.place(WINDOW), score=page.score(WINDOW), method=importance(40, guide=own), seed=1
+    )
+    with pytest.warns(SearchWarning, match=r"1\.\d of 40 samples are effective"):
+        search.run()
+
+
+def test_the_errors_are_as_reviewed(guide: Guide, tmp_path: Path, reviewed: Any) -> None:
+    half = tmp_path / "half.guide"
+    half.write_bytes(guide.data[: len(guide.data) // 2])
+    page = np.full((20, 20), 255, dtype=np.uint8)
+
+    def loaded() -> None:
+        try:
+            Guide.load(half)
+        except InputError as error:
+            error.values["detail"] = error.values["detail"].replace(str(tmp_path), "FOLDER")
+            raise
+
+    other = load("from niwaki import flip, model\n\n@model\ndef m():\n    return flip(0.5)\n", "coin.py")
+    reviewed(
+        GOLDEN / "guides.txt",
+        {
+            "half of a file": loaded,
+            "not a guide": lambda: Guide(b"a text"),
+            "a later format": lambda: Guide(later(guide.data)),
+            "another model": lambda: nw.run(other, smc(4, guide=guide), score=score(), seed=1),
+            "another score": lambda: nw.run(path(), smc(4, guide=guide), seed=1),
+            "no guide at all": lambda: smc(4, guide="vines.guide"),  # type: ignore[arg-type]
+            "a target without ink": lambda: train(guide, page),
+            "a target that is all ink": lambda: train(guide, np.zeros_like(page)),
+            "one target": lambda: train(guide),
+        },
+    )
+
+
+def later(data: bytes) -> bytes:
+    """The guide's file as a later version would write it."""
+    old = rb"\\\"format\\\":1"
+    assert data.count(old) == 1
+    return data.replace(old, old[:-1] + b"9")
+
+
+def train(guide: Guide, *pages: np.ndarray[Any, Any]) -> None:
+    """Train on these pages."""
+    guides.train_guide(
+        path(),
+        [*pages, *pages],
+        lambda one: nw.match_drawing(one, ((-2.0, -1.0), (2.0, 3.0))),
+        start=guide,
+        seed=1,
+    )
