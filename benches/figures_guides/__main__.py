@@ -4,12 +4,13 @@
     QUICK=1 make figures-guides                      # a smoke run: few traces, few drawings
     make figures-guides PARTS="particles mixtures"   # some of the parts
 
-Parts, in order: `guides` (all that learn from the same traces), `chain` (figures 6.1 to 6.3), `vines` (6.1, 6.6 and sheets of all held-out drawings), `lightning` (6.7),
-`particles` (6.8), `mixtures` (6.9), `traces` (6.10), `seeds` (training seeds of ours beside the
-dissertation's network and the model without a guide), `tables` (docs/pictures/guides/measured.json, from all that was measured).
+Parts, in order: `guides` (all that learn from the same traces), `chain` (figures 6.2 and 6.3), `vines` (6.1, 6.6 and
+sheets of all held-out drawings), `lightning` (6.7), `particles` (6.8), `mixtures` (6.9), `traces` (6.10), `seeds` (ours
+by five training seeds, the dissertation's network, and no guide), `tables` (docs/pictures/guides/measured.json and the
+tables of the manual, from all that was measured).
 
-What is measured is kept: FOLDER, out/figures-guides unless named, has a line of JSON for each measurement and a file for
-each guide. A part that was interrupted goes on where it stopped; remove the folder to measure again. Pictures go to
+What is measured is kept: FOLDER, out/figures-guides unless named, has a line of JSON for each measurement and a file
+for each guide. A part that was interrupted goes on where it stopped; remove the folder to measure again. Pictures go to
 docs/pictures/guides, those of a smoke run into FOLDER.
 
 Guides learn from the training scribbles and their mirror images. Nothing here was tuned on what is held out.

@@ -9,6 +9,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from judging import judged, summary
+from matplotlib.ticker import ScalarFormatter
 from niwaki.gallery import vines
 from niwaki.methods import Guide
 from places import Places, Row
@@ -23,8 +24,10 @@ PUBLISHED = {
 }
 #: The original's figure 6.10, likewise.
 PUBLISHED_TRACES = {12: 0.09, 25: 0.13, 50: 0.20, 100: 0.50, 200: 0.55, 400: 0.68}
-GUIDED = tuple(range(1, 11))
-UNGUIDED = (1, 11, 21, 31, 41, 51, 101, 201, 401, 601)
+#: Numbers of particles.
+GUIDED = (1, 2, 3, 5, 7, 10)
+UNGUIDED = (1, 11, 21, 51, 101, 201)
+FEW = (1, 2, 5, 10)
 
 NAMES = {
     "full": "dissertation, full",
@@ -64,8 +67,8 @@ def particles(places: Places) -> None:
             for n in (counts[:3] if places.quick else counts)
         ]
 
-    for name, guide in guides.items():
-        add(name, guide, GUIDED, "residual")
+    for name in ABLATIONS:
+        add(name, guides[name], GUIDED, "residual")
     add("ours", ours(places, vines), GUIDED, "tempered")
     add("unguided", None, UNGUIDED, "residual")
     add("unguided, tempered", None, UNGUIDED[1:], "tempered")
@@ -77,18 +80,25 @@ def particles(places: Places) -> None:
                 line(panel, name, of_name, axis, measure)
             if (row, column) == (0, 0):
                 for name, medians in PUBLISHED.items():
-                    panel.plot(GUIDED, medians, ":", color=COLORS[name], linewidth=1.2)
+                    panel.plot(range(1, 11), medians, ":", color=COLORS[name], linewidth=1.2)
             panel.set(ylim=(-0.02, 0.9), ylabel=text)
             panel.grid(alpha=0.3)
+            panel.set(xscale="log", xlabel="particles" if axis == "particles" else "CPU time of a search, ms")
+            panel.set(xticks=(1, 2, 5, 10, 20, 50))
             if axis == "particles":
-                panel.set(xlim=(0.5, 52), xlabel="particles", xscale="log", xticks=(1, 2, 5, 10, 20, 50))
-                panel.get_xaxis().set_major_formatter(matplotlib.ticker.ScalarFormatter())
-                panel.minorticks_off()
-            else:
-                panel.set(xscale="log", xlabel="CPU time of a search, ms")
-    panels[0, 0].plot([], [], ":", color="#444444", label="published (other drawings)")
-    panels[0, 0].legend(frameon=False, fontsize=8, loc="upper left")
+                panel.set(xlim=(0.9, 55))
+            plain(panel)
+    panels[0, 0].plot([], [], ":", color="#444444", label="published, other drawings")
+    figure.legend(
+        *panels[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=4, frameon=False
+    )
     saved(figure, places, "figure-6-8.png")
+
+
+def plain(panel: Any) -> None:
+    """Numbers at the marks of a logarithmic axis, and no marks between them."""
+    panel.get_xaxis().set_major_formatter(ScalarFormatter())
+    panel.minorticks_off()
 
 
 def line(panel: Any, name: str, of_name: Sequence[Sequence[Row]], axis: str, measure: str) -> None:
@@ -109,7 +119,7 @@ def mixtures(places: Places) -> None:
     theirs = {
         name: taught(places, name) for name in (*(f"full-{count}" for count in COMPONENTS[:-1]), "full")
     }
-    own = {f"ours-{count}": ours(places, vines, components=count) for count in COMPONENTS[:-1]}
+    own = {f"ours, {count} of 4": ours(places, vines, components=count) for count in COMPONENTS[:-1]}
     own["ours"] = ours(places, vines)
     figure, panels = plt.subplots(1, 2, figsize=(10, 4), layout="constrained", sharey=True)
     kinds = (
@@ -122,15 +132,12 @@ def mixtures(places: Places) -> None:
         ):
             ends = [
                 summary(
-                    [
-                        judged(places, vines, name, guide, n, resampling=resampling, seed=s)
-                        for s in seeds_of(places)
-                    ]
+                    [judged(places, vines, name, guide, n, resampling=resampling, seed=s) for s in SEEDS[:1]]
                 )
-                for n in (GUIDED[:2] if places.quick else GUIDED)
+                for n in (FEW[:2] if places.quick else FEW)
             ]
             text = f"{count} component{'s' * (count > 1)}"
-            at = GUIDED[: len(ends)]
+            at = FEW[: len(ends)]
             panel.plot(at, [end["median"] for end in ends], "o-", color=color, label=text, markersize=3)
             panel.plot(at, [end["mean"] for end in ends], "--", color=color, linewidth=1)
         panel.plot([], [], "--", color="#444444", linewidth=1, label="mean")
@@ -174,8 +181,7 @@ def traces(places: Places) -> None:
         ylim=(-0.02, 0.9),
         xticks=sizes,
     )
-    panel.get_xaxis().set_major_formatter(matplotlib.ticker.ScalarFormatter())
-    panel.minorticks_off()
+    plain(panel)
     panel.grid(alpha=0.3)
     panel.legend(frameon=False, fontsize=8, loc="lower right")
     saved(figure, places, "figure-6-10.png")

@@ -1,7 +1,7 @@
 """Searches for what is held out, and what they cost.
 
-Protocol of the dissertation's code: one search for each drawing and seed; of its runs the one with the highest prior and
-score counts; its similarity is reported. Times are CPU seconds of one thread.
+Protocol of the dissertation's code: one search for each drawing and seed; of its runs the one with the highest prior
+and score counts; its similarity is reported. Times are CPU seconds of one thread.
 """
 
 import statistics

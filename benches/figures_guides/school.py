@@ -1,7 +1,7 @@
 """Guides of all kinds for the vines, from the same traces.
 
-The dissertation's recipe for traces: a population of 600 without a guide, for a drawing that is picked at random; its best
-run, where it has ten primitives or more.
+The dissertation's recipe for traces: a population of 600 without a guide, for a drawing that is picked at random; its
+best run, where it has ten primitives or more.
 """
 
 import json

@@ -1,4 +1,4 @@
-"""Five training seeds of ours, beside the dissertation's network and the model without a guide, on all held-out sets."""
+"""Ours by five training seeds, the dissertation's network, and no guide, on all held-out drawings."""
 
 from curves import dissertation
 from judging import judged

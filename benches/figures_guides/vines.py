@@ -19,8 +19,9 @@ WORD = (
     "glyphs/lobster-T",
     "glyphs/lobster-S",
 )
-#: Two of each collection, chosen by name and not by result.
+#: Chosen by name and not by result.
 SHOWN = ("scribbles/165", "scribbles/190", "glyphs/lobster-E", "glyphs/lobster-S", "silhouettes/cat")
+#: Side of a cell and cells in a row, of the sheets.
 SIDES = {"glyphs": (76, 15), "scribbles": (112, 10), "silhouettes": (130, 7)}
 #: How many particles without a guide take as long as ten of ours: see figure 6.8.
 SAME_TIME = 50
