@@ -103,7 +103,7 @@ def wanted(places: Places) -> dict[str, tuple[int, Training, int]]:
     for count in COMPONENTS[:-1]:
         found[f"full-{count}"] = (TRACES, Training.dissertation(reads=PLACE, components=count), 1)
     for count in SIZES:
-        if count < TRACES:
+        if SIZES[0] < count < TRACES:
             found[f"full-of-{count}"] = (count, ABLATIONS["full"], 1)
         found |= {f"ours-of-{count}-{seed}": (count, Training(), seed) for seed in SEEDS}
     if places.quick:
