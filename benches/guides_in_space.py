@@ -1,15 +1,14 @@
 """Guides for models in space: trained, and compared with searches that cost the same.
 
-    python benches/guides_in_space.py train spaceship [FILE]      # the guide that comes with the package
-    python benches/guides_in_space.py compare                     # all guides of the folder: 20 seeds, six targets each
-    SEEDS=5 python benches/guides_in_space.py compare spaceship
+    python benches/guides_in_space.py train gnarly-tree [FILE]    # the guide that comes with the package
+    python benches/guides_in_space.py compare                     # those in space that do: 20 seeds, six targets each
+    SEEDS=5 python benches/guides_in_space.py compare FILE
 
 Scores are those that `niwaki.grow` gives: no self-intersection, and a volume to fill; searches have its power. Traces
 are the results of `niwaki.grow`'s usual search, then those of guided particles. `compare` runs 30 guided particles on
-targets that were not learned from, beside as many unguided ones as cost the same, the usual search, and as many guided
-particles as cost what the usual search does. CPU seconds are those of the process, on one thread; methods take turns on
-each seed. A search that dies counts with the score of the empty scene. Leaves `guides_in_space.json` in the folder
-of benches, and prints its tables.
+targets that were not learned from, beside as many unguided ones as cost the same, and the usual search. CPU seconds
+are those of the process, on one thread; methods take turns on each seed. A search that dies counts with the score of
+the empty scene. Leaves `guides_in_space.json` in the folder of benches, and prints its tables.
 """
 
 from __future__ import annotations
@@ -20,19 +19,22 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 import json
+import math
 import sys
 import time
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import niwaki as nw
 import numpy as np
 from niwaki import guides
+from niwaki.guides.report import sentence
 from niwaki.methods import Guide, Method
 from niwaki.search import SearchWarning
-from space.targets import Kind, empty, kind, score
+from space.targets import KINDS, Kind, empty, kind, score
 
 SHIPPED = Path(guides.__file__).parent / "shipped"
 RECORD = Path(__file__).parent / "guides_in_space.json"
@@ -40,35 +42,72 @@ RECORD = Path(__file__).parent / "guides_in_space.json"
 #: The power of `niwaki.grow`'s searches.
 POWER = 16.0
 PARTICLES = 30
-#: Traces of each round, by model, and the searches for them.
-ROUNDS = {"spaceship": (2000, 2000), "gnarly-tree": (300, 400, 600)}
-SEARCHES = (nw.improve(), nw.smc(100, power=POWER))
+#: The first searches for traces are the usual one, the later ones this.
+LATER = nw.smc(100, power=POWER)
 #: One target in so many is held out while a guide is trained.
 EVERY = 10
 #: Seeds of the runs that find out how many particles cost the same.
-PILOTS = range(1000, 1006)
+PILOTS = range(1000, 1004)
 
 
-def smc(particles: int, guide: Guide | None = None) -> Method:
+@dataclass(frozen=True)
+class Recipe:
+    """How a guide is trained.
+
+    Attributes
+    ----------
+    rounds : tuple of int
+        Searches of each round.
+    least : float
+        A worse log score is no trace, nats.
+    hidden : (int, int)
+        Units of the network.
+    resampling : str
+        Of guided particles, whichever is better on what was learned from.
+    """
+
+    rounds: tuple[int, ...]
+    least: float
+    hidden: tuple[int, int]
+    resampling: str
+
+
+RECIPES = {
+    "spaceship": Recipe((2000,), -12.0, (64, 48), "tempered"),
+    "gnarly-tree": Recipe((300, 400, 600), -math.inf, (38, 32), "systematic"),
+}
+
+
+def smc(particles: int, name: str, guide: Guide | None = None) -> Method:
     """A population as sharp as that of `niwaki.grow`."""
-    return nw.smc(particles, power=POWER, guide=guide)
+    resampling = "systematic" if guide is None else RECIPES[name].resampling
+    return nw.smc(particles, power=POWER, resampling=resampling, guide=guide)
 
 
 def train(name: str, seed: int = 1) -> Guide:
     """Train the guide of a model."""
-    of = kind(name)
+    of, recipe = kind(name), RECIPES[name]
     targets = [score(target) for target in of.learned()]
     return guides.train_guide(
         of.model,
         [one for i, one in enumerate(targets) if i % EVERY],
         lambda one: one,
         held_out=targets[::EVERY],
-        rounds=ROUNDS[name],
-        searches=SEARCHES,
-        judge=smc(PARTICLES),
-        keep=lambda sample: sample.has_ended,
+        rounds=recipe.rounds,
+        searches=(nw.improve(), LATER),
+        judge=nw.smc(PARTICLES, power=POWER, resampling=recipe.resampling),
+        keep=lambda sample: sample.has_ended and sample.log_score > recipe.least,
+        training=guides.Training(hidden=recipe.hidden),
         seed=seed,
+        progress=lambda now: (
+            print(f"  {now.traces} traces: {sentence(now.summary())}", flush=True) if now.is_judged else None
+        ),
     )
+
+
+def home(name: str) -> Path:
+    """Where the package has the guide of a model."""
+    return SHIPPED / f"{name.replace('-', '_')}.guide"
 
 
 def searched(of: Kind, one: nw.Score, method: Method, seed: int) -> tuple[float, float]:
@@ -90,45 +129,46 @@ def cost(of: Kind, one: nw.Score, method: Method) -> float:
     return float(np.mean([searched(of, one, method, seed)[1] for seed in PILOTS]))
 
 
-def as_costly(of: Kind, one: nw.Score, budget: float, guide: Guide | None) -> int:
-    """How many particles cost so many CPU seconds."""
+def as_costly(of: Kind, one: nw.Score, budget: float) -> int:
+    """How many unguided particles cost so many CPU seconds."""
     particles = 60
-    for _ in range(3):
-        spent = cost(of, one, smc(particles, guide))
+    for _ in range(2):
+        spent = cost(of, one, smc(particles, of.name))
         particles = max(2, round(particles * min(8.0, max(0.125, budget / spent))))
     return particles
 
 
-def compare(of: Kind, guide: Guide, seeds: Sequence[int]) -> list[dict[str, Any]]:
+def compare(of: Kind, guide: Guide, seeds: Sequence[int]) -> Iterator[dict[str, Any]]:
     """One record for each target."""
-    records = []
     for target in of.tried_on():
         one = score(target)
-        guided, usual = smc(PARTICLES, guide), nw.improve()
+        guided, usual = smc(PARTICLES, of.name, guide), nw.improve()
         for method in (guided, usual):
             searched(of, one, method, 0)  # compiled and voxelised now
-        same = as_costly(of, one, cost(of, one, guided), None)
-        many = as_costly(of, one, cost(of, one, usual), guide)
+        same = as_costly(of, one, cost(of, one, guided))
         methods = {
-            f"{PARTICLES} guided": guided,
-            "unguided": smc(same),
+            "30 guided": guided,
+            "unguided": smc(same, of.name),
             "usual search": usual,
-            "guided, as costly": smc(many, guide),
         }
         rows: dict[str, list[tuple[float, float]]] = {name: [] for name in methods}
         for seed in seeds:
             for name, method in methods.items():
                 rows[name].append(searched(of, one, method, seed))
         columns = {
-            name: {"scores": [round(s, 3) for s, _ in row], "cpu": float(f"{np.mean([c for _, c in row]):.3g}")}
+            name: {
+                "scores": [round(s, 3) for s, _ in row],
+                "cpu": float(f"{np.mean([c for _, c in row]):.3g}"),
+            }
             for name, row in rows.items()
         }
-        sizes = {"unguided": same, "guided, as costly": many}
-        records.append(
-            {"model": of.name, "target": target.name, "empty": round(empty(one), 2), "particles": sizes, "methods": columns}
-        )
-        print(table(records[-1:]).splitlines()[-1], flush=True)
-    return records
+        yield {
+            "model": of.name,
+            "target": target.name,
+            "empty": round(empty(one), 2),
+            "particles": {"30 guided": PARTICLES, "unguided": same},
+            "methods": columns,
+        }
 
 
 def table(records: Sequence[Mapping[str, Any]]) -> str:
@@ -156,24 +196,26 @@ def main(arguments: list[str]) -> int:
         case ["train", name, *place]:
             start = time.process_time()
             guide = train(name)
-            path = Path(place[0]) if place else SHIPPED / f"{name.replace('-', '_')}.guide"
+            path = Path(place[0]) if place else home(name)
             path.parent.mkdir(exist_ok=True)
             guide.save(path)
-            print(f"{guide}, {len(guide.data) / 1000:.0f} kB, {time.process_time() - start:.0f} s of CPU: {path}")
-            for done in guide.report["rounds"]:
-                scores = np.array(done["scores"])
-                print(f"round {done['number'] + 1}: {done['traces']} traces, losses {done['losses'][-1][1:]},")
-                print(f"  held out: mean {scores.mean():.2f}, median {np.median(scores):.2f}")
+            print(
+                f"{guide}, {len(guide.data) / 1000:.0f} kB, {time.process_time() - start:.0f} s of CPU: {path}"
+            )
         case ["compare", *places]:
             seeds = range(int(os.environ.get("SEEDS", "20")))
-            found = [Path(place) for place in places] or sorted(SHIPPED.glob("*.guide"))
+            found = [Path(place) for place in places] or [
+                home(one.name) for one in KINDS if home(one.name).is_file()
+            ]
             old = json.loads(RECORD.read_text()) if RECORD.is_file() else []
             for path in found:
                 guide = Guide.load(path)
                 name = guide.model.replace("_", "-")
-                records = compare(kind(name), guide, seeds)
-                old = [one for one in old if one["model"] != name] + records
-                RECORD.write_text(json.dumps(old, indent=1) + "\n")
+                old, records = [one for one in old if one["model"] != name], []
+                for record in compare(kind(name), guide, seeds):
+                    records.append(record)
+                    print(table([record]).splitlines()[-1], flush=True)
+                    RECORD.write_text(json.dumps(old + records, indent=1) + "\n")
                 print(table(records))
         case _:
             print(__doc__)

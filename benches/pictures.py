@@ -3,7 +3,8 @@
     python benches/pictures.py docs/pictures
 
 ships.png: ten ships in one target; tree.png: three trees in one target and, below, three without a target;
-growth.gif: the best of the ships, growing. Each stays below `LARGEST` bytes.
+growth.gif: the best of the ships, growing; letters.png: a word in vines and one in lightning. Each stays below
+`LARGEST` bytes.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
+from niwaki import letters
 from niwaki.draw.scene import Scene
 from niwaki.draw.sheet import sheet
 from niwaki.errors.files import write_whole
@@ -48,6 +50,7 @@ def draw(folder: Path) -> list[Path]:
     return [
         written(folder / "ships.png", fleet(ships)),
         written(folder / "tree.png", garden(trees)),
+        written(folder / "letters.png", words()),
         ships.best.animate(folder / "growth.gif", seconds=3.0, size=(320, 200), elevation=30.0, margin=0.03),
     ]
 
@@ -64,6 +67,15 @@ def garden(trees: Result) -> Image.Image:
     wild = run(niwaki_tree, method=forward(3), seed=3)
     free = sheet(_scenes(wild), columns=3, size=(320, 305), elevation=14.0)
     return _above(grown, free)
+
+
+def words() -> Image.Image:
+    """A word in vines; below, in lightning."""
+    vines, lightning = (
+        letters.write("NIWAKI", style, seed=seed).picture(1080)
+        for style, seed in (("vines", 4), ("lightning", 3))
+    )
+    return _above(vines, lightning)
 
 
 def written(path: Path, image: Image.Image) -> Path:

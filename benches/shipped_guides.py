@@ -1,5 +1,7 @@
 """Train the guides that come with the package: `make guides`, or `python benches/shipped_guides.py vines`.
 
+    python benches/shipped_guides.py --compare     # searches with them and without, on the drawings that judged
+
 Targets are the drawings whose use is "training" and their mirror images; each eighth of them judges. None of the
 held-out drawings is looked at. The same seed gives the same bytes on this kind of machine, on any number of threads.
 The report is in each file: `niwaki guide show python/niwaki/guides/shipped/vines.guide`.
@@ -13,7 +15,7 @@ import time
 
 import niwaki as nw
 from niwaki import gallery, guides
-from niwaki.guides.report import sentence
+from niwaki.guides.report import sentence, summary
 from niwaki.guides.shipped import FOLDER
 from niwaki.targets import drawings
 from niwaki.targets.drawing import Drawing
@@ -55,8 +57,35 @@ def flat(name: str) -> nw.Guide:
 RECIPES = {"vines": flat, "lightning": flat}
 
 
+def compare(name: str) -> None:
+    """Print how well searches with a guide and without do on the drawings that judged, and what they cost."""
+    entry = gallery.entry(name)
+    assert entry is not None and entry.window is not None
+    for particles, guide in (
+        (10, guides.shipped(entry.model)),
+        (20, guides.shipped(entry.model)),
+        (50, guides.shipped(entry.model)),
+        (50, None),
+        (600, None),
+    ):
+        method = nw.methods.smc(particles, resampling="tempered", guide=guide)
+        found, began = [], time.process_time()
+        for one in map(drawings.drawing, drawings.names("scribbles", "training")[:: guides.EVERY]):
+            for seed in range(3):
+                place, score = one.place(entry.window), one.score(entry.window)
+                result = nw.run(entry.model, *place, method=method, score=score, seed=seed, threads=1)
+                found.append(max(result, key=lambda sample: sample.log_joint).similarity)
+        cost = 1000 * (time.process_time() - began) / len(found)
+        who = "not guided" if guide is None else "guided"
+        print(f"{name}, {who}, {particles} particles: {sentence(summary(found))}; {cost:.1f} ms of CPU")
+
+
 def main(names: list[str]) -> None:
-    """Train and write guides."""
+    """Train and write guides, or compare them."""
+    if names[:1] == ["--compare"]:
+        for name in names[1:] or RECIPES:
+            compare(name)
+        return
     FOLDER.mkdir(exist_ok=True)
     for name in names or RECIPES:
         print(name)

@@ -77,8 +77,14 @@ class Kind:
 
     def learned(self) -> list[nw.Target]:
         """What a guide learns from, well mixed."""
-        found = [one for k, own in enumerate(self.own) for one in self.scenes(own, LEARNED + 100_000 * k, own.count)]
-        found += [lofted(make, k, LEARNED + i) for i in range(self.count) for k, make in enumerate(self.solids)]
+        found = [
+            one
+            for k, own in enumerate(self.own)
+            for one in self.scenes(own, LEARNED + 100_000 * k, own.count)
+        ]
+        found += [
+            lofted(make, k, LEARNED + i) for i in range(self.count) for k, make in enumerate(self.solids)
+        ]
         order = np.random.default_rng(1).permutation(len(found))
         return [found[i] for i in order]
 
@@ -88,7 +94,9 @@ class Kind:
         for k, (make, count) in enumerate(zip(self.solids, self.tried, strict=True)):
             found += [lofted(make, k, TRIED + i) for i in range(count)]
         left = 6 - len(found)
-        return found + [one for k, own in enumerate(self.own[:left]) for one in self.scenes(own, TRIED + 10_000 * k, 1)]
+        return found + [
+            one for k, own in enumerate(self.own[:left]) for one in self.scenes(own, TRIED + 10_000 * k, 1)
+        ]
 
     def scenes(self, own: Own, seed: int, count: int) -> list[nw.Target]:
         """Scenes of the model from `seed` on."""
@@ -96,7 +104,9 @@ class Kind:
         while len(found) < count:
             seed += 1
             free = nw.no_self_intersection()
-            scene = nw.run(self.model, *own.args, score=free, method=nw.smc(10), seed=seed, threads=1).best.scene
+            scene = nw.run(
+                self.model, *own.args, score=free, method=nw.smc(10), seed=seed, threads=1
+            ).best.scene
             if len(scene) < 3:
                 continue
             target = nw.Target(*scene.merged(fine=False), f"own {seed}")

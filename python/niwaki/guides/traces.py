@@ -16,11 +16,13 @@ class _Stopped(Exception):
     """Ends a search from within its `progress`."""
 
 
-def best_of(searches: Sequence[Search], workers: int) -> Generator[Sample | None]:
+def best_of(
+    searches: Sequence[Search], workers: int, faults: list[ModelFault] | None = None
+) -> Generator[Sample | None]:
     """The best sample of each search, in order; None where every particle became impossible, or a run had a fault.
 
     The searches run on so many threads. Close the iterator (`contextlib.closing`) to end those that still run and to
-    drop those that wait.
+    drop those that wait. Faults are added to `faults`.
     """
     stop = Event()
 
@@ -31,7 +33,11 @@ def best_of(searches: Sequence[Search], workers: int) -> Generator[Sample | None
     def one(search: Search) -> Sample | None:
         try:
             found = search.run(threads=1, progress=watch)
-        except (_Stopped, ModelFault):
+        except _Stopped:
+            return None
+        except ModelFault as fault:
+            if faults is not None:
+                faults.append(fault)
             return None
         except InputError as error:
             if error.code != "everything-impossible":

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from niwaki import _engine
-from niwaki.errors import InputError
+from niwaki.errors import InputError, ModelFault
 from niwaki.errors.settings import bad, is_number, is_whole
 from niwaki.guides.report import Round
 from niwaki.guides.traces import best_of
@@ -202,6 +202,8 @@ def train_guide(
     ------
     InputError
         No targets, or none that the model reached.
+    ModelFault
+        Every search ended by a fault, or gave no trace and some ended so.
 
     Examples
     --------
@@ -327,8 +329,8 @@ def _traces(
     progress: Progress | None,
 ) -> tuple[_engine.Lessons, Round]:
     """The best runs of searches, those that are kept."""
-    lessons = _engine.Lessons()
-    with closing(best_of(jobs, workers)) as samples:
+    lessons, faults = _engine.Lessons(), list[ModelFault]()
+    with closing(best_of(jobs, workers, faults)) as samples:
         for job, sample in zip(jobs, samples, strict=True):
             if sample is None or not keep(sample):
                 now = replace(now, failed=now.failed + 1)
@@ -337,6 +339,8 @@ def _traces(
                 now = replace(now, traces=now.traces + 1)
             if progress is not None:
                 progress(now)
+    if now.traces == 0 and faults:
+        raise faults[0]
     return lessons, now
 
 

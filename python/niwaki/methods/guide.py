@@ -118,7 +118,9 @@ class Guide:
                 f"the page of {form['image']['sketch']}: windows of 3 by 3 in four resolutions, position, direction"
             )
         if form.get("part") is not None:
-            lines.append("the current place is a frame in scope, or else the middle of the last part, whose box it reads")
+            lines.append(
+                "the current place is a frame in scope, or else the middle of the last part, whose box it reads"
+            )
         for site in form["sites"]:
             lines.append(
                 f"{site['function']}/{site['label']}: {_drawn(site)}, {site['visits']} in the traces"

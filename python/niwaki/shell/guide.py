@@ -94,7 +94,7 @@ def show(file: Annotated[str, typer.Argument(metavar="FILE", help="A guide's fil
     guide = Guide.load(file)
     print(guide.show())
     for one in guide.report.get("rounds", ()):
-        print(_line(one["number"], one["traces"], one["summary"]))
+        print(_line(one["number"], one["traces"], one.get("summary", {})))
 
 
 @dataclass(frozen=True)

@@ -52,7 +52,7 @@ GuideFile = Annotated[
     str | None,
     typer.Option(
         "--guide",
-        metavar="FILE|none",
+        metavar="FILE|shipped|none",
         help="A guide, which draws choices in place of the prior; default: the one that comes with the model, for "
         "one population into a drawing.",
     ),
@@ -198,7 +198,7 @@ def guide(
     Parameters
     ----------
     file
-        A file, or "none".
+        A file, "none", or "shipped" for the one that comes with the model.
     found
         The model.
     sketches
@@ -210,14 +210,18 @@ def guide(
     """
     if file == "none":
         return None
+    own = guides.shipped(found.model)
+    if file == "shipped" and own is not None:
+        return own
     if file is not None:
         return Guide.load(file)
-    own = guides.shipped(found.model)
     asked = typed(given)
     one_population = name == "smc" or (name is None and not set(asked) & {*search.OF_IMPROVE, "regrow"})
     if own is None or not one_population or asked.get("weights") == "absolute":
         return None
-    if not {window for window, _ in own.form["windows"]} <= set(sketches):
+    looks_at = {window for window, _ in own.form["windows"]}
+    # In space the usual search is a good one, too: there a guide is taken by name only.
+    if not looks_at <= set(sketches) or "match_volume" in looks_at:
         return None
     typer.echo(f"the guide that comes with `{own.model}` draws the choices (--guide none: without)", err=True)
     return own

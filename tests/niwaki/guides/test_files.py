@@ -76,16 +76,21 @@ def test_a_search_with_a_guide_as_json(guide: Guide) -> None:
 
 
 def test_the_guides_of_the_package_fit_and_are_small() -> None:
-    assert names() == ["lightning", "vines"]
+    assert {"lightning", "vines"} <= set(names())
     for name in names():
         entry = gallery.entry(name)
-        assert entry is not None and entry.window is not None
+        assert entry is not None
         own = guides.shipped(entry.model)
         assert own is not None and (FOLDER / f"{name}.guide").stat().st_size < 300_000
-        page = drawings.drawing("letters/E")
-        task = Search(entry.model, page.place(entry.window), score=page.score(entry.window)).task
-        assert own._engine.lost(task) == []
-        assert own.report["rounds"][-1]["summary"]["stumps"] == 0.0
+        if entry.window is None:
+            target = entry.target()
+            assert target is not None
+            search = Search(entry.model, score=nw.match_volume(target, entry.voxel))
+        else:
+            page = drawings.drawing("letters/E")
+            search = Search(entry.model, page.place(entry.window), score=page.score(entry.window))
+            assert own.report["rounds"][-1]["summary"]["stumps"] == 0.0
+        assert own._engine.lost(search.task) == []
     assert guides.shipped(path()) is None and guides.shipped(gallery.entry("coral").model) is None  # type: ignore[union-attr]
 
 

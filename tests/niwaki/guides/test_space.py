@@ -1,4 +1,4 @@
-"""The claim: in a model in space that does not say where it looks from, a guide looks from the last part, and that pays."""
+"""The claim: in a model that does not say where it looks from, a guide looks from the last part, and that pays."""
 
 from __future__ import annotations
 
@@ -56,7 +56,9 @@ def guide() -> Guide:
 def test_a_guide_that_looks_from_the_last_part_gains_much(guide: Guide) -> None:
     def mean(method: Method) -> float:
         scores = [path(seed) for seed in range(200, 210)]
-        return float(np.mean([nw.run(snake, score=one, method=method, seed=1).best.log_score for one in scores]))
+        return float(
+            np.mean([nw.run(snake, score=one, method=method, seed=1).best.log_score for one in scores])
+        )
 
     assert mean(nw.smc(2, guide=guide)) > mean(nw.smc(6)) + 20.0
 

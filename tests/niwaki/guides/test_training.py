@@ -15,7 +15,7 @@ import niwaki as nw
 import numpy as np
 import pytest
 from niwaki import guides
-from niwaki.errors import InputError
+from niwaki.errors import InputError, ModelFault
 from niwaki.guides import Round, Training, train_guide
 from niwaki.methods import smc
 from niwaki.words import choose, emit, flip, gaussian, look, stroke
@@ -42,6 +42,12 @@ def step(x, y, depth):  # type: ignore[no-untyped-def]
         step(x + aside, y + tall, depth + 1)
     elif depth > 9:
         flip(0.3)
+
+
+@nw.model
+def broken():  # type: ignore[no-untyped-def]
+    """Divides by zero."""
+    return 1.0 / (gaussian(0.0, 1.0) * 0.0)
 
 
 def page(side: int) -> np.ndarray[Any, Any]:
@@ -146,6 +152,13 @@ def test_what_fails_is_left_out() -> None:
     with pytest.raises(InputError) as found:
         trained(keep=lambda sample: False)
     assert found.value.code == "guide-traces"
+
+
+def test_a_model_that_fails_always_shows_its_fault() -> None:
+    with pytest.raises(ModelFault, match="division-by-zero"):
+        train_guide(
+            broken, PAGES, lambda one: nw.match_drawing(one, WINDOW), rounds=(4,), searches=SEARCHES, seed=1
+        )
 
 
 def shown_even(shown: list[Round]) -> bool:

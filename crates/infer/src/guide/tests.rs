@@ -36,7 +36,7 @@ const LIMBS: &str = r#"(module
     (do (look (tuple $x $y) (tuple $turn 1.0)))
     (set $xs (append $xs $turn))
     (set $w (sample (dist uniform 0.1 0.6)))
-    (do (emit (stroke (tuple $x $y) (tuple (add $x $turn) (add $y 1.0)) $w)))
+    (do (emit (stroke (tuple $x $y 0.0) (tuple (add $x $turn) (add $y 1.0) 0.0) $w)))
     (set $k (sample (dist gamma 2.0 0.4)))
     (if (lt $d 2) (then (do (future "limb" (add $x $turn) (add $y 1.0) (add $d 1)))
       (if (gt $k 0.8) (then (do (future "limb" $x $y (add $d 1))))))))

@@ -3,7 +3,7 @@
 //! Exact draws from the posterior make a few moves each; the results are independent exact draws again, whatever the kernel's
 //! mixing.
 
-use super::guides::strong;
+use super::guides::{MILD, WILD, random};
 use super::law::Law;
 use super::on_one_thread;
 use super::populations::by;
@@ -54,7 +54,7 @@ fn guided_proposals_keep_the_posterior() {
     for (name, text) in PROGRAMS {
         let task = task(text);
         let (law, starts) = (Law::of(&task), draws(&task, 6000));
-        let guided = |number| Kernel::guided(strong(&task, number));
+        let guided = |number| Kernel::guided(random(&task, number, WILD));
         let deep = Selection { depth: vec![1.0, 3.0, 0.5], ..Selection::default() };
         for (kind, kernel, moves) in [
             ("alone", guided(1), 5),
@@ -75,15 +75,15 @@ fn guided_regrowth_keeps_the_posterior() {
         let task = task(text);
         let (law, starts) = (Law::of(&task), draws(&task, 4000));
         for (number, particles, turn) in [(1, 2, 0.0), (2, 4, 0.5)] {
-            let kernel = regrow(particles, turn).drawn_by(by(&task, number));
-            let far = law.wrong_counts(&moved(&task, &kernel, &starts, 3));
+            let kernel = regrow(particles, turn).drawn_by(by(&task, number, WILD));
+            let far = law.wrong_counts(&moved(&task, &kernel, &starts, 7));
             assert!(far.is_empty(), "{name}, {particles} particles: {far:?}");
         }
     }
 }
 
-fn settings(task: &Task, number: u64, particles: usize, order: Order) -> particles::Settings {
-    let proposal = Some(by(task, number));
+fn settings(task: &Task, number: u64, spread: f64, particles: usize, order: Order) -> particles::Settings {
+    let proposal = Some(by(task, number, spread));
     particles::Settings { particles, order, proposal, ..particles::Settings::default() }
 }
 
@@ -99,7 +99,7 @@ fn guided_sweeps_keep_the_posterior() {
                 (2, Ancestors::Sampled, Resampling::Multinomial),
                 (1, Ancestors::Sampled, Resampling::Tempered),
             ] {
-                let own = particles::Settings { resampling, ..settings(&task, number, 3, order) };
+                let own = particles::Settings { resampling, ..settings(&task, number, WILD, 3, order) };
                 let after = |(seed, start): (u64, &Vec<Entry>)| {
                     let own = particles::Settings { seed, ..own.clone() };
                     let chain = particle_gibbs(&task, &own, ancestors, 2, Some(start), &mut |_| true);
@@ -118,7 +118,7 @@ fn guided_sweeps_keep_the_posterior() {
 fn guided_populations_keep_the_posterior() {
     for (name, text) in PROGRAMS {
         let task = task(text);
-        let own = settings(&task, 1, 4, Order::Stochastic);
+        let own = settings(&task, 1, MILD, 4, Order::Stochastic);
         let last = |seed| match pimh(&task, &particles::Settings { seed, ..own.clone() }, 40, &mut |_| true) {
             Ok(chain) => Some(repr(&chain.states.last().expect("a state").value).expect("a value")),
             Err(failure) if failure.is_impossible() => None,
@@ -134,7 +134,7 @@ fn guided_populations_keep_the_posterior() {
 #[test]
 fn a_kernel_as_data_names_its_guide() {
     let task = task(PROGRAMS[0].1);
-    let attached = [Attached::Guide(strong(&task, 1))];
+    let attached = [Attached::Guide(random(&task, 1, WILD))];
     let form = |text: &str| serde_json::from_str::<Form>(text).expect("a form");
     let plain = r#"{"name": "regrow", "settings": {"particles": 3, "turn": 0.5, "pick": "size"}}"#;
     let kernels = [
@@ -156,7 +156,7 @@ fn a_guided_search_finds_the_best() {
     let task = task(PROGRAMS[0].1);
     let scores = (0..3000).map(|stream| forward(&task, 2, stream, false).expect("a run").log_score);
     let best = scores.fold(f64::NEG_INFINITY, f64::max);
-    let attached = [Attached::Guide(strong(&task, 1))];
+    let attached = [Attached::Guide(random(&task, 1, WILD))];
     let search = |proposal: &str| {
         let text = format!(
             r#"{{"method": "improve", "particles": 8, "regrow": 3, "power": 16.0, "rounds": 30, "seconds": null,

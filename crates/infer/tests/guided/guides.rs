@@ -13,8 +13,10 @@ use std::sync::Arc;
 
 /// The share of the prior: large, so that no weight is so rare and so great that averages are not normal.
 const SHARE: f64 = 0.25;
-/// Deviation of what is added to each weight.
-const SPREAD: f64 = 1.0;
+/// Deviations of what is added to each weight: for single particles, which must meet every value often enough to be
+/// counted, and for chains.
+pub const MILD: f64 = 0.5;
+pub const WILD: f64 = 1.0;
 
 fn making() -> Making {
     let settings = json!({
@@ -25,7 +27,7 @@ fn making() -> Making {
 }
 
 /// The bytes of a guide with random weights; its inputs are used as they are.
-fn shaken(mut bytes: Vec<u8>, seed: u64) -> Vec<u8> {
+fn shaken(mut bytes: Vec<u8>, seed: u64, spread: f64) -> Vec<u8> {
     let length = u64::from_le_bytes(bytes[..8].try_into().expect("eight")) as usize;
     let (head, data) = bytes.split_at_mut(8 + length);
     let header: Value = serde_json::from_slice(&head[8..]).expect("a header");
@@ -34,7 +36,7 @@ fn shaken(mut bytes: Vec<u8>, seed: u64) -> Vec<u8> {
     let mut stream = Stream::new(seed, 0, 0, 0);
     for weight in data[place("weights", 0)..place("weights", 1)].chunks_exact_mut(4) {
         let old = f32::from_le_bytes(weight.try_into().expect("four"));
-        weight.copy_from_slice(&(old + (SPREAD * stream.normal()) as f32).to_le_bytes());
+        weight.copy_from_slice(&(old + (spread * stream.normal()) as f32).to_le_bytes());
     }
     for feature in data[place("features", 0)..place("features", 1)].chunks_exact_mut(8) {
         feature[..4].copy_from_slice(&0.0_f32.to_le_bytes());
@@ -44,7 +46,7 @@ fn shaken(mut bytes: Vec<u8>, seed: u64) -> Vec<u8> {
 }
 
 /// A guide for a task, by number.
-pub fn strong(task: &Task, number: u64) -> Arc<BoundGuide> {
+pub fn random(task: &Task, number: u64, spread: f64) -> Arc<BoundGuide> {
     let traces = (0..60).map(|stream| forward(task, 900, stream, false).expect("a run"));
     let possible = traces.filter(|run| run.cause.is_none() && run.has_ended);
     let examples: Vec<Example> = possible
@@ -55,6 +57,6 @@ pub fn strong(task: &Task, number: u64) -> Arc<BoundGuide> {
     let net = NetForm { hidden: [8, 8], ..NetForm::new(form.window_values(), form.features(), heads) };
     let net: Net = Net::start(net, number);
     let bytes = write(&net, &serde_json::to_string(&form).expect("a form"));
-    let guide = Guide::of_bytes(&shaken(bytes, number)).expect("a guide");
+    let guide = Guide::of_bytes(&shaken(bytes, number, spread)).expect("a guide");
     Arc::new(BoundGuide::new(Arc::new(guide), task).expect("a guide of this task"))
 }

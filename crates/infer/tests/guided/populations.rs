@@ -1,6 +1,6 @@
 //! Populations and independent runs that a guide draws.
 
-use super::guides::strong;
+use super::guides::{MILD, random};
 use super::law::Law;
 use super::on_one_thread;
 use super::programs::{PROGRAMS, task};
@@ -13,8 +13,8 @@ use niwaki_vm::value::repr;
 use std::sync::Arc;
 
 /// The proposal that is a guide.
-pub fn by(task: &Task, number: u64) -> Arc<Proposal> {
-    Arc::new(Proposal::of(&Kernel::guided(strong(task, number))).expect("a proposal"))
+pub fn by(task: &Task, number: u64, spread: f64) -> Arc<Proposal> {
+    Arc::new(Proposal::of(&Kernel::guided(random(task, number, spread))).expect("a proposal"))
 }
 
 /// What is wrong with the estimates of populations with these settings.
@@ -35,7 +35,7 @@ fn wrong(task: &Task, law: &Law, settings: &Settings, seeds: u64) -> Vec<String>
 fn the_guides_are_far_from_the_prior() {
     for (name, text) in PROGRAMS {
         let task = task(text);
-        let runs = importance(&task, Some(&by(&task, 1)), 2000, 1, &mut |_| true).expect("runs").runs;
+        let runs = importance(&task, Some(&by(&task, 1, MILD)), 2000, 1, &mut |_| true).expect("runs").runs;
         let ratios: Vec<f64> = runs.iter().map(|run| run.log_weight - run.log_score).collect();
         let mean = ratios.iter().sum::<f64>() / 2000.0;
         let deviation = (ratios.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / 2000.0).sqrt();
@@ -57,7 +57,7 @@ fn evidence_and_posterior_do_not_depend_on_the_guide() {
                 (1, 7, Resampling::Tempered, 1500),
                 (2, 100, Resampling::Tempered, 100),
             ] {
-                let proposal = Some(by(&task, number));
+                let proposal = Some(by(&task, number, MILD));
                 let own = Settings { particles, order, resampling, proposal, ..Settings::default() };
                 let far = wrong(&task, &law, &own, seeds);
                 assert!(far.is_empty(), "{name}, {order:?}, {particles} particles: {far:?}");
@@ -72,8 +72,9 @@ fn nor_do_they_beside_other_settings() {
     for (name, text) in PROGRAMS {
         let task = task(text);
         let law = Law::of(&task);
-        let plain = Settings { particles: 5, proposal: Some(by(&task, 3)), ..Settings::default() };
-        let kernel = Kernel::Mixture(vec![(1.0, Kernel::PRIOR), (1.0, Kernel::guided(strong(&task, 4)))]);
+        let plain = Settings { particles: 5, proposal: Some(by(&task, 3, MILD)), ..Settings::default() };
+        let kernel =
+            Kernel::Mixture(vec![(1.0, Kernel::PRIOR), (1.0, Kernel::guided(random(&task, 4, MILD)))]);
         let moved = Rejuvenation { kernel, moves: 2, at: Moment::Every(1), final_chains: None };
         for own in [
             Settings { when: When::EffectiveBelow(0.5), ..plain.clone() },
@@ -90,7 +91,8 @@ fn nor_do_they_beside_other_settings() {
 fn threads_change_nothing() {
     for (name, text) in PROGRAMS {
         let task = task(text);
-        let own = Settings { particles: 100, seed: 3, proposal: Some(by(&task, 1)), ..Settings::default() };
+        let own =
+            Settings { particles: 100, seed: 3, proposal: Some(by(&task, 1, MILD)), ..Settings::default() };
         let run = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
             pool.install(|| {
@@ -105,7 +107,7 @@ fn threads_change_nothing() {
 fn importance_sampling_weighs_what_a_guide_draws() {
     for (name, text) in PROGRAMS {
         let task = task(text);
-        let found = importance(&task, Some(&by(&task, 1)), 12_000, 3, &mut |_| true).expect("runs");
+        let found = importance(&task, Some(&by(&task, 1, MILD)), 12_000, 3, &mut |_| true).expect("runs");
         let one =
             |run: &niwaki_infer::run::Run| (run.log_weight, vec![(repr(&run.value).expect("a value"), 0.0)]);
         let far = Law::of(&task).wrong_estimates(found.runs.iter().map(one));

@@ -1,7 +1,7 @@
 //! The four strategies make the same chain to the bit, with a guide that looks at the scene and one that only reads, alone, in
 //! mixtures, and in regrowth.
 
-use super::guides::strong;
+use super::guides::{WILD, random};
 use super::populations::by;
 use super::programs::{PROGRAMS, page, task};
 use niwaki_infer::Task;
@@ -15,7 +15,7 @@ use serde_json::json;
 mod of_the_machine;
 
 fn agree(name: &str, task: &Task) {
-    let guided = || Kernel::guided(strong(task, 1));
+    let guided = || Kernel::guided(random(task, 1, WILD));
     let regrow =
         Kernel::leaf("regrow", json!({"particles": 4, "turn": 0.3, "pick": "size"})).expect("a kernel");
     let deep = Selection { depth: vec![1.0, 3.0, 0.5], ..Selection::default() };
@@ -23,7 +23,7 @@ fn agree(name: &str, task: &Task) {
         ("guided", guided()),
         ("on", Kernel::On(deep, Box::new(guided()))),
         ("a mixture", Kernel::Mixture(vec![(2.0, guided()), (1.0, Kernel::PRIOR)])),
-        ("regrow", Kernel::Cycle(vec![guided(), regrow.drawn_by(by(task, 2))])),
+        ("regrow", Kernel::Cycle(vec![guided(), regrow.drawn_by(by(task, 2, WILD))])),
     ] {
         for powers in [vec![1.0], vec![1.0, 0.3]] {
             let settings = Settings {

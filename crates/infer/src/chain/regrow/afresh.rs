@@ -79,7 +79,8 @@ pub fn afresh(task: &Task, known: &HashMap<u128, Value>, with: &Afresh<'_>) -> R
     let present = block(1).conditional(&mut machine, None, moves.at(0).next_u64())?;
     let block = block(with.particles);
     let mut set = block.free(&mut machine, None, moves.at(1).next_u64())?;
-    let weighing = Weighing { task, own: &own, picked: &picked, block: &block, numbers: &numbers };
+    let weighing =
+        Weighing { task, own: &own, picked: &picked, block: &block, numbers: &numbers, emits: None };
     let before = (&present.grown[0], present.grown[0].result());
     chain.weigh_last(&mut machine, &weighing, &mut set, Some(before))?;
     if set.log_mean == f64::NEG_INFINITY {

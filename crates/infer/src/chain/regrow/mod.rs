@@ -9,7 +9,9 @@
 //!   multiplies that particle's last weight.
 //! * [`afresh()`]: one named part grown again by particles of which none holds the present values;
 //! * Values come from their priors, or from a proposal: a user's or a guide. The weights count prior over proposal then,
-//!   also those of the particle that holds the present values.
+//!   also those of the particle that holds the present values. A guide that looks sees the scene around the part, which must
+//!   be the same on the way back. So a particle with whose result shapes outside of the part move has weight zero then:
+//!   the posterior is kept within the runs that share that scene.
 //! * `sweep`: SMC of a part; `turn`: other values of a discrete choice.
 //! * Where a part returns another value than before, the rest of the run is evaluated with it: the densities of the held
 //!   choices and the score change, and multiply the weight. A run that does not make exactly the choices of `R` beside
@@ -41,8 +43,8 @@ use niwaki_math::{RngCore, Stream, Total};
 use niwaki_vm::code::Program;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Machine;
-use niwaki_vm::machine::kept::Change;
 use niwaki_vm::machine::kept::part::{Part, Piece};
+use niwaki_vm::machine::kept::{Change, Trace};
 use niwaki_vm::value::{Value, same};
 use pick::Picked;
 use serde::Deserialize;
@@ -206,7 +208,8 @@ impl ChainMove for Regrow {
         let mut set = block.conditional(machine, turned.as_ref(), seed(0))?;
         let held_result = set.grown[0].result();
         chain.grown += set.steps;
-        let weighing = Weighing { task, own, picked: &picked, block: &block, numbers: &numbers };
+        let emits = own.looks().then(|| chain.state.trace.emits_of(program, picked.part));
+        let weighing = Weighing { task, own, picked: &picked, block: &block, numbers: &numbers, emits };
         chain.weigh_last(machine, &weighing, &mut set, None)?;
         debug_assert!(set.log_mean > f64::NEG_INFINITY, "the present values are possible");
         let mut log_ratio = 0.0;
@@ -246,6 +249,19 @@ struct Weighing<'a> {
     block: &'a Block<'a>,
     /// The numbers of the part's choices that may change.
     numbers: &'a [usize],
+    /// Numbers of its primitives, ascending, where a proposal looks at the scene around the part.
+    emits: Option<Vec<u32>>,
+}
+
+impl Weighing<'_> {
+    /// Whether the open transaction leaves what a proposal sees around the part as it is.
+    fn keeps_scene(&self, trace: &Trace) -> bool {
+        let Some(before) = &self.emits else { return true };
+        let (gone, come) = trace.exchanged();
+        let inside = |numbers: &[u32], own: &[u32]| numbers.iter().all(|one| own.binary_search(one).is_ok());
+        inside(gone, before)
+            && (come.is_empty() || inside(come, &trace.emits_of(&self.task.program, self.picked.part)))
+    }
 }
 
 impl<R: Rules> Chain<R> {
@@ -363,7 +379,7 @@ impl<R: Rules> Chain<R> {
         let barriers = self.state.primitives as i64 + trace.totals().factors + changed.factors;
         let fits = self.barriers.is_none_or(|n| barriers == n as i64);
         let mut log = f64::NEG_INFINITY;
-        if keeps_rest && fits && !changed.is_impossible() {
+        if keeps_rest && fits && with.keeps_scene(trace) && !changed.is_impossible() {
             let (fresh, stale) = trace.fresh_and_stale();
             let mut prior = changed.log_prior.less(fresh);
             prior.add_total(stale);

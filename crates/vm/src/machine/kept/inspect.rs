@@ -201,7 +201,8 @@ impl<S: Scalar> Trace<S> {
             if program.function(parent.function).mode == Mode::Loop {
                 // An iteration: those before it, then what is before the loop.
                 let children = &self.kept.loops[parent.slots as usize];
-                let earlier = children.iter().position(|child| *child == node).map_or(&[][..], |i| &children[..i]);
+                let earlier =
+                    children.iter().position(|child| *child == node).map_or(&[][..], |i| &children[..i]);
                 let part = earlier.iter().rev().find_map(|child| self.last_part(program, *child, usize::MAX));
                 if part.is_some() || parent.parent == NodeId::NONE {
                     return part;

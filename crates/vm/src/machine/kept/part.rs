@@ -19,7 +19,7 @@ use std::collections::HashMap;
 /// A part of a trace. It is valid until the trace changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Part {
-    node: NodeId,
+    pub(super) node: NodeId,
     /// Of an iteration: whether those after it belong to the part.
     onward: bool,
 }

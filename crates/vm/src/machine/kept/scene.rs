@@ -1,6 +1,7 @@
 //! Which primitives of the scene belong to a part, by number: also while a transaction is open.
 
 use super::super::state::NodeId;
+use super::part::Part;
 use super::{ChoiceAt, Kept, Trace};
 use crate::code::{Mode, Program, SiteKind};
 use niwaki_geom::Primitive;
@@ -11,10 +12,23 @@ impl<S: Scalar> Trace<S> {
     /// all below it, without those that the activation itself emitted before the choice. Of an iteration of a loop, those
     /// after it are below it, as in the recursion that the loop could be.
     pub fn emits_below(&self, program: &Program<S>, choice: usize) -> Vec<u32> {
-        let ChoiceAt { node: own, site } = self.kept.choices[choice];
+        let ChoiceAt { node, site } = self.kept.choices[choice];
+        self.emits_from(program, node, site as usize, true)
+    }
+
+    /// Numbers of the primitives of a part, in ascending order.
+    pub fn emits_of(&self, program: &Program<S>, part: Part) -> Vec<u32> {
+        self.emits_from(program, part.node, 0, part.is_onward())
+    }
+
+    /// Those that an activation emits from one of its sites on, and of all below it, with the iterations after it where
+    /// they count.
+    fn emits_from(&self, program: &Program<S>, own: NodeId, site: usize, onward: bool) -> Vec<u32> {
         let mut numbers = Vec::new();
-        let mut work: Vec<NodeId> = self.iterations_after(program, own).to_vec();
-        work.push(own);
+        let mut work = vec![own];
+        if onward {
+            work.extend(self.iterations_after(program, own));
+        }
         while let Some(node) = work.pop() {
             let n = &self.state.nodes[node.0 as usize];
             let f = program.function(n.function);
@@ -26,7 +40,7 @@ impl<S: Scalar> Trace<S> {
                 let slot = self.kept.slots[Kept::slot_at(&self.state, node, i)];
                 match &at.kind {
                     _ if !slot.is_filled() => {}
-                    SiteKind::Emit if node == own && i < site as usize => {}
+                    SiteKind::Emit if node == own && i < site => {}
                     SiteKind::Emit => numbers.push(slot.held),
                     kind if kind.makes_activation() => work.push(NodeId(slot.held)),
                     _ => {}
