@@ -8,6 +8,7 @@
 #   make figures-sosmc  the figures and the table of chapter 5, into out/figures-sosmc (QUICK=1: a smoke run)
 #   make guides   train the guides that come with the package again, into python/niwaki/guides/shipped (two minutes)
 #   make figures-hmc  the figures and the tables of chapter 4, into out/figures-hmc (QUICK=1: a smoke run)
+#   make figures-guides  the figures and the numbers of chapter 6, into docs/pictures/guides (QUICK=1: a smoke run)
 #   make bench-c3 proposals of Markov chains compared with WebPPL and the limit, with figures (15 minutes; QUICK=1: two)
 #   make bench-hmc gradients and effective samples compared with JAX, NumPyro, nutpie and the limit (4 minutes; QUICK=1: one)
 #   make bench-searches  the default search and others at equal CPU on many kinds of problems (QUICK=1: ten minutes)
@@ -41,7 +42,7 @@ PYTHON_SOURCES := python tests benches docs/conf.py
 
 PARTS :=
 
-.PHONY: all demo guides test lint bench bench-c3 bench-hmc bench-searches figures-sosmc figures-hmc soak mutants docs format locks clean
+.PHONY: all demo guides test lint bench bench-c3 bench-hmc bench-searches figures-sosmc figures-hmc figures-guides soak mutants docs format locks clean
 all: $(STAMPS)/engine
 
 # ---- set-up: one stamp for each thing that is made, older than what depends on it
@@ -94,6 +95,9 @@ figures-sosmc: $(STAMPS)/engine $(STAMPS)/bench
 
 figures-hmc: $(STAMPS)/engine $(STAMPS)/bench $(STAMPS)/test
 	$(PY) benches/figures_hmc out/figures-hmc $(PARTS)
+
+figures-guides: $(STAMPS)/engine $(STAMPS)/bench
+	$(PY) benches/figures_guides out/figures-guides $(PARTS)
 
 bench-c3: $(STAMPS)/engine $(STAMPS)/bench
 	$(PY) benches/c3.py

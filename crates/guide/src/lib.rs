@@ -8,14 +8,17 @@
 //! | --- | --- |
 //! | [`heads`] | outputs of a network as a density of a choice: drawing, scoring, gradients |
 //! | [`net`] | the network: its form, its weights, its answers, its file |
+//! | [`filtered`] | the dissertation's network and its training, for comparison |
 //! | [`learn`] | rows from traces, and training on them |
 //!
 //! This crate does not know programs, scenes or traces: numbers and distributions in, numbers and draws out.
 
+pub mod filtered;
 pub mod heads;
 pub mod learn;
 pub mod net;
 
+pub use filtered::{Filtered, FilteredForm, FilteredTraining, read_filtered, train_filtered, write_filtered};
 pub use heads::{Drawn, Head, Lesson};
 pub use learn::{Adam, Diverged, Progress, Rows, State, Trained, Training, loss_and_slope, resume, train};
 pub use net::{BadFile, Net, NetForm, Real, Scratch, read, write};

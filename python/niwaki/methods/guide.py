@@ -113,6 +113,10 @@ class Guide:
             lines.append(
                 f"window of {name}: {len(points)} points around the current place, up to {reach:.3g} units away"
             )
+        if form.get("image"):
+            lines.append(
+                f"the page of {form['image']['sketch']}: windows of 3 by 3 in four resolutions, position, direction"
+            )
         if form.get("part") is not None:
             lines.append(
                 "the current place is a frame in scope, or else the middle of the last part, whose box it reads"

@@ -98,6 +98,14 @@ impl Page {
         (row / GROUP * self.size[0].div_ceil(64) + across) * GROUP + row % GROUP
     }
 
+    /// Appends the touched pixels row by row from the top, each row in words of its own; `word` gives those of
+    /// [`Page::bit`].
+    pub(crate) fn image(&self, word: impl Fn(usize) -> u64, out: &mut Vec<u64>) {
+        for row in 0..self.size[1] {
+            out.extend((0..self.size[0].div_ceil(64)).map(|across| word(self.word(across, row))));
+        }
+    }
+
     /// Number of words of sampled pixels.
     pub fn sampled_words(&self) -> usize {
         self.size[0].div_ceil(SAMPLES) * self.size[1].div_ceil(SAMPLES) * GROUP

@@ -165,6 +165,12 @@ impl SketchSpec for DrawingSpec {
         Some(WindowForm::flat(self.drawing.page.side()))
     }
 
+    fn image(&self) -> Option<(Page, Vec<u64>)> {
+        let mut bits = Vec::new();
+        self.drawing.page.image(|word| self.drawing.filled(word), &mut bits);
+        Some((self.drawing.page.clone(), bits))
+    }
+
     fn domain(&self) -> Option<Aabb> {
         Some(self.drawing.page.domain())
     }
@@ -296,6 +302,10 @@ impl Sketch for DrawingMatch {
             [filled & !any, !filled & !any]
         };
         flat::look(form, &Spot::on(page, place), page.size(), 2.0, words, out);
+    }
+
+    fn image(&self, out: &mut Vec<u64>) {
+        self.drawing.page.image(|word| self.tiles.any(word), out);
     }
 
     fn log_score(&self) -> f64 {

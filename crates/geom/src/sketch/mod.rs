@@ -68,6 +68,9 @@ pub trait Sketch: Copied + Any + Send + Sync {
     fn look(&self, form: &WindowForm, _place: &Place, out: &mut Vec<f32>) {
         out.resize(out.len() + form.values(), 0.0);
     }
+    /// Appends the pixels that the scene touches on its target's page, as [`SketchSpec::image`] has them; nothing where
+    /// that has none.
+    fn image(&self, _out: &mut Vec<u64>) {}
     /// Log of the score of the bag, nats; negative infinity when it is forbidden.
     fn log_score(&self) -> f64;
     /// Named numbers behind the score, for people.
@@ -80,6 +83,11 @@ pub trait SketchSpec: Send + Sync {
     fn name(&self) -> &'static str;
     /// The window that fits its target; `None` when it shows nothing.
     fn window(&self) -> Option<WindowForm> {
+        None
+    }
+    /// The page that scenes are drawn on, and the pixels that the target fills there: one bit each, row by row from the
+    /// top, each row in words of its own. `None` where nothing is drawn on a page.
+    fn image(&self) -> Option<(Page, Vec<u64>)> {
         None
     }
     /// The box around what its target covers, world space; `None` when it has no target in the world.

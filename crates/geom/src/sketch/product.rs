@@ -155,6 +155,11 @@ impl Sketches {
         }
     }
 
+    /// Appends the image of the sketch of that number, as [`Sketch::image`] does.
+    pub fn image(&self, number: usize, out: &mut Vec<u64>) {
+        self.members[number].sketch.image(out);
+    }
+
     /// Name of the first sketch that forbids the scene.
     pub fn forbidden_by(&self) -> Option<&'static str> {
         self.members.iter().find(|m| m.is_forbidden()).map(|m| m.sketch.name())

@@ -73,6 +73,14 @@ impl SketchSpec for TextureSpec {
         Some(WindowForm::flat(self.0.texture.page.side()))
     }
 
+    /// Without a target no pixel is filled.
+    fn image(&self) -> Option<(Page, Vec<u64>)> {
+        let page = &self.0.texture.page;
+        let mut bits = Vec::new();
+        page.image(|_| 0, &mut bits);
+        Some((page.clone(), bits))
+    }
+
     fn domain(&self) -> Option<Aabb> {
         Some(self.0.texture.page.domain())
     }
@@ -189,6 +197,14 @@ impl TextureMatch {
             range((aabb.low.x - left) / wide, (aabb.high.x - left) / wide, columns),
             range((top - aabb.high.y) / tall, (top - aabb.low.y) / tall, rows),
         ]
+    }
+
+    /// The pixels that are touched, where they are kept or else found.
+    fn with_touched<R>(&self, see: impl FnOnce(&Bits) -> R) -> R {
+        match &self.shown {
+            Some(bits) => see(bits),
+            None => see(&self.touched_pixels()),
+        }
     }
 
     /// Which pixels are touched.
@@ -314,16 +330,14 @@ impl Sketch for TextureMatch {
 
     fn look(&self, form: &WindowForm, place: &Place, out: &mut Vec<f32>) {
         let page = &self.texture.page;
-        let known;
-        let bits = match &self.shown {
-            Some(bits) => bits,
-            None => {
-                known = self.touched_pixels();
-                &known
-            }
-        };
-        let words = |across: usize, row: usize| [bits.word(page.word(across, row)), 0];
-        flat::look(form, &Spot::on(page, place), page.size(), 1.0, words, out);
+        self.with_touched(|bits| {
+            let words = |across: usize, row: usize| [bits.word(page.word(across, row)), 0];
+            flat::look(form, &Spot::on(page, place), page.size(), 1.0, words, out);
+        });
+    }
+
+    fn image(&self, out: &mut Vec<u64>) {
+        self.with_touched(|bits| self.texture.page.image(|word| bits.word(word), out));
     }
 
     fn log_score(&self) -> f64 {

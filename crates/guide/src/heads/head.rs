@@ -248,6 +248,15 @@ impl Head {
         })
     }
 
+    /// Writes logs of the probabilities of a finite prior that it fits, nats; `None` of another prior.
+    pub(crate) fn log_priors<'a>(
+        &self,
+        dist: &Dist,
+        logs: &'a mut [f64; classes::MOST],
+    ) -> Option<&'a [f64]> {
+        Some(log_priors(dist, self.listed(dist)?, logs))
+    }
+
     /// What the density needs of a value that the prior does not exclude; `None` where the head does not fit.
     fn known<'a>(
         &self,

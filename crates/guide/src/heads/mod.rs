@@ -7,6 +7,7 @@
 //! | `line` | coordinates in which the priors of real numbers are alike |
 //! | `bells` | mixtures of Gaussians over such a coordinate |
 //! | `classes` | finitely many values |
+//! | [`natural`] | the dissertation's outputs, as those of a head |
 //!
 //! With the network's density `n`, the prior `p` and the share `s` of the prior, a choice is drawn from
 //!
@@ -21,6 +22,7 @@ mod classes;
 mod head;
 mod lesson;
 mod line;
+pub mod natural;
 
 pub use head::{Drawn, Head};
 pub(crate) use lesson::Known;

@@ -12,7 +12,7 @@
 
 use crate::net::Real;
 
-/// Decays of the mean slope and of the mean square.
+/// The usual decays of the mean slope and of the mean square.
 const DECAYS: [f64; 2] = [0.9, 0.999];
 /// What keeps the quotient finite.
 const LEAST: f64 = 1e-8;
@@ -24,6 +24,8 @@ pub struct Adam<T: Real = f32> {
     moments: [Vec<T>; 2],
     /// `a`.
     average: Vec<T>,
+    /// Decays of the mean slope and of the mean square.
+    decays: [f64; 2],
     /// Steps done.
     step: u64,
 }
@@ -31,8 +33,13 @@ pub struct Adam<T: Real = f32> {
 impl<T: Real> Adam<T> {
     /// Before the first step, for so many weights.
     pub fn new(weights: usize) -> Adam<T> {
+        Adam::with_decays(weights, DECAYS)
+    }
+
+    /// Before the first step, with other decays than the usual ones.
+    pub fn with_decays(weights: usize, decays: [f64; 2]) -> Adam<T> {
         let zeros = vec![T::ZERO; weights];
-        Adam { moments: [zeros.clone(), zeros.clone()], average: zeros, step: 0 }
+        Adam { moments: [zeros.clone(), zeros.clone()], average: zeros, decays, step: 0 }
     }
 
     /// Steps done.
@@ -45,7 +52,7 @@ impl<T: Real> Adam<T> {
         self.step += 1;
         let number = T::from_f64;
         let t = self.step as f64;
-        let [keep_mean, keep_square] = DECAYS;
+        let [keep_mean, keep_square] = self.decays;
         let rate = number(rate / (1.0 - keep_mean.powf(t)));
         let correction = number(1.0 / (1.0 - keep_square.powf(t)));
         let (keep_mean, add_mean) = (number(keep_mean), number(1.0 - keep_mean));

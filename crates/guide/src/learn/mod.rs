@@ -19,5 +19,6 @@ mod train;
 
 pub use adam::Adam;
 pub use rows::Rows;
+pub(crate) use slope::{add_scaled, back_through, dot};
 pub use slope::{loss, loss_and_slope};
 pub use train::{Diverged, Progress, State, Trained, Training, resume, train};

@@ -17,7 +17,7 @@ pub(super) struct Work<T: Real> {
 
 /// Adds `scale` times `row` to `sums`.
 #[inline(always)]
-fn add_scaled<T: Real>(sums: &mut [T], row: &[T], scale: T) {
+pub(crate) fn add_scaled<T: Real>(sums: &mut [T], row: &[T], scale: T) {
     for (sum, x) in sums.iter_mut().zip(row) {
         *sum += *x * scale;
     }
@@ -25,7 +25,7 @@ fn add_scaled<T: Real>(sums: &mut [T], row: &[T], scale: T) {
 
 /// The sum of products, in lanes that are added up at the end: one order on every machine.
 #[inline(always)]
-fn dot<T: Real>(a: &[T], b: &[T]) -> T {
+pub(crate) fn dot<T: Real>(a: &[T], b: &[T]) -> T {
     let mut held = [T::ZERO; LANES];
     for (a, b) in a.chunks_exact(LANES).zip(b.chunks_exact(LANES)) {
         for lane in 0..LANES {
@@ -39,7 +39,13 @@ fn dot<T: Real>(a: &[T], b: &[T]) -> T {
 /// Derivatives one layer back: of the inputs `hidden` (values of tanh) of `rows`, from those of its outputs; and the
 /// rows' own, added to `slope`.
 #[inline(always)]
-fn back_through<T: Real>(rows: &[T], slope: &mut [T], hidden: &[T], outputs: &[T], inputs: &mut [T]) {
+pub(crate) fn back_through<T: Real>(
+    rows: &[T],
+    slope: &mut [T],
+    hidden: &[T],
+    outputs: &[T],
+    inputs: &mut [T],
+) {
     let width = outputs.len();
     let each = rows.chunks_exact(width).zip(slope.chunks_exact_mut(width));
     for (((row, slope), h), input) in each.zip(hidden).zip(inputs) {

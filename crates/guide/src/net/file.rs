@@ -11,6 +11,7 @@
 use super::form::{Layout, NetForm};
 use super::pass::Net;
 use safetensors::tensor::{Dtype, SafeTensors, TensorView};
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 use std::fmt;
@@ -32,62 +33,85 @@ impl fmt::Display for BadFile {
 
 impl std::error::Error for BadFile {}
 
+impl BadFile {
+    pub(crate) fn new(what: String) -> BadFile {
+        BadFile(what)
+    }
+}
+
 /// The metadata.
 #[derive(Serialize, Deserialize)]
-struct About {
+struct About<F> {
     version: u32,
-    form: NetForm,
+    form: F,
     text: String,
 }
 
+/// The entry of the metadata.
+const ENTRY: &str = "niwaki";
+
 /// A network and a text of the caller's as bytes.
 pub fn write(net: &Net, text: &str) -> Vec<u8> {
-    let about = About { version: VERSION, form: net.form.clone(), text: text.into() };
+    write_as(ENTRY, &net.form, text, &net.weights, &net.features)
+}
+
+/// Bytes of a network of any kind; `entry` of the metadata says which.
+pub(crate) fn write_as<F: Serialize>(
+    entry: &str,
+    form: &F,
+    text: &str,
+    weights: &[f32],
+    features: &[(f32, f32)],
+) -> Vec<u8> {
+    let about = About { version: VERSION, form, text: text.into() };
     let bytes =
         |numbers: &mut dyn Iterator<Item = f32>| numbers.flat_map(f32::to_le_bytes).collect::<Vec<u8>>();
-    let weights = bytes(&mut net.weights.iter().copied());
-    let features = bytes(&mut net.features.iter().flat_map(|(mean, scale)| [*mean, *scale]));
+    let weights_bytes = bytes(&mut weights.iter().copied());
+    let features_bytes = bytes(&mut features.iter().flat_map(|(mean, scale)| [*mean, *scale]));
     let view = |shape: Vec<usize>, data| TensorView::new(Dtype::F32, shape, data).expect("sizes agree");
     let tensors = [
-        ("features", view(vec![net.features.len(), 2], &features)),
-        ("weights", view(vec![net.weights.len()], &weights)),
+        ("features", view(vec![features.len(), 2], &features_bytes)),
+        ("weights", view(vec![weights.len()], &weights_bytes)),
     ];
     let json = serde_json::to_string(&about).expect("plain data");
     // One entry: several would be written in an order that changes.
-    let metadata = HashMap::from([("niwaki".to_owned(), json)]);
+    let metadata = HashMap::from([(entry.to_owned(), json)]);
     safetensors::serialize(tensors, Some(metadata)).expect("two small tensors")
 }
 
-/// The network and the text of some bytes.
-pub fn read(bytes: &[u8]) -> Result<(Net, String), BadFile> {
-    let bad = |what: String| BadFile(what);
+/// The form and the text of a network's bytes; `None` without this entry.
+pub(crate) fn read_form<F: DeserializeOwned>(
+    entry: &str,
+    bytes: &[u8],
+) -> Result<Option<(F, String)>, BadFile> {
     let (_, header) = SafeTensors::read_metadata(bytes)
-        .map_err(|e| bad(format!("not a whole file of the safetensors format ({e})")))?;
-    let json = header.metadata().as_ref().and_then(|entries| entries.get("niwaki"));
-    let json =
-        json.ok_or_else(|| bad("a safetensors file, but not a guide: it has no entry `niwaki`".into()))?;
+        .map_err(|e| BadFile(format!("not a whole file of the safetensors format ({e})")))?;
+    let Some(json) = header.metadata().as_ref().and_then(|entries| entries.get(entry)) else {
+        return Ok(None);
+    };
     let version =
         serde_json::from_str::<serde_json::Value>(json).ok().and_then(|v| v.get("version")?.as_u64());
     if version != Some(VERSION.into()) {
         let found = version.map_or("none".into(), |v| v.to_string());
-        return Err(bad(format!(
+        return Err(BadFile(format!(
             "written in version {found} of the format; this engine reads version {VERSION}"
         )));
     }
     let About { form, text, .. } = serde_json::from_str(json)
-        .map_err(|e| bad(format!("the description of the network is damaged ({e})")))?;
-    let sizes = [form.windows, form.features, form.hidden[0], form.hidden[1], form.heads.len()];
-    if sizes.iter().any(|n| *n > 1 << 14)
-        || form.hidden.contains(&0)
-        || !form.heads.iter().all(|h| h.is_sound())
-    {
-        return Err(bad(format!(
-            "a network of sizes {sizes:?} (windows, features, hidden layers, sites) cannot be"
-        )));
-    }
-    let layout = Layout::new(&form);
-    if layout.len > LARGEST {
-        return Err(bad(format!("a network of {} weights is too large", layout.len)));
+        .map_err(|e| BadFile(format!("the description of the network is damaged ({e})")))?;
+    Ok(Some((form, text)))
+}
+
+/// So many weights, and the features, of a network's bytes.
+#[expect(clippy::type_complexity, reason = "the two tensors of the file")]
+pub(crate) fn read_numbers(
+    bytes: &[u8],
+    weights: usize,
+    features: usize,
+) -> Result<(Vec<f32>, Vec<(f32, f32)>), BadFile> {
+    let bad = |what: String| BadFile(what);
+    if weights > LARGEST {
+        return Err(bad(format!("a network of {weights} weights is too large")));
     }
     let tensors =
         SafeTensors::deserialize(bytes).map_err(|e| bad(format!("the weights are damaged ({e})")))?;
@@ -106,8 +130,27 @@ pub fn read(bytes: &[u8]) -> Result<(Net, String), BadFile> {
             None => Ok(numbers),
         }
     };
-    let weights = numbers("weights", &[layout.len])?;
-    let features = numbers("features", &[form.features, 2])?.chunks_exact(2).map(|p| (p[0], p[1])).collect();
+    let weights = numbers("weights", &[weights])?;
+    let features = numbers("features", &[features, 2])?.chunks_exact(2).map(|p| (p[0], p[1])).collect();
+    Ok((weights, features))
+}
+
+/// The network and the text of some bytes.
+pub fn read(bytes: &[u8]) -> Result<(Net, String), BadFile> {
+    let Some((form, text)) = read_form::<NetForm>(ENTRY, bytes)? else {
+        return Err(BadFile("a safetensors file, but not a guide: it has no entry `niwaki`".into()));
+    };
+    let sizes = [form.windows, form.features, form.hidden[0], form.hidden[1], form.heads.len()];
+    if sizes.iter().any(|n| *n > 1 << 14)
+        || form.hidden.contains(&0)
+        || !form.heads.iter().all(|h| h.is_sound())
+    {
+        return Err(BadFile(format!(
+            "a network of sizes {sizes:?} (windows, features, hidden layers, sites) cannot be"
+        )));
+    }
+    let layout = Layout::new(&form);
+    let (weights, features) = read_numbers(bytes, layout.len, form.features)?;
     Ok((Net { form, layout, weights, features, fresh: false }, text))
 }
 

@@ -19,7 +19,9 @@ mod pass;
 mod real;
 
 pub use file::{BadFile, read, write};
+pub(crate) use file::{read_form, read_numbers, write_as};
 pub use form::NetForm;
 pub(crate) use form::{LANES, Layout};
 pub use pass::{Net, Scratch};
+pub(crate) use pass::{add_rows, squash};
 pub use real::Real;

@@ -34,7 +34,7 @@ pub struct Scratch<T: Real = f32> {
 /// Adds to `sums` the rows times the inputs, the first input first: the order of additions is the same in every lane
 /// and on every machine.
 #[inline(always)]
-fn add_rows<T: Real>(sums: &mut [T], rows: &[T], inputs: &[T]) {
+pub(crate) fn add_rows<T: Real>(sums: &mut [T], rows: &[T], inputs: &[T]) {
     let width = sums.len();
     let mut at = 0;
     while at + 2 * LANES <= width {
@@ -63,7 +63,7 @@ fn add_block<T: Real, const N: usize>(sums: &mut [T], rows: &[T], inputs: &[T], 
 
 /// The hyperbolic tangent of each number.
 #[inline(always)]
-fn squash<T: Real>(numbers: &mut [T]) {
+pub(crate) fn squash<T: Real>(numbers: &mut [T]) {
     for block in numbers.chunks_exact_mut(LANES) {
         for x in block {
             *x = x.tanh();

@@ -1,12 +1,15 @@
 //! A guide for one program: what each of its sites sees, and how it draws.
 
-use super::Guide;
+use super::form::GuideForm;
+use super::images::{Images, of_place};
 use super::inputs::place;
+use super::{Guide, Network};
 use crate::Task;
 use crate::chooser::{Chosen, Context};
 use niwaki_geom::sketch::product::Sketches;
 use niwaki_geom::{Aabb, Place, Vec3, WindowForm, vec3};
 use niwaki_guide::Scratch;
+use niwaki_guide::filtered::View;
 use niwaki_math::{Dist, Draw, Stream};
 use niwaki_vm::builtins::{draw_to_value, value_to_draw};
 use niwaki_vm::code::SiteKind;
@@ -22,6 +25,8 @@ pub struct BoundGuide {
     guide: Arc<Guide>,
     sites: HashMap<u128, Site>,
     windows: Vec<(usize, WindowForm)>,
+    /// The page of a guide of the dissertation's architecture.
+    images: Option<Images>,
     /// Where it looks from as long as nothing says where: the middle of what it looks at.
     middle: Place,
     /// What of the guide the program or its score does not have, for people.
@@ -44,8 +49,13 @@ pub struct Sight {
     seen: Option<(usize, Place, usize)>,
     window: Vec<f32>,
     sums: Vec<f32>,
-    features: Vec<(u32, f32)>,
+    pub(super) features: Vec<(u32, f32)>,
     scratch: Scratch,
+    /// The image of the scene, and what the filters make of it.
+    pub(super) bits: Vec<u64>,
+    pub(super) view: View,
+    /// The place, in shares of the page from its upper left corner.
+    pub(super) at: [f64; 2],
 }
 
 impl Sight {
@@ -86,11 +96,13 @@ impl BoundGuide {
     /// A guide of which nothing matches, or which looks at sketches that the score does not have.
     pub fn new(guide: Arc<Guide>, task: &Task) -> Result<BoundGuide, Fault> {
         let form = &guide.form;
-        let windows = members(task, &form.windows).map_err(|name| {
-            let message =
-                format!("the guide of `{}` looks at `{name}`, which the score does not have", form.model);
-            Fault::new("guide-score", message).with_help("search by the score that the guide was trained for")
-        })?;
+        let windows = members(task, &form.windows).map_err(|name| lacking(form, &name))?;
+        let images = match (&guide.net, &form.image) {
+            (Network::Filtered(net), Some(image)) => {
+                Some(Images::new(image, net, task).ok_or_else(|| lacking(form, &image.sketch))?)
+            }
+            _ => None,
+        };
         let mut sites = HashMap::new();
         let mut lost = Vec::new();
         for function in &task.program.functions {
@@ -136,7 +148,12 @@ impl BoundGuide {
         }));
         let domain = windows.first().and_then(|(member, _)| task.sketches[*member].domain());
         let middle = along_axes(domain.map_or(vec3(0.0, 0.0, 0.0), |domain| domain.center()));
-        Ok(BoundGuide { guide, sites, windows, middle, lost })
+        Ok(BoundGuide { guide, sites, windows, images, middle, lost })
+    }
+
+    /// The page of a guide of the dissertation's architecture.
+    pub(super) fn images(&self) -> Option<&Images> {
+        self.images.as_ref()
     }
 
     /// The guide.
@@ -146,7 +163,7 @@ impl BoundGuide {
 
     /// Whether it looks at the scene.
     pub fn looks(&self) -> bool {
-        !self.windows.is_empty()
+        !self.windows.is_empty() || self.images.is_some()
     }
 
     /// Whether it draws the choices of a site, by key.
@@ -174,10 +191,14 @@ impl BoundGuide {
         let here = place_of(at, part).unwrap_or(self.middle);
         let now = (owner, here, seen.primitives);
         if sight.seen != Some(now) {
-            self.see(seen.sketches, &here, sight);
+            let same = sight.seen.is_some_and(|(who, _, count)| (who, count) == (owner, seen.primitives));
+            self.see(seen.sketches, &here, same, sight);
             sight.seen = Some(now);
         }
         sight.features.clear();
+        if let (Network::Filtered(net), Some(_)) = (&self.guide.net, &self.images) {
+            sight.features.extend(of_place(net, sight.at, &here));
+        }
         for (variable, (_, _, value)) in site.variables.iter().zip(at.visible()) {
             if let Some(v) = variable {
                 let own = &form.variables[*v as usize];
@@ -192,37 +213,58 @@ impl BoundGuide {
         Some(site.number)
     }
 
-    /// Fills the windows of `sight` with what the sketches show around a place; with zeros where there are none.
-    fn see(&self, sketches: Option<&Sketches>, here: &Place, sight: &mut Sight) {
-        sight.window.clear();
-        if let Some(sketches) = sketches {
-            let windows = self.windows.iter().map(|(member, window)| (*member, window));
-            sketches.look(windows, here, &mut sight.window);
+    /// Fills `sight` with what the sketches show around a place; with zeros where there are none. An image is looked at
+    /// again unless it is the same.
+    fn see(&self, sketches: Option<&Sketches>, here: &Place, same: bool, sight: &mut Sight) {
+        match (&self.guide.net, &self.images) {
+            (Network::Shared(net), _) => {
+                sight.window.clear();
+                if let Some(sketches) = sketches {
+                    let windows = self.windows.iter().map(|(member, window)| (*member, window));
+                    sketches.look(windows, here, &mut sight.window);
+                }
+                sight.window.resize(self.guide.form.window_values(), 0.0);
+                net.see(&sight.window, &mut sight.sums);
+            }
+            (Network::Filtered(net), Some(images)) => {
+                sight.at = images.at(here);
+                if !same {
+                    images.see(net, sketches, sight);
+                }
+            }
+            (Network::Filtered(_), None) => {}
         }
-        sight.window.resize(self.guide.form.window_values(), 0.0);
-        self.guide.net.see(&sight.window, &mut sight.sums);
     }
 
     /// Looks once more from the place of the last choice, at another scene; all other inputs stay as they are.
     pub fn look_again(&self, sketches: Option<&Sketches>, sight: &mut Sight) {
         if let Some((_, here, _)) = sight.seen.take() {
-            self.see(sketches, &here, sight);
+            self.see(sketches, &here, false, sight);
+        }
+    }
+
+    /// Outputs for the head of the guide's `site`-th choice, which was looked at.
+    fn outputs<'s>(&self, site: usize, dist: &Dist, sight: &'s mut Sight) -> &'s [f32] {
+        match (&self.guide.net, &self.images) {
+            (Network::Shared(net), _) => net.answer(&sight.sums, &sight.features, site, &mut sight.scratch),
+            (Network::Filtered(net), Some(images)) => {
+                net.answer(images.target(), sight.at, &sight.features, site, dist, &mut sight.view)
+            }
+            (Network::Filtered(_), None) => &[],
         }
     }
 
     /// A value for the choice that was looked at, which is the guide's `site`-th.
     pub fn answer(&self, site: usize, dist: &Dist, sight: &mut Sight, rng: &mut Stream) -> Chosen {
-        let (net, form) = (&self.guide.net, &self.guide.form);
-        let outputs = net.answer(&sight.sums, &sight.features, site, &mut sight.scratch);
-        let drawn = form.sites[site].head.draw(outputs, dist, form.share, rng);
+        let form = &self.guide.form;
+        let drawn = form.sites[site].head.draw(self.outputs(site, dist, sight), dist, form.share, rng);
         Chosen { value: draw_to_value(drawn.value), log_prior: drawn.log_prior, log_drawn: drawn.log_drawn }
     }
 
     /// The log density with which it draws a value there, nats.
     pub fn log_of(&self, site: usize, dist: &Dist, value: &Draw, sight: &mut Sight) -> f64 {
-        let (net, form) = (&self.guide.net, &self.guide.form);
-        let outputs = net.answer(&sight.sums, &sight.features, site, &mut sight.scratch);
-        form.sites[site].head.log_drawn(outputs, dist, form.share, value)
+        let form = &self.guide.form;
+        form.sites[site].head.log_drawn(self.outputs(site, dist, sight), dist, form.share, value)
     }
 
     /// A value for a choice with its densities; `None` where the guide draws nothing.
@@ -253,6 +295,12 @@ impl BoundGuide {
         let site = self.look(at, dist, seen, sight, owner)?;
         Some(self.log_of(site, dist, &draw, sight))
     }
+}
+
+/// A guide that looks at what the score does not have.
+fn lacking(form: &GuideForm, name: &str) -> Fault {
+    let message = format!("the guide of `{}` looks at `{name}`, which the score does not have", form.model);
+    Fault::new("guide-score", message).with_help("search by the score that the guide was trained for")
 }
 
 /// Where a choice is: the frame that was assigned last in its scope, or else the middle of the last part on its call path.

@@ -22,6 +22,9 @@ pub struct GuideForm {
     pub share: f64,
     /// Windows: the name of the sketch that shows one, in the order of the score, and its points.
     pub windows: Vec<(String, WindowForm)>,
+    /// The page that it looks at: only of the dissertation's architecture, which has no windows.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub image: Option<ImageForm>,
     /// The variables that it reads.
     pub variables: Vec<VariableForm>,
     /// The number of the first input of the last part on the call path; `None` where it does not read it.
@@ -33,6 +36,13 @@ pub struct GuideForm {
     pub left: Vec<(String, String)>,
     /// What it was made from and how well it did, for people.
     pub report: serde_json::Map<String, serde_json::Value>,
+}
+
+/// A page that a guide looks at.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ImageForm {
+    /// The name of the sketch that draws on it.
+    pub sketch: String,
 }
 
 /// A variable in scope at choices of its function.
@@ -83,12 +93,21 @@ impl GuideForm {
         self.windows.iter().map(|(_, form)| form.values()).sum()
     }
 
-    /// The guide reads nothing that is in scope, and no parameters of priors.
-    pub fn forget_scope(&mut self) {
-        self.variables.clear();
+    /// The guide reads only the variables of these names, not the last part, and no parameters of priors.
+    pub fn keep_only(&mut self, names: &[String]) {
+        let kept = |v: &VariableForm| names.contains(&v.name);
+        let (mut numbers, mut next, mut first) = (Vec::new(), 0, 0);
+        for variable in &mut self.variables {
+            numbers.push(kept(variable).then_some(next));
+            if kept(variable) {
+                variable.first = first;
+                (next, first) = (next + 1, first + variable.kind.len() as u32);
+            }
+        }
+        self.variables.retain(kept);
         self.part = None;
         for site in &mut self.sites {
-            site.variables.clear();
+            site.variables = site.variables.iter().filter_map(|v| numbers[*v as usize]).collect();
             site.parameters = (0, 0);
         }
     }

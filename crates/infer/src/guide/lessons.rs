@@ -3,10 +3,10 @@
 //! A trace is followed again, in its own order, with its scene. At each choice the code that would draw it looks; what it
 //! sees and the value that the trace has are a row. So a guide is trained on the bits that it gets later.
 
-use super::Guide;
 use super::bound::{BoundGuide, Sight};
 use super::form::GuideForm;
 use super::survey::Survey;
+use super::{Guide, Network, images};
 use crate::chooser::{Chooser, Chosen, Context, Refuse};
 use crate::log::Entry;
 use crate::particle::Particle;
@@ -87,28 +87,99 @@ pub(super) fn follow(example: &Example, each: &mut Each<'_>) -> Result<(), Failu
 pub struct Making {
     /// The model's name.
     pub model: String,
+    /// Which network.
+    #[serde(default)]
+    pub architecture: Architecture,
     /// Units of the hidden layers.
     pub hidden: [usize; 2],
     /// Gaussians of each mixture.
     pub components: usize,
     /// The share of the prior.
     pub share: f64,
-    /// Whether it looks at the sketches' windows.
-    pub looks: bool,
-    /// Whether it reads what is in scope.
-    pub reads: bool,
+    /// What it looks at.
+    pub looks: Looks,
+    /// What it reads of what is in scope.
+    pub reads: Reads,
     /// Steps; `None` for `passes`.
     pub steps: Option<u64>,
     /// So many passes over the choices, but at least [`LEAST`] steps and at most [`MOST`].
     pub passes: f64,
     /// Adam's rate.
     pub rate: f64,
-    /// Choices of a step.
+    /// Adam's decays of mean and square.
+    #[serde(default = "usual_decays")]
+    pub decays: [f64; 2],
+    /// Choices of a step; of the dissertation's architecture, traces.
     pub batch: usize,
     /// How much of the averaged weights is kept in a step.
     pub averaging: f64,
     /// Decides every random number.
     pub seed: u64,
+}
+
+/// Adam's usual decays.
+fn usual_decays() -> [f64; 2] {
+    [0.9, 0.999]
+}
+
+/// A kind of network.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq)]
+#[serde(rename_all = "kebab-case")]
+pub enum Architecture {
+    /// One net for all choices, which sees windows.
+    #[default]
+    Shared,
+    /// The dissertation's.
+    Dissertation,
+}
+
+/// What a guide looks at.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(untagged)]
+pub enum Looks {
+    /// Target and scene, or neither.
+    Both(bool),
+    /// One of them.
+    One(Image),
+}
+
+/// A part of what a page shows.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
+#[serde(rename_all = "kebab-case")]
+pub enum Image {
+    /// What is wanted.
+    Target,
+    /// What is there.
+    Scene,
+}
+
+impl Looks {
+    /// Whether at the target.
+    pub fn target(self) -> bool {
+        matches!(self, Looks::Both(true) | Looks::One(Image::Target))
+    }
+
+    /// Whether at the scene.
+    pub fn scene(self) -> bool {
+        matches!(self, Looks::Both(true) | Looks::One(Image::Scene))
+    }
+}
+
+/// What a guide reads of what is in scope.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(untagged)]
+pub enum Reads {
+    /// Everything, with the parameters of priors, or nothing.
+    All(bool),
+    /// The variables of these names.
+    Names(Vec<String>),
+}
+
+impl Reads {
+    /// Whether anything.
+    pub fn any(&self) -> bool {
+        !matches!(self, Reads::All(false))
+    }
 }
 
 /// Fewest and most steps of a training that is given in passes.
@@ -154,19 +225,23 @@ pub fn survey(examples: &[Example], making: &Making) -> Result<GuideForm, Failur
     for example in examples {
         survey.add(example, making.components)?;
     }
-    let windows = if making.looks { windows(&first.task) } else { vec![] };
+    let windowed =
+        making.architecture == Architecture::Shared && making.looks.target() && making.looks.scene();
+    let windows = if windowed { windows(&first.task) } else { vec![] };
     let mut form = survey.form(&first.task.program, &making.model, making.share, windows)?;
-    if !making.reads {
-        form.forget_scope();
+    match &making.reads {
+        Reads::All(true) => {}
+        Reads::All(false) => form.keep_only(&[]),
+        Reads::Names(names) => form.keep_only(names),
     }
     Ok(form)
 }
 
 /// The rows of traces; in the order of the traces, on all threads.
-fn rows(examples: &[&Example], guide: &Arc<Guide>) -> Result<Rows, Failure> {
+fn rows(examples: &[&Example], guide: &Arc<Guide>, form: &NetForm) -> Result<Rows, Failure> {
     let one = |example: &&Example| -> Result<Rows, Failure> {
         let bound = BoundGuide::new(guide.clone(), &example.task)?;
-        let (mut rows, mut sight) = (Rows::new(guide.net.form()), Sight::default());
+        let (mut rows, mut sight) = (Rows::new(form), Sight::default());
         rows.trace();
         follow(example, &mut |at, dist, seen, value| {
             let Some(site) = bound.look(at, dist, seen, &mut sight, 0) else { return Ok(()) };
@@ -181,7 +256,7 @@ fn rows(examples: &[&Example], guide: &Arc<Guide>) -> Result<Rows, Failure> {
         Ok(rows)
     };
     let parts = examples.par_iter().map(one).collect::<Result<Vec<_>, Failure>>()?;
-    let mut all = Rows::new(guide.net.form());
+    let mut all = Rows::new(form);
     parts.iter().for_each(|part| all.append(part));
     Ok(all)
 }
@@ -196,13 +271,20 @@ pub fn train(
     start: Option<&Guide>,
     watch: &mut dyn FnMut(Progress) -> bool,
 ) -> Result<Taught, Failure> {
-    let form = match start {
+    let mut form = match start {
         Some(start) => start.form.clone(),
         None => survey(examples, making)?,
     };
-    let net = match start {
-        Some(start) => start.net.clone(),
-        None => {
+    let net = match (start.map(|start| &start.net), examples) {
+        (Some(Network::Filtered(net)), _) => {
+            return images::train(examples, making, form, net.clone(), watch);
+        }
+        (None, [first, ..]) if making.architecture == Architecture::Dissertation => {
+            let net = images::network(&mut form, making, &first.task)?;
+            return images::train(examples, making, form, net, watch);
+        }
+        (Some(Network::Shared(net)), _) => net.clone(),
+        (None, _) => {
             let heads = form.sites.iter().map(|site| site.head).collect();
             let own = NetForm {
                 hidden: making.hidden,
@@ -211,11 +293,11 @@ pub fn train(
             Net::start(own, making.seed)
         }
     };
-    let blank = Arc::new(Guide { form, net });
+    let blank = Arc::new(Guide { form, net: Network::Shared(net.clone()) });
     let (judging, learning): (Vec<&Example>, Vec<&Example>) = examples.iter().partition(|one| one.held_out);
-    let learned = rows(&learning, &blank)?;
-    let held_out = rows(&judging, &blank)?;
-    let (mut form, net) = (blank.form.clone(), blank.net.clone());
+    let learned = rows(&learning, &blank, net.form())?;
+    let held_out = rows(&judging, &blank, net.form())?;
+    let mut form = blank.form.clone();
     let rows = learned.len();
     let mut history = Vec::new();
     let mut seen = |now: Progress| {
@@ -232,7 +314,7 @@ pub fn train(
     };
     form.share = making.share;
     Ok(Taught {
-        guide: Guide { form, net },
+        guide: Guide { form, net: Network::Shared(net) },
         rows,
         bytes: learned.bytes() + held_out.bytes(),
         history,

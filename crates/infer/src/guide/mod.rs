@@ -8,12 +8,14 @@
 //! - [`form`]: a guide as plain data;
 //! - [`bound`]: a guide for one program, as a drawer of choices;
 //! - [`survey`]: what the traces of a model show, from which the form of its guide follows;
-//! - [`lessons`]: traces as rows, by the code that draws; training.
+//! - [`lessons`]: traces as rows, by the code that draws; training;
+//! - [`images`]: the same for the dissertation's architecture, which looks at whole images.
 //!
 //! The networks and their training are in `niwaki-guide`, the windows in `niwaki-geom`.
 
 pub mod bound;
 pub mod form;
+mod images;
 pub mod inputs;
 pub mod lessons;
 pub mod survey;
@@ -21,7 +23,7 @@ pub mod survey;
 mod tests;
 
 use form::{FORMAT, GuideForm};
-use niwaki_guide::Net;
+use niwaki_guide::{Filtered, Net};
 use niwaki_vm::fault::Fault;
 
 /// A trained guide.
@@ -30,7 +32,26 @@ pub struct Guide {
     /// What it looks at, and what it draws.
     pub form: GuideForm,
     /// Its network.
-    pub net: Net,
+    pub net: Network,
+}
+
+/// The network of a guide.
+#[derive(Clone, Debug)]
+pub enum Network {
+    /// One net for all choices, which sees windows.
+    Shared(Net),
+    /// The dissertation's: a net for each choice, which sees filtered images.
+    Filtered(Filtered),
+}
+
+impl Network {
+    /// How many weights it has.
+    pub fn size(&self) -> usize {
+        match self {
+            Network::Shared(net) => net.size(),
+            Network::Filtered(net) => net.size(),
+        }
+    }
 }
 
 fn bad(message: String) -> Fault {
@@ -41,7 +62,10 @@ impl Guide {
     /// The guide as the bytes of a safetensors file.
     pub fn bytes(&self) -> Vec<u8> {
         let meta = serde_json::to_string(&self.form).unwrap_or_default();
-        niwaki_guide::write(&self.net, &meta)
+        match &self.net {
+            Network::Shared(net) => niwaki_guide::write(net, &meta),
+            Network::Filtered(net) => niwaki_guide::write_filtered(net, &meta),
+        }
     }
 
     /// The guide of such bytes.
@@ -49,8 +73,13 @@ impl Guide {
     /// # Errors
     /// Bytes that are no guide, or one of a form that this version does not know.
     pub fn of_bytes(bytes: &[u8]) -> Result<Guide, Fault> {
-        let (net, meta) =
-            niwaki_guide::read(bytes).map_err(|error| bad(format!("this is no guide: {error}")))?;
+        let unread = |error| bad(format!("this is no guide: {error}"));
+        let (net, meta) = match niwaki_guide::read_filtered(bytes).map_err(unread)? {
+            Some((net, meta)) => (Network::Filtered(net), meta),
+            None => {
+                niwaki_guide::read(bytes).map(|(net, meta)| (Network::Shared(net), meta)).map_err(unread)?
+            }
+        };
         let data: serde_json::Value =
             serde_json::from_str(&meta).map_err(|error| bad(format!("this is no guide: {error}")))?;
         let format = data["format"].as_u64().unwrap_or(0);
@@ -60,9 +89,20 @@ impl Guide {
         }
         let form: GuideForm =
             serde_json::from_value(data).map_err(|error| bad(format!("the guide's description: {error}")))?;
-        let fits = form.features() == net.form().features
-            && form.window_values() == net.form().windows
-            && form.sites.iter().map(|own| &own.head).eq(&net.form().heads);
+        let heads = form.sites.iter().map(|own| &own.head);
+        let fits = match &net {
+            Network::Shared(net) => {
+                form.features() == net.form().features
+                    && form.window_values() == net.form().windows
+                    && form.image.is_none()
+                    && heads.eq(&net.form().heads)
+            }
+            Network::Filtered(net) => {
+                (form.features()..=form.features() + images::OF_PLACE as usize).contains(&net.form().features)
+                    && form.image.is_some()
+                    && heads.eq(&net.form().heads)
+            }
+        };
         if !fits {
             return Err(bad("the guide's description does not fit its network".into()));
         }

@@ -174,6 +174,7 @@ impl Survey {
             model: model.to_string(),
             share,
             windows,
+            image: None,
             variables,
             part,
             sites,

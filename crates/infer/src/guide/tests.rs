@@ -2,7 +2,7 @@
 //! for particles that share their past, that became copies of others, and whose futures ran in any order. In a chain a guide
 //! reads the same variables, lists of cells included.
 
-use super::Guide;
+use super::{Guide, Network};
 use super::bound::{BoundGuide, Sight};
 use super::lessons::{Example, Making, follow, survey};
 use crate::Task;
@@ -63,7 +63,7 @@ fn blank(task: &Task) -> Arc<BoundGuide> {
     let form = survey(&examples, &making).unwrap();
     let heads = form.sites.iter().map(|site| site.head).collect();
     let net = Net::start(NetForm::new(form.window_values(), form.features(), heads), 1);
-    Arc::new(BoundGuide::new(Arc::new(Guide { form, net }), task).unwrap())
+    Arc::new(BoundGuide::new(Arc::new(Guide { form, net: Network::Shared(net) }), task).unwrap())
 }
 
 /// Window and features, as bits.
