@@ -24,8 +24,11 @@ pub struct Law {
     pub shares: Vec<(String, f64)>,
 }
 
-/// How many values of a choice are visited, and one of them with the log of its probability.
-fn values(dist: &Dist) -> (usize, Box<dyn Fn(usize) -> (Value, f64) + '_>) {
+/// A value of a choice by number, with the log of its probability.
+type Visited<'a> = Box<dyn Fn(usize) -> (Value, f64) + 'a>;
+
+/// How many values of a choice are visited, and each of them.
+fn values(dist: &Dist) -> (usize, Visited<'_>) {
     if let Some(draws) = dist.enumerate() {
         let all = draws.into_iter().map(|draw| (draw_to_value(draw.clone()), dist.log_density(&draw)));
         let all: Vec<(Value, f64)> = all.collect();

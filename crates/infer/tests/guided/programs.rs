@@ -81,16 +81,16 @@ pub const PROGRAMS: [(&str, &str); 6] = [
 ];
 
 /// A page of 8 x 8 pixels that is half full.
-pub fn page() -> Arc<dyn SketchSpec> {
+pub fn page(sigma: f64) -> Arc<dyn SketchSpec> {
     let page = Page::new([-3.0, -3.0], [3.0, 3.0], [8, 8]).expect("a page");
     let filled = |pixel: usize| (pixel % 8 > 2 && pixel / 8 < 4) || (pixel % 8 < 3 && pixel / 8 > 4);
     let greys: Vec<u8> = (0..64).map(|pixel| if filled(pixel) { 0 } else { 255 }).collect();
-    match_drawing(Arc::new(Drawing::new(page, &greys).expect("a drawing")), 0.6).expect("a sketch")
+    match_drawing(Arc::new(Drawing::new(page, &greys).expect("a drawing")), sigma).expect("a sketch")
 }
 
 /// The task of a program, compiled so that a guide can read all variables.
 pub fn task(text: &str) -> Task {
     let program = compile_keeping(&parse(text).expect("a module"), vec![], Kept::All).expect("a program");
-    let sketches = if text.contains("emit") { vec![page()] } else { vec![] };
+    let sketches = if text.contains("emit") { vec![page(0.6)] } else { vec![] };
     Task { sketches, ..Task::new(Arc::new(program)) }
 }

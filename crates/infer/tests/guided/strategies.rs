@@ -53,7 +53,7 @@ fn so_they_do_on_the_programs_of_the_machine() {
         let own = task(text);
         agree(name, &Task { sketches: vec![], ..own.clone() });
         if text.contains("emit") {
-            agree(name, &Task { sketches: vec![page()], ..own });
+            agree(name, &Task { sketches: vec![page(0.6)], ..own });
         }
     }
 }

@@ -9,9 +9,10 @@
 //!   multiplies that particle's last weight.
 //! * [`afresh()`]: one named part grown again by particles of which none holds the present values;
 //! * Values come from their priors, or from a proposal: a user's or a guide. The weights count prior over proposal then,
-//!   also those of the particle that holds the present values. A guide that looks sees the scene around the part, which must
-//!   be the same on the way back. So a particle with whose result shapes outside of the part move has weight zero then:
-//!   the posterior is kept within the runs that share that scene.
+//!   also those of the particle that holds the present values.
+//! * Particles are compared in the scene around the part, and a guide sees it; it must be the same on the way back. So a
+//!   particle with whose result shapes outside of the part move has weight zero: the posterior is kept within the runs
+//!   that share that scene.
 //! * `sweep`: SMC of a part; `turn`: other values of a discrete choice.
 //! * Where a part returns another value than before, the rest of the run is evaluated with it: the densities of the held
 //!   choices and the score change, and multiply the weight. A run that does not make exactly the choices of `R` beside
@@ -208,7 +209,7 @@ impl ChainMove for Regrow {
         let mut set = block.conditional(machine, turned.as_ref(), seed(0))?;
         let held_result = set.grown[0].result();
         chain.grown += set.steps;
-        let emits = own.looks().then(|| chain.state.trace.emits_of(program, picked.part));
+        let emits = Some(chain.state.trace.emits_of(program, picked.part));
         let weighing = Weighing { task, own, picked: &picked, block: &block, numbers: &numbers, emits };
         chain.weigh_last(machine, &weighing, &mut set, None)?;
         debug_assert!(set.log_mean > f64::NEG_INFINITY, "the present values are possible");
@@ -249,12 +250,13 @@ struct Weighing<'a> {
     block: &'a Block<'a>,
     /// The numbers of the part's choices that may change.
     numbers: &'a [usize],
-    /// Numbers of its primitives, ascending, where a proposal looks at the scene around the part.
+    /// Numbers of its primitives, ascending; `None` where it may move what is around it, as in a search.
     emits: Option<Vec<u32>>,
 }
 
 impl Weighing<'_> {
-    /// Whether the open transaction leaves what a proposal sees around the part as it is.
+    /// Whether the open transaction leaves the scene around the part as it is. Particles are compared, and drawn by what a
+    /// guide sees, in that scene: a kernel that changed it would have to come back by another one, and would be biased.
     fn keeps_scene(&self, trace: &Trace) -> bool {
         let Some(before) = &self.emits else { return true };
         let (gone, come) = trace.exchanged();
