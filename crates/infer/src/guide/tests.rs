@@ -2,9 +2,9 @@
 //! for particles that share their past, that became copies of others, and whose futures ran in any order. In a chain a guide
 //! reads the same variables, lists of cells included.
 
-use super::{Guide, Network};
 use super::bound::{BoundGuide, Sight};
 use super::lessons::{Example, Making, follow, survey};
+use super::{Guide, Network};
 use crate::Task;
 use crate::chain::kernel::Kernel;
 use crate::chain::state::{Fresh, State};
