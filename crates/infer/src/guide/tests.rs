@@ -15,7 +15,7 @@ use crate::particle::Particle;
 use crate::proposal::{ByProposal, Proposal};
 use crate::record::Record;
 use crate::replay::by_address;
-use niwaki_geom::{Drawing, Page, match_drawing};
+use niwaki_geom::{Aabb, Drawing, Page, match_drawing};
 use niwaki_guide::{Net, NetForm};
 use niwaki_math::{Dist, StreamKey};
 use niwaki_vm::core::parse::parse;
@@ -103,7 +103,8 @@ fn rows_are_what_the_guide_saw() {
     let guide = blank(&task);
     let proposal = Proposal::of(&Kernel::guided(guide.clone())).unwrap();
     let mut machine = task.machine();
-    let start = task.start(&machine, false).unwrap();
+    let mut start = task.start(&machine, false).unwrap();
+    start.note_parts();
     let mut record = Record::start(&task.sketches);
     record.sketches.expect_windows();
     let mut all: Vec<Particle> =
@@ -145,6 +146,8 @@ fn rows_are_what_the_guide_saw() {
 /// Proposes the value that is there, and notes what a guide reads.
 struct Reading<'a> {
     guide: &'a BoundGuide,
+    /// The last part on the call path.
+    part: Option<Aabb>,
     read: HashMap<u128, Vec<(u32, u32)>>,
 }
 
@@ -157,7 +160,8 @@ impl Propose<f64> for Reading<'_> {
         _: f64,
     ) -> Result<Proposed<f64>, Fault> {
         let mut sight = Sight::default();
-        self.guide.look(at, dist, Context::of(at), &mut sight, 0).expect("a site that it draws");
+        let seen = Context { part: self.part, ..Context::of(at) };
+        self.guide.look(at, dist, seen, &mut sight, 0).expect("a site that it draws");
         self.read.insert(at.address(), inputs(&sight).1);
         Ok(Proposed { value: old.clone(), forward: 0.0, backward: 0.0 })
     }
@@ -171,10 +175,11 @@ fn a_chain_reads_what_a_particle_reads() {
     for stream in 0..10 {
         let entries = forward(&task, 5, stream, true).unwrap().log.entries();
         let (mut state, _) = State::start(&task, Streams::new(0, 0), 1, Some(&by_address(&entries))).unwrap();
-        let mut reading = Reading { guide: &guide, read: HashMap::new() };
+        let mut reading = Reading { guide: &guide, part: None, read: HashMap::new() };
         for choice in state.trace.numbers() {
             let mut answers = Fresh::plain(StreamKey::new(0, 0, 0), &*task.hosts);
             let trace = &mut state.trace;
+            reading.part = trace.part(&task.program, choice);
             let change = machine.propose(trace, choice, Strategy::C3, &mut reading, &mut answers).unwrap();
             assert_eq!(change, Change::Same);
             trace.rollback(&task.program);
