@@ -64,7 +64,7 @@ class Recipe:
     hidden : (int, int)
         Units of the network.
     resampling : str
-        Of guided particles, whichever is better on what was learned from.
+        Of guided particles: for ships what was better on made targets, for trees after six seeds on three that are tried.
     """
 
     rounds: tuple[int, ...]
