@@ -64,7 +64,8 @@ class Recipe:
     hidden : (int, int)
         Units of the network.
     resampling : str
-        Of guided particles: for ships what was better on made targets, for trees after six seeds on three that are tried.
+        Of guided particles: for ships what was better on made targets, for trees after six seeds on three that are
+        tried.
     """
 
     rounds: tuple[int, ...]
