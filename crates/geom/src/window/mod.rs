@@ -13,10 +13,10 @@
 //! What is outside counts as empty twice, so that it is told from what is inside and empty. What the scene covers adds
 //! to neither. A sketch without a target shows what its own documentation says.
 //!
-//! - [`flat`]: cells of a page, from words of bits
-//! - [`bits`]: one bit for each cell of a page, which copies share
-//! - [`plate`]: a page over the rays of a picture
-//! - [`solid`]: cells of a grid, from counts of 1, 2, 4, 8 and 16 cells
+//! - `flat`: cells of a page, from words of bits
+//! - `bits`: one bit for each cell of a page, which copies share
+//! - `plate`: a page over the rays of a picture
+//! - `solid`: cells of a grid, from counts of 1, 2, 4, 8 and 16 cells
 //!
 //! Lengths are fixed shares of the target's larger side. On a page of 50 x 50 pixels the radii are 2, 4, 8 and 15 pixels,
 //! and cells have the spread of bilinear samples of boxes of 1, 1, 2 and 8 pixels.

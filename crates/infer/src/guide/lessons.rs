@@ -102,7 +102,7 @@ pub struct Making {
     pub reads: Reads,
     /// Steps; `None` for `passes`.
     pub steps: Option<u64>,
-    /// So many passes over the choices, but at least [`LEAST`] steps and at most [`MOST`].
+    /// So many passes over the choices, but at least 1,500 steps and at most 12,000.
     pub passes: f64,
     /// Adam's rate.
     pub rate: f64,

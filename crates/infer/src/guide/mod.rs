@@ -9,7 +9,7 @@
 //! - [`bound`]: a guide for one program, as a drawer of choices;
 //! - [`survey`]: what the traces of a model show, from which the form of its guide follows;
 //! - [`lessons`]: traces as rows, by the code that draws; training;
-//! - [`images`]: the same for the dissertation's architecture, which looks at whole images.
+//! - `images`: the same for the dissertation's architecture, which looks at whole images.
 //!
 //! The networks and their training are in `niwaki-guide`, the windows in `niwaki-geom`.
 
