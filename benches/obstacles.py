@@ -13,7 +13,7 @@ from __future__ import annotations
 import json
 import sys
 import time
-from math import cos, hypot, sin
+from math import cos, hypot, pi, sin
 from pathlib import Path
 from typing import Any
 
@@ -51,51 +51,21 @@ def free(stones, x, y):
 
 
 @model
-def blind(x, y, ahead, stones):
-    """Vines without leaves, whose guide cannot see the stones."""
+def vines(x, y, ahead, stones, sees):
+    """Vines without leaves. Where it `sees`, the nearest stone is a variable, which a guide can read."""
     look((x, y), ahead)
-    angle = gaussian(1.5707963267948966, 0.5235987755982988)
-    branch(x, y, angle, WIDTH, stones)
+    angle = gaussian(pi / 2.0, pi / 6.0)
+    branch(x, y, angle, WIDTH, stones, sees)
 
 
 @model
-def branch(x, y, angle, width, stones):
+def branch(x, y, angle, width, stones, sees):
     """One stroke, and those that follow; whether the vine is still alive."""
     look((x, y), (cos(angle), sin(angle)))
-    angle = angle + gaussian(0.0, 0.39269908169872414)
-    width = THINNER * width
-    end_x, end_y = x + LENGTH * cos(angle), y + LENGTH * sin(angle)
-    condition(free(stones, end_x, end_y))
-    condition(free(stones, 0.5 * (x + end_x), 0.5 * (y + end_y)))
-    nw.emit(nw.stroke((x, y, BETWEEN), (end_x, end_y, BETWEEN), width, color=STEM))
-    look((end_x, end_y), (cos(angle), sin(angle)))
-    alive = not flip(0.5)
-    if alive and width > THINNEST:
-        first = flip(0.66)
-        if first:
-            alive = branch(end_x, end_y, angle, width, stones)
-        if alive:
-            second = flip(0.5)
-            if second:
-                alive = branch(end_x, end_y, angle, width, stones)
-    return alive
-
-
-@model
-def seeing(x, y, ahead, stones):
-    """The same vines; the nearest stone is a variable, so their guide sees it."""
-    look((x, y), ahead)
-    angle = gaussian(1.5707963267948966, 0.5235987755982988)
-    seeing_branch(x, y, angle, WIDTH, stones)
-
-
-@model
-def seeing_branch(x, y, angle, width, stones):
-    """As `branch`, with the way to the nearest stone along the stroke and across it."""
-    look((x, y), (cos(angle), sin(angle)))
-    away = gap(stones, x, y)
+    away = gap(stones, x, y) if sees else (0.0, 0.0)
+    # Along the stroke, and across it.
     near = (away[0] * cos(angle) + away[1] * sin(angle), away[1] * cos(angle) - away[0] * sin(angle))  # noqa: F841
-    angle = angle + gaussian(0.0, 0.39269908169872414)
+    angle = angle + gaussian(0.0, pi / 8.0)
     width = THINNER * width
     end_x, end_y = x + LENGTH * cos(angle), y + LENGTH * sin(angle)
     condition(free(stones, end_x, end_y))
@@ -106,11 +76,11 @@ def seeing_branch(x, y, angle, width, stones):
     if alive and width > THINNEST:
         first = flip(0.66)
         if first:
-            alive = seeing_branch(end_x, end_y, angle, width, stones)
+            alive = branch(end_x, end_y, angle, width, stones, sees)
         if alive:
             second = flip(0.5)
             if second:
-                alive = seeing_branch(end_x, end_y, angle, width, stones)
+                alive = branch(end_x, end_y, angle, width, stones, sees)
     return alive
 
 
@@ -131,18 +101,18 @@ def stones_of(drawing: Drawing) -> list[tuple[float, float]]:
     return chosen[1:]
 
 
-def arguments(drawing: Drawing) -> tuple[Any, ...]:
-    """The arguments of the models."""
-    return (*drawing.place(WINDOW), stones_of(drawing))
+def arguments(drawing: Drawing, sees: bool, stony: bool = True) -> tuple[Any, ...]:
+    """The arguments of the model."""
+    return (*drawing.place(WINDOW), stones_of(drawing) if stony else [], sees)
 
 
-def trained(model_: Any, learned: list[Drawing], judged: list[Drawing]) -> nw.Guide:
-    """A guide that learned with stones."""
+def trained(learned: list[Drawing], judged: list[Drawing], sees: bool, stony: bool) -> nw.Guide:
+    """A guide that learned with stones, or without."""
     return nw.train_guide(
-        model_,
+        vines,
         learned,
         lambda one: one.score(WINDOW),
-        arguments,
+        lambda one: arguments(one, sees, stony),
         held_out=judged,
         rounds=(100, 200),
         keep=lambda sample: sample.has_ended and sample.primitives >= 8,
@@ -151,7 +121,7 @@ def trained(model_: Any, learned: list[Drawing], judged: list[Drawing]) -> nw.Gu
 
 
 def measured(
-    model_: Any, judged: list[Drawing], method: nw.methods.Smc
+    judged: list[Drawing], sees: bool, method: nw.methods.Smc
 ) -> tuple[dict[str, float], list[nw.Sample | None]]:
     """Similarities of the best runs, searches that lost every particle, the time; and the results of the first seed."""
     alike: list[float] = []
@@ -160,7 +130,7 @@ def measured(
     cpu = time.process_time()
     for seed in SEEDS:
         for one in judged:
-            search = nw.Search(model_, arguments(one), score=one.score(WINDOW), method=method, seed=seed)
+            search = nw.Search(vines, arguments(one, sees), score=one.score(WINDOW), method=method, seed=seed)
             best = None
             try:
                 best = search.run(threads=1).best
@@ -185,31 +155,22 @@ def main(folder: Path) -> None:
     training = [drawings.drawing(name) for name in drawings.names("scribbles", "training")]
     judged = [one for i, one in enumerate(training) if i % 8 == 0]
     learned = [one for i, one in enumerate(training) if i % 8]
-    clear = nw.train_guide(
-        blind,
-        learned,
-        lambda one: one.score(WINDOW),
-        lambda one: (*one.place(WINDOW), []),
-        held_out=judged,
-        rounds=(100, 200),
-        keep=lambda sample: sample.has_ended and sample.primitives >= 8,
-        seed=1,
-    )
-    unseen, seen = trained(blind, learned, judged), trained(seeing, learned, judged)
+    clear, unseen = trained(learned, judged, False, False), trained(learned, judged, False, True)
+    seen = trained(learned, judged, True, True)
     table: dict[str, Any] = {}
     pictures = []
-    for name, model_, guide, particles in (
-        ("no guide, 20", blind, None, 20),
-        ("no guide, 300", blind, None, 300),
-        ("trained without stones, 20", blind, clear, 20),
-        ("trained with stones unseen, 20", blind, unseen, 20),
-        ("sees the nearest stone, 20", seeing, seen, 20),
-        ("trained without stones, 100", blind, clear, 100),
-        ("trained with stones unseen, 100", blind, unseen, 100),
-        ("sees the nearest stone, 100", seeing, seen, 100),
+    for name, sees, guide, particles in (
+        ("no guide, 20", False, None, 20),
+        ("no guide, 300", False, None, 300),
+        ("trained without stones, 20", False, clear, 20),
+        ("trained with stones unseen, 20", False, unseen, 20),
+        ("sees the nearest stone, 20", True, seen, 20),
+        ("trained without stones, 100", False, clear, 100),
+        ("trained with stones unseen, 100", False, unseen, 100),
+        ("sees the nearest stone, 100", True, seen, 100),
     ):
         method = nw.smc(particles, resampling="tempered", guide=guide)
-        table[name], samples = measured(model_, judged, method)
+        table[name], samples = measured(judged, sees, method)
         pictures.append(samples)
         print(name, {key: round(value, 3) for key, value in table[name].items()}, flush=True)
     folder.mkdir(parents=True, exist_ok=True)
