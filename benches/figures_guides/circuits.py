@@ -12,6 +12,7 @@ import niwaki as nw
 import numpy as np
 from curves import COLORS, plain
 from curves import saved as saved_figure
+from judging import likeliest
 from niwaki import _engine
 from niwaki.draw.flat.drawing import drawing
 from niwaki.gallery import circuit
@@ -60,7 +61,7 @@ def grown(particles: int, resampling: str, guide: Guide | None, seed: int) -> Sa
     """The result of one search: the run with the highest prior and score."""
     method = nw.smc(particles, resampling=resampling, guide=guide)
     found = nw.run(circuit.MODEL, score=circuit.SCORE(), method=method, seed=seed, threads=1)
-    return max(found, key=lambda run: run.log_score + run.log_prior)
+    return likeliest(found)
 
 
 def filled(run: Sample) -> float:

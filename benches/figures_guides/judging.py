@@ -6,7 +6,7 @@ and score counts; its similarity is reported. Times are CPU seconds of one threa
 
 import statistics
 import time
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from types import ModuleType
 from typing import Any
 
@@ -28,6 +28,11 @@ def held_out(collection: str, quick: bool = False) -> list[Drawing]:
     return [drawings.drawing(name) for name in (names[:4] if quick else names)]
 
 
+def likeliest(runs: Iterable[Sample]) -> Sample:
+    """The run with the highest prior and score."""
+    return max(runs, key=lambda run: run.log_score + run.log_prior)
+
+
 def grown(
     model: ModuleType, one: Drawing, particles: int, resampling: str, guide: Guide | None, seed: int
 ) -> Sample:
@@ -41,7 +46,7 @@ def grown(
         seed=seed,
         threads=1,
     )
-    return max(found, key=lambda run: run.log_score + run.log_prior)
+    return likeliest(found)
 
 
 def judged(

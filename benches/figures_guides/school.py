@@ -15,6 +15,7 @@ from typing import Any
 
 import niwaki as nw
 import numpy as np
+from judging import likeliest
 from niwaki import _engine
 from niwaki.gallery import vines
 from niwaki.guides import Training, train_guide
@@ -61,7 +62,7 @@ def ended(sample: Sample) -> bool:
 
 def best(sample: Search) -> Sample:
     """The likeliest run of a search."""
-    return max(sample.run(threads=1), key=lambda one: one.log_score + one.log_prior)
+    return likeliest(sample.run(threads=1))
 
 
 def traced(model: ModuleType, count: int, seed: int = 1) -> list[tuple[Search, Sample]]:
