@@ -21,7 +21,10 @@ from dataclasses import dataclass, field
 from difflib import get_close_matches
 from typing import Any
 
+from msgspec import Struct
+
 from niwaki.errors import InputError
+from niwaki.errors.schema import fitted
 from niwaki.errors.settings import bad, is_number, is_whole
 from niwaki.methods.guide import Guide
 
@@ -55,6 +58,15 @@ _DEEPEST = 256
 _MOST = 2**32 - 1
 
 
+class _KernelData(Struct):
+    """A kernel as data; its parts are checked when they are read."""
+
+    name: str
+    settings: dict[str, Any] = {}
+    parts: list[dict[str, Any]] = []
+    function: dict[str, Any] | None = None
+
+
 @dataclass(frozen=True)
 class Kernel:
     """A Markov kernel: a name, its settings by name, and the kernels in it."""
@@ -77,7 +89,14 @@ class Kernel:
 
     @classmethod
     def of_data(cls, data: Mapping[str, Any], function: Callable[[Any], Any]) -> Kernel:
-        """The kernel of its data; `function` reads a user's proposal or a guide."""
+        """The kernel of its data; `function` reads a user's proposal or a guide.
+
+        Raises
+        ------
+        Unfit
+            It is not a kernel's data.
+        """
+        fitted(data, _KernelData)
         parts = tuple(cls.of_data(part, function) for part in data.get("parts", ()))
         own = function(data["function"]) if "function" in data else None
         return cls(data["name"], dict(data.get("settings", {})), parts, own)

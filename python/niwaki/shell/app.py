@@ -26,7 +26,9 @@ app = typer.Typer(
     rich_markup_mode=None,
 )
 
-ModelName = Annotated[str, typer.Argument(metavar="MODEL", help="A gallery name, or file.py:function.")]
+ModelName = Annotated[
+    str, typer.Argument(metavar="MODEL", help="A gallery name, or file.py:function; the file is run.")
+]
 Folder = Annotated[
     Path | None, typer.Option("-o", "--output", metavar="DIR", help="The folder for files; default: out.")
 ]
