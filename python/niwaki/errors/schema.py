@@ -7,6 +7,8 @@ A schema is a class of msgspec, or any type that it knows. What does not fit is 
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import msgspec
@@ -83,6 +85,15 @@ def fitted(data: Any, kind: Any) -> Any:
         return msgspec.convert(data, kind)
     except msgspec.ValidationError as error:
         raise _unfit(str(error), data) from None
+
+
+@contextmanager
+def inside(step: str) -> Iterator[None]:
+    """Inside, a value is read to which `step` leads; an `Unfit` is about the whole."""
+    try:
+        yield
+    except Unfit as error:
+        raise error.inside(step) from error
 
 
 def shown(value: Any) -> str:

@@ -24,7 +24,7 @@ from typing import Any
 from msgspec import Struct
 
 from niwaki.errors import InputError
-from niwaki.errors.schema import fitted
+from niwaki.errors.schema import fitted, inside
 from niwaki.errors.settings import bad, is_number, is_whole
 from niwaki.methods.guide import Guide
 
@@ -97,9 +97,13 @@ class Kernel:
             It is not a kernel's data.
         """
         fitted(data, _KernelData)
-        parts = tuple(cls.of_data(part, function) for part in data.get("parts", ()))
-        own = function(data["function"]) if "function" in data else None
-        return cls(data["name"], dict(data.get("settings", {})), parts, own)
+        parts = []
+        for number, part in enumerate(data.get("parts", ())):
+            with inside(f".parts[{number}]"):
+                parts.append(cls.of_data(part, function))
+        with inside(".function"):
+            own = function(data["function"]) if "function" in data else None
+        return cls(data["name"], dict(data.get("settings", {})), tuple(parts), own)
 
     def leaves(self) -> list[Kernel]:
         """The kernels that propose, in order, each with the restrictions that hold for it."""

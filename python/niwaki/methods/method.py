@@ -15,7 +15,7 @@ from typing import Any, ClassVar, Self, get_type_hints
 from msgspec import defstruct
 
 from niwaki.errors import InputError
-from niwaki.errors.schema import fitted
+from niwaki.errors.schema import fitted, inside
 from niwaki.methods.kernels import Kernel
 
 
@@ -90,7 +90,8 @@ class Method:
         fitted(given, _schema(own.NAME))
         for name, value in given.items():
             if isinstance(value, dict):
-                given[name] = Kernel.of_data(value, function)
+                with inside(f".{name}"):
+                    given[name] = Kernel.of_data(value, function)
             elif isinstance(value, list):
                 given[name] = tuple(value)
         try:

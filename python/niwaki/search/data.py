@@ -24,7 +24,7 @@ import numpy as np
 
 from niwaki import _engine
 from niwaki.errors import InputError, NiwakiError
-from niwaki.errors.schema import Unfit, fitted, shown
+from niwaki.errors.schema import Unfit, fitted, inside, shown
 from niwaki.lang.constants import NUMERIC
 from niwaki.lang.marks import Host
 from niwaki.lang.models import Model
@@ -210,6 +210,8 @@ class Reader:
             return read(self, data)
         except (NiwakiError, Unfit):
             raise
+        except KeyError as error:
+            raise Unfit(f"$.{error.args[0]}", "a value", "nothing") from error
         except (*MALFORMED, zlib.error, _engine.EngineFault) as error:
             raise Unfit("$", f"a value of the kind `{kind}`", f"{shown(data[kind])} ({error})") from error
 
@@ -221,10 +223,8 @@ class Reader:
 
     def part(self, data: Any, step: str) -> Any:
         """Read a value inside another; `step` leads to it."""
-        try:
+        with inside(step):
             return self(data)
-        except Unfit as error:
-            raise error.inside(step) from error
 
     def table(self, data: Mapping[str, Any], step: str = "") -> dict[str, Any]:
         """Read values by name; `step` leads to them."""
@@ -297,6 +297,11 @@ def _distribution(reader: Reader, data: Mapping[str, Any]) -> Any:
     return constructor(*reader.each(data["parameters"], ".parameters"))
 
 
+def _numbers(data: Mapping[str, Any], kind: str, form: Any) -> Any:
+    with inside(f".{kind}"):
+        return fitted(data[kind], form)
+
+
 _Three = tuple[float, float, float]
 
 _READERS: dict[str, Callable[[Reader, Any], Any]] = {
@@ -307,9 +312,9 @@ _READERS: dict[str, Callable[[Reader, Any], Any]] = {
         reader.part(key, f".dict[{n}][0]"): reader.part(one, f".dict[{n}][1]")
         for n, (key, one) in enumerate(data["dict"])
     },
-    "range": lambda reader, data: range(*fitted(data["range"], tuple[int, int, int])),
-    "vec": lambda reader, data: Vec(tuple(fitted(data["vec"], list[float]))),
-    "rotation": lambda reader, data: Rotation(fitted(data["rotation"], tuple[_Three, _Three, _Three])),
+    "range": lambda reader, data: range(*_numbers(data, "range", tuple[int, int, int])),
+    "vec": lambda reader, data: Vec(tuple(_numbers(data, "vec", list[float]))),
+    "rotation": lambda reader, data: Rotation(_numbers(data, "rotation", tuple[_Three, _Three, _Three])),
     "shape": lambda reader, data: _engine.Shape.of_data(data["shape"]),
     "camera": lambda reader, data: Camera.from_dict(data["camera"]),
     "array": _array,

@@ -246,7 +246,7 @@ class Search:
                 max_memory=data["max_memory"],
             )
         except Unfit as error:
-            raise InputError("bad-run-file", path="the search", reason=str(error)) from error
+            raise InputError("bad-run-file", path="the search", reason=str(error), unfit=error) from error
 
     @classmethod
     def of_json(cls, text: str, trust: tuple[str, ...] = ()) -> Search:

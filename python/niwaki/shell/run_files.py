@@ -18,7 +18,7 @@ from msgspec import Meta, Struct
 from niwaki import _engine, gallery
 from niwaki.draw import finite
 from niwaki.errors import InputError
-from niwaki.errors.schema import Unfit, decoded, fitted, shown
+from niwaki.errors.schema import Unfit, decoded, fitted, inside, shown
 from niwaki.lang.compiled import translated
 from niwaki.result import Result, Sample
 from niwaki.search import Search
@@ -121,7 +121,7 @@ def _chosen(value: Any) -> Any:
     if isinstance(value, list):
         return tuple(_chosen(part) for part in value)
     if isinstance(value, dict):
-        raise Unfit("$.value", "the value of a choice", shown(value))
+        raise Unfit("$", "the value of a choice", shown(value))
     return float(value) if isinstance(value, str) else value
 
 
@@ -177,23 +177,35 @@ def replayed(
     run = data["runs"][number]
     try:
         search = _searched(data["search"], trust)
-        choices = {part["address"]: _chosen(part["value"]) for part in run["choices"]}
+        choices = {}
+        for place, part in enumerate(run["choices"]):
+            with inside(f".runs[{number}].choices[{place}].value"):
+                choices[part["address"]] = _chosen(part["value"])
         with translated(search.model.name, choices=choices):
             trace = search.task.replay(choices, None, not run["ended"])
     except InputError as error:
-        if error.code == "bad-run-file":
-            error.values["path"] = path
-        else:
-            error.values["source"] = (
-                f"`{path}`{', ' if 'source' in error.values else ''}{error.values.get('source', '')}"
-            )
-        raise
-    except (*MALFORMED, Unfit) as error:
+        raise _read_from(error, path) from error
+    except Unfit as error:
+        raise InputError("bad-run-file", path=path, reason=str(error)) from error
+    except MALFORMED as error:
         reason = (
             f"at `$.runs[{number}].choices` is something that is no list of choices of this model: {error}"
         )
         raise InputError("bad-run-file", path=path, reason=reason) from error
     return Sample.of_trace(trace, search)
+
+
+def _read_from(error: InputError, path: str | PathLike[str]) -> InputError:
+    """An error about a search, as one about the file that it was read from."""
+    unfit, reason = error.values.get("unfit"), ""
+    if isinstance(unfit, Unfit):
+        reason = str(unfit.inside(".search"))
+    elif error.code == "machine-limit":
+        reason = f"at `$.search.model.core` is no model: {error.values['found']}"
+    if reason:
+        return InputError("bad-run-file", path=path, reason=reason)
+    error.values["source"] = ", ".join([f"`{path}`", *filter(None, [error.values.get("source")])])
+    return error
 
 
 def style(data: dict[str, Any], sample: Sample) -> str | None:

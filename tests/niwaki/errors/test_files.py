@@ -174,8 +174,9 @@ def test_a_folder_is_for_one_run_at_a_time(tmp_path: Path) -> None:
     with held_folder(folder):
         with pytest.raises(FileError, match="folder-in-use"), held_folder(folder):
             pass
-        program = f"from niwaki.errors.folders import held_folder\nwith held_folder(__import__('pathlib').Path({str(folder)!r})): pass"
-        done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+        program = "import pathlib, sys\nfrom niwaki.errors.folders import held_folder\n"
+        program += "with held_folder(pathlib.Path(sys.argv[1])): pass"
+        done = subprocess.run([sys.executable, "-c", program, str(folder)], capture_output=True, text=True)
         assert done.returncode == 1 and "folder-in-use" in done.stderr
         (folder / "file").touch()
     with held_folder(folder):
