@@ -36,8 +36,9 @@ def finite(values: ArrayLike, part: str, what: str = "its coordinates") -> NDArr
     numbers = np.asarray(values, dtype=np.float64)
     bad = numbers[~np.isfinite(numbers)]
     if bad.size:
-        count = f"{bad.size} of {numbers.size}"
-        raise FileError("not-finite", part=part, what=what, count=count, found=f"{bad.flat[0]}")
+        raise FileError(
+            "not-finite", part=part, what=what, count=f"{bad.size} of {numbers.size}", found=f"{bad.flat[0]}"
+        )
     return numbers
 
 
@@ -65,4 +66,4 @@ def json_of(data: Any, what: str, **layout: Any) -> str:
     try:
         return json.dumps(data, allow_nan=False, **layout)
     except ValueError as error:
-        raise FileError("not-finite", part=what, what="its values", count="one", found=str(error)) from error
+        raise FileError("not-finite", part=what, what="its values", count="some", found=str(error)) from error

@@ -17,7 +17,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from niwaki.draw.finite import floats
 from niwaki.draw.instances import Geometry, Instance, instances, quaternion
 from niwaki.draw.palette import Paint
 from niwaki.draw.parts import part_meshes
@@ -93,11 +92,10 @@ def _stored(geometry: Geometry, buffer: _Buffer) -> list[dict[str, Any]]:
     """Put a geometry into the buffer; for each piece what its primitives refer to."""
     found = []
     for piece in geometry.part.pieces:
-        name = geometry.part.address
-        local = floats(piece.vertices - geometry.pivot, name)
+        local = (piece.vertices - geometry.pivot).astype("<f4")
         attributes = {
             "POSITION": buffer.add(local, "VEC3", FLOAT, ARRAY_BUFFER),
-            "NORMAL": buffer.add(floats(piece.normals, name, "its normals"), "VEC3", FLOAT, ARRAY_BUFFER),
+            "NORMAL": buffer.add(piece.normals.astype("<f4"), "VEC3", FLOAT, ARRAY_BUFFER),
         }
         corners = piece.faces.astype("<u4").reshape(-1)
         indices = buffer.add(corners, "SCALAR", UNSIGNED_INT, ELEMENT_ARRAY_BUFFER)
@@ -107,7 +105,6 @@ def _stored(geometry: Geometry, buffer: _Buffer) -> list[dict[str, Any]]:
 
 def _node(address: str, mesh: int, instance: Instance) -> dict[str, Any]:
     node: dict[str, Any] = {"name": address, "mesh": mesh, "extras": {"address": address}}
-    floats(instance.translation, address, "its place")
     node["translation"] = instance.translation.tolist()
     if not np.allclose(instance.rotation, np.eye(3), rtol=0.0, atol=1e-9):
         node["rotation"] = list(quaternion(instance.rotation))

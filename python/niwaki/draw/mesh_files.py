@@ -10,11 +10,8 @@ import io
 
 import numpy as np
 
-from niwaki.draw.finite import finite, floats
 from niwaki.draw.parts import part_meshes
 from niwaki.draw.scene import Scene
-
-NORMALS = "its normals"
 
 
 def obj(scene: Scene) -> bytes:
@@ -28,12 +25,8 @@ def obj(scene: Scene) -> bytes:
         for piece in part.pieces:
             red, green, blue = piece.paint.color
             color = f"{red:.6g} {green:.6g} {blue:.6g}"
-            vertices, normals = (
-                finite(piece.vertices, part.address),
-                finite(piece.normals, part.address, NORMALS),
-            )
-            out.writelines(f"v {x:.9g} {y:.9g} {z:.9g} {color}\n" for x, y, z in vertices.tolist())
-            out.writelines(f"vn {x:.6g} {y:.6g} {z:.6g}\n" for x, y, z in normals.tolist())
+            out.writelines(f"v {x:.9g} {y:.9g} {z:.9g} {color}\n" for x, y, z in piece.vertices.tolist())
+            out.writelines(f"vn {x:.6g} {y:.6g} {z:.6g}\n" for x, y, z in piece.normals.tolist())
             faces = (piece.faces + start).tolist()
             out.writelines(f"f {a}//{a} {b}//{b} {c}//{c}\n" for a, b, c in faces)
             start += len(piece.vertices)
@@ -42,13 +35,12 @@ def obj(scene: Scene) -> bytes:
 
 def ply(scene: Scene) -> bytes:
     """The bytes of a binary PLY file; equal scenes give equal bytes."""
-    owned = [(part.address, piece) for part in part_meshes(scene) for piece in part.pieces]
-    pieces = [piece for _, piece in owned]
+    pieces = [piece for part in part_meshes(scene) for piece in part.pieces]
     starts = np.cumsum([0, *(len(piece.vertices) for piece in pieces)])
     corner = np.dtype([("place", "<f4", 3), ("normal", "<f4", 3), ("color", "u1", 3)])
     vertices = np.zeros(starts[-1], corner)
-    vertices["place"] = np.concatenate([floats(piece.vertices, name) for name, piece in owned])
-    vertices["normal"] = np.concatenate([floats(piece.normals, name, NORMALS) for name, piece in owned])
+    vertices["place"] = np.concatenate([piece.vertices for piece in pieces])
+    vertices["normal"] = np.concatenate([piece.normals for piece in pieces])
     for piece, start in zip(pieces, starts, strict=False):
         vertices["color"][start : start + len(piece.vertices)] = [round(255 * c) for c in piece.paint.color]
     triangle = np.dtype([("count", "u1"), ("corners", "<i4", 3)])

@@ -106,6 +106,8 @@ def _plain(value: Any) -> Any:
     """A value with None where a number is not finite."""
     if isinstance(value, (tuple, list)) and not hasattr(value, "_fields"):
         return type(value)(map(_plain, value))
+    if isinstance(value, dict):
+        return {name: _plain(one) for name, one in value.items()}
     return finite.scalar(value) if isinstance(value, float) else value
 
 

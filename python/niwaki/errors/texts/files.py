@@ -82,7 +82,7 @@ FILES = (
     Message(
         "not-finite",
         "{part} has numbers that a file cannot hold",
-        why="{count} of {what} are not finite: {found}",
+        why="{count} numbers in {what} are not finite: {found}",
         help="look for huge numbers or a division by zero in the model; for .stl and .3mf a smaller `scale` may do",
         example='result.export("ship.stl", scale=1e300)',
         cure='result.export("ship.stl", scale=10)',
