@@ -11,7 +11,7 @@ from pathlib import Path
 from PIL import Image, ImageDraw, ImageFont
 
 from niwaki.color.search import Coloring
-from niwaki.draw.finite import json_of
+from niwaki.draw.finite import json_text
 from niwaki.errors.files import write_whole
 
 PAPER, INK = (250, 249, 246), (84, 82, 78)
@@ -72,7 +72,7 @@ def write(colorings: Sequence[Coloring], folder: str | PathLike[str], size: int 
             written.append(write_whole(folder / f"{k + 1:02}.svg", painted.encode()))
     written.append(write_whole(folder / "sheet.png", _png(sheet(colorings))))
     colors = {f"{k + 1:02}": one.colors for k, one in enumerate(colorings)}
-    written.append(write_whole(folder / "colors.json", json_of(colors, "the colours").encode()))
+    written.append(write_whole(folder / "colors.json", json_text(colors, "the colours").encode()))
     rows = io.StringIO()
     csv.writer(rows).writerows(table(colorings))
     written.append(write_whole(folder / "residuals.csv", rows.getvalue().encode()))

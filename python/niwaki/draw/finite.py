@@ -55,7 +55,7 @@ def scalar(value: float | None) -> float | None:
     return value if value is not None and math.isfinite(value) else None
 
 
-def json_of(data: Any, what: str, **layout: Any) -> str:
+def json_text(data: Any, what: str, **layout: Any) -> str:
     """Data as JSON.
 
     Raises

@@ -14,7 +14,6 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from niwaki.draw.finite import json_of
 from niwaki.errors import FileError, InputError
 from niwaki.errors.files import existing, write_whole
 
@@ -174,7 +173,7 @@ class Camera:
 
     def save(self, path: str | PathLike[str]) -> Path:
         """Write the JSON file."""
-        return write_whole(Path(path), (json_of(self.to_dict(), "the camera", indent=2) + "\n").encode())
+        return write_whole(Path(path), (json.dumps(self.to_dict(), indent=2) + "\n").encode())
 
     def lens(self) -> tuple[Triple, Triple, Triple, bool, float, float]:
         """What the engine takes: position, look_at, up, perspective?, radians or height, near."""

@@ -45,7 +45,7 @@ def failing(folder: Path) -> dict[str, Callable[[], Any]]:
         ),
         "a cut to nowhere": lambda: sheet(math.nan).save(folder / "cut.dxf"),
         "a cut without end": lambda: sheet(math.inf).save(folder / "cut.svg"),
-        "JSON": lambda: finite.json_of({"size": math.nan}, "the colours"),
+        "JSON": lambda: finite.json_text({"size": math.nan}, "the colours"),
     }
 
 

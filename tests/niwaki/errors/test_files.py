@@ -57,14 +57,18 @@ def names(folder: Path) -> set[str]:
 def test_threads_that_save_one_file_tear_nothing(tmp_path: Path) -> None:
     place = write_whole(tmp_path / "one.bin", b"x" * SIZE)
 
+    done: list[str] = []
+
     def write(letter: str) -> None:
         for _ in range(20):
             write_whole(place, letter.encode() * SIZE)
+        done.append(letter)
 
     threads = [threading.Thread(target=write, args=(letter,)) for letter in "abcd"]
     for thread in threads:
         thread.start()
     assert watched(place, lambda: any(thread.is_alive() for thread in threads)) == []
+    assert sorted(done) == list("abcd")
     assert names(tmp_path) == {"one.bin"}
 
 

@@ -103,10 +103,9 @@ def written(search: nw.Search) -> dict[str, Any]:
 
 def replay(place: Path) -> None:
     data = run_files.load(place)
-    for number in (None, 0):
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            run_files.replayed(data, number, path=place)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        run_files.replayed(data, path=place)
 
 
 def tracebacks(tries: Iterable[tuple[str, bytes]], read: Callable[[Path], object], place: Path) -> list[str]:
@@ -141,7 +140,7 @@ def test_every_kind_is_replayed(tmp_path: Path) -> None:
 
 
 def test_a_run_file_that_was_changed_gives_a_message(tmp_path: Path) -> None:
-    assert tracebacks(attempts(80, random.Random(1)), replay, tmp_path / "run.json") == []
+    assert tracebacks(attempts(50, random.Random(1)), replay, tmp_path / "run.json") == []
 
 
 @pytest.mark.soak
@@ -207,3 +206,45 @@ def test_a_text_of_few_bytes_takes_no_memory(tmp_path: Path) -> None:
         search = searches()["chains"].data()
         search["args"] = [{"array": "<f8", "shape": [1], "bytes": bomb}]
         nw.Search.of_data(search)
+
+
+def searches_as_json() -> dict[str, Any]:
+    """The JSON of each search, its meshes inside."""
+    return {name: json.loads(one.json("inside")) for name, one in searches().items()}
+
+
+def read_search(place: Path) -> None:
+    found = nw.Search.of_json(place.read_text(encoding="utf-8", errors="replace"))
+    assert len(found.hash) == 64
+
+
+def test_the_json_of_a_search_that_was_changed_gives_a_message(tmp_path: Path) -> None:
+    chance = random.Random(2)
+    for name, data in searches_as_json().items():
+        tries = [mutated(data, chance) for _ in range(25)]
+        assert tracebacks(tries, read_search, tmp_path / "one.json") == [], name
+
+
+@pytest.mark.soak
+def test_much_json_of_searches_that_was_changed_gives_messages(tmp_path: Path) -> None:
+    seed = random.SystemRandom().getrandbits(32)
+    print("seed", seed)
+    chance = random.Random(seed)
+    for name, data in searches_as_json().items():
+        tries = [mutated(data, chance) for _ in range(2000)]
+        assert tracebacks(tries, read_search, tmp_path / "one.json") == [], name
+
+
+def test_a_guide_that_was_changed_gives_a_message(tmp_path: Path) -> None:
+    # Its header is JSON, which the engine reads.
+    chance = random.Random(3)
+    shipped = next((Path(nw.__file__).parent / "guides" / "shipped").glob("*"))
+    data = shipped.read_bytes()
+    length = int.from_bytes(data[:8], "little")
+    header = json.loads(data[8 : 8 + length])
+    tries = []
+    for _ in range(60):
+        what, text = mutated(header, chance)
+        size = len(text) if chance.random() < 0.7 else chance.choice([0, 2**63, len(text) // 2])
+        tries.append((what, size.to_bytes(8, "little") + text + data[8 + length :]))
+    assert tracebacks(tries, lambda place: nw.Guide.load(place).show(), tmp_path / "one.guide") == []
