@@ -65,9 +65,17 @@ class FileError(NiwakiError):
 def existing(path: str | PathLike[str]) -> Path:
     """The path of a file that is there; an error where it is not."""
     place = Path(path)
-    if not place.is_file():
+    if not is_file(place):
         raise FileError("file-missing", path, absolute=place.absolute(), folder=Path.cwd())
     return place
+
+
+def is_file(place: Path) -> bool:
+    """Whether there is a regular file; a name that no file can have is none."""
+    try:
+        return place.is_file()
+    except (OSError, ValueError):
+        return False
 
 
 def write_whole(place: Path, data: bytes) -> Path:

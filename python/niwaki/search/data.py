@@ -45,6 +45,7 @@ MALFORMED = (
     AttributeError,
     IndexError,
     ArithmeticError,
+    OSError,
     RecursionError,
     MemoryError,
 )

@@ -18,6 +18,7 @@ from msgspec import Meta, Struct
 from niwaki import _engine, gallery
 from niwaki.draw import finite
 from niwaki.errors import InputError
+from niwaki.errors.files import is_file
 from niwaki.errors.schema import Unfit, decoded, fitted, inside, shown
 from niwaki.lang.compiled import translated
 from niwaki.result import Result, Sample
@@ -128,7 +129,7 @@ def _chosen(value: Any) -> Any:
 def load(path: str | PathLike[str]) -> dict[str, Any]:
     """Read a search, and check that it is one; what is in its values is checked where they are read."""
     place = Path(path)
-    if not place.is_file():
+    if not is_file(place):
         raise InputError("bad-run-file", path=place, reason="there is no such file")
     try:
         data = decoded(place.read_bytes())
