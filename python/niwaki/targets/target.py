@@ -26,6 +26,10 @@ if TYPE_CHECKING:
     from PIL.Image import Image
 
 
+#: How far from 0 a coordinate may be, and how short the longest side: volumes stay numbers, also those of 32 bits.
+MOST, LEAST = 1e12, 1e-9
+
+
 class TargetWarning(UserWarning):
     """A target can be used, but perhaps not as its author meant."""
 
@@ -57,8 +61,8 @@ class Mesh:
         Raises
         ------
         FileError
-            The file is missing, cut short or of another format; it has no triangles, or coordinates that are not
-            finite; a target has no thickness.
+            The file is missing, cut short, of another format or larger than is read; it has no triangles, or
+            coordinates that are not finite or beyond 1e12; a target has no thickness.
 
         Warns
         -----
@@ -234,6 +238,19 @@ def _check_arrays(vertices: NDArray[np.float64], faces: NDArray[np.int64], name:
     wrong = np.flatnonzero(~np.isfinite(vertices).all(axis=1))
     if len(wrong):
         raise FileError("target-not-finite", name, count=len(wrong), total=len(vertices), first=int(wrong[0]))
+    _check_size(vertices[faces.ravel()], name)
+
+
+def _check_size(used: NDArray[np.float64], name: str) -> None:
+    """Refuse coordinates whose products would not be numbers."""
+    largest = float(np.abs(used).max())
+    if largest > MOST:
+        reason = f"a coordinate is {largest:.3g} from 0, and the limit is {MOST:g}"
+        raise FileError("target-size", name, found="large", reason=reason)
+    extent = float((used.max(axis=0) - used.min(axis=0)).max())
+    if 0.0 < extent < LEAST:
+        reason = f"its longest side is {extent:.3g}, and the limit is {LEAST:g}"
+        raise FileError("target-size", name, found="small", reason=reason)
 
 
 def _check(vertices: NDArray[np.float64], faces: NDArray[np.int64], name: str) -> None:
