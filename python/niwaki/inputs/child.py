@@ -1,8 +1,9 @@
 """A reader in a process of its own, with limits of memory and time, for libraries that keep none.
 
-The child gets the file's bytes and the name of one of our functions, and sends plain arrays back; nothing is unpickled.
-A limit of memory needs the module `resource` (not on Windows; macOS keeps no such limit), the limit of time only a clock.
-Where Python cannot be started again, as in a program that was frozen into one file, the reader runs in this process.
+The child gets the file's bytes and the name of one of our functions, and sends plain arrays back; nothing is
+unpickled. A limit of memory needs the module `resource`: Windows has none, and macOS keeps no such limit. The limit of
+time needs only a clock. Where Python cannot be started again, as in a program frozen into one file, the reader runs in
+this process.
 """
 
 from __future__ import annotations

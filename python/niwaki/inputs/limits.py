@@ -60,7 +60,7 @@ LIMITS = {
     "styles": Limit(2 * MB, "comparisons of shapes and selectors", "2 seconds"),
     "corners": Limit(10_000, "corners", "each edge is compared with each; a room has tens"),
     "dots": Limit(64, "dots of a key in a line", "the time of TOML's reader grows with their square"),
-    "rule-regions": Limit(20_000, "regions named by rules", "256 regions, each in dozens of rules"),
+    "rule-regions": Limit(4_000, "regions named by rules", "256 regions, each in 15 rules"),
     # Depth.
     "depth": Limit(
         200, "levels", "drawings have about ten; readers that call themselves end the process", True

@@ -16,6 +16,7 @@ from typing import Any
 
 from niwaki.errors import InputError
 from niwaki.errors.files import write_whole
+from niwaki.errors.settings import shown
 from niwaki.inputs import text_of
 from niwaki.inputs.texts import json_of
 
@@ -183,34 +184,23 @@ class Camera:
 def _check_kind(kind: Any, name: str = "") -> None:
     if not isinstance(kind, str) or kind not in KINDS:
         expected = " or ".join(f'"{known}"' for known in KINDS)
-        raise InputError("bad-camera", reason=f"its kind is {kind!r:.40}, expected {expected}", detail=name)
+        raise InputError("bad-camera", reason=f"its kind is {shown(kind)}, expected {expected}", detail=name)
 
 
 def _triple(name: str, value: Any) -> Triple:
     try:
         x, y, z = (_number(name, number) for number in value)
     except (TypeError, ValueError):
-        raise InputError(
-            "bad-camera", reason=f"`{name}` is {_shown(value)}, expected three numbers"
-        ) from None
+        raise InputError("bad-camera", reason=f"`{name}` is {shown(value)}, expected three numbers") from None
     return (x, y, z)
 
 
 def _number(name: str, value: Any) -> float:
     # Products of coordinates stay finite; whole numbers of any length can be compared.
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not -FARTHEST <= value <= FARTHEST:
-        reason = f"`{name}` has {_shown(value)}, expected a finite number, at most {FARTHEST:g}"
+        reason = f"`{name}` has {shown(value)}, expected a finite number, at most {FARTHEST:g}"
         raise InputError("bad-camera", reason=reason)
     return float(value)
-
-
-def _shown(value: Any) -> str:
-    """A value for a message."""
-    try:
-        return f"{value!r:.60}"
-    except ValueError:
-        # Python refuses to write whole numbers of many digits.
-        return "a huge whole number"
 
 
 def _minus(a: Triple, b: Triple) -> Triple:
