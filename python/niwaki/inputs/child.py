@@ -168,7 +168,7 @@ def _answer(out: IO[bytes], found: Arrays) -> None:
 
 
 def _bound(seconds: int, memory: int) -> None:
-    """Limit what this process may take; files cannot be written at all."""
+    """Limit what this process may take; it cannot write into files."""
     try:
         import resource
     except ImportError:

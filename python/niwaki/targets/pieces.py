@@ -14,6 +14,9 @@ def joined(
     """All parts as one; refused where a face names a vertex that its part does not have."""
     starts = np.cumsum([0, *(len(vertices) for vertices, _ in parts)])
     for vertices, faces in parts:
+        if vertices.shape[1:] != (3,) or faces.shape[1:] != (3,):
+            reason = f"its rows have {vertices.shape[-1]} coordinates and {faces.shape[-1]} corners, expected 3 and 3"
+            raise FileError("file-unreadable", None, suffix=suffix, reason=reason)
         if len(faces) and (faces.min() < 0 or faces.max() >= len(vertices)):
             wrong = int(faces.min() if faces.min() < 0 else faces.max())
             reason = f"a face names vertex {wrong + 1} of {len(vertices)}"

@@ -19,6 +19,7 @@ from niwaki import draw, targets
 from niwaki._engine import Shape
 from niwaki.draw.scene import Scene
 from niwaki.errors import FileError
+from niwaki.inputs.guard import reason_of
 from niwaki.targets.camera import Camera
 from niwaki.targets.memory import BYTES_PER_TRIANGLE, check_memory
 
@@ -49,8 +50,8 @@ class Mesh:
     """
 
     def __init__(self, vertices: ArrayLike, faces: ArrayLike, name: str) -> None:
-        self.vertices: NDArray[np.float64] = np.array(vertices, dtype=np.float64).reshape(-1, 3)
-        self.faces: NDArray[np.int64] = np.array(faces, dtype=np.int64).reshape(-1, 3)
+        self.vertices: NDArray[np.float64] = _rows(vertices, np.float64, name)
+        self.faces: NDArray[np.int64] = _rows(faces, np.int64, name)
         self.name = name
         self.source: str | None = None
 
@@ -227,6 +228,14 @@ class Receiver(Mesh):
         up = (0.0, 0.0, -1.0) if abs(along[2]) < 0.999 else (0.0, 1.0, 0.0)
         width = float(extent[0]) or float(np.linalg.norm(extent))
         return Camera.orthographic(eye.tolist(), middle.tolist(), up, height=width / aspect)
+
+
+def _rows(values: ArrayLike, dtype: type[np.generic], name: str) -> NDArray[Any]:
+    """Numbers in rows of three."""
+    try:
+        return np.array(values, dtype=dtype).reshape(-1, 3)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise FileError("file-unreadable", name, suffix="a mesh", reason=reason_of(error)) from None
 
 
 def _check_arrays(vertices: NDArray[np.float64], faces: NDArray[np.int64], name: str) -> None:

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import io
+import logging
 import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
@@ -23,7 +26,7 @@ def arrays(data: bytes, suffix: str) -> dict[str, NDArray[Any]]:
     FileError
         It cannot be read, or holds no triangles.
     """
-    with library(None, suffix), warnings.catch_warnings():
+    with library(None, suffix), warnings.catch_warnings(), _silent():
         warnings.simplefilter("ignore")
         # NumPy warns where it stops in the middle of a list of numbers.
         warnings.filterwarnings("error", message="string or file could not be read")
@@ -39,3 +42,16 @@ def arrays(data: bytes, suffix: str) -> dict[str, NDArray[Any]]:
         raise FileError("target-empty", None, reason=found)
     vertices, faces = joined(parts, suffix)
     return {"vertices": vertices, "faces": faces}
+
+
+@contextmanager
+def _silent() -> Iterator[None]:
+    """Without what trimesh logs: errors of a file are ours to tell."""
+    log, silence = logging.getLogger("trimesh"), logging.NullHandler()
+    before, log.propagate = log.propagate, False
+    log.addHandler(silence)
+    try:
+        yield
+    finally:
+        log.propagate = before
+        log.removeHandler(silence)
