@@ -27,6 +27,12 @@ from niwaki.errors.files import FILE_MESSAGES
 from niwaki.inputs.guard import library
 from niwaki.inputs.limits import beyond, limit
 
+resource: Any
+try:
+    import resource
+except ImportError:
+    resource = None
+
 Arrays = Mapping[str, NDArray[Any]]
 Reader = Callable[..., Arrays]
 
@@ -169,9 +175,7 @@ def _answer(out: IO[bytes], found: Arrays) -> None:
 
 def _bound(seconds: int, memory: int) -> None:
     """Limit what this process may take; it cannot write into files."""
-    try:
-        import resource
-    except ImportError:
+    if resource is None:
         return
     for name, most in (
         ("RLIMIT_CPU", seconds),
