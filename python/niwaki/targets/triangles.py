@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import logging
+import re
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -26,6 +27,7 @@ def arrays(data: bytes, suffix: str) -> dict[str, NDArray[Any]]:
     FileError
         It cannot be read, or holds no triangles.
     """
+    data = _in_one(data, suffix)
     with library(None, suffix), warnings.catch_warnings(), _silent():
         warnings.simplefilter("ignore")
         # NumPy warns where it stops in the middle of a list of numbers.
@@ -42,6 +44,17 @@ def arrays(data: bytes, suffix: str) -> dict[str, NDArray[Any]]:
         raise FileError("target-empty", None, reason=found)
     vertices, faces = joined(parts, suffix)
     return {"vertices": vertices, "faces": faces}
+
+
+def _in_one(data: bytes, suffix: str) -> bytes:
+    """A text without its divisions: all parts become one mesh, and the time of trimesh grows with their square."""
+    if suffix == ".obj":
+        return re.sub(rb"(?m)^[ \t]*usemtl\b[^\n]*", b"", data)
+    if suffix == ".stl" and data[:512].lstrip()[:5].lower() == b"solid" and b"endsolid" in data.lower():
+        facets = re.sub(rb"(?mi)^[ \t]*(?:end)?solid\b[^\n]*", b"", data)
+        # A binary file may begin with the same word; its facets are no text.
+        return b"solid\n" + facets + b"\nendsolid\n" if b"vertex" in facets.lower() else data
+    return data
 
 
 @contextmanager

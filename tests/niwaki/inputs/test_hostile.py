@@ -202,6 +202,17 @@ def test_a_wrong_count_of_a_ply_is_refused(form: str, count: str) -> None:
     assert code_of(lambda: reading.parsed(head.encode() + b"\0" * 99, ".ply")) == "file-unreadable"
 
 
+def test_the_time_of_a_mesh_does_not_grow_with_the_square_of_its_parts() -> None:
+    corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n" * 3_000
+    divided = corners + "".join(f"usemtl m{k}\nf {k + 1} {k + 2} {k + 3}\n" for k in range(8_000))
+    facet = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
+    solids = f"solid a\n{facet}endsolid a\n" * 5_000
+    for text, suffix, count in ((divided, ".obj", 8_000), (solids, ".stl", 5_000)):
+        began = time.process_time()
+        assert len(reading.parsed(text.encode(), suffix)[1]) == count
+        assert time.process_time() - began < 3.0
+
+
 def test_a_mesh_of_any_size_is_refused_for_its_size() -> None:
     corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
     faces = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]
