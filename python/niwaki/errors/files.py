@@ -62,14 +62,6 @@ class FileError(NiwakiError):
         return "\n".join([*lines, f" = why: {why}", f" = help: {cure}"])
 
 
-def existing(path: str | PathLike[str]) -> Path:
-    """The path of a file that is there; an error where it is not."""
-    place = Path(path)
-    if not is_file(place):
-        raise FileError("file-missing", path, absolute=place.absolute(), folder=Path.cwd())
-    return place
-
-
 def is_file(place: Path) -> bool:
     """Whether there is a regular file; a name that no file can have is none."""
     try:

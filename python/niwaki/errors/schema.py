@@ -13,6 +13,8 @@ from typing import Any
 
 import msgspec
 
+from niwaki.errors import settings
+
 #: The types of JSON in words, for people.
 _WORDS = {
     "int": "a whole number",
@@ -103,8 +105,7 @@ def shown(value: Any) -> str:
         return f"a table with {names}{', ...' if len(value) > 3 else ''}" if value else "an empty table"
     if isinstance(value, (list, tuple)):
         return f"a list of {len(value)}"
-    text = repr(value)
-    return text if len(text) <= 60 else f"{text[:57]}..."
+    return settings.shown(value)
 
 
 def _unfit(message: str, data: Any) -> Unfit:

@@ -5,19 +5,13 @@ Results go to files and stdout, progress and warnings to stderr.
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
 from niwaki.errors import FileError
-
-if TYPE_CHECKING:
-    from niwaki import result
 
 #: The commands and what they do. The module of a command is loaded when the command is used.
 COMMANDS = {
@@ -80,24 +74,3 @@ def ensure_folder(place: Path) -> Path:
     except OSError as error:
         raise FileError("file-unwritable", place, reason=error.strerror or str(error)) from error
     return place
-
-
-@contextmanager
-def progress_line(name: str) -> Iterator[Callable[[result.Progress], None]]:
-    """A line of progress on stderr; nothing where stderr is not a terminal."""
-    from rich.console import Console
-
-    console = Console(stderr=True)
-    if not console.is_terminal:
-        yield lambda _: None
-        return
-    with console.status(f"growing {name}") as status:
-
-        def show(now: result.Progress) -> None:
-            best = f"{now.best:.2f}" if math.isfinite(now.best) else "-"
-            status.update(
-                f"growing {name}: run {now.run + 1} of {now.runs}, step {now.done}, "
-                f"{now.ended} ended, best {best}   (Ctrl-C keeps the best so far)"
-            )
-
-        yield show

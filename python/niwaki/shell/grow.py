@@ -15,7 +15,8 @@ from niwaki import draw, gallery, search, shell, targets
 from niwaki import result as results
 from niwaki.errors.folders import held_folder
 from niwaki.shell import controls, settings, writing
-from niwaki.shell.app import Folder, ModelName, app, progress_line
+from niwaki.shell.app import Folder, ModelName, app
+from niwaki.shell.progress import progress_line
 
 
 @app.command()

@@ -13,6 +13,7 @@ from typing import Any
 
 from niwaki.errors import InputError, NiwakiError
 from niwaki.gallery import Entry, entries, entry
+from niwaki.inputs import bytes_of
 from niwaki.lang.models import Model
 
 
@@ -98,7 +99,7 @@ def run_file(
     sys.path.insert(0, str(place.parent))
     try:
         # Not through the import system: its cache misses the second of two edits within a second.
-        source = place.read_bytes()
+        source = bytes_of(place, "model")
         if check is not None:
             check(source)
         code = compile(source, str(place), "exec", dont_inherit=True)

@@ -20,6 +20,7 @@ from niwaki.draw import finite
 from niwaki.errors import InputError
 from niwaki.errors.files import is_file
 from niwaki.errors.schema import Unfit, decoded, fitted, inside, shown
+from niwaki.inputs import bytes_of
 from niwaki.lang.compiled import translated
 from niwaki.result import Result, Sample
 from niwaki.search import Search
@@ -132,7 +133,7 @@ def load(path: str | PathLike[str]) -> dict[str, Any]:
     if not is_file(place):
         raise InputError("bad-run-file", path=place, reason="there is no such file")
     try:
-        data = decoded(place.read_bytes())
+        data = decoded(bytes_of(place, "run"))
         check_format(data, FORMAT)
         fitted(data, RunFile)
         if data["best"] >= len(data["runs"]):

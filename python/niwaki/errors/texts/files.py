@@ -32,6 +32,22 @@ FILES = (
         cure="the whole file",
     ),
     Message(
+        "file-not-regular",
+        "this is {found}, not a file",
+        why="only files are read: a pipe or a device may have no end",
+        help="copy what it holds into a file, and name that",
+        example='Target.load("/dev/zero")',
+        cure='Target.load("ship.obj")',
+    ),
+    Message(
+        "file-limit",
+        "this file holds more than is read",
+        why="{found}; the limit is {most}",
+        help="{cure}",
+        example="an outline of 50,000 corners",
+        cure="an outline of 500 corners",
+    ),
+    Message(
         "target-empty",
         "this target has no triangles",
         why="{reason}",
@@ -46,6 +62,14 @@ FILES = (
         help="repair the mesh in the program that wrote it; often a modifier divided by zero",
         example="a vertex at nan",
         cure="every vertex at finite coordinates",
+    ),
+    Message(
+        "target-size",
+        "this target is too {found}",
+        why="{reason}",
+        help="scale the mesh in the program that wrote it, so that its size is a common number such as 10",
+        example="a mesh of size 1e300",
+        cure="a mesh of size 10",
     ),
     Message(
         "target-flat",
