@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from contextlib import closing
 from dataclasses import dataclass
-from functools import cached_property
 from os import PathLike, cpu_count
 from pathlib import Path
 from typing import Any
@@ -26,6 +25,7 @@ from niwaki.guides.traces import best_of
 from niwaki.letters import glyphs
 from niwaki.letters.glyphs import PIXEL, Letter, Piece
 from niwaki.methods import at_least_one, smc
+from niwaki.once import cached_property
 from niwaki.search.checks import check_threads, fresh
 
 #: Models that write.

@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping
-from functools import cached_property
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -13,6 +12,7 @@ from typing import Any
 from niwaki import _engine
 from niwaki.errors import InputError
 from niwaki.errors.files import existing, write_whole
+from niwaki.once import cached_property
 
 
 class Guide:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from niwaki import _engine
@@ -13,6 +12,7 @@ from niwaki.errors import InputError, ModelFault
 from niwaki.lang.compiled import as_fault, translated
 from niwaki.methods import Mh
 from niwaki.methods.kernels import Kernel
+from niwaki.once import cached_property
 from niwaki.result.diagnostics import Divergences
 from niwaki.result.hmc import SOME, diverged, kept, listed, refused, say, without_slope
 from niwaki.result.info import Info
