@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from niwaki.color.styles import INITIAL, SelectorError, Styles, declarations, tag_of
+from niwaki.draw.limits import check_size
 from niwaki.errors import FileError
 from niwaki.errors.extras import optional
 
@@ -204,6 +205,7 @@ def raster(text: str, size: int, place: str | Path | None = None) -> Image.Image
         resvg is not installed, or cannot read it.
     """
     resvg_py = optional("resvg_py", "drawing SVG files", "color")
+    check_size((size, size))
     try:
         # Reading the system's fonts takes longer than the rest.
         plain = "<text" not in text

@@ -17,10 +17,11 @@ from niwaki import draw, gallery, guides
 from niwaki._engine import Shape
 from niwaki.draw.flat.drawing import Window, drawing
 from niwaki.draw.flat.svg import svg
+from niwaki.draw.limits import LARGEST
 from niwaki.draw.scene import Part, Scene
 from niwaki.errors import InputError
 from niwaki.errors.files import write_whole
-from niwaki.errors.settings import bad
+from niwaki.errors.settings import bad, count
 from niwaki.guides.traces import best_of
 from niwaki.letters import glyphs
 from niwaki.letters.glyphs import PIXEL, Letter, Piece
@@ -118,7 +119,7 @@ class Word:
 
     def picture(self, width: int = 1600) -> Image:
         """The page as an image, so many pixels wide."""
-        at_least_one("width", width)
+        count("width", width, most=LARGEST)
         return drawing(self.scene, size=self.size(width), style=self.style, window=self.window)
 
     def svg(self) -> str:

@@ -26,7 +26,7 @@ from typing import Any
 
 from niwaki import _engine
 from niwaki.errors import InputError
-from niwaki.errors.settings import bad
+from niwaki.errors.settings import bad, count
 from niwaki.lang.compiled import arguments, task
 from niwaki.lang.core import Core
 from niwaki.lang.models import Model, as_model
@@ -118,8 +118,7 @@ class Search:
         ):
             if not isinstance(getattr(self, name), kind):
                 raise bad(name, getattr(self, name), f"a {kind.__name__.lower()}", suggestion)
-        if not isinstance(self.runs, int) or isinstance(self.runs, bool) or self.runs < 1:
-            raise bad("runs", self.runs, "a whole number above 0", "1 or more")
+        count("runs", self.runs)
         if self.keep not in KEEP:
             raise bad("keep", self.keep, '"all" or "best"', '"all"')
         if self.polish is not None:

@@ -13,8 +13,9 @@ from rich.console import Console
 
 from niwaki import letters as writing
 from niwaki import search
+from niwaki.draw.limits import LARGEST
+from niwaki.errors.settings import count
 from niwaki.letters.word import PARTICLES, STYLES, TRIES
-from niwaki.methods import at_least_one
 from niwaki.shell.app import Folder, app, ensure_folder
 
 
@@ -40,7 +41,7 @@ def letters(
     ] = None,
 ) -> None:
     """Write TEXT in vines or lightning; writes word.png, word.svg and growth.gif."""
-    at_least_one("--width", width)
+    count("--width", width, most=LARGEST)
     seed = search.fresh(seed)
     start = time.perf_counter()
     with _shown(text) as progress:

@@ -97,7 +97,9 @@ both = pytest.mark.parametrize("threads", [1, 2])
 
 @both
 def test_a_child_searches_after_its_parent_did(tmp_path: Path, threads: int) -> None:
-    text = "first = work(); print(forked(work) == first, forked(lambda: forked(work)) == first, work() == first)"
+    text = (
+        "first = work(); print(forked(work) == first, forked(lambda: forked(work)) == first, work() == first)"
+    )
     assert ran(tmp_path, text, threads) == "True True True\n"
 
 
