@@ -334,7 +334,7 @@ impl Shape {
                 }
                 (_, None) => Err(GeomError::new("bad-shape", "a solid without geometry")),
             };
-            Box::new(mesh.expect("checked when the shape was made"))
+            Box::new(mesh.expect("the same numbers gave a mesh when the shape was made"))
         })
     }
 
