@@ -14,6 +14,8 @@ models.py     `niwaki models`: the gallery
 color.py      `niwaki color`: a drawing in colours that differ
 references.py a model by its name or its file
 run_files.py  a search and its runs as a file
+results.py    a folder of one run: that file, and those that show the run
+trust.py      when a replay runs the Python file of its model
 demo.py       the gallery, grown into its targets
 check.py      `niwaki check`: what a model is made of, with advice
 """

@@ -65,7 +65,9 @@ def niwaki() -> None:
     """Grow procedural models into given shapes."""
 
 
-ModelName = Annotated[str, typer.Argument(metavar="MODEL", help="A gallery name, or file.py:function.")]
+ModelName = Annotated[
+    str, typer.Argument(metavar="MODEL", help="A gallery name, or file.py:function; the file is run.")
+]
 Folder = Annotated[
     Path | None, typer.Option("-o", "--output", metavar="DIR", help="The folder for files; default: out.")
 ]
