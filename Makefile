@@ -13,6 +13,8 @@
 #   make bench-hmc gradients and effective samples compared with JAX, NumPyro, nutpie and the limit (4 minutes; QUICK=1: one)
 #   make bench-searches  the default search and others at equal CPU on many kinds of problems (QUICK=1: ten minutes)
 #   make soak     the long tests, with fresh printed seeds (NIWAKI_FUZZ_SECONDS: how long finite programs are tried)
+#   make sanitize the tests of the crates with unsafe code under the address sanitizer (needs a nightly toolchain with
+#                 rustup; skipped with a line where there is none)
 #   make mutants  deliberate errors in the engine, which the tests must reject (ONLY=name: those); out/mutants.md
 #   make docs     the manual, into docs/_build/html, and the engine's pages, into target/doc
 #   make format   format the sources
@@ -42,7 +44,7 @@ PYTHON_SOURCES := python tests benches docs/conf.py
 
 PARTS :=
 
-.PHONY: all demo guides test lint bench bench-c3 bench-hmc bench-searches figures-sosmc figures-hmc figures-guides soak mutants docs format locks clean
+.PHONY: all demo guides test lint bench bench-c3 bench-hmc bench-searches figures-sosmc figures-hmc figures-guides soak sanitize mutants docs format locks clean
 all: $(STAMPS)/engine
 
 # ---- set-up: one stamp for each thing that is made, older than what depends on it
@@ -113,6 +115,16 @@ bench-searches: $(STAMPS)/engine
 soak: $(STAMPS)/engine $(STAMPS)/test
 	cargo test $(CARGO_FLAGS) --workspace -- --ignored
 	$(PY) -m pytest -m soak || { status=$$?; [ $$status -eq 5 ] && echo "no long test yet" || exit $$status; }
+
+# Machine code and slices of one memory are in `grad`; the unsafe code of `infer` and `vm` only calls instructions of the
+# processor. A folder of its own, because the flags of the compiler differ.
+SANITIZED := -p niwaki-grad
+HOST := $(shell rustc -vV 2>/dev/null | sed -n 's/host: //p')
+sanitize: $(STAMPS)/venv
+	@if cargo +nightly --version >/dev/null 2>&1; then \
+	  RUSTFLAGS=-Zsanitizer=address ASAN_OPTIONS=detect_leaks=0 \
+	    cargo +nightly test --release --locked --target $(HOST) --target-dir target/sanitize $(SANITIZED) --tests; \
+	else echo "make sanitize needs a nightly toolchain (rustup toolchain install nightly): skipped"; fi
 
 mutants: $(STAMPS)/venv
 	$(PY) tests/mutants/mutants.py $(ONLY)
