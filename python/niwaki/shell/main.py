@@ -21,6 +21,7 @@ from niwaki.shell import (
     models,
     replay,
     sample,
+    studio,
 )  # each puts its command on the application
 from niwaki.shell.app import app
 
@@ -36,6 +37,7 @@ __all__ = [
     "models",
     "replay",
     "sample",
+    "studio",
 ]
 
 
