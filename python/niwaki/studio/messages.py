@@ -408,6 +408,8 @@ class Shape(Event, tag="shape"):
     parts: list[str] = []
     low: Point = (0.0, 0.0, 0.0)
     high: Point = (0.0, 0.0, 0.0)
+    #: Of a ghost: the point about which it is turned and scaled, where it stands.
+    pivot: Point = (0.0, 0.0, 0.0)
     is_flat: bool = False
     note: str = ""
 

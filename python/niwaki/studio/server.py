@@ -32,8 +32,8 @@ from niwaki.studio.session import Session
 from niwaki.studio.window import Window
 
 #: The page's files: no other path is read.
-PAGE = {"/": "index.html", "/app.js": "app.js", "/app.css": "app.css"}
-TYPES = {".html": "text/html; charset=utf-8", ".js": "text/javascript", ".css": "text/css"}
+PAGE = {"/": "index.html", "/app.js": "app.js", "/app.css": "app.css", "/inter.woff2": "inter.woff2"}
+TYPES = {".html": "text/html; charset=utf-8", ".js": "text/javascript", ".css": "text/css", ".woff2": "font/woff2"}
 
 #: Bytes of a command; of a mesh that is sent, and how many seconds may pass while it comes.
 COMMAND, UPLOAD, PATIENCE = 1 << 20, 64 << 20, 60.0

@@ -305,6 +305,7 @@ export interface Shape {
   parts: string[];
   low: [number, number, number];
   high: [number, number, number];
+  pivot: [number, number, number];
   is_flat: boolean;
   note: string;
 }

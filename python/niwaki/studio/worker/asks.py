@@ -43,9 +43,9 @@ def search(question: Question) -> tuple[ModelReference, dict[str, Any]]:
     elif entry is not None and entry.draws is not None and entry.window is not None:
         score, start = _drawn(found, ask)
         guide = shipped(found.model)
-    placed = None if ask.sketch is not None else ask.target or usual(found)
-    voxel = entry.voxel if entry is not None and placed == usual(found) else None
-    asked = {"target": target(placed), "score": score, "voxel": voxel, "guide": guide}
+    aim = None if ask.sketch is not None else ask.target or usual(found)
+    voxel = entry.voxel if entry is not None and aim == usual(found) else None
+    asked = {"target": target(aim), "score": score, "voxel": voxel, "guide": guide}
     return found, {**asked, **start, **question.arguments}
 
 
@@ -104,26 +104,34 @@ def camera(sketch: Sketch) -> nw.Camera:
 
 def target(ask: TargetAsk | None) -> nw.Target | None:
     """A target where it is placed; the very one that was named where it has not been moved."""
-    if ask is None:
-        return None
-    if ask.source in PRIMITIVES:
-        mesh = PRIMITIVES[ask.source]()
-        if ask.source == "column":
-            mesh.apply_transform(trimesh.transformations.rotation_matrix(-np.pi / 2, (1, 0, 0)))
-        mesh.apply_translation((0.0, -mesh.bounds[0][1], 0.0))
-        base = nw.Target(mesh.vertices, mesh.faces, ask.source)
-    elif ask.source.startswith("gallery:"):
-        base = nw.Target.find(ask.source)
-    else:
-        # The server has put the file's path in place of `upload:HASH`.
-        if not Path(ask.source).is_file():
-            raise InputError("no-target", name=ask.source)
-        base = nw.Target.load(ask.source)
-    if (ask.move, ask.scale, ask.turn) == ((0.0, 0.0, 0.0), (1.0, 1.0, 1.0), 0.0):
-        return base
+    return None if ask is None else placed(ask)[0]
+
+
+def placed(ask: TargetAsk) -> tuple[nw.Target, tuple[float, float, float]]:
+    """A target where it is placed, and the middle of its base, about which it is turned and scaled."""
+    base = _named(ask.source)
     low, high = base.bounds
     foot = np.array([(low[0] + high[0]) / 2, low[1], (low[2] + high[2]) / 2])
+    x, y, z = (foot + np.array(ask.move)).tolist()
+    if (ask.move, ask.scale, ask.turn) == ((0.0, 0.0, 0.0), (1.0, 1.0, 1.0), 0.0):
+        return base, (x, y, z)
     angle = radians(ask.turn)
     turn = np.array([[cos(angle), 0.0, sin(angle)], [0.0, 1.0, 0.0], [-sin(angle), 0.0, cos(angle)]])
-    placed = ((base.vertices - foot) * np.array(ask.scale)) @ turn.T + foot + np.array(ask.move)
-    return nw.Target(placed, base.faces, base.name)
+    moved = ((base.vertices - foot) * np.array(ask.scale)) @ turn.T + np.array([x, y, z])
+    return nw.Target(moved, base.faces, base.name), (x, y, z)
+
+
+def _named(source: str) -> nw.Target:
+    """The target of a source: a primitive, one of the gallery, or a file that was sent."""
+    if source in PRIMITIVES:
+        mesh = PRIMITIVES[source]()
+        if source == "column":
+            mesh.apply_transform(trimesh.transformations.rotation_matrix(-np.pi / 2, (1, 0, 0)))
+        mesh.apply_translation((0.0, -mesh.bounds[0][1], 0.0))
+        return nw.Target(mesh.vertices, mesh.faces, source)
+    if source.startswith("gallery:"):
+        return nw.Target.find(source)
+    # The server has put the file's path in place of `upload:HASH`.
+    if not Path(source).is_file():
+        raise InputError("no-target", name=source)
+    return nw.Target.load(source)

@@ -27,11 +27,12 @@ def ghost(job: Ghost, send: Any) -> Answer:
     """The mesh of the target."""
     found = models.reference(job.question.model)
     ask = job.question.ask
-    target = None if ask.sketch is not None else asks.target(ask.target or asks.usual(found))
-    if target is not None:
+    placed = None if ask.sketch is not None else ask.target or asks.usual(found)
+    if placed is not None:
+        target, foot = asks.placed(placed)
         many = len(target.faces) > shapes.GHOST_TRIANGLES
         note = f"shown with fewer than its {len(target.faces):,} triangles" if many else ""
-        header, payload = shapes.ghost(target, note)
+        header, payload = shapes.ghost(target, foot, note)
         header.id = job.id
         send(header, payload)
     return Answer()

@@ -34,10 +34,10 @@ def shape(scene: Scene, detail: Literal["light", "fine"], **header: Any) -> tupl
     return _packed([part.address for part in scene.parts], pieces, detail=detail, **header)
 
 
-def ghost(target: Target, note: str = "") -> tuple[Shape, bytes]:
+def ghost(target: Target, pivot: tuple[float, float, float], note: str = "") -> tuple[Shape, bytes]:
     """The header and the payload of a target."""
     vertices, faces = thinned(np.asarray(target.vertices), np.asarray(target.faces))
-    header, data = _packed([], [(0, GHOST_COLOR, vertices, None, faces)], what="ghost", note=note)
+    header, data = _packed([], [(0, GHOST_COLOR, vertices, None, faces)], what="ghost", pivot=pivot, note=note)
     low, high = target.bounds.tolist()
     header.low, header.high = tuple(low), tuple(high)
     return header, data
