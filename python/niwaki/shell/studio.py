@@ -14,7 +14,8 @@ from niwaki.shell.app import app
 @app.command()
 def studio(
     models: Annotated[
-        list[str] | None, typer.Argument(metavar="[MODEL.PY]...", help="Files of models; the gallery is there, too.")
+        list[str] | None,
+        typer.Argument(metavar="[MODEL.PY]...", help="Files of models; the gallery is there, too."),
     ] = None,
     session: Annotated[
         Path, typer.Option("--session", metavar="DIR", help="Where the session is stored, and goes on.")

@@ -1,15 +1,16 @@
 """A script's way to the studio: every message that the page sends, and every answer that it gets.
 
-    with niwaki.studio.connect("http://127.0.0.1:8000", key) as studio:
-        studio.ask("model", reference="spaceship")
-        studio.ask("run")
-        print(studio.view["results"])
+with niwaki.studio.connect("http://127.0.0.1:8000", key) as studio:
+    studio.ask("model", reference="spaceship")
+    studio.ask("run")
+    print(studio.view["results"])
 """
 
 from __future__ import annotations
 
 import json
 import time
+from contextlib import ExitStack
 from itertools import count
 from types import TracebackType
 from typing import Any, Self
@@ -48,8 +49,12 @@ class Studio:
         Every event that has come.
     """
 
-    def __init__(self, socket: ClientConnection) -> None:
-        self._socket = socket
+    def __init__(self, url: str, key: str) -> None:
+        address = url.replace("http://", "ws://", 1).rstrip("/") + "/socket"
+        headers = {"Authorization": f"Bearer {key}"}
+        self._open = ExitStack()
+        dialled = dial(address, additional_headers=headers, max_size=None, compression=None, proxy=None)
+        self._socket: ClientConnection = self._open.enter_context(dialled)
         self._ids = count(1)
         self.view: dict[str, Any] = {}
         self.session = ""
@@ -119,7 +124,7 @@ class Studio:
 
     def close(self) -> None:
         """End the connection."""
-        self._socket.close()
+        self._open.close()
 
     def __enter__(self) -> Self:
         """Itself."""
@@ -142,6 +147,4 @@ def connect(url: str, key: str) -> Studio:
     key
         Its key; the file `key` in the session's folder has both.
     """
-    address = url.replace("http://", "ws://", 1).rstrip("/") + "/socket"
-    headers = {"Authorization": f"Bearer {key}"}
-    return Studio(dial(address, additional_headers=headers, max_size=None, compression=None, proxy=None))
+    return Studio(url, key)

@@ -540,9 +540,7 @@ class WriteFile(Job, tag="write"):
     scale: float | None = None
 
 
-AnyJob = (
-    ListModels | Load | Ghost | Grow | Regrow | Change | Hold | DescribeRun | ShowRun | WriteFile
-)
+AnyJob = ListModels | Load | Ghost | Grow | Regrow | Change | Hold | DescribeRun | ShowRun | WriteFile
 
 
 class Answer(Struct, tag_field="kind", tag="answer"):

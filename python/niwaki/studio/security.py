@@ -2,7 +2,7 @@
 
 - The socket is bound to loopback. `Host` must name it with our port, so a name that is rebound to 127.0.0.1 is refused.
 - `Origin`, where it is sent, must be ours; `null` is not. `Sec-Fetch-Site`, where it is sent, must be `same-origin`, or
-  `none` (typed by the user): other pages cannot even load a picture from here. A socket of a browser must have an origin.
+  `none` (typed by the user): other pages cannot even load a picture from here. A browser's socket must have an origin.
 - `/open?token=` serves once and sets a cookie that scripts of the page cannot read. Browsers send cookies to every port
   of a host, so the cookie's name has the port and a random part: no other server on this machine knows it, and
   two studios do not overwrite each other's.
@@ -21,8 +21,8 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 #: Headers of every answer.
 HEADERS = {
     "Content-Security-Policy": (
-        "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; connect-src 'self'; font-src 'self'; "
-        "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+        "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; connect-src 'self'; "
+        "font-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
     ),
     "X-Content-Type-Options": "nosniff",
     "Referrer-Policy": "no-referrer",
@@ -105,7 +105,9 @@ class Guard:
         query = scope["query_string"].decode("latin-1")
         given = query.removeprefix("token=") if query.startswith("token=") else ""
         if scope["method"] != "GET" or not _same(given, self.token):
-            return PlainTextResponse("this link was used, or is another one's; the terminal shows the next one\n", 403)
+            return PlainTextResponse(
+                "this link was used, or is another one's; the terminal shows the next one\n", 403
+            )
         self.token = secrets.token_urlsafe(24)
         answer = RedirectResponse("/", 303)
         answer.set_cookie(self._cookie_name, self._cookie, httponly=True, samesite="strict", path="/")

@@ -1,10 +1,10 @@
 """The server: the page's files, the socket, uploads and exported files. It never imports a model.
 
-    GET  /            the page (and /app.js, /app.css)
-    GET  /open        the link that the terminal shows (`niwaki.studio.security`)
-    GET  /socket      a websocket: JSON both ways, geometry as frames
-    POST /upload      a mesh; `?name=ship.obj` says its format
-    GET  /file/HASH   what was exported
+GET  /            the page (and /app.js, /app.css)
+GET  /open        the link that the terminal shows (`niwaki.studio.security`)
+GET  /socket      a websocket: JSON both ways, geometry as frames
+POST /upload      a mesh; `?name=ship.obj` says its format
+GET  /file/HASH   what was exported
 """
 
 from __future__ import annotations
@@ -33,7 +33,12 @@ from niwaki.studio.window import Window
 
 #: The page's files: no other path is read.
 PAGE = {"/": "index.html", "/app.js": "app.js", "/app.css": "app.css", "/inter.woff2": "inter.woff2"}
-TYPES = {".html": "text/html; charset=utf-8", ".js": "text/javascript", ".css": "text/css", ".woff2": "font/woff2"}
+TYPES = {
+    ".html": "text/html; charset=utf-8",
+    ".js": "text/javascript",
+    ".css": "text/css",
+    ".woff2": "font/woff2",
+}
 
 #: Bytes of a command; of a mesh that is sent, and how many seconds may pass while it comes.
 COMMAND, UPLOAD, PATIENCE = 1 << 20, 64 << 20, 60.0
@@ -155,7 +160,9 @@ async def _read(body: bytes, suffix: str, folder: Path) -> Response:
             await reader.wait()
             return _refused(422, "too-slow", f"it could not be read within {READING:.0f} s")
         if reader.returncode != 0 or not said.strip():
-            return _refused(422, "mesh-too-large", "it could not be read within the memory that a mesh may take")
+            return _refused(
+                422, "mesh-too-large", "it could not be read within the memory that a mesh may take"
+            )
         found = json.loads(said.splitlines()[-1])
         if "error" in found:
             return _refused(422, found.get("code", "file-unreadable"), found["error"])

@@ -37,7 +37,7 @@ class Patient(H11Protocol):
         self._patience = self.loop.call_later(FIRST_WORD, self._lose_patience)
 
     def _lose_patience(self) -> None:
-        if self.cycle is None and not self.transport.is_closing():
+        if getattr(self, "cycle", None) is None and not self.transport.is_closing():
             self.transport.close()
 
     def connection_lost(self, exc: Exception | None) -> None:
@@ -94,7 +94,7 @@ def serve(models: list[str], folder: Path, port: int = 0, browser: bool = True) 
 def _whole(reference: str) -> str:
     """A reference with the whole path of its file."""
     place, colon, name = reference.rpartition(":")
-    if not colon or not place.endswith(".py"):
+    if not place.endswith(".py"):
         place, colon, name = reference, "", ""
     if not place.endswith(".py") or not Path(place).is_file():
         raise InputError("unknown-model", name=reference, reason=f"there is no file {Path(place).absolute()}")

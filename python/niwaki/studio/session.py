@@ -56,6 +56,7 @@ class Session:
         self._tasks: set[asyncio.Task[None]] = set()
         self._search: asyncio.Task[None] | None = None
         self._wanted: dict[str, m.Choose] = {}
+        self._ready = asyncio.Event()
 
     # ---- begin and end
 
@@ -71,6 +72,7 @@ class Session:
         if self.document.model is None and self._models:
             self._step("model", {"model": self._models[0].reference})
         await self._load(keep=self._problem)
+        self._ready.set()
         if self.document.model is not None:
             # The first search finds its process started.
             await self._searcher.do(m.Load(reference=self.document.model))
@@ -137,6 +139,7 @@ class Session:
 
     async def obey(self, window: Window, command: m.AnyCommand) -> None:
         """Carry a command out; what it cannot do it says to the window that asked."""
+        await self._ready.wait()
         match command:
             case m.Hello():
                 if command.protocol != m.PROTOCOL:
@@ -317,7 +320,10 @@ class Session:
         seed = self.document.settings.seed
         file = str(self.journal.runs_file(number))
         job = m.Grow(
-            question=self._question(), run=number, seed=secrets.randbits(53) if seed is None else seed, file=file
+            question=self._question(),
+            run=number,
+            seed=secrets.randbits(53) if seed is None else seed,
+            file=file,
         )
         answer = await self._searcher.do(job, self._reported)
         self._searching = None
@@ -427,7 +433,9 @@ class Session:
         if self._wanted.get(command.phase) is not command:
             window.tell(m.Done(command.id))
             return
-        await self._changed(window, command.id, {command.address: command.value}, command.phase == "end", "choose")
+        await self._changed(
+            window, command.id, {command.address: command.value}, command.phase == "end", "choose"
+        )
 
     async def _reshape(self, window: Window | None) -> None:
         """The picked result with the present model and arguments."""

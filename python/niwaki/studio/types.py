@@ -50,7 +50,10 @@ def _collect(kind: look.Type, known: dict[str, look.StructType]) -> None:
 
 
 def _interface(kind: look.StructType) -> str:
-    lines = [f"/** {(kind.cls.__doc__ or '').partition(chr(10))[0]} */", f"export interface {kind.cls.__name__} {{"]
+    lines = [
+        f"/** {(kind.cls.__doc__ or '').partition(chr(10))[0]} */",
+        f"export interface {kind.cls.__name__} {{",
+    ]
     is_sent = issubclass(kind.cls, messages.Command) or kind.forbid_unknown_fields
     if kind.tag_field is not None:
         lines.append(f'  {kind.tag_field}: "{kind.tag}";')

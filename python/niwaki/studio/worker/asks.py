@@ -126,7 +126,8 @@ def _named(source: str) -> nw.Target:
     if source in PRIMITIVES:
         mesh = PRIMITIVES[source]()
         if source == "column":
-            mesh.apply_transform(trimesh.transformations.rotation_matrix(-np.pi / 2, (1, 0, 0)))
+            # From along z to along y.
+            mesh.apply_transform([[1, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])
         mesh.apply_translation((0.0, -mesh.bounds[0][1], 0.0))
         return nw.Target(mesh.vertices, mesh.faces, source)
     if source.startswith("gallery:"):

@@ -67,7 +67,9 @@ def grow(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
 
 def regrow(job: Regrow, send: Any) -> Answer:
     """Grow a part of a result again, in place, by seeds that follow one another; equal outcomes are given once."""
-    search, choices = _searched(job.question, runs.sample(job.source, job.number), runs.given(job.question.lock))
+    search, choices = _searched(
+        job.question, runs.sample(job.source, job.number), runs.given(job.question.lock)
+    )
     with translated(search.model.name, choices=choices):
         whole = Sample.of_trace(search.task.replay(choices, None), search, job.seed)
     found: list[Sample] = []
@@ -105,9 +107,7 @@ def _searched(question: Question, one: Sample, lock: dict[str, Any] | None) -> t
 
 
 def _shape(sample: Sample, what: str, job: int, key: Key) -> Any:
-    return shapes.shape(
-        sample.scene, "light", what=what, id=job, key=key, is_flat=runs.is_flat(sample)
-    )
+    return shapes.shape(sample.scene, "light", what=what, id=job, key=key, is_flat=runs.is_flat(sample))
 
 
 def _answered(

@@ -16,8 +16,8 @@ from niwaki.studio.messages import (
     Answer,
     ChoiceInfo,
     Choices,
-    DescribeRun,
     Described,
+    DescribeRun,
     Hold,
     Key,
     Outcome,
@@ -40,16 +40,16 @@ def sample(source: str, number: int) -> Sample:
     """A result of a stored run."""
     key = source, number
     if key not in _samples:
-        _samples[key] = run_files.replayed(run_files.load(source), number)
+        data = run_files.load(source)
+        _samples[key] = run_files.replayed(data, number)
+        _samples[key].seed = data["runs"][number]["seed"]
         if len(_samples) > KEPT:
             _samples.popitem(last=False)
     _samples.move_to_end(key)
     return _samples[key]
 
 
-def store(
-    result: Result, found: ModelReference, run: int, file: str, origin: str
-) -> list[Outcome]:
+def store(result: Result, found: ModelReference, run: int, file: str, origin: str) -> list[Outcome]:
     """Write a run, and name its results."""
     data = run_files.written(result, found)
     for number, one in enumerate(result.samples):
@@ -61,9 +61,7 @@ def store(
 def outcome(one: Sample, key: Key, origin: str) -> Outcome:
     """The numbers of a result."""
     numbers = run_files.numbers(one)
-    return Outcome(
-        key, numbers["log_score"], numbers["similarity"], one.primitives, one.seed, origin
-    )
+    return Outcome(key, numbers["log_score"], numbers["similarity"], one.primitives, one.seed, origin)
 
 
 def given(choices: Choices) -> dict[str, Any]:
@@ -119,7 +117,9 @@ def _place(span: Any) -> Place | None:
 def show(job: ShowRun, send: Any) -> Answer:
     """The shape of a result."""
     one = sample(job.source, job.number)
-    header, payload = shapes.shape(one.scene, job.detail, what="result", key=job.key, id=job.id, is_flat=is_flat(one))
+    header, payload = shapes.shape(
+        one.scene, job.detail, what="result", key=job.key, id=job.id, is_flat=is_flat(one)
+    )
     send(header, payload)
     return Answer()
 
@@ -141,7 +141,8 @@ def write(job: WriteFile) -> Answer:
     style = run_files.style(data, one)
     path = folder / f"best.{job.format}"
     if job.format == "png":
-        one.save(path, **({} if style is None else {"style": style, "size": (800, 800)}))
+        styled: dict[str, Any] = {} if style is None else {"style": style, "size": (800, 800)}
+        one.save(path, **styled)
     else:
         one.export(path, scale=job.scale, style=style if job.format == "svg" else None)
     # The recipe lies beside it, so that the folder explains itself.

@@ -37,7 +37,9 @@ def shape(scene: Scene, detail: Literal["light", "fine"], **header: Any) -> tupl
 def ghost(target: Target, pivot: tuple[float, float, float], note: str = "") -> tuple[Shape, bytes]:
     """The header and the payload of a target."""
     vertices, faces = thinned(np.asarray(target.vertices), np.asarray(target.faces))
-    header, data = _packed([], [(0, GHOST_COLOR, vertices, None, faces)], what="ghost", pivot=pivot, note=note)
+    header, data = _packed(
+        [], [(0, GHOST_COLOR, vertices, None, faces)], what="ghost", pivot=pivot, note=note
+    )
     low, high = target.bounds.tolist()
     header.low, header.high = tuple(low), tuple(high)
     return header, data

@@ -1,8 +1,8 @@
 """A mesh that a user sent, read in a process of its own with little memory and time.
 
-`python -m niwaki.studio.worker.uploads FILE.SUFFIX OUT.stl` reads the file as `niwaki.Target` does and writes it again as
-binary STL (float32), which is all that other processes read. One line of JSON on standard output says what it is, or
-why it cannot be used.
+`python -m niwaki.studio.worker.uploads FILE.SUFFIX OUT.stl` reads the file as `niwaki.Target` does and writes it again
+as binary STL (float32), which is all that other processes read. One line of JSON on standard output says what it is,
+or why it cannot be used.
 """
 
 from __future__ import annotations
@@ -33,7 +33,9 @@ def main(source: str, sink: str) -> None:
             warnings.simplefilter("always")
             target = nw.Target.load(source)
         if len(target.faces) > TRIANGLES:
-            print(json.dumps({"error": f"{len(target.faces):,} triangles; at most {TRIANGLES:,} can be used"}))
+            print(
+                json.dumps({"error": f"{len(target.faces):,} triangles; at most {TRIANGLES:,} can be used"})
+            )
             return
         mesh = trimesh.Trimesh(target.vertices, target.faces, process=False)
         mesh.export(sink, file_type="stl")
