@@ -24,9 +24,5 @@ def studio(
     browser: Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page.")] = True,
 ) -> None:
     """Turn the knobs of models in a page: search, hold what you like, grow the rest again."""
-    for module in ("msgspec", "starlette", "uvicorn", "watchfiles", "websockets"):
-        optional(module, "the studio", "studio")
     # The studio stands above the shell; only this command starts it.
-    from niwaki.studio.serving import serve
-
-    serve(models or [], session, port, browser)
+    optional("niwaki.studio.serving", "the studio", "studio").serve(models or [], session, port, browser)

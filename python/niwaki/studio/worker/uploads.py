@@ -12,6 +12,11 @@ import resource
 import sys
 import warnings
 
+import trimesh
+
+import niwaki as nw
+from niwaki.errors import NiwakiError
+
 #: Bytes of memory and seconds of processor time that reading a mesh may take.
 MEMORY, SECONDS = 3 << 30, 60
 #: More triangles than this are refused: the search would take minutes to fill their cells.
@@ -23,11 +28,6 @@ def main(source: str, sink: str) -> None:
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
     resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    import trimesh
-
-    import niwaki as nw
-    from niwaki.errors import NiwakiError
-
     try:
         with warnings.catch_warnings(record=True) as noted:
             warnings.simplefilter("always")
