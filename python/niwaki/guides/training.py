@@ -25,7 +25,7 @@ from niwaki.methods.checks import one_of
 from niwaki.result import Sample
 from niwaki.search import Search
 from niwaki.search.checks import check_seed, check_threads, fresh
-from niwaki.search.searching import SearchWarning
+from niwaki.search.worth import SearchWarning
 from niwaki.targets.sketches import Score
 
 #: Of the targets, one in so many judges where none is named.

@@ -5,6 +5,7 @@ request     `Search`: all that decides a result, as JSON, with a hash
 data        values as plain data, and back
 checks      checks before a search starts
 searching   running a search: run by run, each by its method
+worth       what is said of a result that is worth less than its search promised
 """
 
 import lazy_loader

@@ -17,6 +17,7 @@ from niwaki.errors import FileError
 COMMANDS = {
     "models": "List the gallery: name, target, title.",
     "studio": "Open a page in the browser to grow models by hand.",
+    "show": "Draw runs of a model side by side, with no target.",
     "grow": "Grow a model into its target.",
     "replay": "Write the best result of a search again, in any format.",
     "check": "Compile a model and report what it is made of, with advice.",
@@ -75,3 +76,8 @@ def ensure_folder(place: Path) -> Path:
     except OSError as error:
         raise FileError("file-unwritable", place, reason=error.strerror or str(error)) from error
     return place
+
+
+def counted(number: int, what: str) -> str:
+    """A number of things, as a sentence has it."""
+    return f"{number} {what}{'' if number == 1 else 's'}"

@@ -11,11 +11,11 @@ from typing import Annotated, Any
 import typer
 
 import niwaki as nw
-from niwaki import draw, gallery, search, shell, targets
+from niwaki import gallery, search, shell
 from niwaki import result as results
-from niwaki.errors.folders import held_folder
-from niwaki.shell import controls, settings, writing
-from niwaki.shell.app import Folder, ModelName, app
+from niwaki.shell import arguments, controls, folders, held, picking, pictures, settings, writing
+from niwaki.shell.app import Folder, ModelName, app, counted
+from niwaki.shell.clock import Clock
 from niwaki.shell.progress import progress_line
 
 
@@ -27,6 +27,8 @@ from niwaki.shell.progress import progress_line
 )
 def grow(
     model: ModelName,
+    values: arguments.Arguments = None,
+    preset: arguments.Preset = None,
     target: controls.TargetFile = None,
     avoid: controls.AvoidFiles = None,
     floor: controls.Floor = None,
@@ -47,6 +49,10 @@ def grow(
     guide: settings.GuideFile = None,
     polish: settings.Polish = None,
     polish_kernel: settings.PolishKernel = None,
+    origin: held.From = None,
+    number: held.OfRun = None,
+    lock: held.Lock = None,
+    reroll: held.Reroll = None,
     runs: Annotated[int, typer.Option(help="How many results, with seeds SEED, SEED + 1, ...")] = 1,
     seed: Annotated[int | None, typer.Option(help="Default: a new one, which run.json keeps.")] = None,
     threads: Annotated[
@@ -54,11 +60,13 @@ def grow(
     ] = None,
     max_steps: Annotated[int, typer.Option(help="Most calls and loop steps of one run.")] = 20_000_000,
     output: Folder = None,
+    force: folders.Force = False,
     formats: writing.Formats = None,
     scale: writing.Scale = None,
     fuse: writing.Fuse = None,
     frames: writing.Frames = None,
     size: writing.Size = None,
+    export: picking.Export = None,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print the numbers as JSON; files are written only with -o.")
     ] = False,
@@ -68,10 +76,16 @@ def grow(
             "--picture/--no-picture", help="Draw best.png, sheet.png and the pictures that were matched."
         ),
     ] = True,
+    quick: pictures.Quick = False,
     **given: Any,
 ) -> None:
     """Grow MODEL into its target; writes best.glb (best.svg of a drawing), best.png, sheet.png and run.json."""
-    found = shell.references.find(model)
+    clock = Clock()
+    with clock.part("compile"):
+        found = shell.references.find(model)
+        own_values = arguments.read(found.model, values, preset)
+        found.model.program()
+    onto = held.Origin.of_flags(origin, number, lock, reroll)
     style = None if found.entry is None else found.entry.draws
     chosen = controls.Controls(
         target,
@@ -92,9 +106,10 @@ def grow(
     onward = settings.polish(polish, polish_kernel)
     style = style or ("ink" if chosen.is_drawing else None)
     files = writing.Files.of_flags(formats, scale, fuse, frames, size, style)
-    aim = chosen.aim(found)
-    score = chosen.score(found, voxel, sigma)
-    drawing = chosen.drawing(found)
+    with clock.part("target"):
+        aim = chosen.aim(found)
+        score = chosen.score(found, voxel, sigma)
+        drawing = chosen.drawing(found)
     start: dict[str, Any] = {}
     if drawing is not None and controls.follows(found.model):
         start = dict(zip(("x", "y", "ahead"), drawing.place(chosen.page(found)), strict=True))
@@ -106,32 +121,43 @@ def grow(
     own = settings.guide(guide, found, [*_sketches(score), *(["match_volume"] if aim else [])], method, given)
     if own is not None:
         suits, method = {**suits, **search.GUIDED}, method or "smc"
+    with clock.part("target"):
+        asked = search.asked(
+            found.model,
+            aim,
+            **{**start, **own_values},
+            score=score,
+            method=settings.guided(settings.method(method, given, suits), own),
+            polish=onward,
+            seed=seed,
+            lock=None if onto is None else onto.held,
+            voxel=voxel,
+            sigma=0.02 if sigma is None else sigma,
+            rule=rule,
+            runs=runs,
+            max_steps=max_steps,
+        )
+    most = runs if given.get("diverse") is None else given["diverse"]
+    picking.exported(export, most)
     writes = output is not None or not as_json
     # Before the search: that a folder cannot be written to must not be the news at its end.
-    with held_folder(output or Path("out")) if writes else nullcontext() as folder:
-        with progress_line(found.reference) as progress:
-            result = nw.grow(
-                found.model,
-                aim,
-                **start,
-                score=score,
-                method=settings.guided(settings.method(method, given, suits), own),
-                polish=onward,
-                seed=seed,
-                threads=threads,
-                progress=progress,
-                voxel=voxel,
-                sigma=0.02 if sigma is None else sigma,
-                rule=rule,
-                runs=runs,
-                max_steps=max_steps,
-            )
+    with folders.own_folder(output, force) if writes else nullcontext() as folder:
+        with clock.part("search"):
+            if onto is not None and onto.reroll:
+                result = onto.rerolled(asked, given.get("particles"), threads)
+            else:
+                with progress_line(found.reference) as progress:
+                    result = asked.run(threads=threads, progress=progress)
         if folder is not None:
-            _write(folder, result, found, files, picture)
+            data = shell.run_files.written(result, found)
+            if onto is not None:
+                data["origin"] = onto.data()
+            numbers = picking.exported(export, len(result))
+            _write(folder, result, data, files, pictures.Pictures(picture, quick), numbers, clock)
     if as_json:
         print(json.dumps({"runs": [shell.run_files.numbers(sample) for sample in result]}))
     else:
-        _summary(result, output or Path("out"))
+        _summary(result, folder, clock)
     if result.interrupted:
         raise typer.Exit(130)
 
@@ -144,34 +170,35 @@ def _sketches(score: nw.Score) -> list[str]:
 def _write(
     folder: Path,
     result: nw.Result,
-    found: shell.references.ModelReference,
+    data: dict[str, Any],
     files: writing.Files,
-    picture: bool,
+    drawn: pictures.Pictures,
+    numbers: list[int],
+    clock: Clock,
 ) -> None:
     """Write run.json first: the other files can be created again from it."""
     best: nw.Sample = result.best
-    data = shell.run_files.written(result, found)
     if best.primitives == 0:
         with shell.results.written(folder, data, ()):
             print(
                 "warning: the best run emitted nothing, so there is no mesh and no picture", file=sys.stderr
             )
         return
-    pictures = ["best.png", "sheet.png", *(f"{view.kind}.png" for view in result.score.views)]
-    with shell.results.written(folder, data, [*files.names, *(pictures if picture else ())]):
-        if picture:
-            styled: dict[str, Any] = {} if files.style is None else {"style": files.style}
-            square: dict[str, Any] = {} if files.style is None else {"size": (800, 800)}
-            best.save(folder / "best.png", **styled, **square)
-            draw.picture.save_image(lambda: result.sheet(**styled), folder / "sheet.png")
-            for view in result.score.views:
-                targets.views.save_view(folder / f"{view.kind}.png", best.scene, view, **styled)
-        files.write(best, folder)
+    picked = [(number, result[number - 1]) for number in numbers if result[number - 1].primitives]
+    names = [*files.names(), *(name for number, _ in picked for name in files.names(number))]
+    with shell.results.written(folder, data, [*names, *drawn.names(result, files.style)]):
+        with clock.part("pictures"):
+            drawn.write(result, folder, files.style)
+        with clock.part("files"):
+            files.write(best, folder)
+            for number, sample in picked:
+                files.write(sample, folder, number)
 
 
-def _summary(result: nw.Result, folder: Path) -> None:
+def _summary(result: nw.Result, folder: Path | None, clock: Clock) -> None:
     if isinstance(result.info, results.info.ImproveInfo) and len({sample.seed for sample in result}) == 1:
         print(result.info)
-    for sample in result:
-        print(f"{results.caption(sample)}   {sample.primitives} primitives   {sample.seconds:.2f} s")
-    print(f"best: seed {result.best.seed}, log score {result.best.log_score:.2f}; files in {folder}")
+    for number, sample in enumerate(result, 1):
+        print(f"{results.caption(sample, number)}   {counted(sample.primitives, 'primitive')}")
+    print(f"best: #{result.samples.index(result.best) + 1}; files in {folder}")
+    print(clock)

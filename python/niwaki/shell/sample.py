@@ -16,12 +16,11 @@ import typer
 from rich.console import Console
 
 import niwaki as nw
-from niwaki import draw, kernels, shell
+from niwaki import kernels, shell
 from niwaki.draw import finite
 from niwaki.errors.files import write_whole
-from niwaki.errors.folders import held_folder
 from niwaki.methods import Mh
-from niwaki.shell import settings
+from niwaki.shell import arguments, folders, pictures, settings
 from niwaki.shell.app import Folder, ModelName, app
 
 
@@ -29,6 +28,8 @@ from niwaki.shell.app import Folder, ModelName, app
 @settings.with_settings(Mh, chains="4", warmup="a fifth of all", keep="100", kernel="prior()")
 def sample(
     model: ModelName,
+    values: arguments.Arguments = None,
+    preset: arguments.Preset = None,
     target: Annotated[
         str | None,
         typer.Option(
@@ -42,16 +43,19 @@ def sample(
     seed: Annotated[int | None, typer.Option(help="Default: a new one, which run.json keeps.")] = None,
     threads: Annotated[int | None, typer.Option(help="Default: all cores.")] = None,
     output: Folder = None,
+    force: folders.Force = False,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print the numbers as JSON; files are written only with -o.")
     ] = False,
     picture: Annotated[
         bool, typer.Option("--picture/--no-picture", help="Draw best.png and sheet.png.")
     ] = True,
+    quick: pictures.Quick = False,
     **given: Any,
 ) -> None:
     """Sample MODEL by Markov chains; writes samples.csv and run.json, and best.glb, best.png, sheet.png for scenes."""
     found = shell.references.find(model)
+    own = arguments.read(found.model, values, preset)
     score = nw.Score()
     if target is not None:
         score = nw.no_self_intersection() * nw.match_volume(nw.Target.find(target), voxel, sigma)
@@ -59,34 +63,39 @@ def sample(
     steps = given.get("steps", Mh.steps)
     method = Mh(**{"kernel": kernels.prior(), "chains": 4, "warmup": steps // 5, "keep": 100, **given})
     writes = output is not None or not as_json
-    with held_folder(output or Path("out")) if writes else nullcontext() as folder:
+    with folders.own_folder(output, force) if writes else nullcontext() as folder:
         with _shown(found.reference, method.steps * method.chains) as progress:
-            result = nw.run(
-                found.model, method=method, score=score, seed=seed, threads=threads, progress=progress
+            search = nw.Search(
+                found.model,
+                tuple(arguments.bound(found.model, own)),
+                score=score,
+                method=method,
+                seed=nw.search.fresh(seed),
             )
+            result = search.run(threads=threads, progress=progress)
         if folder is not None:
-            _write(folder, result, found, picture)
+            _write(folder, result, found, pictures.Pictures(picture, quick))
     if as_json:
         print(json.dumps({"runs": [shell.run_files.numbers(one) for one in result.bests]}))
     else:
-        _summary(result, output or Path("out"))
+        _summary(result, folder)
     if result.interrupted:
         raise typer.Exit(130)
 
 
-def _write(folder: Path, result: nw.Result, found: shell.references.ModelReference, picture: bool) -> None:
+def _write(
+    folder: Path, result: nw.Result, found: shell.references.ModelReference, drawn: pictures.Pictures
+) -> None:
     # The best of each chain is what can be replayed.
     bests = nw.Result(result.search, result.bests, result.seed, interrupted=result.interrupted)
     best = bests.best
-    pictures = ["best.png", "sheet.png"] if picture else []
-    names = ["samples.csv", *(["best.glb", *pictures] if best.primitives else [])]
+    style = "ink" if result.score.window is not None else None
+    names = ["samples.csv", *(["best.glb", *drawn.names(bests, style)] if best.primitives else [])]
     with shell.results.written(folder, shell.run_files.written(bests, found), names):
         write_whole(folder / "samples.csv", _table(result).encode())
         if "best.glb" in names:
             best.export(folder / "best.glb")
-        if "best.png" in names:
-            best.save(folder / "best.png")
-            draw.picture.save_image(lambda: bests.sheet(), folder / "sheet.png")
+            drawn.write(bests, folder, style)
 
 
 def _table(result: nw.Result) -> str:
@@ -111,7 +120,7 @@ def _plain(value: Any) -> Any:
     return finite.scalar(value) if isinstance(value, float) else value
 
 
-def _summary(result: nw.Result, folder: Path) -> None:
+def _summary(result: nw.Result, folder: Path | None) -> None:
     print(f"{'site':<40}{'proposals':>12}{'accepted':>10}")
     for name, row in list(result.acceptance.items())[:12]:
         print(f"{name:<40}{row.proposed:>12}{row.rate:>10.2f}")
