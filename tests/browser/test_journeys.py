@@ -85,11 +85,9 @@ def choose(page, reference, count=3, seed=1):
 
 
 def grow(page):
-    runs = page.evaluate("window.__studio.view.results[0]?.key.run ?? -1")
+    runs = page.evaluate("window.__studio.view.picked?.run ?? -1")
     page.locator("button.primary").click()
-    until(
-        page, f"!window.__studio.view.searching && (window.__studio.view.results[0]?.key.run ?? -1) != {runs}"
-    )
+    until(page, f"!window.__studio.view.searching && (window.__studio.view.picked?.run ?? -1) != {runs}")
 
 
 def at_rest(page):

@@ -76,7 +76,6 @@ export class Stage {
     this.sun.shadow.mapSize.set(2048, 2048);
     this.sun.shadow.radius = 7;
     this.sun.shadow.bias = -0.0004;
-    this.sun.shadow.normalBias = 0.02;
     this.scene.add(
       new HemisphereLight(0xffffff, 0xdedad2, 1.75),
       new AmbientLight(0xffffff, 0.25),
@@ -228,6 +227,8 @@ export class Stage {
     this.sun.target.position.copy(middle);
     const side = 1.9 * radius;
     Object.assign(this.sun.shadow.camera, { left: -side, right: side, top: side, bottom: -side });
+    // A little more than a pixel of the shadow map.
+    this.sun.shadow.normalBias = 0.006 * radius;
     this.sun.shadow.camera.near = radius;
     this.sun.shadow.camera.far = 8 * radius;
     this.sun.shadow.camera.updateProjectionMatrix();
