@@ -1,4 +1,4 @@
-"""The shell's commands, one a file; `main` puts them together.
+"""The shell's commands, one a file; `app` lists them and loads each when it is used.
 
 app.py        the application, and what the commands share: arguments, folders, the progress line
 controls.py   what the shape should be like, as flags
@@ -12,8 +12,11 @@ guide.py      `niwaki guide`: trains a guide, shows what one sees
 letters.py    `niwaki letters`: a text in vines or lightning
 models.py     `niwaki models`: the gallery
 color.py      `niwaki color`: a drawing in colours that differ
+studio.py     `niwaki studio`: a page, served to this machine
 references.py a model by its name or its file
 run_files.py  a search and its runs as a file
+results.py    a folder of one run: that file, and those that show the run
+trust.py      when a replay runs the Python file of its model
 demo.py       the gallery, grown into its targets
 check.py      `niwaki check`: what a model is made of, with advice
 """

@@ -20,7 +20,9 @@ def test_the_page_is_built_from_its_sources(tmp_path):
     names = sorted(one.name for one in BUILT.iterdir())
     assert names == sorted(one.name for one in tmp_path.iterdir())
     for name in names:
-        assert (tmp_path / name).read_bytes() == (BUILT / name).read_bytes(), f"{name}: run `make studio-page`"
+        assert (tmp_path / name).read_bytes() == (BUILT / name).read_bytes(), (
+            f"{name}: run `make studio-page`"
+        )
 
 
 def test_the_page_asks_for_nothing_from_elsewhere():
