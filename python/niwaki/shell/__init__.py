@@ -13,6 +13,7 @@ guide.py      `niwaki guide`: trains a guide, shows what one sees
 letters.py    `niwaki letters`: a text in vines or lightning
 models.py     `niwaki models`: the gallery
 color.py      `niwaki color`: a drawing in colours that differ
+studio.py     `niwaki studio`: a page, served to this machine
 references.py a model by its name or its file
 run_files.py  a search and its runs as a file
 results.py    a folder of one run: that file, and those that show the run
