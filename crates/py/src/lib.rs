@@ -6,9 +6,11 @@
 //! * `model`: compiled models; `search`: algorithms; `chains`: Markov chains;
 //!   `runs`: finished runs; `gradients`: log densities with their gradients; `trajectories`: chains that follow them;
 //!   `networks`: networks of guides, for a comparison with other software;
+//! * `checkpoints`: what a search needs to go on after it was killed;
 //! * `distributions`, `geometry`, `views`, `pictures`: parts of the lower crates.
 
 mod chains;
+mod checkpoints;
 mod distributions;
 mod faults;
 mod geometry;
@@ -46,5 +48,6 @@ fn _engine(module: &Bound<'_, PyModule>) -> PyResult<()> {
     runs::register(module)?;
     search::register(module)?;
     chains::register(module)?;
+    checkpoints::register(module)?;
     trajectories::register(module)
 }

@@ -1,3 +1,4 @@
+from .checkpoint import Checkpoint as Checkpoint
 from .checks import fresh as fresh
 from .entry import GUIDED as GUIDED
 from .entry import OF_IMPROVE as OF_IMPROVE

@@ -18,6 +18,7 @@ from niwaki.lang.models import Model, as_model
 from niwaki.methods import Forward, Improve, Method, Mh, Smc
 from niwaki.result import Result
 from niwaki.result.progress import Watch
+from niwaki.search.checkpoint import Checkpoint
 from niwaki.search.checks import check_seed, fresh
 from niwaki.search.request import Search
 from niwaki.search.searching import given, starts
@@ -48,6 +49,7 @@ def run(
     max_memory: int = 1 << 30,
     threads: int | None = None,
     progress: Watch | None = None,
+    checkpoint: Checkpoint | str | PathLike[str] | None = None,
     **kwargs: Any,
 ) -> Result:
     """Run a model on the engine.
@@ -80,6 +82,10 @@ def run(
         How many to use; all of the machine's when left out. The result does not depend on it.
     progress
         Called now and then with a `Progress`; an exception that it raises ends the search.
+    checkpoint
+        A file, or a `Checkpoint`. What the search needs to go on is written there about every second, and a search whose
+        file is there goes on from it, with the same result as if it had not ended. Chains, their `more`, and runs
+        before the last go on from there; one population, an enumeration or a chain of `hmc` begins again.
 
     Returns
     -------
@@ -102,7 +108,7 @@ def run(
     )
     if choices is not None and seed is not None and not starts(search.method):
         return given(search, search.seed)
-    return search.run(threads=threads, progress=progress)
+    return search.run(threads=threads, progress=progress, checkpoint=checkpoint)
 
 
 def grow(
@@ -122,6 +128,7 @@ def grow(
     max_memory: int = 1 << 30,
     threads: int | None = None,
     progress: Watch | None = None,
+    checkpoint: Checkpoint | str | PathLike[str] | None = None,
     **kwargs: Any,
 ) -> Result:
     """Grow a model into a target, or to a high score of any kind: the best of a search, `runs` times.
@@ -155,8 +162,8 @@ def grow(
         (`Result.polish`).
     runs
         How many results, with seeds `seed`, `seed + 1`, ...
-    seed, lock, max_steps, max_memory, threads, progress
-        As for `run`.
+    seed, lock, max_steps, max_memory, threads, progress, checkpoint
+        As for `run`. The usual search is written between two rounds.
 
     Returns
     -------
@@ -199,7 +206,7 @@ def grow(
         max_steps=max_steps,
         max_memory=max_memory,
     )
-    return search.run(threads=threads, progress=progress)
+    return search.run(threads=threads, progress=progress, checkpoint=checkpoint)
 
 
 def usual(settings: Mapping[str, Any], power: float = POWER) -> Method:

@@ -77,6 +77,22 @@ SETTINGS = (
         cure="niwaki replay out/run.json",
     ),
     Message(
+        "bad-checkpoint",
+        "this checkpoint cannot be gone on with",
+        why="{detail}",
+        help="delete the file to begin anew, or name another one",
+        example='niwaki.run(model, mh(10_000), checkpoint="picture.png")',
+        cure='niwaki.run(model, mh(10_000), checkpoint="run.checkpoint")',
+    ),
+    Message(
+        "other-checkpoint",
+        "`{path}` is the checkpoint of another {kind}",
+        why="{differences}",
+        help="give what it was begun with, or another file; delete it to begin anew",
+        example='niwaki.run(model, mh(10_000), seed=2, checkpoint="seed-1.checkpoint")',
+        cure='niwaki.run(model, mh(10_000), seed=2, checkpoint="seed-2.checkpoint")',
+    ),
+    Message(
         "chains-gone",
         "the chains of this result of `{name}` cannot go on",
         why="a pickled result holds the samples of its chains, and not the chains",
