@@ -160,3 +160,11 @@ def _difference(name: str, then: Any, now: Any) -> str:
     if any(len(text) > SHORT for text in texts):
         return f"{name} differs"
     return f"{name} was {texts[0]} and is {texts[1]}"
+
+
+def begun_seed(seed: int | None, given: Checkpoint | str | PathLike[str] | None) -> int | None:
+    """The seed, or where none is given that of the search or training that a checkpoint is of."""
+    if seed is not None or given is None or not Path(Checkpoint.of(given).path).exists():
+        return seed
+    found = Stored.read(Path(Checkpoint.of(given).path)).about.get("its `seed`")
+    return found if isinstance(found, int) else None

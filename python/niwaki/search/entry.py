@@ -18,7 +18,7 @@ from niwaki.lang.models import Model, as_model
 from niwaki.methods import Forward, Improve, Method, Mh, Smc
 from niwaki.result import Result
 from niwaki.result.progress import Watch
-from niwaki.search.checkpoint import Checkpoint
+from niwaki.search.checkpoint import Checkpoint, begun_seed
 from niwaki.search.checks import check_seed, fresh
 from niwaki.search.request import Search
 from niwaki.search.searching import given, starts
@@ -84,7 +84,8 @@ def run(
         Called now and then with a `Progress`; an exception that it raises ends the search.
     checkpoint
         A file, or a `Checkpoint`. What the search needs to go on is written there about every second, and a search whose
-        file is there goes on from it, with the same result as if it had not ended. Chains, their `more`, and runs
+        file is there goes on from it, with the same result as if it had not ended, and with its seed where none is
+        given. Chains, their `more`, and runs
         before the last go on from there; one population, an enumeration or a chain of `hmc` begins again.
 
     Returns
@@ -100,7 +101,7 @@ def run(
         tuple(arguments(model, args, kwargs)),
         score=Score() if score is None else score,
         method=Forward() if method is None else method,
-        seed=fresh(seed),
+        seed=fresh(begun_seed(seed, checkpoint)),
         choices=choices,
         lock=lock,
         max_steps=max_steps,
@@ -198,7 +199,7 @@ def grow(
         tuple(arguments(model, args, kwargs)),
         score=product,
         method=usual(settings, 1.0 if drawn else POWER) if method is None else method,
-        seed=fresh(seed),
+        seed=fresh(begun_seed(seed, checkpoint)),
         lock=lock,
         runs=runs,
         keep="best",

@@ -70,9 +70,14 @@ class Keeper:
         """A stage, which goes on where it was."""
         return Stage(self, name)
 
+    @property
+    def is_due(self) -> bool:
+        """Whether it is time to write the file."""
+        return time.monotonic() >= self.next
+
     def write_if_due(self) -> None:
-        """Write the file, where its time has come."""
-        if time.monotonic() >= self.next:
+        """Write the file, if it is time."""
+        if self.is_due:
             self.write()
 
     def write(self, cost: float = 0.0) -> None:
@@ -136,7 +141,7 @@ class Stage:
     def _tick(self) -> None:
         now = time.monotonic()
         if self._asked is None:
-            if now >= self.keeper.next:
+            if self.keeper.is_due:
                 self.engine.ask()
                 self._asked = now
         elif now >= self._asked + GRACE:
