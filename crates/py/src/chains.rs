@@ -70,8 +70,7 @@ impl PyChains {
         let known = start.map(PyRun::by_address);
         let checkpoint = checkpoint.map(|own| &own.checkpoint);
         let (chains, _) = detached(py, &kept.program, threads, None, |_| {
-            let mut chains =
-                Chains::start_from(&kept, &settings, method.chains, known.as_ref(), checkpoint)?;
+            let mut chains = Chains::start_from(&kept, &settings, method.chains, known.as_ref(), checkpoint)?;
             chains.aim_anew(method.steps);
             Ok(chains)
         })?;

@@ -1,4 +1,4 @@
-"""What a training keeps to go on after it was killed: what its rounds gave, and the traces and the network of the last."""
+"""What a training keeps to go on after it was killed: what its rounds gave; traces and network of the last round."""
 
 from __future__ import annotations
 
@@ -70,4 +70,3 @@ class Memory:
         """The training has ended."""
         if self.keeper is not None:
             self.keeper.finish(interrupted)
-

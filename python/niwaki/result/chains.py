@@ -20,8 +20,7 @@ from niwaki.result.progress import EngineWatch
 from niwaki.result.sample import Sample
 
 if TYPE_CHECKING:
-    from niwaki.search import Search
-    from niwaki.search.keeping import Stage
+    from niwaki.search import Search, Stage
 
 
 @dataclass(frozen=True)

@@ -211,7 +211,11 @@ class Result(Sequence[Sample]):
             Proposals in each chain.
         """
         at_least_one("steps", steps)
-        return self._more(steps)
+        self._more(steps)
+        stage = self.info.running.stage if isinstance(self.info, MhInfo) else None
+        if stage is not None:
+            stage.keeper.finish(self.interrupted)
+        return self
 
     def _more(self, steps: int | None) -> Result:
         """The same; without a number, the proposals that the method names or that an earlier process left."""
@@ -233,7 +237,6 @@ class Result(Sequence[Sample]):
             self.cpu_seconds += time.process_time() - cpu
             if stage is not None:
                 stage.collect()
-                stage.keeper.write_if_due()
             by_chain = chains.samples()
             visits = [[run.visit for run in runs] for runs in by_chain]
             self.info = replace(self.info, visits=visits, seconds=(self.seconds, self.cpu_seconds))

@@ -1,8 +1,8 @@
 """Checkpoints: what a search or a training needs to go on after it was killed, as one file.
 
-The first line names the format, its version and the SHA-256 of everything after it. The second is a table in JSON: what
-the checkpoint is of, a note, and the names and lengths of its parts, which follow as they are. The file is written whole;
-nothing in it is run.
+The first line names the format, its version and the SHA-256 of everything after it. The second is a table in JSON:
+what the checkpoint is of, a note, and the names and lengths of its parts, which follow as they are. The file is
+written whole; nothing in it is run.
 """
 
 from __future__ import annotations
@@ -43,11 +43,14 @@ class Checkpoint:
         time is spent on it.
     keep
         Whether the file stays when the search is done.
+    note
+        Plain data that is written with it.
     """
 
     path: str | PathLike[str]
     every: float = 1.0
     keep: bool = True
+    note: Any = None
 
     def __post_init__(self) -> None:
         """Check the settings."""
@@ -71,7 +74,7 @@ class Stored:
     about : dict
         What decides the result, by name: values, or their hashes.
     note : object
-        Plain data of whoever writes the file.
+        Plain data: the search, and that of whoever writes the file.
     parts : dict of str to bytes
         What there is to go on from.
     """

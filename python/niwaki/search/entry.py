@@ -83,10 +83,10 @@ def run(
     progress
         Called now and then with a `Progress`; an exception that it raises ends the search.
     checkpoint
-        A file, or a `Checkpoint`. What the search needs to go on is written there about every second, and a search whose
-        file is there goes on from it, with the same result as if it had not ended, and with its seed where none is
-        given. Chains, their `more`, and runs
-        before the last go on from there; one population, an enumeration or a chain of `hmc` begins again.
+        A file, or a `Checkpoint`. What the search needs to go on is written there about every second. A search whose
+        file is there goes on from it, with the same result as if it had not ended; where no seed is given, with the
+        seed of the file. Chains and several runs go on from where they were; one population, an enumeration, or a
+        chain of `hmc` begins again.
 
     Returns
     -------

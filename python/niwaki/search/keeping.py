@@ -34,8 +34,8 @@ class Keeper:
         Its file, and how often it is written.
     kind, about
         What it is of, as for `opened`.
-    note
-        Plain data for the file; that of the file, where there is one.
+    search
+        A search as plain data, to be written with it.
 
     Raises
     ------
@@ -44,11 +44,11 @@ class Keeper:
     """
 
     def __init__(
-        self, checkpoint: Checkpoint, kind: str, about: Mapping[str, Any], note: Any = None
+        self, checkpoint: Checkpoint, kind: str, about: Mapping[str, Any], search: Any = None
     ) -> None:
         self.checkpoint, self.path = checkpoint, Path(checkpoint.path)
         self.stored = opened(self.path, kind, about)
-        self.stored.note = note if note is not None else self.stored.note
+        self.stored.note = {"own": checkpoint.note, "search": search}
         self.next = time.monotonic() + checkpoint.every
         self.is_written, self._has_failed = False, False
 

@@ -295,7 +295,9 @@ class Search:
         """What decides the result, by name: short values as they are, and the hashes of others."""
 
         def short(value: Any) -> Any:
-            return value if isinstance(value, int | str | None) else text_hash(json.dumps(value, sort_keys=True))
+            return (
+                value if isinstance(value, int | str | None) else text_hash(json.dumps(value, sort_keys=True))
+            )
 
         return {f"its `{name}`": short(value) for name, value in self._decisive().items()}
 

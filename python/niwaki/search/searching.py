@@ -8,7 +8,7 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
 from math import exp
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from niwaki import _engine
 from niwaki.errors import InputError, ModelFault
@@ -40,9 +40,9 @@ class SearchWarning(UserWarning):
     """A search gave a result, but one that is worth less than its settings promise."""
 
 
-def keeper(search: Search, checkpoint: Checkpoint, note: Any = None) -> Keeper:
+def keeper(search: Search, checkpoint: Checkpoint) -> Keeper:
     """What keeps the checkpoint of a search; an error where the file is of another one."""
-    return Keeper(checkpoint, "search", search.about, note)
+    return Keeper(checkpoint, "search", search.about, search.data())
 
 
 def carried_out(
@@ -163,9 +163,7 @@ def _left(keeper: Keeper | None, name: str, search: Search, seed: int) -> Result
     data = None if keeper is None else keeper.get(name)
     if data is None:
         return None
-    samples = [
-        Sample(search.task.run_of_data(run), search, seed, *spent) for run, *spent in data["samples"]
-    ]
+    samples = [Sample(search.task.run_of_data(run), search, seed, *spent) for run, *spent in data["samples"]]
     return Result(
         search,
         samples,

@@ -139,11 +139,7 @@ impl<R: Rules> Ladder<R> {
     ///
     /// # Errors
     /// As for [`Chain::advance`].
-    pub(super) fn go_on(
-        &mut self,
-        task: &Task,
-        watch: &mut dyn FnMut(&Self) -> bool,
-    ) -> Result<(), Failure> {
+    pub(super) fn go_on(&mut self, task: &Task, watch: &mut dyn FnMut(&Self) -> bool) -> Result<(), Failure> {
         let mut pace = Pace::default();
         while self.visit() < self.end {
             let left = self.end - self.visit();

@@ -85,7 +85,9 @@ impl Proposer {
     pub(crate) fn know(&mut self, learnt: Learnt) -> bool {
         match (self, learnt) {
             (Proposer::Drift(own), Learnt::Steps(steps)) => own.know(&steps),
-            (Proposer::Block(own), Learnt::Steps(steps)) if steps.len() == 1 => own.step = Step::known(steps[0]),
+            (Proposer::Block(own), Learnt::Steps(steps)) if steps.len() == 1 => {
+                own.step = Step::known(steps[0])
+            }
             (Proposer::HmcStep(own) | Proposer::NutsStep(own), Learnt::Travels(learnt)) => own.know(*learnt),
             (_, Learnt::Nothing) => {}
             _ => return false,

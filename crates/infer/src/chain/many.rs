@@ -50,10 +50,14 @@ impl<R: Rules> Chains<R> {
         checkpoint: Option<&Checkpoint>,
     ) -> Result<Chains<R>, Failure> {
         let chains = (0..count as u64).into_par_iter().map(|number| {
-            match checkpoint.map_or(Ok(None), |own| own.left(number))? {
-                Some(stored) => Ladder::restored(task, settings, number, stored),
-                None => Ladder::start(task, settings, number, known),
+            if let Some(stored) = checkpoint.map_or(Ok(None), |own| own.left(number))? {
+                return Ladder::restored(task, settings, number, stored);
             }
+            // Counted apart, so that a chain is stored with its own count.
+            let own = task.uncounted();
+            let mut ladder = Ladder::start(&own, settings, number, known)?;
+            ladder.invalid = own.invalid.counts();
+            Ok(ladder)
         });
         let chains: Vec<Ladder<R>> = chains.collect::<Result<_, _>>()?;
         for chain in &chains {
@@ -110,7 +114,6 @@ impl<R: Rules> Chains<R> {
             .par_iter_mut()
             .enumerate()
             .map(|(i, chain)| {
-                // Counted apart, so that a chain is stored with its own count.
                 let (own, before) = (task.uncounted(), std::mem::take(&mut chain.invalid));
                 own.invalid.add(before.iter().cloned());
                 let done = chain.go_on(&own, &mut |chain| {

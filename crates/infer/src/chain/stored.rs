@@ -55,7 +55,9 @@ impl StoredState {
         let mut state = State::of_choices(task, &choices)?;
         let scores = (state.trace.totals().log_prior.value(), state.log_score());
         if (scores.0.to_bits(), scores.1.to_bits()) != (self.log_prior.to_bits(), self.log_score.to_bits()) {
-            return Err(unfit("its choices score differently here: a function of Python answers differently"));
+            return Err(unfit(
+                "its choices score differently here: a function of Python answers differently",
+            ));
         }
         state.moved = self.moved;
         Ok(state)
@@ -130,11 +132,7 @@ impl<R: Rules> Chain<R> {
 
 impl<R: Rules> Ladder<R> {
     /// Its data; `invalid` are the invalid runs that it counted so far.
-    pub(super) fn stored(
-        &self,
-        program: &Program,
-        invalid: Vec<(String, u64)>,
-    ) -> StoredLadder<Vec<&Run>> {
+    pub(super) fn stored(&self, program: &Program, invalid: Vec<(String, u64)>) -> StoredLadder<Vec<&Run>> {
         let rungs = self.rungs.iter().map(|rung| rung.stored(program)).collect();
         StoredLadder { rungs, exchanges: self.exchanges.clone(), end: self.end, invalid }
     }

@@ -32,10 +32,10 @@ use crate::{Failure, Task};
 use niwaki_math::RngCore;
 use niwaki_vm::fault::Fault;
 use rounds::Search;
-use stored::Stored;
 use serde::Deserialize;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
+use stored::Stored;
 
 /// Rounds where neither their number nor a time is given.
 const USUAL_ROUNDS: u64 = 15;
@@ -228,9 +228,8 @@ impl Improve {
         let invalid = || task.invalid.counts();
         while number < most && idle < PATIENCE.max(number / 2) && !info.interrupted && !is_late() {
             if let Some(checkpoint) = seen.checkpoint {
-                checkpoint.at_border(part, || {
-                    Stored::of(&search, &info, (number, idle), elapsed(), invalid())
-                });
+                checkpoint
+                    .at_border(part, || Stored::of(&search, &info, (number, idle), elapsed(), invalid()));
             }
             let before = search.best.log_score;
             seen.shown.inspect(|shown| search.best.show(shown));

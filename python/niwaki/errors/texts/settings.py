@@ -79,10 +79,18 @@ SETTINGS = (
     Message(
         "bad-checkpoint",
         "this checkpoint cannot be gone on with",
-        why="{detail}",
+        why="a search goes on from the whole file that this version of Niwaki wrote",
         help="delete the file to begin anew, or name another one",
         example='niwaki.run(model, mh(10_000), checkpoint="picture.png")',
         cure='niwaki.run(model, mh(10_000), checkpoint="run.checkpoint")',
+    ),
+    Message(
+        "no-checkpoint",
+        "there is nothing to go on with: no file `{path}`",
+        why="a search or a training that is over removes its checkpoint, and one that was killed in its first second has none",
+        help="begin anew: the same command without `--resume`",
+        example="niwaki grow --resume out",
+        cure="niwaki grow spaceship -o out",
     ),
     Message(
         "other-checkpoint",
