@@ -149,7 +149,8 @@ def _end(
 ) -> None:
     """Write the files, where there is a folder for them, and say what was found."""
     if folder is not None:
-        _write(folder, result, found, files, picture)
+        with resuming.ended(result, checkpoint):
+            _write(folder, result, found, files, picture)
     if as_json:
         print(json.dumps({"runs": [shell.run_files.numbers(sample) for sample in result]}))
     elif folder is not None:
@@ -158,7 +159,6 @@ def _end(
         if folder is not None:
             print(resuming.interrupted(folder, "grow"), file=sys.stderr if as_json else sys.stdout)
         raise typer.Exit(130)
-    resuming.done(checkpoint)
 
 
 def _sketches(score: nw.Score) -> list[str]:

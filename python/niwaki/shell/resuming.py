@@ -14,7 +14,7 @@ from typing import Annotated, Any
 
 import typer
 
-from niwaki import Checkpoint, Search, gallery
+from niwaki import Checkpoint, Result, Search, gallery
 from niwaki.errors import InputError
 from niwaki.search.checkpoint import Stored
 from niwaki.shell.references import ModelReference
@@ -119,7 +119,14 @@ def interrupted(folder: Path, command: str) -> str:
     return f"interrupted; go on with: niwaki {command} --resume {folder}"
 
 
-def done(checkpoint: Checkpoint | None) -> None:
-    """All files are written: nothing is left to go on from."""
-    if checkpoint is not None:
-        Path(checkpoint.path).unlink(missing_ok=True)
+@contextmanager
+def ended(result: Result, checkpoint: Checkpoint | None) -> Iterator[None]:
+    """Around the writing of a result's files: when it is over, a search that is done has nothing left to go on from.
+
+    Also where a file cannot be written: run.json is the first, and gives the others again.
+    """
+    try:
+        yield
+    finally:
+        if checkpoint is not None and not result.interrupted:
+            Path(checkpoint.path).unlink(missing_ok=True)

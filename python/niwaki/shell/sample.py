@@ -92,7 +92,8 @@ def _end(
 ) -> None:
     """Write the files, where there is a folder for them, and say what was found."""
     if folder is not None:
-        _write(folder, result, found, picture)
+        with resuming.ended(result, checkpoint):
+            _write(folder, result, found, picture)
     if as_json:
         print(json.dumps({"runs": [shell.run_files.numbers(one) for one in result.bests]}))
     elif folder is not None:
@@ -101,7 +102,6 @@ def _end(
         if folder is not None:
             print(resuming.interrupted(folder, "sample"), file=sys.stderr if as_json else sys.stdout)
         raise typer.Exit(130)
-    resuming.done(checkpoint)
 
 
 def _write(output: Path, result: nw.Result, found: shell.references.ModelReference, picture: bool) -> None:

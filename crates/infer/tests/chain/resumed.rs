@@ -130,8 +130,8 @@ fn improve_goes_on_with_the_same_bits() {
         let task = Task { sketches, ..task(text) };
         let (whole, _) = improved(&task, HashMap::new(), u64::MAX);
         let (mut left, mut stops, mut told) = (HashMap::new(), 0, None);
-        while told.is_none() && stops < 400 {
-            let (ended, stored) = improved(&task, left.clone(), 9 + stops % 5);
+        while told.is_none() {
+            let (ended, stored) = improved(&task, left.clone(), 15 * (1 + stops));
             told = ended;
             // A part that was not stored again is that of before.
             left.extend(stored);
