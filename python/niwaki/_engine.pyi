@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 __all__ = [
     "BadParameter",
     "Chains",
+    "Checkpoint",
     "Choice",
     "Coordinates",
     "Density",

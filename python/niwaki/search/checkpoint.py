@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from niwaki import _engine
-from niwaki.errors import InputError
+from niwaki.errors import FileError, InputError
 from niwaki.errors.files import write_whole
 from niwaki.errors.settings import bad, is_number
 
@@ -97,7 +97,10 @@ class Stored:
 
     def write(self, path: Path) -> None:
         """Write the file, in a folder that is created where it is missing."""
-        path.parent.mkdir(parents=True, exist_ok=True)
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise FileError("file-unwritable", path, reason=error.strerror or str(error)) from error
         write_whole(path, self.bytes())
 
     @classmethod
@@ -128,11 +131,14 @@ class Stored:
         if words[2] != hashlib.sha256(rest).hexdigest():
             raise refused("it is damaged: its bytes are not those that were written")
         head, _, body = rest.partition(b"\n")
-        table = json.loads(head)
-        parts, at = {}, 0
-        for name, length in table["parts"]:
-            parts[name], at = body[at : at + length], at + length
-        return cls(table["kind"], table["about"], table["note"], parts)
+        try:
+            table = json.loads(head)
+            parts, at = dict[str, bytes](), 0
+            for name, length in table["parts"]:
+                parts[str(name)], at = body[at : at + length], at + length
+            return cls(str(table["kind"]), dict(table["about"]), table["note"], parts)
+        except (ValueError, KeyError, TypeError, RecursionError) as error:
+            raise refused(f"its table is not that of a checkpoint: {error!r}") from error
 
 
 def opened(path: Path, kind: str, about: Mapping[str, Any]) -> Stored:

@@ -89,7 +89,7 @@ class Keeper:
         try:
             self.stored.write(self.path)
             self.is_written = True
-        except (OSError, FileError) as error:
+        except FileError as error:
             if not self.is_written:
                 raise
             if not self._has_failed:

@@ -1,4 +1,4 @@
-"""Claim: a search of the shell goes on after Ctrl-C and after a kill, and writes the files of one that was left alone."""
+"""Claim: a search of the shell goes on after Ctrl-C and after a kill, and writes the files of one left alone."""
 
 from __future__ import annotations
 
