@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from os import PathLike
@@ -151,7 +152,8 @@ def opened(path: Path, kind: str, about: Mapping[str, Any]) -> Stored:
     """
     own = {**about, "the version of Niwaki": _engine.__version__, "the machine": _engine.fingerprint()}
     own = json.loads(json.dumps(own))
-    if not path.exists():
+    # A name that no file can have is refused where it is written.
+    if not os.path.exists(path):
         return Stored(kind, own)
     found = Stored.read(path)
     if found.kind != kind:
@@ -173,7 +175,7 @@ def _difference(name: str, then: Any, now: Any) -> str:
 
 def begun_seed(seed: int | None, given: Checkpoint | str | PathLike[str] | None) -> int | None:
     """The seed, or where none is given that of the search or training that a checkpoint is of."""
-    if seed is not None or given is None or not Path(Checkpoint.of(given).path).exists():
+    if seed is not None or given is None or not os.path.exists(Checkpoint.of(given).path):
         return seed
     found = Stored.read(Path(Checkpoint.of(given).path)).about.get("its `seed`")
     return found if isinstance(found, int) else None

@@ -64,7 +64,13 @@ def begun(folder: Path, command: str, found: ModelReference, **flags: Any) -> Ch
     if place.exists():
         place.unlink()
         print(f"warning: {place}, of a search that did not end, is replaced", file=sys.stderr)
-    return Checkpoint(place, note={"command": command, "model": found.reference, "flags": flags})
+    own = {
+        "command": command,
+        "model": found.reference,
+        "file_hash": found.file_hash,
+        "flags": flags,
+    }
+    return Checkpoint(place, note=own)
 
 
 def left(
@@ -98,7 +104,7 @@ def left(
             "bad-checkpoint", detail=f"`{place}` was written by {other}, not by niwaki {command}"
         )
     search = Search.of_data(note["search"])
-    known = ModelReference(own["model"], search.model, gallery.entry(own["model"]))
+    known = ModelReference(own["model"], search.model, gallery.entry(own["model"]), own["file_hash"])
     return search, known, own["flags"], Checkpoint(place, note=own)
 
 

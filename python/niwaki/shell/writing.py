@@ -105,6 +105,11 @@ class Files:
         fields: dict[str, Any] = {k: tuple(v) if isinstance(v, list) else v for k, v in data.items()}
         return cls(**fields)
 
+    @property
+    def names(self) -> list[str]:
+        """The names of the files."""
+        return [f"{'growth' if name in ANIMATIONS else 'best'}.{name}" for name in self.formats]
+
     def write(self, sample: nw.Sample, folder: Path, target: nw.Target | None = None) -> list[Path]:
         """Write each file, moving ones with the target as a ghost.
 
