@@ -6,6 +6,7 @@ controls.py   what the shape should be like, as flags
 settings.py   how to search, as flags
 writing.py    which files a result becomes
 grow.py       `niwaki grow`: a search, written to a folder
+resuming.py   `--resume`: a search goes on that was stopped or killed
 replay.py     `niwaki replay`: a result once more, in any format
 sample.py     `niwaki sample`: Markov chains, written to a folder
 explain.py    `niwaki explain`: what each strategy does for one proposal, as a picture
