@@ -1,7 +1,8 @@
 """A run of a model whose source has changed since: what still fits is kept, what is new is drawn.
 
-`niwaki replay --anyway` runs the model's file as it is. Choices are matched by address, whatever their line. One that the
-model does not make any more, or whose value is not possible there, is left out; one that the run did not have is drawn.
+`niwaki replay --anyway` runs the model's file as it is. Choices are matched by address, whatever their line. One that
+the model does not make any more, or whose value is not possible there, is left out; one that the run did not have is
+drawn.
 """
 
 from __future__ import annotations

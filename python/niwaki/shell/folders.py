@@ -1,7 +1,7 @@
 """Where a command writes: a folder of its own, so that no result is replaced without a word.
 
-A folder that a person named with `-o` is refused where it has results, unless `--force` is given. Without `-o` the first
-of `out`, `out-2`, `out-3`, ... that has none is taken.
+A folder that a person named with `-o` is refused where it has results or a search that did not end, unless `--force` is
+given. Without `-o` the first of `out`, `out-2`, `out-3`, ... that has none is taken.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ import typer
 
 from niwaki.errors import FileError, InputError
 from niwaki.errors.folders import held_folder
-from niwaki.shell import results
+from niwaki.shell import results, resuming
 
 Force = Annotated[
     bool, typer.Option("--force", help="Replace the results that the folder of -o has from another run.")
@@ -46,7 +46,7 @@ def own_folder(output: Path | None, force: bool = False) -> Iterator[Path]:
     """
     if output is not None:
         with held_folder(output) as folder:
-            found = results.present(folder)
+            found = _present(folder)
             if found and not force:
                 raise InputError("folder-has-results", path=output, found=found)
             yield folder
@@ -60,6 +60,11 @@ def own_folder(output: Path | None, force: bool = False) -> Iterator[Path]:
                 if error.code != "folder-in-use":
                     raise
                 continue
-            if force or not results.present(folder):
+            if force or not _present(folder):
                 yield folder
                 return
+
+
+def _present(folder: Path) -> str:
+    """What a folder has of another run, for people; empty where it has nothing."""
+    return resuming.NAME if (folder / resuming.NAME).exists() else results.present(folder)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import sys
 from contextlib import nullcontext
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -13,8 +14,9 @@ import typer
 import niwaki as nw
 from niwaki import gallery, search, shell
 from niwaki import result as results
-from niwaki.shell import arguments, controls, folders, held, picking, pictures, settings, writing
-from niwaki.shell.app import Folder, ModelName, app, counted
+from niwaki.errors.folders import held_folder
+from niwaki.shell import arguments, controls, folders, held, picking, pictures, resuming, settings, writing
+from niwaki.shell.app import Folder, app, counted
 from niwaki.shell.clock import Clock
 from niwaki.shell.progress import progress_line
 
@@ -26,7 +28,8 @@ from niwaki.shell.progress import progress_line
     particles="the model's own, or 300; of improve a third",
 )
 def grow(
-    model: ModelName,
+    context: typer.Context,
+    model: resuming.Model = None,
     values: arguments.Arguments = None,
     preset: arguments.Preset = None,
     target: controls.TargetFile = None,
@@ -59,6 +62,7 @@ def grow(
         int | None, typer.Option(help="Default: all cores. Results do not depend on it.")
     ] = None,
     max_steps: Annotated[int, typer.Option(help="Most calls and loop steps of one run.")] = 20_000_000,
+    resume: resuming.Resume = None,
     output: Folder = None,
     force: folders.Force = False,
     formats: writing.Formats = None,
@@ -81,8 +85,17 @@ def grow(
 ) -> None:
     """Grow MODEL into its target; writes best.glb (best.svg of a drawing), best.png, sheet.png and run.json."""
     clock = Clock()
+    if resume is not None:
+        search_left, found, flags, checkpoint = resuming.left(context, resume, "grow")
+        wanted = Wanted.of_data(flags)
+        with held_folder(resume) as folder:
+            with clock.part("search"):
+                with progress_line(found.reference) as progress, resuming.told(checkpoint, "grow"):
+                    result = search_left.run(threads=threads, progress=progress, checkpoint=checkpoint)
+            _end(result, found, folder, wanted, as_json, checkpoint, clock)
+        return
     with clock.part("compile"):
-        found = shell.references.find(model)
+        found = shell.references.find(resuming.required(context, model))
         own_values = arguments.read(found.model, values, preset)
         found.model.program()
     onto = held.Origin.of_flags(origin, number, lock, reroll)
@@ -141,24 +154,72 @@ def grow(
     picking.exported(export, most)
     writes = output is not None or not as_json
     # Before the search: that a folder cannot be written to must not be the news at its end.
+    wanted = Wanted(files, picture, quick, export, None if onto is None else onto.data())
     with folders.own_folder(output, force) if writes else nullcontext() as folder:
+        kept = None
+        rerolls = onto is not None and bool(onto.reroll)
+        if folder is not None and not rerolls:
+            kept = resuming.begun(folder, "grow", found, **asdict(wanted))
         with clock.part("search"):
-            if onto is not None and onto.reroll:
+            if onto is not None and rerolls:
                 result = onto.rerolled(asked, given.get("particles"), threads)
             else:
-                with progress_line(found.reference) as progress:
-                    result = asked.run(threads=threads, progress=progress)
-        if folder is not None:
-            data = shell.run_files.written(result, found)
-            if onto is not None:
-                data["origin"] = onto.data()
-            numbers = picking.exported(export, len(result))
-            _write(folder, result, data, files, pictures.Pictures(picture, quick), numbers, clock)
+                with progress_line(found.reference) as progress, resuming.told(kept, "grow"):
+                    result = asked.run(threads=threads, progress=progress, checkpoint=kept)
+        _end(result, found, folder, wanted, as_json, kept, clock)
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What to write of a result, kept in a checkpoint.
+
+    Attributes
+    ----------
+    files
+        The files of the best, and of those that are exported.
+    picture, quick
+        Whether pictures are drawn, and as drafts.
+    export
+        Numbers of results, as typed.
+    origin
+        What the search goes on from.
+    """
+
+    files: writing.Files
+    picture: bool
+    quick: bool
+    export: str | None
+    origin: dict[str, Any] | None
+
+    @classmethod
+    def of_data(cls, data: dict[str, Any]) -> Wanted:
+        """Read from JSON what `dataclasses.asdict` gave."""
+        return cls(**{**data, "files": writing.Files.of_data(data["files"])})
+
+
+def _end(
+    result: nw.Result,
+    found: shell.references.ModelReference,
+    folder: Path | None,
+    wanted: Wanted,
+    as_json: bool,
+    checkpoint: nw.Checkpoint | None,
+    clock: Clock,
+) -> None:
+    """Write the files, where there is a folder for them, and say what was found."""
+    if folder is not None:
+        data = shell.run_files.written(result, found)
+        if wanted.origin is not None:
+            data["origin"] = wanted.origin
+        with resuming.ended(result, checkpoint):
+            _write(folder, result, data, wanted, clock)
     if as_json:
         print(json.dumps({"runs": [shell.run_files.numbers(sample) for sample in result]}))
-    else:
+    elif folder is not None:
         _summary(result, folder, clock)
     if result.interrupted:
+        if folder is not None:
+            print(resuming.interrupted(folder, "grow"), file=sys.stderr if as_json else sys.stdout)
         raise typer.Exit(130)
 
 
@@ -171,9 +232,7 @@ def _write(
     folder: Path,
     result: nw.Result,
     data: dict[str, Any],
-    files: writing.Files,
-    drawn: pictures.Pictures,
-    numbers: list[int],
+    wanted: Wanted,
     clock: Clock,
 ) -> None:
     """Write run.json first: the other files can be created again from it."""
@@ -184,6 +243,8 @@ def _write(
                 "warning: the best run emitted nothing, so there is no mesh and no picture", file=sys.stderr
             )
         return
+    files, drawn = wanted.files, pictures.Pictures(wanted.picture, wanted.quick)
+    numbers = picking.exported(wanted.export, len(result))
     picked = [(number, result[number - 1]) for number in numbers if result[number - 1].primitives]
     names = [*files.names(), *(name for number, _ in picked for name in files.names(number))]
     with shell.results.written(folder, data, [*names, *drawn.names(result, files.style)]):
@@ -195,7 +256,7 @@ def _write(
                 files.write(sample, folder, number)
 
 
-def _summary(result: nw.Result, folder: Path | None, clock: Clock) -> None:
+def _summary(result: nw.Result, folder: Path, clock: Clock) -> None:
     if isinstance(result.info, results.info.ImproveInfo) and len({sample.seed for sample in result}) == 1:
         print(result.info)
     for number, sample in enumerate(result, 1):

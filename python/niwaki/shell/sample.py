@@ -19,15 +19,17 @@ import niwaki as nw
 from niwaki import kernels, shell
 from niwaki.draw import finite
 from niwaki.errors.files import write_whole
+from niwaki.errors.folders import held_folder
 from niwaki.methods import Mh
-from niwaki.shell import arguments, folders, pictures, settings
-from niwaki.shell.app import Folder, ModelName, app
+from niwaki.shell import arguments, folders, pictures, resuming, settings
+from niwaki.shell.app import Folder, app
 
 
 @app.command()
 @settings.with_settings(Mh, chains="4", warmup="a fifth of all", keep="100", kernel="prior()")
 def sample(
-    model: ModelName,
+    context: typer.Context,
+    model: resuming.Model = None,
     values: arguments.Arguments = None,
     preset: arguments.Preset = None,
     target: Annotated[
@@ -42,6 +44,7 @@ def sample(
     sigma: Annotated[float, typer.Option(help="Strictness of the match.")] = 0.02,
     seed: Annotated[int | None, typer.Option(help="Default: a new one, which run.json keeps.")] = None,
     threads: Annotated[int | None, typer.Option(help="Default: all cores.")] = None,
+    resume: resuming.Resume = None,
     output: Folder = None,
     force: folders.Force = False,
     as_json: Annotated[
@@ -54,7 +57,17 @@ def sample(
     **given: Any,
 ) -> None:
     """Sample MODEL by Markov chains; writes samples.csv and run.json, and best.glb, best.png, sheet.png for scenes."""
-    found = shell.references.find(model)
+    if resume is not None:
+        search_left, found, flags, checkpoint = resuming.left(context, resume, "sample")
+        left = search_left.method
+        proposals = left.steps * left.chains if isinstance(left, Mh) else 0
+        with held_folder(resume) as folder:
+            with _shown(found.reference, proposals) as progress, resuming.told(checkpoint, "sample"):
+                result = search_left.run(threads=threads, progress=progress, checkpoint=checkpoint)
+            drawn = pictures.Pictures(flags["picture"], flags["quick"])
+            _end(result, found, folder, drawn, as_json, checkpoint)
+        return
+    found = shell.references.find(resuming.required(context, model))
     own = arguments.read(found.model, values, preset)
     score = nw.Score()
     if target is not None:
@@ -62,24 +75,43 @@ def sample(
     given = settings.typed(given)
     steps = given.get("steps", Mh.steps)
     method = Mh(**{"kernel": kernels.prior(), "chains": 4, "warmup": steps // 5, "keep": 100, **given})
+    proposals = method.steps * method.chains
     writes = output is not None or not as_json
     with folders.own_folder(output, force) if writes else nullcontext() as folder:
-        with _shown(found.reference, method.steps * method.chains) as progress:
-            search = nw.Search(
-                found.model,
-                tuple(arguments.bound(found.model, own)),
-                score=score,
-                method=method,
-                seed=nw.search.fresh(seed),
-            )
-            result = search.run(threads=threads, progress=progress)
+        kept = None
         if folder is not None:
-            _write(folder, result, found, pictures.Pictures(picture, quick))
+            kept = resuming.begun(folder, "sample", found, picture=picture, quick=quick)
+        search = nw.Search(
+            found.model,
+            tuple(arguments.bound(found.model, own)),
+            score=score,
+            method=method,
+            seed=nw.search.fresh(seed),
+        )
+        with _shown(found.reference, proposals) as progress, resuming.told(kept, "sample"):
+            result = search.run(threads=threads, progress=progress, checkpoint=kept)
+        _end(result, found, folder, pictures.Pictures(picture, quick), as_json, kept)
+
+
+def _end(
+    result: nw.Result,
+    found: shell.references.ModelReference,
+    folder: Path | None,
+    drawn: pictures.Pictures,
+    as_json: bool,
+    checkpoint: nw.Checkpoint | None,
+) -> None:
+    """Write the files, where there is a folder for them, and say what was found."""
+    if folder is not None:
+        with resuming.ended(result, checkpoint):
+            _write(folder, result, found, drawn)
     if as_json:
         print(json.dumps({"runs": [shell.run_files.numbers(one) for one in result.bests]}))
-    else:
+    elif folder is not None:
         _summary(result, folder)
     if result.interrupted:
+        if folder is not None:
+            print(resuming.interrupted(folder, "sample"), file=sys.stderr if as_json else sys.stdout)
         raise typer.Exit(130)
 
 
@@ -120,7 +152,7 @@ def _plain(value: Any) -> Any:
     return finite.scalar(value) if isinstance(value, float) else value
 
 
-def _summary(result: nw.Result, folder: Path | None) -> None:
+def _summary(result: nw.Result, folder: Path) -> None:
     print(f"{'site':<40}{'proposals':>12}{'accepted':>10}")
     for name, row in list(result.acceptance.items())[:12]:
         print(f"{name:<40}{row.proposed:>12}{row.rate:>10.2f}")
