@@ -42,7 +42,7 @@ def _gain(task: _engine.Task, best: Sample) -> str:
 
 def _size(target: Target, scene: Scene) -> str:
     own, wanted = float(scene.size.max()), float(target.size.max())
-    if wanted / SIZES < own < wanted * SIZES:
+    if wanted / SIZES <= own <= wanted * SIZES:
         return ""
     times, small, large = (
         (own / wanted, "target", "model") if own > wanted else (wanted / own, "model", "target")
