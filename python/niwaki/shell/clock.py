@@ -9,17 +9,20 @@ from pathlib import Path
 
 
 class Clock:
-    """Seconds of the wall by what was done in them; the start of the process is its first part.
+    """Seconds of the wall by what was done in them; for the command of a process its start is the first part.
 
     >>> clock = Clock()
     >>> with clock.part("search"):
     ...     pass
     >>> list(clock.parts)
-    ['start', 'search']
+    ['search']
     """
 
+    #: Whether this process is for one command.
+    of_process = False
+
     def __init__(self) -> None:
-        self.parts: dict[str, float] = {"start": _since_start()}
+        self.parts: dict[str, float] = {"start": since_start()} if self.of_process else {}
 
     @contextmanager
     def part(self, name: str) -> Iterator[None]:
@@ -35,7 +38,7 @@ class Clock:
         return f"{sum(self.parts.values()):.2f} s: {listed}"
 
 
-def _since_start() -> float:
+def since_start() -> float:
     """Seconds since this process began; its processor time where the system does not say when that was."""
     with suppress(OSError, ValueError, IndexError, AttributeError):
         # Field 22 of Linux's stat: the start in hundredths of a second after boot (proc_pid_stat(5), USER_HZ).
