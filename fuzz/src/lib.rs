@@ -20,11 +20,13 @@
 
 pub mod core_text;
 pub mod distributions;
+#[cfg(feature = "search")]
 pub mod grown;
 pub mod guides;
 pub mod meshes;
 pub mod mutate;
 pub mod numbers;
+#[cfg(feature = "search")]
 pub mod programs;
 pub mod sketches;
 pub mod solids;

@@ -18,6 +18,7 @@ import argparse
 import json
 import os
 import re
+import resource
 import secrets
 import shutil
 import subprocess
@@ -31,9 +32,11 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 ENGINE = ROOT / "fuzz"
 #: Limits of one input of the engine: seconds, mebibytes of memory, mebibytes of one allocation, bytes of the input.
-LIMITS = {"timeout": 20, "rss_limit_mb": 2048, "malloc_limit_mb": 1024, "max_len": 4096}
+LIMITS = {"timeout": 20, "rss_limit_mb": 2048, "malloc_limit_mb": 1024, "max_len": 4096, "len_control": 0}
 #: Bytes of a packed corpus.
 PACKED = 100_000
+#: A fuzzer that has found so much is stopped.
+MOST_FINDINGS = 20
 #: Files here that are no fuzzers.
 NO_FUZZERS = {"fuzzers", "reports", "seeds", "test_fuzzers"}
 
@@ -45,6 +48,7 @@ class Tried:
     name: str
     inputs: int = 0
     seconds: float = 0.0
+    cpu: float = 0.0
     findings: list[str] = field(default_factory=list)
 
 
@@ -69,10 +73,19 @@ def toolchain() -> list[str]:
     return ["+nightly", "address"] if nightly else ["+stable", "none"]
 
 
-def cargo_fuzz(command: str, target: str, *rest: str) -> list[str]:
-    """A command of cargo-fuzz."""
+def build() -> None:
+    """Builds every target."""
     chain, sanitizer = toolchain()
-    return ["cargo", chain, "fuzz", command, "--sanitizer", sanitizer, *([target] if target else []), *rest]
+    print(f"building by the toolchain {chain[1:]}, sanitizer: {sanitizer}", flush=True)
+    subprocess.run(["cargo", chain, "fuzz", "build", "--sanitizer", sanitizer], cwd=ROOT, check=True)
+
+
+def program(target: str) -> str:
+    """The program of a target; cargo-fuzz builds it in a folder that is named by the machine."""
+    made = sorted(ENGINE.glob(f"target/*/release/{target}"))
+    if not made:
+        raise SystemExit(f"`cargo fuzz build` made no program {target}")
+    return str(made[0])
 
 
 def unpacked(target: str) -> Path:
@@ -91,15 +104,16 @@ def run_engine(target: str, seconds: float) -> Tried:
     """One target of cargo-fuzz. It goes on after a finding, until the time is over."""
     tried, began = Tried(target), time.monotonic()
     artifacts = ENGINE / "artifacts" / target
+    artifacts.mkdir(parents=True, exist_ok=True)
     before = set(artifacts.glob("*"))
     flags = [f"-{name}={value}" for name, value in LIMITS.items()]
     # Running out of memory or time is a finding as well, and ends a process; another one goes on.
-    while (left := seconds - (time.monotonic() - began)) > 1:
-        command = cargo_fuzz(
-            "run", target, str(unpacked(target)), "--", *flags, f"-max_total_time={left:.0f}"
+    while (left := seconds - (time.monotonic() - began)) > 1 and len(tried.findings) < MOST_FINDINGS:
+        command = [program(target), str(unpacked(target)), *flags, f"-max_total_time={left:.0f}"]
+        command += ["-print_final_stats=1", f"-artifact_prefix={artifacts}/"]
+        done = subprocess.run(
+            command, cwd=ROOT, env=environment(), capture_output=True, text=True, errors="replace"
         )
-        command += ["-print_final_stats=1", "-verbosity=0" if tried.findings else "-verbosity=1"]
-        done = subprocess.run(command, cwd=ROOT, env=environment(), capture_output=True, text=True)
         counts = re.findall(r"stat::number_of_executed_units:\s*(\d+)", done.stderr)
         tried.inputs += int(counts[-1]) if counts else 0
         new = set(artifacts.glob("*")) - before
@@ -144,8 +158,12 @@ def run_python(name: str, seconds: float) -> Tried:
 
 def pack(target: str) -> None:
     """The smallest inputs that reach what the corpus reaches, as many as fit, into the repository."""
-    folder = unpacked(target)
-    subprocess.run(cargo_fuzz("cmin", target, str(folder)), cwd=ROOT, env=environment(), check=True)
+    all_of_them = unpacked(target)
+    folder = all_of_them.with_name(f"{target}.least")
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    merge = [program(target), "-merge=1", str(folder), str(all_of_them)]
+    subprocess.run(merge, cwd=ROOT, env=environment(), check=True, stderr=subprocess.DEVNULL)
     packed = ENGINE / "corpora" / f"{target}.zip"
     packed.parent.mkdir(exist_ok=True)
     with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
@@ -157,7 +175,20 @@ def pack(target: str) -> None:
             # The list at the end of an archive takes as much again as its heads.
             if packed.stat().st_size + 90 * len(archive.namelist()) > PACKED - 5000:
                 break
+    shutil.rmtree(all_of_them)
+    folder.rename(all_of_them)
     print(f"{packed.relative_to(ROOT)}: {packed.stat().st_size} bytes")
+
+
+def cpu() -> float:
+    """Seconds of processors that ended children took: on a machine that others use, less than the time that passed."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def row(name: str, inputs: int, seconds: float, of_cpu: float, findings: int) -> str:
+    """A row of the table."""
+    return f"{name:<16} {inputs:>12,} {seconds:>8.0f} {of_cpu:>8.0f} {findings:>8}"
 
 
 def main() -> int:
@@ -176,23 +207,23 @@ def main() -> int:
         if shutil.which("cargo-fuzz") is None:
             print("no cargo-fuzz; install it: cargo install cargo-fuzz --locked", file=sys.stderr)
             return 2
-        print(f"building with {' and the sanitizer '.join(toolchain())}", flush=True)
-        subprocess.run(cargo_fuzz("build", ""), cwd=ROOT, env=environment(), check=True)
+        build()
     if chosen.corpora:
         for name in engine:
             pack(name)
         return 0
     tried = []
-    print(f"{'fuzzer':<16} {'inputs':>12} {'seconds':>8} {'findings':>8}", flush=True)
+    print(f"{'fuzzer':<16} {'inputs':>12} {'seconds':>8} {'of CPU':>8} {'findings':>8}", flush=True)
     for name in engine + python:
+        before = cpu()
         one = (run_engine if name in engine else run_python)(name, 60 * chosen.minutes)
-        print(f"{one.name:<16} {one.inputs:>12,} {one.seconds:>8.0f} {len(one.findings):>8}", flush=True)
+        one.cpu = cpu() - before
+        print(row(one.name, one.inputs, one.seconds, one.cpu, len(one.findings)), flush=True)
         for finding in one.findings:
             print(f"    {finding}", flush=True)
         tried.append(one)
-    inputs, seconds = sum(one.inputs for one in tried), sum(one.seconds for one in tried)
-    findings = sum(len(one.findings) for one in tried)
-    print(f"{'all':<16} {inputs:>12,} {seconds:>8.0f} {findings:>8}")
+    inputs, findings = sum(one.inputs for one in tried), sum(len(one.findings) for one in tried)
+    print(row("all", inputs, sum(one.seconds for one in tried), sum(one.cpu for one in tried), findings))
     return 1 if findings else 0
 
 

@@ -1,4 +1,5 @@
-"""First inputs of the fuzzers of core text: what the gallery, the specification and random programs compile to.
+"""First inputs of the fuzzers: for core text what the gallery, the specification and random programs compile to; for
+the others some bytes.
 
     python tests/fuzz/seeds.py
 
@@ -8,16 +9,21 @@ They go to `fuzz/corpus`, which git ignores; `fuzzers.py --corpora` packs those 
 from __future__ import annotations
 
 import hashlib
+import random
 import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tests" / part) for part in ("fuzz", "agreement", "language")]
 
+from fuzzers import engine_targets  # noqa: E402
+
 #: Longer texts are left out: small ones reach as much, faster.
 LONGEST = 4000
 #: Random programs of each kind.
 PROGRAMS = 60
+#: Inputs of random bytes.
+BYTES = 40
 
 
 def texts() -> list[str]:
@@ -41,11 +47,20 @@ def texts() -> list[str]:
     return [text for text in found if len(text) <= LONGEST]
 
 
+def write(target: str, inputs: list[bytes]) -> None:
+    """Into the target's corpus."""
+    folder = ROOT / "fuzz" / "corpus" / target
+    folder.mkdir(parents=True, exist_ok=True)
+    for content in inputs:
+        (folder / hashlib.sha256(content).hexdigest()[:16]).write_bytes(content)
+    print(f"{target}: {len(inputs)} inputs")
+
+
 if __name__ == "__main__":
-    for target, head in (("core_text", b""), ("programs", bytes(4))):
-        folder = ROOT / "fuzz" / "corpus" / target
-        folder.mkdir(parents=True, exist_ok=True)
-        for text in texts():
-            content = head + text.encode()
-            (folder / hashlib.sha256(content).hexdigest()[:16]).write_bytes(content)
-        print(f"{folder}: {len(list(folder.iterdir()))} inputs")
+    found = [text.encode() for text in texts()]
+    write("core_text", found)
+    write("programs", [bytes(4) + text for text in found])
+    for target in engine_targets():
+        if target not in ("core_text", "programs"):
+            dice = random.Random(target)
+            write(target, [dice.randbytes(dice.randrange(20, 600)) for _ in range(BYTES)])
