@@ -18,24 +18,29 @@ import base64
 import hashlib
 import json
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from functools import cache, cached_property
+from functools import cache
+from os import PathLike
 from pathlib import Path
 from typing import Any
 
 from niwaki import _engine
 from niwaki.errors import InputError
-from niwaki.errors.settings import bad
+from niwaki.errors.schema import Unfit, decoded, fitted, shown
+from niwaki.errors.settings import bad, count, is_whole
 from niwaki.lang.compiled import arguments, task
 from niwaki.lang.core import Core
 from niwaki.lang.models import Model, as_model
 from niwaki.methods import Forward, Guide, Method, Mh
+from niwaki.once import cached_property
 from niwaki.result import Result, Sample
 from niwaki.result.progress import Watch, watcher
 from niwaki.search import searching
+from niwaki.search.checkpoint import Checkpoint
 from niwaki.search.checks import check_lock, check_polish, check_seed, check_threads, fresh
-from niwaki.search.data import Reader, Writer, model_data, of_record_class, text_hash
+from niwaki.search.data import MALFORMED, Reader, Writer, model_data, of_record_class, text_hash
+from niwaki.search.schema import ModelData, SearchData
 from niwaki.targets.sketches import Score
 
 #: The version of the JSON form.
@@ -117,8 +122,7 @@ class Search:
         ):
             if not isinstance(getattr(self, name), kind):
                 raise bad(name, getattr(self, name), f"a {kind.__name__.lower()}", suggestion)
-        if not isinstance(self.runs, int) or isinstance(self.runs, bool) or self.runs < 1:
-            raise bad("runs", self.runs, "a whole number above 0", "1 or more")
+        count("runs", self.runs)
         if self.keep not in KEEP:
             raise bad("keep", self.keep, '"all" or "best"', '"all"')
         if self.polish is not None:
@@ -135,7 +139,13 @@ class Search:
         """The model with its arguments and sketches, ready to be searched."""
         return task(self.model, self.args, None, self.score.specs, self.max_steps, self.max_memory, self.lock)
 
-    def run(self, *, threads: int | None = None, progress: Watch | None = None) -> Result:
+    def run(
+        self,
+        *,
+        threads: int | None = None,
+        progress: Watch | None = None,
+        checkpoint: Checkpoint | str | PathLike[str] | None = None,
+    ) -> Result:
         """Carry it out.
 
         Parameters
@@ -144,8 +154,16 @@ class Search:
             How many to use; all of the machine's when left out. The result does not depend on it.
         progress
             Called now and then with a `Progress`; an exception that it raises ends the search.
+        checkpoint
+            A file, or a `Checkpoint`, from which the search goes on after it was killed.
+
+        Raises
+        ------
+        InputError
+            The checkpoint is damaged, or of another search or version.
         """
-        return searching.carried_out(self, check_threads(threads), progress)
+        keeper = None if checkpoint is None else searching.keeper(self, Checkpoint.of(checkpoint))
+        return searching.carried_out(self, check_threads(threads), progress, keeper)
 
     def polished(
         self,
@@ -223,42 +241,36 @@ class Search:
             The text is not a search, names a mesh that has changed, or calls a function that is not trusted.
         """
         read = Reader(tuple(trust))
-
-        def function(given: Any) -> Model[..., Any] | Guide:
-            return Guide(base64.b85decode(given["guide"])) if "guide" in given else _stored(given, read)
-
         try:
-            if data["format"] != FORMAT:
-                reason = f"it has format {data['format']!r}, this version reads {FORMAT}"
-                raise InputError("bad-run-file", path="the search", reason=reason)
+            check_format(data, FORMAT)
+            fitted(data, SearchData)
             polish = data["polish"]
             return cls(
-                model=_stored(data["model"], read),
-                args=tuple(read.each(data["args"])),
-                score=Score.of_data(data["score"], read),
-                method=Method.of_data(data["method"], function),
+                model=_read("model", lambda: _stored(data["model"], read)),
+                args=tuple(_read("args", lambda: read.each(data["args"]))),
+                score=_read("score", lambda: Score.of_data(data["score"], read)),
+                method=_read("method", lambda: Method.of_data(data["method"], _function_reader(read))),
                 seed=data["seed"],
-                choices=None if data["choices"] is None else read(data["choices"]),
-                lock=None if data["lock"] is None else read(data["lock"]),
+                choices=_read("choices", lambda: _optional(data["choices"], read)),
+                lock=_read("lock", lambda: _optional(data["lock"], read)),
                 runs=data["runs"],
                 keep=data["keep"],
-                polish=None if polish is None else Mh.of_data(polish, function),
+                polish=_read(
+                    "polish", lambda: None if polish is None else Mh.of_data(polish, _function_reader(read))
+                ),
                 max_steps=data["max_steps"],
                 max_memory=data["max_memory"],
             )
-        except (KeyError, TypeError, ValueError, AttributeError, IndexError) as error:
-            reason = f"{type(error).__name__}: {error}"
-            raise InputError("bad-run-file", path="the search", reason=reason) from error
+        except Unfit as error:
+            raise InputError("bad-run-file", path="the search", reason=str(error), unfit=error) from error
 
     @classmethod
     def of_json(cls, text: str, trust: tuple[str, ...] = ()) -> Search:
         """Read a search from JSON; as for `of_data`."""
         try:
-            data = json.loads(text)
-        except ValueError as error:
-            raise InputError("bad-run-file", path="the search", reason=f"it is not JSON: {error}") from error
-        if not isinstance(data, dict):
-            raise InputError("bad-run-file", path="the search", reason="it is no table of names and values")
+            data = decoded(text)
+        except Unfit as error:
+            raise InputError("bad-run-file", path="the search", reason=str(error)) from error
         return cls.of_data(data, trust)
 
     @cached_property
@@ -268,9 +280,22 @@ class Search:
         It changes with the model's source, an argument, the bytes of a target, an image or a mesh, and any setting; not
         with a comment, a line's place, or where a file lies.
         """
-        data = self.data("hashed")
-        data["model"] = model_hash(self.model)
-        return text_hash(json.dumps(data, sort_keys=True))
+        return text_hash(json.dumps(self._decisive(), sort_keys=True))
+
+    def _decisive(self) -> dict[str, Any]:
+        """What decides the result, by name; the model and what is long by their hashes."""
+        return self.data("hashed") | {"model": model_hash(self.model)}
+
+    @cached_property
+    def about(self) -> dict[str, Any]:
+        """What decides the result, by name: short values as they are, and the hashes of others."""
+
+        def short(value: Any) -> Any:
+            return (
+                value if isinstance(value, int | str | None) else text_hash(json.dumps(value, sort_keys=True))
+            )
+
+        return {f"its `{name}`": short(value) for name, value in self._decisive().items()}
 
     @cached_property
     def key(self) -> str:
@@ -305,11 +330,58 @@ def model_hash(model: Model[..., Any]) -> str:
     return text_hash(json.dumps(data | {"core": _PLACES.sub(kept, core.text)}, sort_keys=True))
 
 
+def check_format(data: Any, format: int) -> None:
+    """Refuse, before anything else is looked at, data of another version.
+
+    Raises
+    ------
+    Unfit
+        Their `format` is another, or they have none.
+    """
+    found = data.get("format") if isinstance(data, Mapping) else None
+    if found is not None and is_whole(found) and found != format:
+        newer = (
+            "of a newer Niwaki, which can read it"
+            if found > format
+            else "of an older Niwaki, which can read it"
+        )
+        raise Unfit("$.format", f"{format}", f"{found}, the format {newer}")
+    if not is_whole(found):
+        raise Unfit("$.format", f"{format}", "nothing" if found is None else shown(found))
+
+
+def _read(name: str, read: Callable[[], Any]) -> Any:
+    """Read one of the parts of a search; what cannot be read is named by its place."""
+    try:
+        return read()
+    except Unfit as error:
+        raise error.inside(f".{name}") from error
+    except InputError as error:
+        error.values.setdefault("source", f"`$.{name}` of the search")
+        raise
+    except MALFORMED as error:
+        raise Unfit(f"$.{name}", "what `Search.json` wrote", f"something else ({error})") from error
+
+
+def _optional(data: Any, read: Reader) -> Any:
+    return None if data is None else read(data)
+
+
+def _function_reader(read: Reader) -> Any:
+    """Reads a user's proposal or a guide."""
+
+    def function(given: Any) -> Model[..., Any] | Guide:
+        return Guide(base64.b85decode(given["guide"])) if "guide" in given else _stored(given, read)
+
+    return function
+
+
 def _stored(data: Mapping[str, Any], read: Reader) -> StoredModel:
     """The model of its data."""
+    fitted(data, ModelData)
     core = Core(
         text=data["core"],
-        constants=read.each(data["constants"]),
+        constants=read.each(data["constants"], ".constants"),
         classes=[of_record_class(one) for one in data["classes"]],
         files=[],
         entry=data["name"],

@@ -1,10 +1,12 @@
-"""The shell's commands, one a file; `main` puts them together.
+"""The shell's commands, one a file; `app` lists them and loads each when it is used.
 
-app.py        the application, and what the commands share: arguments, folders, the progress line
+app.py        the application, and what the commands share: arguments, folders
+progress.py   a line that says how a search goes on
 controls.py   what the shape should be like, as flags
 settings.py   how to search, as flags
 writing.py    which files a result becomes
 grow.py       `niwaki grow`: a search, written to a folder
+resuming.py   `--resume`: a search goes on that was stopped or killed
 replay.py     `niwaki replay`: a result once more, in any format
 sample.py     `niwaki sample`: Markov chains, written to a folder
 explain.py    `niwaki explain`: what each strategy does for one proposal, as a picture
@@ -12,8 +14,11 @@ guide.py      `niwaki guide`: trains a guide, shows what one sees
 letters.py    `niwaki letters`: a text in vines or lightning
 models.py     `niwaki models`: the gallery
 color.py      `niwaki color`: a drawing in colours that differ
+studio.py     `niwaki studio`: a page, served to this machine
 references.py a model by its name or its file
 run_files.py  a search and its runs as a file
+results.py    a folder of one run: that file, and those that show the run
+trust.py      when a replay runs the Python file of its model
 demo.py       the gallery, grown into its targets
 check.py      `niwaki check`: what a model is made of, with advice
 """

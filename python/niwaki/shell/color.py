@@ -10,7 +10,10 @@ import typer
 
 from niwaki import color as coloring
 from niwaki import methods, search
-from niwaki.shell.app import Folder, app, ensure_folder
+from niwaki.draw.limits import LARGEST
+from niwaki.errors.folders import held_folder
+from niwaki.errors.settings import count as whole
+from niwaki.shell.app import Folder, app
 
 
 @app.command()
@@ -39,17 +42,18 @@ def color(
     ] = None,
 ) -> None:
     """Color DRAWING in colourings that differ; writes 01.svg, 01.png, ..., sheet.png, colors.json and residuals.csv."""
-    for flag, value in (("--count", count), ("--size", size), ("--measure", measure)):
-        methods.at_least_one(flag, value)
+    methods.at_least_one("--count", count)
+    for flag, value in (("--size", size), ("--measure", measure)):
+        whole(flag, value, most=LARGEST)
     seed = search.fresh(seed)
     read = coloring.Drawing.load(drawing, measure)
     asked = coloring.Rules.load(rules) if rules is not None else coloring.rules_of(drawing)
     _before(read, asked)
     start = time.perf_counter()
-    found = coloring.color(read, asked, count, weight=weight, seed=seed, threads=threads)
-    seconds = time.perf_counter() - start
-    folder = ensure_folder(output or Path("out"))
-    written = coloring.files.write(found, folder, size)
+    with held_folder(output or Path("out")) as folder:
+        found = coloring.color(read, asked, count, weight=weight, seed=seed, threads=threads)
+        seconds = time.perf_counter() - start
+        written = coloring.files.write(found, folder, size)
     _summary(found, seconds, seed)
     print(f"{len(written)} files in {folder}, sheet.png first of all")
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import sys
+from contextlib import nullcontext
+from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -12,8 +14,10 @@ import typer
 import niwaki as nw
 from niwaki import draw, gallery, search, shell, targets
 from niwaki import result as results
-from niwaki.shell import controls, settings, writing
-from niwaki.shell.app import Folder, ModelName, app, ensure_folder, progress_line
+from niwaki.errors.folders import held_folder
+from niwaki.shell import controls, resuming, settings, writing
+from niwaki.shell.app import Folder, app
+from niwaki.shell.progress import progress_line
 
 
 @app.command()
@@ -23,7 +27,8 @@ from niwaki.shell.app import Folder, ModelName, app, ensure_folder, progress_lin
     particles="the model's own, or 300; of improve a third",
 )
 def grow(
-    model: ModelName,
+    context: typer.Context,
+    model: resuming.Model = None,
     target: controls.TargetFile = None,
     avoid: controls.AvoidFiles = None,
     floor: controls.Floor = None,
@@ -50,6 +55,7 @@ def grow(
         int | None, typer.Option(help="Default: all cores. Results do not depend on it.")
     ] = None,
     max_steps: Annotated[int, typer.Option(help="Most calls and loop steps of one run.")] = 20_000_000,
+    resume: resuming.Resume = None,
     output: Folder = None,
     formats: writing.Formats = None,
     scale: writing.Scale = None,
@@ -68,7 +74,15 @@ def grow(
     **given: Any,
 ) -> None:
     """Grow MODEL into its target; writes best.glb (best.svg of a drawing), best.png, sheet.png and run.json."""
-    found = shell.references.find(model)
+    if resume is not None:
+        search_left, found, flags, checkpoint = resuming.left(context, resume, "grow")
+        files = writing.Files.of_data(flags["files"])
+        with held_folder(resume) as folder:
+            with progress_line(found.reference) as progress, resuming.told(checkpoint, "grow"):
+                result = search_left.run(threads=threads, progress=progress, checkpoint=checkpoint)
+            _end(result, found, folder, files, flags["picture"], as_json, checkpoint)
+        return
+    found = shell.references.find(resuming.required(context, model))
     style = None if found.entry is None else found.entry.draws
     chosen = controls.Controls(
         target,
@@ -103,30 +117,53 @@ def grow(
     own = settings.guide(guide, found, [*_sketches(score), *(["match_volume"] if aim else [])], method, given)
     if own is not None:
         suits, method = {**suits, **search.GUIDED}, method or "smc"
-    with progress_line(found.reference) as progress:
-        result = nw.grow(
-            found.model,
-            aim,
-            **start,
-            score=score,
-            method=settings.guided(settings.method(method, given, suits), own),
-            polish=onward,
-            seed=seed,
-            threads=threads,
-            progress=progress,
-            voxel=voxel,
-            sigma=0.02 if sigma is None else sigma,
-            rule=rule,
-            runs=runs,
-            max_steps=max_steps,
-        )
-    if output is not None or not as_json:
-        _write(output or Path("out"), result, found, files, picture)
+    writes = output is not None or not as_json
+    # Before the search: that a folder cannot be written to must not be the news at its end.
+    with held_folder(output or Path("out")) if writes else nullcontext() as folder:
+        kept = None
+        if folder is not None:
+            kept = resuming.begun(folder, "grow", found, files=asdict(files), picture=picture)
+        with progress_line(found.reference) as progress, resuming.told(kept, "grow"):
+            result = nw.grow(
+                found.model,
+                aim,
+                **start,
+                score=score,
+                method=settings.guided(settings.method(method, given, suits), own),
+                polish=onward,
+                seed=seed,
+                threads=threads,
+                progress=progress,
+                voxel=voxel,
+                sigma=0.02 if sigma is None else sigma,
+                rule=rule,
+                runs=runs,
+                max_steps=max_steps,
+                checkpoint=kept,
+            )
+        _end(result, found, folder, files, picture, as_json, kept)
+
+
+def _end(
+    result: nw.Result,
+    found: shell.references.ModelReference,
+    folder: Path | None,
+    files: writing.Files,
+    picture: bool,
+    as_json: bool,
+    checkpoint: nw.Checkpoint | None,
+) -> None:
+    """Write the files, where there is a folder for them, and say what was found."""
+    if folder is not None:
+        with resuming.ended(result, checkpoint):
+            _write(folder, result, found, files, picture)
     if as_json:
         print(json.dumps({"runs": [shell.run_files.numbers(sample) for sample in result]}))
-    else:
-        _summary(result, output or Path("out"))
+    elif folder is not None:
+        _summary(result, folder)
     if result.interrupted:
+        if folder is not None:
+            print(resuming.interrupted(folder, "grow"), file=sys.stderr if as_json else sys.stdout)
         raise typer.Exit(130)
 
 
@@ -136,27 +173,31 @@ def _sketches(score: nw.Score) -> list[str]:
 
 
 def _write(
-    output: Path,
+    folder: Path,
     result: nw.Result,
     found: shell.references.ModelReference,
     files: writing.Files,
     picture: bool,
 ) -> None:
     """Write run.json first: the other files can be created again from it."""
-    folder = ensure_folder(output)
-    shell.run_files.save(folder / "run.json", shell.run_files.written(result, found))
     best: nw.Sample = result.best
+    data = shell.run_files.written(result, found)
     if best.primitives == 0:
-        print("warning: the best run emitted nothing, so there is no mesh and no picture", file=sys.stderr)
+        with shell.results.written(folder, data, ()):
+            print(
+                "warning: the best run emitted nothing, so there is no mesh and no picture", file=sys.stderr
+            )
         return
-    if picture:
-        styled: dict[str, Any] = {} if files.style is None else {"style": files.style}
-        square: dict[str, Any] = {} if files.style is None else {"size": (800, 800)}
-        best.save(folder / "best.png", **styled, **square)
-        draw.picture.save_image(lambda: result.sheet(**styled), folder / "sheet.png")
-        for view in result.score.views:
-            targets.views.save_view(folder / f"{view.kind}.png", best.scene, view, **styled)
-    files.write(best, folder)
+    pictures = ["best.png", "sheet.png", *(f"{view.kind}.png" for view in result.score.views)]
+    with shell.results.written(folder, data, [*files.names, *(pictures if picture else ())]):
+        if picture:
+            styled: dict[str, Any] = {} if files.style is None else {"style": files.style}
+            square: dict[str, Any] = {} if files.style is None else {"size": (800, 800)}
+            best.save(folder / "best.png", **styled, **square)
+            draw.picture.save_image(lambda: result.sheet(**styled), folder / "sheet.png")
+            for view in result.score.views:
+                targets.views.save_view(folder / f"{view.kind}.png", best.scene, view, **styled)
+        files.write(best, folder)
 
 
 def _summary(result: nw.Result, folder: Path) -> None:
