@@ -22,7 +22,7 @@ from niwaki.lang import densities, futures, inference, vocabulary
 from niwaki.lang.compiled import Compiled, task
 from niwaki.lang.constraints import Constraint
 from niwaki.lang.instrument import instrumented
-from niwaki.lang.marks import Marked, underlying
+from niwaki.lang.marks import Host, Marked, underlying
 from niwaki.lang.names import is_library
 from niwaki.methods import EnumerateAll
 from niwaki.words.distributions import Distribution
@@ -406,8 +406,24 @@ class PlainRun:
         text = str(error)
         if isinstance(error, KeyError):
             text = f"the dict has no key {error.args[0]!r}" if error.args else ""
+        if (host := failed_host(error)) is not None:
+            code, text = (
+                "host-function",
+                f"the host function `{host.name}` failed: {type(error).__name__}: {error}",
+            )
         replay = f"seed={self.seed}" if self.seed is not None else ""
         return ModelFault(code, text, stack=self.stack(error), replay=replay)
+
+
+def failed_host(error: BaseException) -> Host[Any, Any] | None:
+    """The host function in which an exception was raised."""
+    trace = error.__traceback__
+    while trace is not None:
+        if trace.tb_frame.f_code is Host.__call__.__code__:
+            found: Host[Any, Any] = trace.tb_frame.f_locals["self"]
+            return found
+        trace = trace.tb_next
+    return None
 
 
 CODES: tuple[tuple[type[BaseException], str], ...] = (
