@@ -79,9 +79,16 @@ class Mutator:
         self.originals = originals()
 
     def source(self) -> str:
-        """A source that is changed in one to four places."""
+        """A source that is changed in one to four places; nearly always one that Python can read."""
+        text = self.changed()
+        while self.random.random() < 0.95 and not readable(text):
+            text = self.changed()
+        return text
+
+    def changed(self) -> str:
+        """An original, changed in one to four places."""
         pick = self.random
-        if pick.random() < 0.3:
+        if pick.random() < 0.4:
             from programs import program
 
             text = program(pick.randrange(2**31)).text
@@ -160,6 +167,15 @@ class Mutator:
         for place in reversed(places):
             text = text[: place.start()] + new + text[place.end() :]
         return text
+
+
+def readable(text: str) -> bool:
+    """Whether it is Python at all."""
+    try:
+        compile(text, "source", "exec", dont_inherit=True)
+    except (SyntaxError, ValueError, RecursionError, MemoryError, OverflowError):
+        return False
+    return True
 
 
 class Late(BaseException):

@@ -403,6 +403,8 @@ class PlainRun:
         code = next(
             (finer for words, finer in FINER if isinstance(error, ValueError) and words in str(error)), code
         )
+        # What the engine makes of a shape's numbers carries its own code.
+        code = getattr(error, "code", code) if isinstance(error, ValueError) else code
         text = str(error)
         if isinstance(error, KeyError):
             text = f"the dict has no key {error.args[0]!r}" if error.args else ""

@@ -152,3 +152,12 @@ def test_a_host_function_fails_as_in_the_engine(body: str) -> None:
     assert [str(one.value).splitlines()[0] for one in (plain, engine)] == [
         str(plain.value).splitlines()[0]
     ] * 2
+
+
+def test_a_shape_that_cannot_be_has_the_code_of_the_engine() -> None:
+    model = load("@model\ndef m():\n    emit(box((0, 0, 0), (1, 1, 0)))\n", "flat-box.py")
+    with pytest.raises(ModelFault) as plain:
+        run_python(model)
+    with pytest.raises(ModelFault) as engine:
+        nw.run(model, seed=0)
+    assert plain.value.code == engine.value.code == "bad-shape"
