@@ -400,12 +400,11 @@ class PlainRun:
     def fault(self, error: Exception) -> ModelFault:
         """A Python exception as a fault with a code."""
         code = next((code for kind, code in CODES if isinstance(error, kind)), "model-failed")
-        code = next(
-            (finer for words, finer in FINER if isinstance(error, ValueError) and words in str(error)), code
-        )
+        text = str(error)
+        found = (finer for kind, words, finer in FINER if isinstance(error, kind) and words in text)
+        code = next(found, code)
         # What the engine makes of a shape's numbers carries its own code.
         code = getattr(error, "code", code) if isinstance(error, ValueError) else code
-        text = str(error)
         if isinstance(error, KeyError):
             text = f"the dict has no key {error.args[0]!r}" if error.args else ""
         if (host := failed_host(error)) is not None:
@@ -442,11 +441,12 @@ CODES: tuple[tuple[type[BaseException], str], ...] = (
     (ValueError, "bad-argument"),
 )
 
-FINER: tuple[tuple[str, str], ...] = (
-    ("unpack", "unpack-length"),
-    ("math domain", "math-domain"),
-    ("invalid literal", "bad-text"),
-    ("could not convert", "bad-text"),
-    ("ormat", "bad-format"),
-    ("is not in", "missing-element"),
+FINER: tuple[tuple[type[BaseException], str, str], ...] = (
+    (ValueError, "unpack", "unpack-length"),
+    (ValueError, "math domain", "math-domain"),
+    (ValueError, "invalid literal", "bad-text"),
+    (ValueError, "could not convert", "bad-text"),
+    (ValueError, "ormat", "bad-format"),
+    (ValueError, "is not in", "missing-element"),
+    (TypeError, "is not callable", "not-callable"),
 )

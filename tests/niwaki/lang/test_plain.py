@@ -154,10 +154,14 @@ def test_a_host_function_fails_as_in_the_engine(body: str) -> None:
     ] * 2
 
 
-def test_a_shape_that_cannot_be_has_the_code_of_the_engine() -> None:
-    model = load("@model\ndef m():\n    emit(box((0, 0, 0), (1, 1, 0)))\n", "flat-box.py")
+@pytest.mark.parametrize(
+    ("statement", "code"),
+    [("emit(box((0, 0, 0), (1, 1, 0)))", "bad-shape"), ("x = (1, 2)\n    x(1)", "not-callable")],
+)
+def test_a_fault_has_the_code_of_the_engine(statement: str, code: str) -> None:
+    model = load(f"@model\ndef m():\n    {statement}\n", f"fails-{code}.py")
     with pytest.raises(ModelFault) as plain:
         run_python(model)
     with pytest.raises(ModelFault) as engine:
         nw.run(model, seed=0)
-    assert plain.value.code == engine.value.code == "bad-shape"
+    assert plain.value.code == engine.value.code == code
