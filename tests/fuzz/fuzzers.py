@@ -157,26 +157,31 @@ def run_python(name: str, seconds: float) -> Tried:
 
 
 def pack(target: str) -> None:
-    """The smallest inputs that reach what the corpus reaches, as many as fit, into the repository."""
-    all_of_them = unpacked(target)
-    folder = all_of_them.with_name(f"{target}.least")
-    shutil.rmtree(folder, ignore_errors=True)
-    folder.mkdir()
-    merge = [program(target), "-merge=1", str(folder), str(all_of_them)]
+    """The smallest inputs that reach what the corpus reaches, into the repository."""
+    everything = unpacked(target)
+    least = everything.with_name(f"{target}.least")
+    shutil.rmtree(least, ignore_errors=True)
+    least.mkdir()
+    merge = [program(target), "-merge=1", str(least), str(everything)]
     subprocess.run(merge, cwd=ROOT, env=environment(), check=True, stderr=subprocess.DEVNULL)
+    zipped(target, least)
+    shutil.rmtree(everything)
+    least.rename(everything)
+
+
+def zipped(target: str, folder: Path) -> None:
+    """The inputs of a folder in one file, the smallest first, as many as fit."""
     packed = ENGINE / "corpora" / f"{target}.zip"
     packed.parent.mkdir(exist_ok=True)
     with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
         for path in sorted(folder.iterdir(), key=lambda path: (path.stat().st_size, path.name)):
+            # The list at the end of an archive has an entry of about 70 bytes for each file.
+            if archive.start_dir + 70 * len(archive.namelist()) > PACKED - 5000:
+                break
             # The same inputs give the same bytes.
             entry = zipfile.ZipInfo(path.name[:12], (1980, 1, 1, 0, 0, 0))
             entry.compress_type = zipfile.ZIP_DEFLATED
             archive.writestr(entry, path.read_bytes())
-            # The list at the end of an archive takes as much again as its heads.
-            if packed.stat().st_size + 90 * len(archive.namelist()) > PACKED - 5000:
-                break
-    shutil.rmtree(all_of_them)
-    folder.rename(all_of_them)
     print(f"{packed.relative_to(ROOT)}: {packed.stat().st_size} bytes")
 
 
