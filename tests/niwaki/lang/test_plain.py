@@ -156,7 +156,11 @@ def test_a_host_function_fails_as_in_the_engine(body: str) -> None:
 
 @pytest.mark.parametrize(
     ("statement", "code"),
-    [("emit(box((0, 0, 0), (1, 1, 0)))", "bad-shape"), ("x = (1, 2)\n    x(1)", "not-callable")],
+    [
+        ("emit(box((0, 0, 0), (1, 1, 0)))", "bad-shape"),
+        ("x = (1, 2)\n    x(1)", "not-callable"),
+        ("sample((0, 2))", "not-a-distribution"),
+    ],
 )
 def test_a_fault_has_the_code_of_the_engine(statement: str, code: str) -> None:
     model = load(f"@model\ndef m():\n    {statement}\n", f"fails-{code}.py")
