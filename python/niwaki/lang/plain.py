@@ -18,8 +18,7 @@ from typing import Any
 from niwaki import _engine
 from niwaki.errors import Call, InputError, ModelFault, NiwakiError
 from niwaki.errors.kinds import place
-from niwaki.lang import densities, futures, inference, vocabulary
-from niwaki.lang.compiled import Compiled, task
+from niwaki.lang import densities, futures, inference, inner, vocabulary
 from niwaki.lang.constraints import Constraint
 from niwaki.lang.instrument import instrumented
 from niwaki.lang.marks import Marked, underlying
@@ -130,6 +129,8 @@ class PlainRun:
     """The state of a plain run; answers both the words (`Runner`) and the instrumented code."""
 
     def __init__(self, seed: int | None, choices: Mapping[str, Any] | None) -> None:
+        self.model: FunctionType | None = None
+        self.around: inner.Around | None = None
         self.seed = seed
         self.given = choices
         self.path: list[str] = []
@@ -171,7 +172,8 @@ class PlainRun:
         )
 
     def enter(self, function: FunctionType, args: Sequence[Any], kwargs: Mapping[str, Any]) -> Any:
-        """Run a function of the user."""
+        """Run a function of the user; the first one is the model."""
+        self.model = self.model or function
         if function.__code__ not in self.codes:
             if function not in self.functions:
                 traced = instrumented(function, self)
@@ -232,11 +234,11 @@ class PlainRun:
 
         return self.loop(label, count())
 
-    def named(self, name: str) -> Callable[[FunctionType], FunctionType]:
-        """Give a nested function its name of the core form, by which an `infer` of it is compiled."""
+    def named(self, root: FunctionType, number: int) -> Callable[[FunctionType], FunctionType]:
+        """Note on a nested function which one it is, for an `infer` of it."""
 
         def name_it(function: FunctionType) -> FunctionType:
-            function.__qualname__ = name
+            function.__dict__.update({inner.ROOT: root, inner.NUMBER: number})
             return function
 
         return name_it
@@ -354,7 +356,9 @@ class PlainRun:
         seed = 0 if isinstance(method, EnumerateAll) else self.sample(inference.SEEDS)
         self.pending = ""
         try:
-            return task(Compiled(function), args).infer(inference.constant(method, keep), seed)
+            if self.around is None:
+                self.around = inner.Around(self.model or function)
+            return self.around.infer(inference.constant(method, keep), function, args, seed)
         except _engine.EngineFault as fault:
             raise ModelFault(fault.code, fault.message, fault.help, stack=self.stack()) from None
 

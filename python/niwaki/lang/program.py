@@ -86,12 +86,13 @@ class Program:
         qualified = unit.function.__qualname__.replace(".<locals>", "").replace("<lambda>", "lambda")
         if qualified in self.taken:
             qualified = f"{unit.function.__module__}.{qualified}"
-        unit.names[unit.scopes.root] = self._fresh(qualified)
+        unit.names[unit.scopes.root] = self.fresh(qualified)
         for scope in functions(unit.scopes):
             if scope.parent is not None:
-                unit.names[scope] = self._fresh(f"{unit.names[scope.parent.function]}.{scope.name}")
+                unit.names[scope] = self.fresh(f"{unit.names[scope.parent.function]}.{scope.name}")
 
-    def _fresh(self, name: str) -> str:
+    def fresh(self, name: str) -> str:
+        """The name, or one made from it that no function has."""
         outer, _, last = name.rpartition(".")
         number = 2
         unique = name
