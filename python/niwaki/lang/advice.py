@@ -23,6 +23,7 @@ from niwaki.errors.kinds import fill, notes, snippet
 from niwaki.errors.messages import MESSAGES
 from niwaki.errors.source import Span, span_of
 from niwaki.lang import vocabulary
+from niwaki.lang.deep import deep
 from niwaki.lang.lower import lowered
 from niwaki.lang.marks import underlying
 from niwaki.lang.names import MISSING, hashable, is_library
@@ -61,6 +62,7 @@ class Advice:
         return "\n".join([head, *lines, *notes(message, self.values, margin=lines[-1].removesuffix("|"))])
 
 
+@deep
 def advise(function: FunctionType) -> list[Advice]:
     """Advice on a model and on every function that it can call, in the order of the source."""
     program = lowered(function)

@@ -9,7 +9,6 @@ around makes the same closure as the engine has, from the values of the Python f
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Sequence
 from types import FunctionType
 from typing import Any
@@ -17,10 +16,11 @@ from typing import Any
 from niwaki import _engine
 from niwaki.errors import ModelFault
 from niwaki.lang.core import Expr, Form, literal, write_tree
+from niwaki.lang.deep import deep
 from niwaki.lang.futures import parts_of
 from niwaki.lang.lower import lower_waiting, module_head
 from niwaki.lang.marks import underlying
-from niwaki.lang.names import is_library, is_named_tuple, is_record_class, record_fields
+from niwaki.lang.names import is_record_class, record_fields
 from niwaki.lang.program import Program, Unit
 from niwaki.lang.scope import Scope, Variable, functions
 from niwaki.methods import Forward
@@ -35,11 +35,13 @@ NAME = "infer"
 class Around:
     """The program of a plain run, for the inferences inside of it."""
 
+    @deep
     def __init__(self, function: FunctionType) -> None:
         self.program = Program()
         self.program.unit(function)
         self.forms = lower_waiting(self.program)
 
+    @deep
     def infer(self, constant: tuple[str, str, str], model: Any, args: Sequence[Any], seed: int) -> Any:
         """The value of an `infer`.
 
@@ -62,7 +64,9 @@ class Around:
         parameters = Form("params", [*(f"${number}" for number in range(len(given.values))), "$seed"])
         name = self.program.fresh(NAME)
         added = Form("fn", [literal(name), Form("file", ["0"]), parameters, Form("return", [searched])])
-        text = Form("module", [*module_head(self.program), *self.forms, added, Form("entry", [literal(name)])])
+        text = Form(
+            "module", [*module_head(self.program), *self.forms, added, Form("entry", [literal(name)])]
+        )
         program = _engine.Program(write_tree(text, 0, True, True), constants, self.program.classes)
         ran, _, _ = _engine.Task(program, [*given.values, seed]).search(Forward(1).text()[0], 0)
         return ran[0].value
@@ -102,7 +106,9 @@ class _Given:
 
 
 def _holds_function(value: Any) -> bool:
-    return any(isinstance(underlying(part), FunctionType) or _holds_function(part) for part in parts_of(value))
+    return any(
+        isinstance(underlying(part), FunctionType) or _holds_function(part) for part in parts_of(value)
+    )
 
 
 _NOT_HERE = object()

@@ -10,11 +10,13 @@ and a traceback show the file that the user wrote.
 from __future__ import annotations
 
 import ast
-import copy
 from types import CellType, CodeType, FunctionType
 from typing import Any
 from weakref import WeakKeyDictionary
 
+from niwaki.errors import ModelError
+from niwaki.errors.source import head_span
+from niwaki.lang.deep import copied, deep
 from niwaki.lang.program import Program
 from niwaki.lang.scope import functions
 
@@ -39,18 +41,18 @@ def instrumented(function: FunctionType, hook: Any) -> FunctionType:
     return built
 
 
+@deep
 def _compile(function: FunctionType) -> CodeType:
     unit = Program().unit(function)
-    memo: dict[int, Any] = {}
-    clone = copy.deepcopy(unit.node, memo)
+    clone, memo = copied(unit.node)
     labels: dict[Any, Any] = {}
     for key, label in unit.labels.items():
         if isinstance(key, tuple):
-            pair = labels.setdefault(memo[id(key[0])], ["", ""])
+            pair = labels.setdefault(memo[key[0]], ["", ""])
             pair[0 if key[1] == "loop" else 1] = label
         else:
-            labels[memo[id(key)]] = label
-    shown = {memo[id(scope.node)]: n for n, scope in enumerate(functions(unit.scopes))}
+            labels[memo[key]] = label
+    shown = {memo[scope.node]: n for n, scope in enumerate(functions(unit.scopes))}
     node = _Namer(labels, shown, clone).visit(clone)
     node.args.defaults = [ast.copy_location(ast.Constant(None), default) for default in node.args.defaults]
     node.args.kw_defaults = [d and ast.copy_location(ast.Constant(None), d) for d in node.args.kw_defaults]
@@ -65,7 +67,11 @@ def _compile(function: FunctionType) -> CodeType:
     )
     factory = ast.FunctionDef("__factory__", arguments, inner, [], lineno=1, col_offset=0)
     module = ast.fix_missing_locations(ast.Module([factory], []))
-    outer = _inner(compile(module, unit.file.path, "exec", dont_inherit=True), "__factory__")
+    try:
+        compiled = compile(module, unit.file.path, "exec", dont_inherit=True)
+    except (RecursionError, MemoryError):
+        raise ModelError("nested-too-deeply", head_span(unit.node, unit.file)) from None
+    outer = _inner(compiled, "__factory__")
     return _renamed(_inner(outer, node.name if isinstance(node, ast.FunctionDef) else "<lambda>"), function)
 
 

@@ -14,6 +14,7 @@ from niwaki.lang import calls, comprehensions, looking  # noqa: F401  (they regi
 from niwaki.lang.body import Body
 from niwaki.lang.callees import live_defaults
 from niwaki.lang.core import Core, Expr, Form, literal, write_tree
+from niwaki.lang.deep import deep
 from niwaki.lang.expressions import expression
 from niwaki.lang.names import is_named_tuple, record_fields
 from niwaki.lang.program import Program, Unit, check_signature
@@ -21,6 +22,7 @@ from niwaki.lang.scope import Scope, Variable, functions
 from niwaki.lang.statements import statement
 
 
+@deep
 def lower(function: FunctionType) -> Core:
     """The core form of a model's function and of everything it can call.
 
@@ -47,6 +49,7 @@ def lower(function: FunctionType) -> Core:
     )
 
 
+@deep
 def lowered(function: FunctionType) -> Program:
     """What lowering a model finds out: its functions, their texts, what their names mean."""
     program = Program()

@@ -14,6 +14,7 @@ from niwaki.errors import InputError, ModelError
 from niwaki.errors.source import SourceFile, Span, find_function, span_of
 from niwaki.lang.constants import is_data, owned
 from niwaki.lang.core import Expr, Form, is_literal, literal
+from niwaki.lang.deep import too_deep
 from niwaki.lang.marks import Host, underlying
 from niwaki.lang.names import Namespace, is_library, is_named_tuple, is_record_class, record_fields
 from niwaki.lang.scope import FunctionNode, Scope, Scopes, analyse, functions
@@ -60,6 +61,8 @@ class Program:
                     raise ModelError("no-source", used_at, name=function.__name__)
                 raise InputError("no-source-file", name=function.__name__)
             file, node = found
+            if (below := too_deep(node)) is not None:
+                raise ModelError("nested-too-deeply", span_of(below, file))
             check_signature(file, node)
             namespace = Namespace(function)
             scopes = analyse(node)

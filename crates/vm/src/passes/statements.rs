@@ -50,7 +50,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
                 let names: Vec<&Name> = a.iter().chain(std::iter::once(r)).chain(c).collect();
                 let registers = names.iter().map(|_| self.register()).collect::<Result<Vec<_>>>()?;
                 let to = self.args(&registers);
-                self.op(Op::UnpackStar { from, to, star: a.len() as u16 });
+                self.op(Op::UnpackStar { from, to, star: self.sixteen(a.len())? });
                 names.iter().zip(registers).for_each(|(x, at)| self.assign(x, at));
                 true
             }
@@ -399,6 +399,9 @@ impl<S: Scalar> Builder<'_, '_, S> {
         b.carried = carried.to_vec();
         b.loops.push(LoopContext::Lifted);
         let element = if each.is_some() { Some(b.register()?) } else { None };
+        if captured.len() >= Operand::MAX_INDEX {
+            return Err(b.is_too_large());
+        }
         for (i, x) in captured.iter().enumerate() {
             b.env.insert(x.clone(), Binding { at: Operand::new(Place::Outer, i + 1), ..self.env[x] });
         }
