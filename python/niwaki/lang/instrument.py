@@ -53,9 +53,11 @@ def _compile(function: FunctionType) -> CodeType:
         else:
             labels[memo[key]] = label
     shown = {memo[scope.node]: n for n, scope in enumerate(functions(unit.scopes))}
+    assert isinstance(clone, (ast.FunctionDef, ast.Lambda))
+    given = clone.args
+    given.defaults = [ast.copy_location(ast.Constant(None), default) for default in given.defaults]
+    given.kw_defaults = [d and ast.copy_location(ast.Constant(None), d) for d in given.kw_defaults]
     node = _Namer(labels, shown, clone).visit(clone)
-    node.args.defaults = [ast.copy_location(ast.Constant(None), default) for default in node.args.defaults]
-    node.args.kw_defaults = [d and ast.copy_location(ast.Constant(None), d) for d in node.args.kw_defaults]
     if isinstance(node, ast.FunctionDef):
         node.name, node.decorator_list = INNER, []
         inner: list[ast.stmt] = [node]

@@ -316,6 +316,7 @@ class PlainRun:
     def query(self, key: Any, value: Any) -> None:
         """Record an answer."""
         address = self.address("query")
+        _refuse_as_key(key)
         if key in self.answers:
             other = self.answered[key]
             raise ModelFault(
@@ -412,6 +413,17 @@ class PlainRun:
             text = f"the dict has no key {error.args[0]!r}" if error.args else ""
         replay = f"seed={self.seed}" if self.seed is not None else ""
         return ModelFault(code, text, stack=self.stack(error), replay=replay)
+
+
+def _refuse_as_key(key: Any) -> None:
+    """Keys of queries are what can be a key of a dict, also when it comes from the engine."""
+    hash(key)
+    waiting = [key]
+    while waiting:
+        part = waiting.pop()
+        if isinstance(part, (FunctionType, Distribution)):
+            raise TypeError(f"{part!r} cannot be a key")
+        waiting.extend(futures.parts_of(part))
 
 
 CODES: tuple[tuple[type[BaseException], str], ...] = (

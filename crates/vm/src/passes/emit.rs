@@ -5,9 +5,11 @@ use super::scope::Keeping;
 use super::{CompileError, Unit, literal, place};
 use crate::code::{Args, Function, FunctionId, Mode, Op, Operand, Place, Site, Visible};
 use crate::core::{self, ExprKind, Literal, Name, Span};
-use crate::value::Value;
+use crate::builtins::make_dist;
+use crate::value::{self, Value};
 use niwaki_math::Scalar;
 use std::collections::HashMap;
+use std::sync::Arc;
 
 /// More instructions or operands in one function are refused: the passes take time by their number squared.
 const MOST_CODE: usize = 1 << 18;
@@ -138,8 +140,45 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
                     f.name
                 ))),
             },
-            _ => Err(CompileError(format!("a default of `{}` must be an atom", f.name))),
+            _ => {
+                let value = self.fixed(e)?;
+                Ok(self.constant(value))
+            }
         }
+    }
+
+    /// The value of an expression that is made of constants and of functions without captures.
+    fn fixed(&self, e: &core::Expr) -> Result<Value<S>> {
+        use ExprKind::*;
+        let all = |items: &[core::Expr]| items.iter().map(|e| self.fixed(e)).collect::<Result<Vec<_>>>();
+        Ok(match &e.kind {
+            Literal(l) => literal(l),
+            Data(k) => {
+                let value = self.unit.data.get(*k).cloned();
+                value.ok_or_else(|| CompileError(format!("constant {k} is missing")))?
+            }
+            Closure(name, captures) if captures.is_empty() => {
+                let id = self.function_id(name)?;
+                if !self.definition(id).captures.is_empty() {
+                    return Err(CompileError(format!("a closure of `{name}` without its captures")));
+                }
+                Value::Function(Arc::new(value::Closure { function: id.0, captures: vec![] }))
+            }
+            Dist(family, args) => {
+                Value::Dist(Arc::new(make_dist(super::sites::family(family)?, &all(args)?)?))
+            }
+            Record(class, fields) => {
+                let class = Arc::new(self.unit.module.classes[*class].clone());
+                Value::Record(Arc::new(value::Record { class, fields: all(fields)? }))
+            }
+            List(items) => Value::list(all(items)?),
+            Tuple(items) => Value::tuple(all(items)?),
+            Dict(keys, values) => {
+                let pairs = all(keys)?.into_iter().zip(all(values)?).collect();
+                Value::Dict(Arc::new(value::Dict::new(pairs)))
+            }
+            _ => return Err(CompileError(format!("a default of `{}` is not made of constants", self.name))),
+        })
     }
 
     /// Resolves labels, chooses places for the registers and returns the function.
