@@ -321,7 +321,10 @@ class Maker:
         head = f"def {name}(x, n={default}, *, b=True, w={self.real(1)}):"
         lines = [head, *(f"    {line}" for line in body), "    return y + f * 0.1 + x * n + w"]
         if self.random.random() < 0.3:
-            other = [f"    def {name}(x, n={default}, *, b=True, w=1.0):", "        return x + n + gaussian(w, 1)"]
+            other = [
+                f"    def {name}(x, n={default}, *, b=True, w=1.0):",
+                "        return x + n + gaussian(w, 1)",
+            ]
             lines = [f"if {self.boolean(1)}:", *(f"    {line}" for line in lines), "else:", *other]
             return [*before, *lines, f"f = f + {name}({self.real(1)})"]
         self.locals.append(name)

@@ -53,7 +53,9 @@ DEEP = {
 
 
 def model(body: str) -> Any:
-    text = f"from niwaki import model\nfrom niwaki.words import *\n\n@model\ndef m():\n    x, n = 1.5, 7\n{body}"
+    text = (
+        f"from niwaki import model\nfrom niwaki.words import *\n\n@model\ndef m():\n    x, n = 1.5, 7\n{body}"
+    )
     name = f"deep-{hash(text)}.py"
     linecache.cache[name] = (len(text), None, text.splitlines(True), name)
     space: dict[str, Any] = {"__name__": "made"}
@@ -73,7 +75,12 @@ def test_what_is_long_runs(name: str) -> None:
 @pytest.mark.parametrize("name", DEEP)
 def test_what_is_deep_has_a_message(name: str) -> None:
     made = model(DEEP[name])
-    for use in (made.core, lambda: run_python(made, seed=1), lambda: nw.run(made), lambda: advise(made.function)):
+    for use in (
+        made.core,
+        lambda: run_python(made, seed=1),
+        lambda: nw.run(made),
+        lambda: advise(made.function),
+    ):
         with pytest.raises(ModelError, match="nested too deeply") as caught:
             use()
         assert "^" in str(caught.value)
@@ -98,11 +105,13 @@ def test_the_recursion_limit_stays() -> None:
     assert not wrong and sys.getrecursionlimit() == before and before < MOST + 1000
 
 
-@pytest.mark.parametrize("text", [f"    return {' + '.join(['x'] * 9000)}\n", f"    return {'(' * 250}x{')' * 250}\n"])
+@pytest.mark.parametrize(
+    "text", [f"    return {' + '.join(['x'] * 9000)}\n", f"    return {'(' * 250}x{')' * 250}\n"]
+)
 def test_the_shell_has_a_message_for_what_python_cannot_read(text: str, tmp_path: Path) -> None:
     file = tmp_path / "deep.py"
     file.write_text(f"from niwaki import model\n\n@model\ndef m():\n    x = 1\n{text}")
-    command = [sys.executable, "-m", "niwaki", "check", f"{file}:m"]
+    command = [sys.executable, "-c", "from niwaki.shell.main import main; main()", "check", f"{file}:m"]
     done = subprocess.run(command, capture_output=True, text=True, env=os.environ, check=False)
     assert done.returncode != 0 and "Traceback" not in done.stderr and "error" in done.stderr
     assert len(done.stderr) < 5000
