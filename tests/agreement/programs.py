@@ -45,7 +45,8 @@ class Program:
 class Maker:
     """Makes fragments; integers are called n, reals x, truth values b, lists of reals xs, pairs t."""
 
-    def __init__(self, seed: int) -> None:
+    def __init__(self, seed: int, inner: bool = True) -> None:
+        self.inner = inner
         self.random = random.Random(seed)
         self.count = 0
         self.helpers: list[str] = []
@@ -136,7 +137,7 @@ class Maker:
             lambda: f"(lambda x, n={self.integer(depth - 1)}: x + n)({r()})",
             lambda: f"(lambda n: (lambda n: n * 2)(n) - n)({r()})",
         ]
-        if self.callables():
+        if self.inner and self.callables():
             options += [lambda: self.inferred(depth)]
         return self.random.choice(options)()
 
@@ -354,9 +355,9 @@ def without_queries(line: str) -> str:
     return f"{indent}f = f + 1" if line.lstrip().startswith("query(") else line
 
 
-def program(seed: int, size: int = 8) -> Program:
-    """A random program of `size` statements."""
-    maker = Maker(seed)
+def program(seed: int, size: int = 8, inner: bool = True) -> Program:
+    """A random program of `size` statements, with inner searches or without."""
+    maker = Maker(seed, inner)
     for _ in range(maker.random.randint(0, 3)):
         maker.helpers.append(maker.helper())
     statements = []

@@ -159,6 +159,8 @@ def m():
     return infer(near, forward(), 1), near(2)
 """
     )
-    first, second = (engine(load(text.replace("FIRST", line)), seed=3) for line in ("n = 1", "x, a, y, q = 1, 2, 3, 4"))
+    first, second = (
+        engine(load(text.replace("FIRST", line)), seed=3) for line in ("n = 1", "x, a, y, q = 1, 2, 3, 4")
+    )
     assert isinstance(first, dict) and isinstance(second, dict)
     assert first["value"] == second["value"]

@@ -40,6 +40,8 @@ class Around:
         self.program = Program()
         self.program.unit(function)
         self.forms = lower_waiting(self.program)
+        self.name = self.program.fresh(NAME)
+        self.known: dict[tuple[str, tuple[str, str, str]], _engine.Program] = {}
 
     @deep
     def infer(self, constant: tuple[str, str, str], model: Any, args: Sequence[Any], seed: int) -> Any:
@@ -62,12 +64,15 @@ class Around:
         constants = [*self.program.constants, constant]
         searched = Form("host", [str(len(constants) - 1), *called, "$seed"])
         parameters = Form("params", [*(f"${number}" for number in range(len(given.values))), "$seed"])
-        name = self.program.fresh(NAME)
+        name = self.name
         added = Form("fn", [literal(name), Form("file", ["0"]), parameters, Form("return", [searched])])
         text = Form(
             "module", [*module_head(self.program), *self.forms, added, Form("entry", [literal(name)])]
         )
-        program = _engine.Program(write_tree(text, 0, True, True), constants, self.program.classes)
+        key = write_tree(text, 0, True, True), constant
+        if key not in self.known:
+            self.known[key] = _engine.Program(key[0], constants, self.program.classes)
+        program = self.known[key]
         ran, _, _ = _engine.Task(program, [*given.values, seed]).search(Forward(1).text()[0], 0)
         return ran[0].value
 

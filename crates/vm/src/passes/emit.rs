@@ -3,9 +3,9 @@
 use super::liveness::LoopHeads;
 use super::scope::Keeping;
 use super::{CompileError, Unit, literal, place};
+use crate::builtins::make_dist;
 use crate::code::{Args, Function, FunctionId, Mode, Op, Operand, Place, Site, Visible};
 use crate::core::{self, ExprKind, Literal, Name, Span};
-use crate::builtins::make_dist;
 use crate::value::{self, Value};
 use niwaki_math::Scalar;
 use std::collections::HashMap;
