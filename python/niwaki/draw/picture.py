@@ -71,7 +71,7 @@ def picture(
     size
         Width and height in pixels.
     samples
-        Rays for each pixel; 4 for a draft, 16 for a page, 64 for print.
+        Rays for each pixel where the picture changes, a quarter elsewhere; 4 for a draft, 16 for a page, 64 for print.
     azimuth, elevation
         The direction of the camera, degrees: 0, 0 looks from +z; azimuth 90 from +x; elevation 90 from above.
     fov

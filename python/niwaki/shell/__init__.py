@@ -1,4 +1,4 @@
-"""The shell's commands, one a file; `main` puts them together.
+"""The shell's commands, one a file; `app` lists them and loads each when it is used.
 
 app.py        the application, and what the commands share: arguments, folders, the progress line
 controls.py   what the shape should be like, as flags
