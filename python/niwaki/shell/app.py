@@ -5,19 +5,13 @@ Results go to files and stdout, progress and warnings to stderr.
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
 from niwaki.errors import FileError
-
-if TYPE_CHECKING:
-    from niwaki import result
 
 #: The commands and what they do. The module of a command is loaded when the command is used.
 COMMANDS = {
@@ -65,7 +59,9 @@ def niwaki() -> None:
     """Grow procedural models into given shapes."""
 
 
-ModelName = Annotated[str, typer.Argument(metavar="MODEL", help="A gallery name, or file.py:function.")]
+ModelName = Annotated[
+    str, typer.Argument(metavar="MODEL", help="A gallery name, or file.py:function; the file is run.")
+]
 Folder = Annotated[
     Path | None, typer.Option("-o", "--output", metavar="DIR", help="The folder for files; default: out.")
 ]
@@ -78,24 +74,3 @@ def ensure_folder(place: Path) -> Path:
     except OSError as error:
         raise FileError("file-unwritable", place, reason=error.strerror or str(error)) from error
     return place
-
-
-@contextmanager
-def progress_line(name: str) -> Iterator[Callable[[result.Progress], None]]:
-    """A line of progress on stderr; nothing where stderr is not a terminal."""
-    from rich.console import Console
-
-    console = Console(stderr=True)
-    if not console.is_terminal:
-        yield lambda _: None
-        return
-    with console.status(f"growing {name}") as status:
-
-        def show(now: result.Progress) -> None:
-            best = f"{now.best:.2f}" if math.isfinite(now.best) else "-"
-            status.update(
-                f"growing {name}: run {now.run + 1} of {now.runs}, step {now.done}, "
-                f"{now.ended} ended, best {best}   (Ctrl-C keeps the best so far)"
-            )
-
-        yield show
