@@ -1,8 +1,10 @@
 //! Guides for Python: files, and training on the traces of searches.
 
+use crate::checkpoints::PyCheckpoint;
 use crate::faults;
 use crate::runs::PyRun;
 use crate::search::{PyTask, detached};
+use crate::shared::Shared;
 use niwaki_guide::Progress;
 use niwaki_infer::guide::Guide;
 use niwaki_infer::guide::bound::BoundGuide;
@@ -11,7 +13,7 @@ use niwaki_infer::log::Entry;
 use niwaki_vm::fault::Fault;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 /// A trained guide.
 #[pyclass(frozen, name = "Guide", module = "niwaki._engine")]
@@ -70,26 +72,27 @@ impl PyGuide {
 /// Traces to learn from.
 #[pyclass(frozen, name = "Lessons", module = "niwaki._engine")]
 pub struct PyLessons {
-    examples: Mutex<Vec<Example>>,
+    examples: Shared<Vec<Example>>,
 }
 
 #[pymethods]
 impl PyLessons {
     #[new]
     fn new() -> PyLessons {
-        PyLessons { examples: Mutex::default() }
+        PyLessons { examples: Shared::new(Vec::new()) }
     }
 
     /// Adds a run of a task; one that is ``held_out`` judges.
     fn add(&self, py: Python<'_>, task: &PyTask, run: &PyRun, held_out: bool) -> PyResult<()> {
         let entries: Vec<Entry> = run.entries();
         let example = Example { task: task.keeping_all(py)?, entries, held_out };
-        self.examples.lock().unwrap_or_else(PoisonError::into_inner).push(example);
+        self.examples.lock(py)?.push(example);
         Ok(())
     }
 
     /// Trains a guide, or goes on with one: the guide, and a dict of what happened. ``settings`` is JSON.
-    #[pyo3(signature = (task, settings, start=None, threads=None, watch=None))]
+    #[pyo3(signature = (task, settings, start=None, threads=None, watch=None, checkpoint=None))]
+    #[expect(clippy::too_many_arguments, reason = "the settings of a training")]
     fn train<'py>(
         &self,
         py: Python<'py>,
@@ -98,16 +101,19 @@ impl PyLessons {
         start: Option<&PyGuide>,
         threads: Option<usize>,
         watch: Option<Py<PyAny>>,
+        checkpoint: Option<&PyCheckpoint>,
     ) -> PyResult<(PyGuide, Bound<'py, PyDict>)> {
         let making: Making = serde_json::from_str(settings)
             .map_err(|error| faults::setting(py, &Fault::new("bad-setting", error.to_string())))?;
         let classes = &task.model.get().classes;
         let caller = watch.as_ref().map(|call| (call, classes));
         let start = start.map(|own| own.guide.clone());
+        let using = self.examples.lock(py)?;
+        let examples: &[Example] = &using;
+        let checkpoint = checkpoint.map(|own| &own.checkpoint);
         let (result, pressed) = detached(py, &task.task.program, threads, caller, |watch| {
-            let examples = self.examples.lock().unwrap_or_else(PoisonError::into_inner);
             let mut seen = |now: Progress| watch.look(now.step, now.steps as usize, -now.held_out);
-            train(&examples, &making, start.as_deref(), &mut seen)
+            train(examples, &making, start.as_deref(), &mut seen, checkpoint)
         })?;
         let told = PyDict::new(py);
         let losses = result.history.iter().map(|now| (now.step, now.loss, now.held_out));

@@ -6,9 +6,12 @@
 //! * `model`: compiled models; `search`: algorithms; `chains`: Markov chains;
 //!   `runs`: finished runs; `gradients`: log densities with their gradients; `trajectories`: chains that follow them;
 //!   `networks`: networks of guides, for a comparison with other software;
+//! * `threads`: the pools of threads; `shared`: values that several threads of Python use;
+//! * `checkpoints`: what a search needs to go on after it was killed;
 //! * `distributions`, `geometry`, `views`, `pictures`: parts of the lower crates.
 
 mod chains;
+mod checkpoints;
 mod distributions;
 mod faults;
 mod geometry;
@@ -19,6 +22,8 @@ mod networks;
 mod pictures;
 mod runs;
 mod search;
+mod shared;
+mod threads;
 mod trajectories;
 mod values;
 mod views;
@@ -46,5 +51,6 @@ fn _engine(module: &Bound<'_, PyModule>) -> PyResult<()> {
     runs::register(module)?;
     search::register(module)?;
     chains::register(module)?;
+    checkpoints::register(module)?;
     trajectories::register(module)
 }

@@ -23,6 +23,7 @@ COMMANDS = {
     "color": "Colour a drawing in ways that differ.",
     "letters": "Write a text in vines or lightning.",
     "guide": "Train guides, and show what they see.",
+    "studio": "Open a page to search, hold parts and grow the rest again.",
     "explain": "Draw what each strategy runs again for one proposal.",
 }
 
