@@ -124,6 +124,12 @@ FAULTS = {
     "emit({})": "type-mismatch",
     "sample(3)": "not-a-distribution",
     "observe(3, 1.0)": "not-a-distribution",
+    'observe(Gaussian(0, 1), "a")': "type-mismatch",
+    "observe(Gaussian(0, 1), None)": "type-mismatch",
+    "observe(Bernoulli(0.5), G)": "type-mismatch",
+    'observe(Categorical([1, 2]), {"a": 1})': "type-mismatch",
+    "observe(Gaussian(0, -1), 1.0)": "bad-parameter",
+    'observe(Gaussian(0, -1), "a")': "bad-parameter",
 }
 
 

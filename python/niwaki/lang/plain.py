@@ -290,11 +290,12 @@ class PlainRun:
             )
 
     def density(self, dist: Distribution, value: Any) -> float:
-        """The log density of a value, which must not be infinitely likely; a bad parameter is a fault."""
+        """The log density of a value, which must not be infinitely likely; a bad parameter or value is a fault."""
         try:
             found = densities.log_density(dist, value)
         except (ValueError, TypeError) as error:
-            raise ModelFault("bad-parameter", str(error), stack=self.stack()) from error
+            code = "type-mismatch" if densities.is_valid(dist) else "bad-parameter"
+            raise ModelFault(code, str(error), stack=self.stack()) from error
         if math.isnan(found) or found == math.inf:
             message = f"the log density of {value!r} is {found}"
             raise ModelFault("non-finite-score", message, stack=self.stack())

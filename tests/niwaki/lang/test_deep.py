@@ -12,6 +12,7 @@ from typing import Any
 
 import niwaki as nw
 import pytest
+from niwaki import kernels
 from niwaki.errors import ModelError, NiwakiError
 from niwaki.lang.advice import advise
 from niwaki.lang.deep import MOST
@@ -115,3 +116,12 @@ def test_the_shell_has_a_message_for_what_python_cannot_read(text: str, tmp_path
     done = subprocess.run(command, capture_output=True, text=True, env=os.environ, check=False)
     assert done.returncode != 0 and "Traceback" not in done.stderr and "error" in done.stderr
     assert len(done.stderr) < 5000
+
+
+@pytest.mark.parametrize(
+    "text", ["-" * 9000 + "1", "+".join("1" * 30_000), "f" + ".a" * 3000, "cycle(" * 900]
+)
+def test_a_kernel_that_is_deep_has_a_message(text: str) -> None:
+    with pytest.raises(NiwakiError, match="nested") as caught:
+        kernels.parse(text)
+    assert caught.value.code == "unreadable-kernel"
