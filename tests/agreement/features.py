@@ -142,7 +142,7 @@ def m():
         y = 1
     elif n > x:
         n, x = x, (n,)
-        y = lambda x: x + gaussian(1, 1)
+        y = (lambda x: x + gaussian(x, 1))(n)
     else:
         x, y = {"x": x}, None
     for x, n in enumerate([x, n]):

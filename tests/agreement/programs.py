@@ -133,7 +133,7 @@ class Maker:
             options += [lambda: f"{self.random.choice(self.locals)}({r()})"] * 2
         options += [
             lambda: f"sum([x * n + {small} for n, x in enumerate({self.sequence(depth - 1)})])",
-            lambda: f"max([x for x in [x, {r()}] for n in (n, 1)])",
+            lambda: f"max([x for x in [x, {r()}] for n in (x, 1)])",
             lambda: f"(lambda x, n={self.integer(depth - 1)}: x + n)({r()})",
             lambda: f"(lambda n: (lambda n: n * 2)(n) - n)({r()})",
         ]
@@ -343,7 +343,7 @@ class Maker:
             "    xs = list(xs)",
         ]
         lines += [f"    y = {self.pick('gaussian(x, 1)', 'uniform(0, 1) + x', 'sample(Gaussian(x, 0.5))')}"]
-        lines += self.block(1, True)[:0] + [f"    {line}" for line in self.statement(1)]
+        lines += [f"    {without_queries(line)}" for line in self.statement(1)]
         lines = [line.replace("return (n, x)", "return x") for line in lines]
         lines += ["    if n > 0 and flip(0.6):", f"        return {name}(y, n - 1) + f", "    return y + x"]
         return "\n".join(lines)

@@ -140,6 +140,15 @@ def test_the_two_ways_refuse(line: str) -> None:
         assert isinstance(found, NiwakiError) and found.code == FAULTS[line], found  # type: ignore[attr-defined]
 
 
+def test_a_message_has_the_name_of_the_source() -> None:
+    """Where a name has several variables, the engine's message has it as it was written."""
+    text = "def m():\n    n = 1\n    return n, [x for x in [1, 2] for n in (n, 1)]"
+    model = load(f"{HEADER}@model\n{text}\n")
+    for found in (plain(model, seed=1), engine(model, seed=1)):
+        assert isinstance(found, NiwakiError) and found.code == "unassigned-variable", found  # type: ignore[attr-defined]
+        assert "%" not in str(found)
+
+
 def test_a_default_of_any_constant() -> None:
     text = (
         "def m(f=lambda v: v + 1, d=G, p=Leaf(2.5), xs=[G, 1]):\n    return f(1), sample(d), p.size, len(xs)"

@@ -174,7 +174,7 @@ fn addresses_do_not_depend_on_which_variable_of_a_name_it_is() {
         let text = format!(
             "(module (fn \"low\" (params) (set ${x} (sample (dist gaussian 0 1))) (return ${x}))
             (fn \"m\" (params) (for ${y} (range 2) (body (set ${x} (call \"low\")) (set $f (closure \"low\"))
-                (set ${y}0 (apply $f)))) (return (sample (dist gaussian 0 1)))) (entry \"m\"))"
+                (set ${x} (apply $f)))) (return (sample (dist gaussian 0 1)))) (entry \"m\"))"
         );
         let (_, script) = run_with(&text, Limits::default()).unwrap_or_else(|f| panic!("{f}"));
         (script.paths, script.addresses)

@@ -30,16 +30,23 @@ class Ended(Exception):
 
 
 @cache
+def left_alone(case: str) -> tuple[str, float]:
+    """The digest of a search that is left alone, without a checkpoint, and its seconds."""
+    start = time.monotonic()
+    digest = resumed.digest(resumed.CASES[case]())
+    return digest, time.monotonic() - start
+
+
 def alone(case: str) -> str:
-    """The digest of a search that is left alone, without a checkpoint."""
-    return resumed.digest(resumed.CASES[case]())
+    """The digest of a search that is left alone."""
+    return left_alone(case)[0]
 
 
 def broken_off(case: str, place: Path, times: int, seed: int) -> tuple[Any, int]:
     """The result of a search that is ended at most so many times, and how often it was."""
-    chance = random.Random(seed)
+    chance, seconds = random.Random(seed), left_alone(case)[1]
     for ended in range(times + 1):
-        until = time.monotonic() + (chance.uniform(0.05, 0.5) if ended < times else 1e9)
+        until = time.monotonic() + (chance.uniform(0.05, 0.5) * seconds if ended < times else 1e9)
 
         def watch(_: Any, until: float = until) -> None:
             if time.monotonic() > until:
@@ -62,7 +69,7 @@ def test_what_goes_on_gives_the_same_bytes(case: str, tmp_path: Path) -> None:
 
 def killed(case: str, place: Path, times: int, seed: int) -> tuple[str, int]:
     """The digest of a search in processes that are killed at random moments, and how often that was."""
-    chance, kills = random.Random(seed), 0
+    chance, kills, seconds = random.Random(seed), 0, left_alone(case)[1]
     begun = Path(f"{place}.begun")
     while True:
         begun.unlink(missing_ok=True)
@@ -71,7 +78,9 @@ def killed(case: str, place: Path, times: int, seed: int) -> tuple[str, int]:
             while kills < times and not begun.exists() and child.poll() is None:
                 time.sleep(0.01)
             try:
-                said, _ = child.communicate(timeout=chance.uniform(0.0, 0.8) if kills < times else 300)
+                said, _ = child.communicate(
+                    timeout=chance.uniform(0.0, 0.5) * seconds if kills < times else 300
+                )
             except subprocess.TimeoutExpired:
                 child.send_signal(signal.SIGKILL)
                 child.wait()

@@ -88,7 +88,7 @@ def test_chains_of_the_shell_go_on(tmp_path: Path, monkeypatch: pytest.MonkeyPat
         "from niwaki import gaussian, model, observe\nfrom niwaki.words import Gaussian\n\n"
         "@model\ndef line():\n    at = gaussian(0, 1)\n    observe(Gaussian(at, 1.0), 2.0)\n    return at\n"
     )
-    words = ["sample", "line.py:line", "--steps", "2000000", "--seed", "3"]
+    words = ["sample", "line.py:line", "--steps", "5000000", "--seed", "3"]
     status, said = ended(signal.SIGINT, Path("out"), *words, "-o", "out")
     assert status in (0, 130), said
     if status == 130:
