@@ -169,6 +169,20 @@ fn addresses_are_paths_of_sites() {
 }
 
 #[test]
+fn addresses_do_not_depend_on_which_variable_of_a_name_it_is() {
+    let found = |x: &str, y: &str| {
+        let text = format!(
+            "(module (fn \"low\" (params) (set ${x} (sample (dist gaussian 0 1))) (return ${x}))
+            (fn \"m\" (params) (for ${y} (range 2) (body (set ${x} (call \"low\")) (set $f (closure \"low\"))
+                (set ${x} (apply $f)))) (return (sample (dist gaussian 0 1)))) (entry \"m\"))"
+        );
+        let (_, script) = run_with(&text, Limits::default()).unwrap_or_else(|f| panic!("{f}"));
+        (script.paths, script.addresses)
+    };
+    assert_eq!(found("x", "i"), found("x%1", "i%2"));
+}
+
+#[test]
 fn two_hundred_thousand_calls_deep_runs_and_is_dropped() {
     for effect in ["", EFFECT] {
         let text = format!(

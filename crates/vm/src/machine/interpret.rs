@@ -9,6 +9,7 @@ use super::suspend::After;
 use super::{Here, Machine, PureCall, Stop, operate};
 use crate::builtins;
 use crate::code::{Binary, FunctionId, Mode, Op, SiteKind, exit};
+use crate::core::readable;
 use crate::fault::Fault;
 use crate::value::{Value, iter_get, iter_len, ops};
 use niwaki_math::Scalar;
@@ -331,7 +332,7 @@ impl<S: Scalar> Machine<'_, S> {
                 }
                 Op::CheckSet { a, name } => {
                     if matches!(get!(a), Value::Unset) {
-                        let name = &f.names[name as usize];
+                        let name = readable(&f.names[name as usize]);
                         check!(Err(Fault::new(
                             "unassigned-variable",
                             format!("the variable `{name}` is read before it is assigned")

@@ -62,6 +62,7 @@ impl<S: Scalar> Machine<'_, S> {
         match &site.kind {
             SiteKind::Query => {
                 get!(0).refuse_futures("the key of a query")?;
+                get!(0).refuse_as_key()?;
                 answers.query(&at!(), get!(0), get!(1))?;
                 Ok(After::Next)
             }

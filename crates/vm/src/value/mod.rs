@@ -24,7 +24,7 @@ pub mod text;
 use std::sync::Arc;
 
 pub use aggregate::{Class, ClassKind, Closure, Dict, Range, Record, Tuple, Vector};
-pub use compare::{equal, order};
+pub use compare::{equal, hash, order};
 pub use index::{iter_get, iter_len};
 pub use list::List;
 pub use niwaki_geom::Shape;

@@ -114,6 +114,7 @@ impl<S: Scalar> Kept<S> {
             SiteKind::Query => {
                 let key = r.get(state, &machine.scratch, r.f.operands[site.args.start as usize]);
                 key.refuse_futures("the key of a query")?;
+                key.refuse_as_key()?;
                 let at = Kept::slot_at(state, node, number.0 as usize);
                 if !self.slots[at].is_filled() {
                     self.write_slot(self.quiet, at, Slot { held: 0, mark: 0, log: 0.0 });
