@@ -179,8 +179,8 @@ impl Answers<f64> for Replay<'_> {
         Ok(())
     }
 
-    fn host(&mut self, constant: u16, args: &[Value]) -> Result<Value, Fault> {
-        self.task.hosts.call(constant, args)
+    fn host(&mut self, constant: u16, args: &[Value], steps: &mut u64) -> Result<Value, Fault> {
+        self.task.hosts.call(constant, args, steps)
     }
 }
 

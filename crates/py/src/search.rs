@@ -28,7 +28,7 @@ use niwaki_infer::{Failure, Task};
 use niwaki_vm::code::Program;
 use niwaki_vm::core::Name;
 use niwaki_vm::fault::Fault;
-use niwaki_vm::machine::Limits;
+use niwaki_vm::machine::{Limits, Together};
 use niwaki_vm::value::{Closure, Value};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
 use pyo3::prelude::*;
@@ -162,6 +162,7 @@ impl PyTask {
             sketches: sketches.into_iter().map(|s| s.0).collect(),
             hosts: own.hosts(limits),
             limits,
+            together: None,
             invalid: Arc::default(),
         };
         Ok(PyTask { task, model: program.clone_ref(py) })
@@ -234,7 +235,8 @@ impl PyTask {
         let inner = read.unwrap_or_else(|| Err(unknown())).map_err(|fault| faults::setting(py, &fault))?;
         let inferences = self.model.get().inferences(self.task.limits);
         let entry = Arc::new(Closure { function: program.entry.0, captures: vec![] });
-        let value = self.at_once(py, || Ok(inferences.infer(&inner, &entry, &self.task.args, seed)?))?;
+        let together = Arc::new(Together::new(self.task.limits.steps));
+        let value = self.at_once(py, || Ok(inferences.infer(&inner, &entry, &self.task.args, seed, &together)?))?;
         self.object(py, &value)
     }
 

@@ -48,7 +48,7 @@ impl Answers<f64> for Script {
     fn query(&mut self, _: &At<'_, f64>, _: &Value, _: &Value) -> Result<(), Fault> {
         Ok(())
     }
-    fn host(&mut self, _: u16, args: &[Value]) -> Result<Value, Fault> {
+    fn host(&mut self, _: u16, args: &[Value], _: &mut u64) -> Result<Value, Fault> {
         Ok(args[0].clone())
     }
 }
@@ -381,7 +381,7 @@ impl Answers<f64> for Scopes {
     fn query(&mut self, _: &At<'_, f64>, _: &Value, _: &Value) -> Result<(), Fault> {
         Ok(())
     }
-    fn host(&mut self, _: u16, args: &[Value]) -> Result<Value, Fault> {
+    fn host(&mut self, _: u16, args: &[Value], _: &mut u64) -> Result<Value, Fault> {
         Ok(args[0].clone())
     }
 }

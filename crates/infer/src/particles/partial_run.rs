@@ -318,8 +318,8 @@ impl<C: Chooser> Answers<f64> for Recorder<'_, C> {
         Ok(())
     }
 
-    fn host(&mut self, constant: u16, args: &[Value]) -> Result<Value, Fault> {
-        self.with.task.hosts.call(constant, args)
+    fn host(&mut self, constant: u16, args: &[Value], steps: &mut u64) -> Result<Value, Fault> {
+        self.with.task.hosts.call(constant, args, steps)
     }
 }
 

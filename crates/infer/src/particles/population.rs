@@ -101,7 +101,7 @@ impl<'a> Population<'a> {
         };
         let threads = rayon::current_num_threads();
         let parallel = !serial && n > BATCH && threads > 1;
-        let own = |_| Task { program: Arc::new(task.program.apart()), ..task.clone() };
+        let own = |program| Task { program: Arc::new(program), ..task.clone() };
         Ok(Population {
             settings,
             particles,
@@ -117,7 +117,7 @@ impl<'a> Population<'a> {
             mover: Mover::of(&task, settings)?,
             moved: MoveCounts::default(),
             parallel,
-            apart: (0..if parallel { threads } else { 0 }).map(own).collect(),
+            apart: task.program.apart(if parallel { threads } else { 0 }).into_iter().map(own).collect(),
             copies: Copies::default(),
             logs: Vec::with_capacity(n),
             task,

@@ -1,10 +1,11 @@
 //! The loop over instructions. It is long because it is one table.
 
 use super::answers::Answers;
+use super::budget::{self, Price};
 use super::keep::{Keep, put};
 use super::question::Halt;
 use super::registers::Registers;
-use super::state::{FutureId, NodeId, State};
+use super::state::{FutureId, NodeId, State, make_room};
 use super::suspend::After;
 use super::{Here, Machine, PureCall, Stop, operate};
 use crate::builtins;
@@ -144,6 +145,28 @@ impl<S: Scalar> Machine<'_, S> {
                 continue;
             }};
         }
+        // An operation of values that are not both numbers has its price first.
+        macro_rules! operation {
+            ($op:expr, $a:expr, $b:expr) => {{
+                let (a, b) = (get!($a), get!($b));
+                if $op != Binary::Index && !(a.is_plain() && b.is_plain()) {
+                    let price = budget::of_binary($op, a, b);
+                    check!(self.charge(state, keep, price));
+                }
+                check!(operate::values($op, get!($a), get!($b)))
+            }};
+        }
+        // A value that was made.
+        macro_rules! made {
+            ($value:expr) => {{
+                let value = $value;
+                if !value.is_plain() {
+                    let price = Price { steps: 0, bytes: budget::of_result(&value) };
+                    check!(self.charge(state, keep, price));
+                }
+                value
+            }};
+        }
         // The compiler knows this operation, so it removes the cases of `operate` for the others.
         macro_rules! arithmetic {
             ($op:expr, $to:expr, $a:expr, $b:expr) => {{
@@ -161,7 +184,7 @@ impl<S: Scalar> Machine<'_, S> {
                 {
                     slot!($to, store_int, Value::Int, z);
                 } else {
-                    put!($to, check!(operate::values($op, a, b)));
+                    put!($to, operation!($op, $a, $b));
                 }
             }};
         }
@@ -174,12 +197,12 @@ impl<S: Scalar> Machine<'_, S> {
                 id = function;
                 f = program.function(id);
                 code = &f.code;
-                self.reserve(scratch + f.scratch_registers as usize);
+                let deeper = self.reserve(scratch + f.scratch_registers as usize);
                 for (i, value) in self.buffer.drain(..).enumerate() {
                     self.scratch[scratch + i].store(value);
                 }
-                if self.scratch.len() * size_of::<Value<S>>() > self.limits.bytes {
-                    check!(Err(self.out_of_memory()));
+                if deeper {
+                    check!(self.afford(state, keep));
                 }
                 pc = 0;
                 continue;
@@ -200,18 +223,17 @@ impl<S: Scalar> Machine<'_, S> {
                 Op::Mul { to, a, b } => arithmetic!(Binary::Mul, to, a, b),
                 Op::Div { to, a, b } => arithmetic!(Binary::Div, to, a, b),
                 Op::Binary { op, to, a, b } => {
-                    let (a, b) = (get!(a), get!(b));
-                    if let (Value::Int(x), Value::Int(y)) = (a, b)
+                    if let (Value::Int(x), Value::Int(y)) = (get!(a), get!(b))
                         && let Some(z) = operate::ints(op, *x, *y)
                     {
                         slot!(to, store_int, Value::Int, z);
                     } else {
-                        put!(to, check!(operate::values(op, a, b)));
+                        put!(to, operation!(op, a, b));
                     }
                 }
                 Op::Neg { to, a } => {
                     let value = check!(ops::neg(get!(a)));
-                    put!(to, value);
+                    put!(to, made!(value));
                 }
                 Op::Not { to, a } => {
                     let value = check!(ops::truth(get!(a)));
@@ -229,6 +251,11 @@ impl<S: Scalar> Machine<'_, S> {
                     }
                 }
                 Op::JumpUnlessCompare { op, a, b, target } => {
+                    let (x, y) = (get!(a), get!(b));
+                    if !(x.is_plain() || y.is_plain()) {
+                        let price = budget::of_binary(op, x, y);
+                        check!(self.charge(state, keep, price));
+                    }
                     if !check!(operate::holds(op, get!(a), get!(b))) {
                         goto!(target);
                     }
@@ -236,7 +263,11 @@ impl<S: Scalar> Machine<'_, S> {
                 Op::Site { site: number } if K::KEEPS => {
                     keep.at(pc);
                     match keep.site(self, state, answers, r!(), node, number) {
-                        Ok(After::Next) => {}
+                        Ok(After::Next) => {
+                            if state.bytes() > state.ceiling {
+                                check!(self.audit(state, keep, 0));
+                            }
+                        }
                         Ok(After::Enter(inner, at)) => {
                             step!();
                             enter!(inner, at);
@@ -287,9 +318,15 @@ impl<S: Scalar> Machine<'_, S> {
                     let builtin = builtins::builtin::<S>(builtin);
                     let answer = if let [a] = f.operands[args.range()] {
                         // A single argument, as of `sqrt`, is read in place.
+                        if !get!(a).is_plain() {
+                            let price = budget::of_builtin(builtin, std::slice::from_ref(get!(a)));
+                            check!(self.charge_passing(state, keep, price));
+                        }
                         builtin.call(std::slice::from_ref(get!(a)))
                     } else {
                         gather!(args);
+                        let price = budget::of_builtin(builtin, &self.buffer);
+                        check!(self.charge_passing(state, keep, price));
                         builtin.call(&self.buffer)
                     };
                     let value = check!(answer);
@@ -298,7 +335,7 @@ impl<S: Scalar> Machine<'_, S> {
                         std::mem::forget(value);
                         slot!(to, store_real, Value::Real, x);
                     } else {
-                        put!(to, value);
+                        put!(to, made!(value));
                     }
                 }
                 Op::Host { to, constant, args } => {
@@ -306,8 +343,8 @@ impl<S: Scalar> Machine<'_, S> {
                     for value in &self.buffer {
                         check!(value.refuse_futures("given to what runs outside of the model"));
                     }
-                    let value = check!(answers.host(constant, &self.buffer));
-                    put!(to, value);
+                    let value = check!(answers.host(constant, &self.buffer, &mut state.steps));
+                    put!(to, made!(value));
                 }
                 Op::CallPure { to, function, args } => {
                     gather!(args);
@@ -445,10 +482,23 @@ impl<S: Scalar> Machine<'_, S> {
         }
     }
 
-    /// Reserves that many scratch registers.
+    /// Reserves that many scratch registers; whether they are more than the run has used before.
     #[inline]
-    fn reserve(&mut self, registers: usize) {
-        if self.scratch.len() < registers {
+    fn reserve(&mut self, registers: usize) -> bool {
+        let deeper = self.high < registers;
+        if deeper {
+            self.grow_scratch(registers);
+        }
+        deeper
+    }
+
+    #[inline(never)]
+    fn grow_scratch(&mut self, registers: usize) {
+        self.high = registers;
+        let len = self.scratch.len();
+        if len < registers {
+            make_room(&mut self.scratch, registers - len, self.limits.bytes);
+            make_room(&mut self.pure, 1, self.limits.bytes);
             self.scratch.resize(registers.max(64), Value::None);
         }
     }

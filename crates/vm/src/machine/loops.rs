@@ -2,6 +2,7 @@
 
 use super::Machine;
 use super::address::{iteration_key, join};
+use super::keep::Dropped;
 use super::registers::Registers;
 use super::state::{FutureId, Node, NodeId, State};
 use super::suspend::After;
@@ -45,9 +46,7 @@ impl<S: Scalar> Machine<'_, S> {
         for (i, value) in first.into_iter().chain(self.buffer.drain(..)).enumerate() {
             state.registers[at + i].store(value);
         }
-        if state.bytes() > self.limits.bytes {
-            return Err(self.out_of_memory());
-        }
+        self.afford(state, &Dropped)?;
         Ok(After::Enter(inner, 0))
     }
 

@@ -17,9 +17,10 @@ use super::address;
 use super::held::Numbers;
 use super::parts::Parts;
 use crate::code::{FunctionId, Mode, Program};
-use crate::value::Value;
+use crate::value::{Census, Value};
 use niwaki_math::Scalar;
 use std::collections::HashMap;
+use std::sync::Arc;
 
 /// Number of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -89,6 +90,14 @@ pub struct State<S: Scalar = f64> {
     /// Futures run where they are created.
     pub(crate) depth_first: bool,
     pub(crate) steps: u64,
+    /// Bytes of values: those that the last audit found, and all that was made since.
+    pub(crate) charged: usize,
+    /// Bytes of the choices that were logged.
+    pub(crate) logged: usize,
+    /// The next audit is due when [`State::bytes`] is above this.
+    pub(crate) ceiling: usize,
+    /// What the run was given: it belongs to the caller, and is not counted.
+    pub(crate) given: Option<Arc<[Value<S>]>>,
     /// Held choices that the run has not met.
     pub(crate) unmet: Numbers,
     /// Readable paths of the activations that futures began with, where they are kept.
@@ -114,6 +123,10 @@ impl<S: Scalar> Clone for State<S> {
         self.unreturned = source.unreturned;
         self.depth_first = source.depth_first;
         self.steps = source.steps;
+        self.charged = source.charged;
+        self.logged = source.logged;
+        self.ceiling = source.ceiling;
+        self.given.clone_from(&source.given);
         self.unmet.clone_from(&source.unmet);
         self.origins.clone_from(&source.origins);
         self.parts.clone_from(&source.parts);
@@ -133,6 +146,20 @@ pub(super) fn copy<T: Clone>(to: &mut Vec<T>, from: &[T]) {
     }
 }
 
+/// From this many bytes on a vector that grows is given all the room that it may need.
+const LARGE: usize = 1 << 20;
+
+/// Makes room for more elements. A large vector gets room for `spare` bytes at once: pages that are not written take no
+/// memory, while a vector that doubles is in memory twice when it moves.
+#[inline]
+pub(super) fn make_room<T>(vector: &mut Vec<T>, more: usize, spare: usize) {
+    if vector.capacity() - vector.len() < more && vector.len() * size_of::<T>() >= LARGE {
+        let room = (spare / size_of::<T>()).max(more);
+        // Where so much cannot be had, the vector grows as usual.
+        let _ = vector.try_reserve_exact(room);
+    }
+}
+
 impl<S: Scalar> State<S> {
     /// An empty state.
     pub(crate) fn empty() -> Self {
@@ -146,6 +173,10 @@ impl<S: Scalar> State<S> {
             unreturned: 0,
             depth_first: false,
             steps: 0,
+            charged: 0,
+            logged: 0,
+            ceiling: 0,
+            given: None,
             unmet: Numbers::default(),
             origins: None,
             parts: Parts::default(),
@@ -215,14 +246,38 @@ impl<S: Scalar> State<S> {
         })
     }
 
-    /// Steps taken so far: calls, iterations and backward jumps.
+    /// Steps taken so far: calls, iterations and backward jumps, and those of operations on many elements.
     pub fn steps(&self) -> u64 {
         self.steps
     }
 
-    /// Bytes that nodes and registers hold.
+    /// Bytes that nodes, registers and values take, or more: values that were dropped since the last audit count, too.
+    #[inline]
     pub fn bytes(&self) -> usize {
-        self.nodes.len() * size_of::<Node>() + self.registers.len() * size_of::<Value<S>>()
+        self.own_bytes().saturating_add(self.charged).saturating_add(self.logged)
+    }
+
+    /// Bytes of nodes, registers and futures.
+    #[inline]
+    pub(crate) fn own_bytes(&self) -> usize {
+        self.nodes.len() * size_of::<Node>()
+            + self.registers.len() * size_of::<Value<S>>()
+            + self.futures.len() * (size_of::<Future<S>>() + size_of::<FutureId>())
+    }
+
+    /// Counts the values that the run holds.
+    pub fn count<'v>(&'v self, census: &mut Census<'v, S>) {
+        self.registers.iter().for_each(|value| census.add(value));
+        for future in &self.futures {
+            if let Status::Returned(value) = &future.status {
+                census.add(value);
+            }
+        }
+    }
+
+    /// Counts what the run was given, so that it is not counted again.
+    pub fn count_given<'v>(&'v self, census: &mut Census<'v, S>) {
+        self.given.iter().flat_map(|given| given.iter()).for_each(|value| census.add(value));
     }
 
     /// A node for an activation of `function`; what its registers hold means nothing.
@@ -258,6 +313,9 @@ impl<S: Scalar> State<S> {
         }
         let at = self.registers.len();
         let count = program.function(function).node_registers as usize;
+        let spare = self.ceiling.saturating_sub(self.bytes());
+        make_room(&mut self.registers, count, spare);
+        make_room(&mut self.nodes, 1, spare);
         self.registers.resize(at + count, Value::None);
         self.nodes.push(Node { registers: at as u32, ..fresh });
         NodeId((self.nodes.len() - 1) as u32)

@@ -116,6 +116,7 @@ pub fn compile_keeping<S: Scalar>(
         classes: module.classes.iter().cloned().map(Arc::new).collect(),
         functions: unit.functions.into_iter().flatten().collect(),
         entry,
+        others: Vec::new(),
     };
     angles::mark(&mut program);
     verify(&program).map_err(|e| CompileError(e.to_string()))?;

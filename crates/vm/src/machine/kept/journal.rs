@@ -79,6 +79,30 @@ impl<S: Scalar> Default for Journal<S> {
 }
 
 impl<S: Scalar> Journal<S> {
+    /// Bytes of its entries, without what values hold.
+    pub fn bytes(&self) -> usize {
+        fn of<T>(entries: &[T]) -> usize {
+            size_of_val(entries)
+        }
+        of(&self.registers)
+            + of(&self.slots)
+            + of(&self.ends)
+            + of(&self.loops)
+            + self.loops.iter().map(|cut| of(&cut.removed)).sum::<usize>()
+            + of(&self.created)
+            + of(&self.removed)
+            + of(&self.emitted)
+            + of(&self.retracted)
+            + of(&self.births)
+            + of(&self.deaths)
+            + of(&self.reads)
+            + of(&self.moves)
+            + of(&self.cells)
+            + of(&self.dead_cells)
+            + of(&self.met)
+            + of(&self.anew)
+    }
+
     /// Forgets everything.
     pub fn clear(&mut self) {
         self.registers.clear();
