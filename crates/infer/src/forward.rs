@@ -36,7 +36,7 @@ impl<C: Chooser> Forward<'_, C> {
     /// A fault of the program, or of the chooser.
     pub fn run(&mut self, task: &Task, machine: &mut Machine<'_>, state: &mut State) -> Result<(), Failure> {
         while !state.has_ended() && (self.complete || self.record.cause.is_none()) {
-            let Some(next) = state.runnable().first().copied() else {
+            let Some(next) = state.runnable().first() else {
                 return Err(Box::new(machine.waiting_cycle(state)).into());
             };
             match machine.resume(state, next, self) {

@@ -226,7 +226,12 @@ impl Inferences {
             args: args.to_vec(),
             sketches: vec![],
             held: None,
-            hosts: Arc::new(Inferences { depth: self.depth + 1, known: Arc::default(), limits, ..self.clone() }),
+            hosts: Arc::new(Inferences {
+                depth: self.depth + 1,
+                known: Arc::default(),
+                limits,
+                ..self.clone()
+            }),
             limits,
             together: Some(together.clone()),
             invalid: Arc::default(),

@@ -202,7 +202,9 @@ pub fn replay(task: &Task, source: Source<'_>, missing: Missing) -> Result<Trace
     let mut answers = Replay { task, chooser, trace, record, written: HashMap::new() };
     if missing == Missing::Stop {
         let mut stuck = Vec::new();
-        while let Some(next) = state.runnable().iter().copied().find(|future| !stuck.contains(future)) {
+        loop {
+            let next = state.runnable().iter().find(|future| !stuck.contains(future));
+            let Some(next) = next else { break };
             if machine.resume(&mut state, next, &mut answers)? == Stop::Paused {
                 stuck.push(next);
             }

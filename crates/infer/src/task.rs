@@ -75,9 +75,17 @@ impl Task {
         Task { invalid: Arc::default(), ..self.clone() }
     }
 
+    /// The same task for each of so many searches at once, which share its memory.
+    pub fn shared_by(&self, count: usize) -> Task {
+        let bytes = self.limits.bytes / count.max(1);
+        Task { limits: Limits { bytes, ..self.limits }, ..self.clone() }
+    }
+
     /// A machine for its program.
     pub fn machine(&self) -> Machine<'_> {
-        Machine::new(&self.program, self.limits).holding(self.held.as_deref()).within(self.together.as_deref())
+        Machine::new(&self.program, self.limits)
+            .holding(self.held.as_deref())
+            .within(self.together.as_deref())
     }
 
     /// A run that has not begun.

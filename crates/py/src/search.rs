@@ -236,7 +236,8 @@ impl PyTask {
         let inferences = self.model.get().inferences(self.task.limits);
         let entry = Arc::new(Closure { function: program.entry.0, captures: vec![] });
         let together = Arc::new(Together::new(self.task.limits.steps));
-        let value = self.at_once(py, || Ok(inferences.infer(&inner, &entry, &self.task.args, seed, &together)?))?;
+        let value =
+            self.at_once(py, || Ok(inferences.infer(&inner, &entry, &self.task.args, seed, &together)?))?;
         self.object(py, &value)
     }
 

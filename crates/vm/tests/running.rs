@@ -208,7 +208,7 @@ fn a_paused_run_goes_on_where_it_was_and_forks_apart() {
     let mut machine = Machine::new(&program, Limits::default());
     let mut state = machine.start(&[], true).expect("a start");
     let mut script = Script { pause: true, ..Script::default() };
-    let root = state.runnable()[0];
+    let root = state.runnable().first().expect("the root");
     for _ in 0..2 {
         let stop = machine.resume(&mut state, root, &mut script).unwrap_or_else(|f| panic!("{f}"));
         assert_eq!(stop, Stop::Paused);
@@ -291,7 +291,7 @@ fn a_force_that_waits_reads_its_future_again_wherever_that_lies() {
             let mut script = Script { pause: true, ..Script::default() };
             let mut turn = 0;
             while !state.has_ended() {
-                let can = state.runnable().to_vec();
+                let can: Vec<_> = state.runnable().iter().collect();
                 turn += 1;
                 let next = [0, can.len() - 1, turn % can.len()][order];
                 machine.resume(&mut state, can[next], &mut script).unwrap_or_else(|f| panic!("{body}: {f}"));

@@ -28,6 +28,7 @@ impl<R: Rules> Chains<R> {
         count: usize,
         known: Option<&HashMap<u128, Value>>,
     ) -> Result<Chains<R>, Failure> {
+        let task = &task.shared_by(count);
         let chains =
             (0..count as u64).into_par_iter().map(|number| Ladder::start(task, settings, number, known));
         Ok(Chains { chains: chains.collect::<Result<Vec<_>, _>>()? })
@@ -46,6 +47,7 @@ impl<R: Rules> Chains<R> {
     ) -> Result<bool, Failure> {
         let each: Vec<(u64, f64)> = self.chains.iter().map(|c| (c.visit(), c.best_score())).collect();
         let progress = Mutex::new((each, false));
+        let task = &task.shared_by(self.chains.len());
         self.chains
             .par_iter_mut()
             .enumerate()

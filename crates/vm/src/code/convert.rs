@@ -47,8 +47,7 @@ impl<S: Scalar> Program<S> {
         let mut copies: Vec<Program<S>> = (0..threads).map(|_| self.copy()).collect();
         let small = |value: &&Value<S>| matches!(value, Value::Str(_) | Value::Dist(_) | Value::Function(_));
         let constants = copies.iter().chain([self]).flat_map(|program| &program.functions);
-        let all: Vec<Value<S>> =
-            constants.flat_map(|f| &f.constants).filter(small).cloned().collect();
+        let all: Vec<Value<S>> = constants.flat_map(|f| &f.constants).filter(small).cloned().collect();
         copies.iter_mut().for_each(|copy| copy.others.clone_from(&all));
         copies
     }

@@ -19,7 +19,7 @@ use crate::value::{Census, Value, index};
 use niwaki_math::{Family, Scalar};
 
 /// Elements that cost one step.
-const ELEMENTS: usize = 32;
+const ELEMENTS: usize = 8;
 
 /// Where a distribution is built for a question, this many times as many elements cost a step.
 const PARAMETERS_PER_STEP: u64 = 8;
@@ -49,7 +49,7 @@ impl Price {
 #[inline]
 fn length<S: Scalar>(value: &Value<S>) -> usize {
     match value {
-        Value::Str(text) => text.len() / ELEMENTS,
+        Value::Str(text) => text.len() / 32,
         Value::Tuple(tuple) => tuple.items().len(),
         Value::List(list) => list.len(),
         Value::Range(range) => range.len,
@@ -74,7 +74,13 @@ pub(super) fn of_binary<S: Scalar>(op: Binary, a: &Value<S>, b: &Value<S>) -> Pr
             if length(sequence) > 0 || matches!(sequence, Value::Str(_)) =>
         {
             let times = usize::try_from(*times).unwrap_or(0);
-            Price::of(length(sequence).saturating_mul(times), sequence.own_bytes().saturating_mul(times))
+            let count = length(sequence).saturating_mul(times);
+            let bytes = match sequence {
+                Value::Str(text) => text.len().saturating_mul(times) + 64,
+                // A list takes some more than its elements, for the nodes of its trie.
+                _ => count.saturating_mul(19).saturating_add(640),
+            };
+            Price::of(count, bytes)
         }
         (Binary::Add | Binary::Sub | Binary::Mul | Binary::Div, Value::Vector(_) | Value::Rotation(_), _)
         | (Binary::Add | Binary::Sub | Binary::Mul | Binary::Div, _, Value::Vector(_) | Value::Rotation(_)) => {
@@ -113,7 +119,7 @@ fn of_long<S: Scalar>(builtin: &Builtin<S>, args: &[Value<S>], longest: usize) -
         "zip" | "zip_strict" | "enumerate" => each(144),
         // Of a string the elements are its characters.
         "sorted" | "reversed" | "to_list" | "to_tuple" if matches!(args[0], Value::Str(_)) => {
-            Price::of(longest, longest.saturating_mul(ELEMENTS * 96))
+            Price::of(longest, longest.saturating_mul(32 * 96))
         }
         _ => each(80),
     }
@@ -143,7 +149,11 @@ pub(super) fn of_dist<S: Scalar>(family: Family, args: &[Value<S>]) -> Price {
 pub(super) const fn has_rows(family: Family) -> bool {
     matches!(
         family,
-        Family::Categorical | Family::Dirichlet | Family::MultivariateGaussian | Family::Mixture | Family::Delta
+        Family::Categorical
+            | Family::Dirichlet
+            | Family::MultivariateGaussian
+            | Family::Mixture
+            | Family::Delta
     )
 }
 
@@ -263,6 +273,28 @@ impl<S: Scalar> Machine<'_, S> {
         if state.bytes() + self.own_bytes() > state.ceiling { self.audit(state, keep, 0) } else { Ok(()) }
     }
 
+    /// Counts what a run holds between two questions, so that values that it has dropped do not count any more.
+    pub fn recount(&mut self, state: &mut State<S>) {
+        self.empty_scratch();
+        state.charged = self.values_of(state, &super::keep::Dropped);
+    }
+
+    fn values_of<K: Keep<S>>(&self, state: &State<S>, keep: &K) -> usize {
+        let mut census = Census::new();
+        self.count_given(state, &mut census);
+        state.count(&mut census);
+        self.scratch[..self.high].iter().for_each(|value| census.add(value));
+        keep.count_bytes(&mut census);
+        census.bytes()
+    }
+
+    /// Marks what belongs to the program and to the caller as counted.
+    pub fn count_given<'v>(&'v self, state: &'v State<S>, census: &mut Census<'v, S>) {
+        self.program.count(census);
+        state.count_given(census);
+        census.forget_bytes();
+    }
+
     /// Counts what the run holds. `coming` of the bytes charged are not allocated yet.
     ///
     /// # Errors
@@ -276,22 +308,13 @@ impl<S: Scalar> Machine<'_, S> {
         coming: usize,
     ) -> Result<(), Fault> {
         let limit = self.limits.bytes;
-        let values = {
-            let mut census = Census::new();
-            self.program.count(&mut census);
-            state.count_given(&mut census);
-            census.forget_bytes();
-            state.count(&mut census);
-            self.scratch[..self.high].iter().for_each(|value| census.add(value));
-            keep.count_bytes(&mut census);
-            census.bytes()
-        };
+        let values = self.values_of(state, keep);
         state.charged = values.saturating_add(coming);
         let total = state.bytes().saturating_add(self.own_bytes());
         if total > limit {
             return Err(self.out_of_memory());
         }
-        state.ceiling = state.bytes() + (limit - total).max(limit / 8);
+        state.ceiling = state.bytes() + (limit - total).max(limit / 16);
         Ok(())
     }
 }

@@ -112,7 +112,7 @@ impl<S: Scalar> Machine<'_, S> {
                     ));
                 }
                 let rest = n + 1 - count;
-                self.charge(state, keep, Price { steps: (rest / 32) as u64, bytes: 40 * rest })?;
+                self.charge(state, keep, Price { steps: (rest / 8) as u64, bytes: 40 * rest })?;
                 for (k, o) in f.operands[to.range()].iter().enumerate() {
                     let item = match k.cmp(&star) {
                         Ordering::Less => iter_get(&value, k),

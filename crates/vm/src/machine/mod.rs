@@ -5,7 +5,7 @@
 //!
 //! * [`address`]: paths of sites as 128-bit hashes; [`held`]: choices whose values are given;
 //! * [`answers`]: the questions, and the trait of those who answer;
-//! * [`state`]: nodes, registers, futures; `begin`: those of a run that has not begun;
+//! * [`state`]: nodes, registers, futures; [`runnable`]: the futures that can run; `begin`: those of a run that has not begun;
 //! * `budget`: what an operation costs in steps and bytes, and the audit of a run's memory;
 //! * `parts`: what activations emitted last, for guides;
 //! * [`kept`]: traces: kept activations, and re-running what changed;
@@ -32,6 +32,7 @@ mod operate;
 mod parts;
 mod question;
 mod registers;
+pub mod runnable;
 pub mod stack;
 pub mod state;
 mod suspend;
@@ -46,13 +47,13 @@ use keep::Dropped;
 use niwaki_geom::Shape;
 use niwaki_math::{LastLog, Scalar};
 use stack::RunFault;
-use std::sync::atomic::{AtomicU64, Ordering};
 use state::{FutureId, NodeId, State, Status};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// How much a run may use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
-    /// Calls, iterations and backward jumps, of one run; an operation on many elements counts one for every 32 of them.
+    /// Calls, iterations and backward jumps, of one run; an operation on many elements counts one for every 8 of them.
     pub steps: u64,
     /// Bytes of nodes, registers and values, of one run.
     pub bytes: usize,
@@ -210,11 +211,12 @@ impl<'p, S: Scalar> Machine<'p, S> {
         answers: &mut A,
     ) -> Result<Stop, Box<RunFault>> {
         self.empty_scratch();
-        let Status::Runnable(node) = state.futures[future.0 as usize].status else {
+        let Some(Status::Runnable(node)) = state.futures.get(future.0 as usize).map(|f| &f.status) else {
             return Err(Box::new(
                 self.report(state, Fault::new("not-runnable", "this future cannot run now")),
             ));
         };
+        let node = *node;
         let (pc, before) = (state.nodes[node.0 as usize].pc as usize, state.steps);
         let stop = self.interpret(state, &mut Dropped, future, (node, pc), answers);
         match stop.and_then(|stop| self.take_steps(state.steps - before).map(|()| stop)) {
@@ -241,7 +243,7 @@ impl<'p, S: Scalar> Machine<'p, S> {
         answers: &mut A,
     ) -> Result<(), Box<RunFault>> {
         while !state.has_ended() {
-            let Some(next) = state.runnable().first().copied() else {
+            let Some(next) = state.runnable().first() else {
                 return Err(Box::new(self.waiting_cycle(state)));
             };
             self.resume(state, next, answers)?;

@@ -16,6 +16,7 @@
 use super::address;
 use super::held::Numbers;
 use super::parts::Parts;
+use super::runnable::Runnable;
 use crate::code::{FunctionId, Mode, Program};
 use crate::value::{Census, Value};
 use niwaki_math::Scalar;
@@ -34,6 +35,11 @@ impl NodeId {
 /// Number of a future; the root call is future 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct FutureId(pub u32);
+
+impl FutureId {
+    /// No future.
+    pub const NONE: FutureId = FutureId(u32::MAX);
+}
 
 /// An activation.
 #[derive(Clone, Copy, Debug)]
@@ -71,9 +77,17 @@ pub(crate) enum Status<S: Scalar> {
 #[derive(Clone, Debug)]
 pub(crate) struct Future<S: Scalar> {
     pub status: Status<S>,
-    pub has_waiters: bool,
+    /// The future that waits for it, and the next one that waits for the same: a list, `NONE` at its end.
+    pub waiter: FutureId,
+    pub next_waiter: FutureId,
     /// No value holds its handle: its number is free once it has returned.
     pub detached: bool,
+}
+
+impl<S: Scalar> Future<S> {
+    fn new(status: Status<S>, detached: bool) -> Self {
+        Future { status, waiter: FutureId::NONE, next_waiter: FutureId::NONE, detached }
+    }
 }
 
 /// The state of one run of a program.
@@ -85,7 +99,7 @@ pub struct State<S: Scalar = f64> {
     pub(crate) free: Vec<NodeId>,
     pub(crate) futures: Vec<Future<S>>,
     pub(crate) free_futures: Vec<u32>,
-    pub(crate) runnable: Vec<FutureId>,
+    pub(crate) runnable: Runnable,
     pub(crate) unreturned: u32,
     /// Futures run where they are created.
     pub(crate) depth_first: bool,
@@ -119,7 +133,7 @@ impl<S: Scalar> Clone for State<S> {
         copy(&mut self.free, &source.free);
         copy(&mut self.futures, &source.futures);
         copy(&mut self.free_futures, &source.free_futures);
-        copy(&mut self.runnable, &source.runnable);
+        self.runnable.clone_from(&source.runnable);
         self.unreturned = source.unreturned;
         self.depth_first = source.depth_first;
         self.steps = source.steps;
@@ -169,7 +183,7 @@ impl<S: Scalar> State<S> {
             free: Vec::new(),
             futures: Vec::new(),
             free_futures: Vec::new(),
-            runnable: Vec::new(),
+            runnable: Runnable::default(),
             unreturned: 0,
             depth_first: false,
             steps: 0,
@@ -189,7 +203,7 @@ impl<S: Scalar> State<S> {
     }
 
     /// The futures that can run, in an order that is the same in every run.
-    pub fn runnable(&self) -> &[FutureId] {
+    pub fn runnable(&self) -> &Runnable {
         &self.runnable
     }
 
@@ -225,7 +239,7 @@ impl<S: Scalar> State<S> {
 
     /// The state of a run that has ended with this value.
     pub fn of_result(value: Value<S>) -> Self {
-        let root = Future { status: Status::Returned(value), has_waiters: false, detached: false };
+        let root = Future::new(Status::Returned(value), false);
         State { futures: vec![root], ..State::empty() }
     }
 
@@ -257,9 +271,15 @@ impl<S: Scalar> State<S> {
         self.own_bytes().saturating_add(self.charged).saturating_add(self.logged)
     }
 
+    /// Of [`State::bytes`], those of values and of logged choices.
+    #[inline]
+    pub fn value_bytes(&self) -> usize {
+        self.charged + self.logged
+    }
+
     /// Bytes of nodes, registers and futures.
     #[inline]
-    pub(crate) fn own_bytes(&self) -> usize {
+    pub fn own_bytes(&self) -> usize {
         self.nodes.len() * size_of::<Node>()
             + self.registers.len() * size_of::<Value<S>>()
             + self.futures.len() * (size_of::<Future<S>>() + size_of::<FutureId>())
@@ -351,7 +371,7 @@ impl<S: Scalar> State<S> {
         if !matches!(status, Status::Returned(_)) {
             self.unreturned += 1;
         }
-        let future = Future { status, has_waiters: false, detached };
+        let future = Future::new(status, detached);
         let id = match self.free_futures.pop() {
             Some(id) => {
                 self.futures[id as usize] = future;
@@ -368,23 +388,36 @@ impl<S: Scalar> State<S> {
     /// A future has returned: those that waited for it can run.
     pub(crate) fn returned(&mut self, id: FutureId, value: Value<S>) {
         self.unreturned -= 1;
-        self.runnable.retain(|f| *f != id);
+        self.runnable.remove(id);
         let future = &mut self.futures[id.0 as usize];
-        let (waited_for, detached) = (future.has_waiters, future.detached);
+        let (mut waiter, detached) = (future.waiter, future.detached);
         future.status = if detached { Status::Free } else { Status::Returned(value) };
         if detached {
             self.free_futures.push(id.0);
         }
-        if waited_for {
-            for (i, future) in self.futures.iter_mut().enumerate() {
-                if let Status::Waiting(node, on) = future.status
-                    && on == id
-                {
-                    future.status = Status::Runnable(node);
-                    self.runnable.push(FutureId(i as u32));
-                }
+        // In the order of their numbers, whichever waited first.
+        let mut waiting = Vec::new();
+        while waiter != FutureId::NONE {
+            waiting.push(waiter);
+            waiter = self.futures[waiter.0 as usize].next_waiter;
+        }
+        waiting.sort_unstable_by_key(|waiter| waiter.0);
+        for waiter in waiting {
+            let future = &mut self.futures[waiter.0 as usize];
+            if let Status::Waiting(node, _) = future.status {
+                future.status = Status::Runnable(node);
+                self.runnable.push(waiter);
             }
         }
+    }
+
+    /// A future stops at this node, to continue when another has returned.
+    pub(super) fn wait(&mut self, future: FutureId, node: NodeId, wanted: FutureId) {
+        let first = std::mem::replace(&mut self.futures[wanted.0 as usize].waiter, future);
+        let own = &mut self.futures[future.0 as usize];
+        own.next_waiter = first;
+        own.status = Status::Waiting(node, wanted);
+        self.runnable.remove(future);
     }
 
     /// The component of a loop's node in addresses, its iteration left open: that of its site, or, of a loop that is run

@@ -114,10 +114,8 @@ impl<S: Scalar> Machine<'_, S> {
                     state.registers[r.own + site.to.index()].store(value);
                     return Ok(After::Next);
                 }
-                state.futures[wanted as usize].has_waiters = true;
                 state.nodes[node.0 as usize].pc = site.resumes_at(pc) as u32;
-                state.futures[future.0 as usize].status = Status::Waiting(node, FutureId(wanted));
-                state.runnable.retain(|f| *f != future);
+                state.wait(future, node, FutureId(wanted));
                 Ok(After::Stop(Stop::Waiting))
             }
             SiteKind::Cell { .. } => {

@@ -155,7 +155,12 @@ pub fn missing_key<S: Scalar>(key: &Value<S>) -> Fault {
 }
 
 /// How many elements `x[lo:hi:step]` has, where it makes a value of them.
-pub fn slice_len<S: Scalar>(value: &Value<S>, lo: &Value<S>, hi: &Value<S>, step: &Value<S>) -> Option<usize> {
+pub fn slice_len<S: Scalar>(
+    value: &Value<S>,
+    lo: &Value<S>,
+    hi: &Value<S>,
+    step: &Value<S>,
+) -> Option<usize> {
     let len = length(value)?;
     let range = bounds(len, lo, hi, step).ok()?;
     match value {

@@ -24,8 +24,8 @@ pub mod text;
 
 use std::sync::Arc;
 
-pub use census::Census;
 pub use aggregate::{Class, ClassKind, Closure, Dict, Range, Record, Tuple, Vector};
+pub use census::Census;
 pub use compare::{equal, order};
 pub use index::{iter_get, iter_len};
 pub use list::List;

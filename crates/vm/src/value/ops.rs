@@ -342,13 +342,11 @@ fn times<S: Scalar>(value: &Value<S>, by: Number<S>) -> Option<Answer<S>> {
         Value::List(list) => {
             Some(fits(list.len().saturating_mul(count)).map(|()| Value::List(list.repeated(count))))
         }
-        Value::Tuple(tuple) => {
-            Some(fits(tuple.items().len().saturating_mul(count)).map(|()| {
-                let mut items = Vec::with_capacity(tuple.items().len() * count);
-                (0..count).for_each(|_| items.extend_from_slice(tuple.items()));
-                Value::tuple(items)
-            }))
-        }
+        Value::Tuple(tuple) => Some(fits(tuple.items().len().saturating_mul(count)).map(|()| {
+            let mut items = Vec::with_capacity(tuple.items().len() * count);
+            (0..count).for_each(|_| items.extend_from_slice(tuple.items()));
+            Value::tuple(items)
+        })),
         Value::Str(text) => {
             Some(fits(text.len().saturating_mul(count)).map(|()| Value::Str(Text::from(text.repeat(count)))))
         }

@@ -347,6 +347,8 @@ impl<S: Scalar> Kept<S> {
             }
             state.charged += (f.sites.len() + 1) * size_of::<Slot>();
         }
+        // Twice: a vector that doubles is in memory twice when it moves.
+        state.charged += 2 * size_of::<NodeId>();
         self.journal.created.push(created);
         self.note(Step::Created(created));
         created

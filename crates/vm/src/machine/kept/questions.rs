@@ -6,7 +6,7 @@ use super::super::answers::{Answer, Answers, At};
 use super::super::budget;
 use super::super::question::{Halt, as_real};
 use super::super::registers::Registers;
-use super::super::state::{NodeId, State};
+use super::super::state::{NodeId, State, make_room};
 use super::super::suspend::After;
 use super::cells::Reader;
 use super::journal::Birth;
@@ -72,7 +72,7 @@ fn observed_number<S: Scalar>(
 }
 
 /// Bytes of a choice that is added: its place in the table, and what the journal notes of it.
-const CHOICE_BYTES: usize = size_of::<ChoiceAt>() + size_of::<Birth>();
+const CHOICE_BYTES: usize = 2 * size_of::<ChoiceAt>() + size_of::<Birth>();
 
 impl<S: Scalar> Kept<S> {
     /// Sets the log of a filled slot and brings the sums up to date.
@@ -233,6 +233,7 @@ impl<S: Scalar> Kept<S> {
             self.journal.anew.push((address, state.registers[place].clone()));
             slot.held
         } else {
+            make_room(&mut self.journal.births, 1, state.ceiling.saturating_sub(state.bytes()));
             self.journal.births.push(Birth { address, node, site: number.0 });
             Slot::BORN | (self.journal.births.len() as u32 - 1)
         };
