@@ -140,7 +140,7 @@ pub struct PyTask {
 
 #[pymethods]
 impl PyTask {
-    /// ``max_steps`` bounds one run, ``max_memory`` (bytes) a run or a whole population.
+    /// ``max_steps`` bounds one run, ``max_memory`` (bytes) a run, a whole population or several chains together.
     #[new]
     #[pyo3(signature = (program, args=Vec::new(), sketches=Vec::new(), max_steps=20_000_000, max_memory=1 << 30))]
     fn new(
