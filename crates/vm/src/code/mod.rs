@@ -489,10 +489,10 @@ pub struct Program<S: Scalar = f64> {
 }
 
 impl<S: Scalar> Program<S> {
-    /// Counts its constants.
-    pub fn count<'v>(&'v self, census: &mut Census<'v, S>) {
+    /// Its constants, which are not counted as what a run holds.
+    pub fn leave_out(&self, census: &mut Census<'_, S>) {
         let constants = self.functions.iter().flat_map(|f| &f.constants);
-        constants.chain(&self.others).for_each(|value| census.add(value));
+        constants.chain(&self.others).for_each(|value| census.leave_out(value));
     }
 
     /// A function by its number.

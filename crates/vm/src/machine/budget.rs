@@ -190,6 +190,14 @@ impl<S: Scalar> Machine<'_, S> {
         self.high * size_of::<Value<S>>() + self.pure.len() * size_of::<super::PureCall>()
     }
 
+    /// A run that has not begun is audited when it may have used up its memory, not before.
+    #[inline]
+    pub(super) fn set_ceiling(&self, state: &mut State<S>) {
+        if state.ceiling == 0 {
+            state.ceiling = self.limits.bytes;
+        }
+    }
+
     /// Drops what a run before left in the scratch registers: what a run holds must not depend on it.
     #[inline]
     pub(super) fn empty_scratch(&mut self) {
@@ -281,18 +289,17 @@ impl<S: Scalar> Machine<'_, S> {
 
     fn values_of<K: Keep<S>>(&self, state: &State<S>, keep: &K) -> usize {
         let mut census = Census::new();
-        self.count_given(state, &mut census);
+        self.leave_out_given(state, &mut census);
         state.count(&mut census);
         self.scratch[..self.high].iter().for_each(|value| census.add(value));
         keep.count_bytes(&mut census);
         census.bytes()
     }
 
-    /// Marks what belongs to the program and to the caller as counted.
-    pub fn count_given<'v>(&'v self, state: &'v State<S>, census: &mut Census<'v, S>) {
-        self.program.count(census);
-        state.count_given(census);
-        census.forget_bytes();
+    /// What belongs to the program and to the caller is not counted.
+    pub fn leave_out_given(&self, state: &State<S>, census: &mut Census<'_, S>) {
+        self.program.leave_out(census);
+        state.leave_out_given(census);
     }
 
     /// Counts what the run holds. `coming` of the bytes charged are not allocated yet.

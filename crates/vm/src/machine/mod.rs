@@ -211,6 +211,7 @@ impl<'p, S: Scalar> Machine<'p, S> {
         answers: &mut A,
     ) -> Result<Stop, Box<RunFault>> {
         self.empty_scratch();
+        self.set_ceiling(state);
         let Some(Status::Runnable(node)) = state.futures.get(future.0 as usize).map(|f| &f.status) else {
             return Err(Box::new(
                 self.report(state, Fault::new("not-runnable", "this future cannot run now")),

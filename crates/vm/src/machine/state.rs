@@ -295,9 +295,9 @@ impl<S: Scalar> State<S> {
         }
     }
 
-    /// Counts what the run was given, so that it is not counted again.
-    pub fn count_given<'v>(&'v self, census: &mut Census<'v, S>) {
-        self.given.iter().flat_map(|given| given.iter()).for_each(|value| census.add(value));
+    /// What the run was given, which is not counted as what it holds.
+    pub fn leave_out_given(&self, census: &mut Census<'_, S>) {
+        self.given.iter().flat_map(|given| given.iter()).for_each(|value| census.leave_out(value));
     }
 
     /// A node for an activation of `function`; what its registers hold means nothing.

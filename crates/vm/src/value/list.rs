@@ -303,6 +303,16 @@ impl<S: Scalar> List<S> {
         }
     }
 
+    /// The list is not to be counted, nor what a version of it shares with it: the upper levels are enough for that.
+    pub(super) fn leave_out(&self, census: &mut Census<'_, S>) {
+        census.note(self.address());
+        let Some(root) = &self.0.root else { return };
+        census.note(Arc::as_ptr(root) as usize);
+        if let Node::Branch(children) = &**root {
+            children.iter().for_each(|child| census.note(Arc::as_ptr(child) as usize));
+        }
+    }
+
     /// True when this list is not shared.
     #[inline]
     pub(super) fn has_one_owner(&self) -> bool {

@@ -378,6 +378,7 @@ impl<S: Scalar> Machine<'_, S> {
         self.empty_scratch();
         let (state, kept) = (&mut trace.state, &mut trace.kept);
         state.steps = 0;
+        self.set_ceiling(state);
         kept.counters.entered += 1;
         kept.note(Step::Entered(node));
         let stop = self.interpret(state, kept, super::super::state::FutureId(0), (node, pc), answers);
