@@ -291,6 +291,12 @@ impl Shape {
         Arc::as_ptr(&self.0) as usize
     }
 
+    /// Whether something else holds it, too.
+    #[inline]
+    pub fn is_shared(&self) -> bool {
+        Arc::strong_count(&self.0) > 1
+    }
+
     /// Bytes that it takes, with the hulls and the mesh that it may keep; a mesh that is shared counts once for each shape.
     pub fn bytes(&self) -> usize {
         let hull = |sides: usize| size_of::<Coarse>() + 4 * sides * size_of::<Vec3>();

@@ -131,7 +131,8 @@ impl<'a> Population<'a> {
     /// Runs every particle to its next barrier, except the one whose index is `held`.
     pub fn advance(&mut self, held: Option<usize>) -> Result<(), Failure> {
         let (task, settings, seed) = (&self.task, self.settings, self.settings.seed);
-        let room = self.resident.room(task.limits.bytes);
+        let limit = task.limits.bytes;
+        let room = self.resident.room(limit);
         let mut growth = Growth::default();
         if !self.parallel {
             self.copies.make(&mut self.particles, seed);
@@ -142,7 +143,7 @@ impl<'a> Population<'a> {
                 let run = |p: &mut Particle, machine: &mut Machine<'_>| {
                     advance(p, machine, &own, settings, &mut sight)
                 };
-                growth.add(counted(p, &mut machine, run)?);
+                growth.add(counted(p, &mut machine, limit, run)?);
                 if growth.up > room {
                     return Err(too_large(task));
                 }
@@ -172,7 +173,7 @@ impl<'a> Population<'a> {
                     let run = |p: &mut Particle, machine: &mut Machine<'_>| {
                         advance(p, machine, task, settings, &mut sight)
                     };
-                    match counted(particle, &mut machine, run) {
+                    match counted(particle, &mut machine, limit, run) {
                         Ok(own) => growth.add(own),
                         Err(own) if failed.fetch_min(index, Ordering::Relaxed) > index => {
                             let mut first = fault.lock().unwrap_or_else(PoisonError::into_inner);

@@ -77,14 +77,29 @@ impl Resident {
     }
 }
 
+/// The failure of a particle; where it met its own share of the memory, with the budget of `all`, bytes.
+fn of_share(failure: Failure, all: usize) -> Failure {
+    match failure {
+        Failure::Run(mut met) if met.fault.code == "memory-budget" => {
+            let message =
+                format!("one particle needs more than its share of the {} MB that all have", all >> 20);
+            met.fault = Fault::new("memory-budget", message)
+                .with_help("check that every recursion ends, use fewer particles, or raise `max_memory`");
+            Failure::Run(met)
+        }
+        other => other,
+    }
+}
+
 /// Runs `advance` on a particle, and gives by how much it has grown; also by becoming a copy of another one before.
 pub(super) fn counted(
     particle: &mut Particle,
     machine: &mut Machine<'_>,
+    all: usize,
     advance: impl FnOnce(&mut Particle, &mut Machine<'_>) -> Result<(), Failure>,
 ) -> Result<Growth, Failure> {
     let before = particle.state.value_bytes();
-    advance(particle, machine)?;
+    advance(particle, machine).map_err(|failure| of_share(failure, all))?;
     if particle.state.value_bytes() > before + DROPPED {
         machine.recount(&mut particle.state);
     }

@@ -321,7 +321,7 @@ impl<S: Scalar> Machine<'_, S> {
         if total > limit {
             return Err(self.out_of_memory());
         }
-        state.ceiling = state.bytes() + (limit - total).max(limit / 16);
+        state.ceiling = state.bytes() + (limit - total).max(limit / 32);
         Ok(())
     }
 }

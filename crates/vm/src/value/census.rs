@@ -11,10 +11,21 @@ use super::{Scalar, Shape, Value};
 /// Bytes of the two counters in front of what is shared.
 const COUNTERS: usize = 16;
 
+/// Bytes of a page.
+const PAGE: usize = 4096;
+
+/// Values inside of one another that a census counts by calls; deeper ones wait in a list.
+const DEPTH: usize = 16;
+
 /// Bytes that an allocation of a size takes: allocators round up, large blocks by a sixteenth on average.
 #[inline]
 pub(super) const fn block(size: usize) -> usize {
-    if size <= 512 { size.next_multiple_of(16) } else { size + size / 16 }
+    match size {
+        0..=128 => size.next_multiple_of(16),
+        // Four sizes for each power of two; the rest of a page that is not written takes no memory.
+        129..=PAGE => size.next_multiple_of(1 << ((size - 1).ilog2() - 2)),
+        _ => size.next_multiple_of(PAGE),
+    }
 }
 
 /// Bytes of a shared object of a type.
@@ -29,13 +40,14 @@ pub struct Census<'v, S: Scalar = f64> {
     /// What was counted, by its address. What has one owner is met once, and is not noted.
     seen: HashSet<usize>,
     work: Vec<&'v Value<S>>,
+    depth: usize,
     bytes: usize,
 }
 
 impl<'v, S: Scalar> Census<'v, S> {
     /// Counts nothing yet.
     pub fn new() -> Self {
-        Census { seen: HashSet::new(), work: Vec::new(), bytes: 0 }
+        Census { seen: HashSet::new(), work: Vec::new(), depth: 0, bytes: 0 }
     }
 
     /// The bytes counted so far.
@@ -98,19 +110,25 @@ impl<'v, S: Scalar> Census<'v, S> {
     /// Counts elements in place, their 16 bytes each included.
     pub(super) fn add_items(&mut self, items: &'v [Value<S>], capacity: usize) {
         self.bytes += block(capacity * size_of::<Value<S>>());
-        self.work.extend(items.iter().filter(|item| !item.is_plain()));
+        self.add_in_place(items);
     }
 
     /// Counts a shape.
     pub fn add_shape(&mut self, shape: &Shape) {
-        if self.seen.insert(shape.address()) {
+        if !shape.is_shared() || self.seen.insert(shape.address()) {
             self.bytes += shape.bytes();
         }
     }
 
     /// Counts what elements hold that are part of an object counted already.
     pub(super) fn add_in_place(&mut self, items: &'v [Value<S>]) {
-        self.work.extend(items.iter().filter(|item| !item.is_plain()));
+        let values = items.iter().filter(|item| !item.is_plain());
+        if self.depth == DEPTH {
+            return self.work.extend(values);
+        }
+        self.depth += 1;
+        values.for_each(|value| self.add_own(value));
+        self.depth -= 1;
     }
 
     fn add_own(&mut self, value: &'v Value<S>) {

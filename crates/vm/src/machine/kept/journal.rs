@@ -78,6 +78,9 @@ impl<S: Scalar> Default for Journal<S> {
     }
 }
 
+/// Bytes that are counted for each activation that was created, beside what is stored.
+pub(crate) const MOVING: usize = 32;
+
 impl<S: Scalar> Journal<S> {
     /// Bytes of its entries, without what values hold.
     pub fn bytes(&self) -> usize {
@@ -90,6 +93,8 @@ impl<S: Scalar> Journal<S> {
             + of(&self.loops)
             + self.loops.iter().map(|cut| of(&cut.removed)).sum::<usize>()
             + of(&self.created)
+            // Vectors that grow with the nodes are in memory twice while they move.
+            + self.created.len() * MOVING
             + of(&self.removed)
             + of(&self.emitted)
             + of(&self.retracted)

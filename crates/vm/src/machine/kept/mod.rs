@@ -52,7 +52,7 @@ use crate::fault::Fault;
 use crate::value::{Census, Value, same};
 use adapt::Sites;
 use cells::{Reader, Readers};
-use journal::Journal;
+use journal::{Journal, MOVING};
 use niwaki_geom::Primitive;
 use niwaki_math::{Scalar, Total};
 use slices::Entry;
@@ -347,8 +347,7 @@ impl<S: Scalar> Kept<S> {
             }
             state.charged += (f.sites.len() + 1) * size_of::<Slot>();
         }
-        // Twice: a vector that doubles is in memory twice when it moves.
-        state.charged += 2 * size_of::<NodeId>();
+        state.charged += size_of::<NodeId>() + MOVING;
         self.journal.created.push(created);
         self.note(Step::Created(created));
         created
