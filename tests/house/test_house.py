@@ -128,7 +128,7 @@ def test_every_python_file_opens_with_what_it_is_for():
 #: Imports inside functions: ArviZ is an extra, and warns while it is imported.
 OPTIONAL = {("result/diagnostics.py", "arviz")}
 #: Who imports modules by a name of their own: extras, the gallery's folder, host functions of a search that was read.
-BY_NAME = {"errors/extras.py", "gallery/__init__.py", "search/data.py"}
+BY_NAME = {"errors/extras.py", "gallery/__init__.py", "inputs/child.py", "search/data.py"}
 
 
 def test_no_function_imports_but_what_is_optional():
@@ -175,7 +175,10 @@ def test_crates_import_only_the_rooms_above_them():
 
 def pages() -> list[Path]:
     """The pages for readers."""
-    return [ROOT / "README.md", ROOT / "ARCHITECTURE.md", *sorted((ROOT / "docs").rglob("*.md"))]
+    return [
+        *(ROOT / name for name in ("README.md", "ARCHITECTURE.md", "SECURITY.md")),
+        *sorted((ROOT / "docs").rglob("*.md")),
+    ]
 
 
 def test_the_pages_name_only_commands_that_exist():
@@ -198,3 +201,20 @@ def test_the_pages_link_to_files_that_exist():
 def test_the_programs_on_a_page_are_python(page: Path):
     for program in re.findall(r"^```python\n(.*?)^```", page.read_text(), re.M | re.S):
         ast.parse(program)
+
+
+def test_what_is_promised_is_tested():
+    text = (ROOT / "docs" / "guide" / "promises.md").read_text()
+    rows = [
+        line
+        for line in text.splitlines()
+        if line.startswith("| ") and not line.startswith(("| promise", "| ---"))
+    ]
+    assert len(rows) > 15
+    for row in rows:
+        named = re.findall(r"`((?:tests|crates|fuzz)/[\w/.-]+)::(\w+)`", row)
+        assert named, f"this promise names no test: {row}"
+        for place, test in named:
+            source = ROOT / place
+            assert source.is_file(), f"there is no {place}"
+            assert re.search(rf"\b(?:def|fn) {test}\b", source.read_text()), f"{place} has no test `{test}`"

@@ -2,6 +2,7 @@
 
 drawing    the drawing: regions, their areas, which are neighbours
 svg        the regions of an SVG file, and the file with new colours
+raster     an SVG as pixels
 styles     the paint of a shape of an SVG
 rule       one rule
 rules      rules about the regions; a small TOML file

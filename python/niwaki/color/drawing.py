@@ -7,16 +7,21 @@ areas do not part them. An area is the region's share of all pixels, those of no
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
 from os import PathLike
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image, UnidentifiedImageError
+from PIL import Image
 
-from niwaki.color.svg import Artwork, raster
+from niwaki.color.raster import raster
+from niwaki.color.svg import Artwork
 from niwaki.errors import FileError
+from niwaki.inputs import bytes_of, regular
+from niwaki.targets.pixels import load as load_pixels
 
 NEAR = 2  # pixels
 MOST_REGIONS = 256
@@ -76,13 +81,10 @@ class Drawing:
         FileError
             There is no such file, it cannot be read, or it has fewer than two regions.
         """
-        path = Path(place)
-        if not path.exists() and (OWN / f"{place}.svg").is_file():
-            path = OWN / f"{place}.svg"
-        if not path.is_file():
-            raise FileError("file-missing", place, absolute=path.absolute(), folder=Path.cwd())
+        path = own(place, ".svg")
+        regular(path)
         if path.suffix.lower() == ".svg":
-            artwork = Artwork(path.read_bytes(), path)
+            artwork = Artwork(bytes_of(path, "drawing"), path)
             if len(artwork.names) < 2:
                 raise FileError("drawing-no-regions", path, found=_region_names(artwork.names))
             if len(artwork.names) > MOST_REGIONS:
@@ -115,6 +117,12 @@ class Drawing:
         )
 
 
+def own(place: str | PathLike[str], suffix: str) -> Path:
+    """The path of a file, or of one of our own by the name alone."""
+    ours = {one.stem: one for one in OWN.glob(f"*{suffix}")}
+    return Path(place) if os.path.exists(place) else ours.get(str(place), Path(place))
+
+
 def neighbours(labels: NDArray[np.int64], count: int, near: int = NEAR) -> list[tuple[int, int]]:
     """Pairs of regions with pixels at most `near` rows and columns apart, the lower first, in order."""
     height, width = labels.shape
@@ -132,23 +140,35 @@ def neighbours(labels: NDArray[np.int64], count: int, near: int = NEAR) -> list[
 
 
 def _of_image(path: Path) -> tuple[tuple[str, ...], NDArray[np.int64]]:
-    try:
-        with Image.open(path) as image:
-            pixels = np.asarray(image.convert("RGBA"), dtype=np.int64)
-    except (UnidentifiedImageError, OSError, ValueError, Image.DecompressionBombError) as error:
-        raise FileError(
-            "file-unreadable", path, suffix=path.suffix or "an image", reason=str(error)
-        ) from error
-    code = (pixels[..., 0] << 16) | (pixels[..., 1] << 8) | pixels[..., 2]
+    pixels = _rgba(load_pixels(path))
+    code = pixels[..., 0].astype(np.uint32) << 16
+    code |= pixels[..., 1].astype(np.uint32) << 8
+    code |= pixels[..., 2]
     seen = pixels[..., 3] >= 128
-    values, inverse = np.unique(code[seen], return_inverse=True)
+    found = np.zeros(1 << 24, dtype=bool)
+    found[code[seen]] = True
+    values = np.flatnonzero(found)
     if len(values) < 2:
         raise FileError("drawing-no-regions", path, found=f"{len(values)} opaque colour")
     if len(values) > MOST_REGIONS:
         raise FileError("drawing-too-many", path, count=len(values), most=MOST_REGIONS)
-    labels = np.full(code.shape, -1, dtype=np.int64)
-    labels[seen] = inverse.reshape(-1)
+    numbers = np.zeros(1 << 24, dtype=np.int16)
+    numbers[values] = np.arange(len(values))
+    labels = np.where(seen, numbers[code], np.int16(-1)).astype(np.int64)
     return tuple(f"#{value:06x}" for value in values.tolist()), labels
+
+
+def _rgba(values: NDArray[Any]) -> NDArray[np.uint8]:
+    """The channels of an image as red, green, blue and alpha."""
+    if values.dtype == np.bool_:
+        values = np.where(values, np.uint8(255), np.uint8(0))
+    if values.dtype != np.uint8:
+        values = np.rint(values.clip(0, 255)).astype(np.uint8)
+    if values.ndim == 2:
+        values = np.repeat(values[:, :, None], 3, axis=2)
+    if values.shape[2] == 3:
+        values = np.concatenate([values, np.full((*values.shape[:2], 1), 255, np.uint8)], axis=2)
+    return values
 
 
 def _region_names(names: tuple[str, ...]) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import csv
-import json
+import io
 from collections.abc import Sequence
 from os import PathLike
 from pathlib import Path
@@ -11,7 +11,8 @@ from pathlib import Path
 from PIL import Image, ImageDraw, ImageFont
 
 from niwaki.color.search import Coloring
-from niwaki.errors import FileError
+from niwaki.draw.finite import json_text
+from niwaki.errors.files import write_whole
 
 PAPER, INK = (250, 249, 246), (84, 82, 78)
 
@@ -64,25 +65,24 @@ def write(colorings: Sequence[Coloring], folder: str | PathLike[str], size: int 
         What was written.
     """
     folder, written = Path(folder), []
-    try:
-        for k, one in enumerate(colorings):
-            written.append(folder / f"{k + 1:02}.png")
-            one.image(size).save(written[-1])
-            if one.drawing.artwork is not None:
-                written.append(folder / f"{k + 1:02}.svg")
-                written[-1].write_text(one.drawing.artwork.painted(one.colors), encoding="utf-8")
-        written.append(folder / "sheet.png")
-        sheet(colorings).save(written[-1], optimize=True)
-        written.append(folder / "colors.json")
-        colors = {f"{k + 1:02}": one.colors for k, one in enumerate(colorings)}
-        written[-1].write_text(json.dumps(colors, indent=1), encoding="utf-8")
-        written.append(folder / "residuals.csv")
-        with written[-1].open("w", newline="", encoding="utf-8") as file:
-            csv.writer(file).writerows(table(colorings))
-    except OSError as error:
-        place = written[-1] if written else folder
-        raise FileError("file-unwritable", place, reason=error.strerror or str(error)) from error
+    for k, one in enumerate(colorings):
+        written.append(write_whole(folder / f"{k + 1:02}.png", _png(one.image(size))))
+        if one.drawing.artwork is not None:
+            painted = one.drawing.artwork.painted(one.colors)
+            written.append(write_whole(folder / f"{k + 1:02}.svg", painted.encode()))
+    written.append(write_whole(folder / "sheet.png", _png(sheet(colorings))))
+    colors = {f"{k + 1:02}": one.colors for k, one in enumerate(colorings)}
+    written.append(write_whole(folder / "colors.json", json_text(colors, "the colours").encode()))
+    rows = io.StringIO()
+    csv.writer(rows).writerows(table(colorings))
+    written.append(write_whole(folder / "residuals.csv", rows.getvalue().encode()))
     return written
+
+
+def _png(image: Image.Image) -> bytes:
+    out = io.BytesIO()
+    image.save(out, "PNG", optimize=True)
+    return out.getvalue()
 
 
 def _shrunk(image: Image.Image, size: int) -> Image.Image:

@@ -17,7 +17,6 @@ ink = "#1a1a2e"                               # a colour that is not to change
 from __future__ import annotations
 
 import re
-import tomllib
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from difflib import get_close_matches
@@ -26,9 +25,13 @@ from pathlib import Path
 from typing import Any
 
 from niwaki.color.agree import contradiction
-from niwaki.color.drawing import OWN
+from niwaki.color.drawing import own
 from niwaki.color.rule import Rule
 from niwaki.errors import FileError
+from niwaki.errors.settings import shown
+from niwaki.inputs import text_of
+from niwaki.inputs.limits import check
+from niwaki.inputs.texts import toml_of
 
 CHAINS = {
     "lightness": "lightness",
@@ -74,20 +77,16 @@ class Rules:
     @classmethod
     def load(cls, place: str | PathLike[str]) -> Rules:
         """Rules from a TOML file, or those of one of our own drawings by name."""
-        path = Path(place)
-        if not path.exists() and (OWN / f"{place}.toml").is_file():
-            path = OWN / f"{place}.toml"
-        if not path.is_file():
-            raise FileError("file-missing", place, absolute=path.absolute(), folder=Path.cwd())
-        try:
-            data = tomllib.loads(path.read_text(encoding="utf-8"))
-        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-            raise FileError("file-unreadable", path, suffix=".toml", reason=str(error)) from error
+        path = own(place, ".toml")
+        data = toml_of(text_of(path, "rules", ".toml"), path)
         return cls.of(data, path)
 
     @classmethod
     def of(cls, data: dict[str, Any], place: str | Path | None = None) -> Rules:
         """Rules from the tables of a TOML file."""
+        chained = [value for value in data.values() if isinstance(value, list)]
+        named = sum(len(chain) for value in chained for chain in value if isinstance(chain, list))
+        check("rule-regions", named, place)
         known = [*CHAINS, "background", "muted", "pinned"]
         for key, value in data.items():
             if key not in known:
@@ -95,7 +94,7 @@ class Rules:
                 raise FileError(
                     "rules-unclear",
                     place,
-                    reason=f"`{key}` is no rule" + (f"; did you mean `{near[0]}`?" if near else ""),
+                    reason=f"`{key:.80}` is no rule" + (f"; did you mean `{near[0]}`?" if near else ""),
                 )
             if key in CHAINS and not _is_chains(value):
                 raise FileError(
@@ -112,14 +111,16 @@ class Rules:
                 raise FileError(
                     "rules-unclear",
                     place,
-                    reason=f"`{name}` is muted to {most!r}, not to a number from 0 to 200",
+                    reason=f"`{name:.80}` is muted to {shown(most)}, not to a number from 0 to 200",
                 )
         if not isinstance(pinned, dict):
             raise FileError("rules-unclear", place, reason="`pinned` is not a table of colours by region")
         for name, value in pinned.items():
             if not isinstance(value, str) or not re.fullmatch(r"#[0-9a-fA-F]{6}", value):
                 raise FileError(
-                    "rules-unclear", place, reason=f"`{name}` is pinned to {value!r}, not to a `#rrggbb`"
+                    "rules-unclear",
+                    place,
+                    reason=f"`{name:.80}` is pinned to {shown(value)}, not to a `#rrggbb`",
                 )
         chains = {field_: data.get(key, []) for key, field_ in CHAINS.items()}
         return cls(**chains, muted=muted, background=background, pinned=pinned, place=place)

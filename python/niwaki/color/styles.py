@@ -8,16 +8,18 @@ contain a tag, classes and ids (`path.roof`, `#moon`); of those that match, the 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
+from pathlib import Path
 from xml.etree.ElementTree import Element
+
+from niwaki.inputs.limits import check
 
 PAINTS = ("fill", "stroke", "display", "visibility")
 INITIAL = {"fill": "black", "stroke": "none", "display": "inline", "visibility": "visible"}
 # `display` is the one that children do not inherit; a hidden group is left out whole.
 INHERITED = ("fill", "stroke", "visibility")
 
-_RULE = re.compile(r"([^{}]+)\{([^{}]*)\}")
 _SELECTOR = re.compile(r"(\*|[\w-]+)?((?:[.#][\w-]+)*)")
 
 
@@ -36,6 +38,13 @@ class _Rule:
     def weight(self) -> tuple[int, int, int]:
         return len(self.ids), len(self.classes), int(bool(self.tag))
 
+    @property
+    def key(self) -> str:
+        """What every shape that matches has: an id, a class, a tag; empty where it may be any."""
+        if self.ids:
+            return f"#{min(self.ids)}"
+        return f".{min(self.classes)}" if self.classes else self.tag
+
     def matches(self, tag: str, name: str, classes: frozenset[str]) -> bool:
         return self.tag in ("", tag) and self.ids <= {name} and self.classes <= classes
 
@@ -45,9 +54,17 @@ class Styles:
     """The style sheets of one file."""
 
     rules: list[_Rule] = field(default_factory=list)
+    place: str | Path | None = None
+    compared: int = 0
+
+    def __post_init__(self) -> None:
+        """Sort the rules by what a shape must have, so that a shape is compared with few."""
+        self._by_key: dict[str, list[int]] = {}
+        for number, rule in enumerate(self.rules):
+            self._by_key.setdefault(rule.key, []).append(number)
 
     @classmethod
-    def of(cls, sheets: Iterable[str]) -> Styles:
+    def of(cls, sheets: Iterable[str], place: str | Path | None = None) -> Styles:
         """Read the texts of all `style` elements.
 
         Raises
@@ -57,21 +74,25 @@ class Styles:
         """
         found = []
         for sheet in sheets:
-            text = re.sub(r"/\*.*?\*/|<!--|-->|@(?:import|charset)[^;]*;", " ", sheet, flags=re.DOTALL)
-            for selectors, body in _RULE.findall(text):
+            for selectors, body in _blocks(sheet):
                 declared = {key: value for key, value in declarations(body).items() if key in PAINTS}
                 if declared and not selectors.strip().startswith("@"):
                     found += [_rule(one.strip(), declared) for one in selectors.split(",")]
         # Stable: of equals the later stays later, and wins.
-        return cls(sorted(found, key=lambda rule: rule.weight))
+        return cls(sorted(found, key=lambda rule: rule.weight), place)
 
     def resolve(self, element: Element, above: dict[str, str]) -> dict[str, str]:
         """The four properties of an element whose parent has those of `above`."""
         own = {key: element.attrib[key].strip() for key in PAINTS if key in element.attrib}
         name, classes = element.get("id", ""), frozenset(element.get("class", "").split())
-        for rule in self.rules:
-            if rule.matches(tag_of(element), name, classes):
-                own.update(rule.declared)
+        tag = tag_of(element)
+        keys = ["", tag, f"#{name}", *(f".{one}" for one in classes)]
+        numbers = sorted(number for key in keys for number in self._by_key.get(key, ()))
+        self.compared += len(numbers)
+        check("styles", self.compared, self.place)
+        for number in numbers:
+            if self.rules[number].matches(tag, name, classes):
+                own.update(self.rules[number].declared)
         own.update(
             {key: value for key, value in declarations(element.get("style", "")).items() if key in PAINTS}
         )
@@ -80,6 +101,21 @@ class Styles:
             value = own.get(key, "inherit" if key in INHERITED else INITIAL[key])
             found[key] = above[key] if value == "inherit" else value
         return found
+
+
+def _blocks(sheet: str) -> Iterator[tuple[str, str]]:
+    """Each innermost block of a style sheet with what stands before it; comments and imports left out."""
+    first, *others = sheet.split("/*")
+    text = " ".join([first, *(one.partition("*/")[2] for one in others)])
+    text = text.replace("<!--", " ").replace("-->", " ")
+    first, *others = re.split(r"@(?:import|charset)", text)
+    text = " ".join([first, *(one.partition(";")[2] for one in others)])
+    pieces = re.split(r"([{}])", text)
+    for before, opened, body, closed in zip(
+        pieces[::2], pieces[1::2], pieces[2::2], pieces[3::2], strict=False
+    ):
+        if opened == "{" and closed == "}" and before:
+            yield before, body
 
 
 def declarations(text: str) -> dict[str, str]:

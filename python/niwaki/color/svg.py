@@ -7,7 +7,7 @@ belong to no region. Each `use` is replaced by what it uses, so that two uses of
 
 from __future__ import annotations
 
-import io
+import re
 from collections.abc import Mapping
 from copy import deepcopy
 from dataclasses import dataclass
@@ -17,20 +17,18 @@ from xml.etree.ElementTree import Element
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image
 
+from niwaki.color.raster import raster
 from niwaki.color.styles import INITIAL, SelectorError, Styles, declarations, tag_of
 from niwaki.errors import FileError
-from niwaki.errors.extras import optional
+from niwaki.inputs.limits import beyond, check, limit
+from niwaki.inputs.xml import xml_of
 
 SVG = "http://www.w3.org/2000/svg"
 XLINK = "http://www.w3.org/1999/xlink"
 SHAPES = {"path", "rect", "circle", "ellipse", "line", "polyline", "polygon", "text"}
 NO_PAINT = ("none", "transparent")
 GROUPS = {"svg", "g", "a", "switch"}
-# A file whose `use`s copy more than this is hostile, or was generated for other uses.
-MOST_SHAPES = 20_000
-DEEPEST = 200
 
 # For counting pixels: each shape is whole, opaque and in its own flat colour.
 PLAIN = {
@@ -67,15 +65,15 @@ class Artwork:
         self._shapes: list[Shape] = []
         sheets = ["".join(one.itertext()) for one in self._tree.iter() if tag_of(one) == "style"]
         try:
-            self._styles = Styles.of(sheets)
+            self._styles = Styles.of(sheets, place)
         except SelectorError as error:
             raise FileError(
                 "drawing-unclear",
                 place,
-                reason=f"the style sheet's selector `{error}` is more than a tag, classes and ids",
+                reason=f"the style sheet's selector `{error!s:.80}` is more than a tag, classes and ids",
             ) from error
         self._by_id = {one.get("id"): one for one in self._tree.iter() if one.get("id")}
-        self._copies = 0
+        self._copies = self._characters = 0
         self._expand(self._tree, (), 0)
         self._walk(self._tree, dict(INITIAL), "", "")
         named = [name for shape in self._shapes for name in (shape.fill, shape.stroke) if name]
@@ -128,8 +126,7 @@ class Artwork:
 
     def _expand(self, element: Element, within: tuple[str, ...], depth: int) -> None:
         """Replace each `use` below by a group with a copy of what it uses."""
-        if depth > DEEPEST:
-            raise FileError("drawing-unclear", self.place, reason=f"its groups are nested {depth} deep")
+        check("depth", depth, self.place)
         for place, child in enumerate(list(element)):
             tag = tag_of(child)
             if tag == "use":
@@ -152,11 +149,14 @@ class Artwork:
         source = self._by_id.get(name)
         if source is None:
             return group
-        self._copies += sum(1 for _ in source.iter())
-        if self._copies > MOST_SHAPES:
-            raise FileError(
-                "drawing-unclear", self.place, reason=f"its `use`s create more than {MOST_SHAPES} shapes"
-            )
+        for one in source.iter():
+            self._copies += 1
+            if self._copies > limit("elements"):
+                raise beyond(
+                    "elements", f"its `use`s create more than {limit('elements'):,} elements", self.place
+                )
+            self._characters += sum(map(len, one.attrib.values())) + len(one.text or "")
+            check("characters", self._characters, self.place)
         copy = deepcopy(source)
         # The definition's id is only a reference; the region is named by the `use`, or by a class.
         for one in copy.iter():
@@ -195,48 +195,31 @@ class Artwork:
 _USE_ONLY = {"href", "x", "y", "width", "height"}
 
 
-def raster(text: str, size: int, place: str | Path | None = None) -> Image.Image:
-    """An SVG drawn by resvg; its longer side has `size` pixels.
-
-    Raises
-    ------
-    FileError
-        resvg is not installed, or cannot read it.
-    """
-    resvg_py = optional("resvg_py", "drawing SVG files", "color")
-    try:
-        # Reading the system's fonts takes longer than the rest.
-        plain = "<text" not in text
-        first = _open(resvg_py.svg_to_bytes(svg_string=text, width=size, skip_system_fonts=plain))
-        if first.height <= size:
-            return first
-        return _open(resvg_py.svg_to_bytes(svg_string=text, height=size, skip_system_fonts=plain))
-    except (ValueError, RuntimeError) as error:
-        raise FileError("file-unreadable", place, suffix=".svg", reason=str(error)) from error
-
-
-def _open(data: bytes) -> Image.Image:
-    return Image.open(io.BytesIO(bytes(data))).convert("RGBA")
-
-
 def _parsed(text: bytes, place: str | Path | None) -> Element:
-    try:
-        # Names of other programs' attributes stay as they were written.
-        for _, (prefix, space) in ElementTree.iterparse(io.BytesIO(text), events=["start-ns"]):
-            if prefix and not prefix.startswith("ns"):
-                ElementTree.register_namespace(prefix, space)
-        ElementTree.register_namespace("", SVG)
-        root = ElementTree.fromstring(text)
-    except ElementTree.ParseError as error:
-        raise FileError("file-unreadable", place, suffix=".svg", reason=f"it is not XML: {error}") from error
+    tree = xml_of(text, place)
+    root = tree.root
+    # Names of other programs' attributes stay as they were written.
+    for prefix, space in tree.spaces:
+        if prefix and not re.fullmatch(r"ns\d+", prefix):
+            ElementTree.register_namespace(prefix, space)
+    ElementTree.register_namespace("", SVG)
     if tag_of(root) != "svg":
-        raise FileError(
-            "file-unreadable",
-            place,
-            suffix=".svg",
-            reason=f"its outermost element is `{tag_of(root)}`, not `svg`",
-        )
+        reason = f"its outermost element is `{tag_of(root):.80}`, not `svg`"
+        raise FileError("file-unreadable", place, suffix=".svg", reason=reason)
+    for one in root.iter():
+        if tag_of(one) in ("image", "feImage"):
+            _check_image(one, place)
     return root
+
+
+def _check_image(element: Element, place: str | Path | None) -> None:
+    """Refuse a picture of another file: a drawing shows what it holds itself."""
+    for name in ("href", f"{{{XLINK}}}href"):
+        shown = element.get(name, "").strip()
+        if shown and not shown.startswith(("data:", "#")):
+            raise FileError(
+                "drawing-unclear", place, reason=f"it shows another file, {shown!a:.80}; embed that image"
+            )
 
 
 def _flatten(element: Element) -> None:

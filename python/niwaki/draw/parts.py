@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from niwaki import _engine
+from niwaki.draw.finite import floats
 from niwaki.draw.palette import Paint, paints
 from niwaki.draw.scene import Scene
 
@@ -55,7 +56,11 @@ def part_meshes(scene: Scene) -> list[PartMesh]:
         groups: dict[Paint, list[tuple[NDArray[Any], NDArray[Any], NDArray[Any]]]] = {}
         for shape, paint in zip(part.shapes, part_paints, strict=True):
             shown = paint if shape.color is not None else _stepped(paint)
-            groups.setdefault(shown, []).append(_engine.fine_mesh(shape))
+            vertices, faces, normals = _engine.fine_mesh(shape)
+            # Files keep 32 bits of each number.
+            floats(vertices, part.address)
+            floats(normals, part.address, "its normals")
+            groups.setdefault(shown, []).append((vertices, faces, normals))
         if groups:
             out.append(
                 PartMesh(part.address, tuple(_merged(paint, group) for paint, group in groups.items()))

@@ -7,6 +7,7 @@ gives the same pixels on any number of threads. A scene of flat shapes is a draw
 from __future__ import annotations
 
 import io
+from math import isfinite
 from os import PathLike
 from pathlib import Path
 from typing import Any, Literal, get_args
@@ -22,6 +23,7 @@ from niwaki.draw.palette import paints
 from niwaki.draw.scene import Scene, Volume
 from niwaki.errors import FileError
 from niwaki.errors.files import write_whole
+from niwaki.errors.settings import is_number, is_whole
 
 Backdrop = Literal["studio", "white", "slate", "clear"]
 Rgb = tuple[float, float, float]
@@ -71,7 +73,7 @@ def picture(
     size
         Width and height in pixels.
     samples
-        Rays for each pixel; 4 for a draft, 16 for a page, 64 for print.
+        Rays for each pixel where the picture changes, a quarter elsewhere; 4 for a draft, 16 for a page, 64 for print.
     azimuth, elevation
         The direction of the camera, degrees: 0, 0 looks from +z; azimuth 90 from +x; elevation 90 from above.
     fov
@@ -103,10 +105,19 @@ def picture(
         raise FileError("scene-empty", verb="draw")
     width, height = size
     for name, number in (("width", width), ("height", height), ("samples", samples)):
-        if not 1 <= number <= LARGEST:
+        if not is_whole(number) or not 1 <= number <= LARGEST:
             raise FileError(
                 "setting", name=name, found=number, expected=f"a whole number from 1 to {LARGEST}"
             )
+    for name, value in (
+        ("azimuth", azimuth),
+        ("elevation", elevation),
+        ("fov", fov),
+        ("margin", margin),
+        ("lift", lift),
+    ):
+        if not is_number(value) or not isfinite(value):
+            raise FileError("setting", name=name, found=value, expected="a finite number")
     frame = like if frame is None else frame
     if camera is None and target is None and is_flat(scene if like is None else like):
         if window is None and frame is not None:

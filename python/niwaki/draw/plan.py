@@ -13,6 +13,7 @@ from pathlib import Path
 
 from PIL import Image, ImageDraw
 
+from niwaki.draw.finite import finite
 from niwaki.draw.palette import paints
 from niwaki.draw.picture import png
 from niwaki.draw.scene import Scene
@@ -62,10 +63,12 @@ def patches(scene: Scene, outline: Sequence[VecLike] = ()) -> list[Patch]:
         for shape, paint in zip(part.shapes, part_paints, strict=True):
             vertices = shape.vertices()
             points = [(float(x), -float(z)) for x, _, z in vertices]
+            finite(vertices, part.address)
             made.append(Patch(_hull(points), paint.color, float(vertices[:, 1].max())))
     made.sort(key=lambda patch: patch.height)
     if outline:
         corners = [(_vec(corner).x, _vec(corner).y) for corner in outline]
+        finite(corners, "the floor")
         made.insert(0, Patch(corners, FLOOR, 0.0))
     if not made:
         raise FileError("scene-empty", verb="draw")

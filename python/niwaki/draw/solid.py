@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from niwaki import _engine
+from niwaki.draw.finite import finite, floats
 from niwaki.draw.scene import Scene
 from niwaki.errors import FileError
 from niwaki.errors.extras import optional
@@ -82,6 +83,12 @@ def union(scene: Scene, scale: float = METRE, fuse: float | None = None) -> Soli
     if not 0.0 < scale < float("inf"):
         raise FileError("setting", name="scale", found=scale, expected="a finite number above 0")
     longest = float(scene.size.max())
+    for part in scene.parts:
+        # Parts are moved to where all coordinates are positive, so the extent counts, too.
+        corners = np.array([shape.aabb() for shape in part.shapes], dtype=np.float64)
+        with np.errstate(over="ignore"):
+            floats(scale * corners, part.address, f"its coordinates at a scale of {scale:g}")
+            floats(scale * longest, part.address, f"the scene's extent at a scale of {scale:g}")
     if fuse is not None and not 0.0 <= fuse < longest:
         expected = f"a number of scene units from 0 to less than the scene's longest side, {longest:.4g}"
         raise FileError("setting", name="fuse", found=fuse, expected=expected)
@@ -103,7 +110,8 @@ def union(scene: Scene, scale: float = METRE, fuse: float | None = None) -> Soli
             PrintWarning,
             stacklevel=2,
         )
-    return Solid(vertices, faces, float(placed.volume()), pieces)
+    volume = float(finite(placed.volume(), "the solid", "its volume"))
+    return Solid(finite(vertices, "the solid").astype(np.float32), faces, volume, pieces)
 
 
 def kernel() -> Any:

@@ -5,13 +5,21 @@ A message has a code, a title, the file it is about, the reason and the cure.
 
 from __future__ import annotations
 
+import errno
 import os
+import secrets
+import stat
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from os import PathLike
 from pathlib import Path
 from typing import Any
 
 from niwaki.errors.kinds import NiwakiError
 from niwaki.errors.texts.files import FILES
+
+#: How the name of a file begins and ends while it is written.
+PART = (".niwaki-", ".part")
 
 #: code: (title, why, help); the names in braces are filled in where the error is raised.
 FILE_MESSAGES: dict[str, tuple[str, str, str]] = {
@@ -54,22 +62,106 @@ class FileError(NiwakiError):
         return "\n".join([*lines, f" = why: {why}", f" = help: {cure}"])
 
 
-def existing(path: str | PathLike[str]) -> Path:
-    """The path of a file that is there; an error where it is not."""
-    place = Path(path)
-    if not place.is_file():
-        raise FileError("file-missing", path, absolute=place.absolute(), folder=Path.cwd())
-    return place
+def is_file(place: Path) -> bool:
+    """Whether there is a regular file; a name that no file can have is none."""
+    try:
+        return place.is_file()
+    except (OSError, ValueError):
+        return False
 
 
 def write_whole(place: Path, data: bytes) -> Path:
-    """Write bytes under a temporary name beside the file, then rename: readers see all of it or nothing."""
-    temporary = place.with_name(f".{place.name}.{os.getpid()}.part")
-    try:
-        temporary.write_bytes(data)
-        os.replace(temporary, place)
-    except OSError as error:
-        raise FileError("file-unwritable", place, reason=error.strerror or str(error)) from error
-    finally:
-        temporary.unlink(missing_ok=True)
+    """Write a file so that readers see all of it or none, also after the power fails.
+
+    The bytes go to a file of their own in the same folder, to the disk, and then take the name. So of two writers, in
+    threads or in processes, one leaves its file. Where anything fails the file that was there stays.
+
+    A link is followed, and a file that is there keeps its permissions.
+
+    Raises
+    ------
+    FileError
+        `file-unwritable`: no folder, no permission, no room, or the place is not a regular file.
+    """
+    with written_beside(place, data) as take_place:
+        take_place()
     return place
+
+
+@contextmanager
+def written_beside(place: Path, data: bytes) -> Iterator[Callable[[], None]]:
+    """Write a file beside its place, on the disk; the function that is given puts it there, in one step."""
+    temporary: Path | None = None
+    try:
+        # A link keeps pointing to the file: what it points to is replaced, not the link.
+        real = Path(os.path.realpath(place))
+        mode = _replaceable(real)
+        temporary = real.with_name(f"{PART[0]}{secrets.token_hex(8)}{PART[1]}")
+        # The system gives the permissions that it gives to any new file; `O_EXCL`: the file is ours alone.
+        number = os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0), 0o666)
+        with os.fdopen(number, "wb") as file:
+            if mode is not None:
+                os.chmod(temporary, mode)
+            file.write(data)
+            file.flush()
+            os.fsync(file.fileno())
+    except BaseException as error:
+        _discard(temporary)
+        if isinstance(error, (OSError, ValueError)):
+            raise unwritable(place, error) from error
+        raise
+
+    def take_place() -> None:
+        try:
+            os.replace(temporary, real)
+            sync_folder(real.parent)
+        except OSError as error:
+            raise unwritable(place, error) from error
+
+    try:
+        yield take_place
+    finally:
+        _discard(temporary)
+
+
+def _discard(temporary: Path | None) -> None:
+    """Remove a file that did not get its place."""
+    if temporary is not None:
+        with suppress(OSError):
+            temporary.unlink(missing_ok=True)
+
+
+def sync_folder(folder: Path) -> None:
+    """Bring the names of a folder to the disk, where the system can."""
+    if os.name == "nt":
+        return
+    number = os.open(folder, os.O_RDONLY)
+    try:
+        os.fsync(number)
+    except OSError as error:
+        # Some file systems cannot do this to a folder; the file itself is on the disk.
+        if error.errno not in (errno.EINVAL, errno.ENOTSUP, errno.EBADF):
+            raise
+    finally:
+        os.close(number)
+
+
+def unwritable(place: str | PathLike[str], error: Exception) -> FileError:
+    """The error about a place that cannot be written to."""
+    reason = getattr(error, "strerror", None) or str(error)
+    return FileError("file-unwritable", place, reason=reason)
+
+
+def _replaceable(place: Path) -> int | None:
+    """The permissions of the file that is there, None where there is none; an error where it must not be replaced."""
+    try:
+        found = place.stat()
+    except FileNotFoundError:
+        return None
+    if stat.S_ISDIR(found.st_mode):
+        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
+    if not stat.S_ISREG(found.st_mode):
+        raise OSError(errno.EINVAL, "it is a device or a pipe, and only regular files are replaced")
+    if not os.access(place, os.W_OK):
+        raise PermissionError(errno.EACCES, "the file that is there is write-protected")
+    return stat.S_IMODE(found.st_mode)

@@ -163,7 +163,8 @@ class InputError(NiwakiError):
     places
         Up to two places in a model that explain it, each with a label.
     values
-        Values for the message's templates; `detail`, `elsewhere` and `attempts` are shown on lines of their own.
+        Values for the message's templates; `detail`, `elsewhere`, `attempts` and `source` are shown on lines of their
+        own.
     """
 
     def __init__(self, code: str, places: Sequence[tuple[Span, str]] = (), **values: Any) -> None:
@@ -181,7 +182,12 @@ class InputError(NiwakiError):
             first, *others = self.places
             lines += snippet(first, others[0] if others else None)
             margin = lines[-1].removesuffix("|")
-        for name, label in (("detail", "found"), ("elsewhere", "elsewhere"), ("attempts", "tried")):
+        for name, label in (
+            ("detail", "found"),
+            ("elsewhere", "elsewhere"),
+            ("attempts", "tried"),
+            ("source", "read from"),
+        ):
             if self.values.get(name):
                 lines.append(f"{margin}= {label}: {self.values[name]}")
         return "\n".join([*lines, *notes(message, self.values, margin=margin)])

@@ -20,3 +20,12 @@ def is_whole(value: Any) -> bool:
 def is_number(value: Any) -> bool:
     """Whether it is a number, which a truth value is not."""
     return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def shown(value: Any) -> str:
+    """A value for a message: its first 60 characters."""
+    try:
+        return f"{value!r:.60}"
+    except (ValueError, RecursionError):
+        # Python refuses to write whole numbers of many digits.
+        return "a value too long to write"

@@ -6,6 +6,7 @@ Lengths are those of the plane in which the models draw; a capital is `CAPITAL` 
 
 from __future__ import annotations
 
+import io
 from collections.abc import Sequence
 from dataclasses import dataclass
 from os import PathLike
@@ -15,8 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
-from niwaki.errors import FileError, InputError
-from niwaki.errors.files import existing
+from niwaki.errors import InputError
+from niwaki.inputs import bytes_of, library
+from niwaki.inputs.limits import check
 from niwaki.letters.places import Place, places
 from niwaki.targets.images import PAPER
 
@@ -28,6 +30,8 @@ CAPITAL, PIXEL = 22.0, 0.48
 EDGE, FINE = 4, 8
 #: Between letters beside the font's own distance, and between lines, as shares of a capital's height.
 TRACKING, LEADING = 0.08, 0.55
+#: The largest size of a font, in pixels; fonts whose capitals are as high as others' need about 500.
+LARGEST = 5000
 #: Letters in a line, about; a longer text goes on in the next.
 ACROSS = 14
 #: A character that no font has.
@@ -74,14 +78,12 @@ class Font:
 
     def __init__(self, file: str | PathLike[str] = FONT) -> None:
         self.name = Path(file).name
-        try:
-            trial = ImageFont.truetype(str(existing(file)), 1000)
+        self._place, data = file, bytes_of(file, "font")
+        with library(file, "a font"):
+            trial = ImageFont.truetype(io.BytesIO(data), 1000)
             left, top, right, low = trial.getbbox("H", anchor="ls")
-            self._face = ImageFont.truetype(
-                str(file), max(1, round(1000 * FINE * CAPITAL / PIXEL / max(low - top, 1.0)))
-            )
-        except OSError as error:
-            raise FileError("file-unreadable", file, suffix="a font", reason=str(error)) from error
+            size = max(1, round(1000 * FINE * CAPITAL / PIXEL / max(low - top, 1.0)))
+            self._face = ImageFont.truetype(io.BytesIO(data), min(size, LARGEST))
         self._missing = self._ink(NONE)
 
     def pieces(self, character: str) -> list[Piece]:
@@ -109,7 +111,10 @@ class Font:
 
     def _ink(self, character: str) -> tuple[NDArray[np.uint8], tuple[float, float]]:
         """A character in greys with an empty border, and its lower left corner."""
-        left, top, right, low = (round(side) for side in self._face.getbbox(character, anchor="ls"))
+        with library(self._place, "a font"):
+            box = self._face.getbbox(character, anchor="ls")
+            left, top, right, low = (round(side) for side in box)
+        check("pixels", (right - left) * (low - top), self._place)
         if right <= left or low <= top:
             return np.empty((0, 0), np.uint8), (0.0, 0.0)
         edge = EDGE * FINE
@@ -117,7 +122,8 @@ class Font:
         page = Image.new("L", (columns * FINE, rows * FINE))
         # The lowest row of pixels ends at the lower border of the ink.
         above = rows * FINE - edge - low
-        ImageDraw.Draw(page).text((edge - left, above), character, fill=255, font=self._face, anchor="ls")
+        with library(self._place, "a font"):
+            ImageDraw.Draw(page).text((edge - left, above), character, fill=255, font=self._face, anchor="ls")
         greys = 255 - np.asarray(page.resize((columns, rows), Image.Resampling.BOX))
         greys[greys >= PAPER] = 255
         scale = PIXEL / FINE

@@ -12,7 +12,8 @@ from typing import Any
 
 from niwaki import _engine
 from niwaki.errors import InputError
-from niwaki.errors.files import existing, write_whole
+from niwaki.errors.files import write_whole
+from niwaki.inputs import bytes_of
 
 
 class Guide:
@@ -47,8 +48,10 @@ class Guide:
         ------
         InputError
             The file is no guide, damaged, or of another format.
+        FileError
+            It is missing, no regular file, or larger than is read.
         """
-        data = existing(path).read_bytes()
+        data = bytes_of(path, "guide")
         try:
             return cls(data)
         except InputError as error:

@@ -21,7 +21,10 @@ from dataclasses import dataclass, field
 from difflib import get_close_matches
 from typing import Any
 
+from msgspec import Struct
+
 from niwaki.errors import InputError
+from niwaki.errors.schema import fitted, inside
 from niwaki.errors.settings import bad, is_number, is_whole
 from niwaki.methods.guide import Guide
 
@@ -55,6 +58,15 @@ _DEEPEST = 256
 _MOST = 2**32 - 1
 
 
+class _KernelData(Struct):
+    """A kernel as data; its parts are checked when they are read."""
+
+    name: str
+    settings: dict[str, Any] = {}
+    parts: list[dict[str, Any]] = []
+    function: dict[str, Any] | None = None
+
+
 @dataclass(frozen=True)
 class Kernel:
     """A Markov kernel: a name, its settings by name, and the kernels in it."""
@@ -77,10 +89,21 @@ class Kernel:
 
     @classmethod
     def of_data(cls, data: Mapping[str, Any], function: Callable[[Any], Any]) -> Kernel:
-        """The kernel of its data; `function` reads a user's proposal or a guide."""
-        parts = tuple(cls.of_data(part, function) for part in data.get("parts", ()))
-        own = function(data["function"]) if "function" in data else None
-        return cls(data["name"], dict(data.get("settings", {})), parts, own)
+        """The kernel of its data; `function` reads a user's proposal or a guide.
+
+        Raises
+        ------
+        Unfit
+            It is not a kernel's data.
+        """
+        fitted(data, _KernelData)
+        parts = []
+        for number, part in enumerate(data.get("parts", ())):
+            with inside(f".parts[{number}]"):
+                parts.append(cls.of_data(part, function))
+        with inside(".function"):
+            own = function(data["function"]) if "function" in data else None
+        return cls(data["name"], dict(data.get("settings", {})), tuple(parts), own)
 
     def leaves(self) -> list[Kernel]:
         """The kernels that propose, in order, each with the restrictions that hold for it."""

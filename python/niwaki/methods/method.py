@@ -9,9 +9,13 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from dataclasses import dataclass, fields
-from typing import Any, ClassVar, Self
+from functools import cache
+from typing import Any, ClassVar, Self, get_type_hints
+
+from msgspec import defstruct
 
 from niwaki.errors import InputError
+from niwaki.errors.schema import fitted, inside
 from niwaki.methods.kernels import Kernel
 
 
@@ -69,9 +73,12 @@ class Method:
         ------
         InputError
             The error about an unknown method or setting.
+        Unfit
+            A setting is of another type.
         """
         given = dict(data)
-        own = Method.KNOWN.get(given.pop("method", ""))
+        name = given.pop("method", "")
+        own = Method.KNOWN.get(name) if isinstance(name, str) else None
         if own is None or not issubclass(own, cls):
             raise InputError(
                 "bad-setting",
@@ -80,9 +87,11 @@ class Method:
                 expected=f"one of {', '.join(Method.KNOWN)}",
                 suggestion='"smc"',
             )
+        fitted(given, _schema(own.NAME))
         for name, value in given.items():
             if isinstance(value, dict):
-                given[name] = Kernel.of_data(value, function)
+                with inside(f".{name}"):
+                    given[name] = Kernel.of_data(value, function)
             elif isinstance(value, list):
                 given[name] = tuple(value)
         try:
@@ -99,3 +108,19 @@ class Method:
     def _set(self, name: str, value: Any) -> None:
         """Convert a setting: a whole number to a real one, a list to a tuple."""
         object.__setattr__(self, name, value)
+
+
+@cache
+def _schema(name: str) -> type:
+    """The types of a method's settings as data, where a kernel is a table."""
+    own = Method.KNOWN[name]
+    hints = get_type_hints(own)
+    types = {field.name: hints[field.name] for field in fields(own)}
+    tables = {
+        name: dict[str, Any] | None if Kernel in _choices(kind) else kind for name, kind in types.items()
+    }
+    return defstruct(own.__name__, [(name, kind | None, None) for name, kind in tables.items()])
+
+
+def _choices(kind: Any) -> tuple[Any, ...]:
+    return getattr(kind, "__args__", (kind,))

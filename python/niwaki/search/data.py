@@ -23,7 +23,9 @@ from typing import Any, NamedTuple, cast
 import numpy as np
 
 from niwaki import _engine
-from niwaki.errors import InputError
+from niwaki.errors import InputError, NiwakiError
+from niwaki.errors.schema import Unfit, fitted, inside, shown
+from niwaki.lang.constants import NUMERIC
 from niwaki.lang.marks import Host
 from niwaki.lang.models import Model
 from niwaki.lang.names import is_named_tuple, record_fields
@@ -31,6 +33,22 @@ from niwaki.targets.camera import Camera
 from niwaki.targets.target import Receiver, Target
 from niwaki.words import distributions
 from niwaki.words.vectors import Rotation, Vec
+
+#: Bytes of the largest array that is read.
+LARGEST_ARRAY = 1 << 30
+
+#: What reading something of the wrong kind may raise.
+MALFORMED = (
+    KeyError,
+    TypeError,
+    ValueError,
+    AttributeError,
+    IndexError,
+    ArithmeticError,
+    OSError,
+    RecursionError,
+    MemoryError,
+)
 
 
 def text_hash(text: str) -> str:
@@ -133,7 +151,17 @@ def record_class(kind: type) -> dict[str, Any]:
 
 
 def of_record_class(data: Mapping[str, Any]) -> type:
-    """Make a class of records with those fields."""
+    """Make a class of records with those fields.
+
+    Raises
+    ------
+    Unfit
+        A name is none that a class or a field can have.
+    """
+    for name in (data["name"], *data["fields"]):
+        # Both kinds of records are made through source text, so that a name must be one.
+        if not isinstance(name, str) or not name.isidentifier() or name.startswith("__"):
+            raise Unfit("$.fields", "names of a class and its fields", shown(name))
     fields = [(str(name), Any) for name in data["fields"]]
     if data["kind"] == "namedtuple":
         return cast(type, NamedTuple(data["name"], fields))
@@ -159,6 +187,8 @@ def source_hash(function: Any) -> str:
 class Reader:
     """Reads values.
 
+    What is no value is an `Unfit`, with its place in the data that were given.
+
     Attributes
     ----------
     trust : tuple of str
@@ -172,21 +202,39 @@ class Reader:
         if not isinstance(data, dict):
             if isinstance(data, (str, int, float, bool)) or data is None:
                 return data
-            raise InputError("bad-run-file", path="the data", reason=f"a value is a {type(data).__name__}")
+            raise Unfit("$", "a value, or a table with the name of its kind", shown(data))
         kind = next(iter(data), "")
         read = _READERS.get(kind)
         if read is None:
-            raise InputError("bad-run-file", path="the data", reason=f"there is no kind of value {kind!r}")
-        return read(self, data)
+            raise Unfit("$", f"a kind of value among {', '.join(_READERS)}", shown(data))
+        try:
+            return read(self, data)
+        except (NiwakiError, Unfit):
+            raise
+        except KeyError as error:
+            raise Unfit(f"$.{error.args[0]}", "a value", "nothing") from error
+        except (*MALFORMED, zlib.error, _engine.EngineFault) as error:
+            raise Unfit("$", f"a value of the kind `{kind}`", f"{shown(data[kind])} ({error})") from error
 
-    def each(self, data: Any) -> list[Any]:
-        """Read several values."""
-        return [self(one) for one in data]
+    def each(self, data: Any, step: str = "") -> list[Any]:
+        """Read several values; `step` leads to their list."""
+        if not isinstance(data, list):
+            raise Unfit(f"${step}", "a list", shown(data))
+        return [self.part(one, f"{step}[{number}]") for number, one in enumerate(data)]
+
+    def part(self, data: Any, step: str) -> Any:
+        """Read a value inside another; `step` leads to it."""
+        with inside(step):
+            return self(data)
+
+    def table(self, data: Mapping[str, Any], step: str = "") -> dict[str, Any]:
+        """Read values by name; `step` leads to them."""
+        return {name: self.part(one, f"{step}.{name}") for name, one in data.items()}
 
     def record(self, data: Mapping[str, Any]) -> Any:
         """Read a record; its class is created for it."""
         constructor = of_record_class(data["record"])
-        return constructor(**{name: self(value) for name, value in data["fields"].items()})
+        return constructor(**self.table(data["fields"], ".fields"))
 
     def mesh(self, kind: type[Target] | type[Receiver], data: Mapping[str, Any]) -> Any:
         """Read a mesh: of its file, or of its arrays.
@@ -203,7 +251,9 @@ class Reader:
             if mesh_hash(found) != wanted:
                 raise InputError("changed-mesh", path=name)
             return found
-        return kind(self(data["vertices"]), self(data["faces"]), data["name"])
+        return kind(
+            self.part(data["vertices"], ".vertices"), self.part(data["faces"], ".faces"), str(data["name"])
+        )
 
     def host(self, data: Mapping[str, Any]) -> Any:
         """Find a host function again.
@@ -228,28 +278,44 @@ class Reader:
 
 
 def _array(reader: Reader, data: Mapping[str, Any]) -> Any:
-    raw = zlib.decompress(base64.b85decode(data["bytes"]))
-    dtype = np.dtype(data["array"])
-    if dtype.hasobject:
-        raise InputError("bad-run-file", path="the data", reason="an array of objects")
-    return np.frombuffer(raw, dtype=dtype).reshape(data["shape"])
+    dtype, shape = np.dtype(data["array"]), data["shape"]
+    if dtype.kind not in NUMERIC or dtype.subdtype is not None:
+        raise Unfit("$.array", "a type of numbers", shown(data["array"]))
+    size = dtype.itemsize * math.prod(shape)
+    if not all(isinstance(one, int) and one >= 0 for one in shape) or size > LARGEST_ARRAY:
+        raise Unfit("$.shape", f"a shape of at most {LARGEST_ARRAY >> 20} MiB", shown(shape))
+    # Not one byte more than the shape has is decompressed, whatever a text of few bytes would become.
+    raw = zlib.decompressobj().decompress(base64.b85decode(data["bytes"]), size + 1)
+    if len(raw) != size:
+        raise Unfit("$.bytes", f"{size} bytes", "more" if len(raw) > size else f"{len(raw)}")
+    return np.frombuffer(raw, dtype=dtype).reshape(shape)
 
 
 def _distribution(reader: Reader, data: Mapping[str, Any]) -> Any:
     constructor = getattr(distributions, data["dist"], None)
     if not (isinstance(constructor, type) and issubclass(constructor, distributions.Distribution)):
-        raise InputError("bad-run-file", path="the data", reason=f"no distribution {data['dist']!r}")
-    return constructor(*reader.each(data["parameters"]))
+        raise Unfit("$.dist", "the name of a distribution", shown(data["dist"]))
+    return constructor(*reader.each(data["parameters"], ".parameters"))
 
+
+def _numbers(data: Mapping[str, Any], kind: str, form: Any) -> Any:
+    with inside(f".{kind}"):
+        return fitted(data[kind], form)
+
+
+_Three = tuple[float, float, float]
 
 _READERS: dict[str, Callable[[Reader, Any], Any]] = {
     "real": lambda reader, data: float(data["real"]),
-    "tuple": lambda reader, data: tuple(reader.each(data["tuple"])),
-    "list": lambda reader, data: reader.each(data["list"]),
-    "dict": lambda reader, data: {reader(key): reader(one) for key, one in data["dict"]},
-    "range": lambda reader, data: range(*data["range"]),
-    "vec": lambda reader, data: Vec(tuple(data["vec"])),
-    "rotation": lambda reader, data: Rotation(tuple(part) for part in data["rotation"]),
+    "tuple": lambda reader, data: tuple(reader.each(data["tuple"], ".tuple")),
+    "list": lambda reader, data: reader.each(data["list"], ".list"),
+    "dict": lambda reader, data: {
+        reader.part(key, f".dict[{n}][0]"): reader.part(one, f".dict[{n}][1]")
+        for n, (key, one) in enumerate(data["dict"])
+    },
+    "range": lambda reader, data: range(*_numbers(data, "range", tuple[int, int, int])),
+    "vec": lambda reader, data: Vec(tuple(_numbers(data, "vec", list[float]))),
+    "rotation": lambda reader, data: Rotation(_numbers(data, "rotation", tuple[_Three, _Three, _Three])),
     "shape": lambda reader, data: _engine.Shape.of_data(data["shape"]),
     "camera": lambda reader, data: Camera.from_dict(data["camera"]),
     "array": _array,

@@ -18,7 +18,7 @@ import base64
 import hashlib
 import json
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cache, cached_property
 from pathlib import Path
@@ -26,7 +26,8 @@ from typing import Any
 
 from niwaki import _engine
 from niwaki.errors import InputError
-from niwaki.errors.settings import bad
+from niwaki.errors.schema import Unfit, decoded, fitted, shown
+from niwaki.errors.settings import bad, is_whole
 from niwaki.lang.compiled import arguments, task
 from niwaki.lang.core import Core
 from niwaki.lang.models import Model, as_model
@@ -35,7 +36,8 @@ from niwaki.result import Result, Sample
 from niwaki.result.progress import Watch, watcher
 from niwaki.search import searching
 from niwaki.search.checks import check_lock, check_polish, check_seed, check_threads, fresh
-from niwaki.search.data import Reader, Writer, model_data, of_record_class, text_hash
+from niwaki.search.data import MALFORMED, Reader, Writer, model_data, of_record_class, text_hash
+from niwaki.search.schema import ModelData, SearchData
 from niwaki.targets.sketches import Score
 
 #: The version of the JSON form.
@@ -224,42 +226,36 @@ class Search:
             The text is not a search, names a mesh that has changed, or calls a function that is not trusted.
         """
         read = Reader(tuple(trust))
-
-        def function(given: Any) -> Model[..., Any] | Guide:
-            return Guide(base64.b85decode(given["guide"])) if "guide" in given else _stored(given, read)
-
         try:
-            if data["format"] != FORMAT:
-                reason = f"it has format {data['format']!r}, this version reads {FORMAT}"
-                raise InputError("bad-run-file", path="the search", reason=reason)
+            check_format(data, FORMAT)
+            fitted(data, SearchData)
             polish = data["polish"]
             return cls(
-                model=_stored(data["model"], read),
-                args=tuple(read.each(data["args"])),
-                score=Score.of_data(data["score"], read),
-                method=Method.of_data(data["method"], function),
+                model=_read("model", lambda: _stored(data["model"], read)),
+                args=tuple(_read("args", lambda: read.each(data["args"]))),
+                score=_read("score", lambda: Score.of_data(data["score"], read)),
+                method=_read("method", lambda: Method.of_data(data["method"], _function_reader(read))),
                 seed=data["seed"],
-                choices=None if data["choices"] is None else read(data["choices"]),
-                lock=None if data["lock"] is None else read(data["lock"]),
+                choices=_read("choices", lambda: _optional(data["choices"], read)),
+                lock=_read("lock", lambda: _optional(data["lock"], read)),
                 runs=data["runs"],
                 keep=data["keep"],
-                polish=None if polish is None else Mh.of_data(polish, function),
+                polish=_read(
+                    "polish", lambda: None if polish is None else Mh.of_data(polish, _function_reader(read))
+                ),
                 max_steps=data["max_steps"],
                 max_memory=data["max_memory"],
             )
-        except (KeyError, TypeError, ValueError, AttributeError, IndexError) as error:
-            reason = f"{type(error).__name__}: {error}"
-            raise InputError("bad-run-file", path="the search", reason=reason) from error
+        except Unfit as error:
+            raise InputError("bad-run-file", path="the search", reason=str(error), unfit=error) from error
 
     @classmethod
     def of_json(cls, text: str, trust: tuple[str, ...] = ()) -> Search:
         """Read a search from JSON; as for `of_data`."""
         try:
-            data = json.loads(text)
-        except ValueError as error:
-            raise InputError("bad-run-file", path="the search", reason=f"it is not JSON: {error}") from error
-        if not isinstance(data, dict):
-            raise InputError("bad-run-file", path="the search", reason="it is no table of names and values")
+            data = decoded(text)
+        except Unfit as error:
+            raise InputError("bad-run-file", path="the search", reason=str(error)) from error
         return cls.of_data(data, trust)
 
     @cached_property
@@ -306,11 +302,58 @@ def model_hash(model: Model[..., Any]) -> str:
     return text_hash(json.dumps(data | {"core": _PLACES.sub(kept, core.text)}, sort_keys=True))
 
 
+def check_format(data: Any, format: int) -> None:
+    """Refuse, before anything else is looked at, data of another version.
+
+    Raises
+    ------
+    Unfit
+        Their `format` is another, or they have none.
+    """
+    found = data.get("format") if isinstance(data, Mapping) else None
+    if found is not None and is_whole(found) and found != format:
+        newer = (
+            "of a newer Niwaki, which can read it"
+            if found > format
+            else "of an older Niwaki, which can read it"
+        )
+        raise Unfit("$.format", f"{format}", f"{found}, the format {newer}")
+    if not is_whole(found):
+        raise Unfit("$.format", f"{format}", "nothing" if found is None else shown(found))
+
+
+def _read(name: str, read: Callable[[], Any]) -> Any:
+    """Read one of the parts of a search; what cannot be read is named by its place."""
+    try:
+        return read()
+    except Unfit as error:
+        raise error.inside(f".{name}") from error
+    except InputError as error:
+        error.values.setdefault("source", f"`$.{name}` of the search")
+        raise
+    except MALFORMED as error:
+        raise Unfit(f"$.{name}", "what `Search.json` wrote", f"something else ({error})") from error
+
+
+def _optional(data: Any, read: Reader) -> Any:
+    return None if data is None else read(data)
+
+
+def _function_reader(read: Reader) -> Any:
+    """Reads a user's proposal or a guide."""
+
+    def function(given: Any) -> Model[..., Any] | Guide:
+        return Guide(base64.b85decode(given["guide"])) if "guide" in given else _stored(given, read)
+
+    return function
+
+
 def _stored(data: Mapping[str, Any], read: Reader) -> StoredModel:
     """The model of its data."""
+    fitted(data, ModelData)
     core = Core(
         text=data["core"],
-        constants=read.each(data["constants"]),
+        constants=read.each(data["constants"], ".constants"),
         classes=[of_record_class(one) for one in data["classes"]],
         files=[],
         entry=data["name"],

@@ -1,6 +1,7 @@
-"""The shell's commands, one a file; `main` puts them together.
+"""The shell's commands, one a file; `app` lists them and loads each when it is used.
 
-app.py        the application, and what the commands share: arguments, folders, the progress line
+app.py        the application, and what the commands share: arguments, folders
+progress.py   a line that says how a search goes on
 controls.py   what the shape should be like, as flags
 settings.py   how to search, as flags
 writing.py    which files a result becomes
@@ -14,6 +15,8 @@ models.py     `niwaki models`: the gallery
 color.py      `niwaki color`: a drawing in colours that differ
 references.py a model by its name or its file
 run_files.py  a search and its runs as a file
+results.py    a folder of one run: that file, and those that show the run
+trust.py      when a replay runs the Python file of its model
 demo.py       the gallery, grown into its targets
 check.py      `niwaki check`: what a model is made of, with advice
 """

@@ -5,28 +5,63 @@ Results go to files and stdout, progress and warnings to stderr.
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from importlib import import_module
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
-from rich.console import Console
 
-from niwaki import result
 from niwaki.errors import FileError
+
+#: The commands and what they do. The module of a command is loaded when the command is used.
+COMMANDS = {
+    "models": "List the gallery: name, target, title.",
+    "grow": "Grow a model into its target.",
+    "replay": "Write the best result of a search again, in any format.",
+    "check": "Compile a model and report what it is made of, with advice.",
+    "sample": "Sample a model by Markov chains.",
+    "color": "Colour a drawing in ways that differ.",
+    "letters": "Write a text in vines or lightning.",
+    "guide": "Train guides, and show what they see.",
+    "explain": "Draw what each strategy runs again for one proposal.",
+}
+
+
+class _Commands(typer.core.TyperGroup):
+    """The commands, each loaded from the module of its name when it is used."""
+
+    def list_commands(self, ctx: Any) -> list[str]:
+        return list(COMMANDS)
+
+    def get_command(self, ctx: Any, cmd_name: str) -> Any:
+        if cmd_name not in COMMANDS:
+            return None
+        import_module(f"niwaki.shell.{cmd_name}")
+        return typer.main.get_group(app).commands[cmd_name]
+
+    def format_commands(self, ctx: Any, formatter: Any) -> None:
+        with formatter.section("Commands"):
+            formatter.write_dl(list(COMMANDS.items()))
+
 
 app = typer.Typer(
     name="niwaki",
-    help="Grow procedural models into given shapes.",
+    cls=_Commands,
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
 )
 
-ModelName = Annotated[str, typer.Argument(metavar="MODEL", help="A gallery name, or file.py:function.")]
+
+@app.callback()
+def niwaki() -> None:
+    """Grow procedural models into given shapes."""
+
+
+ModelName = Annotated[
+    str, typer.Argument(metavar="MODEL", help="A gallery name, or file.py:function; the file is run.")
+]
 Folder = Annotated[
     Path | None, typer.Option("-o", "--output", metavar="DIR", help="The folder for files; default: out.")
 ]
@@ -39,22 +74,3 @@ def ensure_folder(place: Path) -> Path:
     except OSError as error:
         raise FileError("file-unwritable", place, reason=error.strerror or str(error)) from error
     return place
-
-
-@contextmanager
-def progress_line(name: str) -> Iterator[Callable[[result.Progress], None]]:
-    """A line of progress on stderr; nothing where stderr is not a terminal."""
-    console = Console(stderr=True)
-    if not console.is_terminal:
-        yield lambda _: None
-        return
-    with console.status(f"growing {name}") as status:
-
-        def show(now: result.Progress) -> None:
-            best = f"{now.best:.2f}" if math.isfinite(now.best) else "-"
-            status.update(
-                f"growing {name}: run {now.run + 1} of {now.runs}, step {now.done}, "
-                f"{now.ended} ended, best {best}   (Ctrl-C keeps the best so far)"
-            )
-
-        yield show

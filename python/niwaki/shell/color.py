@@ -10,7 +10,8 @@ import typer
 
 from niwaki import color as coloring
 from niwaki import methods, search
-from niwaki.shell.app import Folder, app, ensure_folder
+from niwaki.errors.folders import held_folder
+from niwaki.shell.app import Folder, app
 
 
 @app.command()
@@ -46,10 +47,10 @@ def color(
     asked = coloring.Rules.load(rules) if rules is not None else coloring.rules_of(drawing)
     _before(read, asked)
     start = time.perf_counter()
-    found = coloring.color(read, asked, count, weight=weight, seed=seed, threads=threads)
-    seconds = time.perf_counter() - start
-    folder = ensure_folder(output or Path("out"))
-    written = coloring.files.write(found, folder, size)
+    with held_folder(output or Path("out")) as folder:
+        found = coloring.color(read, asked, count, weight=weight, seed=seed, threads=threads)
+        seconds = time.perf_counter() - start
+        written = coloring.files.write(found, folder, size)
     _summary(found, seconds, seed)
     print(f"{len(written)} files in {folder}, sheet.png first of all")
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -12,8 +13,10 @@ import typer
 import niwaki as nw
 from niwaki import draw, gallery, search, shell, targets
 from niwaki import result as results
+from niwaki.errors.folders import held_folder
 from niwaki.shell import controls, settings, writing
-from niwaki.shell.app import Folder, ModelName, app, ensure_folder, progress_line
+from niwaki.shell.app import Folder, ModelName, app
+from niwaki.shell.progress import progress_line
 
 
 @app.command()
@@ -103,25 +106,28 @@ def grow(
     own = settings.guide(guide, found, [*_sketches(score), *(["match_volume"] if aim else [])], method, given)
     if own is not None:
         suits, method = {**suits, **search.GUIDED}, method or "smc"
-    with progress_line(found.reference) as progress:
-        result = nw.grow(
-            found.model,
-            aim,
-            **start,
-            score=score,
-            method=settings.guided(settings.method(method, given, suits), own),
-            polish=onward,
-            seed=seed,
-            threads=threads,
-            progress=progress,
-            voxel=voxel,
-            sigma=0.02 if sigma is None else sigma,
-            rule=rule,
-            runs=runs,
-            max_steps=max_steps,
-        )
-    if output is not None or not as_json:
-        _write(output or Path("out"), result, found, files, picture)
+    writes = output is not None or not as_json
+    # Before the search: that a folder cannot be written to must not be the news at its end.
+    with held_folder(output or Path("out")) if writes else nullcontext() as folder:
+        with progress_line(found.reference) as progress:
+            result = nw.grow(
+                found.model,
+                aim,
+                **start,
+                score=score,
+                method=settings.guided(settings.method(method, given, suits), own),
+                polish=onward,
+                seed=seed,
+                threads=threads,
+                progress=progress,
+                voxel=voxel,
+                sigma=0.02 if sigma is None else sigma,
+                rule=rule,
+                runs=runs,
+                max_steps=max_steps,
+            )
+        if folder is not None:
+            _write(folder, result, found, files, picture)
     if as_json:
         print(json.dumps({"runs": [shell.run_files.numbers(sample) for sample in result]}))
     else:
@@ -136,27 +142,31 @@ def _sketches(score: nw.Score) -> list[str]:
 
 
 def _write(
-    output: Path,
+    folder: Path,
     result: nw.Result,
     found: shell.references.ModelReference,
     files: writing.Files,
     picture: bool,
 ) -> None:
     """Write run.json first: the other files can be created again from it."""
-    folder = ensure_folder(output)
-    shell.run_files.save(folder / "run.json", shell.run_files.written(result, found))
     best: nw.Sample = result.best
+    data = shell.run_files.written(result, found)
     if best.primitives == 0:
-        print("warning: the best run emitted nothing, so there is no mesh and no picture", file=sys.stderr)
+        with shell.results.written(folder, data, ()):
+            print(
+                "warning: the best run emitted nothing, so there is no mesh and no picture", file=sys.stderr
+            )
         return
-    if picture:
-        styled: dict[str, Any] = {} if files.style is None else {"style": files.style}
-        square: dict[str, Any] = {} if files.style is None else {"size": (800, 800)}
-        best.save(folder / "best.png", **styled, **square)
-        draw.picture.save_image(lambda: result.sheet(**styled), folder / "sheet.png")
-        for view in result.score.views:
-            targets.views.save_view(folder / f"{view.kind}.png", best.scene, view, **styled)
-    files.write(best, folder)
+    pictures = ["best.png", "sheet.png", *(f"{view.kind}.png" for view in result.score.views)]
+    with shell.results.written(folder, data, [*files.names, *(pictures if picture else ())]):
+        if picture:
+            styled: dict[str, Any] = {} if files.style is None else {"style": files.style}
+            square: dict[str, Any] = {} if files.style is None else {"size": (800, 800)}
+            best.save(folder / "best.png", **styled, **square)
+            draw.picture.save_image(lambda: result.sheet(**styled), folder / "sheet.png")
+            for view in result.score.views:
+                targets.views.save_view(folder / f"{view.kind}.png", best.scene, view, **styled)
+        files.write(best, folder)
 
 
 def _summary(result: nw.Result, folder: Path) -> None:

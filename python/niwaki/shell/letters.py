@@ -13,9 +13,10 @@ from rich.console import Console
 
 from niwaki import letters as writing
 from niwaki import search
+from niwaki.errors.folders import held_folder
 from niwaki.letters.word import PARTICLES, STYLES, TRIES
 from niwaki.methods import at_least_one
-from niwaki.shell.app import Folder, app, ensure_folder
+from niwaki.shell.app import Folder, app
 
 
 @app.command()
@@ -43,22 +44,22 @@ def letters(
     at_least_one("--width", width)
     seed = search.fresh(seed)
     start = time.perf_counter()
-    with _shown(text) as progress:
-        word = writing.write(
-            text,
-            style,
-            seed=seed,
-            particles=particles,
-            tries=tries,
-            font=font,
-            threads=threads,
-            progress=progress,
-        )
-    seconds = time.perf_counter() - start
-    folder = ensure_folder(output or Path("out"))
-    files = [word.save(folder / "word.png", width), word.save(folder / "word.svg")]
-    if moving:
-        files.append(word.animate(folder / "growth.gif", width=max(1, width // 2)))
+    with held_folder(output or Path("out")) as folder:
+        with _shown(text) as progress:
+            word = writing.write(
+                text,
+                style,
+                seed=seed,
+                particles=particles,
+                tries=tries,
+                font=font,
+                threads=threads,
+                progress=progress,
+            )
+        seconds = time.perf_counter() - start
+        files = [word.save(folder / "word.png", width), word.save(folder / "word.svg")]
+        if moving:
+            files.append(word.animate(folder / "growth.gif", width=max(1, width // 2)))
     print("  ".join(f"{one.letter.character} {one.similarity:.2f}" for one in word.letters))
     names = ", ".join(file.name for file in files)
     print(f"{len(word.letters)} letters in {seconds:.1f} s, seed {seed}; {names} in {folder}")

@@ -1,4 +1,4 @@
-"""The command line: every command of `niwaki.shell`, and the exit codes.
+"""The command line as a program: errors without a traceback, and the exit codes.
 
 Exit codes: 0 done, 1 a model that does not compile (`check`), 2 an error with a message, 130 stopped by Ctrl-C (after
 results are written).
@@ -11,32 +11,9 @@ import warnings
 from typing import Any, NoReturn
 
 from niwaki.errors import NiwakiError
-from niwaki.shell import (
-    check,
-    color,
-    explain,
-    grow,
-    guide,
-    letters,
-    models,
-    replay,
-    sample,
-)  # each puts its command on the application
 from niwaki.shell.app import app
 
-__all__ = [
-    "app",
-    "check",
-    "color",
-    "explain",
-    "grow",
-    "guide",
-    "letters",
-    "main",
-    "models",
-    "replay",
-    "sample",
-]
+__all__ = ["app", "main"]
 
 
 def main() -> NoReturn:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import hashlib
 import sys
+from collections.abc import Callable
 from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
@@ -11,6 +13,7 @@ from typing import Any
 
 from niwaki.errors import InputError, NiwakiError
 from niwaki.gallery import Entry, entries, entry
+from niwaki.inputs import bytes_of
 from niwaki.lang.models import Model
 
 
@@ -26,15 +29,18 @@ class ModelReference:
         The model.
     entry : Entry or None
         Its place in the gallery.
+    file_hash : str or None
+        SHA-256 of the bytes of its file, which were run; None for the gallery's.
     """
 
     reference: str
     model: Model[..., Any]
     entry: Entry | None = None
+    file_hash: str | None = None
 
 
 def find(reference: str) -> ModelReference:
-    """Find a model by its gallery name or `file.py:function`."""
+    """Find a model by its gallery name or `file.py:function`; the file is run."""
     place, colon, name = reference.rpartition(":")
     if reference.endswith(".py"):
         place, colon, name = reference, ":", ""
@@ -52,7 +58,8 @@ def find(reference: str) -> ModelReference:
 def _in_file(reference: str, place: Path, name: str) -> ModelReference:
     if not place.is_file():
         raise InputError("unknown-model", name=reference, reason=f"there is no file {place.absolute()}")
-    space = vars(_imported(place.resolve()))
+    module, digest = run_file(place.resolve())
+    space = vars(module)
     models = {key: value for key, value in space.items() if isinstance(value, Model)}
     if not name and len(models) == 1:
         name = next(iter(models))
@@ -62,18 +69,41 @@ def _in_file(reference: str, place: Path, name: str) -> ModelReference:
     if not isinstance(found, Model):
         here = ", ".join(models) or "no function marked with `@model`"
         raise InputError("unknown-model", name=reference, reason=f"{place} defines {here}")
-    return ModelReference(f"{place.resolve()}:{name}", found)
+    return ModelReference(f"{place.resolve()}:{name}", found, file_hash=digest)
 
 
-def _imported(place: Path) -> ModuleType:
-    """Run a file as a module, with its own folder importable, as `python file.py` would."""
-    module = ModuleType(place.stem)
+def run_file(
+    place: Path, name: str = "", check: Callable[[bytes], object] | None = None
+) -> tuple[ModuleType, str]:
+    """Run a file as a module, with its own folder importable, as `python file.py` would.
+
+    Parameters
+    ----------
+    place
+        The file.
+    name
+        Of the module; the file's when left out.
+    check
+        Gets the bytes that are about to be run, and raises an error where they must not be.
+
+    Returns
+    -------
+    module
+        What the file defines.
+    digest : str
+        SHA-256 of the bytes that were run.
+    """
+    name = name or place.stem
+    module = ModuleType(name)
     module.__file__ = str(place)
     sys.path.insert(0, str(place.parent))
     try:
         # Not through the import system: its cache misses the second of two edits within a second.
-        code = compile(place.read_bytes(), str(place), "exec", dont_inherit=True)
-        sys.modules[place.stem] = module
+        source = bytes_of(place, "model")
+        if check is not None:
+            check(source)
+        code = compile(source, str(place), "exec", dont_inherit=True)
+        sys.modules[name] = module
         exec(code, module.__dict__)
     except NiwakiError:
         raise
@@ -84,7 +114,7 @@ def _imported(place: Path) -> ModuleType:
         ) from error
     finally:
         sys.path.remove(str(place.parent))
-    return module
+    return module, hashlib.sha256(source).hexdigest()
 
 
 def _last_line(error: BaseException, place: Path) -> str:

@@ -8,7 +8,7 @@ import json
 import math
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -17,10 +17,12 @@ from rich.console import Console
 
 import niwaki as nw
 from niwaki import draw, kernels, shell
+from niwaki.draw import finite
 from niwaki.errors.files import write_whole
+from niwaki.errors.folders import held_folder
 from niwaki.methods import Mh
 from niwaki.shell import settings
-from niwaki.shell.app import Folder, ModelName, app, ensure_folder
+from niwaki.shell.app import Folder, ModelName, app
 
 
 @app.command()
@@ -56,12 +58,14 @@ def sample(
     given = settings.typed(given)
     steps = given.get("steps", Mh.steps)
     method = Mh(**{"kernel": kernels.prior(), "chains": 4, "warmup": steps // 5, "keep": 100, **given})
-    with _shown(found.reference, method.steps * method.chains) as progress:
-        result = nw.run(
-            found.model, method=method, score=score, seed=seed, threads=threads, progress=progress
-        )
-    if output is not None or not as_json:
-        _write(output or Path("out"), result, found, picture)
+    writes = output is not None or not as_json
+    with held_folder(output or Path("out")) if writes else nullcontext() as folder:
+        with _shown(found.reference, method.steps * method.chains) as progress:
+            result = nw.run(
+                found.model, method=method, score=score, seed=seed, threads=threads, progress=progress
+            )
+        if folder is not None:
+            _write(folder, result, found, picture)
     if as_json:
         print(json.dumps({"runs": [shell.run_files.numbers(one) for one in result.bests]}))
     else:
@@ -70,19 +74,19 @@ def sample(
         raise typer.Exit(130)
 
 
-def _write(output: Path, result: nw.Result, found: shell.references.ModelReference, picture: bool) -> None:
-    folder = ensure_folder(output)
+def _write(folder: Path, result: nw.Result, found: shell.references.ModelReference, picture: bool) -> None:
     # The best of each chain is what can be replayed.
     bests = nw.Result(result.search, result.bests, result.seed, interrupted=result.interrupted)
-    shell.run_files.save(folder / "run.json", shell.run_files.written(bests, found))
-    write_whole(folder / "samples.csv", _table(result).encode())
     best = bests.best
-    if best.primitives == 0:
-        return
-    best.export(folder / "best.glb")
-    if picture:
-        best.save(folder / "best.png")
-        draw.picture.save_image(lambda: bests.sheet(), folder / "sheet.png")
+    pictures = ["best.png", "sheet.png"] if picture else []
+    names = ["samples.csv", *(["best.glb", *pictures] if best.primitives else [])]
+    with shell.results.written(folder, shell.run_files.written(bests, found), names):
+        write_whole(folder / "samples.csv", _table(result).encode())
+        if "best.glb" in names:
+            best.export(folder / "best.glb")
+        if "best.png" in names:
+            best.save(folder / "best.png")
+            draw.picture.save_image(lambda: bests.sheet(), folder / "sheet.png")
 
 
 def _table(result: nw.Result) -> str:
@@ -92,8 +96,19 @@ def _table(result: nw.Result) -> str:
     rows.writerow(["chain", "proposal", "log_score", "log_prior", "value"])
     for number, draws in enumerate(result.by_chain):
         for visit, one in zip(result.visits[number], draws, strict=True):
-            rows.writerow([number, visit, one.log_score, one.log_prior, repr(one.value)])
+            # What is not finite is left empty, in values too: readers of tables know no such numbers.
+            scores = [finite.scalar(one.log_score), finite.scalar(one.log_prior)]
+            rows.writerow([number, visit, *scores, repr(_plain(one.value))])
     return text.getvalue()
+
+
+def _plain(value: Any) -> Any:
+    """A value with None where a number is not finite."""
+    if isinstance(value, (tuple, list)) and not hasattr(value, "_fields"):
+        return type(value)(map(_plain, value))
+    if isinstance(value, dict):
+        return {name: _plain(one) for name, one in value.items()}
+    return finite.scalar(value) if isinstance(value, float) else value
 
 
 def _summary(result: nw.Result, folder: Path) -> None:

@@ -98,6 +98,11 @@ class Files:
             draw.solid.kernel()
         return cls(chosen, scale, fuse, frames, _pixels(size), style)
 
+    @property
+    def names(self) -> list[str]:
+        """The names of the files."""
+        return [f"{'growth' if name in ANIMATIONS else 'best'}.{name}" for name in self.formats]
+
     def write(self, sample: nw.Sample, folder: Path, target: nw.Target | None = None) -> list[Path]:
         """Write each file, moving ones with the target as a ghost.
 

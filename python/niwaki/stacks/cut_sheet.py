@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from niwaki.draw.finite import finite
 from niwaki.errors import FileError
 from niwaki.errors.extras import optional
 from niwaki.errors.files import write_whole
@@ -145,6 +146,8 @@ class Sheet:
                 done="cut",
                 formats=", ".join(writers),
             )
+        for piece in self.pieces:
+            finite(piece.cut, f"piece {piece.number}", "its cut")
         names = [place] + [place.with_stem(f"{place.stem}-{board + 1}") for board in range(1, self.boards)]
         texts = [writers[place.suffix.lower()](board) for board in range(self.boards)]
         return [write_whole(name, text.encode()) for name, text in zip(names, texts, strict=True)]

@@ -2,11 +2,15 @@
 
 target     meshes: the volume to fill, and surfaces that shadows fall on
 reading    meshes from files
+triangles  those that the library trimesh reads
+gltf       the triangles of glTF files
+pieces     the objects of a file as one mesh
 memory     whether there is enough memory for a mesh
 drawing    drawings to grow into, with the point where a model starts
 drawings   drawings of our own, by name
 camera     the camera that sees an image
 images     which pixels of an image should be on
+pixels     the pixels of image files
 sketches   scores of a scene, as values that multiply
 views      a scene as the sketch of an image or a shadow sees it, as a picture
 outline    the outline of a room, from a file

@@ -2,5 +2,7 @@ from . import drawing as drawing
 from . import drawings as drawings
 from . import examples as examples
 from . import images as images
+from . import pixels as pixels
 from . import reading as reading
+from . import triangles as triangles
 from . import views as views

@@ -9,13 +9,16 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import hypot, isfinite, radians
+from math import hypot, radians
 from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from niwaki.errors import FileError, InputError
-from niwaki.errors.files import existing, write_whole
+from niwaki.errors import InputError
+from niwaki.errors.files import write_whole
+from niwaki.errors.settings import shown
+from niwaki.inputs import text_of
+from niwaki.inputs.texts import json_of
 
 Triple = tuple[float, float, float]
 
@@ -24,6 +27,10 @@ KINDS: dict[str, dict[str, float | None]] = {
     "perspective": {"fov_degrees": 45.0, "near": 0.1},
     "orthographic": {"height": None},
 }
+
+
+#: No coordinate is farther from 0: products of three stay finite.
+FARTHEST = 1e100
 
 
 @dataclass(frozen=True)
@@ -63,9 +70,7 @@ class Camera:
     height: float = 0.0
 
     def __post_init__(self) -> None:
-        if self.kind not in KINDS:
-            expected = " or ".join(f'"{kind}"' for kind in KINDS)
-            raise InputError("bad-camera", reason=f"its kind is {self.kind!r}, expected {expected}")
+        _check_kind(self.kind)
         for name in ("position", "look_at", "up"):
             object.__setattr__(self, name, _triple(name, getattr(self, name)))
         for name in KINDS[self.kind]:
@@ -124,12 +129,8 @@ class Camera:
         InputError
             `bad-camera`: a name is missing or unknown, or a value makes no camera.
         """
-        place = existing(path)
-        try:
-            data = json.loads(place.read_text(encoding="utf-8"))
-        except (ValueError, OSError) as error:
-            raise FileError("file-unreadable", path, suffix="a camera in JSON", reason=str(error)) from error
-        return cls.from_dict(data, name=str(path))
+        what = "a camera in JSON"
+        return cls.from_dict(json_of(text_of(path, "camera", what), path, what), name=str(path))
 
     @classmethod
     def from_dict(cls, data: Any, name: str = "") -> Camera:
@@ -139,13 +140,11 @@ class Camera:
                 "bad-camera", reason=f"found {type(data).__name__}, expected names and values", detail=name
             )
         kind = data.get("kind", "perspective")
-        if kind not in KINDS:
-            expected = " or ".join(f'"{known}"' for known in KINDS)
-            raise InputError("bad-camera", reason=f"its kind is {kind!r}, expected {expected}", detail=name)
+        _check_kind(kind, name)
         own = KINDS[kind]
         known = ("kind", "position", "look_at", "up", *own)
         if unknown := [key for key in data if key not in known]:
-            reason = f"there is no `{unknown[0]}` in it; {kind} cameras have {', '.join(known)}"
+            reason = f"there is no `{unknown[0]!s:.40}` in it; {kind} cameras have {', '.join(known)}"
             raise InputError("bad-camera", reason=reason, detail=name)
         needed = ["position", "look_at", *(key for key, usual in own.items() if usual is None)]
         if missing := [key for key in needed if key not in data]:
@@ -182,17 +181,25 @@ class Camera:
         return (self.position, self.look_at, self.up, perspective, number, self.near)
 
 
+def _check_kind(kind: Any, name: str = "") -> None:
+    if not isinstance(kind, str) or kind not in KINDS:
+        expected = " or ".join(f'"{known}"' for known in KINDS)
+        raise InputError("bad-camera", reason=f"its kind is {shown(kind)}, expected {expected}", detail=name)
+
+
 def _triple(name: str, value: Any) -> Triple:
     try:
         x, y, z = (_number(name, number) for number in value)
     except (TypeError, ValueError):
-        raise InputError("bad-camera", reason=f"`{name}` is {value!r}, expected three numbers") from None
+        raise InputError("bad-camera", reason=f"`{name}` is {shown(value)}, expected three numbers") from None
     return (x, y, z)
 
 
 def _number(name: str, value: Any) -> float:
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not isfinite(value):
-        raise InputError("bad-camera", reason=f"`{name}` has {value!r}, expected a finite number")
+    # Products of coordinates stay finite; whole numbers of any length can be compared.
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not -FARTHEST <= value <= FARTHEST:
+        reason = f"`{name}` has {shown(value)}, expected a finite number, at most {FARTHEST:g}"
+        raise InputError("bad-camera", reason=reason)
     return float(value)
 
 

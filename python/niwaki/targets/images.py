@@ -8,16 +8,16 @@ the camera, or the reader of the page, should see it as it is.
 from __future__ import annotations
 
 from os import PathLike
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from PIL import Image as Pil
-from PIL import UnidentifiedImageError
 
-from niwaki.errors import FileError, InputError
-from niwaki.errors.files import existing
+from niwaki.errors import InputError
+from niwaki.inputs import library
+from niwaki.inputs.limits import check
+from niwaki.targets import pixels as files
 
 if TYPE_CHECKING:
     from PIL.Image import Image as PilImage
@@ -26,14 +26,11 @@ if TYPE_CHECKING:
 else:
     Image = Any
 
-#: Formats that are read; the content decides, the name is for people.
+#: Names of files with images end in one of these; the content decides what is read.
 FORMATS = (".png", ".jpg", ".jpeg", ".webp", ".bmp", ".gif", ".tif", ".tiff")
 
 #: Greys from here on are paper: scans and photographs of white are not quite white.
 PAPER = 250
-
-#: Most pixels of an image to match.
-MOST_PIXELS = 1 << 24
 
 
 def silhouette(image: Image) -> NDArray[np.bool_]:
@@ -126,7 +123,7 @@ def name_of(image: Image) -> str:
 def _values(image: Image) -> NDArray[Any]:
     """Return (rows, columns) bool or numbers in 0 to 255, or (rows, columns, channels) of the latter."""
     if isinstance(image, (str, PathLike)):
-        return _read(Path(image))
+        return files.load(image)
     if hasattr(image, "convert") and hasattr(image, "getbands"):
         return _of_pil(image)
     values = np.asarray(image)
@@ -136,35 +133,15 @@ def _values(image: Image) -> NDArray[Any]:
         raise InputError("bad-image", found=found)
     if values.dtype.kind == "f" and not np.isfinite(values).all():
         raise InputError("bad-image", found="an array with values that are not finite")
-    if values.shape[0] * values.shape[1] > MOST_PIXELS:
-        raise InputError("bad-image", found=f"{_size(values)} pixels, more than {MOST_PIXELS}")
+    check("pixels", values.shape[0] * values.shape[1], None)
     return values
 
 
-def _read(place: Path) -> NDArray[Any]:
-    existing(place)
-    try:
-        with Pil.open(place) as opened:
-            columns, rows = opened.size
-            if columns * rows > MOST_PIXELS:
-                found = f"{columns} x {rows} pixels in `{place}`, more than {MOST_PIXELS}"
-                raise InputError("bad-image", found=found)
-            return _of_pil(opened)
-    except (UnidentifiedImageError, OSError, ValueError, SyntaxError, EOFError) as error:
-        reason = " ".join(str(error).split()) or type(error).__name__
-        raise FileError("file-unreadable", place, suffix="an image", reason=reason) from error
-
-
 def _of_pil(image: Any) -> NDArray[Any]:
-    """Channels in 0 to 255, red first, alpha last where there is one."""
-    alpha = "A" in image.getbands() or "transparency" in image.info
-    if image.mode == "1":
-        return np.asarray(image, dtype=np.bool_)
-    if image.mode.startswith(("I", "F")):
-        # Sixteen bits and more: scaled by the brightest, since only zero and not zero matter for what is on.
-        values = np.asarray(image, dtype=np.float64)
-        return values * (255.0 / max(float(values.max()), 1.0))
-    return np.asarray(image.convert("RGBA" if alpha else "RGB"))
+    check("pixels", image.width * image.height, None)
+    # An image may still have to be read from its file.
+    with library(None, "an image"):
+        return files.channels(image)
 
 
 def _red(values: NDArray[Any]) -> NDArray[Any]:

@@ -10,15 +10,26 @@ from __future__ import annotations
 import json
 import math
 import re
-import xml.etree.ElementTree as xml
 from os import PathLike
 from pathlib import Path
 
+import numpy as np
+from numpy.typing import NDArray
+
 from niwaki.errors import FileError
+from niwaki.errors.settings import is_number
+from niwaki.inputs import text_of
+from niwaki.inputs.limits import check
+from niwaki.inputs.texts import json_of
+from niwaki.inputs.xml import xml_of
 from niwaki.words.polygons import polygon_area
 from niwaki.words.vectors import Vec
 
 Point = tuple[float, float]
+Points = NDArray[np.float64]
+
+#: No coordinate is farther from 0: areas stay finite.
+FARTHEST = 1e100
 
 FORMATS = (".json", ".svg")
 
@@ -46,14 +57,10 @@ def load_polygon(path: str | PathLike[str]) -> tuple[Vec, ...]:
     if place.suffix.lower() not in FORMATS:
         shown = place.suffix or "no suffix"
         raise FileError("file-format", path, suffix=shown, done="read", formats=", ".join(FORMATS))
+    text = text_of(path, "outline", place.suffix)
     try:
-        text = place.read_text(encoding="utf-8")
-    except FileNotFoundError:
-        raise FileError("file-missing", path, absolute=place.absolute(), folder=Path.cwd()) from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise FileError("file-unreadable", path, suffix=place.suffix, reason=str(error)) from error
-    try:
-        points = _from_json(text) if place.suffix.lower() == ".json" else _from_svg(text)
+        points = _from_json(text, path) if place.suffix.lower() == ".json" else _from_svg(text, path)
+        check("corners", len(points), path)
         corners = _checked(points)
     except _Unusable as reason:
         raise FileError("polygon", path, reason=str(reason)) from None
@@ -64,11 +71,13 @@ class _Unusable(Exception):
     """Why a file holds no polygon."""
 
 
-def _from_json(text: str) -> list[Point]:
+def _from_json(text: str, path: str | PathLike[str]) -> list[Point]:
     try:
-        found = json.loads(text)
-    except json.JSONDecodeError as error:
-        raise _Unusable(f"it is no JSON: {error}") from None
+        found = json_of(text, path)
+    except FileError as error:
+        if error.code != "file-unreadable":
+            raise
+        raise _Unusable(f"it is no JSON: {error.values['reason']}") from error
     if isinstance(found, dict):
         found = found.get("polygon")
     if not isinstance(found, list):
@@ -76,23 +85,27 @@ def _from_json(text: str) -> list[Point]:
     points: list[Point] = []
     for number, point in enumerate(found):
         numbers = isinstance(point, list) and len(point) == 2
-        if not numbers or not all(isinstance(part, (int, float)) for part in point):
-            raise _Unusable(f"point number {number} is {json.dumps(point)}, expected two numbers")
+        if not numbers or not all(is_number(part) for part in point):
+            raise _Unusable(f"point number {number} is {json.dumps(point):.60}, expected two numbers")
         points.append((float(point[0]), float(point[1])))
     return points
 
 
-def _from_svg(text: str) -> list[Point]:
+def _from_svg(text: str, path: str | PathLike[str]) -> list[Point]:
     try:
-        root = xml.fromstring(text)
-    except xml.ParseError as error:
-        raise _Unusable(f"it is no SVG: {error}") from None
+        root = xml_of(text.encode(), path).root
+    except FileError as error:
+        if error.code != "file-unreadable":
+            raise
+        raise _Unusable(f"it is no SVG: {error.values['reason']}") from error
     for element in root.iter():
         kind = str(element.tag).rpartition("}")[2]
         if kind in ("polygon", "path") and any(part.get("transform") for part in root.iter()):
             raise _Unusable("the drawing has a `transform`; apply it in the program that wrote the file")
         if kind == "polygon":
             numbers = [_number(word) for word in re.split(r"[\s,]+", (element.get("points") or "").strip())]
+            if len(numbers) % 2:
+                raise _Unusable("its last point has one number")
             return [(x, -y) for x, y in zip(numbers[::2], numbers[1::2], strict=False)]
         if kind == "path":
             return [(x, -y) for x, y in _path(element.get("d") or "")]
@@ -103,7 +116,7 @@ def _number(word: str) -> float:
     try:
         return float(word)
     except ValueError:
-        raise _Unusable(f"{word!r} is not a number") from None
+        raise _Unusable(f"{word!r:.60} is not a number") from None
 
 
 def _path(commands: str) -> list[Point]:
@@ -146,12 +159,11 @@ def _checked(points: list[Point]) -> list[Point]:
     kept = [point for at, point in enumerate(points) if point != points[at - 1] or len(points) == 1]
     if len(kept) < 3:
         raise _Unusable(f"it has {len(kept)} corner{'s' * (len(kept) != 1)}, expected at least 3")
-    count = len(kept)
-    for i in range(count):
-        for j in range(i + 1, count):
-            neighbours = j == i + 1 or (i == 0 and j == count - 1)
-            if not neighbours and _cross(kept[i], kept[(i + 1) % count], kept[j], kept[(j + 1) % count]):
-                raise _Unusable(f"its edges {i + 1} and {j + 1} cross")
+    if max(abs(part) for point in kept for part in point) > FARTHEST:
+        raise _Unusable(f"a coordinate is more than {FARTHEST:g} from 0")
+    crossing = _crossing(np.array(kept))
+    if crossing is not None:
+        raise _Unusable(f"its edges {crossing[0] + 1} and {crossing[1] + 1} cross")
     if polygon_area(kept) == 0.0:
         raise _Unusable("its corners lie on one line")
     x, y = kept[0]
@@ -162,17 +174,35 @@ def _checked(points: list[Point]) -> list[Point]:
     return kept if turn > 0.0 else kept[::-1]
 
 
-def _cross(a: Point, b: Point, c: Point, d: Point) -> bool:
-    """Whether two edges have a point in common."""
+def _crossing(corners: NDArray[np.float64]) -> tuple[int, int] | None:
+    """The first two edges that have a point in common and are no neighbours."""
+    starts, ends = corners, np.roll(corners, -1, axis=0)
+    low, high = np.minimum(starts, ends), np.maximum(starts, ends)
+    count = len(corners)
+    for i in range(count - 2):
+        # Edge i and its neighbours meet: the one before the first is the last.
+        last = count - 1 if i == 0 else count
+        boxes = (low[i + 2 : last] <= high[i]) & (low[i] <= high[i + 2 : last])
+        near = np.flatnonzero(boxes.all(axis=1)) + i + 2
+        if len(near) and (met := np.flatnonzero(_cross(starts[i], ends[i], starts[near], ends[near]))).size:
+            return i, int(near[met[0]])
+    return None
 
-    def side(p: Point, q: Point, r: Point) -> float:
-        return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
 
-    def between(p: Point, q: Point, r: Point) -> bool:
-        return min(p[0], q[0]) <= r[0] <= max(p[0], q[0]) and min(p[1], q[1]) <= r[1] <= max(p[1], q[1])
+def _cross(a: Points, b: Points, c: Points, d: Points) -> NDArray[np.bool_]:
+    """Whether an edge has a point in common with each of some others, whose boxes meet its own."""
+
+    def side(p: Points, q: Points, r: Points) -> NDArray[np.float64]:
+        return np.asarray(
+            (q[..., 0] - p[..., 0]) * (r[..., 1] - p[..., 1])
+            - (q[..., 1] - p[..., 1]) * (r[..., 0] - p[..., 0])
+        )
+
+    def between(p: Points, q: Points, r: Points) -> NDArray[np.bool_]:
+        return np.asarray(((np.minimum(p, q) <= r) & (r <= np.maximum(p, q))).all(axis=-1))
 
     one, two, three, four = side(a, b, c), side(a, b, d), side(c, d, a), side(c, d, b)
-    if one * two < 0.0 and three * four < 0.0:
-        return True
-    touching = ((one, a, b, c), (two, a, b, d), (three, c, d, a), (four, c, d, b))
-    return any(value == 0.0 and between(p, q, r) for value, p, q, r in touching)
+    found = (one * two < 0.0) & (three * four < 0.0)
+    for value, p, q, r in ((one, a, b, c), (two, a, b, d), (three, c, d, a), (four, c, d, b)):
+        found |= (value == 0.0) & between(p, q, r)
+    return found

@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from niwaki import _engine, targets
 from niwaki.errors import InputError
+from niwaki.errors.schema import Unfit, shown
 from niwaki.errors.settings import bad, is_number
 from niwaki.targets.camera import Camera
 from niwaki.targets.target import Receiver, Target
@@ -136,14 +137,14 @@ class Score:
         ]
 
     @classmethod
-    def of_data(cls, data: Sequence[Mapping[str, Any]], read: Callable[[Any], Any]) -> Score:
-        """The sketches of their data; `read` reads what one is given."""
+    def of_data(cls, data: Sequence[Mapping[str, Any]], read: Any) -> Score:
+        """The sketches of their data; `read.table` reads what one is given."""
         score = cls()
-        for one in data:
+        for number, one in enumerate(data):
             make = SKETCHES.get(one["sketch"])
             if make is None:
-                raise InputError("bad-run-file", path="the search", reason=f"no sketch {one['sketch']!r}")
-            score *= make(**{name: read(value) for name, value in one["given"].items()})
+                raise Unfit(f"$[{number}].sketch", f"one of {', '.join(SKETCHES)}", shown(one["sketch"]))
+            score *= make(**read.table(one["given"], f"[{number}].given"))
         return score
 
     def __mul__(self, other: Score) -> Score:

@@ -19,11 +19,16 @@ from niwaki import draw, targets
 from niwaki._engine import Shape
 from niwaki.draw.scene import Scene
 from niwaki.errors import FileError
+from niwaki.inputs.guard import reason_of
 from niwaki.targets.camera import Camera
 from niwaki.targets.memory import BYTES_PER_TRIANGLE, check_memory
 
 if TYPE_CHECKING:
     from PIL.Image import Image
+
+
+#: How far from 0 a coordinate may be, and how short the longest side: volumes stay numbers, also those of 32 bits.
+MOST, LEAST = 1e12, 1e-9
 
 
 class TargetWarning(UserWarning):
@@ -45,8 +50,8 @@ class Mesh:
     """
 
     def __init__(self, vertices: ArrayLike, faces: ArrayLike, name: str) -> None:
-        self.vertices: NDArray[np.float64] = np.array(vertices, dtype=np.float64).reshape(-1, 3)
-        self.faces: NDArray[np.int64] = np.array(faces, dtype=np.int64).reshape(-1, 3)
+        self.vertices: NDArray[np.float64] = _rows(vertices, np.float64, name)
+        self.faces: NDArray[np.int64] = _rows(faces, np.int64, name)
         self.name = name
         self.source: str | None = None
 
@@ -57,8 +62,8 @@ class Mesh:
         Raises
         ------
         FileError
-            The file is missing, cut short or of another format; it has no triangles, or coordinates that are not
-            finite; a target has no thickness.
+            The file is missing, cut short, of another format or larger than is read; it has no triangles, or
+            coordinates that are not finite or beyond 1e12; a target has no thickness.
 
         Warns
         -----
@@ -225,6 +230,14 @@ class Receiver(Mesh):
         return Camera.orthographic(eye.tolist(), middle.tolist(), up, height=width / aspect)
 
 
+def _rows(values: ArrayLike, dtype: type[np.generic], name: str) -> NDArray[Any]:
+    """Numbers in rows of three."""
+    try:
+        return np.array(values, dtype=dtype).reshape(-1, 3)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise FileError("file-unreadable", name, suffix="a mesh", reason=reason_of(error)) from None
+
+
 def _check_arrays(vertices: NDArray[np.float64], faces: NDArray[np.int64], name: str) -> None:
     if len(faces) == 0:
         raise FileError("target-empty", name, reason=f"it has {len(vertices)} vertices and no faces")
@@ -234,6 +247,19 @@ def _check_arrays(vertices: NDArray[np.float64], faces: NDArray[np.int64], name:
     wrong = np.flatnonzero(~np.isfinite(vertices).all(axis=1))
     if len(wrong):
         raise FileError("target-not-finite", name, count=len(wrong), total=len(vertices), first=int(wrong[0]))
+    _check_size(vertices[faces.ravel()], name)
+
+
+def _check_size(used: NDArray[np.float64], name: str) -> None:
+    """Refuse coordinates whose products would not be numbers."""
+    largest = float(np.abs(used).max())
+    if largest > MOST:
+        reason = f"a coordinate is {largest:.3g} from 0, and the limit is {MOST:g}"
+        raise FileError("target-size", name, found="large", reason=reason)
+    extent = float((used.max(axis=0) - used.min(axis=0)).max())
+    if 0.0 < extent < LEAST:
+        reason = f"its longest side is {extent:.3g}, and the limit is {LEAST:g}"
+        raise FileError("target-size", name, found="small", reason=reason)
 
 
 def _check(vertices: NDArray[np.float64], faces: NDArray[np.int64], name: str) -> None:

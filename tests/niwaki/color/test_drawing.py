@@ -176,14 +176,14 @@ def test_our_own_drawings_have_ten_to_twenty_regions_all_seen(name: str) -> None
         ('<rect class="a" width="9" height="9"/>', "drawing-no-regions", "one region, `a`"),
         ('<g id="a"><use href="#a"/></g>', "drawing-unclear", "`#a` uses itself"),
         ("<style>g > path { fill: none }</style>", "drawing-unclear", "`g > path`"),
-        ("<g>" * 300 + "</g>" * 300, "drawing-unclear", "nested"),
+        ("<g>" * 300 + "</g>" * 300, "file-limit", "201 levels"),
         ("<g>", "file-unreadable", "not XML"),
         (
             "<defs>"
             + "".join(f'<g id="g{k}">' + f'<use href="#g{k + 1}"/>' * 10 + "</g>" for k in range(9))
             + '<g id="g9"/></defs><use href="#g0"/>',
-            "drawing-unclear",
-            "more than 20000 shapes",
+            "file-limit",
+            "more than 20,000 elements",
         ),
     ],
 )

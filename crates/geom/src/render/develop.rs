@@ -3,7 +3,8 @@
 //! The backdrop is a colour in the finished picture, not light: a white page stays exactly white, and the floor only
 //! darkens it. So the filmic curve applies to the parts only.
 
-use super::smooth::{Grain, smooth};
+use super::plate::Plate;
+use super::smooth::smooth;
 use super::trace::{Pixel, Stage};
 use super::v3::{V3, v3};
 use super::{Backdrop, Shot, tone};
@@ -23,45 +24,43 @@ impl Layer {
     fn under(self, color: V3, alpha: f32) -> Layer {
         Layer { color: self.color * (1.0 - alpha) + color * alpha, alpha: self.alpha * (1.0 - alpha) + alpha }
     }
+
+    /// Straight alpha, sRGB.
+    fn bytes(self) -> [u8; 4] {
+        let straight = if self.alpha > 0.0 { self.color / self.alpha } else { V3::ZERO };
+        let alpha = (self.alpha.clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
+        [tone::byte(straight.x), tone::byte(straight.y), tone::byte(straight.z), alpha]
+    }
 }
 
-/// Develops traced pixels.
-pub fn develop(stage: &Stage, pixels: &[Pixel], shot: &Shot) -> Vec<u8> {
-    let width = shot.width;
-    let body_light = smooth(&grains(pixels, |p| p.body_grain), width);
-    let floor_light = smooth(&grains(pixels, |p| p.floor_grain), width);
+/// Develops a traced picture.
+pub fn develop(stage: &Stage, plate: &Plate, shot: &Shot) -> Vec<u8> {
+    let body_light = smooth(plate, |pixel| &pixel.body_grain);
+    let floor_light = smooth(plate, |pixel| &pixel.floor_grain);
     let ghost = tone::linear(shot.ghost_color);
-    let mut bytes = vec![0u8; 4 * pixels.len()];
-    bytes.par_chunks_mut(4 * width).enumerate().for_each(|(row, line)| {
-        let below = (row as f32 + 0.5) / shot.height as f32;
-        for (column, out) in line.chunks_exact_mut(4).enumerate() {
-            let k = row * width + column;
-            let pixel = &pixels[k];
-            let share = pixel.body.count / shot.samples as f32;
-            let shade = shade(stage, pixel, floor_light[k]);
+    let mut bytes = vec![0u8; 4 * shot.width * shot.height];
+    bytes.par_chunks_mut(4 * shot.width).enumerate().for_each(|(y, line)| {
+        let below = (y as f32 + 0.5) / shot.height as f32;
+        let bare = backdrop(shot.backdrop, below, V3::splat(1.0)).bytes();
+        line.chunks_exact_mut(4).for_each(|out| out.copy_from_slice(&bare));
+        let row = &plate.rows[y];
+        for (k, pixel) in row.pixels.iter().enumerate().filter(|(_, pixel)| pixel.met()) {
+            let column = row.first + k;
+            let shade = shade(stage, pixel, floor_light[y][k]);
             let mut layer = backdrop(shot.backdrop, below, shade);
-            if share > 0.0 {
-                layer = layer.under(tone::film(scene_light(stage, pixel, body_light[k])), share);
+            if pixel.body.count > 0.0 {
+                let share = pixel.body.count / pixel.samples;
+                layer = layer.under(tone::film(scene_light(stage, pixel, body_light[y][k])), share);
             }
             if pixel.shell.count > 0.0 {
-                let n = shot.samples as f32;
-                let seen = pixel.shell.seen / n;
-                layer = layer.under(ghost, pixel.shell.opacity / n);
-                let line = outline(pixels, shot, column, row);
-                layer = layer.under(ghost * 0.5, 0.85 * line * seen);
+                let seen = pixel.shell.seen / pixel.samples;
+                layer = layer.under(ghost, pixel.shell.opacity / pixel.samples);
+                layer = layer.under(ghost * 0.5, 0.85 * outline(plate, pixel, column, y) * seen);
             }
-            let straight = if layer.alpha > 0.0 { layer.color / layer.alpha } else { V3::ZERO };
-            out[0] = tone::byte(straight.x);
-            out[1] = tone::byte(straight.y);
-            out[2] = tone::byte(straight.z);
-            out[3] = (layer.alpha.clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
+            line[4 * column..4 * column + 4].copy_from_slice(&layer.bytes());
         }
     });
     bytes
-}
-
-fn grains(pixels: &[Pixel], of: impl Fn(&Pixel) -> Grain) -> Vec<Grain> {
-    pixels.iter().map(of).collect()
 }
 
 /// The equation of `trace.rs`, for the mean of the pixel's samples.
@@ -101,22 +100,27 @@ fn backdrop(backdrop: Backdrop, below: f32, shade: V3) -> Layer {
 
 /// How much of an edge of the ghost runs through a pixel, in `[0, 1]`: its silhouette, its creases, and where one
 /// of its sheets ends before another.
-fn outline(pixels: &[Pixel], shot: &Shot, column: usize, row: usize) -> f32 {
-    let (width, height, samples) = (shot.width, shot.height, shot.samples as f32);
-    let here = &pixels[row * width + column].shell;
+fn outline(plate: &Plate, pixel: &Pixel, column: usize, row: usize) -> f32 {
+    let here = &pixel.shell;
     let normal = here.normal.unit();
     let depth = here.depth / here.count;
-    let mut edge = 1.0 - here.count / samples;
-    for (dx, dy) in [(-1i32, 0i32), (1, 0), (0, -1), (0, 1)] {
-        let (x, y) = (column as i32 + dx, row as i32 + dy);
-        if x < 0 || y < 0 || x >= width as i32 || y >= height as i32 {
+    let mut edge = 1.0 - here.count / pixel.samples;
+    let around = [
+        (column.checked_sub(1), Some(row)),
+        (Some(column + 1), Some(row)),
+        (Some(column), row.checked_sub(1)),
+        (Some(column), Some(row + 1)),
+    ];
+    for (column, row) in around.into_iter().filter_map(|(column, row)| column.zip(row)) {
+        if column >= plate.width || row >= plate.rows.len() {
             continue;
         }
-        let there = &pixels[y as usize * width + x as usize].shell;
-        edge = edge.max(1.0 - there.count / samples);
-        if there.count == 0.0 {
+        let Some(there) = plate.get(column, row).filter(|there| there.shell.count > 0.0) else {
+            edge = 1.0;
             continue;
-        }
+        };
+        edge = edge.max(1.0 - there.shell.count / there.samples);
+        let there = &there.shell;
         let crease = ((0.94 - normal.dot(there.normal.unit())) / 0.10).clamp(0.0, 1.0);
         let step = ((depth - there.depth / there.count).abs() / 0.03 - 1.0).clamp(0.0, 1.0);
         edge = edge.max(crease * 0.7).max(step);

@@ -1,8 +1,8 @@
 //! Pictures: triangle meshes to RGBA bytes, by casting rays.
 //!
 //! In four steps: **trace** (`trace.rs`: each pixel keeps sums over its samples: paint, light, what blocks the
-//! light), **smooth** (`smooth.rs`), **develop** (`develop.rs`: light through a filmic curve, the backdrop with its
-//! shadow, the ghost over it), bytes. The same bits come out on any number of threads: a pixel depends on its
+//! light; `plate.rs`: which pixels take all samples), **smooth** (`smooth.rs`), **develop** (`develop.rs`: light through
+//! a filmic curve, the backdrop with its shadow, the ghost over it), bytes. The same bits come out on any number of threads: a pixel depends on its
 //! coordinates only. Deliberately absent: images on surfaces, transparency of parts, more than one bounce.
 //!
 //! - `camera.rs`  cameras, and the view that frames a box
@@ -17,6 +17,7 @@ mod bvh;
 mod camera;
 mod develop;
 mod light;
+mod plate;
 mod smooth;
 mod tone;
 mod trace;
@@ -24,7 +25,6 @@ mod v3;
 
 pub use camera::{Camera, View};
 
-use rayon::prelude::*;
 use v3::V3;
 
 /// A triangle mesh with paint on it.
@@ -67,7 +67,7 @@ pub struct Shot {
     pub width: usize,
     /// Pixels down.
     pub height: usize,
-    /// Rays for each pixel; also shadow rays and sky rays.
+    /// Rays for each pixel where the picture changes, a quarter of them elsewhere; also shadow rays and sky rays.
     pub samples: usize,
     /// The camera; `None` frames the scene and its ghost.
     pub camera: Option<Camera>,
@@ -161,9 +161,8 @@ pub fn render(surfaces: &[Surface], ghost: Option<&Surface>, shot: &Shot) -> Res
         check(ghost).map_err(|reason| RenderError::BadMesh { surface: None, reason })?;
     }
     let stage = trace::Stage::new(surfaces, ghost, shot).ok_or(RenderError::BadCamera)?;
-    let mut pixels = vec![trace::Pixel::default(); shot.width * shot.height];
-    pixels.par_chunks_mut(shot.width).enumerate().for_each(|(row, line)| stage.trace_row(row, line));
-    Ok(develop::develop(&stage, &pixels, shot))
+    let plate = plate::Plate::trace(&stage, shot.height);
+    Ok(develop::develop(&stage, &plate, shot))
 }
 
 fn check(surface: &Surface) -> Result<(), String> {

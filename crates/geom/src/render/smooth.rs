@@ -5,6 +5,8 @@
 //! plane (a cross-bilateral filter: Eisemann & Durand 2004, Petschnigg et al. 2004).
 
 use super::light::TILE;
+use super::plate::Plate;
+use super::trace::Pixel;
 use super::v3::V3;
 use rayon::prelude::*;
 
@@ -30,78 +32,123 @@ pub struct Grain {
 }
 
 /// Half-width of the neighbourhood, pixels.
-const REACH: i32 = TILE as i32 - 1;
+const REACH: usize = TILE - 1;
 
-/// For every pixel the smoothed `(blocked, sun)`.
-pub fn smooth(grains: &[Grain], width: usize) -> Vec<(V3, f32)> {
-    let height = grains.len() / width.max(1);
-    let mut out = vec![(V3::ZERO, 1.0); grains.len()];
-    out.par_chunks_mut(width.max(1)).enumerate().for_each(|(row, line)| {
-        for (column, answer) in line.iter_mut().enumerate() {
-            let here = &grains[row * width + column];
-            if here.count > 0.0 {
-                *answer = around(grains, width, height, column, row, here);
-            }
-        }
-    });
-    out
+/// Weighted sums of the light around a pixel.
+#[derive(Clone, Copy, Debug, Default)]
+struct Sums {
+    blocked: V3,
+    sky_weight: f32,
+    sun: f32,
+    sun_weight: f32,
 }
 
-fn around(
-    grains: &[Grain],
-    width: usize,
-    height: usize,
-    column: usize,
-    row: usize,
-    here: &Grain,
-) -> (V3, f32) {
-    let (mut blocked, mut sky_weight) = (V3::ZERO, 0.0);
-    let (mut sun, mut sun_weight) = (0.0, 0.0);
-    for dy in -REACH..=REACH {
-        let y = row as i32 + dy;
-        if y < 0 || y >= height as i32 {
-            continue;
-        }
-        for dx in -REACH..=REACH {
-            let x = column as i32 + dx;
-            if x < 0 || x >= width as i32 {
-                continue;
-            }
-            let there = &grains[y as usize * width + x as usize];
-            if there.count == 0.0 {
-                continue;
-            }
-            let agree = here.normal.dot(there.normal).max(0.0).powi(16);
-            let off = here.normal.dot(there.point - here.point) / (2.0 * here.footprint);
-            let same = agree / (1.0 + off * off * off * off) * tent(dx) * tent(dy);
-            blocked = blocked + there.blocked * (same * there.sky_weight);
-            sky_weight += same * there.sky_weight;
-            sun += there.sun * (same * there.sun_weight);
-            sun_weight += same * there.sun_weight;
+impl Sums {
+    fn of(grain: &Grain) -> Sums {
+        Sums {
+            blocked: grain.blocked * grain.sky_weight,
+            sky_weight: grain.sky_weight,
+            sun: grain.sun * grain.sun_weight,
+            sun_weight: grain.sun_weight,
         }
     }
-    let blocked = if sky_weight > 0.0 { blocked / sky_weight } else { here.blocked };
-    (blocked, if sun_weight > 0.0 { sun / sun_weight } else { here.sun })
+
+    fn add(&mut self, other: &Sums, share: f32) {
+        self.blocked = self.blocked + other.blocked * share;
+        self.sky_weight += other.sky_weight * share;
+        self.sun += other.sun * share;
+        self.sun_weight += other.sun_weight * share;
+    }
+
+    /// `(blocked, sun)`; what the pixel has itself where nothing was sampled.
+    fn mean(&self, here: &Grain) -> (V3, f32) {
+        (
+            if self.sky_weight > 0.0 { self.blocked / self.sky_weight } else { here.blocked },
+            if self.sun_weight > 0.0 { self.sun / self.sun_weight } else { here.sun },
+        )
+    }
+}
+
+/// For every pixel of a plate the smoothed `(blocked, sun)` of the light that `of` picks: along the rows, then along
+/// the columns. The two passes are the whole neighbourhood on a plane, and nearly so where a surface bends.
+pub fn smooth(plate: &Plate, of: impl Fn(&Pixel) -> &Grain + Sync) -> Vec<Vec<(V3, f32)>> {
+    let along: Vec<Vec<Sums>> = plate
+        .rows
+        .par_iter()
+        .map(|row| {
+            let grains = &row.pixels;
+            (0..grains.len())
+                .map(|k| {
+                    let here = of(&grains[k]);
+                    let mut sums = Sums::default();
+                    if here.count > 0.0 {
+                        let lowest = k.saturating_sub(REACH);
+                        for (j, there) in grains.iter().enumerate().take(k + REACH + 1).skip(lowest) {
+                            let there = of(there);
+                            if there.count > 0.0 {
+                                sums.add(&Sums::of(there), tent(k.abs_diff(j)) * likeness(here, there));
+                            }
+                        }
+                    }
+                    sums
+                })
+                .collect()
+        })
+        .collect();
+    plate
+        .rows
+        .par_iter()
+        .enumerate()
+        .map(|(y, row)| {
+            let near = y.saturating_sub(REACH)..(y + REACH + 1).min(plate.rows.len());
+            (0..row.pixels.len())
+                .map(|k| {
+                    let here = of(&row.pixels[k]);
+                    let mut sums = Sums::default();
+                    if here.count > 0.0 {
+                        for other in near.clone() {
+                            let Some(j) = (row.first + k).checked_sub(plate.rows[other].first) else {
+                                continue;
+                            };
+                            let Some(there) = plate.rows[other].pixels.get(j).map(&of) else { continue };
+                            if there.count > 0.0 {
+                                sums.add(&along[other][j], tent(y.abs_diff(other)) * likeness(here, there));
+                            }
+                        }
+                    }
+                    sums.mean(here)
+                })
+                .collect()
+        })
+        .collect()
+}
+
+/// How much two pixels are of one surface, in `[0, 1]`: their normals agree, and one lies in the other's plane.
+fn likeness(here: &Grain, there: &Grain) -> f32 {
+    let agree = here.normal.dot(there.normal).max(0.0).powi(16);
+    let off = here.normal.dot(there.point - here.point) / (2.0 * here.footprint);
+    agree / (1.0 + off * off * off * off)
 }
 
 /// Two boxes as wide as a tile, convolved: on a plane, what repeats from tile to tile cancels exactly.
-fn tent(d: i32) -> f32 {
-    (TILE as i32 - d.abs()) as f32
+fn tent(d: usize) -> f32 {
+    (TILE - d) as f32
 }
 
 #[cfg(test)]
 mod tests {
     //! Claim: light does not leak across a crease, and noise on one plane goes down.
     use super::*;
+    use crate::render::plate::Row;
     use crate::render::v3::v3;
 
     #[test]
     fn stops_at_a_crease() {
         let width = 16;
-        let grains: Vec<Grain> = (0..width * 16)
+        let pixels: Vec<Pixel> = (0..width * 16)
             .map(|k| {
                 let left = k % width < 8;
-                Grain {
+                let body_grain = Grain {
                     normal: if left { v3(0., 1., 0.) } else { v3(1., 0., 0.) },
                     point: v3((k % width) as f32, 0.0, (k / width) as f32),
                     footprint: 1.0,
@@ -110,12 +157,14 @@ mod tests {
                     sky_weight: 16.0,
                     sun: (k % 2) as f32,
                     sun_weight: 16.0,
-                }
+                };
+                Pixel { body_grain, ..Pixel::default() }
             })
             .collect();
-        let out = smooth(&grains, width);
-        assert_eq!(out[8 * width + 7].0, V3::ZERO);
-        assert_eq!(out[8 * width + 8].0, V3::splat(1.0));
-        assert!((out[8 * width + 4].1 - 0.5).abs() < 1e-6, "stripes cancel");
+        let rows = pixels.chunks(width).map(|row| Row { first: 3, pixels: row.to_vec() }).collect();
+        let out = smooth(&Plate { rows, width: 32 }, |pixel| &pixel.body_grain);
+        assert_eq!(out[8][7].0, V3::ZERO);
+        assert_eq!(out[8][8].0, V3::splat(1.0));
+        assert!((out[8][4].1 - 0.5).abs() < 1e-6, "stripes cancel");
     }
 }

@@ -1,6 +1,7 @@
 //! From light to bytes: a filmic curve, and the sRGB encoding in both directions.
 
 use super::v3::{V3, v3};
+use std::sync::LazyLock;
 
 /// Brightness that becomes paper white.
 const WHITE: f32 = 2.9;
@@ -22,18 +23,19 @@ pub fn film(light: V3) -> V3 {
 
 /// sRGB in `[0, 1]` to linear.
 pub fn linear(colour: [f32; 3]) -> V3 {
-    let decode = |c: f32| {
-        let c = f64::from(c.clamp(0.0, 1.0));
-        (if c <= 0.040_45 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }) as f32
-    };
     v3(decode(colour[0]), decode(colour[1]), decode(colour[2]))
 }
 
-/// Linear in `[0, 1]` to a byte of sRGB.
-pub fn byte(c: f32) -> u8 {
+fn decode(c: f32) -> f32 {
     let c = f64::from(c.clamp(0.0, 1.0));
-    let encoded = if c <= 0.003_130_8 { 12.92 * c } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 };
-    (encoded * 255.0 + 0.5) as u8
+    (if c <= 0.040_45 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }) as f32
+}
+
+/// Linear in `[0, 1]` to the nearest byte of sRGB: as many as there are steps below it.
+pub fn byte(c: f32) -> u8 {
+    static STEPS: LazyLock<[f32; 255]> =
+        LazyLock::new(|| std::array::from_fn(|k| decode((k as f32 + 0.5) / 255.0)));
+    STEPS.partition_point(|&step| step <= c) as u8
 }
 
 #[cfg(test)]

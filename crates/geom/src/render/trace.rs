@@ -15,8 +15,9 @@ use super::bvh::Bvh;
 use super::camera::{Camera, View};
 use super::light::{Directions, Light};
 use super::smooth::Grain;
-use super::v3::{V3, v3};
+use super::v3::{V3, least, most, v3};
 use super::{Shot, Surface, corners, tone};
+use std::ops::Range;
 
 /// Share of the paint's colour that a blocking part sends back: one bounce, roughly.
 const BOUNCE: f32 = 0.42;
@@ -43,8 +44,10 @@ pub struct Stage {
     floor: f32,
     middle: V3,
     radius: f32,
-    samples: usize,
-    width: usize,
+    /// Samples of a pixel at most.
+    pub(super) samples: usize,
+    /// Pixels across.
+    pub(super) width: usize,
     height: usize,
 }
 
@@ -61,6 +64,10 @@ pub struct Body {
     pub open: V3,
     /// Light of the sky off lacquer.
     pub shine: V3,
+    /// Brightness of the darkest sample in unblocked light.
+    pub darkest: f32,
+    /// Brightness of the brightest.
+    pub brightest: f32,
 }
 
 /// Sums over the samples that met the ghost, whatever is in front.
@@ -81,6 +88,8 @@ pub struct Shell {
 /// The sums of a pixel.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Pixel {
+    /// Samples cast.
+    pub samples: f32,
     /// Parts.
     pub body: Body,
     /// Light on parts.
@@ -93,6 +102,20 @@ pub struct Pixel {
     pub fade: f32,
     /// The ghost.
     pub shell: Shell,
+}
+
+impl Pixel {
+    /// Did any sample meet a part, the shadow's floor or the ghost?
+    pub fn met(&self) -> bool {
+        self.body.count > 0.0 || self.floor_grain.count > 0.0 || self.shell.count > 0.0
+    }
+
+    /// Turns the sums about light into means, after the last sample.
+    pub fn finish(&mut self) {
+        finish(&mut self.body_grain, self.samples);
+        finish(&mut self.floor_grain, self.samples);
+        self.fade /= self.floor.max(1.0);
+    }
 }
 
 impl Stage {
@@ -148,18 +171,14 @@ impl Stage {
         })
     }
 
-    /// Fills one row of pixels.
-    pub fn trace_row(&self, row: usize, line: &mut [Pixel]) {
-        for (column, pixel) in line.iter_mut().enumerate() {
-            for s in 0..self.samples {
-                let [dx, dy] = self.directions.in_pixel(s);
-                let x = 2.0 * (column as f32 + dx) / self.width as f32 - 1.0;
-                let y = 1.0 - 2.0 * (row as f32 + dy) / self.height as f32;
-                self.sample(pixel, column, row, s, self.lens.direction(x, y).unit());
-            }
-            finish(&mut pixel.body_grain);
-            finish(&mut pixel.floor_grain);
-            pixel.fade /= pixel.floor.max(1.0);
+    /// Adds the samples with the given numbers to a pixel.
+    pub fn cast(&self, pixel: &mut Pixel, column: usize, row: usize, numbers: Range<usize>) {
+        pixel.samples = numbers.end as f32;
+        for s in numbers {
+            let [dx, dy] = self.directions.in_pixel(s);
+            let x = 2.0 * (column as f32 + dx) / self.width as f32 - 1.0;
+            let y = 1.0 - 2.0 * (row as f32 + dy) / self.height as f32;
+            self.sample(pixel, column, row, s, self.lens.direction(x, y).unit());
         }
     }
 
@@ -232,10 +251,15 @@ impl Stage {
         let mirrored = direction - normal * (2.0 * direction.dot(normal));
         let highlight =
             if facing > 0.0 { 0.45 * look.gloss * normal.dot(half).max(0.0).powi(48) } else { 0.0 };
+        let sunlit = (paint * facing + V3::splat(highlight)).tint(light.strength);
+        let open = paint.tint(light.open_sky(normal));
+        let bright = (sunlit + open).luminance();
+        body.darkest = if body.count == 0.0 { bright } else { least(body.darkest, bright) };
+        body.brightest = most(body.brightest, bright);
         body.count += 1.0;
         body.paint = body.paint + paint;
-        body.sunlit = body.sunlit + (paint * facing + V3::splat(highlight)).tint(light.strength);
-        body.open = body.open + paint.tint(light.open_sky(normal));
+        body.sunlit = body.sunlit + sunlit;
+        body.open = body.open + open;
         body.shine = body.shine + light.sky(mirrored) * fresnel;
     }
 
@@ -291,8 +315,9 @@ impl Stage {
     }
 }
 
-/// Sums to means.
-fn finish(grain: &mut Grain) {
+/// Sums to means, with weights that are shares of the pixel: one with more samples counts no more than its neighbour,
+/// or the darker side of a shadow's edge, where samples disagree, would win.
+fn finish(grain: &mut Grain, samples: f32) {
     if grain.count > 0.0 {
         let n = grain.count;
         grain.normal = grain.normal.unit();
@@ -301,6 +326,8 @@ fn finish(grain: &mut Grain) {
         grain.blocked = grain.blocked / grain.sky_weight.max(1.0);
     }
     grain.sun = if grain.sun_weight > 0.0 { grain.sun / grain.sun_weight } else { 1.0 };
+    grain.sky_weight /= samples.max(1.0);
+    grain.sun_weight /= samples.max(1.0);
 }
 
 /// A normal turned just far enough to be seen edge-on.

@@ -9,6 +9,7 @@ import re
 from itertools import groupby
 from xml.sax.saxutils import escape, quoteattr
 
+from niwaki.draw.finite import finite
 from niwaki.draw.flat.drawing import Window
 from niwaki.draw.flat.marks import Mark, Rgb, marks, style_of
 from niwaki.draw.scene import Scene
@@ -30,12 +31,14 @@ def svg(scene: Scene, *, style: str = "ink", window: Window | None = None, margi
         raise FileError("scene-empty", verb="write")
     chosen = style_of(style)
     drawn = marks(scene, chosen)
+    for mark in drawn:
+        finite(mark.corners, mark.address)
     if window is None:
         (low_x, low_y, _), (high_x, high_y, _) = scene.bounds.tolist()
         wide, tall = high_x - low_x, high_y - low_y
         pad = margin * max(wide, tall)
         window = ((low_x - pad, low_y - pad), (high_x + pad, high_y + pad))
-    (left, low), (right, high) = window
+    (left, low), (right, high) = finite(window, "the page", "its corners").tolist()
     box = f"{left:.3f} {-high:.3f} {right - left:.3f} {high - low:.3f}"
     lines = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}">']
     for blur in sorted({mark.blur for mark in drawn} - {0.0}):

@@ -102,6 +102,23 @@ SETTINGS = (
         cure='niwaki.Search.of_json(text, trust=("my_module",))',
     ),
     Message(
+        "untrusted-file",
+        "this run needs the Python file of its model, and nothing says that it may be run",
+        why="its model calls the host function `{name}`, which is in {file}, {where}; running a file runs all of it",
+        help="read the file; then add `--trust` to run it where it is unchanged, or `--model FILE` to run another",
+        example="niwaki replay out/run.json, of a model with a host function",
+        cure="niwaki replay out/run.json --trust",
+    ),
+    Message(
+        "changed-model-file",
+        "`{path}` has changed since this run, and was not run",
+        why="run.json has {then}, the file has {found}; {differs}",
+        help="read the file; then `--model FILE` runs it as it is, and each host function is still compared with the "
+        "one that was called",
+        example="niwaki replay out/run.json --trust, after an edit",
+        cure="niwaki replay out/run.json --model tower.py",
+    ),
+    Message(
         "flag-alone",
         "`{flag}` needs {other}",
         why="{reason}",

@@ -1,0 +1,78 @@
+"""An SVG as pixels, drawn by resvg.
+
+resvg keeps no limits of time and memory. A drawing of plain shapes is bounded by its size and is drawn at once; one
+with filters, patterns, masks, markers, dashes or pictures is drawn in a process of its own.
+"""
+
+from __future__ import annotations
+
+import io
+import re
+import warnings
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+
+from niwaki.errors import FileError
+from niwaki.errors.extras import optional
+from niwaki.errors.settings import bad, is_whole
+from niwaki.inputs import library, limit, read_apart
+
+#: Pixels of the longer side, at most: a page of A0 at 350 dpi.
+LONGEST = 16_384
+
+_COSTLY = re.compile(
+    r"<(?:\w+:)?(?:use|clipPath|filter|image|marker|mask|pattern|textPath)\b|dasharray|filter\s*:(?!\s*none)"
+)
+
+
+def raster(text: str, size: int, place: str | Path | None = None) -> Image.Image:
+    """An SVG drawn by resvg; its longer side has `size` pixels.
+
+    Raises
+    ------
+    FileError
+        resvg is not installed, or cannot read it, or needs too much time or memory.
+    InputError
+        `bad-setting`: the size is not from 1 to 16,384.
+    """
+    if not is_whole(size) or not 1 <= size <= LONGEST:
+        raise bad("size", size, f"pixels from 1 to {LONGEST}", "512")
+    optional("resvg_py", "drawing SVG files", "color")
+    data = text.encode()
+    if len(data) <= limit("apart") and not _COSTLY.search(text):
+        try:
+            pixels = drawn(data, size)["pixels"]
+        except FileError as error:
+            error.place = place
+            raise
+    else:
+        # The pixels themselves, in a few layers.
+        memory = limit("memory") + 40 * size * size
+        pixels = read_apart(drawn, data, place, ".svg", memory, size=size)["pixels"]
+    return Image.fromarray(pixels, "RGBA")
+
+
+def drawn(data: bytes, size: int) -> dict[str, NDArray[Any]]:
+    """The pixels of an SVG, (rows, columns, 4) uint8: red, green, blue, alpha."""
+    resvg_py = optional("resvg_py", "drawing SVG files", "color")
+    text = data.decode()
+    with library(None, ".svg"):
+        # Reading the system's fonts takes longer than the rest.
+        plain = "<text" not in text
+        found = _open(
+            resvg_py.svg_to_bytes(svg_string=text, width=size, height=size, skip_system_fonts=plain)
+        )
+        if found.height > size:
+            found = _open(resvg_py.svg_to_bytes(svg_string=text, height=size, skip_system_fonts=plain))
+    return {"pixels": np.asarray(found)}
+
+
+def _open(data: bytes) -> Image.Image:
+    # What resvg has drawn is as large as was asked for.
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", Image.DecompressionBombWarning)
+        return Image.open(io.BytesIO(bytes(data)), formats=["PNG"]).convert("RGBA")

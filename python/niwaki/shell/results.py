@@ -1,0 +1,128 @@
+"""A folder of results: run.json, and files that show one of its runs.
+
+A run.json never stands beside a file of another run, whenever the process ends:
+
+1. what the run.json that is there names is removed, where it is as it was written;
+2. run.json is replaced;
+3. the files are written;
+4. run.json is written again, with their hashes.
+
+Each step leaves whole files, and files that are missing can be written again by `niwaki replay`. Only one run at a
+time writes (`niwaki.errors.folders`).
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from niwaki.errors import FileError, NiwakiError
+from niwaki.errors.files import unwritable, write_whole, written_beside
+from niwaki.shell import run_files, writing
+
+RUN = "run.json"
+
+#: Files that commands write beside run.json: these alone are ever removed.
+KNOWN = {
+    *(f"best.{name}" for name in (*writing.FORMATS, "png")),
+    *(f"growth.{name}" for name in writing.ANIMATIONS),
+    *(f"{name}.png" for name in ("sheet", "image", "shadow", "drawing")),
+    "samples.csv",
+}
+
+#: Those that show one run; the others show the search.
+OF_ONE_RUN = {name for name in KNOWN if name.startswith(("best.", "growth."))}
+
+
+@contextmanager
+def written(folder: Path, data: dict[str, Any], names: Iterable[str]) -> Iterator[None]:
+    """Write a folder of results; inside, the files are written.
+
+    Parameters
+    ----------
+    folder
+        Where, held for this run (`held_folder`).
+    data
+        What becomes run.json.
+    names
+        The files that will be written beside it, of `KNOWN`.
+    """
+    names = tuple(names)
+    former = _former(folder)
+    listed: dict[str, str | None] = {
+        name: one for name, one in former.get("files", {}).items() if name in KNOWN
+    }
+    same = _same_search(former, data)
+    if same:
+        shown = former.get("shown") == data.get("shown")
+        gone = {} if shown else {name: one for name, one in listed.items() if name in OF_ONE_RUN}
+    else:
+        gone = listed | dict.fromkeys(names)
+    files = {name: one for name, one in listed.items() if same and name not in gone} | dict.fromkeys(names)
+    # On the disk before anything is removed: where there is no room the folder stays as it was.
+    with written_beside(folder / RUN, _json({**data, "files": files})) as take_place:
+        for name, digest in gone.items():
+            _remove(folder / name, name in names or (digest is None and name in OF_ONE_RUN), digest)
+        take_place()
+    try:
+        yield
+    finally:
+        # Also where a file failed or Ctrl-C came: what is there belongs to this run.
+        write_whole(folder / RUN, _json({**data, "files": _hashed(folder, files)}))
+
+
+def refuse_another(folder: Path, data: dict[str, Any]) -> None:
+    """Refuse a folder that has the results of another search.
+
+    Raises
+    ------
+    FileError
+        `folder-of-another-run`.
+    """
+    former = _former(folder)
+    if (folder / RUN).exists() and not _same_search(former, data):
+        raise FileError("folder-of-another-run", folder)
+
+
+def _json(data: dict[str, Any]) -> bytes:
+    return (json.dumps(data, indent=1, allow_nan=False) + "\n").encode()
+
+
+def _former(folder: Path) -> dict[str, Any]:
+    """The run.json that is there; nothing where there is none that can be read."""
+    try:
+        found = run_files.load(folder / RUN)
+    except NiwakiError:
+        return {}
+    return {"files": {}, **found}
+
+
+def _same_search(former: dict[str, Any], data: dict[str, Any]) -> bool:
+    """Whether two run.json have the same runs of the same search."""
+    return bool(former) and all(former.get(name) == data.get(name) for name in ("hash", "runs", "best"))
+
+
+def _remove(place: Path, surely: bool, digest: str | None) -> None:
+    """Remove a file of a former run, surely or only where it is as it was written."""
+    try:
+        if place.is_file() and (surely or _digest(place) == digest):
+            place.unlink()
+    except OSError as error:
+        raise unwritable(place, error) from error
+
+
+def _hashed(folder: Path, files: dict[str, str | None]) -> dict[str, str | None]:
+    """The files that are there, with their hashes."""
+    return {
+        name: one or _digest(folder / name)
+        for name, one in sorted(files.items())
+        if name in KNOWN and (folder / name).is_file()
+    }
+
+
+def _digest(place: Path) -> str:
+    return hashlib.sha256(place.read_bytes()).hexdigest()

@@ -1,0 +1,62 @@
+"""JSON with one thing changed: a value, a name, a list, or the text itself."""
+
+from __future__ import annotations
+
+import copy
+import json
+import random
+from typing import Any
+
+#: What stands where something else was expected.
+HOSTILE: list[Any] = [
+    None, True, False, 0, 1, -1, 2, 7, 255, -(2**31), 2**31, 2**63 - 1, 2**63, 2**64, 10**30, -(10**30), 0.0, -0.0, 0.5,
+    -1.5, 1e308, -1e308, 5e-324, "", "a", "nan", "-inf", "x" * 5000, "\0", "../../etc", "\u00e9\u4e2d", "(module",
+    [], [[]], [None], [0, "a"], [1] * 50, [[[[[]]]]], {}, {"": None}, {"real": "nan"}, {"real": "inf"},
+    {"real": []}, {"vec": []}, {"vec": [1.0, 2.0, "a"]}, {"tuple": [1]}, {"list": {}},
+    {"dict": [[{"list": []}, 1]]}, {"range": [0, 10, 0]},
+    {"host": {"module": "os", "name": "system", "sha256": ""}}, {"host": 1}, {"shape": "box"}, {"array": "O"},
+    {"array": "<f8", "shape": [10**9, 10**9], "bytes": ""}, {"array": "<f8", "shape": [-1], "bytes": "00"},
+    {"dist": "Distribution", "parameters": []}, {"dist": "Uniform", "parameters": [1.0]}, {"target": "a", "file": "/"},
+    {"record": {"name": "def", "fields": [], "kind": ""}, "fields": {}}, {"camera": {"kind": []}}, {"guide": "zz"},
+]  # fmt: skip
+
+
+def places(data: Any) -> list[tuple[Any, Any]]:
+    """Every table or list with each of its keys."""
+    found: list[tuple[Any, Any]] = []
+    waiting = [data]
+    while waiting:
+        one = waiting.pop()
+        keys = list(one) if isinstance(one, dict) else range(len(one)) if isinstance(one, list) else ()
+        found += [(one, key) for key in keys]
+        waiting += [one[key] for key in keys]
+    return found
+
+
+def mutated(data: Any, chance: random.Random) -> tuple[str, bytes]:
+    """What was done, and the JSON afterwards."""
+    data = copy.deepcopy(data)
+    known = places(data)
+    # Deep lists of numbers are most of the places, and alike: prefer those near the root.
+    one, key = min(chance.sample(known, min(2, len(known))), key=lambda place: len(str(place[0])) < 40)
+    what = chance.choice(["value"] * 6 + ["swap", "gone", "name", "twice", "text"])
+    if what == "value":
+        one[key] = chance.choice(HOSTILE)
+    elif what == "swap":
+        other, there = chance.choice(known)
+        one[key] = copy.deepcopy(other[there])
+    elif what == "gone":
+        del one[key]
+    elif what == "name" and isinstance(one, dict):
+        one[chance.choice(["", "x", "format", "real", "settings"])] = one.pop(key)
+    elif what == "twice" and isinstance(one, list):
+        one.extend(copy.deepcopy(one))
+    text = bytearray(json.dumps(data).encode())
+    if what == "text":
+        for _ in range(chance.randint(1, 3)):
+            at = chance.randrange(len(text))
+            text[at : at + chance.randint(0, 8)] = bytes(
+                chance.choices(b'[]{}",:0e-9\\u\xff', k=chance.randint(0, 4))
+            )
+        text = text[: chance.randint(0, len(text))] if chance.random() < 0.3 else text
+    return f"{what} at {key!r}", bytes(text)
