@@ -11,8 +11,10 @@ use niwaki_vm::machine::Machine;
 use niwaki_vm::machine::stack::{Call, RunFault};
 use niwaki_vm::value::Census;
 
-/// Values that a particle may drop between two barriers before it is counted again, bytes.
+/// Values that a particle may drop between two barriers before it is counted again, bytes, and beside them this part of
+/// those that it holds.
 const DROPPED: usize = 1 << 16;
+const DROPPED_PART: usize = 16;
 
 /// How much some particles have grown.
 #[derive(Clone, Copy, Debug, Default)]
@@ -100,7 +102,7 @@ pub(super) fn counted(
 ) -> Result<Growth, Failure> {
     let before = particle.state.value_bytes();
     advance(particle, machine).map_err(|failure| of_share(failure, all))?;
-    if particle.state.value_bytes() > before + DROPPED {
+    if particle.state.value_bytes() > before + DROPPED + before / DROPPED_PART {
         machine.recount(&mut particle.state);
     }
     let own = particle.state.own_bytes() as isize;

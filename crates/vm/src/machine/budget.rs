@@ -24,6 +24,9 @@ const ELEMENTS: usize = 8;
 /// Where a distribution is built for a question, this many times as many elements cost a step.
 const PARAMETERS_PER_STEP: u64 = 8;
 
+/// Steps between two looks at the limits.
+const LOOK: u64 = 256;
+
 /// Sequences no longer than this have no price beyond that of the value that is made.
 const SHORT: usize = 64;
 
@@ -195,7 +198,28 @@ impl<S: Scalar> Machine<'_, S> {
     pub(super) fn set_ceiling(&self, state: &mut State<S>) {
         if state.ceiling == 0 {
             state.ceiling = self.limits.bytes;
+            self.set_alarm(state);
         }
+    }
+
+    /// The limits are looked at after so many more steps: what grows slowly has no other price.
+    #[inline]
+    pub(super) fn set_alarm(&self, state: &mut State<S>) {
+        state.alarm = self.limits.steps.min(state.steps.saturating_add(LOOK));
+    }
+
+    /// Looks at both limits.
+    ///
+    /// # Errors
+    /// Too many steps or bytes.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn look<K: Keep<S>>(&self, state: &mut State<S>, keep: &K) -> Result<(), Fault> {
+        if state.steps > self.limits.steps {
+            return Err(self.out_of_steps());
+        }
+        self.set_alarm(state);
+        self.afford(state, keep)
     }
 
     /// Drops what a run before left in the scratch registers: what a run holds must not depend on it.

@@ -114,8 +114,8 @@ impl<S: Scalar> Machine<'_, S> {
         macro_rules! step {
             () => {{
                 state.steps += 1;
-                if state.steps > self.limits.steps {
-                    check!(Err(self.out_of_steps()));
+                if state.steps > state.alarm {
+                    check!(self.look(state, keep));
                 }
             }};
         }
@@ -263,11 +263,7 @@ impl<S: Scalar> Machine<'_, S> {
                 Op::Site { site: number } if K::KEEPS => {
                     keep.at(pc);
                     match keep.site(self, state, answers, r!(), node, number) {
-                        Ok(After::Next) => {
-                            if state.bytes() > state.ceiling {
-                                check!(self.audit(state, keep, 0));
-                            }
-                        }
+                        Ok(After::Next) => {}
                         Ok(After::Enter(inner, at)) => {
                             step!();
                             enter!(inner, at);
@@ -497,8 +493,8 @@ impl<S: Scalar> Machine<'_, S> {
         self.high = registers;
         let len = self.scratch.len();
         if len < registers {
-            make_room(&mut self.scratch, registers - len, self.limits.bytes);
-            make_room(&mut self.pure, 1, self.limits.bytes);
+            make_room(&mut self.scratch, registers - len, || self.limits.bytes);
+            make_room(&mut self.pure, 1, || self.limits.bytes);
             self.scratch.resize(registers.max(64), Value::None);
         }
     }

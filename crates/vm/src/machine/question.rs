@@ -190,9 +190,9 @@ impl<S: Scalar> Machine<'_, S> {
                 } else {
                     state.charged += budget::of_result(&value);
                 }
+                let is_plain = value.is_plain();
                 state.registers[r.own + site.to.index()].store(value);
-                self.afford(state, &Dropped)?;
-                Ok(())
+                if is_plain { Ok(()) } else { Ok(self.afford(state, &Dropped)?) }
             }
             Answer::Pause => Err(Halt::Paused),
         }

@@ -87,9 +87,11 @@ impl Runnable {
     #[inline]
     pub(super) fn clone_from(&mut self, source: &Runnable) {
         copy(&mut self.slots, &source.slots);
-        copy(&mut self.counts, &source.counts);
-        copy(&mut self.places, &source.places);
         self.len = source.len;
+        if !(self.counts.is_empty() && source.counts.is_empty()) {
+            copy(&mut self.counts, &source.counts);
+            copy(&mut self.places, &source.places);
+        }
     }
 
     #[inline(never)]

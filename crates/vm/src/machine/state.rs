@@ -110,6 +110,8 @@ pub struct State<S: Scalar = f64> {
     pub(crate) logged: usize,
     /// The next audit is due when [`State::bytes`] is above this.
     pub(crate) ceiling: usize,
+    /// The limits are looked at when more steps than these are taken.
+    pub(crate) alarm: u64,
     /// What the run was given: it belongs to the caller, and is not counted.
     pub(crate) given: Option<Arc<[Value<S>]>>,
     /// Held choices that the run has not met.
@@ -140,7 +142,11 @@ impl<S: Scalar> Clone for State<S> {
         self.charged = source.charged;
         self.logged = source.logged;
         self.ceiling = source.ceiling;
-        self.given.clone_from(&source.given);
+        self.alarm = source.alarm;
+        let address = |given: &Option<Arc<[Value<S>]>>| given.as_ref().map(Arc::as_ptr);
+        if address(&self.given) != address(&source.given) {
+            self.given.clone_from(&source.given);
+        }
         self.unmet.clone_from(&source.unmet);
         self.origins.clone_from(&source.origins);
         self.parts.clone_from(&source.parts);
@@ -166,9 +172,9 @@ const LARGE: usize = 1 << 20;
 /// Makes room for more elements. A large vector gets room for `spare` bytes at once: pages that are not written take no
 /// memory, while a vector that doubles is in memory twice when it moves.
 #[inline]
-pub(super) fn make_room<T>(vector: &mut Vec<T>, more: usize, spare: usize) {
+pub(super) fn make_room<T>(vector: &mut Vec<T>, more: usize, spare: impl FnOnce() -> usize) {
     if vector.capacity() - vector.len() < more && vector.len() * size_of::<T>() >= LARGE {
-        let room = (spare / size_of::<T>()).max(more);
+        let room = (spare() / size_of::<T>()).max(more);
         // Where so much cannot be had, the vector grows as usual.
         let _ = vector.try_reserve_exact(room);
     }
@@ -190,6 +196,7 @@ impl<S: Scalar> State<S> {
             charged: 0,
             logged: 0,
             ceiling: 0,
+            alarm: 0,
             given: None,
             unmet: Numbers::default(),
             origins: None,
@@ -333,7 +340,8 @@ impl<S: Scalar> State<S> {
         }
         let at = self.registers.len();
         let count = program.function(function).node_registers as usize;
-        let spare = self.ceiling.saturating_sub(self.bytes());
+        let (taken, ceiling) = (self.bytes(), self.ceiling);
+        let spare = || ceiling.saturating_sub(taken);
         make_room(&mut self.registers, count, spare);
         make_room(&mut self.nodes, 1, spare);
         self.registers.resize(at + count, Value::None);

@@ -242,12 +242,15 @@ impl<S: Scalar> Machine<'_, S> {
         let path = join(n.path, site.key);
         let deferred = future.filter(|_| !state.depth_first);
         let parent = if deferred.is_some() { NodeId::NONE } else { node };
+        let nodes = state.nodes.len();
         let created = state.new_node(self.program, function, parent, u32::from(site_id.0), path);
         let at = state.nodes[created.0 as usize].registers as usize;
         for (i, value) in self.buffer.drain(..).enumerate() {
             state.registers[at + i].store(value);
         }
-        self.afford(state, &Dropped)?;
+        if state.nodes.len() > nodes {
+            self.afford(state, &Dropped)?;
+        }
         let Some(detached) = deferred else { return Ok(After::Enter(created, 0)) };
         if state.origins.is_some() {
             let above = state.path(self.program, node);

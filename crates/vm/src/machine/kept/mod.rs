@@ -342,7 +342,7 @@ impl<S: Scalar> Kept<S> {
                 self.loops.push(Vec::new());
             } else {
                 node.slots = self.slots.len() as u32;
-                make_room(&mut self.slots, f.sites.len(), state.ceiling.saturating_sub(state.bytes()));
+                make_room(&mut self.slots, f.sites.len(), || state.ceiling.saturating_sub(state.bytes()));
                 self.slots.resize(self.slots.len() + f.sites.len(), Slot::EMPTY);
             }
             state.charged += (f.sites.len() + 1) * size_of::<Slot>();

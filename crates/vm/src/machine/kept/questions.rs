@@ -233,15 +233,19 @@ impl<S: Scalar> Kept<S> {
             self.journal.anew.push((address, state.registers[place].clone()));
             slot.held
         } else {
-            make_room(&mut self.journal.births, 1, state.ceiling.saturating_sub(state.bytes()));
+            make_room(&mut self.journal.births, 1, || state.ceiling.saturating_sub(state.bytes()));
             self.journal.births.push(Birth { address, node, site: number.0 });
             Slot::BORN | (self.journal.births.len() as u32 - 1)
         };
+        let is_plain = value.is_plain();
         state.charged += CHOICE_BYTES + budget::of_result(&value);
         self.fresh.add(log);
         self.change.log_prior.add(log);
         self.write_slot(self.quiet, at, Slot { held, mark: family, log });
         self.write_to(state, self.quiet, place, value);
+        if !is_plain {
+            machine.afford(state, self)?;
+        }
         if log == f64::NEG_INFINITY { Err(Halt::Impossible) } else { Ok(true) }
     }
 

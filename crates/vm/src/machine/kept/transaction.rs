@@ -379,6 +379,10 @@ impl<S: Scalar> Machine<'_, S> {
         let (state, kept) = (&mut trace.state, &mut trace.kept);
         state.steps = 0;
         self.set_ceiling(state);
+        self.set_alarm(state);
+        if state.bytes() > state.ceiling {
+            state.alarm = 0;
+        }
         kept.counters.entered += 1;
         kept.note(Step::Entered(node));
         let stop = self.interpret(state, kept, super::super::state::FutureId(0), (node, pc), answers);
